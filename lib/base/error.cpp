@@ -1,0 +1,58 @@
+#include <base/error.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace sloper {
+
+static std::string join(const std::string& file, const std::string& place, const std::string& fact, const std::string& next_step) {
+  std::string out;
+  for (const std::string* part : {&file, &place, &fact}) {
+    if (part->empty()) continue;
+    if (!out.empty()) out += ": ";
+    out += *part;
+  }
+  if (!next_step.empty()) out += "; " + next_step;
+  return out;
+}
+
+Error::Error(ErrorKind kind, std::string file, std::string place, std::string fact, std::string next_step)
+    : std::runtime_error(join(file, place, fact, next_step)),
+      m_kind(kind),
+      m_file(std::move(file)),
+      m_place(std::move(place)),
+      m_fact(std::move(fact)) {}
+
+Error input_error(std::string file, std::string place, std::string fact, std::string next_step) {
+  return {ErrorKind::INPUT, std::move(file), std::move(place), std::move(fact), std::move(next_step)};
+}
+
+static std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+std::string nearest_word(const std::string& word, const std::string* first, const std::string* last) {
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (; first != last; ++first) {
+    const std::size_t d = edit_distance(word, *first);
+    if (d < best_distance) {
+      best_distance = d;
+      best = *first;
+    }
+  }
+  return best;
+}
+
+} // namespace sloper

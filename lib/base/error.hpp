@@ -1,0 +1,43 @@
+#pragma once
+/// Typed errors. Thrown in lib, caught once, in cli::run_tool(). Every message says file, place, fact and next step.
+#include <stdexcept>
+#include <string>
+
+namespace sloper {
+
+/// What went wrong, in the terms of the command-line contract: each kind is one exit code.
+enum class ErrorKind {
+  USAGE = 2,    ///< wrong command line
+  INPUT = 3,    ///< bad or unreadable input
+  FAILED = 4,   ///< computed, but the result is not good enough to be called done
+  OUTPUT = 5,   ///< cannot write
+  INTERNAL = 70 ///< our own mistake
+};
+
+/// One error with the four things a reader needs.
+/// what() reads "file: place: fact; next step", with empty parts left out.
+class Error : public std::runtime_error {
+public:
+  /// @param file      path as the user wrote it, or empty
+  /// @param place     JSON pointer, line number, panel or element; or empty
+  /// @param fact      what is wrong, in one clause
+  /// @param next_step what to do about it, or empty
+  Error(ErrorKind kind, std::string file, std::string place, std::string fact, std::string next_step = {});
+  ErrorKind kind() const { return m_kind; }
+  int exit_code() const { return static_cast<int>(m_kind); }
+  const std::string& file() const { return m_file; }
+  const std::string& place() const { return m_place; }
+  const std::string& fact() const { return m_fact; }
+
+private:
+  ErrorKind m_kind;
+  std::string m_file, m_place, m_fact;
+};
+
+/// Shorthand for the commonest one: bad input, exit 3.
+Error input_error(std::string file, std::string place, std::string fact, std::string next_step = {});
+
+/// The candidate nearest to `word` by edit distance, or empty when none is near. For "did you mean".
+std::string nearest_word(const std::string& word, const std::string* first, const std::string* last);
+
+} // namespace sloper

@@ -1,0 +1,44 @@
+#include <base/parallel.hpp>
+
+#include <omp.h>
+
+#include <algorithm>
+#include <exception>
+
+namespace sloper {
+
+static int g_threads = 1;
+
+void set_thread_count(int n) { g_threads = n > 0 ? n : std::max(1, omp_get_num_procs()); }
+int thread_count() { return g_threads; }
+
+void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+  const std::size_t chunks = (n + grain - 1) / grain;
+  if (g_threads == 1 || chunks <= 1) {
+    for (std::size_t c = 0; c < chunks; ++c) body(c * grain, std::min(n, (c + 1) * grain));
+    return;
+  }
+  std::exception_ptr failure; // an exception must not leave a parallel region
+#pragma omp parallel for schedule(dynamic, 1) num_threads(g_threads)
+  for (long c = 0; c < static_cast<long>(chunks); ++c) {
+    const auto begin = static_cast<std::size_t>(c) * grain;
+    try {
+      body(begin, std::min(n, begin + grain));
+    } catch (...) {
+#pragma omp critical
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+double parallel_sum(std::size_t n, std::size_t grain, const std::function<double(std::size_t, std::size_t)>& term) {
+  const std::size_t chunks = (n + grain - 1) / grain;
+  std::vector<double> part(chunks);
+  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) { part[begin / grain] = term(begin, end); });
+  double sum = 0;
+  for (double p : part) sum += p;
+  return sum;
+}
+
+} // namespace sloper

@@ -1,0 +1,7 @@
+#include <base/progress.hpp>
+namespace sloper {
+Reporter& silent_reporter() {
+  static Reporter silent;
+  return silent;
+}
+} // namespace sloper

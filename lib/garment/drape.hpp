@@ -1,0 +1,60 @@
+#pragma once
+/// Drape: from placed panels or a kept garment to cloth at rest on a body.
+#include <base/progress.hpp>
+#include <body/body.hpp>
+#include <garment/garment.hpp>
+#include <io/json.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sloper::garment {
+
+/// Everything that decides a drape, resolved. Field names are the names of --set and of report.json's `settings`.
+struct DrapeSettings {
+  double time_step_s = 1.0 / 30;
+  double cg_tolerance = 1e-2;          ///< relative residual at which conjugate gradients stop
+  int cg_max_iterations = 400;
+  double contact_gap_m = 0.003;        ///< distance to the skin at which contact begins
+  double self_thickness_m = 0.003;     ///< distance at which cloth feels cloth
+  double settle_speed_m_s = 0.01;      ///< at rest below this speed
+  double settle_force_ratio = 0.01;    ///< residual force over a particle's weight
+  double gravity_m_s2 = 9.80665;
+  int max_steps = 1500;
+  double max_seconds = 0;              ///< wall clock, 0 = no limit
+  std::string effects = "auto";        ///< "auto" or a list
+  std::string accuracy = "standard";
+};
+
+struct EffectReport {
+  std::string name;
+  bool active = false;
+  std::string why;
+  long calls = 0;
+  double wall_s = 0;
+};
+
+struct DrapeReport {
+  bool converged = false;
+  std::string stop_reason;
+  int steps = 0;
+  double simulated_s = 0, wall_s = 0;
+  std::vector<EffectReport> effects;
+  std::vector<std::pair<std::string, double>> phases; ///< name, wall seconds
+  io::Json solver;                                    ///< see DESIGN section 5
+  io::Json quality;
+  std::vector<std::string> repairs;
+  DrapeSettings settings;
+};
+
+/// Sews (when seams are open), repairs the start, drapes until at rest.
+/// @param garment  in: placed panels (particle_of empty: unsewn) or a sewn garment with positions near the body; out: the state reached
+/// @param body     nullptr for none
+/// @return what happened; not converging is a result, not an exception
+/// @throws Error INPUT for a garment that cannot be simulated
+DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter);
+
+/// The report document without its envelope's inputs and hashes, which the tool adds.
+io::Json report_json(const DrapeReport& report, const std::string& tool);
+
+} // namespace sloper::garment

@@ -1,0 +1,67 @@
+#include <geometry/triangle_mesh.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sloper {
+
+Box3 bounding_box(const std::vector<Vec3>& points) {
+  Box3 box;
+  for (const Vec3& p : points) box.add(p);
+  return box;
+}
+
+std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
+  std::vector<Vec3> normals(mesh.positions.size(), Vec3::Zero());
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 *p[3] = {&mesh.positions[t[0]], &mesh.positions[t[1]], &mesh.positions[t[2]]};
+    Vec3 n = area_normal(*p[0], *p[1], *p[2]);
+    const double length = n.norm();
+    if (length < 1e-300) continue;
+    n /= length;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 e1 = *p[(k + 1) % 3] - *p[k], e2 = *p[(k + 2) % 3] - *p[k];
+      normals[t[k]] += std::atan2(e1.cross(e2).norm(), e1.dot(e2)) * n;
+    }
+  }
+  for (Vec3& n : normals) {
+    const double length = n.norm();
+    if (length > 1e-300) n /= length;
+  }
+  return normals;
+}
+
+std::vector<std::array<int, 2>> edges_of(const std::vector<Triangle>& triangles) {
+  std::vector<std::array<int, 2>> edges;
+  edges.reserve(triangles.size() * 3);
+  for (const Triangle& t : triangles)
+    for (int k = 0; k < 3; ++k) edges.push_back({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+std::vector<int> connected_components(std::size_t n_vertices, const std::vector<Triangle>& triangles) {
+  std::vector<int> parent(n_vertices);
+  std::iota(parent.begin(), parent.end(), 0);
+  auto root = [&](int v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const Triangle& t : triangles)
+    for (int k = 1; k < 3; ++k) {
+      const int a = root(t[0]), b = root(t[k]);
+      if (a != b) parent[std::max(a, b)] = std::min(a, b); // the lowest index stays the root
+    }
+  std::vector<int> component(n_vertices, -1);
+  int count = 0;
+  for (std::size_t v = 0; v < n_vertices; ++v) {
+    const int r = root(static_cast<int>(v));
+    if (component[r] < 0) component[r] = count++;
+    component[v] = component[r];
+  }
+  return component;
+}
+
+} // namespace sloper

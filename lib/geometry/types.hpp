@@ -1,0 +1,11 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+namespace sloper {
+using Vec2 = Eigen::Vector2d; ///< pattern coordinates, m
+using Vec3 = Eigen::Vector3d; ///< world coordinates, m
+using Mat3 = Eigen::Matrix3d;
+using Mat4 = Eigen::Matrix4d;
+using Triangle = std::array<int, 3>; ///< vertex indices, counter-clockwise seen from outside
+} // namespace sloper

@@ -1,0 +1,12 @@
+#pragma once
+/// Whole files in and out; nothing already on disk is lost when a write fails.
+#include <string>
+#include <string_view>
+namespace sloper::io {
+/// Bytes of a file, or of standard input for "-". @throws Error INPUT
+std::string read_file(const std::string& path);
+/// Writes beside `path` under a temporary name, syncs, renames. "-" writes to standard output. @throws Error OUTPUT
+void write_file(const std::string& path, std::string_view bytes);
+/// Lower-case hex SHA-256 of some bytes.
+std::string sha256(std::string_view bytes);
+} // namespace sloper::io

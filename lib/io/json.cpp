@@ -1,0 +1,218 @@
+#include <base/version.hpp>
+#include <io/files.hpp>
+#include <io/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+namespace sloper::io {
+
+namespace {
+
+/// Refuses duplicate keys, which nlohmann accepts silently (the last one wins).
+class DuplicateKeyCheck {
+public:
+  explicit DuplicateKeyCheck(const std::string& name) : m_name(name) {}
+  bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) m_keys.emplace_back();
+    else if (event == Json::parse_event_t::object_end) m_keys.pop_back();
+    else if (event == Json::parse_event_t::key && !m_keys.back().insert(parsed.get<std::string>()).second)
+      throw input_error(m_name, "", "the key \"" + parsed.get<std::string>() + "\" stands twice in one object", "remove one of them");
+    return true;
+  }
+
+private:
+  std::string m_name;
+  std::vector<std::set<std::string>> m_keys;
+};
+
+bool is_flat_array(const Json& value) {
+  for (const Json& v : value)
+    if (v.is_structured()) return false;
+  return true;
+}
+
+void append_text(std::string& out, const Json& value, int indent, const std::string& pointer) {
+  switch (value.type()) {
+    case Json::value_t::number_float: {
+      const double x = value.get<double>();
+      if (!std::isfinite(x)) throw Error(ErrorKind::INTERNAL, "", pointer, "a number to be written is not finite");
+      char buffer[32];
+      const auto end = std::to_chars(buffer, buffer + sizeof buffer, x == 0 ? 0.0 : x).ptr; // no "-0"
+      out.append(buffer, end);
+      break;
+    }
+    case Json::value_t::array: {
+      const bool flat = is_flat_array(value);
+      out += '[';
+      std::size_t i = 0;
+      for (const Json& v : value) {
+        if (i) out += flat ? ", " : ",";
+        if (!flat) out += '\n' + std::string(static_cast<std::size_t>(indent) + 2, ' ');
+        append_text(out, v, indent + 2, pointer + "/" + std::to_string(i));
+        ++i;
+      }
+      if (!flat && i) out += '\n' + std::string(static_cast<std::size_t>(indent), ' ');
+      out += ']';
+      break;
+    }
+    case Json::value_t::object: {
+      out += '{';
+      bool first = true;
+      for (const auto& [key, v] : value.items()) {
+        if (!first) out += ',';
+        first = false;
+        out += '\n' + std::string(static_cast<std::size_t>(indent) + 2, ' ') + Json(key).dump() + ": ";
+        append_text(out, v, indent + 2, pointer + "/" + key);
+      }
+      if (!first) out += '\n' + std::string(static_cast<std::size_t>(indent), ' ');
+      out += '}';
+      break;
+    }
+    default: out += value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+}
+
+} // namespace
+
+Json parse_json(const std::string& text, const std::string& name) {
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw input_error(name, "", "the file is empty", "expected a JSON document");
+  Json value;
+  try {
+    value = Json::parse(text, DuplicateKeyCheck(name));
+  } catch (const Json::parse_error& e) {
+    std::size_t line = 1;
+    for (std::size_t i = 0; i + 1 < e.byte && i < text.size(); ++i) line += text[i] == '\n';
+    throw input_error(name, "line " + std::to_string(line), "not valid JSON", "check that the file is complete and is a JSON document");
+  } catch (const Json::out_of_range&) {
+    throw input_error(name, "", "a number is too large to be stored");
+  }
+  return value;
+}
+
+Json read_json(const std::string& path) { return parse_json(read_file(path), path == "-" ? "standard input" : path); }
+
+Json read_document(const std::string& path, const std::string& format, int newest) {
+  Json document = read_json(path);
+  const Node node(document, path);
+  if (!node.is_object() || !node.has("format")) throw input_error(path, "/format", "is not a Sloper document", "expected a \"" + format + "\" document");
+  if (const std::string got = node.at("format").string(); got != format)
+    throw input_error(path, "/format", "is a \"" + got + "\" document", "expected a \"" + format + "\" document");
+  const int version = node.at("version").integer();
+  if (version < 1 || version > newest)
+    throw input_error(path, "/version", "version " + std::to_string(version) + " is newer than version " + std::to_string(newest) + ", the newest this program reads",
+                      "update Sloper");
+  return document;
+}
+
+Json new_document(const std::string& format, int version, const std::string& tool) {
+  Json document;
+  document["format"] = format;
+  document["version"] = version;
+  document["generator"] = generator_stamp(tool);
+  document["length_unit"] = "m";
+  return document;
+}
+
+std::string to_text(const Json& document) {
+  std::string out;
+  append_text(out, document, 0, "");
+  out += '\n';
+  return out;
+}
+
+void write_json(const std::string& path, const Json& document) { write_file(path, to_text(document)); }
+
+Node Node::at(const std::string& key) const {
+  if (!m_value->is_object()) fail("expected an object");
+  const auto found = m_value->find(key);
+  if (found == m_value->end()) fail("\"" + key + "\" is missing");
+  return {*found, m_file, m_pointer + "/" + key};
+}
+
+Node Node::at(std::size_t index) const {
+  if (!m_value->is_array()) fail("expected an array");
+  if (index >= m_value->size()) fail("has only " + std::to_string(m_value->size()) + " items");
+  return {(*m_value)[index], m_file, m_pointer + "/" + std::to_string(index)};
+}
+
+double Node::number() const {
+  if (!m_value->is_number()) fail("expected a number");
+  const double x = m_value->get<double>();
+  if (!std::isfinite(x)) fail("the number is not finite");
+  return x;
+}
+
+int Node::integer() const {
+  const double x = number();
+  if (x != std::floor(x) || std::abs(x) > 2e9) fail("expected a whole number");
+  return static_cast<int>(x);
+}
+
+bool Node::boolean() const {
+  if (!m_value->is_boolean()) fail("expected true or false");
+  return m_value->get<bool>();
+}
+
+std::string Node::string() const {
+  if (!m_value->is_string()) fail("expected a text");
+  return m_value->get<std::string>();
+}
+
+double Node::number(const std::string& key, double fallback) const { return has(key) ? at(key).number() : fallback; }
+int Node::integer(const std::string& key, int fallback) const { return has(key) ? at(key).integer() : fallback; }
+bool Node::boolean(const std::string& key, bool fallback) const { return has(key) ? at(key).boolean() : fallback; }
+std::string Node::string(const std::string& key, const std::string& fallback) const { return has(key) ? at(key).string() : fallback; }
+
+Vec2 Node::vec2() const {
+  if (!m_value->is_array() || m_value->size() != 2) fail("expected two numbers");
+  return {at(std::size_t{0}).number(), at(std::size_t{1}).number()};
+}
+
+Vec3 Node::vec3() const {
+  if (!m_value->is_array() || m_value->size() != 3) fail("expected three numbers");
+  return {at(std::size_t{0}).number(), at(std::size_t{1}).number(), at(std::size_t{2}).number()};
+}
+
+std::vector<std::string> Node::keys() const {
+  if (!m_value->is_object()) fail("expected an object");
+  std::vector<std::string> keys;
+  for (const auto& item : m_value->items()) keys.push_back(item.key());
+  return keys;
+}
+
+void Node::allow_only(std::initializer_list<const char*> allowed) const {
+  const std::vector<std::string> words(allowed.begin(), allowed.end());
+  for (const std::string& key : keys()) {
+    if (std::find(words.begin(), words.end(), key) != words.end()) continue;
+    const std::string near = nearest_word(key, words.data(), words.data() + words.size());
+    fail("unknown key \"" + key + "\"" + (near.empty() ? "" : " (did you mean \"" + near + "\"?)"));
+  }
+}
+
+void Node::fail(const std::string& fact, const std::string& next_step) const { throw input_error(m_file, m_pointer.empty() ? "/" : m_pointer, fact, next_step); }
+
+Json to_json(const Vec2& v) { return Json::array({v.x(), v.y()}); }
+Json to_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+std::string mesh_path_beside(const std::string& path) {
+  const std::string ending = ".json";
+  if (path.size() > ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0)
+    return path.substr(0, path.size() - ending.size()) + ".obj";
+  return path + ".obj";
+}
+
+std::string file_name(const std::string& path) {
+  const auto slash = path.rfind('/');
+  return slash == std::string::npos ? path : path.substr(slash + 1);
+}
+
+std::string path_beside(const std::string& document_path, const std::string& name) {
+  if (!name.empty() && name[0] == '/') return name;
+  const auto slash = document_path.rfind('/');
+  return slash == std::string::npos ? name : document_path.substr(0, slash + 1) + name;
+}
+
+} // namespace sloper::io
