@@ -29,6 +29,7 @@ struct BindWeight {
 };
 struct Bind {
   std::vector<std::string> frames;               ///< names as in Body::frames
+  std::vector<std::map<std::string, double>> marks; ///< by frame: z of named heights ("hip", "waist", ...) on that body; they go to their like on another
   std::vector<std::vector<BindWeight>> particles; ///< one list per particle
   bool empty() const { return particles.empty(); }
 };

@@ -1,8 +1,23 @@
 #pragma once
-/// shirt.json + shirt.obj, read and written.
+/// shirt.json + shirt.obj, read and written (version 1).
+///
+/// The OBJ holds `v` = particles (m, body frame), `vt` = panel vertices in pattern metres, faces `f v/vt` in panel order and
+/// `g PANEL`; which panel vertices are one particle is told by the faces alone. The document holds everything else:
+/// `panels` (name, grain, material, layer, part, outline), `vertex_ids` (s and t, the panel being the one that owns the vertex),
+/// `seams`, `materials` (units in the key names), `rest_scale` (only triangles with a factor other than 1: [triangle, k0, k1, k2]),
+/// `bind`, `offset_m`, `converged`, `sewn`, and `body` (sha256 and girths of the body it hangs on).
+/// PanelMesh::placed is not kept: after reading it is the particle's position.
+/// Unknown keys are ignored: tools write these files.
 #include <garment/garment.hpp>
 namespace sloper::garment {
 inline constexpr int GARMENT_VERSION = 1;
-Garment read_garment(const std::string& path);                                             ///< @throws Error INPUT
-void write_garment(const std::string& path, const Garment& garment, const std::string& tool); ///< @throws Error OUTPUT
+
+/// Reads shirt.json and the OBJ that it names.
+/// @throws Error INPUT with file and place: not a garment, a newer version, counts that disagree, indices out of range,
+///         a panel vertex in no triangle or on two particles, weights that do not sum to one, anything not finite.
+Garment read_garment(const std::string& path);
+
+/// Writes the OBJ beside the document (`.json` -> `.obj`), then the document. Reading and writing again gives the same bytes.
+/// @throws Error OUTPUT when a file cannot be written, INTERNAL when the garment is not whole or not finite
+void write_garment(const std::string& path, const Garment& garment, const std::string& tool);
 } // namespace sloper::garment
