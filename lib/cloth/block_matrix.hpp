@@ -1,0 +1,36 @@
+#pragma once
+/// Symmetric sparse matrix of 3x3 blocks; only the diagonal and the upper triangle are stored, the pattern is fixed.
+#include <geometry/types.hpp>
+#include <vector>
+
+namespace sloper::cloth {
+
+class BlockMatrix {
+public:
+  BlockMatrix() = default;
+  /// @param n      block rows
+  /// @param pairs  the off-diagonal blocks that may be filled, (i, j) in any order and any number of times
+  BlockMatrix(int n, std::vector<std::array<int, 2>> pairs);
+
+  int size() const { return m_n; }
+  /// Index of block (min(i,j), max(i,j)) for add_off_diagonal; the pair must be in the pattern. O(log row).
+  int slot(int i, int j) const;
+  void set_zero();
+  void add_diagonal(int i, const Mat3& block) { m_diagonal[i] += block; }
+  /// Adds to block (i, j) with i < j in the order in which slot() was asked; pass the transpose otherwise.
+  void add_off_diagonal(int slot, const Mat3& block) { m_value[slot] += block; }
+  const Mat3& diagonal(int i) const { return m_diagonal[i]; }
+  /// y = A x. Sizes n. One pass over the stored half: y_i += A_ij x_j, y_j += A_ij^T x_i.
+  void multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) const;
+
+  const std::vector<int>& row_start() const { return m_row_start; } ///< n + 1
+  const std::vector<int>& column() const { return m_column; }
+  const std::vector<Mat3>& value() const { return m_value; }
+
+private:
+  int m_n = 0;
+  std::vector<int> m_row_start, m_column;
+  std::vector<Mat3> m_value, m_diagonal;
+};
+
+} // namespace sloper::cloth

@@ -1,0 +1,110 @@
+#include <base/parallel.hpp>
+#include <cloth/body_contact.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::cloth {
+
+/// Of its distance to the skin a particle may use this share in one step.
+static constexpr double APPROACH = 0.9;
+/// Along the skin a touching particle moves at most this far in one step, m: the normal is only known here.
+static constexpr double LARGEST_SLIDE = 0.01;
+/// Clearance beyond the gap below which a particle is asked again, m.
+static constexpr double MARGIN = 0.006;
+
+BodyContactEffect::BodyContactEffect(const ClothMesh& mesh, collision::BodyCollider& body, const BodyContactOptions& options)
+    : m_mesh(mesh), m_body(body), m_options(options), m_state(mesh.n_particles), m_gap(mesh.n_particles, options.gap_m) {}
+
+void BodyContactEffect::move_body(const std::vector<Vec3>& positions) {
+  double motion = 1e300;
+  if (m_body_positions.size() == positions.size()) {
+    motion = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) motion = std::max(motion, (positions[i] - m_body_positions[i]).norm());
+  }
+  m_body_positions = positions;
+  m_body.set_positions(positions);
+  for (State& s : m_state) {
+    s.clearance -= motion;
+    s.has_anchor = false;
+  }
+}
+
+void BodyContactEffect::begin_step(const std::vector<Vec3>& x, double) {
+  std::vector<long> asked((m_state.size() + 255) / 256, 0);
+  parallel_for(m_state.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      State& s = m_state[i];
+      s.near = false;
+      const double clearance = s.clearance - (x[i] - s.asked_at).norm();
+      if (clearance > m_gap[i] + MARGIN) continue;
+      const collision::SignedDistance d = m_body.signed_distance(x[i], m_options.search_m, s.triangle);
+      ++asked[begin / 256];
+      s.asked_at = x[i];
+      s.triangle = d.triangle;
+      if (d.triangle < 0) {
+        s.clearance = m_options.search_m;
+        s.has_anchor = false;
+        continue;
+      }
+      s.near = true;
+      s.distance = d.distance;
+      s.normal = d.normal;
+      s.clearance = std::abs(d.distance);
+      if (d.distance < 0) s.clearance = -1;
+    }
+  });
+  for (long n : asked) queries += n;
+}
+
+void BodyContactEffect::add(StepContext& c) {
+  for (int i = 0; i < m_mesh.n_particles; ++i) {
+    State& s = m_state[i];
+    s.normal_force = 0;
+    if (!s.near || s.distance >= m_gap[i]) {
+      s.has_anchor = false;
+      continue;
+    }
+    const double k = m_options.stiffness_n_m3 * m_mesh.area[i];
+    const double depth = std::min(m_gap[i] - s.distance, m_gap[i] + 0.002); // a deep start is pushed out, not shot out
+    s.normal_force = k * depth;
+    Vec3 force = s.normal_force * s.normal;
+    double tangent = 0;
+    if (m_options.friction > 0) {
+      if (!s.has_anchor) s.anchor = c.x[i];
+      s.has_anchor = true;
+      Vec3 u = c.x[i] - s.anchor;
+      u -= u.dot(s.normal) * s.normal;
+      tangent = m_options.tangent_ratio * k;
+      const double pull = tangent * u.norm(), most = m_options.friction * s.normal_force;
+      if (pull > most) {
+        u *= most / pull;
+        force -= tangent * u;
+        s.anchor = c.x[i] - u;
+        tangent = m_options.slide_ratio * k;
+      } else {
+        force -= tangent * u;
+      }
+    }
+    c.force[i] += force;
+    c.stiffness.add_diagonal(i, tangent * Mat3::Identity() + (k - tangent) * s.normal * s.normal.transpose());
+  }
+}
+
+void BodyContactEffect::limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx) {
+  for (std::size_t i = 0; i < m_state.size(); ++i) {
+    const State& s = m_state[i];
+    if (!s.near) {
+      const double clearance = s.clearance - (x[i] - s.asked_at).norm(), move = dx[i].norm();
+      if (move > clearance && clearance > 0) dx[i] *= clearance * APPROACH / move;
+      continue;
+    }
+    double along = dx[i].dot(s.normal);
+    const Vec3 slide = dx[i] - along * s.normal;
+    const double slide_length = slide.norm(), slide_most = LARGEST_SLIDE + std::max(s.distance, 0.0);
+    along = std::max(along, -APPROACH * std::max(s.distance, 0.0));
+    dx[i] = along * s.normal + (slide_length > slide_most ? slide_most / slide_length : 1.0) * slide;
+  }
+}
+
+} // namespace sloper::cloth

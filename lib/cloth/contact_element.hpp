@@ -1,0 +1,26 @@
+#pragma once
+/// A force on a weighted point of up to four particles, s = sum_k w_k x_k, with its stiffness: contacts, sewing springs, pins.
+///
+/// Force on particle k is w_k F; the stiffness block (k, l) is w_k w_l [kt I + (kn - kt) n n^T]. Elements come and go from step
+/// to step, so they are applied without being stored in the block matrix, whose pattern stays fixed.
+#include <geometry/types.hpp>
+#include <vector>
+
+namespace sloper::cloth {
+
+struct ContactElement {
+  int n = 0; ///< particles in use, 1..4
+  std::array<int, 4> particle{};
+  std::array<double, 4> weight{};
+  Vec3 force = Vec3::Zero();    ///< F, N
+  Vec3 normal = Vec3::UnitY();  ///< unit
+  double normal_stiffness = 0;  ///< kn >= 0, N/m
+  double tangent_stiffness = 0; ///< kt >= 0, N/m
+  Mat3 stiffness() const { return tangent_stiffness * Mat3::Identity() + (normal_stiffness - tangent_stiffness) * normal * normal.transpose(); }
+};
+
+void add_forces(const std::vector<ContactElement>& elements, std::vector<Vec3>& force);
+/// y += stiffness of the elements times x
+void multiply_add(const std::vector<ContactElement>& elements, const std::vector<Vec3>& x, std::vector<Vec3>& y);
+
+} // namespace sloper::cloth

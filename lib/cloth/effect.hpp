@@ -1,0 +1,39 @@
+#pragma once
+/// An effect is one physical influence with one name and one switch. An effect that is off is not in the solver at all:
+/// it costs no call, no allocation, no time (DESIGN section 10).
+#include <cloth/block_matrix.hpp>
+#include <cloth/contact_element.hpp>
+#include <geometry/types.hpp>
+#include <vector>
+
+namespace sloper::cloth {
+
+/// What an effect sees and fills while a step is assembled.
+struct StepContext {
+  const std::vector<Vec3>& x;            ///< #P by 3, m
+  double h;                              ///< time step, s
+  std::vector<Vec3>& force;              ///< #P by 3, N: add -dE/dx
+  BlockMatrix& stiffness;                ///< add the definite part of d2E/dx2 (and damping/h)
+  std::vector<ContactElement>& elements; ///< or add elements
+};
+
+class Effect {
+public:
+  virtual ~Effect() = default;
+  virtual const char* name() const = 0;
+  /// Appends the particle pairs whose off-diagonal blocks add() fills.
+  virtual void declare(std::vector<std::array<int, 2>>&) const {}
+  virtual void bind(const BlockMatrix&) {}
+  /// Before assembly: find contacts for the positions x.
+  virtual void begin_step(const std::vector<Vec3>& /*x*/, double /*h*/) {}
+  virtual void add(StepContext& context) = 0;
+  /// Shortens proposed displacements that would pass through something. dx: #P by 3, m
+  virtual void limit(const std::vector<Vec3>& /*x*/, std::vector<Vec3>& /*dx*/) {}
+  /// After the step: x has become x + dx.
+  virtual void end_step(const std::vector<Vec3>& /*x*/) {}
+
+  long calls = 0;
+  double wall_s = 0;
+};
+
+} // namespace sloper::cloth

@@ -1,0 +1,22 @@
+#pragma once
+/// Weight of the particles: f_i = m_i g.
+#include <cloth/cloth_mesh.hpp>
+#include <cloth/effect.hpp>
+
+namespace sloper::cloth {
+
+class GravityEffect : public Effect {
+public:
+  /// @param acceleration m/s2, pointing down
+  GravityEffect(const ClothMesh& mesh, const Vec3& acceleration) : m_mesh(mesh), m_acceleration(acceleration) {}
+  const char* name() const override { return "gravity"; }
+  void add(StepContext& c) override {
+    for (std::size_t i = 0; i < m_mesh.mass.size(); ++i) c.force[i] += m_mesh.mass[i] * m_acceleration;
+  }
+
+private:
+  const ClothMesh& m_mesh;
+  Vec3 m_acceleration;
+};
+
+} // namespace sloper::cloth

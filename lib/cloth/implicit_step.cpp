@@ -1,0 +1,122 @@
+#include <base/error.hpp>
+#include <cloth/aggregation.hpp>
+#include <cloth/implicit_step.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace sloper::cloth {
+
+namespace {
+
+/// Adds the wall seconds of its own life to a counter.
+class Stopwatch {
+public:
+  explicit Stopwatch(double& total) : m_total(total), m_start(std::chrono::steady_clock::now()) {}
+  ~Stopwatch() { m_total += std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
+
+private:
+  double& m_total;
+  std::chrono::steady_clock::time_point m_start;
+};
+
+bool all_finite(const std::vector<Vec3>& x) {
+  for (const Vec3& p : x)
+    if (!p.allFinite()) return false;
+  return true;
+}
+
+} // namespace
+
+ClothSolver::ClothSolver(const ClothMesh& mesh, std::vector<Vec3> x) : m_mesh(mesh), m_x(std::move(x)), m_preconditioner(std::make_unique<Aggregation>()) {
+  if (static_cast<int>(m_x.size()) != mesh.n_particles) throw Error(ErrorKind::INTERNAL, "", "", "positions and particles differ in number");
+  m_v.assign(m_x.size(), Vec3::Zero());
+  m_force = m_rhs = m_dx = m_v;
+}
+
+Effect& ClothSolver::add(std::unique_ptr<Effect> effect) {
+  m_pattern_stale = true;
+  m_effects.push_back(std::move(effect));
+  return *m_effects.back();
+}
+
+std::unique_ptr<Effect> ClothSolver::remove(const Effect& effect) {
+  const auto found = std::find_if(m_effects.begin(), m_effects.end(), [&](const auto& e) { return e.get() == &effect; });
+  if (found == m_effects.end()) return nullptr;
+  std::unique_ptr<Effect> taken = std::move(*found);
+  m_effects.erase(found);
+  m_pattern_stale = true;
+  return taken;
+}
+
+void ClothSolver::set_positions(std::vector<Vec3> x) {
+  m_x = std::move(x);
+  stop();
+}
+
+void ClothSolver::rebuild_pattern() {
+  std::vector<std::array<int, 2>> pairs;
+  for (const auto& e : m_effects) e->declare(pairs);
+  m_matrix = BlockMatrix(m_mesh.n_particles, std::move(pairs));
+  for (const auto& e : m_effects) e->bind(m_matrix);
+  m_preconditioner->reset();
+  m_pattern_stale = false;
+}
+
+StepResult ClothSolver::step(const StepOptions& o) {
+  if (m_pattern_stale) rebuild_pattern();
+  const std::size_t n = m_x.size();
+  StepResult result;
+  m_matrix.set_zero();
+  m_elements.clear();
+  std::fill(m_force.begin(), m_force.end(), Vec3::Zero());
+  for (const auto& e : m_effects) {
+    const Stopwatch watch(e->wall_s);
+    e->begin_step(m_x, o.h);
+    StepContext context{m_x, o.h, m_force, m_matrix, m_elements};
+    e->add(context);
+    ++e->calls;
+  }
+  {
+    const Stopwatch watch(assembly_s);
+    add_forces(m_elements, m_force);
+    double force2 = 0, weight = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      force2 += m_force[i].squaredNorm();
+      weight += m_mesh.mass[i] * 9.80665;
+      m_matrix.add_diagonal(static_cast<int>(i), m_mesh.mass[i] / (o.h * o.h) * Mat3::Identity());
+      m_rhs[i] = m_force[i] + o.inertia * m_mesh.mass[i] / o.h * m_v[i];
+    }
+    result.residual_force_rms = std::sqrt(force2 / static_cast<double>(n));
+    result.residual_force_ratio = result.residual_force_rms / (weight / static_cast<double>(n));
+  }
+  {
+    const Stopwatch watch(solve_s);
+    const LinearSystem system{m_matrix, m_elements};
+    m_preconditioner->update(system);
+    result.cg = conjugate_gradient(system, *m_preconditioner, m_rhs, o.cg_tolerance, o.cg_max_iterations, m_dx, m_work);
+    m_preconditioner->report_iterations(result.cg.iterations);
+  }
+  for (Vec3& d : m_dx) {
+    const double move = d.norm();
+    if (move > o.largest_move_m) d *= o.largest_move_m / move;
+  }
+  {
+    const Stopwatch watch(contact_s);
+    for (const auto& e : m_effects) e->limit(m_x, m_dx);
+  }
+  if (!all_finite(m_dx)) {
+    result.finite = false;
+    return result;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    result.largest_move_m = std::max(result.largest_move_m, m_dx[i].norm());
+    m_x[i] += m_dx[i];
+    m_v[i] = m_dx[i] / o.h;
+  }
+  for (const auto& e : m_effects) e->end_step(m_x);
+  return result;
+}
+
+} // namespace sloper::cloth

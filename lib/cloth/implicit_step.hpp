@@ -1,0 +1,61 @@
+#pragma once
+/// The semi-implicit step of the paper (eq. 1), written for the displacement dx = h (v0 + dv):
+///   (M/h^2 + D/h + K) dx = f0 + inertia * M v0 / h,   K = -df/dx (definite part), D = -df/dv.
+/// With inertia 1 this is (M - h df/dv - h^2 df/dx) dv = h (f0 + h df/dx v0); with inertia 0 it is the overdamped flow that
+/// goes to rest in few large steps.
+#include <cloth/cloth_mesh.hpp>
+#include <cloth/conjugate_gradient.hpp>
+#include <cloth/effect.hpp>
+#include <memory>
+
+namespace sloper::cloth {
+
+struct StepOptions {
+  double h = 1.0 / 30;        ///< s
+  double inertia = 0;         ///< 0..1: share of the velocity that is carried over
+  double cg_tolerance = 1e-2; ///< relative residual
+  int cg_max_iterations = 400;
+  double largest_move_m = 0.05; ///< no particle moves farther in one step
+};
+
+struct StepResult {
+  CgResult cg;
+  double largest_move_m = 0;       ///< after limits
+  double residual_force_rms = 0;   ///< N, of f0 before the step
+  double residual_force_ratio = 0; ///< RMS over particles of |f0| over the mean weight of a particle
+  bool finite = true;              ///< false: nothing was moved
+};
+
+/// State and effects of one cloth. Allocates at the first step only, apart from growing contact lists.
+class ClothSolver {
+public:
+  ClothSolver(const ClothMesh& mesh, std::vector<Vec3> x);
+  /// Effects run in the order in which they are added.
+  Effect& add(std::unique_ptr<Effect> effect);
+  template<class T, class... Args> T& emplace(Args&&... args) { return static_cast<T&>(add(std::make_unique<T>(std::forward<Args>(args)...))); }
+  /// Takes an effect out; it costs nothing from then on. Returns it, so that its counts can be reported.
+  std::unique_ptr<Effect> remove(const Effect& effect);
+  StepResult step(const StepOptions& options);
+
+  const std::vector<Vec3>& x() const { return m_x; }
+  const std::vector<Vec3>& v() const { return m_v; }
+  void set_positions(std::vector<Vec3> x);
+  void stop() { m_v.assign(m_v.size(), Vec3::Zero()); }
+  const std::vector<std::unique_ptr<Effect>>& effects() const { return m_effects; }
+  const ClothMesh& mesh() const { return m_mesh; }
+  double assembly_s = 0, solve_s = 0, contact_s = 0; ///< wall seconds so far
+
+private:
+  void rebuild_pattern();
+
+  const ClothMesh& m_mesh;
+  std::vector<Vec3> m_x, m_v, m_force, m_rhs, m_dx;
+  std::vector<std::unique_ptr<Effect>> m_effects;
+  std::vector<ContactElement> m_elements;
+  BlockMatrix m_matrix;
+  bool m_pattern_stale = true;
+  std::unique_ptr<Preconditioner> m_preconditioner;
+  CgWork m_work;
+};
+
+} // namespace sloper::cloth

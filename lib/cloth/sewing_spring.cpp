@@ -1,0 +1,33 @@
+#include <cloth/sewing_spring.hpp>
+
+#include <algorithm>
+
+namespace sloper::cloth {
+
+void SewingSpringEffect::bind(const BlockMatrix& matrix) {
+  m_slots.clear();
+  for (const auto& s : m_stitches) m_slots.push_back(matrix.slot(s[0], s[1]));
+}
+
+void SewingSpringEffect::add(StepContext& c) {
+  for (std::size_t k = 0; k < m_stitches.size(); ++k) {
+    const auto [i, j] = m_stitches[k];
+    const Vec3 d = c.x[j] - c.x[i];
+    const double gap = d.norm();
+    // Beyond reach the exact stiffness along d is 0; the secant keeps the step from overshooting.
+    const double stiffness = m_stiffness * std::min(1.0, m_reach / std::max(gap, 1e-12));
+    c.force[i] += stiffness * d;
+    c.force[j] -= stiffness * d;
+    c.stiffness.add_diagonal(i, stiffness * Mat3::Identity());
+    c.stiffness.add_diagonal(j, stiffness * Mat3::Identity());
+    c.stiffness.add_off_diagonal(m_slots[k], -stiffness * Mat3::Identity());
+  }
+}
+
+double SewingSpringEffect::largest_gap(const std::vector<Vec3>& x) const {
+  double largest = 0;
+  for (const auto& s : m_stitches) largest = std::max(largest, (x[s[1]] - x[s[0]]).norm());
+  return largest;
+}
+
+} // namespace sloper::cloth

@@ -1,0 +1,28 @@
+#pragma once
+/// Springs of no rest length between the two sides of every open seam: they pull a seam shut, welding ends them.
+#include <cloth/effect.hpp>
+
+namespace sloper::cloth {
+
+class SewingSpringEffect : public Effect {
+public:
+  /// @param stitches   #S by 2 particles
+  /// @param reach_m    the pull grows with the gap up to here and stays constant beyond, so that far panels come gently
+  SewingSpringEffect(std::vector<std::array<int, 2>> stitches, double stiffness_n_m, double reach_m)
+      : m_stitches(std::move(stitches)), m_stiffness(stiffness_n_m), m_reach(reach_m) {}
+  const char* name() const override { return "sewing"; }
+  void declare(std::vector<std::array<int, 2>>& pairs) const override { pairs.insert(pairs.end(), m_stitches.begin(), m_stitches.end()); }
+  void bind(const BlockMatrix& matrix) override;
+  void add(StepContext& c) override;
+  void set_stiffness(double stiffness_n_m) { m_stiffness = stiffness_n_m; }
+  /// Largest gap of a stitch at x, m.
+  double largest_gap(const std::vector<Vec3>& x) const;
+  const std::vector<std::array<int, 2>>& stitches() const { return m_stitches; }
+
+private:
+  std::vector<std::array<int, 2>> m_stitches;
+  std::vector<int> m_slots;
+  double m_stiffness, m_reach;
+};
+
+} // namespace sloper::cloth
