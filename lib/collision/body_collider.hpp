@@ -1,0 +1,95 @@
+#pragma once
+/// A body as cloth meets it: signed distance, inside and outside, intersecting faces, face and edge contacts.
+///
+/// The sign comes from angle-weighted pseudonormals (Baerentzen and Aanaes 2005) where the surface around the closest point is
+/// an oriented manifold that bounds a volume, and from the generalized winding number (Jacobson et al. 2013) where it is not:
+/// at holes, non-manifold edges and where the skin passes through itself. Flipped faces are turned first, by their neighbours;
+/// a body that is inside out as a whole is turned as a whole. Skin buried inside the body (an arm that a scan has grown into
+/// the trunk) is no closest point. Test: tests/collision/test_body_collider.cpp
+#include <collision/topology.hpp>
+#include <collision/triangle_tree.hpp>
+#include <collision/winding_number.hpp>
+namespace sloper::collision {
+
+struct SignedDistance {
+  double distance = std::numeric_limits<double>::infinity(); ///< m, negative inside
+  Vec3 normal = Vec3::Zero();                                ///< unit, the direction in which the distance grows (outward at the skin)
+  Vec3 point = Vec3::Zero();                                 ///< closest point of the skin, m
+  int triangle = -1;                                         ///< of the body; -1: no skin within the distance asked for, whether inside or outside
+  Vec3 barycentric = Vec3::Zero();                           ///< of `point` in `triangle`
+};
+
+enum class ContactKind : unsigned char { FACE, EDGE }; ///< body vertex against cloth face; body edge against cloth edge
+
+/// A cloth face or edge near a body vertex or edge. For FACE both closest points are inside their features.
+struct FaceContact {
+  ContactKind kind;
+  int triangle;      ///< of the cloth; for EDGE the first triangle of that edge
+  Vec3 barycentric;  ///< closest point in the cloth triangle; for EDGE one weight is zero
+  int body_triangle; ///< a body triangle at the closest feature
+  Vec3 body_barycentric;
+  Vec3 body_point; ///< m
+  Vec3 normal;     ///< unit, outward
+  double distance; ///< m, along `normal` from body point to cloth point; negative where the body shows through
+};
+
+/// What was wrong with the body's mesh and how it was met.
+struct BodyFindings {
+  int flipped_triangles = 0; ///< turned to agree with their neighbours, or with the whole
+  int boundary_edges = 0;
+  int non_manifold_edges = 0;  ///< of three or more triangles, or of two that cannot be made to agree
+  int self_intersections = 0;  ///< pairs of body triangles
+  int untrusted_triangles = 0; ///< whose side is decided by winding number
+  int buried_triangles = 0;    ///< inside the body, left out of closest points
+};
+
+class BodyCollider {
+public:
+  BodyCollider() = default;
+  /// @param body body frame, m; faces may be flipped, open, non-manifold, zero-area   @param k see TriangleTree
+  explicit BodyCollider(const TriangleMesh& body, int k = 6);
+
+  /// Moves the body; same triangles. Which skin is trusted or buried stays as it was found at construction. O(#F).
+  void set_positions(const std::vector<Vec3>& positions);
+
+  /// @param p m   @param max_distance m, may be infinite   @param hint_triangle the last answer, or -1 (cost only)
+  SignedDistance signed_distance(const Vec3& p, double max_distance, int hint_triangle = -1) const;
+  /// 1 inside, 0 outside; after turning flipped faces. Within about 0.01 of the exact sum.
+  double winding_number(const Vec3& p) const { return m_winding.at(m_tree, p); }
+  bool is_inside(const Vec3& p) const { return winding_number(p) > 0.5; }
+
+  /// Cloth triangles (ascending) that intersect any body triangle; exact, touching counts.
+  std::vector<int> faces_through(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles) const;
+
+  /// The deepest FACE contact of each cloth triangle and the deepest EDGE contact of each cloth edge, within `radius` (m),
+  /// sorted by kind, triangle, edge. Contacts of cloth vertices are signed_distance()'s.
+  /// @param topology of `triangles`
+  std::vector<FaceContact> face_contacts(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const Topology& topology,
+                                         double radius) const;
+  std::vector<FaceContact> face_contacts(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, double radius) const;
+
+  const TriangleMesh& mesh() const { return m_mesh; } ///< triangles turned
+  const TriangleTree& tree() const { return m_tree; }
+  const BodyFindings& findings() const { return m_findings; }
+  const std::vector<Vec3>& vertex_normals() const { return m_vertex_normals; } ///< unit, angle-weighted
+
+private:
+  void turn_faces();
+  void assess_trust();
+  void compute_normals();
+  Vec3 pseudonormal(int triangle, int feature) const; ///< not unit
+  bool is_trusted(int triangle, int feature) const;
+
+  TriangleMesh m_mesh;
+  Topology m_topology;
+  TriangleTree m_tree;              ///< all triangles
+  TriangleTree m_skin;              ///< without buried ones; empty when none is
+  std::vector<int> m_skin_triangle; ///< of m_skin, in m_mesh
+  std::vector<int> m_skin_of;       ///< back: -1 for buried triangles
+  WindingNumber m_winding;
+  std::vector<Vec3> m_face_normals, m_vertex_normals;
+  std::vector<char> m_trusted_face, m_trusted_edge, m_trusted_vertex;
+  BodyFindings m_findings;
+};
+
+} // namespace sloper::collision

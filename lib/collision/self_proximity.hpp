@@ -1,0 +1,80 @@
+#pragma once
+/// Which parts of a moving cloth are near each other: vertex-face and edge-edge pairs within a radius, each once, and how far
+/// every particle may move before anything can cross (conservative bound as in Offset Geometric Contact, Chen et al. 2025).
+///
+/// Triangle pairs come from the refitted tree; every vertex and edge belongs to one of its triangles, so that no pair of
+/// features is met twice (representative triangles, Curtis et al. 2008). Pairs somewhat beyond the radius are remembered and
+/// measured again while the cloth has moved little since; that changes the cost, never the answer.
+/// Test: tests/collision/test_self_proximity.cpp
+#include <collision/topology.hpp>
+#include <collision/triangle_tree.hpp>
+#include <cstdint>
+namespace sloper::collision {
+
+struct VertexFacePair {
+  int vertex, triangle;
+  double distance;  ///< m
+  Vec3 barycentric; ///< closest point in the triangle
+  bool exempt;      ///< a triangle of the vertex now passes through this triangle: nearness is no guide
+};
+struct EdgeEdgePair {
+  int edge_a, edge_b; ///< edge_a < edge_b, indices into topology().edges
+  double distance;    ///< m
+  double s, t;        ///< closest points (1 - s) x[a0] + s x[a1], (1 - t) x[b0] + t x[b1]
+  bool exempt;
+};
+
+class SelfProximity {
+public:
+  /// @param never_collide for each particle, particles it never collides with (the other side of an unsewn seam): a pair is
+  ///   left out when a particle of one feature is listed with one of the other, either way round. Empty, or n_particles lists.
+  SelfProximity(std::size_t n_particles, const std::vector<Triangle>& triangles, const std::vector<std::vector<int>>& never_collide = {}, int k = 6);
+
+  /// Finds all pairs at distance <= radius (m) that share no particle.
+  /// @param x #particles by 3, m   @param intersecting what self_intersections() gave for x: pairs of those are marked exempt
+  void update(const std::vector<Vec3>& x, double radius, const std::vector<std::array<int, 2>>& intersecting = {});
+
+  const std::vector<VertexFacePair>& vertex_face() const { return m_vertex_face; } ///< sorted by vertex, triangle
+  const std::vector<EdgeEdgePair>& edge_edge() const { return m_edge_edge; }       ///< sorted by edge_a, edge_b
+
+  /// gamma times each particle's least distance over the pairs it takes part in, at most gamma radius. If every particle
+  /// moves less than its bound and gamma < 0.5, no pair can cross. Exempt and never-collide pairs do not bind.
+  std::vector<double> displacement_bound(double gamma) const;
+
+  const std::vector<Triangle>& triangles() const { return m_triangles; }
+  const Topology& topology() const { return m_topology; }
+  /// Over triangles(), refitted to the x of the last update.
+  const TriangleTree& tree() const { return m_tree; }
+  int n_rebuilds() const { return m_rebuilds; } ///< how often remembered pairs had to be found afresh
+
+private:
+  struct Near {
+    std::vector<std::array<int, 2>> vertex_face, edge_edge;
+  };
+  bool candidates_hold(const std::vector<Vec3>& x, double radius) const;
+  void find_candidates(const std::vector<Vec3>& x, double radius);
+  void search(int slot, double radius, Near& near) const;
+  bool never_collide(int a, int b) const;
+  void mark_exempt(const std::vector<std::array<int, 2>>& intersecting);
+
+  std::vector<Triangle> m_triangles;
+  Topology m_topology;
+  TriangleTree m_tree;
+  std::vector<unsigned char> m_owned;      ///< per triangle: bits 0-2 its vertices, bits 3-5 its edges
+  std::vector<int> m_never_begin, m_never; ///< symmetric, sorted
+  struct alignas(16) FloatBox {
+    float low[4], high[4];
+  };
+  std::vector<FloatBox> m_edge_boxes; ///< grown by half the search radius
+  Near m_candidates;                  ///< sorted
+  std::vector<Vec3> m_candidates_x;
+  double m_candidates_radius = -1;
+  int m_rebuilds = 0;
+  double m_radius = 0;
+  std::size_t m_particles = 0;
+  int m_k = 6;
+  std::vector<VertexFacePair> m_vertex_face;
+  std::vector<EdgeEdgePair> m_edge_edge;
+};
+
+} // namespace sloper::collision

@@ -1,0 +1,51 @@
+#pragma once
+/// Four floats at once: one lane for each child of a tree node. SSE2 where there is, plain C++ elsewhere, same results.
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+namespace sloper::collision {
+
+#if defined(__SSE2__)
+struct Float4 {
+  __m128 v;
+  static Float4 load(const float* p) { return {_mm_load_ps(p)}; } ///< p aligned to 16 bytes
+  static Float4 all(float x) { return {_mm_set1_ps(x)}; }
+  void store(float* p) const { _mm_store_ps(p, v); }
+};
+inline Float4 operator+(Float4 a, Float4 b) { return {_mm_add_ps(a.v, b.v)}; }
+inline Float4 operator-(Float4 a, Float4 b) { return {_mm_sub_ps(a.v, b.v)}; }
+inline Float4 operator*(Float4 a, Float4 b) { return {_mm_mul_ps(a.v, b.v)}; }
+inline Float4 max(Float4 a, Float4 b) { return {_mm_max_ps(a.v, b.v)}; }
+/// Bit i is set where a_i <= b_i and c_i <= d_i.
+inline int both_less_equal(Float4 a, Float4 b, Float4 c, Float4 d) { return _mm_movemask_ps(_mm_and_ps(_mm_cmple_ps(a.v, b.v), _mm_cmple_ps(c.v, d.v))); }
+inline int less_equal(Float4 a, Float4 b) { return _mm_movemask_ps(_mm_cmple_ps(a.v, b.v)); }
+#else
+struct Float4 {
+  float v[4];
+  static Float4 load(const float* p) { return {{p[0], p[1], p[2], p[3]}}; }
+  static Float4 all(float x) { return {{x, x, x, x}}; }
+  void store(float* p) const {
+    for (int i = 0; i < 4; ++i) p[i] = v[i];
+  }
+};
+inline Float4 operator+(Float4 a, Float4 b) { return {{a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2], a.v[3] + b.v[3]}}; }
+inline Float4 operator-(Float4 a, Float4 b) { return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]}}; }
+inline Float4 operator*(Float4 a, Float4 b) { return {{a.v[0] * b.v[0], a.v[1] * b.v[1], a.v[2] * b.v[2], a.v[3] * b.v[3]}}; }
+inline Float4 max(Float4 a, Float4 b) {
+  Float4 r;
+  for (int i = 0; i < 4; ++i) r.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
+  return r;
+}
+inline int both_less_equal(Float4 a, Float4 b, Float4 c, Float4 d) {
+  int mask = 0;
+  for (int i = 0; i < 4; ++i) mask |= (a.v[i] <= b.v[i] && c.v[i] <= d.v[i]) << i;
+  return mask;
+}
+inline int less_equal(Float4 a, Float4 b) {
+  int mask = 0;
+  for (int i = 0; i < 4; ++i) mask |= (a.v[i] <= b.v[i]) << i;
+  return mask;
+}
+#endif
+
+} // namespace sloper::collision

@@ -1,0 +1,252 @@
+#include <collision/triangle_tree.hpp>
+
+#include <base/error.hpp>
+#include <base/parallel.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sloper::collision {
+
+// 14 adds the corner directions to the box, 18 the edge directions, 26 both: so the list is cut and spliced by k.
+const std::array<Vec3, MAX_AXES> DOP_DIRECTIONS = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 1, 1),  Vec3(1, 1, -1), Vec3(1, -1, 1), Vec3(-1, 1, 1),
+                                                   Vec3(1, 1, 0), Vec3(1, 0, 1), Vec3(0, 1, 1), Vec3(1, -1, 0), Vec3(1, 0, -1), Vec3(0, 1, -1)};
+
+namespace {
+
+constexpr float HUGE_FLOAT = std::numeric_limits<float>::max();
+constexpr int SUBTREE_SLOTS = 4096; ///< a subtree of this size is one task of the parallel refit
+
+/// A float not above (below) x: rounding moves x by at most half a unit in the last place, 1.2e-7 |x| undoes that.
+float float_below(double x) {
+  const auto f = static_cast<float>(x);
+  return f - (std::abs(f) * 1.2e-7f + 1e-37f);
+}
+float float_above(double x) {
+  const auto f = static_cast<float>(x);
+  return f + (std::abs(f) * 1.2e-7f + 1e-37f);
+}
+
+/// Which of DOP_DIRECTIONS is axis `a` of a tree with `axes` axes: 18-DOPs skip the corner directions.
+int direction_index(int a, int axes) { return axes == 9 && a >= 3 ? a + 4 : a; }
+
+void interval(const std::array<Vec3, 3>& corners, int axis, int axes, double& low, double& high) {
+  double d[3];
+  for (int k = 0; k < 3; ++k) d[k] = axis < 3 ? corners[k][axis] : DOP_DIRECTIONS[direction_index(axis, axes)].dot(corners[k]);
+  low = std::min(d[0], std::min(d[1], d[2]));
+  high = std::max(d[0], std::max(d[1], d[2]));
+}
+
+} // namespace
+
+TriangleTree::TriangleTree(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, int k) : m_axes(k / 2) {
+  if (k != 6 && k != 14 && k != 18 && k != 26) throw Error(ErrorKind::INTERNAL, {}, {}, "a k-DOP tree has k = 6, 14, 18 or 26");
+  const auto n = static_cast<int>(triangles.size());
+  m_triangle_of_slot.resize(n);
+  std::iota(m_triangle_of_slot.begin(), m_triangle_of_slot.end(), 0);
+  std::vector<Vec3> centers(n);
+  for (int f = 0; f < n; ++f) {
+    const Vec3 &a = positions[triangles[f][0]], &b = positions[triangles[f][1]], &c = positions[triangles[f][2]];
+    // the middle of the box, which median splits separate better than the centroid of a sliver
+    centers[f] = 0.5 * (a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c));
+    for (int i = 0; i < 3; ++i)
+      if (!std::isfinite(centers[f][i])) centers[f][i] = 0; // an ordering must not meet NaN
+  }
+  m_nodes.reserve(n / 2 + 1);
+  if (n > 0) build(m_triangle_of_slot, centers, 0, n);
+  m_slot_of_triangle.resize(n);
+  m_slot_vertices.resize(n);
+  for (int s = 0; s < n; ++s) {
+    m_slot_of_triangle[m_triangle_of_slot[s]] = s;
+    m_slot_vertices[s] = triangles[m_triangle_of_slot[s]];
+  }
+  m_corners.resize(n);
+  m_extra.resize(m_nodes.size() * (m_axes - 3));
+
+  // subtrees that refit on their own, and the nodes above them
+  if (n > 0) {
+    std::vector<std::array<int, 2>> stack = {{0, static_cast<int>(m_nodes.size())}};
+    while (!stack.empty()) {
+      const auto [node, end] = stack.back();
+      stack.pop_back();
+      const int first = [&](int at) { // leftmost slot
+        while (m_nodes[at].child[0] >= 0) at = m_nodes[at].child[0];
+        return -2 - m_nodes[at].child[0];
+      }(node);
+      const int last = *std::max_element(m_nodes[node].slot_end, m_nodes[node].slot_end + 4);
+      if (last - first <= SUBTREE_SLOTS) {
+        m_subtrees.push_back({node, end});
+        continue;
+      }
+      m_top_nodes.push_back(node);
+      int stop = end;
+      for (int i = 3; i >= 0; --i) {
+        if (m_nodes[node].child[i] < 0) continue;
+        stack.push_back({m_nodes[node].child[i], stop});
+        stop = m_nodes[node].child[i];
+      }
+    }
+    std::sort(m_top_nodes.begin(), m_top_nodes.end());
+  }
+  refit(positions);
+}
+
+int TriangleTree::build(std::vector<int>& order, const std::vector<Vec3>& centers, int begin, int end) {
+  const auto index = static_cast<int>(m_nodes.size());
+  m_nodes.emplace_back();
+  std::fill_n(m_nodes[index].child, 4, EMPTY);
+  std::fill_n(m_nodes[index].slot_end, 4, begin);
+  int border[5] = {begin, begin, begin, begin, end};
+  if (end - begin <= 4) {
+    for (int i = 0; begin + i < end; ++i) {
+      m_nodes[index].child[i] = -2 - (begin + i);
+      m_nodes[index].slot_end[i] = begin + i + 1;
+    }
+    return index;
+  }
+  // halves and quarters, cut along the widest side at a multiple of four so that the lowest nodes are full
+  const auto cut = [&](int from, int to) {
+    Box3 box;
+    for (int i = from; i < to; ++i) box.add(centers[order[i]]);
+    int axis;
+    box.size().maxCoeff(&axis);
+    const int middle = from + ((to - from) / 2 + 3) / 4 * 4;
+    std::nth_element(order.begin() + from, order.begin() + middle, order.begin() + to, [&](int a, int b) {
+      const double ca = centers[a][axis], cb = centers[b][axis];
+      return ca < cb || (ca == cb && a < b);
+    });
+    return middle;
+  };
+  border[2] = cut(begin, end);
+  border[1] = border[2] - begin > 4 ? cut(begin, border[2]) : border[2];
+  border[3] = end - border[2] > 4 ? cut(border[2], end) : end;
+  int lane = 0;
+  for (int i = 0; i < 4; ++i) {
+    const int from = border[i], to = border[i + 1];
+    if (from >= to) continue;
+    const int child = to - from == 1 ? -2 - from : build(order, centers, from, to);
+    m_nodes[index].child[lane] = child;
+    m_nodes[index].slot_end[lane] = to;
+    ++lane;
+  }
+  return index;
+}
+
+void TriangleTree::refit_node(int index) {
+  Node& node = m_nodes[index];
+  std::array<float, 8>* extra = m_extra.data() + static_cast<std::size_t>(index) * (m_axes - 3);
+  for (int i = 0; i < 4; ++i) {
+    const int child = node.child[i];
+    for (int a = 0; a < m_axes; ++a) {
+      float low = HUGE_FLOAT, high = -HUGE_FLOAT;
+      if (child <= -2) {
+        double l, h;
+        interval(m_corners[-2 - child], a, m_axes, l, h);
+        low = float_below(l);
+        high = float_above(h);
+      } else if (child >= 0) {
+        const float* lows = a < 3 ? m_nodes[child].low[a] : m_extra[static_cast<std::size_t>(child) * (m_axes - 3) + a - 3].data();
+        const float* highs = a < 3 ? m_nodes[child].high[a] : lows + 4;
+        for (int j = 0; j < 4; ++j) {
+          low = std::min(low, lows[j]);
+          high = std::max(high, highs[j]);
+        }
+      }
+      (a < 3 ? node.low[a] : extra[a - 3].data())[i] = low;
+      (a < 3 ? node.high[a] : extra[a - 3].data() + 4)[i] = high;
+    }
+  }
+}
+
+void TriangleTree::refit(const std::vector<Vec3>& positions) {
+  parallel_for(m_corners.size(), SUBTREE_SLOTS, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s)
+      for (int k = 0; k < 3; ++k) m_corners[s][k] = positions[m_slot_vertices[s][k]];
+  });
+  parallel_for(m_subtrees.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s)
+      for (int node = m_subtrees[s][1] - 1; node >= m_subtrees[s][0]; --node) refit_node(node);
+  });
+  for (auto node = m_top_nodes.rbegin(); node != m_top_nodes.rend(); ++node) refit_node(*node);
+}
+
+Dop TriangleTree::dop_of(const Box3& box) const {
+  Dop dop;
+  for (int a = 0; a < m_axes; ++a) {
+    const Vec3& d = DOP_DIRECTIONS[direction_index(a, m_axes)];
+    double low = 0, high = 0;
+    for (int i = 0; i < 3; ++i) {
+      low += d[i] == 0 ? 0 : d[i] > 0 ? box.low[i] : -box.high[i];
+      high += d[i] == 0 ? 0 : d[i] > 0 ? box.high[i] : -box.low[i];
+    }
+    dop.low[a] = float_below(low);
+    dop.high[a] = float_above(high);
+  }
+  return dop;
+}
+
+Dop TriangleTree::dop_of_slot(int slot, double margin) const {
+  Dop dop;
+  for (int a = 0; a < m_axes; ++a) {
+    double low, high;
+    interval(m_corners[slot], a, m_axes, low, high);
+    // the set of points within `margin` reaches margin |d| further along d
+    const double reach = a < 3 ? margin : margin * DOP_DIRECTIONS[direction_index(a, m_axes)].norm();
+    dop.low[a] = float_below(low - reach);
+    dop.high[a] = float_above(high + reach);
+  }
+  return dop;
+}
+
+ClosestPoint TriangleTree::closest_point(const Vec3& p, double max_distance, int hint_triangle) const {
+  ClosestPoint best;
+  double bound = max_distance * max_distance;
+  const auto try_slot = [&](int slot) {
+    const std::array<Vec3, 3>& c = m_corners[slot];
+    const PointTriangle q = point_triangle(p, c[0], c[1], c[2]);
+    const int triangle = m_triangle_of_slot[slot];
+    if (!(q.squared_distance < bound || (q.squared_distance == bound && (best.triangle < 0 || triangle < best.triangle)))) return;
+    bound = q.squared_distance;
+    best = {triangle, q.point, q.barycentric, q.squared_distance, q.feature};
+  };
+  if (m_nodes.empty() || !p.allFinite()) return best;
+  if (hint_triangle >= 0 && hint_triangle < n_slots()) try_slot(m_slot_of_triangle[hint_triangle]);
+
+  // lower bounds in float: rounding of p and of the differences is covered by the slack
+  const auto px = static_cast<float>(p.x()), py = static_cast<float>(p.y()), pz = static_cast<float>(p.z());
+  const Float4 x = Float4::all(px), y = Float4::all(py), z = Float4::all(pz), zero = Float4::all(0);
+  const float slack = 2.5e-7f * std::max(std::abs(px), std::max(std::abs(py), std::abs(pz)));
+  const Float4 slack4 = Float4::all(slack), shrink = Float4::all(1 - 1e-6f);
+  struct Entry {
+    float squared;
+    int child;
+  };
+  Entry stack[128];
+  int top = 0;
+  stack[top++] = {0, 0};
+  alignas(16) float squared[4];
+  while (top > 0) {
+    const Entry entry = stack[--top];
+    if (entry.squared > bound) continue;
+    if (entry.child <= -2) {
+      try_slot(-2 - entry.child);
+      continue;
+    }
+    const Node& node = m_nodes[entry.child];
+    const Float4 dx = max(max(Float4::load(node.low[0]) - x, x - Float4::load(node.high[0])) - slack4, zero);
+    const Float4 dy = max(max(Float4::load(node.low[1]) - y, y - Float4::load(node.high[1])) - slack4, zero);
+    const Float4 dz = max(max(Float4::load(node.low[2]) - z, z - Float4::load(node.high[2])) - slack4, zero);
+    ((dx * dx + dy * dy + dz * dz) * shrink).store(squared);
+    const int first = top;
+    for (int i = 0; i < 4; ++i) {
+      if (node.child[i] == EMPTY || !(squared[i] <= bound)) continue;
+      int at = top++; // nearest on top
+      for (; at > first && stack[at - 1].squared < squared[i]; --at) stack[at] = stack[at - 1];
+      stack[at] = {squared[i], node.child[i]};
+    }
+  }
+  return best;
+}
+
+} // namespace sloper::collision

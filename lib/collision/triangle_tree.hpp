@@ -1,0 +1,115 @@
+#pragma once
+/// k-DOP tree over the triangles of a mesh (Klosowski et al. 1998; four children to a node, Wald et al. 2008), flat arrays.
+/// Built once by median splits of the triangle centres, refitted from the leaves up when the vertices move. Bounds are floats
+/// rounded outward, so that no double-precision contact is lost. k = 6 is the axis-aligned box; more directions reject
+/// more pairs and cost more each. Queries are const and may run on several threads.
+/// Test: tests/collision/test_triangle_tree.cpp
+#include <collision/distance.hpp>
+#include <collision/simd4.hpp>
+#include <geometry/triangle_mesh.hpp>
+
+#include <bit>
+#include <limits>
+namespace sloper::collision {
+
+struct ClosestPoint {
+  int triangle = -1; ///< -1: none within the distance asked for
+  Vec3 point = Vec3::Zero();
+  Vec3 barycentric = Vec3::Zero();
+  double squared_distance = std::numeric_limits<double>::infinity(); ///< m2
+  int feature = FEATURE_FACE;                                        ///< 0..6, see distance.hpp
+};
+
+/// A k-DOP: intervals of direction . p for the first k/2 directions of DOP_DIRECTIONS, m.
+inline constexpr int MAX_AXES = 13;
+struct Dop {
+  float low[MAX_AXES], high[MAX_AXES];
+};
+extern const std::array<Vec3, MAX_AXES> DOP_DIRECTIONS; ///< x, y, z, then components in {-1, 0, 1}, not of unit length
+
+class TriangleTree {
+public:
+  /// Four children: boxes in x, y, z, lane by lane, and where they lead.
+  struct alignas(16) Node {
+    float low[3][4], high[3][4];
+    int child[4];    ///< >= 0 a node, EMPTY, or <= -2: slot -2 - child
+    int slot_end[4]; ///< one past the last slot below the child; slots of a subtree are consecutive
+  };
+  static constexpr int EMPTY = -1;
+
+  TriangleTree() = default;
+  /// @param k 6, 14, 18 or 26; anything else throws Error INTERNAL. Cost O(#F log #F).
+  TriangleTree(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, int k = 6);
+
+  /// New bounds for moved vertices; same triangles. O(#F), parallel.
+  void refit(const std::vector<Vec3>& positions);
+
+  /// Closest point of the mesh within max_distance (may be infinite), the lowest triangle index where distances tie.
+  /// @param hint_triangle a triangle that may be near (the last answer), or -1; it changes the cost, never the answer.
+  ClosestPoint closest_point(const Vec3& p, double max_distance, int hint_triangle = -1) const;
+
+  /// Calls visit(triangle) for every triangle whose bounds overlap the box, in no particular but fixed order.
+  template<class Visit> void visit_overlaps(const Box3& box, Visit&& visit) const {
+    visit_slots(dop_of(box), 0, [&](int slot) { visit(m_triangle_of_slot[slot]); });
+  }
+
+  /// Calls visit(slot) for every slot >= first_slot whose k-DOP overlaps `query` (k/2 intervals used).
+  template<class Visit> void visit_slots(const Dop& query, int first_slot, Visit&& visit) const {
+    if (m_axes == 3) visit_slots_of<false>(query, first_slot, visit);
+    else visit_slots_of<true>(query, first_slot, visit);
+  }
+
+  Dop dop_of(const Box3& box) const;
+  Dop dop_of_slot(int slot, double margin) const; ///< bounds of a triangle, each face moved out by margin (m)
+
+  int n_slots() const { return static_cast<int>(m_triangle_of_slot.size()); } ///< slots are the triangles in tree order
+  int triangle_of_slot(int slot) const { return m_triangle_of_slot[slot]; }
+  int slot_of_triangle(int triangle) const { return m_slot_of_triangle[triangle]; }
+  const std::array<Vec3, 3>& corners(int slot) const { return m_corners[slot]; } ///< positions at the last refit
+  const std::vector<Node>& nodes() const { return m_nodes; }                     ///< the root first, parents before children
+  int k() const { return 2 * m_axes; }
+
+private:
+  template<bool EXTRA, class Visit> void visit_slots_of(const Dop& query, int first_slot, Visit& visit) const;
+  int build(std::vector<int>& order, const std::vector<Vec3>& centers, int begin, int end);
+  void refit_node(int node);
+
+  int m_axes = 3;
+  std::vector<Node> m_nodes;
+  std::vector<std::array<float, 8>> m_extra;  ///< (m_axes - 3) per node: low and high of four lanes
+  std::vector<std::array<int, 2>> m_subtrees; ///< node ranges that refit independently
+  std::vector<int> m_top_nodes;               ///< the nodes above those
+  std::vector<Triangle> m_slot_vertices;      ///< in slot order
+  std::vector<std::array<Vec3, 3>> m_corners; ///< in slot order
+  std::vector<int> m_triangle_of_slot, m_slot_of_triangle;
+};
+
+template<bool EXTRA, class Visit> void TriangleTree::visit_slots_of(const Dop& query, int first_slot, Visit& visit) const {
+  if (m_nodes.empty()) return;
+  const Float4 low_x = Float4::all(query.low[0]), low_y = Float4::all(query.low[1]), low_z = Float4::all(query.low[2]);
+  const Float4 high_x = Float4::all(query.high[0]), high_y = Float4::all(query.high[1]), high_z = Float4::all(query.high[2]);
+  int stack[128], top = 0; // at most three waiting siblings a level, and the tree is balanced
+  stack[top++] = 0;
+  while (top > 0) {
+    const int index = stack[--top];
+    const Node& node = m_nodes[index];
+    int mask = both_less_equal(Float4::load(node.low[0]), high_x, low_x, Float4::load(node.high[0]));
+    mask &= both_less_equal(Float4::load(node.low[1]), high_y, low_y, Float4::load(node.high[1]));
+    mask &= both_less_equal(Float4::load(node.low[2]), high_z, low_z, Float4::load(node.high[2]));
+    if constexpr (EXTRA) {
+      const auto* extra = m_extra.data() + static_cast<std::size_t>(index) * (m_axes - 3);
+      for (int a = 3; a < m_axes && mask; ++a, ++extra)
+        for (int i = 0; i < 4; ++i)
+          if (!((*extra)[i] <= query.high[a] && query.low[a] <= (*extra)[4 + i])) mask &= ~(1 << i);
+    }
+    while (mask) {
+      const int i = std::countr_zero(static_cast<unsigned>(mask));
+      mask &= mask - 1;
+      if (node.child[i] == EMPTY || node.slot_end[i] <= first_slot) continue;
+      if (node.child[i] >= 0) stack[top++] = node.child[i];
+      else visit(-2 - node.child[i]);
+    }
+  }
+}
+
+} // namespace sloper::collision
