@@ -17,12 +17,12 @@ const char* part_name(Part part);                       ///< "head", "torso", "a
 std::optional<Part> part_from_name(const std::string&); ///< inverse of part_name
 
 struct Landmark {
-  Vec3 p;                          ///< body frame, m
-  int step = 1;                    ///< 1 terminal point, 2 curvature point
-  std::string rule;                ///< name of the rule that found it
-  double confidence = 0;           ///< 0..1
-  double spread_m = 0;             ///< spread over slice offset, noise and rotation jitter
-  std::vector<Vec3> alternatives;  ///< what other rules gave
+  Vec3 p;                         ///< body frame, m
+  int step = 1;                   ///< 1 terminal point, 2 curvature point
+  std::string rule;               ///< name of the rule that found it
+  double confidence = 0;          ///< 0..1
+  double spread_m = 0;            ///< spread over slice offset, noise and rotation jitter
+  std::vector<Vec3> alternatives; ///< what other rules gave
 };
 
 struct Level {
@@ -73,12 +73,12 @@ struct Body {
   std::map<std::string, Landmark> landmarks; ///< only what was found
   std::map<std::string, Level> levels;
   std::map<std::string, Girth> girths;
-  std::map<std::string, BodyFrame> frames;   ///< by part name; "lower_body" is the joint frame of both legs
+  std::map<std::string, BodyFrame> frames; ///< by part name; "lower_body" is the joint frame of both legs
   std::vector<Bone> bones;
-  std::string body_class;                    ///< what the decision tree said
+  std::string body_class; ///< what the decision tree said
   std::vector<std::string> body_class_why;
-  TriangleMesh skin;                         ///< body frame, m; outward faces
-  std::vector<Part> face_part;               ///< one per triangle of skin
+  TriangleMesh skin;           ///< body frame, m; outward faces
+  std::vector<Part> face_part; ///< one per triangle of skin
 
   /// @throws Error INPUT naming the landmark when it was not found
   const Vec3& landmark(const std::string& name) const;

@@ -1,0 +1,233 @@
+#include <body/arm_trace.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::body {
+
+namespace {
+
+// all shares of stature
+constexpr double SEED_LEVEL = 0.60; ///< trunk level from which arms are the farthest reach
+constexpr double HAND_SKIP = 0.05;  ///< fingers: no single section
+constexpr double STEP = 0.005;
+constexpr double ARM_REACH = 0.46; ///< over the skin from finger tip to beyond the shoulder
+constexpr double MAX_ARM_GIRTH = 0.36;
+constexpr double JUMP = 1.35;    ///< of the girth, where the section runs into the trunk
+constexpr double MIN_ARM = 0.24; ///< a shorter trace is no arm
+
+/// Legs below the crotch, flooded from the calves.
+std::vector<char> leg_vertices(const LevelStack& levels, const TriangleMesh& skin) {
+  const double crotch = *levels.crotch(), s = levels.stature();
+  const std::vector<int> piece = [&] {
+    std::vector<Triangle> below;
+    for (const Triangle& t : skin.triangles)
+      if (skin.positions[t[0]].y() < crotch - 0.01 * s && skin.positions[t[1]].y() < crotch - 0.01 * s && skin.positions[t[2]].y() < crotch - 0.01 * s)
+        below.push_back(t);
+    return connected_components(skin.positions.size(), below);
+  }();
+  // the pieces that hold the leg loops at knee height
+  std::vector<char> is_leg_piece(skin.positions.size(), 0), blocked(skin.positions.size(), 0);
+  const Slice& slice = levels.at(0.2 * s);
+  for (std::size_t v = 0; v < skin.positions.size(); ++v) {
+    const Vec3& p = skin.positions[v];
+    if (std::abs(p.y() - slice.y) > 0.02 * s) continue;
+    for (int side = 0; side < 2; ++side)
+      if (slice.leg[side] >= 0) {
+        const Loop& loop = slice.loops[slice.leg[side]];
+        if (p.x() > loop.low.x() - 0.01 * s && p.x() < loop.high.x() + 0.01 * s && p.z() > loop.low.y() - 0.02 * s && p.z() < loop.high.y() + 0.02 * s)
+          is_leg_piece[piece[v]] = 1;
+      }
+  }
+  for (std::size_t v = 0; v < skin.positions.size(); ++v) blocked[v] = skin.positions[v].y() < crotch - 0.01 * s && is_leg_piece[piece[v]];
+  return blocked;
+}
+
+/// Mean of the vertices between two distances from the tip.
+std::optional<Vec3> ring_center(const TriangleMesh& skin, const std::vector<double>& from_tip, double near, double far) {
+  Box3 box;
+  Vec3 sum = Vec3::Zero();
+  int n = 0;
+  for (std::size_t v = 0; v < from_tip.size(); ++v)
+    if (from_tip[v] >= near && from_tip[v] < far) {
+      box.add(skin.positions[v]);
+      sum += skin.positions[v];
+      ++n;
+    }
+  if (n == 0) return std::nullopt;
+  return 0.5 * (sum / n + box.center());
+}
+
+void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& from_tip, double s) {
+  const auto start = ring_center(skin, from_tip, (HAND_SKIP - 0.01) * s, (HAND_SKIP + 0.01) * s);
+  const auto ahead = ring_center(skin, from_tip, 0.11 * s, 0.13 * s);
+  if (!start || !ahead) return;
+  Vec3 center = *start, axis = (*ahead - *start).normalized();
+  double along = (center - arm.tip).norm();
+  for (int step = 0; step < 120; ++step) {
+    LimbSection section;
+    section.plane = cross_plane(center, axis);
+    section.axis = axis;
+    std::vector<Loop> loops = cut(skin, section.plane, &arm.triangles);
+    int best = -1;
+    double nearest = 0.06 * s;
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      if (loops[i].area <= 0) continue;
+      const double d = encloses(loops[i], Vec2::Zero()) ? 0 : loops[i].centroid.norm();
+      if (d < nearest) nearest = d, best = static_cast<int>(i);
+    }
+    if (best < 0) break;
+    section.loop = std::move(loops[best]);
+    section.girth = taut_girth(section.loop);
+    section.center = section.plane.point(section.loop.centroid);
+    if (section.girth > MAX_ARM_GIRTH * s) break;
+    const std::size_t n = arm.sections.size();
+    if (n > 24) { // the girth of the last few centimetres
+      double usual = 0;
+      for (std::size_t k = n - 8; k < n - 2; ++k) usual += arm.sections[k].girth / 6;
+      if (section.girth > JUMP * usual) break;
+    }
+    if (n > 0) along += (section.center - arm.sections.back().center).norm();
+    section.along = along;
+    arm.sections.push_back(std::move(section));
+    if (n >= 8) {
+      const Vec3 chord = arm.sections.back().center - arm.sections[n - 8].center;
+      if (chord.norm() > 1e-6) axis = (0.5 * axis + 0.5 * chord.normalized()).normalized();
+    }
+    center = arm.sections.back().center + STEP * s * axis;
+  }
+  // the last sections lean into the shoulder
+  while (arm.sections.size() > 30 && arm.sections.back().girth > 1.12 * arm.sections[arm.sections.size() - 5].girth) arm.sections.pop_back();
+}
+
+/// Crossings of the line q + t e with the outline, sorted.
+std::vector<double> crossings(const std::vector<Loop>& loops, const Vec2& q, const Vec2& e) {
+  const Vec2 normal(-e.y(), e.x());
+  std::vector<double> at;
+  for (const Loop& loop : loops)
+    for (const auto& segment : loop.segments) {
+      const double a = normal.dot(segment[0] - q), b = normal.dot(segment[1] - q);
+      if ((a >= 0) == (b >= 0)) continue;
+      const Vec2 p = segment[0] + a / (a - b) * (segment[1] - segment[0]);
+      at.push_back(e.dot(p - q));
+    }
+  std::sort(at.begin(), at.end());
+  return at;
+}
+
+/// Apex of the gap between arm and trunk in the plane z = depth: walks along the arm towards the shoulder and watches the
+/// gap close. Lines are square to the bisector of arm and hanging direction.
+std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm, double s) {
+  Vec2 out(arm.out.x(), arm.out.y());
+  if (out.norm() < 0.2) return std::nullopt;
+  out.normalize();
+  const Vec2 bisector = (out + Vec2(0, -1)).normalized();
+  Vec2 e(-bisector.y(), bisector.x()); // square to the bisector, from the arm to the trunk
+  if (e.dot(Vec2(arm.left ? -1 : 1, -1)) < 0) e = -e;
+  std::optional<Vec2> apex;
+  double previous = 0;
+  const double end = arm.length();
+  for (double along = end - 0.09 * s; along < end + 0.08 * s; along += 0.001 * s) {
+    const Vec3 c = arm.at(along);
+    const Vec2 q(c.x(), c.y());
+    const std::vector<double> t = crossings(loops, q, e);
+    const auto first = std::upper_bound(t.begin(), t.end(), 0.0);
+    if (first == t.end() || (first - t.begin()) % 2 == 0) continue; // not inside the arm in this plane
+    const double leave = *first;
+    if (first + 1 == t.end() || leave > 0.12 * s || (apex && leave > 1.25 * previous + 0.004 * s)) {
+      if (apex) break;
+      continue;
+    }
+    const double enter = *(first + 1);
+    previous = leave;
+    apex = q + 0.5 * (leave + enter) * e;
+    if (enter - leave < 0.0008 * s) break;
+  }
+  return apex;
+}
+
+void find_axilla(ArmTrace& arm, const LevelStack& levels) {
+  const double s = levels.stature();
+  if (arm.sections.size() < 30) return;
+  const TriangleMesh& skin = levels.skin();
+  std::vector<int> near;
+  const double sign = arm.left ? 1 : -1;
+  for (std::size_t f = 0; f < skin.triangles.size(); ++f) {
+    const Vec3& p = skin.positions[skin.triangles[f][0]];
+    if (sign * p.x() > 0.02 * s && p.y() > 0.5 * s && p.y() < 0.9 * s) near.push_back(static_cast<int>(f));
+  }
+  const double depth = arm.at(arm.length() - 0.01 * s).z();
+  std::vector<std::pair<double, Vec2>> valley;
+  for (int k = -12; k <= 12; ++k) {
+    const double z = depth + k * 0.004 * s;
+    const std::vector<Loop> loops = cut(skin, {Vec3(0, 0, z), Vec3::UnitX(), Vec3::UnitY()}, &near);
+    if (const auto apex = gap_apex(loops, arm, s)) valley.emplace_back(z, *apex);
+  }
+  if (valley.empty()) return;
+  // the roof is the highest part of the valley nearest to the arm's own depth
+  const auto roof =
+      std::min_element(valley.begin(), valley.end(), [&](const auto& a, const auto& b) { return std::abs(a.first - depth) < std::abs(b.first - depth); });
+  arm.axilla = Vec3(roof->second.x(), roof->second.y(), roof->first);
+  arm.axilla_front = Vec3(valley.back().second.x(), valley.back().second.y(), valley.back().first);
+  arm.axilla_back = Vec3(valley.front().second.x(), valley.front().second.y(), valley.front().first);
+}
+
+} // namespace
+
+Vec3 ArmTrace::at(double along) const {
+  if (sections.empty()) return tip;
+  if (along <= sections.front().along) return sections.front().center + (along - sections.front().along) * sections.front().axis;
+  if (along >= sections.back().along) {
+    const Vec3 chord = sections.size() > 24 ? Vec3(sections.back().center - sections[sections.size() - 24].center) : sections.back().axis;
+    return sections.back().center + (along - sections.back().along) * chord.normalized();
+  }
+  const auto next = std::lower_bound(sections.begin(), sections.end(), along, [](const LimbSection& a, double x) { return a.along < x; });
+  const auto& b = *next;
+  const auto& a = *(next - 1);
+  const double w = b.along > a.along ? (along - a.along) / (b.along - a.along) : 0;
+  return a.center + w * (b.center - a.center);
+}
+
+std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& graph) {
+  std::array<ArmTrace, 2> arms;
+  arms[1].left = false;
+  if (!levels.crotch()) return arms;
+  const TriangleMesh& skin = levels.skin();
+  const double s = levels.stature();
+  const std::vector<char> legs = leg_vertices(levels, skin);
+  const Slice& seed = levels.at(SEED_LEVEL * s);
+  if (seed.trunk < 0) return arms;
+  const Loop& trunk = seed.loops[seed.trunk];
+  std::vector<int> sources;
+  for (std::size_t v = 0; v < skin.positions.size(); ++v) {
+    const Vec3& p = skin.positions[v];
+    if (std::abs(p.y() - seed.y) < 0.015 * s && p.x() > trunk.low.x() - 0.01 * s && p.x() < trunk.high.x() + 0.01 * s) sources.push_back(static_cast<int>(v));
+  }
+  const std::vector<double> reach = graph.distances(sources, 1e200, legs);
+  for (ArmTrace& arm : arms) {
+    int tip = -1;
+    for (std::size_t v = 0; v < reach.size(); ++v) {
+      const Vec3& p = skin.positions[v];
+      if (reach[v] > 1e199 || (p.x() > 0) != arm.left || p.y() > 0.93 * s || std::abs(p.x()) < 0.06 * s) continue;
+      if (tip < 0 || reach[v] > reach[tip]) tip = static_cast<int>(v);
+    }
+    if (tip < 0 || reach[tip] < 0.35 * s) continue;
+    arm.tip = skin.positions[tip];
+    const std::vector<double> from_tip = graph.distances({tip}, ARM_REACH * s, legs);
+    for (std::size_t f = 0; f < skin.triangles.size(); ++f) {
+      const Triangle& t = skin.triangles[f];
+      if (from_tip[t[0]] < 1e199 && from_tip[t[1]] < 1e199 && from_tip[t[2]] < 1e199) arm.triangles.push_back(static_cast<int>(f));
+    }
+    follow(arm, skin, from_tip, s);
+    if (arm.sections.empty() || arm.length() < MIN_ARM * s) {
+      arm.sections.clear();
+      continue;
+    }
+    const double end = arm.length();
+    arm.out = (arm.at(end - 0.12 * s) - arm.at(end)).normalized();
+    find_axilla(arm, levels);
+  }
+  return arms;
+}
+
+} // namespace sloper::body

@@ -1,0 +1,33 @@
+#pragma once
+/// One arm followed from the hand to the trunk in sections square to it, whatever the stance.
+#include <body/geodesic.hpp>
+#include <body/level_stack.hpp>
+#include <optional>
+namespace sloper::body {
+
+struct LimbSection {
+  Vec3 center = Vec3::Zero(); ///< centroid of the loop
+  Vec3 axis = Vec3::UnitY();  ///< unit, towards the trunk
+  Plane plane;
+  Loop loop;
+  double girth = 0; ///< taut, m
+  double along = 0; ///< m from the hand tip along the centres
+};
+
+struct ArmTrace {
+  bool left = true;
+  Vec3 tip = Vec3::Zero();           ///< the point farthest from the trunk over the skin
+  std::vector<LimbSection> sections; ///< from the hand to just before the trunk
+  std::vector<int> triangles;        ///< of the arm and the shoulder's surroundings
+  Vec3 out = Vec3::UnitX();          ///< unit, from shoulder to hand, over the upper arm
+  std::optional<Vec3> axilla;        ///< roof of the arm pit
+  std::optional<Vec3> axilla_front, axilla_back;
+  /// Point of the centre line at `along` m from the tip, carried on straight beyond its ends.
+  Vec3 at(double along) const;
+  double length() const { return sections.empty() ? 0 : sections.back().along; }
+};
+
+/// Both arms (left first); an arm that cannot be told from the trunk has no sections.
+std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& graph);
+
+} // namespace sloper::body

@@ -1,0 +1,21 @@
+#pragma once
+/// From the scan's frame to the body's: unit, up axis, facing. Metres, +y up, the body faces +z, +x is its left.
+#include <body/scan_sorting.hpp>
+namespace sloper::body {
+
+struct CanonicalFrame {
+  Mat4 scan_to_body = Mat4::Identity(); ///< similarity; feet at y = 0, legs' middle at x = z = 0
+  std::string unit, front;              ///< "m", "cm", "mm", "inch"; "+z" or a direction in the scan's frame
+  double stature_m = 0;
+  std::vector<Finding> findings;
+};
+
+/// @param unit "auto", "m", "cm" or "mm"
+/// @throws Error INPUT (naming `file`) where the scan is no standing body or no unit makes it one
+CanonicalFrame guess_frame(const TriangleMesh& scan, const SortedScan& sorted, const std::string& unit, const std::string& file);
+
+/// A rigid turn about y by `angle` (rad, from +z towards +x) and a shift, as a 4x4.
+Mat4 turn_and_shift(double angle, const Vec3& shift);
+Vec3 transform(const Mat4& m, const Vec3& p);
+
+} // namespace sloper::body

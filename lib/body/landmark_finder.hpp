@@ -1,0 +1,38 @@
+#pragma once
+/// The landmark rules: step 1 terminal points, step 2 curvature points, each in the file of its region. All work on a
+/// closed skin in the body frame and fill body.landmarks, body.levels and body.girths; nothing is guessed silently.
+#include <body/arm_trace.hpp>
+#include <body/body.hpp>
+#include <body/rules.hpp>
+namespace sloper::body {
+
+struct Finder {
+  const LevelStack& levels;
+  const std::array<ArmTrace, 2>& arms;
+  const Rules& rules;
+  Body& body;
+  std::vector<std::string>& trail; ///< the decision path, for --explain
+  double s;                        ///< stature, m
+
+  void put(const std::string& name, const Vec3& p, int step, const std::string& rule, double confidence, double spread_m) const;
+  bool has(const std::string& name) const { return body.landmarks.count(name) != 0; }
+  const Vec3& at(const std::string& name) const { return body.landmarks.at(name).p; }
+  double number(const std::string& name) const { return rules.number(name); }
+  void explain(const std::string& line) const { trail.push_back(line); }
+};
+
+inline const char* side_suffix(int side) { return side == 0 ? "_l" : "_r"; }
+
+/// The trunk outline at a height as front and back depth near x = 0, m; empty where there is no trunk.
+struct Profile {
+  double front, back;
+};
+std::optional<Profile> midline(const LevelStack& levels, double y, double x, double half_width);
+
+void find_leg_landmarks(const Finder& finder);   ///< foot tips, heels, crotch, hip joints, knees, ankles
+void find_head_landmarks(const Finder& finder);  ///< head tip, neck
+void find_arm_landmarks(const Finder& finder);   ///< hand tips, axillae, acromia, shoulders, elbows, wrists
+void find_trunk_landmarks(const Finder& finder); ///< bust, waist, abdomen, hip and all levels
+void find_girths(const Finder& finder);
+
+} // namespace sloper::body

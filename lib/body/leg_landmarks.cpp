@@ -1,0 +1,55 @@
+#include <body/landmark_finder.hpp>
+
+#include <cmath>
+
+namespace sloper::body {
+
+void find_leg_landmarks(const Finder& f) {
+  const double s = f.s;
+  const TriangleMesh& skin = f.levels.skin();
+  if (!f.levels.crotch()) return;
+  const double crotch_y = *f.levels.crotch();
+  f.put("crotch", Vec3(f.levels.crotch_point().x(), crotch_y, f.levels.crotch_point().y()), 1, "leg_sections_merge", 0.9, 0.003);
+  for (int side = 0; side < 2; ++side) {
+    const std::string suffix = side_suffix(side);
+    const double sign = side == 0 ? 1 : -1;
+    // foot: the skin below the ankle on this side
+    const double ankle_y = f.number("ankle.height") * s;
+    int toe = -1, heel = -1;
+    for (std::size_t v = 0; v < skin.positions.size(); ++v) {
+      const Vec3& p = skin.positions[v];
+      if (p.y() > ankle_y || sign * p.x() < 0) continue;
+      if (toe < 0 || p.z() > skin.positions[toe].z()) toe = static_cast<int>(v);
+      if (heel < 0 || p.z() < skin.positions[heel].z()) heel = static_cast<int>(v);
+    }
+    if (toe >= 0) f.put("foot_tip" + suffix, skin.positions[toe], 1, "foremost_of_foot", 0.95, 0.002);
+    if (heel >= 0) f.put("heel" + suffix, skin.positions[heel], 1, "rearmost_of_foot", 0.95, 0.002);
+    const auto top = f.levels.leg_at(crotch_y - 0.010, side);
+    if (!top) continue;
+    f.put("leg_top" + suffix, Vec3(top->centroid.x(), crotch_y - 0.010, top->centroid.y()), 2, "section_under_crotch", 0.9, 0.003);
+    const Vec3 hip(top->centroid.x(), crotch_y + f.number("hip_joint.above_crotch") * s, top->centroid.y() - f.number("hip_joint.behind_leg_top") * s);
+    f.put("hip_joint" + suffix, hip, 2, "above_leg_top", 0.6, 0.012);
+    if (const auto ankle = f.levels.leg_at(ankle_y, side)) {
+      // the section at this height holds the heel's upper rim: its middle in x, two fifths from behind in z
+      const Vec3 joint(ankle->center().x(), ankle_y, ankle->low.y() + 0.45 * ankle->size().y());
+      f.put("ankle" + suffix, joint, 2, "height_ratio", 0.7, 0.006);
+      double best = -1e300;
+      Vec2 outer = Vec2::Zero();
+      for (const auto& seg : ankle->segments)
+        if (sign * seg[0].x() > best) best = sign * seg[0].x(), outer = seg[0];
+      f.put("malleolus" + suffix, Vec3(outer.x(), ankle_y, outer.y()), 2, "outermost_at_ankle", 0.6, 0.006);
+      const double knee_y = ankle_y + f.number("knee.of_leg") * (hip.y() - ankle_y);
+      if (const auto knee = f.levels.leg_at(knee_y, side)) {
+        Vec2 cap = knee->segments.front()[0];
+        for (const auto& seg : knee->segments)
+          if (seg[0].y() > cap.y()) cap = seg[0];
+        f.put("patella" + suffix, Vec3(cap.x(), knee_y, cap.y()), 2, "foremost_at_knee", 0.7, 0.01);
+        f.put("knee" + suffix, Vec3(knee->center().x(), knee_y, cap.y() - f.number("knee.behind_patella") * s), 2, "leg_ratio", 0.6, 0.012);
+      }
+    }
+  }
+  if (f.has("hip_joint_l") && f.has("hip_joint_r"))
+    f.put("hip_center", 0.5 * (f.at("hip_joint_l") + f.at("hip_joint_r")), 2, "middle_of_hip_joints", 0.6, 0.01);
+}
+
+} // namespace sloper::body

@@ -1,0 +1,136 @@
+#include <body/level_stack.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::body {
+
+namespace {
+
+constexpr double CALF = 0.15;         ///< of stature: where the two legs are surely apart
+constexpr double MIN_LEG_AREA = 6e-4; ///< of stature squared, below it a loop at the calf is no leg
+
+double overlap(const Loop& a, const Loop& b) {
+  const Vec2 low = a.low.cwiseMax(b.low), high = a.high.cwiseMin(b.high);
+  const Vec2 size = (high - low).cwiseMax(0.0);
+  return size.x() * size.y();
+}
+
+int best_overlap(const std::vector<Loop>& loops, const Loop& from) {
+  int best = -1;
+  double most = 0;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (loops[i].area <= 0) continue;
+    const double o = overlap(loops[i], from);
+    if (o > most) most = o, best = static_cast<int>(i);
+  }
+  return best;
+}
+
+} // namespace
+
+LevelStack::LevelStack(const TriangleMesh& skin, double stature, double spacing) : m_skin(&skin), m_stature(stature), m_spacing(spacing) {
+  const int n = static_cast<int>(stature * 1.02 / spacing) + 2;
+  m_triangles = triangles_by_level(skin, 0.5 * spacing, spacing, n);
+  m_slices.resize(static_cast<std::size_t>(n));
+  for (int k = 0; k < n; ++k) {
+    m_slices[k].y = (k + 0.5) * spacing;
+    m_slices[k].loops = cut(skin, level_plane(m_slices[k].y), &m_triangles[k]);
+  }
+  follow_legs();
+  follow_trunk();
+}
+
+int LevelStack::index(double y) const { return std::clamp(static_cast<int>(std::floor(y / m_spacing)), 0, static_cast<int>(m_slices.size()) - 1); }
+const Slice& LevelStack::at(double y) const { return m_slices[static_cast<std::size_t>(index(y))]; }
+
+std::vector<Loop> LevelStack::exact(double y) const { return cut(*m_skin, level_plane(y), &m_triangles[static_cast<std::size_t>(index(y))]); }
+
+std::optional<Loop> LevelStack::trunk_at(double y) const {
+  const Slice& slice = at(y);
+  if (slice.trunk < 0) return std::nullopt;
+  std::vector<Loop> loops = exact(y);
+  const int i = best_overlap(loops, slice.loops[slice.trunk]);
+  if (i < 0) return std::nullopt;
+  return loops[i];
+}
+
+std::optional<Loop> LevelStack::leg_at(double y, int side) const {
+  const Slice& slice = at(y);
+  if (slice.leg[side] < 0) return std::nullopt;
+  std::vector<Loop> loops = exact(y);
+  const int i = best_overlap(loops, slice.loops[slice.leg[side]]);
+  if (i < 0) return std::nullopt;
+  return loops[i];
+}
+
+void LevelStack::follow_legs() {
+  // start where two loops of like size stand on both sides of the middle
+  int start = -1;
+  for (int k = index(CALF * m_stature); k < index(0.3 * m_stature) && start < 0; ++k) {
+    Slice& slice = m_slices[k];
+    int pick[2] = {-1, -1};
+    for (std::size_t i = 0; i < slice.loops.size(); ++i) {
+      const Loop& loop = slice.loops[i];
+      if (loop.area < MIN_LEG_AREA * m_stature * m_stature || std::abs(loop.centroid.x()) > 0.25 * m_stature) continue;
+      const int side = loop.centroid.x() > 0 ? 0 : 1;
+      if (pick[side] < 0) pick[side] = static_cast<int>(i); // loops come largest first
+    }
+    if (pick[0] < 0 || pick[1] < 0) continue;
+    slice.leg[0] = pick[0], slice.leg[1] = pick[1];
+    start = k;
+  }
+  if (start < 0) return;
+  for (int k = start - 1; k >= 0; --k)
+    for (int side = 0; side < 2; ++side) {
+      const int from = m_slices[k + 1].leg[side];
+      if (from >= 0) m_slices[k].leg[side] = best_overlap(m_slices[k].loops, m_slices[k + 1].loops[from]);
+    }
+  int k = start + 1;
+  const int last = index(0.62 * m_stature);
+  for (; k <= last; ++k) {
+    for (int side = 0; side < 2; ++side) m_slices[k].leg[side] = best_overlap(m_slices[k].loops, m_slices[k - 1].loops[m_slices[k - 1].leg[side]]);
+    const bool merged = m_slices[k].leg[0] == m_slices[k].leg[1];
+    if (m_slices[k].leg[0] < 0 || m_slices[k].leg[1] < 0) return;
+    if (!merged) continue;
+    m_slices[k].trunk = m_slices[k].leg[0];
+    m_slices[k].leg[0] = m_slices[k].leg[1] = -1;
+    break;
+  }
+  if (k > last) return;
+  // bisect between the last level with two legs and the first with one
+  double low = m_slices[k - 1].y, high = m_slices[k].y;
+  std::vector<int> both = m_triangles[k - 1];
+  both.insert(both.end(), m_triangles[k].begin(), m_triangles[k].end());
+  std::sort(both.begin(), both.end());
+  both.erase(std::unique(both.begin(), both.end()), both.end());
+  Loop left = m_slices[k - 1].loops[m_slices[k - 1].leg[0]], right = m_slices[k - 1].loops[m_slices[k - 1].leg[1]];
+  while (high - low > 2e-4) {
+    const double y = 0.5 * (low + high);
+    std::vector<Loop> loops = cut(*m_skin, level_plane(y), &both);
+    const int a = best_overlap(loops, left), b = best_overlap(loops, right);
+    if (a < 0 || b < 0 || a == b) high = y;
+    else low = y, left = loops[a], right = loops[b];
+  }
+  m_crotch = low;
+  // where the two loops come closest
+  double best = 1e300;
+  for (const auto& s : left.segments)
+    for (const auto& t : right.segments) {
+      const double d = (s[0] - t[0]).squaredNorm();
+      if (d < best) best = d, m_crotch_point = 0.5 * (s[0] + t[0]);
+    }
+}
+
+void LevelStack::follow_trunk() {
+  if (!m_crotch) return;
+  int k = index(*m_crotch);
+  while (k < static_cast<int>(m_slices.size()) && m_slices[k].trunk < 0 && m_slices[k].y < *m_crotch + 3 * m_spacing) ++k;
+  for (++k; k < static_cast<int>(m_slices.size()); ++k) {
+    const int from = m_slices[k - 1].trunk;
+    if (from < 0) return;
+    m_slices[k].trunk = best_overlap(m_slices[k].loops, m_slices[k - 1].loops[from]);
+  }
+}
+
+} // namespace sloper::body

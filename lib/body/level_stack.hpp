@@ -1,0 +1,46 @@
+#pragma once
+/// The skin in level slices: the legs followed up to the crotch, the trunk from there to the neck, the head above it.
+#include <body/section.hpp>
+#include <optional>
+namespace sloper::body {
+
+/// What stands in one level.
+struct Slice {
+  double y = 0;
+  std::vector<Loop> loops;
+  int leg[2] = {-1, -1}; ///< loop of the left (0) and right (1) leg, below the crotch
+  int trunk = -1;        ///< loop of the trunk, neck or head; arms may hang on it
+};
+
+/// All level slices of a closed skin that stands in (about) the body frame.
+class LevelStack {
+public:
+  /// @param spacing m between levels
+  LevelStack(const TriangleMesh& skin, double stature, double spacing);
+  const std::vector<Slice>& slices() const { return m_slices; }
+  const Slice& at(double y) const; ///< the nearest slice
+  int index(double y) const;
+  double spacing() const { return m_spacing; }
+  double stature() const { return m_stature; }
+  const TriangleMesh& skin() const { return *m_skin; }
+  /// Loops of an exact cut at any height (only the triangles of that level are visited).
+  std::vector<Loop> exact(double y) const;
+  /// The trunk (neck, head) loop of an exact cut; empty when there is none.
+  std::optional<Loop> trunk_at(double y) const;
+  std::optional<Loop> leg_at(double y, int side) const;
+  /// Height at which the two leg loops become one, m, by bisection to 0.2 mm; empty when the legs are never apart.
+  std::optional<double> crotch() const { return m_crotch; }
+  Vec2 crotch_point() const { return m_crotch_point; } ///< (x, z) where they meet
+
+private:
+  void follow_legs();
+  void follow_trunk();
+  const TriangleMesh* m_skin;
+  double m_stature, m_spacing;
+  std::vector<Slice> m_slices;
+  std::vector<std::vector<int>> m_triangles;
+  std::optional<double> m_crotch;
+  Vec2 m_crotch_point = Vec2::Zero();
+};
+
+} // namespace sloper::body

@@ -1,0 +1,110 @@
+#include <base/units.hpp>
+#include <body/canonical_frame.hpp>
+#include <body/measure_scan.hpp>
+#include <body/part_labels.hpp>
+#include <body/skin_profile.hpp>
+#include <io/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::body {
+
+namespace {
+
+constexpr const char* ESSENTIAL[] = {"head_tip",         "crotch",           "hip_center", "neck_center", "neck_back",  "neck_front",
+                                     "shoulder_joint_l", "shoulder_joint_r", "hand_tip_l", "hand_tip_r",  "acromion_l", "acromion_r",
+                                     "hip_joint_l",      "hip_joint_r",      "ankle_l",    "ankle_r"};
+
+/// The scan's own faces where all corners are body; unused vertices are dropped.
+TriangleMesh own_skin(const TriangleMesh& scan, const std::vector<Vec3>& positions, const std::vector<char>& is_body) {
+  TriangleMesh skin;
+  std::vector<int> number(positions.size(), -1);
+  for (const Triangle& t : scan.triangles) {
+    if (!is_body[t[0]] || !is_body[t[1]] || !is_body[t[2]] || t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    Triangle kept;
+    for (int k = 0; k < 3; ++k) {
+      int& n = number[t[k]];
+      if (n < 0) {
+        n = static_cast<int>(skin.positions.size());
+        skin.positions.push_back(positions[t[k]]);
+      }
+      kept[k] = n;
+    }
+    skin.triangles.push_back(kept);
+  }
+  return skin;
+}
+
+void describe_stance(Body& body, const std::array<ArmTrace, 2>& arms) {
+  double sum = 0;
+  int n = 0;
+  for (int side = 0; side < 2; ++side) {
+    if (arms[side].sections.empty()) continue;
+    const double deg = units::degrees(std::acos(std::clamp(-arms[side].out.y(), -1.0, 1.0)));
+    (side == 0 ? body.arm_l_deg : body.arm_r_deg) = deg;
+    sum += deg, ++n;
+  }
+  const double mean = n ? sum / n : 0;
+  body.stance_class = mean > 70 ? "T" : mean > 15 ? "A" : "I";
+}
+
+void shift(Body& body, const Vec3& by) {
+  for (auto& [name, landmark] : body.landmarks) {
+    landmark.p += by;
+    for (Vec3& p : landmark.alternatives) p += by;
+  }
+  for (Vec3& p : body.skin.positions) p += by;
+}
+
+} // namespace
+
+MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, const std::string& sha256, const ScanOptions& options, Reporter& reporter) {
+  MeasuredScan result;
+  Body& body = result.body;
+  const SortedScan sorted = sort_scan(scan, options.up);
+  const CanonicalFrame frame = guess_frame(scan, sorted, options.unit, file);
+  body.scan = {io::file_name(file),
+               sha256,
+               frame.unit,
+               sorted.up_name,
+               frame.front,
+               static_cast<int>(scan.positions.size()),
+               static_cast<int>(scan.triangles.size()),
+               frame.stature_m,
+               frame.findings};
+  std::vector<Vec3> positions(scan.positions.size());
+  for (std::size_t v = 0; v < positions.size(); ++v) positions[v] = transform(frame.scan_to_body, scan.positions[v]);
+  reporter.info("unit " + frame.unit + ", up " + sorted.up_name + ", stature " + std::to_string(frame.stature_m) + " m");
+  body.skin = own_skin(scan, positions, sorted.is_body);
+
+  const double s = frame.stature_m;
+  const LevelStack levels(body.skin, s, 0.0025 * s);
+  const EdgeGraph graph(body.skin);
+  const std::array<ArmTrace, 2> arms = trace_arms(levels, graph);
+  describe_stance(body, arms);
+  const Finder finder{levels, arms, options.rules, body, result.trail, s};
+  find_leg_landmarks(finder);
+  find_head_landmarks(finder);
+  find_arm_landmarks(finder);
+  find_trunk_landmarks(finder);
+  find_girths(finder);
+  const std::vector<Part> skin_part = label_skin(finder);
+  body.face_part = label_faces(body.skin.triangles, skin_part);
+  result.vertex_part = label_scan(positions, sorted.is_body, body.skin, skin_part, 0.03 * s);
+  // the origin goes below the middle of the hip joints
+  Vec3 origin = Vec3::Zero();
+  if (body.has_landmark("hip_center")) origin = Vec3(-body.landmark("hip_center").x(), 0, -body.landmark("hip_center").z());
+  shift(body, origin);
+  body.scan_to_body = turn_and_shift(0, origin) * frame.scan_to_body;
+  build_frames(body);
+  build_bones(body);
+  for (const char* name : ESSENTIAL)
+    if (!body.has_landmark(name)) {
+      result.missing.push_back(name);
+      body.scan.findings.push_back({"error", "landmark not found", name});
+    }
+  return result;
+}
+
+} // namespace sloper::body

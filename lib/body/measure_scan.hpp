@@ -1,0 +1,26 @@
+#pragma once
+/// From a raw scan to a body: the whole of scan-landmarks.
+#include <base/progress.hpp>
+#include <body/body.hpp>
+#include <body/rules.hpp>
+namespace sloper::body {
+
+struct ScanOptions {
+  std::string unit = "auto"; ///< auto, m, cm, mm
+  std::string up = "auto";   ///< auto, x, y, z
+  Rules rules = Rules::standard();
+};
+
+struct MeasuredScan {
+  Body body;
+  std::vector<Part> vertex_part;    ///< one per vertex of the scan, in its order
+  std::vector<std::string> trail;   ///< the decision path, for --explain
+  std::vector<std::string> missing; ///< essential landmarks that were not found
+};
+
+/// @param scan in the file's own unit and order
+/// @param file as the user wrote it, for messages and body.scan.file
+/// @throws Error INPUT when the scan is no standing body
+MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, const std::string& sha256, const ScanOptions& options, Reporter& reporter);
+
+} // namespace sloper::body

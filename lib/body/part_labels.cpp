@@ -1,0 +1,73 @@
+#include <body/part_labels.hpp>
+#include <body/point_grid.hpp>
+
+#include <cmath>
+
+namespace sloper::body {
+
+std::vector<Part> label_skin(const Finder& f) {
+  const TriangleMesh& skin = f.levels.skin();
+  std::vector<Part> part(skin.positions.size(), Part::TORSO);
+  const double s = f.s;
+  const double crotch = f.has("crotch") ? f.at("crotch").y() : 0.47 * s;
+  // head: above the neck ring
+  if (f.has("neck_back") && f.has("neck_front")) {
+    const Vec3 middle = 0.5 * (f.at("neck_back") + f.at("neck_front"));
+    Vec3 up = (f.at("neck_front") - f.at("neck_back")).cross(Vec3::UnitX()).normalized();
+    if (up.y() < 0) up = -up;
+    for (std::size_t v = 0; v < part.size(); ++v)
+      if ((skin.positions[v] - middle).dot(up) > 0 && std::abs(skin.positions[v].x()) < 0.1 * s) part[v] = Part::HEAD;
+  }
+  // legs: below the groin, which rises to the outside
+  const double hip_x = f.has("hip_joint_l") ? std::abs(f.at("hip_joint_l").x()) : 0.06 * s;
+  const double hip_y = f.has("hip_center") ? f.at("hip_center").y() : crotch + 0.05 * s;
+  for (std::size_t v = 0; v < part.size(); ++v) {
+    const Vec3& p = skin.positions[v];
+    const double border = crotch + (hip_y - crotch) * std::min(1.0, std::abs(p.x()) / hip_x);
+    if (p.y() < border) part[v] = p.x() > 0 ? Part::LEG_L : Part::LEG_R;
+  }
+  // arms: beyond the plane through arm pit and shoulder joint, on the traced arm
+  for (int side = 0; side < 2; ++side) {
+    const ArmTrace& arm = f.arms[side];
+    if (arm.sections.empty()) continue;
+    const Vec3 joint = f.at(std::string("shoulder_joint") + side_suffix(side));
+    const Vec3 corner = arm.axilla ? *arm.axilla : arm.at(arm.length());
+    const Vec3 outward = arm.left ? Vec3::UnitX() : Vec3(-Vec3::UnitX());
+    const Vec3 n = (arm.out + outward).normalized();
+    const Vec3 base = 0.5 * (joint + corner);
+    for (const int t : arm.triangles)
+      for (const int v : skin.triangles[t]) {
+        const Vec3& p = skin.positions[v];
+        if ((p - base).dot(n) < 0) continue;
+        // hanging arms: the trunk's side also lies beyond the plane further down; it is nearer to the trunk than to the arm's axis
+        const double along = (p - joint).dot(arm.out);
+        const Vec3 off = p - joint - along * arm.out;
+        if (along > 0.02 * s && off.norm() > 0.085 * s) continue;
+        part[v] = side == 0 ? Part::ARM_L : Part::ARM_R;
+      }
+  }
+  return part;
+}
+
+std::vector<Part> label_faces(const std::vector<Triangle>& triangles, const std::vector<Part>& vertex_part) {
+  std::vector<Part> face_part(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Part a = vertex_part[triangles[t][0]], b = vertex_part[triangles[t][1]], c = vertex_part[triangles[t][2]];
+    face_part[t] = b == c ? b : a;
+  }
+  return face_part;
+}
+
+std::vector<Part> label_scan(const std::vector<Vec3>& positions, const std::vector<char>& is_body, const TriangleMesh& skin, const std::vector<Part>& skin_part,
+                             double reach) {
+  std::vector<Part> part(positions.size(), Part::NONE);
+  const PointGrid grid(skin.positions, reach);
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if (!is_body[v]) continue;
+    const int i = grid.nearest(positions[v]);
+    if (i >= 0) part[v] = skin_part[i];
+  }
+  return part;
+}
+
+} // namespace sloper::body

@@ -1,0 +1,181 @@
+#include <body/section.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+namespace sloper::body {
+
+namespace {
+
+struct Cut {
+  std::uint64_t from, to; ///< mesh edges at the two ends
+  Vec2 a, b;
+};
+
+std::uint64_t edge_key(int a, int b) {
+  const auto low = static_cast<std::uint64_t>(std::min(a, b)), high = static_cast<std::uint64_t>(std::max(a, b));
+  return low << 32 | high;
+}
+
+/// Numbers segments by loop: two segments that end on the same mesh edge belong together.
+std::vector<int> loop_numbers(const std::vector<Cut>& cuts) {
+  std::vector<int> parent(cuts.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  auto root = [&](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  std::vector<std::pair<std::uint64_t, int>> ends;
+  ends.reserve(cuts.size() * 2);
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    ends.emplace_back(cuts[i].from, static_cast<int>(i));
+    ends.emplace_back(cuts[i].to, static_cast<int>(i));
+  }
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t k = 1; k < ends.size(); ++k) {
+    if (ends[k].first != ends[k - 1].first) continue;
+    const int a = root(ends[k - 1].second), b = root(ends[k].second);
+    if (a != b) parent[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<int> number(cuts.size(), -1);
+  int count = 0;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    const int r = root(static_cast<int>(i));
+    if (number[r] < 0) number[r] = count++;
+    number[i] = number[r];
+  }
+  return number;
+}
+
+void measure(Loop& loop) {
+  const Vec2 o = loop.segments.front()[0];
+  Vec2 moment = Vec2::Zero();
+  double twice = 0;
+  for (const auto& s : loop.segments) {
+    const Vec2 a = s[0] - o, b = s[1] - o;
+    const double c = a.x() * b.y() - a.y() * b.x();
+    twice += c;
+    moment += c * (a + b);
+    loop.low = loop.low.cwiseMin(s[0]).cwiseMin(s[1]);
+    loop.high = loop.high.cwiseMax(s[0]).cwiseMax(s[1]);
+  }
+  loop.area = 0.5 * twice;
+  loop.centroid = std::abs(twice) > 1e-12 ? Vec2(o + moment / (3 * twice)) : loop.center();
+  loop.centroid = loop.centroid.cwiseMax(loop.low).cwiseMin(loop.high); // an open outline can throw it far off
+}
+
+} // namespace
+
+Plane level_plane(double height) {
+  // (x, z) has the normal -y; cut() keeps the body on the left of a segment all the same
+  return {Vec3(0, height, 0), Vec3::UnitX(), Vec3::UnitZ()};
+}
+
+Plane cross_plane(const Vec3& origin, const Vec3& axis) {
+  const Vec3 n = axis.normalized();
+  Vec3 u = Vec3::UnitY().cross(n);
+  if (u.norm() < 1e-3) u = Vec3::UnitX() - n.x() * n;
+  u.normalize();
+  return {origin, u, n.cross(u)};
+}
+
+std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane, const std::vector<int>* subset) {
+  const Vec3 n = plane.normal();
+  const double offset = n.dot(plane.origin);
+  std::vector<Cut> cuts;
+  const std::size_t total = subset ? subset->size() : mesh.triangles.size();
+  for (std::size_t i = 0; i < total; ++i) {
+    const Triangle& t = mesh.triangles[subset ? (*subset)[i] : i];
+    double d[3];
+    int above = 0;
+    for (int k = 0; k < 3; ++k) {
+      d[k] = n.dot(mesh.positions[t[k]]) - offset;
+      above += d[k] >= 0;
+    }
+    if (above == 0 || above == 3) continue;
+    // the corner alone on its side
+    int lone = 0;
+    for (int k = 0; k < 3; ++k)
+      if ((d[k] >= 0) == (above == 1)) lone = k;
+    const int next = (lone + 1) % 3, last = (lone + 2) % 3;
+    auto crossing = [&](int a, int b) {
+      if (t[a] > t[b]) std::swap(a, b); // the same bits from both triangles of an edge
+      const double w = d[a] / (d[a] - d[b]);
+      const Vec3 p = mesh.positions[t[a]] + w * (mesh.positions[t[b]] - mesh.positions[t[a]]);
+      return plane.flat(p);
+    };
+    Cut c{edge_key(t[lone], t[next]), edge_key(t[lone], t[last]), crossing(lone, next), crossing(lone, last)};
+    if (above != 1) {
+      std::swap(c.from, c.to);
+      std::swap(c.a, c.b);
+    }
+    cuts.push_back(c);
+  }
+  if (cuts.empty()) return {};
+  const std::vector<int> number = loop_numbers(cuts);
+  std::vector<Loop> loops(static_cast<std::size_t>(*std::max_element(number.begin(), number.end())) + 1);
+  for (std::size_t i = 0; i < cuts.size(); ++i) loops[number[i]].segments.push_back({cuts[i].a, cuts[i].b});
+  for (Loop& loop : loops) measure(loop);
+  std::erase_if(loops, [](const Loop& loop) { return std::abs(loop.area) < 1e-6; });
+  std::stable_sort(loops.begin(), loops.end(), [](const Loop& a, const Loop& b) { return std::abs(a.area) > std::abs(b.area); });
+  return loops;
+}
+
+std::vector<std::vector<int>> triangles_by_level(const TriangleMesh& mesh, double y0, double dy, int count) {
+  std::vector<std::vector<int>> at(static_cast<std::size_t>(count));
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    const double a = mesh.positions[t[0]].y(), b = mesh.positions[t[1]].y(), c = mesh.positions[t[2]].y();
+    const int first = std::max(0, static_cast<int>(std::floor((std::min({a, b, c}) - y0) / dy)));
+    const int last = std::min(count - 1, static_cast<int>(std::ceil((std::max({a, b, c}) - y0) / dy)));
+    for (int k = first; k <= last; ++k) at[k].push_back(static_cast<int>(f));
+  }
+  return at;
+}
+
+std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
+  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
+  if (points.size() < 3) return points;
+  std::vector<Vec2> hull(2 * points.size());
+  std::size_t k = 0;
+  auto turn = [](const Vec2& o, const Vec2& a, const Vec2& b) { return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x()); };
+  for (const Vec2& p : points) {
+    while (k >= 2 && turn(hull[k - 2], hull[k - 1], p) <= 0) --k;
+    hull[k++] = p;
+  }
+  const std::size_t lower = k + 1;
+  for (std::size_t i = points.size() - 1; i-- > 0;) {
+    while (k >= lower && turn(hull[k - 2], hull[k - 1], points[i]) <= 0) --k;
+    hull[k++] = points[i];
+  }
+  hull.resize(k - 1);
+  return hull;
+}
+
+double closed_length(const std::vector<Vec2>& polygon) {
+  double length = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) length += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+  return length;
+}
+
+double taut_girth(const Loop& loop) {
+  std::vector<Vec2> points;
+  points.reserve(loop.segments.size());
+  for (const auto& s : loop.segments) points.push_back(s[0]);
+  return closed_length(convex_hull(std::move(points)));
+}
+
+bool encloses(const Loop& loop, const Vec2& q) {
+  int winding = 0;
+  for (const auto& s : loop.segments) {
+    const Vec2 a = s[0] - q, b = s[1] - q;
+    const double c = a.x() * b.y() - a.y() * b.x();
+    if (a.y() <= 0 && b.y() > 0 && c > 0) ++winding;
+    if (a.y() > 0 && b.y() <= 0 && c < 0) --winding;
+  }
+  return winding != 0;
+}
+
+} // namespace sloper::body

@@ -1,0 +1,48 @@
+#pragma once
+/// Plane cuts of a closed skin. A section is a set of loops; a loop keeps its oriented segments, which suffice for area,
+/// centroid, extent and taut girth, so that nothing has to be chained and a small gap harms nothing.
+#include <geometry/triangle_mesh.hpp>
+#include <string>
+#include <vector>
+namespace sloper::body {
+
+/// A plane with 2D coordinates (along u, along v); u, v, n = u x v are unit and right-handed.
+struct Plane {
+  Vec3 origin = Vec3::Zero(), u = Vec3::UnitX(), v = Vec3::UnitY();
+  Vec3 normal() const { return u.cross(v); }
+  Vec2 flat(const Vec3& p) const { return {(p - origin).dot(u), (p - origin).dot(v)}; }
+  Vec3 point(const Vec2& q) const { return origin + q.x() * u + q.y() * v; }
+};
+
+/// The plane y = height with 2D coordinates (x, z).
+Plane level_plane(double height);
+/// A plane through `origin` square to `axis`; u is chosen as level as it can be.
+Plane cross_plane(const Vec3& origin, const Vec3& axis);
+
+/// One loop of a section.
+struct Loop {
+  std::vector<std::array<Vec2, 2>> segments; ///< m, in the plane; walking along one has the body on the left
+  double area = 0;                           ///< m2, positive for an outer loop
+  Vec2 centroid = Vec2::Zero();              ///< of the area
+  Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+  Vec2 center() const { return 0.5 * (low + high); }
+  Vec2 size() const { return high - low; }
+};
+
+/// Loops of the cut, the one with the largest |area| first; ties keep mesh order. Loops of less than 1e-6 m2 are left out.
+/// @param subset triangle numbers to look at; all when null
+std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane, const std::vector<int>* subset = nullptr);
+
+/// Which triangles each of `count` level planes y0, y0 + dy, ... meets.
+std::vector<std::vector<int>> triangles_by_level(const TriangleMesh& mesh, double y0, double dy, int count);
+
+/// Convex hull, counter-clockwise, without its collinear points.
+std::vector<Vec2> convex_hull(std::vector<Vec2> points);
+/// Length of the closed polygon.
+double closed_length(const std::vector<Vec2>& polygon);
+/// Taut (convex) girth of a loop.
+double taut_girth(const Loop& loop);
+/// True when the loop's outline winds around q.
+bool encloses(const Loop& loop, const Vec2& q);
+
+} // namespace sloper::body
