@@ -1,8 +1,8 @@
 #pragma once
 /// A sewn garment: the panel mesh, which vertices are one particle, where the particles are, and what holds them.
 #include <geometry/triangle_mesh.hpp>
-#include <pattern/panel_mesh.hpp>
 #include <map>
+#include <pattern/panel_mesh.hpp>
 #include <string>
 #include <vector>
 
@@ -14,36 +14,37 @@ struct Material {
   double density_kg_m2 = 0.12;
   double stretch_warp_n_m = 1000, stretch_weft_n_m = 800; ///< tension per width at unit strain
   double shear_n_m = 60;
-  double bend_n_m = 1e-5;            ///< N m: bending moment per width at unit curvature
+  double bend_n_m = 1e-5; ///< N m: bending moment per width at unit curvature
   double friction_body = 0.4, friction_self = 0.3;
-  double damping_s = 0.02;           ///< stiffness-proportional damping time
+  double damping_s = 0.02; ///< stiffness-proportional damping time
   double thickness_m = 0.0005;
-  std::string source;                ///< where the numbers come from
+  std::string source; ///< where the numbers come from
 };
 
 /// How a garment hangs on a body in body-relative coordinates (DESIGN section 9); empty until bound.
 struct BindWeight {
-  int frame;                         ///< index into Bind::frames
-  double weight;                     ///< > 0, sum over one particle = 1
-  double theta, z, gap;              ///< rad, 1, m: gap = r - R(theta, z)
+  int frame;            ///< index into Bind::frames
+  double weight;        ///< > 0, sum over one particle = 1
+  double theta, z, gap; ///< rad, 1, m: gap = r - R(theta, z)
 };
 struct Bind {
-  std::vector<std::string> frames;               ///< names as in Body::frames
+  std::vector<std::string> frames;                  ///< names as in bind_frames.hpp
+  std::vector<double> lengths_m;                    ///< by frame: |U - L| on the body it was bound to
   std::vector<std::map<std::string, double>> marks; ///< by frame: z of named heights ("hip", "waist", ...) on that body; they go to their like on another
-  std::vector<std::vector<BindWeight>> particles; ///< one list per particle
+  std::vector<std::vector<BindWeight>> particles;   ///< one list per particle
   bool empty() const { return particles.empty(); }
 };
 
 struct Garment {
-  pattern::PanelMesh panels;             ///< vertices, triangles and seams; `pattern` is vt
-  std::vector<int> particle_of;          ///< #V: particle of each panel vertex; welded vertices share one
-  std::vector<Vec3> position;            ///< #P by 3, m
-  std::map<std::string, Material> materials; ///< by panel material name; "" is the default
+  pattern::PanelMesh panels;                     ///< vertices, triangles and seams; `pattern` is vt
+  std::vector<int> particle_of;                  ///< #V: particle of each panel vertex; welded vertices share one
+  std::vector<Vec3> position;                    ///< #P by 3, m
+  std::map<std::string, Material> materials;     ///< by panel material name; "" is the default
   std::vector<std::array<double, 3>> rest_scale; ///< #F by 3 or empty: rest length factor of edge k -> k+1 of each triangle (edits)
   Bind bind;
-  double offset_m = 0.002;               ///< contact gap to the skin that the drape kept
+  double offset_m = 0.002; ///< contact gap to the skin that the drape kept
   bool converged = false;
-  std::string body_sha256;               ///< of the body.obj it was draped on, or empty
+  std::string body_sha256;                     ///< of the body.obj it was draped on, or empty
   std::map<std::string, double> body_girths_m; ///< girths and level girths of that body, for the fit report
 
   /// Triangles over particles, in panel-mesh order.

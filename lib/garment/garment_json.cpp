@@ -74,6 +74,7 @@ Json rest_scale_json(const Garment& garment) {
 Json bind_json(const Bind& bind) {
   Json j;
   j["frames"] = bind.frames;
+  j["lengths_m"] = bind.lengths_m;
   j["marks"] = Json::array();
   for (const auto& marks : bind.marks) {
     Json row = Json::object();
@@ -201,6 +202,9 @@ Bind read_bind(const Node& node, std::size_t n_particles) {
   Bind bind;
   const Node frames = node.at("frames"), marks = node.at("marks"), particles = node.at("particles");
   for (std::size_t k = 0; k < frames.size(); ++k) bind.frames.push_back(frames.at(k).string());
+  const Node lengths = node.at("lengths_m");
+  if (lengths.size() != frames.size()) lengths.fail("there must be one length for each frame");
+  for (std::size_t k = 0; k < lengths.size(); ++k) bind.lengths_m.push_back(positive(lengths.at(k)));
   if (marks.size() != frames.size()) marks.fail("there must be one object of marks for each frame");
   for (std::size_t k = 0; k < marks.size(); ++k) {
     bind.marks.emplace_back();

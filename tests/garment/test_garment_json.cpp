@@ -47,6 +47,7 @@ Garment two_squares() {
   g.rest_scale.assign(4, {1, 1, 1});
   g.rest_scale[2] = {0.9, 1, 1.1};
   g.bind.frames = {"torso", "arm_l"};
+  g.bind.lengths_m = {0.5, 0.7};
   g.bind.marks = {{{"hip", 0.1}, {"bust", 0.7}}, {}};
   for (int p = 0; p < 6; ++p) g.bind.particles.push_back({{0, 0.75, 0.1 * p, 0.5, 0.01}, {1, 0.25, -0.1 * p, 1.5, 0.02}});
   g.converged = true;

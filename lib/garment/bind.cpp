@@ -1,0 +1,73 @@
+#include <garment/bind.hpp>
+
+#include <base/error.hpp>
+#include <garment/bind_frames.hpp>
+#include <garment/bind_weights.hpp>
+
+#include <algorithm>
+
+namespace sloper::garment {
+
+namespace {
+
+/// The girths that the fit report compares: limb girths by their name, trunk levels as "level:NAME".
+std::map<std::string, double> girths_of(const body::Body& body) {
+  std::map<std::string, double> girths;
+  for (const auto& [name, girth] : body.girths)
+    if (girth.value_m > 0) girths[name] = girth.value_m;
+  for (const auto& [name, level] : body.levels)
+    if (level.girth_m > 0) girths["level:" + name] = level.girth_m;
+  return girths;
+}
+
+} // namespace
+
+void bind_garment(Garment& garment, const body::Body& body) {
+  if (garment.particle_of.empty() || garment.position.empty()) throw input_error("", "", "the garment is not sewn, so it hangs on nothing", "drape it first");
+  const BindFrames frames = make_bind_frames(body);
+  const auto weights = bind_weights(garment, body, frames);
+  Bind bind;
+  for (const BindFrame& f : frames.frames) {
+    bind.frames.push_back(f.name);
+    bind.lengths_m.push_back(f.frame.length());
+    bind.marks.push_back(f.marks);
+  }
+  bind.particles.resize(garment.position.size());
+  for (std::size_t i = 0; i < garment.position.size(); ++i)
+    for (const auto& [k, weight] : weights[i]) {
+      const BindFrame& f = frames.frames[k];
+      const PartCoordinates c = f.frame.coordinates(garment.position[i]);
+      bind.particles[i].push_back({k, weight, c.theta, c.z, c.r - f.profile.at(c.theta, c.z)});
+    }
+  garment.bind = std::move(bind);
+  garment.body_girths_m = girths_of(body);
+}
+
+std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body) {
+  const Bind& bind = garment.bind;
+  if (bind.empty()) throw input_error("", "/bind", "the garment is not bound to a body", "drape it on a body first");
+  const BindFrames frames = make_bind_frames(body);
+  std::vector<char> used(bind.frames.size(), 0);
+  for (const auto& weights : bind.particles)
+    for (const BindWeight& w : weights) used[w.frame] = 1;
+  std::vector<int> target(bind.frames.size(), -1);
+  std::vector<MarkMap> maps;
+  for (std::size_t k = 0; k < bind.frames.size(); ++k) {
+    target[k] = frames.index(bind.frames[k]);
+    if (used[k] && target[k] < 0)
+      throw input_error("", "", "the garment hangs on " + bind.frames[k] + ", which the body lacks", "give a body with that part, or another garment");
+    const BindFrame* to = target[k] < 0 ? nullptr : &frames.frames[target[k]];
+    maps.emplace_back(bind.marks[k], bind.lengths_m[k], to ? to->marks : std::map<std::string, double>(), to ? to->frame.length() : bind.lengths_m[k]);
+  }
+  std::vector<Vec3> placed(bind.particles.size(), Vec3::Zero());
+  for (std::size_t i = 0; i < placed.size(); ++i)
+    for (const BindWeight& w : bind.particles[i]) {
+      const BindFrame& to = frames.frames[target[w.frame]];
+      const double z = maps[w.frame](w.z);
+      const double r = std::max(to.profile.at(w.theta, z) + w.gap, 0.0);
+      placed[i] += w.weight * to.frame.point({r, w.theta, z});
+    }
+  return placed;
+}
+
+} // namespace sloper::garment

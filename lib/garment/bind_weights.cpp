@@ -1,0 +1,212 @@
+#include <garment/bind_weights.hpp>
+
+#include <base/error.hpp>
+#include <base/parallel.hpp>
+#include <collision/triangle_tree.hpp>
+
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace sloper::garment {
+
+namespace {
+
+constexpr double BLEND_LENGTH = 0.035;     // m along the cloth; weights go from 0.9 to 0.1 within about 3 of these
+constexpr double FACING_PENALTY = 0.03;    // m added to the distance of skin that faces away from the cloth's outside
+constexpr double SMALL_PATCH = 0.02;       // of its piece: a smaller patch of one frame is a stray, not a sleeve
+constexpr double NEGLIGIBLE_WEIGHT = 2e-3; // taken off before normalising, so that weights reach 0 without a jump
+constexpr double FARTHEST_SKIN = 1.0;      // m
+
+struct Patches {
+  std::vector<int> of_particle;
+  std::vector<double> area;
+};
+
+/// Connected patches of equal label.
+Patches patches_of(const std::vector<int>& label, const std::vector<std::array<int, 2>>& edges, const std::vector<double>& mass) {
+  std::vector<int> parent(label.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (const auto& [a, b] : edges)
+    if (label[a] == label[b]) {
+      const int ra = root(a), rb = root(b);
+      if (ra != rb) parent[std::max(ra, rb)] = std::min(ra, rb);
+    }
+  Patches patches;
+  patches.of_particle.resize(label.size());
+  patches.area.assign(label.size(), 0);
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    patches.of_particle[i] = root(static_cast<int>(i));
+    patches.area[patches.of_particle[i]] += mass[i];
+  }
+  return patches;
+}
+
+/// Strays (small patches) take the label of the neighbour with which they share most edges.
+void remove_strays(std::vector<int>& label, const std::vector<int>& piece, const std::vector<std::array<int, 2>>& edges, const std::vector<double>& mass) {
+  std::map<int, double> piece_area;
+  for (std::size_t i = 0; i < label.size(); ++i) piece_area[piece[i]] += mass[i];
+  for (int round = 0; round < 4; ++round) {
+    const Patches patches = patches_of(label, edges, mass);
+    std::map<int, std::map<int, int>> neighbours; // stray patch -> label -> edges
+    for (const auto& [a, b] : edges) {
+      if (label[a] == label[b]) continue;
+      for (const auto& [i, j] : {std::pair{a, b}, std::pair{b, a}})
+        if (patches.area[patches.of_particle[i]] < SMALL_PATCH * piece_area[piece[i]]) ++neighbours[patches.of_particle[i]][label[j]];
+    }
+    if (neighbours.empty()) return;
+    std::map<int, int> next;
+    for (const auto& [patch, counts] : neighbours)
+      next[patch] = std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+    for (std::size_t i = 0; i < label.size(); ++i)
+      if (const auto found = next.find(patches.of_particle[i]); found != next.end()) label[i] = found->second;
+  }
+}
+
+/// One tree for each frame, over the skin that is labelled with it.
+struct FrameTrees {
+  std::vector<collision::TriangleTree> tree;
+  std::vector<std::vector<Triangle>> triangles;
+};
+
+FrameTrees frame_trees(const body::Body& body, const BindFrames& frames) {
+  FrameTrees trees;
+  trees.triangles.resize(frames.frames.size());
+  for (std::size_t f = 0; f < frames.frame_of_face.size(); ++f)
+    if (frames.frame_of_face[f] >= 0) trees.triangles[frames.frame_of_face[f]].push_back(body.skin.triangles[f]);
+  for (const auto& triangles : trees.triangles)
+    trees.tree.emplace_back(triangles.empty() ? collision::TriangleTree() : collision::TriangleTree(body.skin.positions, triangles));
+  return trees;
+}
+
+std::vector<int> nearest_frame(const std::vector<Vec3>& positions, const std::vector<Vec3>& normals, const body::Body& body, const BindFrames& frames) {
+  const FrameTrees trees = frame_trees(body, frames);
+  std::vector<int> label(positions.size(), -1);
+  parallel_for(positions.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      double best = 1e300;
+      for (std::size_t k = 0; k < trees.tree.size(); ++k) {
+        if (trees.triangles[k].empty()) continue;
+        const double reach = std::min(best, FARTHEST_SKIN);
+        const collision::ClosestPoint c = trees.tree[k].closest_point(positions[i], reach);
+        if (c.triangle < 0) continue;
+        const Triangle& t = trees.triangles[k][c.triangle];
+        const Vec3 n = area_normal(body.skin.positions[t[0]], body.skin.positions[t[1]], body.skin.positions[t[2]]).normalized();
+        const double agreement = std::isfinite(n.x()) ? n.dot(normals[i]) : 1;
+        const double cost = std::sqrt(c.squared_distance) + FACING_PENALTY * 0.5 * (1 - agreement);
+        if (cost < best) best = cost, label[i] = static_cast<int>(k);
+      }
+    }
+  });
+  return label;
+}
+
+/// Mass (a third of the area) and cotangent stiffness, its off-diagonal kept negative so that weights stay in [0, 1].
+void assemble(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, Eigen::VectorXd& mass, Eigen::SparseMatrix<double>& stiffness) {
+  std::map<std::array<int, 2>, double> cotangent;
+  for (const Triangle& t : triangles)
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+      const Vec3 u = x[a] - x[c], v = x[b] - x[c];
+      const double cross = std::max(u.cross(v).norm(), 1e-12);
+      mass[c] += cross / 6;
+      cotangent[{std::min(a, b), std::max(a, b)}] += 0.5 * u.dot(v) / cross;
+    }
+  const double floor_mass = 1e-3 * std::max(mass.sum() / static_cast<double>(std::max<Eigen::Index>(mass.size(), 1)), 1e-9);
+  mass = mass.cwiseMax(floor_mass);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& [edge, value] : cotangent) {
+    const double c = std::clamp(value, 0.05, 20.0);
+    entries.emplace_back(edge[0], edge[0], c), entries.emplace_back(edge[1], edge[1], c);
+    entries.emplace_back(edge[0], edge[1], -c), entries.emplace_back(edge[1], edge[0], -c);
+  }
+  stiffness.resize(mass.size(), mass.size());
+  stiffness.setFromTriplets(entries.begin(), entries.end());
+}
+
+} // namespace
+
+bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<int>& piece, int which,
+                         const BindFrames& frames, double crotch_y) {
+  const int l = frames.index("leg_l"), r = frames.index("leg_r");
+  if (l < 0 || r < 0) return false;
+  // Between the legs: on a line from axis to axis at the same height, within the thighs' own depth. Counted by area and by
+  // height, so that a pleat that hangs in at the front does not make a pair of trousers out of a skirt.
+  double between = 0, below = 0;
+  const auto axis_at = [&](int k, double y) {
+    const PartFrame& f = frames.frames[k].frame;
+    return Vec3(f.lower + (f.upper - f.lower) * ((y - f.lower.y()) / (f.upper.y() - f.lower.y())));
+  };
+  for (const Triangle& t : triangles) {
+    if (piece[t[0]] != which) continue;
+    const Vec3 p = (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3;
+    if (p.y() > crotch_y - 0.01) continue;
+    const double area = 0.5 * area_normal(positions[t[0]], positions[t[1]], positions[t[2]]).norm();
+    const Vec3 a = axis_at(l, p.y()), b = axis_at(r, p.y()), d = b - a;
+    const double u = (p - a).dot(d) / d.squaredNorm();
+    const double depth = (p - a - u * d).norm();
+    below += area;
+    if (u > 0.05 && u < 0.95 && depth < 0.35 * d.norm()) between += area;
+  }
+  return below > 0 && between < 0.05 * below;
+}
+
+std::vector<std::vector<std::pair<int, double>>> bind_weights(const Garment& garment, const body::Body& body, const BindFrames& frames) {
+  const std::vector<Vec3>& x = garment.position;
+  const std::vector<Triangle> triangles = garment.particle_triangles();
+  const std::vector<std::array<int, 2>> edges = edges_of(triangles);
+  const std::vector<int> piece = connected_components(x.size(), triangles);
+  std::vector<int> label = nearest_frame(x, vertex_normals({x, triangles}), body, frames);
+  if (std::find(label.begin(), label.end(), -1) != label.end())
+    throw input_error("", "", "a part of the garment is more than a metre from the body", "give the body on which the garment hangs");
+
+  const int lower_body = frames.index("lower_body"), leg_l = frames.index("leg_l"), leg_r = frames.index("leg_r");
+  if (lower_body >= 0) {
+    const int torso = frames.index("torso");
+    const double crotch_y = body.has_landmark("crotch") ? body.landmark("crotch").y() : frames.frames[torso].frame.lower.y();
+    std::map<int, bool> together;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (label[i] != leg_l && label[i] != leg_r) continue;
+      const auto [found, is_new] = together.try_emplace(piece[i], false);
+      if (is_new) found->second = wraps_legs_together(x, triangles, piece, piece[i], frames, crotch_y);
+      if (found->second) label[i] = lower_body;
+    }
+  }
+
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.size()));
+  Eigen::SparseMatrix<double> stiffness;
+  assemble(x, triangles, mass, stiffness);
+  remove_strays(label, piece, edges, std::vector<double>(mass.data(), mass.data() + mass.size()));
+
+  Eigen::SparseMatrix<double> system = BLEND_LENGTH * BLEND_LENGTH * stiffness;
+  for (Eigen::Index i = 0; i < mass.size(); ++i) system.coeffRef(i, i) += mass[i];
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(system);
+  std::vector<std::vector<std::pair<int, double>>> weights(x.size());
+  std::vector<double> sum(x.size(), 0);
+  for (int k = 0; k < static_cast<int>(frames.frames.size()); ++k) {
+    Eigen::VectorXd w = Eigen::VectorXd::Zero(mass.size());
+    for (std::size_t i = 0; i < x.size(); ++i) w[i] = label[i] == k;
+    if (w.isZero()) continue;
+    for (int pass = 0; pass < 2; ++pass) {
+      const Eigen::VectorXd right = mass.cwiseProduct(w);
+      w = solver.solve(right);
+    }
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (const double value = w[i] - NEGLIGIBLE_WEIGHT; value > 0) {
+        weights[i].emplace_back(k, value);
+        sum[i] += value;
+      }
+  }
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (auto& [frame, weight] : weights[i]) weight /= sum[i];
+  return weights;
+}
+
+} // namespace sloper::garment

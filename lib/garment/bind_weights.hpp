@@ -1,0 +1,21 @@
+#pragma once
+/// Which frames every particle of a garment hangs on, and how much on each.
+///
+/// A particle belongs to the frame of the skin that is nearest and faces the same way; the sharp borders between frames are
+/// then spread over the garment by two implicit diffusion steps, (M + s^2 L)^-2: weights are smooth along the cloth, whose two
+/// sides of an arm pit stay apart however near they are in space, and no seam is torn.
+#include <garment/bind_frames.hpp>
+#include <garment/garment.hpp>
+
+namespace sloper::garment {
+
+/// Whether some piece of the garment wraps both legs together (skirt, dress) rather than each by itself (trousers): below the
+/// crotch it has cloth, and none of it lies between the legs.
+bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<int>& piece, int which,
+                         const BindFrames& frames, double crotch_y);
+
+/// @return per particle (frame, weight), weight > 0, sum 1, frames ascending
+/// @throws Error INPUT when no skin is near enough to belong to (nearest skin farther than 1 m)
+std::vector<std::vector<std::pair<int, double>>> bind_weights(const Garment& garment, const body::Body& body, const BindFrames& frames);
+
+} // namespace sloper::garment
