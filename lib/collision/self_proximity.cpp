@@ -45,8 +45,15 @@ SelfProximity::SelfProximity(std::size_t n_particles, const std::vector<Triangle
   m_owned.assign(triangles.size(), 0);
   for (std::size_t f = 0; f < triangles.size(); ++f)
     for (int i = 0; i < 3; ++i) {
-      if (m_topology.triangles_of_vertex(triangles[f][i])[0] == static_cast<int>(f)) m_owned[f] |= 1 << i;
-      if (m_topology.triangles_of_edge(m_topology.triangle_edges[f][i])[0] == static_cast<int>(f)) m_owned[f] |= 8 << i;
+      // the first triangle owns, at the first corner where it has the vertex or edge (a triangle may repeat an index)
+      const int vertex = triangles[f][i], edge = m_topology.triangle_edges[f][i];
+      bool repeated_vertex = false, repeated_edge = false;
+      for (int j = 0; j < i; ++j) {
+        repeated_vertex |= triangles[f][j] == vertex;
+        repeated_edge |= m_topology.triangle_edges[f][j] == edge;
+      }
+      if (!repeated_vertex && m_topology.triangles_of_vertex(vertex)[0] == static_cast<int>(f)) m_owned[f] |= 1 << i;
+      if (!repeated_edge && m_topology.triangles_of_edge(edge)[0] == static_cast<int>(f)) m_owned[f] |= 8 << i;
     }
   m_k = k;
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Generalized winding number (Jacobson et al. 2013) of a triangle mesh, with the far field of each tree node replaced by a
-/// dipole (Barill et al. 2018, first order). 1 inside, 0 outside, between in holes; needs no closed mesh.
+/// series in its moments (Barill et al. 2018, second order). 1 inside, 0 outside, between in holes; needs no closed mesh.
 #include <collision/triangle_tree.hpp>
 namespace sloper::collision {
 
@@ -11,17 +11,21 @@ class WindingNumber {
 public:
   WindingNumber() = default;
   /// @param flipped  #F, true for triangles that count with their orientation turned; may be empty
-  /// @param reach a node is taken as a dipole from this many of its radii away; the error falls with its square or faster
-  explicit WindingNumber(const TriangleTree& tree, const std::vector<char>& flipped = {}, double reach = 3);
+  /// @param reach a node is taken as a whole from this many of its radii away; the error falls with the cube of it
+  explicit WindingNumber(const TriangleTree& tree, const std::vector<char>& flipped = {}, double reach = 2);
   /// Winding number about p; within about 0.01 of the exact sum (tested). O(log #F).
   double at(const TriangleTree& tree, const Vec3& p) const;
 
 private:
-  struct Dipole {
-    Vec3 center, area_normal; ///< area-weighted centre, m; sum of area times normal, m2
-    double reach2 = 0;        ///< squared distance from which the dipole serves
+  /// The far field of one subtree: sum of n . d / |d|^3 expanded to second order in the offsets from its centre.
+  struct Expansion {
+    Vec3 center, area_normal;     ///< area-weighted centre, m; sum of area times normal, m2
+    std::array<double, 6> first;  ///< sum of n offset^T as a quadratic form: xx, yy, zz, xy, xz, yz, m3
+    Vec3 second_linear;           ///< contracted second moments, m4
+    std::array<double, 10> cubic; ///< symmetrised second moments: coefficients of xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz
+    double reach2 = 0;            ///< squared distance from which the expansion serves
   };
-  std::vector<std::array<Dipole, 4>> m_dipoles; ///< per node and lane
+  std::vector<std::array<Expansion, 4>> m_far; ///< per node and lane
   std::vector<char> m_flipped_slot;
 };
 
