@@ -3,6 +3,7 @@
 #include <base/error.hpp>
 #include <base/parallel.hpp>
 #include <collision/triangle_tree.hpp>
+#include <garment/bind_laplacian.hpp>
 
 #include <Eigen/SparseCholesky>
 
@@ -108,29 +109,6 @@ std::vector<int> nearest_frame(const std::vector<Vec3>& positions, const std::ve
   return label;
 }
 
-/// Mass (a third of the area) and cotangent stiffness, its off-diagonal kept negative so that weights stay in [0, 1].
-void assemble(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, Eigen::VectorXd& mass, Eigen::SparseMatrix<double>& stiffness) {
-  std::map<std::array<int, 2>, double> cotangent;
-  for (const Triangle& t : triangles)
-    for (int k = 0; k < 3; ++k) {
-      const int a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
-      const Vec3 u = x[a] - x[c], v = x[b] - x[c];
-      const double cross = std::max(u.cross(v).norm(), 1e-12);
-      mass[c] += cross / 6;
-      cotangent[{std::min(a, b), std::max(a, b)}] += 0.5 * u.dot(v) / cross;
-    }
-  const double floor_mass = 1e-3 * std::max(mass.sum() / static_cast<double>(std::max<Eigen::Index>(mass.size(), 1)), 1e-9);
-  mass = mass.cwiseMax(floor_mass);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const auto& [edge, value] : cotangent) {
-    const double c = std::clamp(value, 0.05, 20.0);
-    entries.emplace_back(edge[0], edge[0], c), entries.emplace_back(edge[1], edge[1], c);
-    entries.emplace_back(edge[0], edge[1], -c), entries.emplace_back(edge[1], edge[0], -c);
-  }
-  stiffness.resize(mass.size(), mass.size());
-  stiffness.setFromTriplets(entries.begin(), entries.end());
-}
-
 } // namespace
 
 bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<int>& piece, int which,
@@ -180,9 +158,7 @@ std::vector<std::vector<std::pair<int, double>>> bind_weights(const Garment& gar
     }
   }
 
-  Eigen::VectorXd mass = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.size()));
-  Eigen::SparseMatrix<double> stiffness;
-  assemble(x, triangles, mass, stiffness);
+  const auto [mass, stiffness] = surface_operators(x, triangles);
   remove_strays(label, piece, edges, std::vector<double>(mass.data(), mass.data() + mass.size()));
 
   Eigen::SparseMatrix<double> system = BLEND_LENGTH * BLEND_LENGTH * stiffness;
