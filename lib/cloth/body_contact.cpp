@@ -6,8 +6,8 @@
 
 namespace sloper::cloth {
 
-/// Of its distance to the skin a particle may use this share in one step.
-static constexpr double APPROACH = 0.9;
+/// In one step a particle comes down at most to this share of its gap, or uses this share of what it has below that.
+static constexpr double APPROACH = 0.5;
 /// Along the skin a touching particle moves at most this far in one step, m: the normal is only known here.
 static constexpr double LARGEST_SLIDE = 0.01;
 /// Clearance beyond the gap below which a particle is asked again, m.
@@ -65,9 +65,11 @@ void BodyContactEffect::add(StepContext& c) {
       s.has_anchor = false;
       continue;
     }
-    const double k = m_options.stiffness_n_m3 * m_mesh.area[i];
+    // E = k A depth^3 / (6 gap): stiffness grows from 0, so that particles that come and go do not kick the rest, and Newton
+    // comes from the deep side without overshooting.
     const double depth = std::min(m_gap[i] - s.distance, m_gap[i] + 0.002); // a deep start is pushed out, not shot out
-    s.normal_force = k * depth;
+    const double k = m_options.stiffness_n_m3 * m_mesh.area[i] * depth / m_gap[i];
+    s.normal_force = 0.5 * k * depth;
     Vec3 force = s.normal_force * s.normal;
     double tangent = 0;
     if (m_options.friction > 0) {
@@ -96,13 +98,13 @@ void BodyContactEffect::limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx)
     const State& s = m_state[i];
     if (!s.near) {
       const double clearance = s.clearance - (x[i] - s.asked_at).norm(), move = dx[i].norm();
-      if (move > clearance && clearance > 0) dx[i] *= clearance * APPROACH / move;
+      if (move > clearance && clearance > 0) dx[i] *= clearance / move;
       continue;
     }
     double along = dx[i].dot(s.normal);
     const Vec3 slide = dx[i] - along * s.normal;
     const double slide_length = slide.norm(), slide_most = LARGEST_SLIDE + std::max(s.distance, 0.0);
-    along = std::max(along, -APPROACH * std::max(s.distance, 0.0));
+    along = std::max(along, -std::max({s.distance - APPROACH * m_gap[i], APPROACH * s.distance, 0.0}));
     dx[i] = along * s.normal + (slide_length > slide_most ? slide_most / slide_length : 1.0) * slide;
   }
 }

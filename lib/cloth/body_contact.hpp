@@ -1,7 +1,7 @@
 #pragma once
 /// Contact of particles with a body: a one-sided spring inside the gap, static and sliding friction.
 ///
-/// Normal: E = k A / 2 max(0, gap - d)^2 with signed distance d and the particle's rest area A. Friction is Coulomb with a
+/// Normal: E = k A max(0, gap - d)^3 / (6 gap) with signed distance d and the particle's rest area A. Friction is Coulomb with a
 /// memory: each touching particle is tied to an anchor on the skin by a tangent spring; where the spring would pull harder
 /// than mu N the anchor is dragged along (sliding). So a garment that hangs by friction really comes to rest.
 /// Work goes only where it is needed: a particle is not asked again before it can have come near, since the distance to

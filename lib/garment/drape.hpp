@@ -13,16 +13,16 @@ namespace sloper::garment {
 /// Everything that decides a drape, resolved. Field names are the names of --set and of report.json's `settings`.
 struct DrapeSettings {
   double time_step_s = 1.0 / 30;
-  double cg_tolerance = 1e-2;          ///< relative residual at which conjugate gradients stop
+  double cg_tolerance = 1e-2; ///< relative residual at which conjugate gradients stop
   int cg_max_iterations = 400;
-  double contact_gap_m = 0.003;        ///< distance to the skin at which contact begins
-  double self_thickness_m = 0.003;     ///< distance at which cloth feels cloth
-  double settle_speed_m_s = 0.01;      ///< at rest below this speed
-  double settle_force_ratio = 0.01;    ///< residual force over a particle's weight
+  double contact_gap_m = 0.003;     ///< distance to the skin at which contact begins
+  double self_thickness_m = 0.003;  ///< distance at which cloth feels cloth
+  double settle_speed_m_s = 0.01;   ///< at rest below this speed
+  double settle_force_ratio = 0.01; ///< residual force over a particle's weight
   double gravity_m_s2 = 9.80665;
   int max_steps = 1500;
-  double max_seconds = 0;              ///< wall clock, 0 = no limit
-  std::string effects = "auto";        ///< "auto" or a list
+  double max_seconds = 0;       ///< wall clock, 0 = no limit
+  std::string effects = "auto"; ///< "auto" or a list
   std::string accuracy = "standard";
 };
 
@@ -56,5 +56,9 @@ DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings&
 
 /// The report document without its envelope's inputs and hashes, which the tool adds.
 io::Json report_json(const DrapeReport& report, const std::string& tool);
+
+/// SHA-256 of the particle positions: of their bytes, and of their 10 um cells (to compare machines and compilers).
+std::string strict_hash(const Garment& garment);
+std::string quantised_hash(const Garment& garment);
 
 } // namespace sloper::garment

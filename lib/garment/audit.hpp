@@ -1,0 +1,21 @@
+#pragma once
+/// What is wrong with a drape, counted exactly: the figures of report.json's `quality`.
+#include <collision/body_collider.hpp>
+#include <garment/garment.hpp>
+
+namespace sloper::garment {
+
+struct Audit {
+  std::vector<int> through;                                             ///< garment triangles that cross the skin
+  std::vector<int> inside;                                              ///< particles inside the body
+  double deepest_m = 0;                                                 ///< of those
+  std::vector<std::array<int, 2>> self;                                 ///< pairs of triangles without a common particle that cross
+  double strain_warp[3] = {}, strain_weft[3] = {}, strain_bias[3] = {}; ///< p50, p99, max by direction of the edge
+  double strain_p99 = 0, strain_max = 0;                                ///< over all edges
+  bool clean() const { return through.empty() && inside.empty() && self.empty(); }
+};
+
+/// @param body nullptr for none
+Audit audit(const Garment& garment, const collision::BodyCollider* body);
+
+} // namespace sloper::garment

@@ -1,0 +1,288 @@
+#include <base/error.hpp>
+#include <cloth/bending.hpp>
+#include <cloth/edge_spring.hpp>
+#include <cloth/gravity.hpp>
+#include <cloth/shear.hpp>
+#include <garment/drape_run.hpp>
+#include <garment/materials.hpp>
+#include <garment/sewing.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::garment {
+
+namespace {
+
+constexpr double SEWN_GAP = 5e-4;        // m: a stitch this short is welded
+constexpr int SEW_STEPS = 600;           // at most
+constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step while the body is inflated
+constexpr int REPAIR_ROUNDS = 25;
+constexpr double GAP_RAISE = 0.0007;  // m per repair round
+constexpr double LARGEST_GAP = 0.012; // m
+
+std::string millimetres(double m) { return std::to_string(std::lround(m * 1e4) / 10) + "." + std::to_string(std::lround(m * 1e4) % 10) + " mm"; }
+
+} // namespace
+
+class DrapeRun::Phase {
+public:
+  Phase(DrapeRun& run, const char* name) : m_run(run), m_name(name), m_began(run.elapsed()) { run.m_reporter.info(std::string(name) + " ..."); }
+  ~Phase() { m_run.m_report.phases.emplace_back(m_name, m_run.elapsed() - m_began); }
+
+private:
+  DrapeRun& m_run;
+  const char* m_name;
+  double m_began;
+};
+
+DrapeRun::DrapeRun(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter)
+    : m_garment(garment), m_body(body), m_settings(settings), m_reporter(reporter), m_start(std::chrono::steady_clock::now()) {
+  m_report.settings = settings;
+  if (garment.panels.triangles.empty()) throw input_error("", "", "the garment has no triangles", "mesh a pattern with pattern-mesh first");
+}
+
+double DrapeRun::elapsed() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
+
+void DrapeRun::start_outside_body() {
+  if (!m_body || m_body->skin.triangles.empty()) return;
+  const Phase phase(*this, "prepare body");
+  m_collider.emplace(m_body->skin);
+  const std::vector<Triangle> triangles = m_garment.particle_triangles();
+  auto trouble = [&] {
+    std::size_t count = m_collider->faces_through(m_garment.position, triangles).size();
+    for (const Vec3& p : m_garment.position) count += m_collider->is_inside(p);
+    return count;
+  };
+  std::size_t least = trouble();
+  if (least == 0) return;
+  m_shrink.emplace(*m_body);
+  double best = 1;
+  const std::size_t at_start = least;
+  for (double s : {0.9, 0.8, 0.65, 0.5, 0.35, 0.2}) {
+    m_collider->set_positions(m_shrink->positions(s));
+    const std::size_t count = trouble();
+    if (count < least) {
+      least = count;
+      best = s;
+    }
+    if (count == 0) break;
+  }
+  m_scale = best;
+  m_collider->set_positions(m_shrink->positions(best));
+  m_report.repairs.push_back("start: " + std::to_string(at_start) + " vertices or faces in the body; body drawn in to " +
+                             std::to_string(std::lround(best * 100)) + " % of its thickness and inflated again" +
+                             (least ? ", " + std::to_string(least) + " remained" : ""));
+}
+
+void DrapeRun::build_solver(bool open_seams) {
+  if (m_solver) report_effects();
+  m_cloth = std::make_unique<cloth::ClothMesh>(cloth_mesh_of(m_garment));
+  m_solver = std::make_unique<cloth::ClothSolver>(*m_cloth, m_garment.position);
+  m_solver->emplace<cloth::EdgeSpringEffect>(*m_cloth);
+  m_solver->emplace<cloth::ShearEffect>(*m_cloth);
+  m_solver->emplace<cloth::BendingEffect>(*m_cloth);
+  m_sewing = nullptr;
+  if (open_seams) m_sewing = &m_solver->emplace<cloth::SewingSpringEffect>(open_stitches(m_garment), 60.0, 0.05);
+  m_body_contact = nullptr;
+  if (m_collider) {
+    cloth::BodyContactOptions options;
+    options.gap_m = m_settings.contact_gap_m;
+    m_body_contact = &m_solver->emplace<cloth::BodyContactEffect>(*m_cloth, *m_collider, options);
+  }
+  cloth::SelfContactOptions options;
+  options.thickness_m = m_settings.self_thickness_m;
+  if (open_seams) options.search_m = 0.02;
+  m_self_contact = &m_solver->emplace<cloth::SelfContactEffect>(*m_cloth, options, open_seams ? seam_partners(m_garment) : std::vector<std::vector<int>>{});
+}
+
+bool DrapeRun::step(double h, double inertia) {
+  cloth::StepOptions options;
+  options.h = h;
+  options.inertia = inertia;
+  options.cg_tolerance = m_settings.cg_tolerance;
+  options.cg_max_iterations = m_settings.cg_max_iterations;
+  m_last = m_solver->step(options);
+  m_cg_iterations.push_back(m_last.cg.iterations);
+  ++m_report.steps;
+  m_report.simulated_s += h;
+  if (!m_last.finite) {
+    m_rejected.push_back("step " + std::to_string(m_report.steps) + ": not finite, undone");
+    m_solver->stop();
+    m_stopped = true;
+    m_report.stop_reason = "diverged";
+    return false;
+  }
+  if (m_settings.max_seconds > 0 && elapsed() > m_settings.max_seconds) {
+    m_stopped = true;
+    m_report.stop_reason = "time limit";
+  } else if (m_reporter.stop_requested()) {
+    m_stopped = true;
+    m_report.stop_reason = "stopped by the user";
+  } else if (m_report.steps >= m_settings.max_steps) {
+    m_stopped = true;
+    m_report.stop_reason = "step limit";
+  }
+  return !m_stopped;
+}
+
+void DrapeRun::sew() {
+  const Phase phase(*this, "sew");
+  build_solver(true);
+  double stiffness = 60, best = 1e300;
+  int since_best = 0;
+  for (int k = 0; k < SEW_STEPS; ++k) {
+    const double gap = m_sewing->largest_gap(m_solver->x());
+    m_reporter.progress("sew", 0.4 * k / SEW_STEPS);
+    if (k % 20 == 0)
+      m_reporter.info("sew step " + std::to_string(k) + ": largest gap " + std::to_string(gap) + " m, move " + std::to_string(m_last.largest_move_m) + " cg " +
+                      std::to_string(m_last.cg.iterations));
+    if (gap < SEWN_GAP) break;
+    if (gap < 0.97 * best) {
+      best = gap;
+      since_best = 0;
+    } else if (++since_best >= 8 && stiffness < 2e4) { // stuck: pull harder
+      stiffness *= 2;
+      m_sewing->set_stiffness(stiffness);
+      since_best = 0;
+      best = gap;
+    }
+    if (!step(1.0 / 30, 0)) return;
+  }
+  const double gap = m_sewing->largest_gap(m_solver->x());
+  if (gap > 5 * SEWN_GAP) m_report.repairs.push_back("seams were still open by " + millimetres(gap) + " when they were welded");
+  m_garment.position = m_solver->x();
+  std::vector<Vec3> vertex_position(m_garment.particle_of.size());
+  for (std::size_t v = 0; v < vertex_position.size(); ++v) vertex_position[v] = m_garment.position[m_garment.particle_of[v]];
+  weld(m_garment, vertex_position);
+}
+
+void DrapeRun::inflate() {
+  if (m_scale >= 1) return;
+  const Phase phase(*this, "inflate body");
+  const double step_scale = INFLATE_MOTION / m_shrink->reach();
+  while (m_scale < 1) {
+    m_scale = std::min(1.0, m_scale + step_scale);
+    m_body_contact->move_body(m_shrink->positions(m_scale));
+    for (int k = 0; k < 2; ++k)
+      if (!step(1.0 / 30, 0)) break;
+    if (m_stopped) break;
+  }
+  m_body_contact->move_body(m_body->skin.positions); // the exact skin, also when stopped on the way
+}
+
+void DrapeRun::settle() {
+  const Phase phase(*this, "settle");
+  m_solver->emplace<cloth::GravityEffect>(*m_cloth, Vec3(0, -m_settings.gravity_m_s2, 0));
+  const Material& material = material_of(m_garment, "");
+  if (m_body_contact) m_body_contact->set_friction(material.friction_body);
+  m_self_contact->set_friction(material.friction_self);
+  double h = m_settings.time_step_s;
+  int calm = 0, round = 0;
+  for (int k = 0; !m_stopped; ++k) {
+    if (!step(h, 0)) break;
+    const double speed = m_last.largest_move_m / h;
+    if (k % 20 == 0)
+      m_reporter.info("settle step " + std::to_string(k) + ": h " + std::to_string(h) + " speed " + std::to_string(speed) + " residual " +
+                      std::to_string(m_last.residual_force_ratio) + " cg " + std::to_string(m_last.cg.iterations));
+    m_reporter.progress("settle", -1);
+    if (m_last.largest_move_m < 0.003) h = std::min(h * 1.15, 0.2);
+    else if (m_last.largest_move_m > 0.01) h = std::max(h * 0.8, m_settings.time_step_s);
+    const bool still = speed < m_settings.settle_speed_m_s && m_last.residual_force_ratio < m_settings.settle_force_ratio;
+    calm = still ? calm + 1 : 0;
+    if (calm < 3) continue;
+    m_garment.position = m_solver->x();
+    if (round++ < REPAIR_ROUNDS && repair_faces_through()) {
+      calm = 0;
+      h = m_settings.time_step_s;
+      continue;
+    }
+    m_report.converged = true;
+    m_report.stop_reason = "at rest";
+    break;
+  }
+}
+
+bool DrapeRun::repair_faces_through() {
+  if (!m_collider) return false;
+  const std::vector<Triangle> triangles = m_garment.particle_triangles();
+  const std::vector<int> through = m_collider->faces_through(m_garment.position, triangles);
+  std::vector<char> raise(m_garment.position.size(), 0);
+  for (int f : through)
+    for (int p : triangles[f]) raise[p] = 1;
+  bool changed = false;
+  for (std::size_t p = 0; p < raise.size(); ++p) {
+    double& gap = m_body_contact->gap(static_cast<int>(p));
+    if (!raise[p] || gap >= LARGEST_GAP) continue;
+    gap += GAP_RAISE;
+    changed = true;
+  }
+  if (changed) m_reporter.info(std::to_string(through.size()) + " faces through the skin: contact distance raised there");
+  return changed;
+}
+
+void DrapeRun::report_effects() {
+  for (const auto& effect : m_solver->effects()) {
+    auto found = std::find_if(m_report.effects.begin(), m_report.effects.end(), [&](const EffectReport& r) { return r.name == effect->name(); });
+    if (found == m_report.effects.end()) {
+      m_report.effects.push_back({effect->name(), true, "", 0, 0});
+      found = m_report.effects.end() - 1;
+    }
+    found->calls += effect->calls;
+    found->wall_s += effect->wall_s;
+  }
+}
+
+void DrapeRun::finish() {
+  m_garment.position = m_solver->x();
+  report_effects();
+  const Phase phase(*this, "audit");
+  const Audit a = audit(m_garment, m_collider ? &*m_collider : nullptr);
+  if (!a.clean() && m_report.converged) {
+    m_report.converged = false;
+    m_report.stop_reason = "at rest, but " + std::to_string(a.through.size()) + " faces through the body, " + std::to_string(a.inside.size()) +
+                           " vertices inside it, " + std::to_string(a.self.size()) + " self intersections";
+  }
+  auto triple = [](const double q[3]) { return io::Json{{"p50", q[0]}, {"p99", q[1]}, {"max", q[2]}}; };
+  m_report.quality = {{"max_speed_m_s", m_report.simulated_s > 0 ? m_last.largest_move_m * 30 : 0},
+                      {"residual_force_ratio", m_last.residual_force_ratio},
+                      {"strain", {{"warp", triple(a.strain_warp)}, {"weft", triple(a.strain_weft)}, {"bias", triple(a.strain_bias)}}},
+                      {"faces_through_body", a.through.size()},
+                      {"vertices_inside_body", a.inside.size()},
+                      {"deepest_m", a.deepest_m},
+                      {"self_intersections", a.self.size()}};
+  std::vector<int> sorted = m_cg_iterations;
+  std::sort(sorted.begin(), sorted.end());
+  double mean = 0;
+  for (int n : sorted) mean += n;
+  const std::size_t n = std::max<std::size_t>(sorted.size(), 1);
+  m_report.solver = {
+      {"cg_iterations",
+       {{"mean", mean / static_cast<double>(n)}, {"p95", sorted.empty() ? 0 : sorted[(n - 1) * 95 / 100]}, {"max", sorted.empty() ? 0 : sorted.back()}}},
+      {"residual", m_last.cg.residual},
+      {"newton", 1},
+      {"rejected_steps", m_rejected}};
+  m_garment.converged = m_report.converged;
+  m_garment.offset_m = m_settings.contact_gap_m;
+}
+
+DrapeReport DrapeRun::run() {
+  const bool unsewn = m_garment.particle_of.empty();
+  if (unsewn) unsew(m_garment);
+  start_outside_body();
+  if (unsewn) sew();
+  if (!m_stopped) {
+    build_solver(false);
+    inflate();
+    settle();
+  }
+  finish();
+  m_report.wall_s = elapsed();
+  return std::move(m_report);
+}
+
+DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter) {
+  return DrapeRun(garment, body, settings, reporter).run();
+}
+
+} // namespace sloper::garment

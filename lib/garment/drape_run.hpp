@@ -1,0 +1,58 @@
+#pragma once
+/// One drape in progress: the phases of drape(), each a method. Only drape.cpp and its tests include this.
+#include <cloth/body_contact.hpp>
+#include <cloth/implicit_step.hpp>
+#include <cloth/self_contact.hpp>
+#include <cloth/sewing_spring.hpp>
+#include <garment/audit.hpp>
+#include <garment/body_shrink.hpp>
+#include <garment/drape.hpp>
+
+#include <chrono>
+#include <optional>
+
+namespace sloper::garment {
+
+class DrapeRun {
+public:
+  DrapeRun(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter);
+  DrapeReport run();
+
+private:
+  /// Times a phase, into the report.
+  class Phase;
+
+  void start_outside_body();          ///< shrink until nothing of the garment is inside
+  void build_solver(bool open_seams); ///< cloth, effects and solver for the garment as it stands
+  void sew();
+  void inflate();
+  void settle();
+  bool repair_faces_through();         ///< raises the gap where faces cross the skin; true when there was something to do
+  bool step(double h, double inertia); ///< one guarded step; false when the run must end
+  double elapsed() const;
+  void finish();
+  void report_effects();
+
+  Garment& m_garment;
+  const body::Body* m_body;
+  DrapeSettings m_settings;
+  Reporter& m_reporter;
+  DrapeReport m_report;
+  std::chrono::steady_clock::time_point m_start;
+
+  std::optional<collision::BodyCollider> m_collider;
+  std::optional<BodyShrink> m_shrink;
+  double m_scale = 1; ///< of the body, see BodyShrink
+
+  std::unique_ptr<cloth::ClothMesh> m_cloth;
+  std::unique_ptr<cloth::ClothSolver> m_solver;
+  cloth::BodyContactEffect* m_body_contact = nullptr;
+  cloth::SelfContactEffect* m_self_contact = nullptr;
+  cloth::SewingSpringEffect* m_sewing = nullptr;
+  cloth::StepResult m_last;
+  std::vector<int> m_cg_iterations;
+  std::vector<std::string> m_rejected;
+  bool m_stopped = false; ///< by time limit, by the user or by the guard
+};
+
+} // namespace sloper::garment

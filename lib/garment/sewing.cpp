@@ -1,0 +1,98 @@
+#include <base/error.hpp>
+#include <garment/materials.hpp>
+#include <garment/sewing.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+namespace sloper::garment {
+
+std::vector<int> weld_classes(const pattern::PanelMesh& panels) {
+  std::vector<int> parent(panels.pattern.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  auto root = [&](int v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const pattern::MeshSeam& seam : panels.seams)
+    for (std::size_t k = 0; k < seam.a.size(); ++k) {
+      const int a = root(seam.a[k]), b = root(seam.b[k]);
+      if (a != b) parent[std::max(a, b)] = std::min(a, b);
+    }
+  std::vector<int> of(parent.size()), number(parent.size(), -1);
+  int count = 0;
+  for (std::size_t v = 0; v < parent.size(); ++v) {
+    const int r = root(static_cast<int>(v));
+    if (number[r] < 0) number[r] = count++;
+    of[v] = number[r];
+  }
+  return of;
+}
+
+void unsew(Garment& garment) {
+  garment.particle_of.resize(garment.panels.pattern.size());
+  std::iota(garment.particle_of.begin(), garment.particle_of.end(), 0);
+  garment.position = garment.panels.placed;
+}
+
+void weld(Garment& garment, const std::vector<Vec3>& position) {
+  garment.particle_of = weld_classes(garment.panels);
+  const int n = garment.particle_of.empty() ? 0 : 1 + *std::max_element(garment.particle_of.begin(), garment.particle_of.end());
+  std::vector<Vec3> sum(n, Vec3::Zero());
+  std::vector<int> count(n, 0);
+  for (std::size_t v = 0; v < position.size(); ++v) {
+    sum[garment.particle_of[v]] += position[v];
+    ++count[garment.particle_of[v]];
+  }
+  for (int i = 0; i < n; ++i) sum[i] /= count[i];
+  garment.position = std::move(sum);
+}
+
+std::vector<std::array<int, 2>> open_stitches(const Garment& garment) {
+  std::vector<std::array<int, 2>> stitches;
+  for (const pattern::MeshSeam& seam : garment.panels.seams)
+    for (std::size_t k = 0; k < seam.a.size(); ++k) {
+      const int a = garment.particle_of[seam.a[k]], b = garment.particle_of[seam.b[k]];
+      if (a != b) stitches.push_back({std::min(a, b), std::max(a, b)});
+    }
+  std::sort(stitches.begin(), stitches.end());
+  stitches.erase(std::unique(stitches.begin(), stitches.end()), stitches.end());
+  return stitches;
+}
+
+std::vector<std::vector<int>> seam_partners(const Garment& garment) {
+  const std::vector<int> classes = weld_classes(garment.panels);
+  std::vector<std::vector<int>> members(classes.size()), partners(garment.position.size());
+  for (std::size_t v = 0; v < classes.size(); ++v) members[classes[v]].push_back(garment.particle_of[v]);
+  for (const std::vector<int>& m : members)
+    for (int a : m)
+      for (int b : m)
+        if (a != b) partners[a].push_back(b);
+  return partners;
+}
+
+cloth::ClothMesh cloth_mesh_of(const Garment& garment) {
+  const pattern::PanelMesh& panels = garment.panels;
+  std::vector<cloth::RestTriangle> triangles(panels.triangles.size());
+  std::vector<cloth::Fabric> fabrics;
+  for (const pattern::PanelInfo& panel : panels.panels) {
+    const Material& m = material_of(garment, panel.material);
+    fabrics.push_back({m.density_kg_m2, m.stretch_warp_n_m, m.stretch_weft_n_m, m.shear_n_m, m.bend_n_m, m.damping_s});
+    const Vec2 warp = panel.grain.normalized(), weft(warp.y(), -warp.x());
+    for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
+      cloth::RestTriangle& t = triangles[f];
+      for (int k = 0; k < 3; ++k) {
+        const int v = panels.triangles[f][k];
+        t.particle[k] = garment.particle_of[v];
+        t.flat[k] = Vec2(panels.pattern[v].dot(weft), panels.pattern[v].dot(warp));
+      }
+      if (t.particle[0] == t.particle[1] || t.particle[1] == t.particle[2] || t.particle[2] == t.particle[0])
+        throw input_error("", "panel " + panel.name + ", triangle " + std::to_string(f - panel.first_triangle),
+                          "a seam welds two corners of one triangle together", "use a smaller --edge-length");
+      t.fabric = static_cast<int>(fabrics.size()) - 1;
+    }
+  }
+  return cloth::make_cloth_mesh(static_cast<int>(garment.position.size()), std::move(triangles), std::move(fabrics), garment.rest_scale);
+}
+
+} // namespace sloper::garment

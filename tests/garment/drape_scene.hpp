@@ -1,0 +1,93 @@
+#pragma once
+/// A scene made for tests: a round pillar that widens below its waist, and a two-panel skirt around it.
+#include <body/body.hpp>
+#include <cmath>
+#include <garment/garment.hpp>
+
+namespace sloper::garment {
+
+/// Closed surface of revolution about y: radius 0.12 m at the waist (y = 1), 0.136 m at the hip (y = 0.8), 0.13 m below.
+inline body::Body make_pillar(int n_around = 64, int n_up = 60) {
+  auto radius = [](double y) {
+    if (y > 1.0) return 0.12 + 0.3 * (y - 1.0) * (y - 1.0);
+    const double t = (1.0 - y) / 0.2;
+    return t < 2 ? 0.12 + 0.008 * (1 - std::cos(M_PI * std::min(t, 1.0))) - (t > 1 ? 0.003 * (1 - std::cos(M_PI * (t - 1))) : 0) : 0.13;
+  };
+  body::Body body;
+  TriangleMesh& m = body.skin;
+  for (int r = 0; r <= n_up; ++r) {
+    const double y = 0.2 + 1.0 * r / n_up;
+    for (int c = 0; c < n_around; ++c) {
+      const double a = 2 * M_PI * c / n_around;
+      m.positions.emplace_back(radius(y) * std::sin(a), y, 0.8 * radius(y) * std::cos(a));
+    }
+  }
+  auto id = [&](int r, int c) { return r * n_around + (c + n_around) % n_around; };
+  for (int r = 0; r < n_up; ++r)
+    for (int c = 0; c < n_around; ++c) {
+      m.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c + 1)});
+      m.triangles.push_back({id(r, c), id(r + 1, c + 1), id(r + 1, c)});
+    }
+  for (int end = 0; end < 2; ++end) { // caps
+    const int r = end ? n_up : 0, center = static_cast<int>(m.positions.size());
+    m.positions.emplace_back(0, end ? 1.2 : 0.2, 0);
+    for (int c = 0; c < n_around; ++c) {
+      if (end) m.triangles.push_back({center, id(r, c), id(r, c + 1)});
+      else m.triangles.push_back({center, id(r, c + 1), id(r, c)});
+    }
+  }
+  body.face_part.assign(m.triangles.size(), body::Part::TORSO);
+  return body;
+}
+
+/// Front and back rectangle, each half the girth wide, side seams open; `girth` at rest, m.
+inline Garment make_skirt(double girth, double length, double edge, double top_y = 1.02, double distance = 0.25) {
+  Garment garment;
+  pattern::PanelMesh& p = garment.panels;
+  p.name = "test skirt";
+  p.edge_length = edge;
+  const int nx = std::max(2, static_cast<int>(std::lround(0.5 * girth / edge))), ny = std::max(2, static_cast<int>(std::lround(length / edge)));
+  for (int side = 0; side < 2; ++side) {
+    pattern::PanelInfo info;
+    info.name = side ? "back" : "front";
+    info.part = "torso";
+    info.first_vertex = static_cast<int>(p.pattern.size());
+    info.first_triangle = static_cast<int>(p.triangles.size());
+    for (int r = 0; r <= ny; ++r)
+      for (int c = 0; c <= nx; ++c) {
+        const Vec2 uv(0.5 * girth * (static_cast<double>(c) / nx - 0.5), length * r / ny);
+        p.pattern.push_back(uv);
+        p.placed.emplace_back(side ? -uv.x() : uv.x(), top_y - length + uv.y(), side ? -distance : distance);
+        p.ids.push_back({side, static_cast<double>(c) / nx, static_cast<double>(r) / ny});
+      }
+    auto id = [&](int r, int c) { return info.first_vertex + r * (nx + 1) + c; };
+    for (int r = 0; r < ny; ++r)
+      for (int c = 0; c < nx; ++c) {
+        if ((r + c) % 2) {
+          p.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c)});
+          p.triangles.push_back({id(r, c + 1), id(r + 1, c + 1), id(r + 1, c)});
+        } else {
+          p.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c + 1)});
+          p.triangles.push_back({id(r, c), id(r + 1, c + 1), id(r + 1, c)});
+        }
+      }
+    info.n_vertices = static_cast<int>(p.pattern.size()) - info.first_vertex;
+    info.n_triangles = static_cast<int>(p.triangles.size()) - info.first_triangle;
+    p.panels.push_back(info);
+  }
+  const int back = p.panels[1].first_vertex;
+  for (int end = 0; end < 2; ++end) {
+    pattern::MeshSeam seam;
+    seam.name = end ? "left" : "right";
+    seam.kind = "seam";
+    seam.length_a = seam.length_b = length;
+    for (int r = 0; r <= ny; ++r) {
+      seam.a.push_back(r * (nx + 1) + (end ? nx : 0));
+      seam.b.push_back(back + r * (nx + 1) + (end ? 0 : nx));
+    }
+    p.seams.push_back(seam);
+  }
+  return garment;
+}
+
+} // namespace sloper::garment
