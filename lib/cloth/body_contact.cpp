@@ -58,6 +58,7 @@ void BodyContactEffect::begin_step(const std::vector<Vec3>& x, double) {
 }
 
 void BodyContactEffect::add(StepContext& c) {
+  if (m_options.friction > 0) ++friction_calls;
   for (int i = 0; i < m_mesh.n_particles; ++i) {
     State& s = m_state[i];
     s.normal_force = 0;

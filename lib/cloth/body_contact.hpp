@@ -38,7 +38,8 @@ public:
   /// Signed distances of the particles that are near, 1e30 elsewhere; valid after begin_step.
   double distance(int particle) const { return m_state[particle].near ? m_state[particle].distance : 1e30; }
   double normal_force(int particle) const { return m_state[particle].normal_force; }
-  long queries = 0; ///< distance queries so far
+  long queries = 0;        ///< distance queries so far
+  long friction_calls = 0; ///< steps in which friction was computed
 
 private:
   struct State {

@@ -4,6 +4,7 @@
 #include <cloth/gravity.hpp>
 #include <cloth/shear.hpp>
 #include <garment/drape_run.hpp>
+#include <garment/effects.hpp>
 #include <garment/materials.hpp>
 #include <garment/sewing.hpp>
 
@@ -44,6 +45,8 @@ DrapeRun::DrapeRun(Garment& garment, const body::Body* body, const DrapeSettings
 
 double DrapeRun::elapsed() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
 
+bool DrapeRun::active(const char* effect) const { return is_active(m_report.effects, effect); }
+
 void DrapeRun::start_outside_body() {
   if (!m_body || m_body->skin.triangles.empty()) return;
   const Phase phase(*this, "prepare body");
@@ -79,13 +82,17 @@ void DrapeRun::build_solver(bool open_seams) {
   if (m_solver) report_effects();
   m_cloth = std::make_unique<cloth::ClothMesh>(cloth_mesh_of(m_garment));
   m_solver = std::make_unique<cloth::ClothSolver>(*m_cloth, m_garment.position);
-  m_solver->emplace<cloth::EdgeSpringEffect>(*m_cloth);
-  m_solver->emplace<cloth::ShearEffect>(*m_cloth);
-  m_solver->emplace<cloth::BendingEffect>(*m_cloth);
+  if (!active("damping"))
+    for (cloth::EdgeSpring& s : m_cloth->springs) s.damping_s = 0;
+  if (!active("damping"))
+    for (cloth::Fabric& f : m_cloth->fabrics) f.damping_s = 0;
+  if (active("edge_springs")) m_solver->emplace<cloth::EdgeSpringEffect>(*m_cloth);
+  if (active("shear")) m_solver->emplace<cloth::ShearEffect>(*m_cloth);
+  if (active("bending")) m_solver->emplace<cloth::BendingEffect>(*m_cloth);
   m_sewing = nullptr;
   if (open_seams) m_sewing = &m_solver->emplace<cloth::SewingSpringEffect>(open_stitches(m_garment), 60.0, 0.05);
   m_body_contact = nullptr;
-  if (m_collider) {
+  if (m_collider && active("body_contact")) {
     cloth::BodyContactOptions options;
     options.gap_m = m_settings.contact_gap_m;
     m_body_contact = &m_solver->emplace<cloth::BodyContactEffect>(*m_cloth, *m_collider, options);
@@ -93,7 +100,9 @@ void DrapeRun::build_solver(bool open_seams) {
   cloth::SelfContactOptions options;
   options.thickness_m = m_settings.self_thickness_m;
   if (open_seams) options.search_m = 0.02;
-  m_self_contact = &m_solver->emplace<cloth::SelfContactEffect>(*m_cloth, options, open_seams ? seam_partners(m_garment) : std::vector<std::vector<int>>{});
+  m_self_contact = nullptr;
+  if (active("self_contact"))
+    m_self_contact = &m_solver->emplace<cloth::SelfContactEffect>(*m_cloth, options, open_seams ? seam_partners(m_garment) : std::vector<std::vector<int>>{});
 }
 
 bool DrapeRun::step(double h, double inertia) {
@@ -158,7 +167,7 @@ void DrapeRun::sew() {
 }
 
 void DrapeRun::inflate() {
-  if (m_scale >= 1) return;
+  if (m_scale >= 1 || !m_body_contact) return;
   const Phase phase(*this, "inflate body");
   const double step_scale = INFLATE_MOTION / m_shrink->reach();
   while (m_scale < 1) {
@@ -173,10 +182,10 @@ void DrapeRun::inflate() {
 
 void DrapeRun::settle() {
   const Phase phase(*this, "settle");
-  m_solver->emplace<cloth::GravityEffect>(*m_cloth, Vec3(0, -m_settings.gravity_m_s2, 0));
+  if (active("gravity")) m_solver->emplace<cloth::GravityEffect>(*m_cloth, Vec3(0, -m_settings.gravity_m_s2, 0));
   const Material& material = material_of(m_garment, "");
-  if (m_body_contact) m_body_contact->set_friction(material.friction_body);
-  m_self_contact->set_friction(material.friction_self);
+  if (active("friction") && m_body_contact) m_body_contact->set_friction(material.friction_body);
+  if (active("friction") && m_self_contact) m_self_contact->set_friction(material.friction_self);
   double h = m_settings.time_step_s;
   int calm = 0, round = 0;
   for (int k = 0; !m_stopped; ++k) {
@@ -204,7 +213,7 @@ void DrapeRun::settle() {
 }
 
 bool DrapeRun::repair_faces_through() {
-  if (!m_collider) return false;
+  if (!m_body_contact) return false;
   const std::vector<Triangle> triangles = m_garment.particle_triangles();
   const std::vector<int> through = m_collider->faces_through(m_garment.position, triangles);
   std::vector<char> raise(m_garment.position.size(), 0);
@@ -222,15 +231,15 @@ bool DrapeRun::repair_faces_through() {
 }
 
 void DrapeRun::report_effects() {
-  for (const auto& effect : m_solver->effects()) {
-    auto found = std::find_if(m_report.effects.begin(), m_report.effects.end(), [&](const EffectReport& r) { return r.name == effect->name(); });
-    if (found == m_report.effects.end()) {
-      m_report.effects.push_back({effect->name(), true, "", 0, 0});
-      found = m_report.effects.end() - 1;
-    }
-    found->calls += effect->calls;
-    found->wall_s += effect->wall_s;
-  }
+  for (const auto& effect : m_solver->effects())
+    for (EffectReport& r : m_report.effects)
+      if (r.name == effect->name()) {
+        r.calls += effect->calls;
+        r.wall_s += effect->wall_s;
+      }
+  for (EffectReport& r : m_report.effects) // damping and friction live in the terms that they belong to
+    if (r.name == "friction" && m_body_contact) r.calls += m_body_contact->friction_calls;
+    else if (r.name == "damping" && r.active) r.calls = m_report.steps;
 }
 
 void DrapeRun::finish() {
@@ -269,8 +278,9 @@ void DrapeRun::finish() {
 DrapeReport DrapeRun::run() {
   const bool unsewn = m_garment.particle_of.empty();
   if (unsewn) unsew(m_garment);
+  m_report.effects = choose_effects(m_garment, m_body, m_settings);
   start_outside_body();
-  if (unsewn) sew();
+  if (unsewn && active("sewing")) sew();
   if (!m_stopped) {
     build_solver(false);
     inflate();

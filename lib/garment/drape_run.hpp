@@ -31,7 +31,8 @@ private:
   bool step(double h, double inertia); ///< one guarded step; false when the run must end
   double elapsed() const;
   void finish();
-  void report_effects();
+  void report_effects();                    ///< adds the solver's counts to the report
+  bool active(const char* effect) const;
 
   Garment& m_garment;
   const body::Body* m_body;

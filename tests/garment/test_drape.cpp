@@ -1,5 +1,6 @@
 #include "drape_scene.hpp"
 
+#include <base/parallel.hpp>
 #include <garment/audit.hpp>
 #include <garment/drape.hpp>
 #include <gtest/gtest.h>
@@ -31,4 +32,55 @@ TEST(Drape, a_skirt_is_sewn_hangs_at_the_waist_and_comes_to_rest_without_crossin
   double top = 0;
   for (const Vec3& p : skirt.position) top = std::max(top, p.y());
   EXPECT_GT(top, 0.9);
+}
+
+TEST(Drape, effects_that_are_off_are_never_called_and_named_with_a_reason) {
+  Garment skirt = make_skirt(0.75, 0.3, 0.04);
+  DrapeSettings settings;
+  settings.gravity_m_s2 = 0;
+  const DrapeReport report = drape(skirt, nullptr, settings, silent_reporter());
+  for (const EffectReport& e : report.effects) {
+    EXPECT_FALSE(e.why.empty()) << e.name;
+    if (!e.active) EXPECT_EQ(e.calls, 0) << e.name;
+    if (!e.active) EXPECT_EQ(e.wall_s, 0) << e.name;
+    if (e.name == "gravity" || e.name == "body_contact" || e.name == "friction") EXPECT_FALSE(e.active) << e.name;
+    if (e.name == "edge_springs") EXPECT_GT(e.calls, 0);
+  }
+}
+
+TEST(Drape, same_input_gives_the_same_bytes_for_any_number_of_threads) {
+  const body::Body pillar = make_pillar();
+  std::string hash;
+  for (int threads : {1, 2, 3}) {
+    set_thread_count(threads);
+    Garment skirt = make_skirt(0.75, 0.3, 0.03);
+    drape(skirt, &pillar, {}, silent_reporter());
+    if (hash.empty()) hash = strict_hash(skirt);
+    EXPECT_EQ(strict_hash(skirt), hash) << threads << " threads";
+  }
+  set_thread_count(1);
+}
+
+TEST(Drape, a_garment_that_starts_inside_the_body_is_repaired_and_the_repair_is_listed) {
+  body::Body pillar = make_pillar();
+  pillar.landmarks["hip_center"].p = Vec3(0, 0.2, 0);
+  pillar.landmarks["neck_center"].p = Vec3(0, 1.2, 0);
+  Garment skirt = make_skirt(0.75, 0.4, 0.025, 1.02, 0.06);
+  const DrapeReport report = drape(skirt, &pillar, {}, silent_reporter());
+  EXPECT_TRUE(report.converged) << report.stop_reason;
+  ASSERT_FALSE(report.repairs.empty());
+  const collision::BodyCollider body(pillar.skin);
+  EXPECT_TRUE(audit(skirt, &body).clean());
+}
+
+TEST(Drape, going_on_from_a_garment_at_rest_changes_nothing_that_can_be_seen) {
+  const body::Body pillar = make_pillar();
+  Garment skirt = make_skirt(0.75, 0.4, 0.03);
+  drape(skirt, &pillar, {}, silent_reporter());
+  const std::vector<Vec3> before = skirt.position;
+  const DrapeReport again = drape(skirt, &pillar, {}, silent_reporter());
+  EXPECT_TRUE(again.converged);
+  double moved = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) moved = std::max(moved, (skirt.position[i] - before[i]).norm());
+  EXPECT_LT(moved, 0.003);
 }
