@@ -80,12 +80,12 @@ void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& 
     section.loop = std::move(loops[best]);
     section.girth = taut_girth(section.loop);
     section.center = section.plane.point(section.loop.centroid);
-    if (section.girth > MAX_ARM_GIRTH * s) break;
+    if (section.girth > MAX_ARM_GIRTH * s || !section.loop.closed) break;
     const std::size_t n = arm.sections.size();
     if (n > 24) { // the girth of the last few centimetres
       double usual = 0;
       for (std::size_t k = n - 8; k < n - 2; ++k) usual += arm.sections[k].girth / 6;
-      if (section.girth > JUMP * usual) break;
+      if (section.girth > JUMP * usual || section.girth < 0.6 * usual) break;
     }
     if (n > 0) along += (section.center - arm.sections.back().center).norm();
     section.along = along;

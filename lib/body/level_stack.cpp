@@ -113,13 +113,21 @@ void LevelStack::follow_legs() {
     else low = y, left = loops[a], right = loops[b];
   }
   m_crotch = low;
-  // where the two loops come closest
-  double best = 1e300;
-  for (const auto& s : left.segments)
-    for (const auto& t : right.segments) {
-      const double d = (s[0] - t[0]).squaredNorm();
-      if (d < best) best = d, m_crotch_point = 0.5 * (s[0] + t[0]);
-    }
+  // just above, the two legs are one loop that is thinnest between them: there lies the saddle
+  const double middle = 0.5 * (left.low.x() > right.high.x() ? left.low.x() + right.high.x() : left.centroid.x() + right.centroid.x());
+  std::vector<Loop> merged = cut(*m_skin, level_plane(high), &both);
+  const int i = best_overlap(merged, left);
+  m_crotch_point = Vec2(middle, 0.5 * (left.centroid.y() + right.centroid.y()));
+  if (i < 0) return;
+  double low_z = 1e300, high_z = -1e300;
+  for (const auto& segment : merged[i].segments) {
+    const double da = segment[0].x() - middle, db = segment[1].x() - middle;
+    if ((da >= 0) == (db >= 0)) continue;
+    const double z = segment[0].y() + da / (da - db) * (segment[1].y() - segment[0].y());
+    low_z = std::min(low_z, z);
+    high_z = std::max(high_z, z);
+  }
+  if (low_z <= high_z) m_crotch_point.y() = 0.5 * (low_z + high_z);
 }
 
 void LevelStack::follow_trunk() {

@@ -3,10 +3,12 @@
 #include <body/measure_scan.hpp>
 #include <body/part_labels.hpp>
 #include <body/skin_profile.hpp>
+#include <body/skin_surface.hpp>
 #include <io/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace sloper::body {
 
@@ -15,26 +17,6 @@ namespace {
 constexpr const char* ESSENTIAL[] = {"head_tip",         "crotch",           "hip_center", "neck_center", "neck_back",  "neck_front",
                                      "shoulder_joint_l", "shoulder_joint_r", "hand_tip_l", "hand_tip_r",  "acromion_l", "acromion_r",
                                      "hip_joint_l",      "hip_joint_r",      "ankle_l",    "ankle_r"};
-
-/// The scan's own faces where all corners are body; unused vertices are dropped.
-TriangleMesh own_skin(const TriangleMesh& scan, const std::vector<Vec3>& positions, const std::vector<char>& is_body) {
-  TriangleMesh skin;
-  std::vector<int> number(positions.size(), -1);
-  for (const Triangle& t : scan.triangles) {
-    if (!is_body[t[0]] || !is_body[t[1]] || !is_body[t[2]] || t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    Triangle kept;
-    for (int k = 0; k < 3; ++k) {
-      int& n = number[t[k]];
-      if (n < 0) {
-        n = static_cast<int>(skin.positions.size());
-        skin.positions.push_back(positions[t[k]]);
-      }
-      kept[k] = n;
-    }
-    skin.triangles.push_back(kept);
-  }
-  return skin;
-}
 
 void describe_stance(Body& body, const std::array<ArmTrace, 2>& arms) {
   double sum = 0;
@@ -76,13 +58,24 @@ MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, con
   std::vector<Vec3> positions(scan.positions.size());
   for (std::size_t v = 0; v < positions.size(); ++v) positions[v] = transform(frame.scan_to_body, scan.positions[v]);
   reporter.info("unit " + frame.unit + ", up " + sorted.up_name + ", stature " + std::to_string(frame.stature_m) + " m");
-  body.skin = own_skin(scan, positions, sorted.is_body);
+  SkinSurface skin = make_skin(positions, scan.triangles, sorted.is_body, frame.stature_m);
+  body.skin = std::move(skin.mesh);
+  body.scan.findings.insert(body.scan.findings.end(), skin.findings.begin(), skin.findings.end());
 
   const double s = frame.stature_m;
   const LevelStack levels(body.skin, s, 0.0025 * s);
   const EdgeGraph graph(body.skin);
   const std::array<ArmTrace, 2> arms = trace_arms(levels, graph);
   describe_stance(body, arms);
+  for (const ArmTrace& arm : arms) {
+    if (arm.sections.empty()) {
+      result.trail.push_back(std::string("arm ") + (arm.left ? "left" : "right") + ": cannot be told from the trunk");
+      continue;
+    }
+    char line[200];
+    std::snprintf(line, sizeof line, "arm %s: %zu sections, %.3f m from the hand to the trunk, last girth %.3f m, pit %s", arm.left ? "left" : "right", arm.sections.size(), arm.length(), arm.sections.back().girth, arm.axilla ? "found" : "not found");
+    result.trail.push_back(line);
+  }
   const Finder finder{levels, arms, options.rules, body, result.trail, s};
   find_leg_landmarks(finder);
   find_head_landmarks(finder);

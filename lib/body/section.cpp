@@ -20,7 +20,7 @@ std::uint64_t edge_key(int a, int b) {
 }
 
 /// Numbers segments by loop: two segments that end on the same mesh edge belong together.
-std::vector<int> loop_numbers(const std::vector<Cut>& cuts) {
+std::vector<int> loop_numbers(const std::vector<Cut>& cuts, std::vector<char>& is_open) {
   std::vector<int> parent(cuts.size());
   std::iota(parent.begin(), parent.end(), 0);
   auto root = [&](int i) {
@@ -46,6 +46,9 @@ std::vector<int> loop_numbers(const std::vector<Cut>& cuts) {
     if (number[r] < 0) number[r] = count++;
     number[i] = number[r];
   }
+  is_open.assign(static_cast<std::size_t>(count), 0);
+  for (std::size_t k = 0; k < ends.size(); ++k) // an end that no other segment shares
+    if ((k == 0 || ends[k - 1].first != ends[k].first) && (k + 1 == ends.size() || ends[k + 1].first != ends[k].first)) is_open[number[ends[k].second]] = 1;
   return number;
 }
 
@@ -114,8 +117,10 @@ std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane, const std::v
     cuts.push_back(c);
   }
   if (cuts.empty()) return {};
-  const std::vector<int> number = loop_numbers(cuts);
-  std::vector<Loop> loops(static_cast<std::size_t>(*std::max_element(number.begin(), number.end())) + 1);
+  std::vector<char> is_open;
+  const std::vector<int> number = loop_numbers(cuts, is_open);
+  std::vector<Loop> loops(is_open.size());
+  for (std::size_t k = 0; k < loops.size(); ++k) loops[k].closed = !is_open[k];
   for (std::size_t i = 0; i < cuts.size(); ++i) loops[number[i]].segments.push_back({cuts[i].a, cuts[i].b});
   for (Loop& loop : loops) measure(loop);
   std::erase_if(loops, [](const Loop& loop) { return std::abs(loop.area) < 1e-6; });

@@ -22,6 +22,7 @@ Plane cross_plane(const Vec3& origin, const Vec3& axis);
 /// One loop of a section.
 struct Loop {
   std::vector<std::array<Vec2, 2>> segments; ///< m, in the plane; walking along one has the body on the left
+  bool closed = true;                        ///< false where the skin, or the subset that was cut, ends
   double area = 0;                           ///< m2, positive for an outer loop
   Vec2 centroid = Vec2::Zero();              ///< of the area
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);

@@ -1,0 +1,21 @@
+#pragma once
+/// The skin on which cloth lies: the scan's own faces where they are sound, else a closed surface rebuilt from samples.
+#include <body/body.hpp>
+namespace sloper::body {
+
+struct SkinSurface {
+  TriangleMesh mesh;         ///< outward
+  bool rebuilt = false;
+  double noise_m = 0;        ///< roughness of the scan, m
+  int border_edges = 0, crowded_edges = 0, flipped_edges = 0; ///< of the scan's own faces: one face, more than two, two that disagree
+  std::vector<Finding> findings;
+};
+
+/// @param positions #V by 3, body frame, m
+/// @param stature   m
+SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature);
+
+/// A closed surface near the samples of any scan, about 60k triangles.
+TriangleMesh rebuild_surface(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature, double& noise_m);
+
+} // namespace sloper::body
