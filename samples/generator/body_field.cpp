@@ -13,13 +13,13 @@ struct Section {
 
 /// Heights, breadths and depths of the trunk at an index of 23 or so, before the girths are fitted.
 const std::vector<Section> FEMALE_TRUNK = {{0.464, 0.060, 0.034, -0.044, 2.0},  {0.478, 0.088, 0.047, -0.054, 2.1},  {0.496, 0.105, 0.056, -0.061, 2.2},
-                                           {0.520, 0.108, 0.060, -0.064, 2.2},  {0.560, 0.101, 0.065, -0.058, 2.15}, {0.600, 0.088, 0.065, -0.047, 2.1},
-                                           {0.635, 0.078, 0.061, -0.045, 2.1},  {0.685, 0.083, 0.058, -0.056, 2.15}, {0.725, 0.089, 0.054, -0.066, 2.2},
+                                           {0.520, 0.108, 0.060, -0.064, 2.2},  {0.560, 0.103, 0.067, -0.059, 2.15}, {0.600, 0.093, 0.069, -0.051, 2.1},
+                                           {0.635, 0.082, 0.065, -0.048, 2.1},  {0.685, 0.086, 0.060, -0.058, 2.15}, {0.725, 0.093, 0.057, -0.069, 2.2},
                                            {0.765, 0.093, 0.043, -0.070, 2.25}, {0.800, 0.088, 0.034, -0.068, 2.2},  {0.825, 0.062, 0.024, -0.060, 2.0},
                                            {0.846, 0.036, 0.014, -0.046, 2.0}};
 const std::vector<Section> MALE_TRUNK = {{0.466, 0.058, 0.036, -0.042, 2.0},  {0.480, 0.084, 0.048, -0.050, 2.1},  {0.498, 0.098, 0.055, -0.057, 2.2},
-                                         {0.525, 0.099, 0.058, -0.060, 2.25}, {0.560, 0.095, 0.063, -0.056, 2.2},  {0.600, 0.089, 0.065, -0.050, 2.2},
-                                         {0.635, 0.085, 0.064, -0.048, 2.2},  {0.685, 0.090, 0.063, -0.056, 2.25}, {0.725, 0.097, 0.062, -0.066, 2.35},
+                                         {0.525, 0.099, 0.058, -0.060, 2.25}, {0.560, 0.098, 0.066, -0.057, 2.2},  {0.600, 0.095, 0.069, -0.054, 2.2},
+                                         {0.635, 0.091, 0.068, -0.052, 2.2},  {0.685, 0.095, 0.068, -0.061, 2.25}, {0.725, 0.097, 0.062, -0.066, 2.35},
                                          {0.765, 0.101, 0.050, -0.072, 2.4},  {0.800, 0.097, 0.038, -0.070, 2.3},  {0.826, 0.072, 0.027, -0.062, 2.0},
                                          {0.850, 0.041, 0.016, -0.048, 2.0}};
 
@@ -30,7 +30,8 @@ const std::vector<LegSection> LEG = {
     {0.036, 0.0205, 0.0215, 0.020, -0.030},   {0.062, 0.0185, 0.0190, 0.0150, -0.0255}, {0.100, 0.0195, 0.0205, 0.0150, -0.0280},
     {0.150, 0.0255, 0.0265, 0.0190, -0.0370}, {0.200, 0.0310, 0.0325, 0.0240, -0.0430}, {0.235, 0.0312, 0.0325, 0.0275, -0.0390},
     {0.285, 0.0318, 0.0318, 0.0390, -0.0300}, {0.335, 0.0365, 0.0380, 0.0440, -0.0370}, {0.400, 0.0450, 0.0475, 0.0500, -0.0480},
-    {0.450, 0.0500, 0.0515, 0.0550, -0.0580}, {0.490, 0.0430, 0.0440, 0.0440, -0.0460}, {0.525, 0.0300, 0.0300, 0.0300, -0.0300}};
+    {0.450, 0.0500, 0.0515, 0.0550, -0.0580}, {0.478, 0.0480, 0.0480, 0.0510, -0.0540}, {0.503, 0.0440, 0.0420, 0.0420, -0.0440},
+    {0.525, 0.0300, 0.0300, 0.0270, -0.0270}};
 
 } // namespace
 
@@ -41,13 +42,13 @@ BodyField::BodyField(const Mannequin& shape, const GirthFactors& g) : m_shape(sh
   y_neck_front = (f ? 0.826 : 0.828) * h;
   y_bust = (f ? 0.716 : 0.725) * h;
   y_chest = 0.762 * h;
-  y_underbust = (f ? 0.678 : 0.690) * h;
+  y_underbust = (f ? 0.672 : 0.690) * h;
   y_waist = 0.635 * h;
   y_omphalion = 0.600 * h;
   y_hip = (f ? 0.508 : 0.512) * h;
   y_crotch_knot = 0.46 * h;
-  build_leg(g);
   build_trunk(g);
+  build_leg(g);
   build_head(g);
   build_arm(g);
 }
@@ -60,13 +61,13 @@ void BodyField::build_trunk(const GirthFactors& g) {
   const MonotoneCurve forward({0.50 * h, y_omphalion - 0.015 * h, y_waist, y_chest}, {0.0, 0.5, 0.35, 0.0});
   std::vector<TubeKnot> knots;
   for (const Section& s : m_female ? FEMALE_TRUNK : MALE_TRUNK) {
-    const double y = s.y * h, k = scale.at(y), push = forward.at(y) * std::max(k - 1, 0.0);
+    const double y = s.y * h, k = 0.25 * (scale.at(y - 0.025 * h) + 2 * scale.at(y) + scale.at(y + 0.025 * h)), push = forward.at(y) * std::max(k - 1, 0.0);
     const double middle = 0.5 * (s.front + s.back) * h, half_depth = 0.5 * (s.front - s.back) * h;
     const double front = middle + half_depth * (k + push), back = middle - half_depth * (k - 0.6 * push);
     const double center = 0.45 * front + 0.55 * back;
     knots.push_back({y, 0, center, s.half * h * k, s.half * h * k, front - center, center - back, s.exponent});
   }
-  m_trunk = Tube(knots, 0.028 * h, 0.015 * h);
+  m_trunk = Tube(knots, 0.022 * h, 0.015 * h);
   m_buttock = Vec3(0.046, m_female ? 0.508 : 0.512, m_female ? -0.026 : -0.024) * h;
   m_buttock_radii = (m_female ? Vec3(0.054, 0.056, 0.052) : Vec3(0.050, 0.052, 0.047)) * h * std::sqrt(g.hip);
   m_buttock.z() -= 0.02 * h * (g.hip - 1);
@@ -78,12 +79,12 @@ void BodyField::build_trunk(const GirthFactors& g) {
     breast_center = Vec3(0.30 * bust.left + 0.5 * r, y_bust, skin - 0.60 * r + g.breast_m);
   } else { // the breast muscle: wide and flat
     breast_radii = Vec3(0.046, 0.036, 0.024) * h * std::sqrt(g.chest);
-    breast_center = Vec3(0.47 * bust.left, y_bust + 0.006 * h, skin - 0.85 * breast_radii.z());
+    breast_center = Vec3(0.47 * bust.left, y_bust + 0.006 * h, skin - 0.80 * breast_radii.z());
   }
 }
 
 void BodyField::build_head(const GirthFactors& g) {
-  const double h = stature, r = (m_female ? 0.0318 : 0.0350) * h * g.neck;
+  const double h = stature, r = (m_female ? 0.0290 : 0.0315) * h * g.neck;
   const auto section = [&](double y, double z, double k) { return TubeKnot{y * h, 0, z * h, r * k, r * k, r * k * 1.02, r * k * 1.04, 2}; };
   m_neck =
       Tube({section(0.800, -0.022, 1.05), section(0.835, -0.014, 1.08), section(0.855, -0.006, 1.02), section(0.875, 0.001, 1.0), section(0.920, 0.010, 1.0)},
@@ -156,7 +157,10 @@ void BodyField::build_leg(const GirthFactors& g) {
   std::vector<TubeKnot> knots;
   for (const LegSection& s : LEG) {
     const double y = s.y * h, k = scale.at(y) * sex * h, middle = 0.5 * (s.front + s.back) * h, depth = 0.5 * (s.front - s.back) * k;
-    knots.push_back({y, center_x(y), middle, s.outer * k, s.inner * k, depth, depth, 2.05});
+    // Inside the trunk the leg's outer side follows the trunk's, or the hip would have a ledge.
+    const double outline = m_trunk.section(std::max(y, 0.508 * h)).left - 0.008 * h - s.outer * k;
+    const double x = center_x(y) + (outline - center_x(y)) * smooth_step(0.430 * h, 0.500 * h, y);
+    knots.push_back({y, x, middle, s.outer * k, s.inner * k, depth, depth, 2.05});
   }
   m_leg = Tube(knots, 0.012 * h, 0.03 * h);
   const auto joint = [&](double y, double z) { return Vec3(center_x(y), y, z * h); };
@@ -217,7 +221,7 @@ double BodyField::trunk(const Vec3& p) const {
     return smooth_union(ellipsoid_distance(p, center, radii), ellipsoid_distance(p, other, radii), k);
   };
   // A breast runs out softly upward and has a fold below.
-  const double fold = m_female ? 0.010 + 0.036 * smooth_step(-0.9, 1.0, (p.y() - breast_center.y()) / breast_radii.y()) : 0.034;
+  const double fold = m_female ? 0.010 + 0.036 * smooth_step(-0.9, 1.0, (p.y() - breast_center.y()) / breast_radii.y()) : 0.050;
   d = smooth_union(d, both(breast_center, breast_radii, 0.012 * h), fold * h);
   return smooth_union(d, both(m_buttock, m_buttock_radii, 0.010 * h), 0.030 * h);
 }
@@ -226,7 +230,8 @@ double BodyField::without_arms(const Vec3& p) const {
   const double h = stature;
   // The blend of leg and trunk is wide outside and narrow between the legs, or the thighs would grow together.
   const double legs = smooth_union(leg(p), leg(Vec3(-p.x(), p.y(), p.z())), 0.006 * h * smooth_step(0.40 * h, 0.47 * h, p.y()));
-  double d = smooth_union(trunk(p), legs, 0.030 * h * smooth_step(0.42 * h, 0.50 * h, p.y()) + 0.012 * h);
+  double d = smooth_union(trunk(p), legs,
+                          (0.012 + 0.034 * smooth_step(0.02 * h, 0.085 * h, std::hypot(p.x(), 0.5 * p.z())) * smooth_step(0.53 * h, 0.46 * h, p.y())) * h);
   d = smooth_union(d, head(p), 0.030 * h);
   return std::max(d, -p.y());
 }

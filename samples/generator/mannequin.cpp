@@ -63,7 +63,7 @@ GirthFactors fit(const Mannequin& shape, const std::map<std::string, double>& wa
     correct(g.waist, "waist", tape.trunk(body.y_waist));
     correct(g.abdomen, "abdomen", tape.trunk(body.y_omphalion - 0.015 * h));
     correct(g.hip, "hip", tape.trunk(body.y_hip));
-    correct(g.underbust, "underbust", tape.trunk(body.y_underbust));
+    correct(g.underbust, "underbust", tape.cage(body.y_underbust));
     if (shape.sex == "f") {
       // The rib cage behind the breasts is a part of the way from the girth under them to the girth over them.
       const double cage = want.at("underbust") + 0.40 * (want.at("bust") - want.at("underbust"));
@@ -79,6 +79,7 @@ GirthFactors fit(const Mannequin& shape, const std::map<std::string, double>& wa
     correct(g.forearm, "forearm", tape.arm(body.upper_arm_length + 0.28 * body.forearm_length));
     correct(g.wrist, "wrist", tape.arm(body.upper_arm_length + body.forearm_length));
   }
+            g.neck, g.chest, g.underbust, g.waist, g.abdomen, g.hip, g.thigh, g.knee, g.calf, g.ankle, g.upper_arm, g.forearm, g.wrist, g.breast_m);
   return g;
 }
 

@@ -19,7 +19,7 @@ struct Mannequin {
   double bmi = 23;         ///< kg/m2, 15 .. 45; decides the girths that are not given
   double arm_deg = 40;     ///< angle of the arms from hanging down, 10 .. 90
   double leg_deg = 5;      ///< angle of each leg from vertical, 0 .. 15
-  double cell_m = 0.0115;  ///< edge length of the mesh
+  double cell_m = 0.0125;  ///< edge length of the mesh
   /// m; names: neck, bust, underbust, waist, abdomen, hip, thigh, knee, calf, ankle, upper_arm, forearm, wrist. Missing ones are filled in.
   std::map<std::string, double> girths_m;
 };
