@@ -47,26 +47,29 @@ std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body) 
   const Bind& bind = garment.bind;
   if (bind.empty()) throw input_error("", "/bind", "the garment is not bound to a body", "drape it on a body first");
   const BindFrames frames = make_bind_frames(body);
-  std::vector<char> used(bind.frames.size(), 0);
-  for (const auto& weights : bind.particles)
-    for (const BindWeight& w : weights) used[w.frame] = 1;
   std::vector<int> target(bind.frames.size(), -1);
   std::vector<MarkMap> maps;
   for (std::size_t k = 0; k < bind.frames.size(); ++k) {
     target[k] = frames.index(bind.frames[k]);
-    if (used[k] && target[k] < 0)
-      throw input_error("", "", "the garment hangs on " + bind.frames[k] + ", which the body lacks", "give a body with that part, or another garment");
     const BindFrame* to = target[k] < 0 ? nullptr : &frames.frames[target[k]];
     maps.emplace_back(bind.marks[k], bind.lengths_m[k], to ? to->marks : std::map<std::string, double>(), to ? to->frame.length() : bind.lengths_m[k]);
   }
   std::vector<Vec3> placed(bind.particles.size(), Vec3::Zero());
-  for (std::size_t i = 0; i < placed.size(); ++i)
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    double there = 0; // a collar does without the head, as long as it hangs on the torso as well
     for (const BindWeight& w : bind.particles[i]) {
+      if (target[w.frame] >= 0) there += w.weight;
+      else if (w.weight > 0.5)
+        throw input_error("", "", "the garment hangs on " + bind.frames[w.frame] + ", which the body lacks", "give a body with that part, or another garment");
+    }
+    for (const BindWeight& w : bind.particles[i]) {
+      if (target[w.frame] < 0) continue;
       const BindFrame& to = frames.frames[target[w.frame]];
       const double z = maps[w.frame](w.z);
       const double r = std::max(to.profile.at(w.theta, z) + w.gap, 0.0);
-      placed[i] += w.weight * to.frame.point({r, w.theta, z});
+      placed[i] += w.weight / there * to.frame.point({r, w.theta, z});
     }
+  }
   return placed;
 }
 

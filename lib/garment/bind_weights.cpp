@@ -20,7 +20,6 @@ constexpr double BLEND_LENGTH = 0.035;     // m along the cloth; weights go from
 constexpr double FACING_PENALTY = 0.03;    // m added to the distance of skin that faces away from the cloth's outside
 constexpr double SMALL_PATCH = 0.02;       // of its piece: a smaller patch of one frame is a stray, not a sleeve
 constexpr double NEGLIGIBLE_WEIGHT = 2e-3; // taken off before normalising, so that weights reach 0 without a jump
-constexpr double FARTHEST_SKIN = 1.0;      // m
 
 struct Patches {
   std::vector<int> of_particle;
@@ -95,8 +94,7 @@ std::vector<int> nearest_frame(const std::vector<Vec3>& positions, const std::ve
       double best = 1e300;
       for (std::size_t k = 0; k < trees.tree.size(); ++k) {
         if (trees.triangles[k].empty()) continue;
-        const double reach = std::min(best, FARTHEST_SKIN);
-        const collision::ClosestPoint c = trees.tree[k].closest_point(positions[i], reach);
+        const collision::ClosestPoint c = trees.tree[k].closest_point(positions[i], best);
         if (c.triangle < 0) continue;
         const Triangle& t = trees.triangles[k][c.triangle];
         const Vec3 n = area_normal(body.skin.positions[t[0]], body.skin.positions[t[1]], body.skin.positions[t[2]]).normalized();
@@ -143,7 +141,7 @@ std::vector<std::vector<std::pair<int, double>>> bind_weights(const Garment& gar
   const std::vector<int> piece = connected_components(x.size(), triangles);
   std::vector<int> label = nearest_frame(x, vertex_normals({x, triangles}), body, frames);
   if (std::find(label.begin(), label.end(), -1) != label.end())
-    throw input_error("", "", "a part of the garment is more than a metre from the body", "give the body on which the garment hangs");
+    throw input_error("", "", "the body has no skin that a garment could hang on", "make the body document again with scan-landmarks");
 
   const int lower_body = frames.index("lower_body"), leg_l = frames.index("leg_l"), leg_r = frames.index("leg_r");
   if (lower_body >= 0) {

@@ -15,7 +15,7 @@ bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<T
                          const BindFrames& frames, double crotch_y);
 
 /// @return per particle (frame, weight), weight > 0, sum 1, frames ascending
-/// @throws Error INPUT when no skin is near enough to belong to (nearest skin farther than 1 m)
+/// @throws Error INPUT when the body has no labelled skin
 std::vector<std::vector<std::pair<int, double>>> bind_weights(const Garment& garment, const body::Body& body, const BindFrames& frames);
 
 } // namespace sloper::garment
