@@ -2,9 +2,9 @@
 /// Which parts of a moving cloth are near each other: vertex-face and edge-edge pairs within a radius, each once, and how far
 /// every particle may move before anything can cross (conservative bound as in Offset Geometric Contact, Chen et al. 2025).
 ///
-/// Triangle pairs come from the refitted tree; every vertex and edge belongs to one of its triangles, so that no pair of
-/// features is met twice (representative triangles, Curtis et al. 2008). Pairs somewhat beyond the radius are remembered and
-/// measured again while the cloth has moved little since; that changes the cost, never the answer.
+/// Every vertex asks the tree of the triangles, every edge that of the edges, once for each unordered pair. Pairs somewhat
+/// beyond the radius are remembered and measured again while the cloth has moved little since; that changes the cost, never
+/// the answer.
 /// Test: tests/collision/test_self_proximity.cpp
 #include <collision/topology.hpp>
 #include <collision/triangle_tree.hpp>
@@ -48,28 +48,33 @@ public:
   int n_rebuilds() const { return m_rebuilds; } ///< how often remembered pairs had to be found afresh
 
 private:
-  struct Near {
-    std::vector<std::array<int, 2>> vertex_face, edge_edge;
+  struct Candidate {
+    int a, b;
+    float distance; ///< when it was found, rounded down
   };
-  bool candidates_hold(const std::vector<Vec3>& x, double radius) const;
+  /// An edge in float, in the order of the edge tree: from p, along d.
+  struct alignas(16) FloatEdge {
+    float p[4], d[4];
+  };
+  bool candidates_hold(const std::vector<Vec3>& x, double radius);
   void find_candidates(const std::vector<Vec3>& x, double radius);
-  void search(int slot, double radius, Near& near) const;
+  void search_vertices(std::size_t begin, std::size_t end, std::vector<Candidate>& found) const;
+  void search_edges(std::size_t begin, std::size_t end, std::vector<Candidate>& found) const;
   bool never_collide(int a, int b) const;
   void mark_exempt(const std::vector<std::array<int, 2>>& intersecting);
 
   std::vector<Triangle> m_triangles;
   Topology m_topology;
-  TriangleTree m_tree;
-  std::vector<unsigned char> m_owned;      ///< per triangle: bits 0-2 its vertices, bits 3-5 its edges
-  std::vector<int> m_never_begin, m_never; ///< symmetric, sorted
-  struct alignas(16) FloatBox {
-    float low[4], high[4];
-  };
-  std::vector<FloatBox> m_edge_boxes; ///< grown by half the search radius
-  Near m_candidates;                  ///< sorted
+  TriangleTree m_tree, m_edge_tree;             ///< the latter over edges as triangles without area
+  std::vector<int> m_never_begin, m_never;      ///< symmetric, sorted
+  std::vector<std::array<int, 2>> m_slot_edges; ///< particles of the edges, in the order of the edge tree
+  std::vector<FloatEdge> m_float_edges;
+  float m_float_slack = 0;                                                 ///< m, what rounding to float may cost
+  std::vector<Candidate> m_vertex_face_candidates, m_edge_edge_candidates; ///< sorted
   std::vector<Vec3> m_candidates_x;
   double m_candidates_radius = -1;
-  int m_rebuilds = 0;
+  double m_moved = 0;                ///< m, the most a particle has moved against the common drift since the candidates were found
+  int m_rebuilds = 0, m_updates = 0; ///< updates since the last rebuild
   double m_radius = 0;
   std::size_t m_particles = 0;
   int m_k = 6;

@@ -15,7 +15,13 @@ struct Float4 {
 inline Float4 operator+(Float4 a, Float4 b) { return {_mm_add_ps(a.v, b.v)}; }
 inline Float4 operator-(Float4 a, Float4 b) { return {_mm_sub_ps(a.v, b.v)}; }
 inline Float4 operator*(Float4 a, Float4 b) { return {_mm_mul_ps(a.v, b.v)}; }
+inline Float4 operator/(Float4 a, Float4 b) { return {_mm_div_ps(a.v, b.v)}; }
 inline Float4 max(Float4 a, Float4 b) { return {_mm_max_ps(a.v, b.v)}; }
+inline Float4 min(Float4 a, Float4 b) { return {_mm_min_ps(a.v, b.v)}; }
+/// a where b < c, else 0.
+inline Float4 where_less(Float4 a, Float4 b, Float4 c) { return {_mm_and_ps(a.v, _mm_cmplt_ps(b.v, c.v))}; }
+/// Four rows of four in, the columns out: x gets the first of each row.
+inline void transpose(Float4& x, Float4& y, Float4& z, Float4& w) { _MM_TRANSPOSE4_PS(x.v, y.v, z.v, w.v); }
 /// Bit i is set where a_i <= b_i and c_i <= d_i.
 inline int both_less_equal(Float4 a, Float4 b, Float4 c, Float4 d) { return _mm_movemask_ps(_mm_and_ps(_mm_cmple_ps(a.v, b.v), _mm_cmple_ps(c.v, d.v))); }
 inline int less_equal(Float4 a, Float4 b) { return _mm_movemask_ps(_mm_cmple_ps(a.v, b.v)); }
@@ -31,6 +37,23 @@ struct Float4 {
 inline Float4 operator+(Float4 a, Float4 b) { return {{a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2], a.v[3] + b.v[3]}}; }
 inline Float4 operator-(Float4 a, Float4 b) { return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]}}; }
 inline Float4 operator*(Float4 a, Float4 b) { return {{a.v[0] * b.v[0], a.v[1] * b.v[1], a.v[2] * b.v[2], a.v[3] * b.v[3]}}; }
+inline Float4 operator/(Float4 a, Float4 b) { return {{a.v[0] / b.v[0], a.v[1] / b.v[1], a.v[2] / b.v[2], a.v[3] / b.v[3]}}; }
+inline Float4 min(Float4 a, Float4 b) {
+  Float4 r;
+  for (int i = 0; i < 4; ++i) r.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i];
+  return r;
+}
+inline Float4 where_less(Float4 a, Float4 b, Float4 c) {
+  Float4 r;
+  for (int i = 0; i < 4; ++i) r.v[i] = b.v[i] < c.v[i] ? a.v[i] : 0;
+  return r;
+}
+inline void transpose(Float4& x, Float4& y, Float4& z, Float4& w) {
+  const Float4 row[4] = {x, y, z, w};
+  Float4* column[4] = {&x, &y, &z, &w};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) column[i]->v[j] = row[j].v[i];
+}
 inline Float4 max(Float4 a, Float4 b) {
   Float4 r;
   for (int i = 0; i < 4; ++i) r.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
