@@ -79,7 +79,6 @@ GirthFactors fit(const Mannequin& shape, const std::map<std::string, double>& wa
     correct(g.forearm, "forearm", tape.arm(body.upper_arm_length + 0.28 * body.forearm_length));
     correct(g.wrist, "wrist", tape.arm(body.upper_arm_length + body.forearm_length));
   }
-            g.neck, g.chest, g.underbust, g.waist, g.abdomen, g.hip, g.thigh, g.knee, g.calf, g.ankle, g.upper_arm, g.forearm, g.wrist, g.breast_m);
   return g;
 }
 

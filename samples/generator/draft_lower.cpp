@@ -1,0 +1,139 @@
+/// The four-panel skirt (the paper's Figure 4) and trousers, each with a waistband, drafted flat.
+///
+/// Skirt: a quarter of the waist above, a quarter of the hip 20 cm lower, flared to the hem; the difference of hip and
+/// waist is taken half at the side, half at the middle seam, by curves. Trousers: body rise, crotch extensions of a
+/// sixteenth and an eighth of the hip (front and back), crease in the middle of the crotch line, as in the classic
+/// trouser block (for one, Aldrich, Metric Pattern Cutting); coefficients are our own. Metres; y = 0 is the waist.
+#include "draft.hpp"
+#include <cmath>
+namespace sloper::samples {
+namespace {
+
+/// A band of two strips, sewn at the sides; `front` and `back` are the finished lengths of its lower edge, each cut in two at the middle.
+void add_waistband(Draft& d, const Measures& m, double front, double back, double height) {
+  for (const bool is_front : {true, false}) {
+    const double half = 0.5 * (is_front ? front : back);
+    const std::string right = is_front ? "l" : "r", left = is_front ? "r" : "l"; // wearer's side at +x and -x
+    DraftPanel p;
+    p.name = is_front ? "band_front" : "band_back";
+    p.points = {{-half, 0}, {0, 0}, {half, 0}, {half, height}, {-half, height}};
+    p.edges = {{"low_" + left, {}}, {"low_" + right, {}}, {"end_" + right, {}}, {"top", {}}, {"end_" + left, {}}};
+    p.placement = {"torso", is_front ? 0.0 : 180.0, m.waist_height(), Vec2(0, 0.5 * height)};
+    d.add(p);
+  }
+  for (const char* s : {"l", "r"}) {
+    const std::string side = s;
+    d.sew("band_front", "end_" + side, "band_back", "end_" + side);
+    d.sew("band_front", "low_" + side, "front_" + side, "waist");
+    d.sew("band_back", "low_" + side, "back_" + side, "waist");
+  }
+}
+
+} // namespace
+
+Draft draft_skirt(const Measures& m) {
+  Draft d{"skirt", {}, {}};
+  const double waist = (m.waist + 0.005) / 4, hip = (m.hip + 0.05) / 4, length = 0.34 * m.stature, band = 0.035;
+  const double flare = 0.035 + 0.03 * length;
+  // Middle seam at x = 0 from the hip down; above, both long sides lean in. The waist is an arc that meets both squarely.
+  const double inset = 0.5 * (hip - waist) * 0.6, y_hip = -(m.waist_to_hip - 0.5 * band);
+  const auto panel = [&](const char* name, double theta) {
+    DraftPanel p;
+    p.name = name;
+    const Vec2 hem_middle(-flare * 0.4, -length), hem_side(hip + flare, -length), hip_side(hip, y_hip), hip_middle(0, y_hip);
+    const double x0 = inset;
+    // The side is longer than the middle by the lean; the waist point at the side is raised so that neighbours meet level.
+    const Vec2 waist_side(x0 + waist, 0.010), waist_middle(x0, 0);
+    p.points = {hem_middle, hem_side, hip_side, waist_side, waist_middle, hip_middle};
+    const Vec2 up(0, -y_hip), side_down = (hip_side - hem_side).normalized(), middle_down = (hem_middle - hip_middle).normalized();
+    p.edges = {{"hem", {Vec2(hip * 0.3, -length - 0.008), Vec2(hip * 0.7, -length - 0.008)}},
+               {"side", {}},
+               {"side_hip", {hip_side + 0.35 * up.norm() * side_down, waist_side - 0.35 * up + Vec2(0.012, 0)}},
+               {"waist", {waist_side - Vec2(0.33 * waist, 0.006), waist_middle + Vec2(0.33 * waist, -0.002)}},
+               {"middle_hip", {waist_middle - 0.35 * up - Vec2(0.010, 0), hip_middle - 0.35 * up.norm() * middle_down}},
+               {"middle", {}}};
+    p.placement = {"torso", theta, m.waist_height() - 0.5 * band, Vec2(x0 + 0.5 * waist, 0)};
+    return p;
+  };
+  // Wearer's left front and, the other way round, left back: seen from outside the left back's middle seam is at its +x.
+  const DraftPanel front = panel("front_l", 45), back = panel("back_r", 225);
+  d.add(front);
+  d.add(mirrored(front, "front_r", "torso"));
+  d.add(back);
+  DraftPanel back_l = mirrored(back, "back_l", "torso");
+  back_l.placement.theta_deg = 135;
+  d.add(back_l);
+  for (const char* edge : {"side", "side_hip"}) {
+    d.sew("front_l", edge, "back_l", edge);
+    d.sew("front_r", edge, "back_r", edge);
+  }
+  for (const char* edge : {"middle", "middle_hip"}) {
+    d.sew("front_l", edge, "front_r", edge);
+    d.sew("back_l", edge, "back_r", edge);
+  }
+  const double low = edge_length(front, "waist");
+  add_waistband(d, m, 2 * low, 2 * low, band);
+  return d;
+}
+
+Draft draft_trousers(const Measures& m) {
+  Draft d{"trousers", {}, {}};
+  const double band = 0.035, rise = m.body_rise + 0.015 - 0.5 * band, leg = m.inside_leg - 0.03, y_hip = -(m.waist_to_hip - 0.5 * band), y_crotch = -rise;
+  const double y_knee = y_crotch - 0.46 * m.inside_leg, y_hem = y_crotch - leg;
+  const double waist = (m.waist + 0.01) / 4, hip = (m.hip + 0.07) / 4;
+  const double knee = 0.5 * (m.knee + 0.09), hem = 0.5 * (m.ankle + 0.17);
+  struct Leg {
+    double hip, extension, wide, lean; ///< quarter of the hip, crotch extension, extra width at knee and hem, how far the middle seam leans in
+  };
+  // The back is wider, reaches further between the legs and leans more.
+  const Leg front_leg{hip - 0.008, m.hip / 18, -0.008, 0.012}, back_leg{hip + 0.008, m.hip / 9, 0.008, 0.030};
+  /// Left front seen from outside: the middle seam at x = 0, the side at +x. back_rise raises the waist at the middle seam.
+  const auto panel = [&](const char* name, const Leg& l, double back_rise, double crotch_drop, double side_rise) {
+    DraftPanel p;
+    p.name = name;
+    const Vec2 crotch(-l.extension, y_crotch - crotch_drop), hip_side(l.hip, y_hip), hip_middle(0, y_hip);
+    const double crease = 0.5 * (l.hip - l.extension), half_knee = 0.5 * (knee + 2 * l.wide), half_hem = 0.5 * (hem + 2 * l.wide);
+    const Vec2 waist_middle(l.lean, back_rise), waist_side(l.lean + waist, side_rise);
+    const Vec2 knee_in(crease - half_knee, y_knee), knee_out(crease + half_knee, y_knee);
+    const double above = y_hip - y_knee, step = y_crotch - y_knee;
+    p.points = {{crease - half_hem, y_hem}, {crease + half_hem, y_hem}, knee_out, hip_side, waist_side, waist_middle, hip_middle, crotch, knee_in};
+    p.edges = {{"hem", {}},
+               {"side_low", {}},
+               {"side_thigh", {knee_out + Vec2(0, 0.35 * above), hip_side - Vec2(0, 0.35 * above)}},
+               {"side_hip", {hip_side - Vec2(0, 0.4 * y_hip), waist_side + Vec2(0.012, 0.35 * y_hip)}},
+               {"waist", {}},
+               {"middle", {}},
+               {"crotch", {hip_middle + Vec2(-0.05 * l.lean, 0.65 * (y_crotch - y_hip)), crotch + Vec2(0.55 * l.extension, 0)}},
+               {"inside_thigh", {crotch + Vec2(0.30 * l.extension, -0.30 * step), knee_in + Vec2(0, 0.35 * step)}},
+               {"inside_low", {}}};
+    return p;
+  };
+  DraftPanel front = panel("front_l", front_leg, -0.008, 0, 0.008);
+  // The back is drawn so that its long seams match the front's: the crotch point is let down, the side is raised.
+  const double inside = edge_length(front, "inside_thigh"), side_hip = edge_length(front, "side_hip");
+  const double drop = solve(-0.01, 0.04, [&](double x) { return edge_length(panel("back", back_leg, 0.03, x, 0.008), "inside_thigh") - inside; });
+  const double raise = solve(-0.02, 0.04, [&](double x) { return edge_length(panel("back", back_leg, 0.03, drop, x), "side_hip") - side_hip; });
+  DraftPanel back = panel("back_r", back_leg, 0.03, drop, raise);
+  const double top = m.waist_height() - 0.5 * band;
+  front.placement = {"torso", 45, top, Vec2(front_leg.lean + 0.5 * waist, 0)};
+  back.placement = {"torso", 225, top, Vec2(back_leg.lean + 0.5 * waist, 0)};
+  d.add(front);
+  d.add(mirrored(front, "front_r", "torso"));
+  d.add(back);
+  DraftPanel back_l = mirrored(back, "back_l", "torso");
+  back_l.placement.theta_deg = 135;
+  d.add(back_l);
+  for (const char* s : {"l", "r"}) {
+    const std::string side = s;
+    for (const char* edge : {"side_low", "side_thigh", "side_hip", "inside_thigh", "inside_low"})
+      d.sew("front_" + side, edge, "back_" + side, edge);
+  }
+  for (const char* edge : {"middle", "crotch"}) {
+    d.sew("front_l", edge, "front_r", edge);
+    d.sew("back_l", edge, "back_r", edge);
+  }
+  add_waistband(d, m, 2 * edge_length(front, "waist"), 2 * edge_length(back, "waist"), band);
+  return d;
+}
+
+} // namespace sloper::samples

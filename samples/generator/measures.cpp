@@ -1,0 +1,119 @@
+#include "measures.hpp"
+#include <base/units.hpp>
+#include <cmath>
+namespace sloper::samples {
+namespace {
+
+/// Landmark, level and girth by name; missing ones are nothing.
+class Reader {
+public:
+  Reader(const io::Json& body, const std::string& file) : m_body(body, file) {}
+  bool point(const std::string& name, Vec3& p) const {
+    if (!m_body.has("landmarks") || !m_body.at("landmarks").has(name)) return false;
+    const io::Node entry = m_body.at("landmarks").at(name);
+    if (!entry.has("p") || entry.at("p").is_null()) return false;
+    p = entry.at("p").vec3();
+    return true;
+  }
+  bool level(const std::string& name, double& girth, double& y) const {
+    if (!m_body.has("levels") || !m_body.at("levels").has(name)) return false;
+    const io::Node entry = m_body.at("levels").at(name);
+    if (!entry.has("girth_m") || entry.at("girth_m").is_null()) return false;
+    girth = entry.at("girth_m").number();
+    y = entry.at("y").number();
+    return true;
+  }
+  void girth(const std::string& name, double& value) const {
+    if (!m_body.has("girths") && !m_body.has("girths_m")) return;
+    const io::Node girths = m_body.at(m_body.has("girths") ? "girths" : "girths_m");
+    if (!girths.has(name)) return;
+    const io::Node entry = girths.at(name);
+    if (entry.is_number()) value = entry.number();
+    else if (entry.has("value_m")) value = entry.at("value_m").number();
+  }
+
+private:
+  io::Node m_body;
+};
+
+void scale_all(Measures& m, double factor) {
+  for (const auto& [name, member] : measure_names())
+    m.*member *= factor;
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, double Measures::*>> measure_names() {
+  return {{"stature", &Measures::stature},           {"bust", &Measures::bust},
+          {"waist", &Measures::waist},               {"hip", &Measures::hip},
+          {"neck", &Measures::neck},                 {"upper-arm", &Measures::upper_arm},
+          {"wrist", &Measures::wrist},               {"knee", &Measures::knee},
+          {"ankle", &Measures::ankle},               {"back-length", &Measures::back_length},
+          {"waist-to-hip", &Measures::waist_to_hip}, {"body-rise", &Measures::body_rise},
+          {"inside-leg", &Measures::inside_leg},     {"shoulder", &Measures::shoulder},
+          {"arm-length", &Measures::arm_length},     {"neck-back-height", &Measures::neck_back_height},
+          {"shoulder-height", &Measures::shoulder_height}};
+}
+
+void set_measure(Measures& m, const std::string& name, double value) {
+  std::vector<std::string> names;
+  for (const auto& [known, member] : measure_names()) {
+    names.push_back(known);
+    if (known == name) {
+      if (!(value > 0.02 && value < 2.5)) throw Error(ErrorKind::USAGE, "", "--measure " + name, "is not a length of a person, in m");
+      m.*member = value;
+      return;
+    }
+  }
+  const std::string near = nearest_word(name, names.data(), names.data() + names.size());
+  throw Error(ErrorKind::USAGE, "", "--measure", "there is no measure \"" + name + "\"", near.empty() ? "see --help" : "did you mean \"" + near + "\"?");
+}
+
+Measures measures_from_body(const io::Json& body, const std::string& file) {
+  const Reader r(body, file);
+  Measures m;
+  Vec3 p, q;
+  if (!r.point("head_tip", p) || p.y() < 0.5) throw input_error(file, "/landmarks/head_tip", "stature is not known", "give a body document with a head_tip");
+  scale_all(m, p.y() / m.stature);
+  double y = 0, girth = 0, waist_y = m.waist_height();
+  for (const char* name : {"waist_girth_min", "waist_semantic", "omphalion"})
+    if (r.level(name, girth, y)) {
+      m.waist = girth;
+      waist_y = y;
+      break;
+    }
+  // The narrowest girth may lie anywhere on a bellied body; garments hang at the modelled waist there.
+  double semantic_y = 0, semantic_girth = 0;
+  if (r.level("waist_semantic", semantic_girth, semantic_y) && std::abs(semantic_y - waist_y) > 0.04) {
+    m.waist = semantic_girth;
+    waist_y = semantic_y;
+  }
+  if (r.level("bust", girth, y)) m.bust = girth;
+  double hip_y = waist_y - m.waist_to_hip;
+  if (r.level("hip", girth, y)) {
+    m.hip = girth;
+    hip_y = y;
+  }
+  if (r.level("hip_girth_max", girth, y)) m.hip = std::max(m.hip, girth);
+  m.waist_to_hip = std::max(0.10, waist_y - hip_y);
+  if (r.point("neck_back", p)) m.neck_back_height = p.y();
+  m.back_length = m.neck_back_height - waist_y;
+  if (r.point("crotch", p)) {
+    m.body_rise = waist_y - p.y();
+    m.inside_leg = p.y();
+  }
+  if (r.point("acromion_l", p)) {
+    m.shoulder_height = p.y();
+    if (r.point("neck_side_l", q)) m.shoulder = (p - q).norm();
+    Vec3 elbow, wrist;
+    if (r.point("elbow_l", elbow) && r.point("wrist_l", wrist)) m.arm_length = (elbow - p).norm() + (wrist - elbow).norm();
+  }
+  r.girth("neck", m.neck);
+  r.girth("upper_arm_l", m.upper_arm);
+  r.girth("wrist_l", m.wrist);
+  r.girth("knee_l", m.knee);
+  r.girth("ankle_min_l", m.ankle);
+  return m;
+}
+
+} // namespace sloper::samples
