@@ -1,0 +1,266 @@
+#include <cli/run_tool.hpp>
+
+#include <base/parallel.hpp>
+#include <base/version.hpp>
+#include <cli/option_table.hpp>
+#include <cli/tool_reporter.hpp>
+#include <io/files.hpp>
+
+#include <sched.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <new>
+
+namespace sloper::cli {
+
+static constexpr int MAX_DEFAULT_THREADS = 8; // beyond, memory bandwidth is what is short
+
+struct Tool::Impl {
+  std::string name, summary, reads, writes;
+  CLI::App app;
+  std::vector<Example> examples;
+  ToolReporter reporter;
+  bool no_progress = false;
+  bool version_asked = false, man_asked = false; ///< declared for the table; check_words() answers them
+  std::string shell_asked;
+  int threads = 0;
+  Impl(const std::string& n, const std::string& s) : name(n), summary(s), app(s, n), reporter(n) {}
+  ToolDescription description() const { return {name, summary, reads, writes, option_rows(app), examples}; }
+};
+
+int available_processors() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  int n = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+  std::string quota;
+  double period = 0;
+  if (std::ifstream("/sys/fs/cgroup/cpu.max") >> quota >> period && quota != "max" && period > 0)
+    n = std::min(n, static_cast<int>(std::ceil(std::atof(quota.c_str()) / period)));
+  return std::max(1, n);
+}
+
+Tool::Tool(const std::string& name, const std::string& summary) : m_impl(std::make_unique<Impl>(name, summary)) {
+  Impl& m = *m_impl;
+  const char* common = "Common options";
+  m.app.set_help_flag("-h,--help", "show this help")->group(common);
+  m.app.add_flag("-q,--quiet", m.reporter.quiet, "errors only")->group(common);
+  m.app.add_flag("-v,--verbose", m.reporter.verbose, "say what is done, the options as resolved, time and memory")->group(common);
+  m.app.add_flag("-V,--version", m.version_asked, "show the version and the formats")->group(common);
+  m.app.add_flag("--no-progress", m.no_progress, "no progress line (there is none when stderr is not a terminal)")->group(common);
+  m.app.add_option("--threads", m.threads, "threads; results do not depend on it (default: the processors available, at most 8)")
+      ->check(finite_in(1, 1024, ""))
+      ->group(common);
+  m.app.add_flag("--generate-man", m.man_asked)->group("");
+  m.app.add_option("--generate-completion", m.shell_asked)->group("");
+}
+
+Tool::~Tool() = default;
+CLI::App& Tool::app() { return m_impl->app; }
+Reporter& Tool::reporter() { return m_impl->reporter; }
+const std::string& Tool::name() const { return m_impl->name; }
+void Tool::example(const std::string& command_line, const std::string& what) { m_impl->examples.push_back({command_line, what}); }
+void Tool::formats(const std::string& read, const std::string& written) {
+  m_impl->reads = read;
+  m_impl->writes = written;
+}
+
+static Error usage_error(const std::string& fact) { return {ErrorKind::USAGE, "", "", fact}; }
+
+static Error unknown_option(const CLI::App& app, const std::string& given) {
+  std::vector<std::string> known;
+  for (const OptionRow& row : option_rows(app))
+    for (const std::string& l : row.longs) known.push_back("--" + l);
+  const std::string near = given.rfind("--", 0) == 0 ? nearest_word(given, known.data(), known.data() + known.size()) : "";
+  return usage_error("unknown option " + given + (near.empty() ? "" : " (did you mean " + near + "?)"));
+}
+
+/// What the command line asks for besides the tool's work: the first of these that is named wins over all other options.
+struct Request {
+  std::string option; ///< "help", "version", "generate-man", "generate-completion" or empty
+  std::string value;
+};
+
+/// Walks the words as getopt would, before CLI11 does: it reports an unknown option last and by other names, and takes the value
+/// of a misspelt option for an operand.
+static Request check_words(const CLI::App& app, const std::vector<std::string>& words) {
+  Request request;
+  auto takes_value = [](const CLI::Option* option) { return option->get_items_expected_max() > 0; };
+  auto note = [&](const CLI::Option* option, const std::string& value) {
+    if (!request.option.empty() || option->get_lnames().empty()) return;
+    const std::string& name = option->get_lnames().front();
+    for (const char* special : {"help", "version", "generate-man", "generate-completion"})
+      if (name == special) request = {name, value};
+  };
+  std::string failure;
+  auto fail = [&](const Error& error) {
+    if (failure.empty()) failure = error.fact();
+  };
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word == "--") break;
+    if (word.size() < 2 || word[0] != '-') continue;
+    if (word[1] == '-') {
+      const std::size_t equals = word.find('=');
+      const std::string name = word.substr(0, equals);
+      const CLI::Option* option = app.get_option_no_throw(name);
+      if (!option) fail(unknown_option(app, name));
+      else if (!takes_value(option)) note(option, "");
+      else if (equals != std::string::npos) note(option, word.substr(equals + 1));
+      else if (++i < words.size()) note(option, words[i]);
+      else fail(usage_error(name + " needs a value"));
+      continue;
+    }
+    for (std::size_t k = 1; k < word.size(); ++k) {
+      const std::string name = std::string("-") + word[k];
+      const CLI::Option* option = app.get_option_no_throw(name);
+      if (!option) {
+        fail(unknown_option(app, name));
+        break;
+      }
+      note(option, "");
+      if (!takes_value(option)) continue;
+      if (k + 1 == word.size() && ++i == words.size()) fail(usage_error(name + " needs a value"));
+      break;
+    }
+  }
+  if (request.option.empty() && !failure.empty()) throw usage_error(failure);
+  return request;
+}
+
+/// What CLI11 does by default and we do not want: options that swallow the operands after them, numbers that are not numbers.
+static void tighten(CLI::App& app) {
+  for (CLI::Option* option : app.get_options([](const CLI::Option*) { return true; })) {
+    if (!option->get_positional() && option->get_items_expected_max() > 1) option->allow_extra_args(false);
+    const std::string type = option->get_type_name();
+    const std::string plain = type.substr(0, type.find(':'));
+    if ((plain == "FLOAT" || plain == "INT" || plain == "UINT") && type == plain) {
+      CLI::Validator finite = finite_in(-1e308, 1e308, "");
+      option->check(finite.description(""));
+    }
+  }
+}
+
+static bool has_validator(CLI::Option* option, const std::string& name) {
+  try {
+    return option->get_validator(name) != nullptr;
+  } catch (const CLI::OptionNotFound&) {
+    return false;
+  }
+}
+
+/// Minutes of work must not end in a folder that does not exist.
+static void check_outputs(CLI::App& app) {
+  for (CLI::Option* option : app.get_options([](const CLI::Option*) { return true; })) {
+    const auto& longs = option->get_lnames();
+    const bool output = has_validator(option, "output_file") || std::find(longs.begin(), longs.end(), "output") != longs.end();
+    if (!output) continue;
+    for (const std::string& path : option->results()) {
+      if (path == "-") continue;
+      struct stat info {};
+      if (stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode)) throw Error(ErrorKind::OUTPUT, path, "", "is a folder, not a file", "name a file");
+      const std::size_t slash = path.rfind('/');
+      const std::string folder = slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
+      if (stat(folder.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
+        throw Error(ErrorKind::OUTPUT, path, "", "cannot write: there is no folder " + folder, "make it first");
+      if (access(folder.c_str(), W_OK) != 0) throw Error(ErrorKind::OUTPUT, path, "", "cannot write in folder " + folder + ": " + std::strerror(errno));
+    }
+  }
+}
+
+static void report_options(CLI::App& app, Reporter& reporter) {
+  for (CLI::Option* option : app.get_options([](const CLI::Option* o) { return !o->get_group().empty(); })) {
+    if (option->count() == 0) continue;
+    std::string values;
+    for (const std::string& value : option->results()) values += " " + value;
+    reporter.info("option " + option->get_name() + values);
+  }
+  reporter.info("threads: " + std::to_string(thread_count()));
+}
+
+static void report_cost(Reporter& reporter, double wall) {
+  struct rusage usage {};
+  getrusage(RUSAGE_SELF, &usage);
+  auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  char text[128];
+  std::snprintf(text, sizeof text, "took %.2f s, %.2f s of CPU, at most %ld MB", wall, seconds(usage.ru_utime) + seconds(usage.ru_stime),
+                usage.ru_maxrss / 1024);
+  reporter.info(text);
+}
+
+static std::string version_text(const ToolDescription& tool) {
+  std::string out = tool.name + " " + VERSION + "\n";
+  if (!tool.reads.empty()) out += "reads: " + tool.reads + "\n";
+  if (!tool.writes.empty()) out += "writes: " + tool.writes + "\n";
+  return out + "Sloper, Apache License 2.0\n";
+}
+
+static std::string answer_request(const Request& request, const ToolDescription& tool) {
+  if (request.option == "help") return help_text(tool);
+  if (request.option == "version") return version_text(tool);
+  if (request.option == "generate-man") return man_page(tool);
+  return completion(tool, request.value);
+}
+
+static int parse_and_run(CLI::App& app, const std::vector<std::string>& words, Reporter& reporter, const std::function<void()>& parsed,
+                         const std::function<int()>& body) {
+  try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend())); // CLI11 wants them reversed
+  } catch (const CLI::ParseError& error) {
+    throw usage_error(error.what());
+  }
+  parsed();
+  check_outputs(app);
+  report_options(app, reporter);
+  const auto start = std::chrono::steady_clock::now();
+  const int code = body();
+  report_cost(reporter, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  return code;
+}
+
+int Tool::run(int argc, char** argv, const std::function<int()>& body) {
+  Impl& m = *m_impl;
+  install_signal_handlers();
+  const std::string hint = "Try '" + m.name + " --help'.";
+  try {
+    tighten(m.app);
+    const std::vector<std::string> words(argv + 1, argv + std::max(1, argc));
+    if (words.empty()) {
+      std::fprintf(stderr, "Usage: %s\n%s.\n%s\n", m.description().usage().c_str(), m.summary.c_str(), hint.c_str());
+      return static_cast<int>(ErrorKind::USAGE);
+    }
+    const Request request = check_words(m.app, words);
+    if (!request.option.empty()) {
+      io::write_file("-", answer_request(request, m.description()));
+      return 0;
+    }
+    auto parsed = [&m] {
+      m.reporter.show_progress = !m.no_progress;
+      set_thread_count(m.threads > 0 ? m.threads : std::min(available_processors(), MAX_DEFAULT_THREADS));
+    };
+    const int code = parse_and_run(m.app, words, m.reporter, parsed, body);
+    m.reporter.clear_line();
+    return code;
+  } catch (const Error& error) {
+    m.reporter.error((error.kind() == ErrorKind::INTERNAL ? "our bug: " : "") + std::string(error.what()));
+    if (error.kind() == ErrorKind::USAGE) std::fprintf(stderr, "%s\n", hint.c_str());
+    return error.exit_code();
+  } catch (const std::bad_alloc&) {
+    m.reporter.error("out of memory");
+  } catch (const std::exception& error) {
+    m.reporter.error(std::string("our bug: ") + error.what() + "; please report it with the command line");
+  } catch (...) {
+    m.reporter.error("our bug: an exception of unknown type; please report it with the command line");
+  }
+  return static_cast<int>(ErrorKind::INTERNAL);
+}
+
+} // namespace sloper::cli

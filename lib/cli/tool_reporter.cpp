@@ -1,0 +1,95 @@
+#include <cli/tool_reporter.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+namespace sloper::cli {
+
+static volatile std::sig_atomic_t g_stop = 0; // a signal handler can reach nothing else
+
+extern "C" {
+static void on_stop_signal(int) { g_stop = 1; }
+}
+
+void install_signal_handlers() {
+  std::signal(SIGPIPE, SIG_IGN);
+  struct sigaction action {};
+  action.sa_handler = on_stop_signal;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  for (const int signal_number : {SIGINT, SIGTERM}) {
+    struct sigaction before {};
+    sigaction(signal_number, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(signal_number, &action, nullptr); // nohup and background jobs keep what they were given
+  }
+}
+
+static bool set_in_environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value && *value;
+}
+
+ToolReporter::ToolReporter(const std::string& tool_name) : m_tool(tool_name) {
+  const char* terminal_name = std::getenv("TERM");
+  m_terminal = isatty(STDERR_FILENO) && terminal_name && std::string(terminal_name) != "dumb";
+  m_color = m_terminal && !set_in_environment("NO_COLOR");
+}
+
+ToolReporter::~ToolReporter() { clear_line(); }
+
+void ToolReporter::clear_line() {
+  if (m_line_shown) std::fputs("\r\033[K", stderr);
+  m_line_shown = false;
+}
+
+void ToolReporter::line(const std::string& text, const char* color) {
+  clear_line();
+  const std::string name = m_color && *color ? std::string(color) + m_tool + ":\033[0m" : m_tool + ":";
+  std::fprintf(stderr, "%s %s\n", name.c_str(), text.c_str());
+}
+
+void ToolReporter::info(const std::string& text) {
+  if (verbose && !quiet) line(text, "");
+}
+void ToolReporter::warning(const std::string& text) {
+  if (!quiet) line("warning: " + text, "\033[33m");
+}
+void ToolReporter::error(const std::string& text) { line(text, "\033[31m"); }
+
+bool ToolReporter::stop_requested() const { return g_stop != 0; }
+
+static std::string clock_text(double seconds) {
+  char text[32];
+  const long whole = std::lround(seconds);
+  if (whole >= 3600) std::snprintf(text, sizeof text, "%ld h %02ld min", whole / 3600, whole % 3600 / 60);
+  else if (whole >= 60) std::snprintf(text, sizeof text, "%ld min %02ld s", whole / 60, whole % 60);
+  else std::snprintf(text, sizeof text, "%ld s", whole);
+  return text;
+}
+
+void ToolReporter::progress(const std::string& phase, double fraction) {
+  if (quiet || !show_progress || !m_terminal) return;
+  const Clock::time_point now = Clock::now();
+  const bool new_phase = phase != m_phase || m_phase_start == Clock::time_point{};
+  if (new_phase) {
+    m_phase = phase;
+    m_phase_start = now;
+  } else if (now - m_last_drawn < std::chrono::milliseconds(100) && fraction < 1) return;
+  m_last_drawn = now;
+  std::string text = m_tool + ": " + phase;
+  if (fraction >= 0) {
+    fraction = std::min(fraction, 1.0);
+    text += " " + std::to_string(std::lround(100 * fraction)) + " %";
+    const double elapsed = std::chrono::duration<double>(now - m_phase_start).count();
+    if (fraction > 0.02 && fraction < 1 && elapsed > 1) text += ", " + clock_text(elapsed * (1 - fraction) / fraction) + " left";
+  }
+  std::fprintf(stderr, "\r\033[K%s", text.c_str());
+  std::fflush(stderr);
+  m_line_shown = true;
+}
+
+} // namespace sloper::cli
