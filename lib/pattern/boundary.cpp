@@ -1,0 +1,261 @@
+#include <base/error.hpp>
+#include <pattern/boundary.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::pattern {
+namespace {
+
+constexpr double SAME = 1e-9; ///< fractions nearer than this are one
+
+/// One stretch of seam between two breaks, or of a free edge.
+struct Piece {
+  int panel, edge;
+  double from, to; ///< from < to, along the outline
+  int n = 0;       ///< segments; 0 when merged away
+};
+
+/// A stretch of seam: side a's piece and side b's, and whether each is walked against its outline.
+struct Pair {
+  Run a, b; ///< each within one edge; from > to against the outline
+  int n = 0;
+};
+
+/// Walks one side of a seam by its normalised length.
+class Side {
+public:
+  Side(const Pattern& pattern, const std::vector<Run>& runs) : m_runs(&runs) {
+    const double total = std::max(side_length(pattern, runs), 1e-12);
+    double sum = 0;
+    m_corners.push_back(0);
+    for (const Run& run : runs) m_corners.push_back((sum += run_length(pattern, run)) / total);
+    m_corners.back() = 1;
+  }
+  const std::vector<double>& corners() const { return m_corners; } ///< 0, run ends, 1
+  /// The stretch [u0, u1] of the side, which lies within one run.
+  Run stretch(double u0, double u1) const {
+    std::size_t k = 0;
+    const double middle = 0.5 * (u0 + u1);
+    while (k + 2 < m_corners.size() && m_corners[k + 1] < middle) ++k;
+    Run run = (*m_runs)[k];
+    const double span = m_corners[k + 1] - m_corners[k];
+    const auto fraction = [&](double u) {
+      double f = span > 0 ? (u - m_corners[k]) / span : 0;
+      if (f < SAME) f = 0;
+      if (f > 1 - SAME) f = 1;
+      return run.from + f * (run.to - run.from);
+    };
+    const double from = fraction(u0), to = fraction(u1);
+    run.from = from, run.to = to;
+    return run;
+  }
+
+private:
+  const std::vector<Run>* m_runs;
+  std::vector<double> m_corners;
+};
+
+/// Matching breaks of both sides in order: (u on a, u on b). Corners that nearly face each other are brought together; the
+/// others have their partner in the middle of the other side's edge.
+std::vector<std::array<double, 2>> matched_breaks(const Side& a, const Side& b, double tolerance) {
+  std::vector<std::array<double, 2>> knots = {{0, 0}};
+  std::size_t j = 1;
+  for (std::size_t i = 1; i + 1 < a.corners().size(); ++i) {
+    const double u = a.corners()[i];
+    while (j + 1 < b.corners().size() && b.corners()[j] < u - tolerance) ++j;
+    if (j + 1 < b.corners().size() && std::abs(b.corners()[j] - u) <= tolerance && b.corners()[j] > knots.back()[1]) knots.push_back({u, b.corners()[j]}), ++j;
+  }
+  knots.push_back({1, 1});
+  std::vector<std::array<double, 2>> breaks = {{0, 0}};
+  for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+    const auto [a0, b0] = knots[k];
+    const auto [a1, b1] = knots[k + 1];
+    std::vector<std::array<double, 2>> inner;
+    for (double u : a.corners())
+      if (u > a0 + SAME && u < a1 - SAME) inner.push_back({u, b0 + (u - a0) / (a1 - a0) * (b1 - b0)});
+    for (double u : b.corners())
+      if (u > b0 + SAME && u < b1 - SAME) inner.push_back({a0 + (u - b0) / (b1 - b0) * (a1 - a0), u});
+    std::sort(inner.begin(), inner.end());
+    breaks.insert(breaks.end(), inner.begin(), inner.end());
+    breaks.push_back(knots[k + 1]);
+  }
+  return breaks;
+}
+
+/// The finished vertices of one panel edge: fractions in order, and the loop vertex of each.
+struct EdgeVertices {
+  std::vector<double> at;
+  std::vector<int> vertex;
+  int find(double f) const {
+    for (std::size_t k = 0; k < at.size(); ++k)
+      if (std::abs(at[k] - f) < 1e-7) return static_cast<int>(k);
+    return -1;
+  }
+};
+
+class Sampler {
+public:
+  Sampler(const Pattern& pattern, double h, const std::string& file) : m_pattern(pattern), m_h(h), m_file(file) {}
+
+  Boundary run() {
+    m_pieces.resize(m_pattern.panels.size());
+    for (std::size_t p = 0; p < m_pattern.panels.size(); ++p) m_pieces[p].resize(static_cast<std::size_t>(m_pattern.panels[p].n_edges()));
+    m_pairs.resize(m_pattern.seams.size());
+    for (std::size_t s = 0; s < m_pattern.seams.size(); ++s) cut_seam(s);
+    for (std::size_t p = 0; p < m_pattern.panels.size(); ++p) {
+      fill_free(static_cast<int>(p));
+      sample_panel(static_cast<int>(p));
+    }
+    for (std::size_t s = 0; s < m_pattern.seams.size(); ++s) stitch(s);
+    return std::move(m_out);
+  }
+
+private:
+  double piece_length(const Run& run) const { return run_length(m_pattern, run); }
+
+  int segments_for(double length_a, double length_b) const {
+    if (std::max(length_a, length_b) < 0.2 * m_h) return 0;
+    return std::max(1, static_cast<int>(std::lround(std::sqrt(length_a * length_b) / m_h)));
+  }
+
+  void add_piece(const Run& run, int n) {
+    auto& pieces = m_pieces[static_cast<std::size_t>(run.panel)][static_cast<std::size_t>(run.edge)];
+    const Piece piece{run.panel, run.edge, std::min(run.from, run.to), std::max(run.from, run.to), n};
+    for (const Piece& other : pieces)
+      if (piece.from < other.to - 1e-7 && other.from < piece.to - 1e-7)
+        throw input_error(m_file, place_of(m_pattern, run),
+                          centimetres((std::min(piece.to, other.to) - std::max(piece.from, other.from)) * length(m_pattern.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path)) +
+                              " of this edge are sewn twice",
+                          "let every stretch of an edge be in one seam only");
+    pieces.push_back(piece);
+  }
+
+  void cut_seam(std::size_t s) {
+    const Seam& seam = m_pattern.seams[s];
+    const Side a(m_pattern, seam.a), b(m_pattern, seam.b);
+    const double length_a = side_length(m_pattern, seam.a), length_b = side_length(m_pattern, seam.b), shorter = std::max(std::min(length_a, length_b), 1e-9);
+    const auto breaks = matched_breaks(a, b, std::max(0.5 * m_h / shorter, 0.01));
+    for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
+      Pair pair{a.stretch(breaks[k][0], breaks[k + 1][0]), b.stretch(breaks[k][1], breaks[k + 1][1])};
+      pair.n = segments_for(piece_length(pair.a), piece_length(pair.b));
+      if (pair.n == 0)
+        m_out.findings.push_back(place_of(m_pattern, pair.a) + " and " + place_of(m_pattern, pair.b) + ": a stretch of " + centimetres(piece_length(pair.a)) +
+                                 " is merged into its neighbours (edge length " + centimetres(m_h) + ")");
+      add_piece(pair.a, pair.n), add_piece(pair.b, pair.n);
+      m_pairs[s].push_back(pair);
+    }
+  }
+
+  void fill_free(int p) {
+    auto& edges = m_pieces[static_cast<std::size_t>(p)];
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      auto& pieces = edges[e];
+      const double total = length(m_pattern.panels[static_cast<std::size_t>(p)].edge(static_cast<int>(e)).path);
+      std::sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) { return x.from < y.from; });
+      std::vector<Piece> all;
+      double at = 0;
+      const auto free_to = [&](double to) {
+        if (to - at < 1e-7) return;
+        Piece piece{p, static_cast<int>(e), at, to, segments_for((to - at) * total, (to - at) * total)};
+        if (piece.n == 0)
+          m_out.findings.push_back(place_of(m_pattern, {p, static_cast<int>(e)}) + ": a free stretch of " + centimetres((to - at) * total) + " is merged into its neighbours");
+        all.push_back(piece);
+      };
+      for (const Piece& piece : pieces) {
+        free_to(piece.from);
+        all.push_back(piece);
+        at = piece.to;
+      }
+      free_to(1);
+      pieces = all;
+    }
+  }
+
+  void sample_panel(int p) {
+    const Panel& panel = m_pattern.panels[static_cast<std::size_t>(p)];
+    Boundary::PanelBoundary out;
+    m_vertices.emplace_back(static_cast<std::size_t>(panel.n_edges()));
+    auto& vertices = m_vertices.back();
+    int e = 0, first_of_loop = 0;
+    for (const auto& loop : panel.loops) {
+      std::vector<Vec2> points;
+      const int first_edge = e;
+      bool merged = false; // the last vertex stands for the next edge's start as well
+      for (const PanelEdge& edge : loop) {
+        const ArcLength arc(edge.path);
+        EdgeVertices& ev = vertices[static_cast<std::size_t>(e)];
+        const auto put = [&](double f) {
+          if (!merged) {
+            points.push_back(arc.at(f * arc.length()));
+            out.edge_of.push_back(e);
+          }
+          ev.at.push_back(f), ev.vertex.push_back(first_of_loop + static_cast<int>(points.size()) - 1);
+        };
+        for (const Piece& piece : m_pieces[static_cast<std::size_t>(p)][static_cast<std::size_t>(e)]) {
+          if (ev.at.empty() || !merged) put(piece.from);
+          else ev.at.push_back(piece.from), ev.vertex.push_back(ev.vertex.back());
+          merged = piece.n == 0;
+          for (int k = 1; k < piece.n; ++k) put(piece.from + (piece.to - piece.from) * k / piece.n);
+        }
+        ++e;
+      }
+      const int n = static_cast<int>(points.size());
+      if (n < 3)
+        throw input_error(m_file, panel.name, "the outline is too small: " + std::to_string(n) + " vertices at an edge length of " + centimetres(m_h), "give a smaller --edge-length");
+      // Ends: the end of each edge is the start of the next; the last edge ends at the loop's first vertex.
+      for (int k = first_edge; k < e; ++k) {
+        EdgeVertices& ev = vertices[static_cast<std::size_t>(k)];
+        ev.at.push_back(1);
+        ev.vertex.push_back(k + 1 < e ? vertices[static_cast<std::size_t>(k + 1)].vertex.front() : first_of_loop);
+      }
+      if (merged) { // the loop's last stretch was merged: its vertex and the first are one
+        const int last = first_of_loop + n - 1;
+        points.pop_back(), out.edge_of.pop_back();
+        for (int k = first_edge; k < e; ++k)
+          for (int& v : vertices[static_cast<std::size_t>(k)].vertex)
+            if (v == last) v = first_of_loop;
+      }
+      first_of_loop += static_cast<int>(points.size());
+      out.loops.push_back(std::move(points));
+    }
+    out.must_split.assign(static_cast<std::size_t>(first_of_loop), 0);
+    m_out.panels.push_back(std::move(out));
+  }
+
+  void stitch(std::size_t s) {
+    Boundary::SeamStitches out;
+    for (const Pair& pair : m_pairs[s])
+      for (int k = 0; k <= pair.n; ++k) {
+        const double t = pair.n == 0 ? 0.0 : static_cast<double>(k) / pair.n;
+        const std::array<int, 2> va = vertex_at(pair.a, t), vb = vertex_at(pair.b, t);
+        if (!out.a.empty() && out.a.back() == va && out.b.back() == vb) continue;
+        out.a.push_back(va), out.b.push_back(vb);
+      }
+    // A corner both of whose edges are in this seam, sewn to each other: a cone's or a dart's tip.
+    for (std::size_t k = 0; k < out.a.size(); ++k)
+      if (out.a[k] == out.b[k]) m_out.panels[static_cast<std::size_t>(out.a[k][0])].must_split[static_cast<std::size_t>(out.a[k][1])] = 1;
+    m_out.seams.push_back(std::move(out));
+  }
+
+  std::array<int, 2> vertex_at(const Run& run, double t) const {
+    const EdgeVertices& ev = m_vertices[static_cast<std::size_t>(run.panel)][static_cast<std::size_t>(run.edge)];
+    const int k = ev.find(run.from + (run.to - run.from) * t);
+    if (k < 0) throw Error(ErrorKind::INTERNAL, m_file, place_of(m_pattern, run), "a stitch has no vertex");
+    return {run.panel, ev.vertex[static_cast<std::size_t>(k)]};
+  }
+
+  const Pattern& m_pattern;
+  double m_h;
+  std::string m_file;
+  std::vector<std::vector<std::vector<Piece>>> m_pieces;   ///< by panel, edge
+  std::vector<std::vector<Pair>> m_pairs;                  ///< by seam
+  std::vector<std::vector<EdgeVertices>> m_vertices;       ///< by panel, edge
+  Boundary m_out;
+};
+
+} // namespace
+
+Boundary sample_boundary(const Pattern& pattern, double h, const std::string& file) { return Sampler(pattern, h, file).run(); }
+
+} // namespace sloper::pattern

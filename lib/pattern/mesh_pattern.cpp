@@ -1,0 +1,103 @@
+#include <base/error.hpp>
+#include <base/parallel.hpp>
+#include <base/units.hpp>
+#include <pattern/boundary.hpp>
+#include <pattern/mesh_pattern.hpp>
+#include <pattern/triangulate.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+namespace sloper::pattern {
+namespace {
+
+void list_small_angles(PanelMesh& mesh, const PanelInfo& panel) {
+  int n = 0;
+  double worst = units::PI;
+  Vec2 where = Vec2::Zero();
+  for (int t = panel.first_triangle; t < panel.first_triangle + panel.n_triangles; ++t) {
+    const Triangle& tri = mesh.triangles[static_cast<std::size_t>(t)];
+    const auto at = [&](std::size_t k) { return mesh.pattern[static_cast<std::size_t>(tri[k])]; };
+    const double angle = smallest_angle(at(0), at(1), at(2));
+    if (angle < units::radians(25)) ++n;
+    if (angle < worst) worst = angle, where = (at(0) + at(1) + at(2)) / 3;
+  }
+  if (n == 0) return;
+  char text[160];
+  std::snprintf(text, sizeof text, "%s: %d triangle%s below 25 degrees, the smallest %.1f at (%.1f, %.1f) cm", panel.name.c_str(), n, n == 1 ? "" : "s", units::degrees(worst),
+                where.x() * 100, where.y() * 100);
+  mesh.findings.push_back(text);
+}
+
+} // namespace
+
+PanelMesh mesh_pattern(const Pattern& pattern, double edge_length, const std::string& file) {
+  PanelMesh mesh;
+  mesh.name = pattern.name;
+  mesh.edge_length = edge_length;
+  mesh.findings = pattern.findings;
+  const Boundary boundary = sample_boundary(pattern, edge_length, file);
+  mesh.findings.insert(mesh.findings.end(), boundary.findings.begin(), boundary.findings.end());
+
+  std::vector<FlatMesh> flat(pattern.panels.size());
+  std::vector<std::string> failed(pattern.panels.size());
+  parallel_for(pattern.panels.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      try {
+        flat[p] = triangulate(boundary.panels[p].loops, edge_length, boundary.panels[p].must_split, pattern.panels[p].name);
+      } catch (const Error& e) { failed[p] = e.fact(); }
+    }
+  });
+  for (std::size_t p = 0; p < flat.size(); ++p)
+    if (!failed[p].empty()) throw input_error(file, pattern.panels[p].name, failed[p], "pattern-mesh --check names the edges");
+
+  for (std::size_t p = 0; p < flat.size(); ++p) {
+    const Panel& source = pattern.panels[p];
+    PanelInfo info;
+    info.name = source.name, info.grain = source.grain, info.material = source.material, info.layer = source.layer, info.part = source.hint.part;
+    info.first_vertex = static_cast<int>(mesh.pattern.size()), info.n_vertices = static_cast<int>(flat[p].points.size());
+    info.first_triangle = static_cast<int>(mesh.triangles.size()), info.n_triangles = static_cast<int>(flat[p].triangles.size());
+    for (std::size_t k = 0; k < boundary.panels[p].loops[0].size(); ++k) info.outline.push_back(info.first_vertex + static_cast<int>(k));
+    Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+    for (const Vec2& q : flat[p].points) low = low.cwiseMin(q), high = high.cwiseMax(q);
+    const Mat4 rigid = source.hint.rigid.value_or(Mat4::Identity());
+    for (const Vec2& q : flat[p].points) {
+      mesh.pattern.push_back(q);
+      mesh.placed.push_back((rigid * Eigen::Vector4d(q.x(), q.y(), 0, 1)).head<3>());
+      mesh.ids.push_back({static_cast<int>(p), (q.x() - low.x()) / (high.x() - low.x()), (q.y() - low.y()) / (high.y() - low.y())});
+    }
+    for (const Triangle& t : flat[p].triangles) mesh.triangles.push_back({t[0] + info.first_vertex, t[1] + info.first_vertex, t[2] + info.first_vertex});
+    mesh.panels.push_back(info);
+    list_small_angles(mesh, mesh.panels.back());
+  }
+  for (std::size_t s = 0; s < pattern.seams.size(); ++s) {
+    const Seam& seam = pattern.seams[s];
+    MeshSeam out{seam.name, seam.kind, {}, {}, side_length(pattern, seam.a), side_length(pattern, seam.b)};
+    for (std::size_t k = 0; k < boundary.seams[s].a.size(); ++k) {
+      const auto &a = boundary.seams[s].a[k], &b = boundary.seams[s].b[k];
+      out.a.push_back(mesh.panels[static_cast<std::size_t>(a[0])].first_vertex + a[1]);
+      out.b.push_back(mesh.panels[static_cast<std::size_t>(b[0])].first_vertex + b[1]);
+    }
+    if (out.a.size() < 2) {
+      mesh.findings.push_back("seam " + seam.name + " is shorter than a fifth of the edge length and is left out");
+      continue;
+    }
+    mesh.seams.push_back(std::move(out));
+  }
+  return mesh;
+}
+
+double smallest_angle_deg(const PanelMesh& mesh, int panel) {
+  double worst = units::PI;
+  const std::size_t first = panel < 0 ? 0 : static_cast<std::size_t>(mesh.panels[static_cast<std::size_t>(panel)].first_triangle);
+  const std::size_t n = panel < 0 ? mesh.triangles.size() : static_cast<std::size_t>(mesh.panels[static_cast<std::size_t>(panel)].n_triangles);
+  for (std::size_t t = first; t < first + n; ++t) {
+    const Triangle& tri = mesh.triangles[t];
+    worst = std::min(worst, smallest_angle(mesh.pattern[static_cast<std::size_t>(tri[0])], mesh.pattern[static_cast<std::size_t>(tri[1])], mesh.pattern[static_cast<std::size_t>(tri[2])]));
+  }
+  return units::degrees(worst);
+}
+
+} // namespace sloper::pattern

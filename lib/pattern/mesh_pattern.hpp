@@ -1,0 +1,17 @@
+#pragma once
+/// From a pattern to a panel mesh: boundary sampled over all seams, panels triangulated, start positions from the pattern's own
+/// placement (place_panels() brings them to a body).
+#include <pattern/panel_mesh.hpp>
+#include <pattern/pattern.hpp>
+
+namespace sloper::pattern {
+
+/// @param edge_length aimed at, m
+/// @param file        for messages
+/// @throws Error INPUT where a panel cannot be meshed
+PanelMesh mesh_pattern(const Pattern& pattern, double edge_length, const std::string& file);
+
+/// Smallest angle over all triangles of a panel (all panels when negative), degrees, in the pattern.
+double smallest_angle_deg(const PanelMesh& mesh, int panel = -1);
+
+} // namespace sloper::pattern

@@ -1,0 +1,30 @@
+#pragma once
+/// A pattern file of any known format, told apart by its content.
+#include <io/json.hpp>
+#include <pattern/pattern.hpp>
+
+namespace sloper::pattern {
+
+/// Reads our pattern JSON, a GarmentCode specification, a sewing-spec JSON or an AAMA / ASTM DXF.
+/// @param path    file, or "-" for standard input
+/// @param sewing  sidecar with the seams of a DXF, or empty
+/// @throws Error INPUT naming file, panel, edge and centimetres
+Pattern read_pattern(const std::string& path, const std::string& sewing);
+
+/// {"pattern": {"panels", "stitches"}} in centimetres (units_in_meter), Euler angles intrinsic XYZ in degrees as pygarment writes them.
+Pattern read_garmentcode(const io::Json& json, const std::string& file);
+
+/// Our own format; see pattern.schema.json.
+Pattern read_pattern_json(const io::Json& json, const std::string& file);
+
+/// The neutral sewing JSON, "format": "sewing-spec", millimetres.
+Pattern read_sewing_spec(const io::Json& json, const std::string& file);
+
+/// Seams of a "sewing-seams" sidecar, added to a pattern whose panels and edges have names.
+void read_sewing_seams(Pattern& pattern, const io::Json& json, const std::string& file);
+
+/// What every reader ends with: loops given their sense, panels turned to be seen from outside where seams ask for it,
+/// and errors that make meshing pointless thrown.
+void finish_pattern(Pattern& pattern, const std::string& file);
+
+} // namespace sloper::pattern

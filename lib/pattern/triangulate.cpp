@@ -1,0 +1,104 @@
+#include <base/error.hpp>
+#include <pattern/flat_delaunay.hpp>
+#include <pattern/triangulate.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::pattern {
+namespace {
+
+/// Boundary segments in square cells of size h, for distances up to h.
+class SegmentGrid {
+public:
+  SegmentGrid(const std::vector<std::vector<Vec2>>& loops, double h) : m_h(h) {
+    for (const auto& loop : loops)
+      for (std::size_t k = 0; k < loop.size(); ++k) m_segments.push_back({loop[k], loop[(k + 1) % loop.size()]});
+    m_low = Vec2::Constant(1e300);
+    Vec2 high = Vec2::Constant(-1e300);
+    for (const auto& s : m_segments) m_low = m_low.cwiseMin(s[0]), high = high.cwiseMax(s[0]);
+    m_nx = static_cast<int>((high.x() - m_low.x()) / h) + 1, m_ny = static_cast<int>((high.y() - m_low.y()) / h) + 1;
+    m_cells.resize(static_cast<std::size_t>(m_nx) * static_cast<std::size_t>(m_ny));
+    for (std::size_t k = 0; k < m_segments.size(); ++k) {
+      const auto& s = m_segments[k];
+      const int x0 = column(std::min(s[0].x(), s[1].x())), x1 = column(std::max(s[0].x(), s[1].x()));
+      const int y0 = row(std::min(s[0].y(), s[1].y())), y1 = row(std::max(s[0].y(), s[1].y()));
+      for (int y = y0; y <= y1; ++y)
+        for (int x = x0; x <= x1; ++x) m_cells[cell(x, y)].push_back(static_cast<int>(k));
+    }
+  }
+  /// Whether some boundary segment is nearer than d <= h.
+  bool nearer(const Vec2& p, double d) const {
+    const int cx = column(p.x()), cy = row(p.y());
+    for (int y = std::max(0, cy - 1); y <= std::min(m_ny - 1, cy + 1); ++y)
+      for (int x = std::max(0, cx - 1); x <= std::min(m_nx - 1, cx + 1); ++x)
+        for (int k : m_cells[cell(x, y)]) {
+          const auto& s = m_segments[static_cast<std::size_t>(k)];
+          const Vec2 along = s[1] - s[0];
+          const double t = std::clamp((p - s[0]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+          if ((p - s[0] - t * along).squaredNorm() < d * d) return true;
+        }
+    return false;
+  }
+
+private:
+  int column(double x) const { return std::clamp(static_cast<int>((x - m_low.x()) / m_h), 0, m_nx - 1); }
+  int row(double y) const { return std::clamp(static_cast<int>((y - m_low.y()) / m_h), 0, m_ny - 1); }
+  std::size_t cell(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(m_nx) + static_cast<std::size_t>(x); }
+  double m_h;
+  Vec2 m_low;
+  int m_nx = 0, m_ny = 0;
+  std::vector<std::array<Vec2, 2>> m_segments;
+  std::vector<std::vector<int>> m_cells;
+};
+
+/// Points of a hexagonal lattice inside the polygon and not nearer than `clearance` to its boundary, row by row, to and fro.
+std::vector<Vec2> lattice(const std::vector<std::vector<Vec2>>& loops, double h, double clearance) {
+  Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+  for (const Vec2& p : loops[0]) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const SegmentGrid grid(loops, h);
+  const double step_y = h * std::sqrt(0.75);
+  const int rows = static_cast<int>((high.y() - low.y()) / step_y) + 1;
+  const double first_y = 0.5 * (low.y() + high.y() - (rows - 1) * step_y), middle = 0.5 * (low.x() + high.x());
+  std::vector<Vec2> points;
+  std::vector<double> crossings;
+  for (int r = 0; r < rows; ++r) {
+    const double y = first_y + r * step_y;
+    crossings.clear();
+    for (const auto& loop : loops)
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Vec2 &a = loop[k], &b = loop[(k + 1) % loop.size()];
+        if ((a.y() <= y) != (b.y() <= y)) crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+      }
+    std::sort(crossings.begin(), crossings.end());
+    const std::size_t row_start = points.size();
+    const double shift = middle + (r % 2 ? 0.5 * h : 0.0);
+    for (std::size_t c = 0; c + 1 < crossings.size(); c += 2)
+      for (long i = static_cast<long>(std::ceil((crossings[c] - shift) / h)); shift + static_cast<double>(i) * h < crossings[c + 1]; ++i) {
+        const Vec2 p(shift + static_cast<double>(i) * h, y);
+        if (!grid.nearer(p, clearance)) points.push_back(p);
+      }
+    if (r % 2) std::reverse(points.begin() + static_cast<long>(row_start), points.end());
+  }
+  return points;
+}
+
+} // namespace
+
+FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, double h, const std::vector<char>& must_split, const std::string& panel) {
+  FlatDelaunay mesh(loops, panel);
+  for (const Vec2& p : lattice(loops, h, 0.62 * h)) mesh.insert(p);
+  mesh.split_chords(must_split);
+  for (int round = 0; round < 8; ++round) mesh.smooth();
+  mesh.split_chords(must_split);
+  mesh.fix_density(h);
+  for (int round = 0; round < 6; ++round) mesh.smooth();
+  mesh.split_chords(must_split);
+  for (int round = 0; round < 12 && mesh.improve_worst(32 * 3.14159265358979 / 180); ++round) {}
+  FlatMesh out;
+  out.n_boundary = mesh.n_boundary();
+  mesh.take(out.points, out.triangles);
+  return out;
+}
+
+} // namespace sloper::pattern
