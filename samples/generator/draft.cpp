@@ -14,8 +14,7 @@ Vec2 at(const Vec2& a, const std::vector<Vec2>& control, const Vec2& b, double t
 
 double length_of(const std::vector<Vec2>& points) {
   double sum = 0;
-  for (std::size_t i = 1; i < points.size(); ++i)
-    sum += (points[i] - points[i - 1]).norm();
+  for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i] - points[i - 1]).norm();
   return sum;
 }
 
@@ -36,7 +35,8 @@ bool is_simple(const std::vector<Vec2>& loop) {
 
 } // namespace
 
-void Draft::sew(const std::string& panel_a, const std::string& edge_a, const std::string& panel_b, const std::string& edge_b, double ease, const std::string& kind) {
+void Draft::sew(const std::string& panel_a, const std::string& edge_a, const std::string& panel_b, const std::string& edge_b, double ease,
+                const std::string& kind) {
   seams.push_back({panel_a + "." + edge_a, panel_a, edge_a, panel_b, edge_b, kind, false, ease});
 }
 
@@ -55,8 +55,7 @@ int edge_index(const DraftPanel& panel, const std::string& edge) {
 std::vector<Vec2> edge_points(const DraftPanel& panel, int edge, int n) {
   const Vec2 &a = panel.points[edge], &b = panel.points[(edge + 1) % panel.points.size()];
   std::vector<Vec2> points;
-  for (int i = 0; i <= n; ++i)
-    points.push_back(at(a, panel.edges[edge].control, b, static_cast<double>(i) / n));
+  for (int i = 0; i <= n; ++i) points.push_back(at(a, panel.edges[edge].control, b, static_cast<double>(i) / n));
   return points;
 }
 
@@ -81,8 +80,7 @@ DraftPanel mirrored(const DraftPanel& panel, const std::string& name, const std:
     m.points[i] = flip(panel.points[(n - i) % n]);
     const DraftEdge& old = panel.edges[n - 1 - i];
     m.edges[i] = {old.name, {}};
-    for (auto c = old.control.rbegin(); c != old.control.rend(); ++c)
-      m.edges[i].control.push_back(flip(*c));
+    for (auto c = old.control.rbegin(); c != old.control.rend(); ++c) m.edges[i].control.push_back(flip(*c));
   }
   m.grain = flip(panel.grain);
   m.placement.part = part;
@@ -126,8 +124,7 @@ std::vector<std::string> draft_faults(const Draft& draft) {
   for (const DraftPanel& p : draft.panels) {
     const std::vector<Vec2> loop = outline_points(p);
     double area = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      area += 0.5 * cross(loop[i], loop[(i + 1) % loop.size()]);
+    for (std::size_t i = 0; i < loop.size(); ++i) area += 0.5 * cross(loop[i], loop[(i + 1) % loop.size()]);
     if (area <= 0) faults.push_back(p.name + ": outline runs clockwise");
     if (!is_simple(loop)) faults.push_back(p.name + ": outline crosses itself");
   }
@@ -135,7 +132,8 @@ std::vector<std::string> draft_faults(const Draft& draft) {
     const double a = edge_length(draft.panel(s.panel_a), s.edge_a), b = edge_length(draft.panel(s.panel_b), s.edge_b);
     if (std::abs(a / b - 1 - s.ease) > 0.01) {
       char text[160];
-      std::snprintf(text, sizeof text, "%s.%s is %.1f mm, %s.%s is %.1f mm", s.panel_a.c_str(), s.edge_a.c_str(), 1000 * a, s.panel_b.c_str(), s.edge_b.c_str(), 1000 * b);
+      std::snprintf(text, sizeof text, "%s.%s is %.1f mm, %s.%s is %.1f mm", s.panel_a.c_str(), s.edge_a.c_str(), 1000 * a, s.panel_b.c_str(), s.edge_b.c_str(),
+                    1000 * b);
       faults.push_back(text);
     }
   }

@@ -46,19 +46,20 @@ struct Draft {
   std::vector<DraftSeam> seams;
 
   void add(DraftPanel panel) { panels.push_back(std::move(panel)); }
-  void sew(const std::string& panel_a, const std::string& edge_a, const std::string& panel_b, const std::string& edge_b, double ease = 0, const std::string& kind = "seam");
+  void sew(const std::string& panel_a, const std::string& edge_a, const std::string& panel_b, const std::string& edge_b, double ease = 0,
+           const std::string& kind = "seam");
   const DraftPanel& panel(const std::string& name) const; ///< @throws Error INTERNAL
 };
 
 /// Body measures that the drafts need, m. Girths are taut.
 struct Measures {
-  double stature = 1.65, bust = 0.92, waist = 0.74, hip = 0.98, neck = 0.335, neck_base = 0.42, upper_arm = 0.285, wrist = 0.155, thigh = 0.57, knee = 0.37, ankle = 0.215;
-  double back_length = 0.39;   ///< back neck point to waist, vertical
-  double waist_to_hip = 0.20;  ///< vertical
-  double body_rise = 0.28;     ///< waist to crotch, vertical
-  double inside_leg = 0.75;    ///< crotch to floor
-  double shoulder = 0.12;      ///< side neck point to shoulder point
-  double arm_length = 0.54;    ///< shoulder point to wrist
+  double stature = 1.65, bust = 0.92, waist = 0.74, hip = 0.98, neck = 0.335, upper_arm = 0.285, wrist = 0.155, knee = 0.37, ankle = 0.215;
+  double back_length = 0.39;      ///< back neck point to waist, vertical
+  double waist_to_hip = 0.20;     ///< vertical
+  double body_rise = 0.28;        ///< waist to crotch, vertical
+  double inside_leg = 0.75;       ///< crotch to floor
+  double shoulder = 0.12;         ///< side neck point to shoulder point
+  double arm_length = 0.54;       ///< shoulder point to wrist
   double neck_back_height = 1.41; ///< back neck point above the floor
   double shoulder_height = 1.37;  ///< shoulder point above the floor
   double waist_height() const { return neck_back_height - back_length; }

@@ -88,10 +88,10 @@ Draft draft_trousers(const Measures& m) {
   // The back is wider, reaches further between the legs and leans more.
   const Leg front_leg{hip - 0.008, m.hip / 18, -0.008, 0.012}, back_leg{hip + 0.008, m.hip / 9, 0.008, 0.030};
   /// Left front seen from outside: the middle seam at x = 0, the side at +x. back_rise raises the waist at the middle seam.
-  const auto panel = [&](const char* name, const Leg& l, double back_rise, double crotch_drop, double side_rise) {
+  const auto panel = [&](const char* name, const Leg& l, double back_rise, double crotch_drop, double hip_drop, double side_rise) {
     DraftPanel p;
     p.name = name;
-    const Vec2 crotch(-l.extension, y_crotch - crotch_drop), hip_side(l.hip, y_hip), hip_middle(0, y_hip);
+    const Vec2 crotch(-l.extension, y_crotch - crotch_drop), hip_side(l.hip, y_hip - hip_drop), hip_middle(0, y_hip);
     const double crease = 0.5 * (l.hip - l.extension), half_knee = 0.5 * (knee + 2 * l.wide), half_hem = 0.5 * (hem + 2 * l.wide);
     const Vec2 waist_middle(l.lean, back_rise), waist_side(l.lean + waist, side_rise);
     const Vec2 knee_in(crease - half_knee, y_knee), knee_out(crease + half_knee, y_knee);
@@ -108,12 +108,15 @@ Draft draft_trousers(const Measures& m) {
                {"inside_low", {}}};
     return p;
   };
-  DraftPanel front = panel("front_l", front_leg, -0.008, 0, 0.008);
-  // The back is drawn so that its long seams match the front's: the crotch point is let down, the side is raised.
-  const double inside = edge_length(front, "inside_thigh"), side_hip = edge_length(front, "side_hip");
-  const double drop = solve(-0.01, 0.04, [&](double x) { return edge_length(panel("back", back_leg, 0.03, x, 0.008), "inside_thigh") - inside; });
-  const double raise = solve(-0.02, 0.04, [&](double x) { return edge_length(panel("back", back_leg, 0.03, drop, x), "side_hip") - side_hip; });
-  DraftPanel back = panel("back_r", back_leg, 0.03, drop, raise);
+  DraftPanel front = panel("front_l", front_leg, -0.008, 0, 0, 0.008);
+  // The back is drawn so that its long seams match the front's: crotch and hip point are let down, the side is raised.
+  const auto off = [&](const char* edge, double crotch_drop, double hip_drop, double side_rise) {
+    return edge_length(panel("back", back_leg, 0.03, crotch_drop, hip_drop, side_rise), edge) - edge_length(front, edge);
+  };
+  const double drop = solve(-0.02, 0.06, [&](double x) { return off("inside_thigh", x, 0, 0.008); });
+  const double lower = solve(-0.02, 0.06, [&](double x) { return off("side_thigh", drop, x, 0.008); });
+  const double raise = solve(-0.05, 0.05, [&](double x) { return off("side_hip", drop, lower, x); });
+  DraftPanel back = panel("back_r", back_leg, 0.03, drop, lower, raise);
   const double top = m.waist_height() - 0.5 * band;
   front.placement = {"torso", 45, top, Vec2(front_leg.lean + 0.5 * waist, 0)};
   back.placement = {"torso", 225, top, Vec2(back_leg.lean + 0.5 * waist, 0)};
@@ -125,8 +128,7 @@ Draft draft_trousers(const Measures& m) {
   d.add(back_l);
   for (const char* s : {"l", "r"}) {
     const std::string side = s;
-    for (const char* edge : {"side_low", "side_thigh", "side_hip", "inside_thigh", "inside_low"})
-      d.sew("front_" + side, edge, "back_" + side, edge);
+    for (const char* edge : {"side_low", "side_thigh", "side_hip", "inside_thigh", "inside_low"}) d.sew("front_" + side, edge, "back_" + side, edge);
   }
   for (const char* edge : {"middle", "crotch"}) {
     d.sew("front_l", edge, "front_r", edge);

@@ -12,14 +12,14 @@ namespace {
 
 /// Lines shared by fronts, back and yoke.
 struct Block {
-  double neck_half;          ///< half neck width, found so that the neckline has its length
-  double neck_rise = 0.022;  ///< side neck point above the back neck point
-  double neck_drop;          ///< front neck point below the side neck point
-  Vec2 side_neck, shoulder;  ///< ends of the shoulder line
-  double scye;               ///< depth of the underarm line below the back neck point
-  double quarter;            ///< a quarter of the finished bust girth
-  double hem_half, hem;      ///< a quarter of the hem and its depth
-  double waist;              ///< depth of the waist
+  double neck_half;         ///< half neck width, found so that the neckline has its length
+  double neck_rise = 0.022; ///< side neck point above the back neck point
+  double neck_drop;         ///< front neck point below the side neck point
+  Vec2 side_neck, shoulder; ///< ends of the shoulder line
+  double scye;              ///< depth of the underarm line below the back neck point
+  double quarter;           ///< a quarter of the finished bust girth
+  double hem_half, hem;     ///< a quarter of the hem and its depth
+  double waist;             ///< depth of the waist
 };
 
 std::vector<Vec2> front_neck_control(const Block& b) {
@@ -29,7 +29,7 @@ std::vector<Vec2> front_neck_control(const Block& b) {
 
 Block make_block(const Measures& m, double bust_ease, double length_below_waist, double neckline) {
   Block b;
-  b.scye = m.bust / 8 + 0.125;                 // about 24 cm at bust 92: a deep, easy armhole
+  b.scye = m.bust / 8 + 0.125; // about 24 cm at bust 92: a deep, easy armhole
   b.quarter = (m.bust + bust_ease) / 4;
   b.waist = m.back_length;
   b.hem = m.back_length + length_below_waist;
@@ -44,7 +44,11 @@ Block make_block(const Measures& m, double bust_ease, double length_below_waist,
   const auto neck_length = [&](double half) {
     shape(half);
     DraftPanel front{"", {b.side_neck, Vec2(0, b.side_neck.y() - b.neck_drop)}, {{"neck", front_neck_control(b)}, {"", {}}}, Vec2(0, 1), {}};
-    DraftPanel back{"", {b.side_neck, Vec2(-half, b.neck_rise)}, {{"neck", {Vec2(0.55 * half, -b.neck_rise / 3), Vec2(-0.55 * half, -b.neck_rise / 3)}}, {"", {}}}, Vec2(0, 1), {}};
+    DraftPanel back{"",
+                    {b.side_neck, Vec2(-half, b.neck_rise)},
+                    {{"neck", {Vec2(0.55 * half, -b.neck_rise / 3), Vec2(-0.55 * half, -b.neck_rise / 3)}}, {"", {}}},
+                    Vec2(0, 1),
+                    {}};
     return 2 * edge_length(front, "neck") + edge_length(back, "neck") - neckline;
   };
   shape(solve(0.04, 0.16, neck_length));
@@ -69,7 +73,8 @@ DraftPanel make_front(const Block& b, const Measures& m, double waist_in) {
   DraftPanel p;
   p.name = "front_l";
   p.points = {{0, -b.hem}, {b.hem_half, -b.hem}, {b.quarter, -b.scye}, b.shoulder, b.side_neck, {0, b.side_neck.y() - b.neck_drop}};
-  p.edges = {{"hem", {}}, {"side", side_control(b, waist_in)}, {"armhole", armhole_control(b, 0.026)}, {"shoulder", {}}, {"neck", front_neck_control(b)}, {"center", {}}};
+  p.edges = {{"hem", {}},      {"side", side_control(b, waist_in)}, {"armhole", armhole_control(b, 0.026)},
+             {"shoulder", {}}, {"neck", front_neck_control(b)},     {"center", {}}};
   p.placement = {"torso", 0, height_of(m, b.scye), Vec2(0, -b.scye)};
   return p;
 }
@@ -144,13 +149,19 @@ Draft draft_shirt(const Measures& m) {
   back.name = "back";
   back.points = {{-b.hem_half, -b.hem}, {b.hem_half, -b.hem}, {b.quarter, -b.scye}, cut, flip(cut), {-b.quarter, -b.scye}};
   const std::vector<Vec2> side = side_control(b, waist_in);
-  back.edges = {{"hem", {}}, {"side_r", side}, {"armhole_r", half.edges[low].control}, {"yoke", {}}, {"armhole_l", flip_run(half.edges[low].control)}, {"side_l", flip_run(side)}};
+  back.edges = {{"hem", {}},
+                {"side_r", side},
+                {"armhole_r", half.edges[low].control},
+                {"yoke", {}},
+                {"armhole_l", flip_run(half.edges[low].control)},
+                {"side_l", flip_run(side)}};
   back.placement = {"torso", 180, height_of(m, b.scye), Vec2(0, -b.scye)};
   d.add(back);
   DraftPanel yoke;
   yoke.name = "yoke";
   yoke.points = {flip(cut), cut, b.shoulder, b.side_neck, flip(b.side_neck), flip(b.shoulder)};
-  yoke.edges = {{"back", {}}, {"armhole_r", half.edges[high].control}, {"shoulder_r", {}}, {"neck", back_neck_control(b)}, {"shoulder_l", {}}, {"armhole_l", flip_run(half.edges[high].control)}};
+  yoke.edges = {{"back", {}},       {"armhole_r", half.edges[high].control},          {"shoulder_r", {}}, {"neck", back_neck_control(b)},
+                {"shoulder_l", {}}, {"armhole_l", flip_run(half.edges[high].control)}};
   yoke.placement = {"torso", 180, height_of(m, -yoke_y), Vec2(0, yoke_y)};
   d.add(yoke);
 
@@ -229,10 +240,11 @@ Draft draft_tshirt(const Measures& m) {
     const std::vector<Vec2> side = side_control(b, 0.008), hole = armhole_control(b, hollow);
     // Seen from outside, the wearer's left is at +x on the front and at -x on the back.
     const std::string right = is_front ? "l" : "r", left = is_front ? "r" : "l";
-    p.points = {{-b.hem_half, -b.hem}, {b.hem_half, -b.hem}, {b.quarter, -b.scye}, b.shoulder, b.side_neck, flip(b.side_neck), flip(b.shoulder), {-b.quarter, -b.scye}};
+    p.points = {{-b.hem_half, -b.hem}, {b.hem_half, -b.hem}, {b.quarter, -b.scye}, b.shoulder,
+                b.side_neck,           flip(b.side_neck),    flip(b.shoulder),     {-b.quarter, -b.scye}};
     std::vector<Vec2> neck = back_neck_control(b);
     if (is_front) neck = {Vec2(0.80 * b.neck_half, b.neck_rise - 4.0 / 3 * b.neck_drop), Vec2(-0.80 * b.neck_half, b.neck_rise - 4.0 / 3 * b.neck_drop)};
-    p.edges = {{"hem", {}},  {"side_" + right, side}, {"armhole_" + right, hole}, {"shoulder_" + right, {}},
+    p.edges = {{"hem", {}},    {"side_" + right, side},  {"armhole_" + right, hole},          {"shoulder_" + right, {}},
                {"neck", neck}, {"shoulder_" + left, {}}, {"armhole_" + left, flip_run(hole)}, {"side_" + left, flip_run(side)}};
     p.placement = {"torso", theta, height_of(m, b.scye), Vec2(0, -b.scye)};
     return p;

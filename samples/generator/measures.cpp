@@ -37,21 +37,28 @@ private:
 };
 
 void scale_all(Measures& m, double factor) {
-  for (const auto& [name, member] : measure_names())
-    m.*member *= factor;
+  for (const auto& [name, member] : measure_names()) m.*member *= factor;
 }
 
 } // namespace
 
 std::vector<std::pair<std::string, double Measures::*>> measure_names() {
-  return {{"stature", &Measures::stature},           {"bust", &Measures::bust},
-          {"waist", &Measures::waist},               {"hip", &Measures::hip},
-          {"neck", &Measures::neck},                 {"upper-arm", &Measures::upper_arm},
-          {"wrist", &Measures::wrist},               {"knee", &Measures::knee},
-          {"ankle", &Measures::ankle},               {"back-length", &Measures::back_length},
-          {"waist-to-hip", &Measures::waist_to_hip}, {"body-rise", &Measures::body_rise},
-          {"inside-leg", &Measures::inside_leg},     {"shoulder", &Measures::shoulder},
-          {"arm-length", &Measures::arm_length},     {"neck-back-height", &Measures::neck_back_height},
+  return {{"stature", &Measures::stature},
+          {"bust", &Measures::bust},
+          {"waist", &Measures::waist},
+          {"hip", &Measures::hip},
+          {"neck", &Measures::neck},
+          {"upper-arm", &Measures::upper_arm},
+          {"wrist", &Measures::wrist},
+          {"knee", &Measures::knee},
+          {"ankle", &Measures::ankle},
+          {"back-length", &Measures::back_length},
+          {"waist-to-hip", &Measures::waist_to_hip},
+          {"body-rise", &Measures::body_rise},
+          {"inside-leg", &Measures::inside_leg},
+          {"shoulder", &Measures::shoulder},
+          {"arm-length", &Measures::arm_length},
+          {"neck-back-height", &Measures::neck_back_height},
           {"shoulder-height", &Measures::shoulder_height}};
 }
 
@@ -114,6 +121,12 @@ Measures measures_from_body(const io::Json& body, const std::string& file) {
   r.girth("knee_l", m.knee);
   r.girth("ankle_min_l", m.ankle);
   return m;
+}
+
+io::Json pattern_document(const Draft& draft) {
+  io::Json d = io::new_document("pattern", 1, "make-pattern");
+  d["name"] = draft.name;
+  return d;
 }
 
 } // namespace sloper::samples

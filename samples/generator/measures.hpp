@@ -12,5 +12,5 @@ void set_measure(Measures& m, const std::string& name, double value);
 /// The measures by name, in order.
 std::vector<std::pair<std::string, double Measures::*>> measure_names();
 /// The pattern document of a draft.
-io::Json pattern_document(const Draft& draft, const Measures& m);
+io::Json pattern_document(const Draft& draft);
 } // namespace sloper::samples
