@@ -12,12 +12,12 @@ struct Section {
 };
 
 /// Heights, breadths and depths of the trunk at an index of 23 or so, before the girths are fitted.
-const std::vector<Section> FEMALE_TRUNK = {{0.464, 0.060, 0.034, -0.044, 2.0},  {0.478, 0.088, 0.047, -0.054, 2.1},  {0.496, 0.105, 0.056, -0.061, 2.2},
+const std::vector<Section> FEMALE_TRUNK = {{0.464, 0.066, 0.036, -0.046, 2.0},  {0.478, 0.094, 0.048, -0.055, 2.1},  {0.496, 0.105, 0.056, -0.061, 2.2},
                                            {0.520, 0.108, 0.060, -0.064, 2.2},  {0.560, 0.103, 0.067, -0.059, 2.15}, {0.600, 0.093, 0.069, -0.051, 2.1},
                                            {0.635, 0.082, 0.065, -0.048, 2.1},  {0.685, 0.086, 0.060, -0.058, 2.15}, {0.725, 0.093, 0.057, -0.069, 2.2},
                                            {0.765, 0.093, 0.043, -0.070, 2.25}, {0.800, 0.088, 0.034, -0.068, 2.2},  {0.825, 0.062, 0.024, -0.060, 2.0},
                                            {0.846, 0.036, 0.014, -0.046, 2.0}};
-const std::vector<Section> MALE_TRUNK = {{0.466, 0.058, 0.036, -0.042, 2.0},  {0.480, 0.084, 0.048, -0.050, 2.1},  {0.498, 0.098, 0.055, -0.057, 2.2},
+const std::vector<Section> MALE_TRUNK = {{0.466, 0.064, 0.037, -0.044, 2.0},  {0.480, 0.090, 0.048, -0.051, 2.1},  {0.498, 0.098, 0.055, -0.057, 2.2},
                                          {0.525, 0.099, 0.058, -0.060, 2.25}, {0.560, 0.098, 0.066, -0.057, 2.2},  {0.600, 0.095, 0.069, -0.054, 2.2},
                                          {0.635, 0.091, 0.068, -0.052, 2.2},  {0.685, 0.095, 0.068, -0.061, 2.25}, {0.725, 0.097, 0.062, -0.066, 2.35},
                                          {0.765, 0.101, 0.050, -0.072, 2.4},  {0.800, 0.097, 0.038, -0.070, 2.3},  {0.826, 0.072, 0.027, -0.062, 2.0},
@@ -142,7 +142,7 @@ void BodyField::build_arm(const GirthFactors& g) {
 
 void BodyField::build_leg(const GirthFactors& g) {
   const double h = stature;
-  const double thigh = g.thigh, gap = 0.007 * h;
+  const double thigh = g.thigh, gap = 0.005 * h;
   leg_slope = std::tan(radians(m_shape.leg_deg));
   const double hip_x = (m_female ? 0.054 : 0.052) * h, top = 0.46 * h;
   hip_joint = Vec3(hip_x, (m_female ? 0.523 : 0.528) * h, 0);
@@ -159,7 +159,7 @@ void BodyField::build_leg(const GirthFactors& g) {
     const double y = s.y * h, k = scale.at(y) * sex * h, middle = 0.5 * (s.front + s.back) * h, depth = 0.5 * (s.front - s.back) * k;
     // Inside the trunk the leg's outer side follows the trunk's, or the hip would have a ledge.
     const double outline = m_trunk.section(std::max(y, 0.508 * h)).left - 0.008 * h - s.outer * k;
-    const double x = center_x(y) + (outline - center_x(y)) * smooth_step(0.430 * h, 0.500 * h, y);
+    const double x = center_x(y) + (outline - center_x(y)) * smooth_step(0.455 * h, 0.530 * h, y);
     knots.push_back({y, x, middle, s.outer * k, s.inner * k, depth, depth, 2.05});
   }
   m_leg = Tube(knots, 0.012 * h, 0.03 * h);
@@ -222,7 +222,7 @@ double BodyField::trunk(const Vec3& p) const {
   };
   // A breast runs out softly upward and has a fold below.
   const double fold = m_female ? 0.010 + 0.036 * smooth_step(-0.9, 1.0, (p.y() - breast_center.y()) / breast_radii.y()) : 0.050;
-  d = smooth_union(d, both(breast_center, breast_radii, 0.012 * h), fold * h);
+  d = smooth_union(d, both(breast_center, breast_radii, 0.012 * h), fold * (m_female ? breast_radii.x() / 0.042 : h));
   return smooth_union(d, both(m_buttock, m_buttock_radii, 0.010 * h), 0.030 * h);
 }
 
