@@ -20,10 +20,12 @@ inline Float4 max(Float4 a, Float4 b) { return {_mm_max_ps(a.v, b.v)}; }
 inline Float4 min(Float4 a, Float4 b) { return {_mm_min_ps(a.v, b.v)}; }
 /// a where b < c, else 0.
 inline Float4 where_less(Float4 a, Float4 b, Float4 c) { return {_mm_and_ps(a.v, _mm_cmplt_ps(b.v, c.v))}; }
+inline Float4 absolute(Float4 a) { return max(a, {_mm_sub_ps(_mm_setzero_ps(), a.v)}); }
 /// Four rows of four in, the columns out: x gets the first of each row.
 inline void transpose(Float4& x, Float4& y, Float4& z, Float4& w) { _MM_TRANSPOSE4_PS(x.v, y.v, z.v, w.v); }
 /// Bit i is set where a_i <= b_i and c_i <= d_i.
 inline int both_less_equal(Float4 a, Float4 b, Float4 c, Float4 d) { return _mm_movemask_ps(_mm_and_ps(_mm_cmple_ps(a.v, b.v), _mm_cmple_ps(c.v, d.v))); }
+/// Bit i is set where a_i <= b_i.
 inline int less_equal(Float4 a, Float4 b) { return _mm_movemask_ps(_mm_cmple_ps(a.v, b.v)); }
 #else
 struct Float4 {
@@ -47,6 +49,10 @@ inline Float4 where_less(Float4 a, Float4 b, Float4 c) {
   Float4 r;
   for (int i = 0; i < 4; ++i) r.v[i] = b.v[i] < c.v[i] ? a.v[i] : 0;
   return r;
+}
+inline Float4 absolute(Float4 a) {
+  for (float& x : a.v) x = x < 0 ? -x : x;
+  return a;
 }
 inline void transpose(Float4& x, Float4& y, Float4& z, Float4& w) {
   const Float4 row[4] = {x, y, z, w};

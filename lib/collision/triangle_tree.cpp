@@ -63,6 +63,12 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& positions, const std::vector
   }
   m_corners.resize(n);
   m_extra.resize(m_nodes.size() * (m_axes - 3));
+  m_leaves_of_node.assign(m_nodes.size(), -1);
+  for (std::size_t node = 0; node < m_nodes.size(); ++node) {
+    if (std::any_of(m_nodes[node].child, m_nodes[node].child + 4, [](int child) { return child >= 0; })) continue;
+    m_leaves_of_node[node] = static_cast<int>(m_leaves.size());
+    m_leaves.emplace_back();
+  }
 
   // subtrees that refit on their own, and the nodes above them
   if (n > 0) {
@@ -169,6 +175,71 @@ void TriangleTree::refit(const std::vector<Vec3>& positions) {
       for (int node = m_subtrees[s][1] - 1; node >= m_subtrees[s][0]; --node) refit_node(node);
   });
   for (auto node = m_top_nodes.rbegin(); node != m_top_nodes.rend(); ++node) refit_node(*node);
+  fill_leaves();
+}
+
+void TriangleTree::fill_leaves() {
+  constexpr std::size_t GRAIN = 8192;
+  std::vector<double> longest2((m_nodes.size() + GRAIN - 1) / GRAIN, 0), farthest(longest2);
+  parallel_for(m_nodes.size(), GRAIN, [&](std::size_t begin, std::size_t end) {
+    double side2 = 0, far = 0;
+    for (std::size_t node = begin; node < end; ++node) {
+      if (m_leaves_of_node[node] < 0) continue;
+      Leaves& leaves = m_leaves[m_leaves_of_node[node]];
+      for (int i = 0; i < 4; ++i) {
+        const int child = m_nodes[node].child[i] == EMPTY ? m_nodes[node].child[0] : m_nodes[node].child[i];
+        const auto& c = m_corners[-2 - child];
+        const Vec3 ab = c[1] - c[0], ac = c[2] - c[0];
+        for (int k = 0; k < 3; ++k) {
+          leaves.a[k][i] = static_cast<float>(c[0][k]);
+          leaves.ab[k][i] = static_cast<float>(ab[k]);
+          leaves.ac[k][i] = static_cast<float>(ac[k]);
+        }
+        side2 = std::max(side2, std::max(ab.squaredNorm(), ac.squaredNorm()));
+        far = std::max(far, c[0].lpNorm<Eigen::Infinity>());
+      }
+    }
+    longest2[begin / GRAIN] = side2;
+    farthest[begin / GRAIN] = far;
+  });
+  double side2 = 0, far = 0;
+  for (double x : longest2) side2 = std::max(side2, x);
+  for (double x : farthest) far = std::max(far, x);
+  m_leaf_slack = static_cast<float>(2e-5 * std::sqrt(side2) + 4e-7 * far);
+}
+
+/// Point to four triangles in float; too small where float cannot tell (flat triangles, projections near an edge), never
+/// above the true distance by more than 1e-4 of it plus m_leaf_slack.
+Float4 TriangleTree::squared_distances(const Leaves& leaves, const Float4 (&p)[3]) {
+  const Float4 zero = Float4::all(0), one = Float4::all(1), tiny = Float4::all(1e-30f), rounding = Float4::all(2e-6f);
+  Float4 ab[3], ac[3], ap[3];
+  for (int k = 0; k < 3; ++k) {
+    ab[k] = Float4::load(leaves.ab[k]);
+    ac[k] = Float4::load(leaves.ac[k]);
+    ap[k] = p[k] - Float4::load(leaves.a[k]);
+  }
+  const auto dot = [](const Float4* u, const Float4* v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; };
+  const Float4 bb = dot(ab, ab), bc = dot(ab, ac), cc = dot(ac, ac), pb = dot(ap, ab), pc = dot(ap, ac);
+  const auto to_edge = [&](const Float4* from, const Float4* edge, Float4 along, Float4 length2) {
+    const Float4 t = min(max(along / max(length2, tiny), zero), one);
+    const Float4 x = from[0] - t * edge[0], y = from[1] - t * edge[1], z = from[2] - t * edge[2];
+    return x * x + y * y + z * z;
+  };
+  Float4 edge[3], from_b[3];
+  for (int k = 0; k < 3; ++k) {
+    edge[k] = ac[k] - ab[k];
+    from_b[k] = ap[k] - ab[k];
+  }
+  const Float4 to_sides = min(min(to_edge(ap, ab, pb, bb), to_edge(ap, ac, pc, cc)), to_edge(from_b, edge, dot(from_b, edge), dot(edge, edge)));
+  const Float4 n[3] = {ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2], ab[0] * ac[1] - ab[1] * ac[0]};
+  const Float4 nn = dot(n, n), height = dot(n, ap), bbcc = bb * cc;
+  const Float4 above = where_less(height * height / max(nn, tiny), Float4::all(1e-4f) * bbcc, nn); // 0 where nearly flat
+  // weights of b and c times nn, and what rounding may have done to them
+  const Float4 v1 = cc * pb, v2 = bc * pc, w1 = bb * pc, w2 = bc * pb, v = v1 - v2, w = w1 - w2;
+  const Float4 loose_v = rounding * (absolute(v1) + absolute(v2)), loose_w = rounding * (absolute(w1) + absolute(w2));
+  const Float4 least = min(min(v + loose_v, w + loose_w), bbcc - bc * bc - v - w + loose_v + loose_w + rounding * bbcc);
+  // inside: the height; outside: the sides
+  return min(to_sides, above + where_less(to_sides, least, zero));
 }
 
 Dop TriangleTree::dop_of(const Box3& box) const {
@@ -215,12 +286,20 @@ ClosestPoint TriangleTree::closest_point(const Vec3& p, double max_distance, int
 
   // lower bounds in float: rounding of p and of the differences is covered by the slack
   const auto px = static_cast<float>(p.x()), py = static_cast<float>(p.y()), pz = static_cast<float>(p.z());
-  const Float4 x = Float4::all(px), y = Float4::all(py), z = Float4::all(pz), zero = Float4::all(0);
-  const float slack = 2.5e-7f * std::max(std::abs(px), std::max(std::abs(py), std::abs(pz)));
-  const Float4 slack4 = Float4::all(slack), shrink = Float4::all(1 - 1e-6f);
+  const Float4 point[3] = {Float4::all(px), Float4::all(py), Float4::all(pz)}, zero = Float4::all(0);
+  const float size = std::max(std::abs(px), std::max(std::abs(py), std::abs(pz)));
+  const Float4 slack = Float4::all(2.5e-7f * size);
+  const float leaf_slack = m_leaf_slack + 4e-7f * size;
+  float near = 0, near_leaf = 0; // squared float distances up to which a box, a triangle, must be looked at
+  const auto set_near = [&] {
+    near = static_cast<float>(bound * (1 + 2e-6));
+    const float root = static_cast<float>(std::sqrt(bound)) * (1 + 1e-4f) + leaf_slack;
+    near_leaf = root * root;
+  };
+  set_near();
   struct Entry {
     float squared;
-    int child;
+    int node;
   };
   Entry stack[128];
   int top = 0;
@@ -228,22 +307,38 @@ ClosestPoint TriangleTree::closest_point(const Vec3& p, double max_distance, int
   alignas(16) float squared[4];
   while (top > 0) {
     const Entry entry = stack[--top];
-    if (entry.squared > bound) continue;
-    if (entry.child <= -2) {
-      try_slot(-2 - entry.child);
+    if (entry.squared > near) continue;
+    const Node& node = m_nodes[entry.node];
+    if (m_leaves_of_node[entry.node] >= 0) {
+      int mask = less_equal(squared_distances(m_leaves[m_leaves_of_node[entry.node]], point), Float4::all(near_leaf));
+      const double before = bound;
+      while (mask) {
+        const int i = std::countr_zero(static_cast<unsigned>(mask));
+        mask &= mask - 1;
+        if (node.child[i] != EMPTY) try_slot(-2 - node.child[i]);
+      }
+      if (bound != before) set_near();
       continue;
     }
-    const Node& node = m_nodes[entry.child];
-    const Float4 dx = max(max(Float4::load(node.low[0]) - x, x - Float4::load(node.high[0])) - slack4, zero);
-    const Float4 dy = max(max(Float4::load(node.low[1]) - y, y - Float4::load(node.high[1])) - slack4, zero);
-    const Float4 dz = max(max(Float4::load(node.low[2]) - z, z - Float4::load(node.high[2])) - slack4, zero);
-    ((dx * dx + dy * dy + dz * dz) * shrink).store(squared);
+    Float4 sum = zero;
+    for (int k = 0; k < 3; ++k) {
+      const Float4 d = max(max(Float4::load(node.low[k]) - point[k], point[k] - Float4::load(node.high[k])) - slack, zero);
+      sum = sum + d * d;
+    }
+    sum.store(squared);
     const int first = top;
     for (int i = 0; i < 4; ++i) {
-      if (node.child[i] == EMPTY || !(squared[i] <= bound)) continue;
+      const int child = node.child[i];
+      if (child == EMPTY || !(squared[i] <= near)) continue;
+      if (child <= -2) {
+        const double before = bound;
+        try_slot(-2 - child);
+        if (bound != before) set_near();
+        continue;
+      }
       int at = top++; // nearest on top
       for (; at > first && stack[at - 1].squared < squared[i]; --at) stack[at] = stack[at - 1];
-      stack[at] = {squared[i], node.child[i]};
+      stack[at] = {squared[i], child};
     }
   }
   return best;

@@ -70,13 +70,22 @@ public:
   int k() const { return 2 * m_axes; }
 
 private:
+  /// The up to four triangles of a lowest node in float: first corner and the two sides from it, by axis and lane.
+  struct alignas(16) Leaves {
+    float a[3][4], ab[3][4], ac[3][4];
+  };
+  static Float4 squared_distances(const Leaves& leaves, const Float4 (&p)[3]);
   template<bool EXTRA, class Visit> void visit_slots_of(const Dop& query, int first_slot, Visit& visit) const;
+  void fill_leaves();
   int build(std::vector<int>& order, const std::vector<Vec3>& centers, int begin, int end);
   void refit_node(int node);
 
   int m_axes = 3;
   std::vector<Node> m_nodes;
   std::vector<std::array<float, 8>> m_extra;  ///< (m_axes - 3) per node: low and high of four lanes
+  std::vector<Leaves> m_leaves;               ///< of the nodes whose children are all triangles
+  std::vector<int> m_leaves_of_node;          ///< -1 for other nodes
+  float m_leaf_slack = 0;                     ///< m, how far a distance by Leaves may be above the true one
   std::vector<std::array<int, 2>> m_subtrees; ///< node ranges that refit independently
   std::vector<int> m_top_nodes;               ///< the nodes above those
   std::vector<Triangle> m_slot_vertices;      ///< in slot order
