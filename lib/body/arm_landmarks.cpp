@@ -1,3 +1,4 @@
+#include <base/units.hpp>
 #include <body/landmark_finder.hpp>
 
 #include <algorithm>
@@ -7,16 +8,51 @@ namespace sloper::body {
 
 namespace {
 
-/// Highest skin point near (x, z), looked for among the triangles around the shoulder.
-std::optional<Vec3> top_of_shoulder(const TriangleMesh& skin, const ArmTrace& arm, double x, double z, double radius) {
+/// The skin straight above (x, z), below the head.
+std::optional<Vec3> top_of_shoulder(const TriangleMesh& skin, double stature, double x, double z) {
   std::optional<Vec3> top;
-  for (const int t : arm.triangles)
-    for (const int v : skin.triangles[t]) {
-      const Vec3& p = skin.positions[v];
-      if (std::hypot(p.x() - x, p.z() - z) > radius) continue;
-      if (!top || p.y() > top->y()) top = p;
-    }
+  for (const Triangle& t : skin.triangles) {
+    const Vec3 &a = skin.positions[t[0]], &b = skin.positions[t[1]], &c = skin.positions[t[2]];
+    if (std::min({a.x(), b.x(), c.x()}) > x || std::max({a.x(), b.x(), c.x()}) < x || std::min({a.z(), b.z(), c.z()}) > z ||
+        std::max({a.z(), b.z(), c.z()}) < z)
+      continue;
+    if (a.y() > 0.9 * stature) continue;
+    const double area = (b.x() - a.x()) * (c.z() - a.z()) - (c.x() - a.x()) * (b.z() - a.z());
+    if (std::abs(area) < 1e-14) continue;
+    const double u = ((x - a.x()) * (c.z() - a.z()) - (c.x() - a.x()) * (z - a.z())) / area,
+                 v = ((b.x() - a.x()) * (z - a.z()) - (x - a.x()) * (b.z() - a.z())) / area;
+    if (u < 0 || v < 0 || u + v > 1) continue;
+    const double y = a.y() + u * (b.y() - a.y()) + v * (c.y() - a.y());
+    if (!top || y > top->y()) top = Vec3(x, y, z);
+  }
   return top;
+}
+
+/// Where the wrist is: the hand's girth has fallen to its least. Empty when the girth has no minimum there.
+std::optional<double> wrist_by_girth(const ArmTrace& arm, double s) {
+  std::size_t least = 0;
+  const auto& sections = arm.sections;
+  for (std::size_t k = 1; k + 1 < sections.size(); ++k) {
+    if (sections[k].along < 0.08 * s || sections[k].along > 0.16 * s) continue;
+    if (least == 0 || sections[k].girth < 0.995 * sections[least].girth) least = k;
+  }
+  if (least == 0 || sections[least - 1].girth < sections[least].girth) return std::nullopt;
+  return sections[least].along;
+}
+
+/// Where the upper arm starts to swell above the elbow: the steepest rise of girth past the forearm's belly.
+std::optional<double> elbow_by_girth(const ArmTrace& arm, double s, double wrist) {
+  const auto& sections = arm.sections;
+  std::optional<double> best;
+  double steepest = 0;
+  for (std::size_t k = 3; k + 3 < sections.size(); ++k) {
+    const double along = sections[k].along;
+    if (along < wrist + 0.10 * s || along > wrist + 0.185 * s) continue;
+    double rise = 0;
+    for (std::size_t j = 1; j <= 3; ++j) rise += (sections[k + j].girth - sections[k - j].girth) / (sections[k + j].along - sections[k - j].along) / 3;
+    if (rise > steepest) steepest = rise, best = along;
+  }
+  return best;
 }
 
 } // namespace
@@ -28,35 +64,57 @@ void find_arm_landmarks(const Finder& f) {
     const ArmTrace& arm = f.arms[side];
     const std::string suffix = side_suffix(side);
     if (arm.sections.empty()) continue;
+    const double outward = arm.left ? 1 : -1;
+    const double raised = units::degrees(std::acos(std::clamp(-arm.out.y(), -1.0, 1.0))); // 0 hanging, 90 level
     f.put("hand_tip" + suffix, arm.tip, 1, "farthest_over_the_skin", 0.9, 0.004);
-    f.put("hand_extreme" + suffix, arm.tip, 1, "farthest_over_the_skin", 0.9, 0.004);
+    // shoulder
     Vec3 joint = arm.at(arm.length() + 0.02 * s);
+    joint.z() += f.number("shoulder_joint.before_axis") * s;
+    const char* joint_rule = "end_of_arm_axis";
     if (arm.axilla) {
       f.put("axilla" + suffix, *arm.axilla, 1, "gap_closes", 0.7, 0.008);
-      f.put("axilla_front" + suffix, *arm.axilla_front, 1, "gap_closes_in_front", 0.5, 0.012);
-      f.put("axilla_back" + suffix, *arm.axilla_back, 1, "gap_closes_behind", 0.5, 0.012);
-      const Vec3 c = arm.at(arm.length());
-      const auto top = top_of_shoulder(skin, arm, arm.axilla->x(), c.z(), 0.02 * s);
-      if (top) {
+      if (arm.axilla_front) f.put("axilla_front" + suffix, *arm.axilla_front, 2, "beside_arm_pit", 0.5, 0.010);
+      if (arm.axilla_back) f.put("axilla_back" + suffix, *arm.axilla_back, 2, "beside_arm_pit", 0.5, 0.010);
+      // a raised arm draws the pit outward from under the joint
+      const double slide = f.number("shoulder_joint.pit_slide") * std::clamp((raised - 45) / 45, 0.0, 1.0) - f.number("shoulder_joint.pit_inside");
+      joint.x() = arm.axilla->x() - outward * slide * s;
+      if (const auto top = top_of_shoulder(skin, s, joint.x(), joint.z() - 0.01 * s)) {
         const double w = f.number("shoulder_joint.of_girdle");
-        joint = Vec3(arm.axilla->x() - (arm.left ? 1 : -1) * 0.004 * s, (1 - w) * arm.axilla->y() + w * top->y(), c.z());
+        joint.y() = (1 - w) * arm.axilla->y() + w * top->y();
+        joint_rule = "between_arm_pit_and_shoulder";
       }
     }
-    f.put("shoulder_joint" + suffix, joint, 2, "between_arm_pit_and_shoulder", 0.6, 0.012);
-    if (const auto top = top_of_shoulder(skin, arm, joint.x() + (arm.left ? 1 : -1) * 0.006 * s, joint.z() - 0.011 * s, 0.008 * s))
+    f.put("shoulder_joint" + suffix, joint, 2, joint_rule, 0.6, 0.012);
+    const double lateral = f.number("acromion.outward") - f.number("acromion.outward_per_degree") * raised;
+    if (const auto top = top_of_shoulder(skin, s, joint.x() + outward * lateral * s, joint.z() - f.number("acromion.behind_joint") * s))
       f.put("acromion" + suffix, *top, 2, "above_shoulder_joint", 0.5, 0.012);
-    const Vec3 along_tip = arm.tip;
-    const double arm_length = (joint - along_tip).norm();
-    const double hand = 0.5 * (f.number("hand.of_stature") * s + f.number("hand.of_arm") * arm_length);
+    // wrist and elbow
+    const double hand_ratio = 0.5 * (f.number("hand.of_stature") * s + f.number("hand.of_arm") * (joint - arm.tip).norm());
+    double hand = hand_ratio;
+    const char* wrist_rule = "arm_ratio";
+    if (const auto least = wrist_by_girth(arm, s)) {
+      hand = *least - f.number("wrist.before_least_girth") * s;
+      wrist_rule = "least_girth_after_hand";
+    }
     const Vec3 wrist = arm.at(hand);
-    f.put("wrist" + suffix, wrist, 2, "arm_ratio", 0.6, 0.01);
-    const double rest = (joint - wrist).norm() * (1 - f.number("elbow.of_arm"));
-    const Vec3 elbow = arm.at(hand + rest);
-    f.put("elbow" + suffix, elbow, 2, "arm_ratio", 0.5, 0.015);
+    f.put("wrist" + suffix, wrist, 2, wrist_rule, 0.7, 0.008);
+    const double to_elbow = (joint - wrist).norm() * (1 - f.number("elbow.of_arm"));
+    double elbow_along = hand + to_elbow;
+    const char* elbow_rule = "arm_ratio";
+    if (const auto rise = elbow_by_girth(arm, s, hand)) {
+      const double by_girth = *rise - f.number("elbow.before_swell") * s;
+      if (std::abs(by_girth - elbow_along) < 0.035 * s) {
+        elbow_along += f.number("elbow.girth_weight") * (by_girth - elbow_along);
+        elbow_rule = "upper_arm_swells";
+      }
+    }
+    const Vec3 elbow = arm.at(elbow_along) - Vec3(0, 0, f.number("elbow.behind_axis") * s);
+    f.put("elbow" + suffix, elbow, 2, elbow_rule, 0.6, 0.012);
+    f.put("hand_extreme" + suffix, arm.tip, 1, "farthest_over_the_skin", 0.9, 0.004);
     // the elbow's point: rearmost skin of the section through the joint
-    const LimbSection* section = nullptr;
+    const LimbSection* section = &arm.sections.front();
     for (const LimbSection& candidate : arm.sections)
-      if (!section || std::abs(candidate.along - hand - rest) < std::abs(section->along - hand - rest)) section = &candidate;
+      if (std::abs(candidate.along - elbow_along) < std::abs(section->along - elbow_along)) section = &candidate;
     Vec3 back = elbow;
     for (const auto& seg : section->loop.segments) {
       const Vec3 p = section->plane.point(seg[0]);

@@ -13,8 +13,9 @@ constexpr double HAND_SKIP = 0.05;  ///< fingers: no single section
 constexpr double STEP = 0.005;
 constexpr double ARM_REACH = 0.46; ///< over the skin from finger tip to beyond the shoulder
 constexpr double MAX_ARM_GIRTH = 0.36;
-constexpr double JUMP = 1.35;    ///< of the girth, where the section runs into the trunk
-constexpr double MIN_ARM = 0.24; ///< a shorter trace is no arm
+constexpr double JUMP = 1.35;      ///< of the girth, where the section runs into the trunk
+constexpr double MIN_ARM = 0.24;   ///< a shorter trace is no arm
+constexpr double TRUNK_LEAN = 0.5; ///< of the bisector between arm and trunk
 
 /// Legs below the crotch, flooded from the calves.
 std::vector<char> leg_vertices(const LevelStack& levels, const TriangleMesh& skin) {
@@ -87,7 +88,9 @@ void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& 
       for (std::size_t k = n - 8; k < n - 2; ++k) usual += arm.sections[k].girth / 6;
       if (section.girth > JUMP * usual || section.girth < 0.6 * usual) break;
     }
-    if (n > 0) along += (section.center - arm.sections.back().center).norm();
+    // centres wander in the hand: there the straight distance from the tip is the better measure
+    const double straight = (section.center - arm.tip).norm();
+    along = n == 0 || straight < 0.10 * s ? straight : along + (section.center - arm.sections.back().center).norm();
     section.along = along;
     arm.sections.push_back(std::move(section));
     if (n >= 8) {
@@ -121,7 +124,8 @@ std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm
   Vec2 out(arm.out.x(), arm.out.y());
   if (out.norm() < 0.2) return std::nullopt;
   out.normalize();
-  const Vec2 bisector = (out + Vec2(0, -1)).normalized();
+  // leaning to the trunk: in a level arm the fold is a wide fillet, and the pit is on its trunk side
+  const Vec2 bisector = ((out + Vec2(0, -1)).normalized() + Vec2(arm.left ? TRUNK_LEAN : -TRUNK_LEAN, 0)).normalized();
   Vec2 e(-bisector.y(), bisector.x()); // square to the bisector, from the arm to the trunk
   if (e.dot(Vec2(arm.left ? -1 : 1, -1)) < 0) e = -e;
   std::optional<Vec2> apex;
@@ -156,20 +160,21 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels) {
     const Vec3& p = skin.positions[skin.triangles[f][0]];
     if (sign * p.x() > 0.02 * s && p.y() > 0.5 * s && p.y() < 0.9 * s) near.push_back(static_cast<int>(f));
   }
-  const double depth = arm.at(arm.length() - 0.01 * s).z();
-  std::vector<std::pair<double, Vec2>> valley;
-  for (int k = -12; k <= 12; ++k) {
-    const double z = depth + k * 0.004 * s;
+  // around the arm the fold between arm and trunk rises to both sides: its roof lies under the joint, its ends in front
+  // of and behind the arm, at distances that go with the arm's radius
+  const double radius = arm.sections[arm.sections.size() * 3 / 4].girth / (2 * 3.14159265358979);
+  const double depth = arm.at(arm.length() + 0.01 * s).z() + 0.009 * s;
+  auto apex_at = [&](double z) {
     const std::vector<Loop> loops = cut(skin, {Vec3(0, 0, z), Vec3::UnitX(), Vec3::UnitY()}, &near);
-    if (const auto apex = gap_apex(loops, arm, s)) valley.emplace_back(z, *apex);
-  }
-  if (valley.empty()) return;
-  // the roof is the highest part of the valley nearest to the arm's own depth
-  const auto roof =
-      std::min_element(valley.begin(), valley.end(), [&](const auto& a, const auto& b) { return std::abs(a.first - depth) < std::abs(b.first - depth); });
-  arm.axilla = Vec3(roof->second.x(), roof->second.y(), roof->first);
-  arm.axilla_front = Vec3(valley.back().second.x(), valley.back().second.y(), valley.back().first);
-  arm.axilla_back = Vec3(valley.front().second.x(), valley.front().second.y(), valley.front().first);
+    return gap_apex(loops, arm, s);
+  };
+  arm.axilla = std::nullopt;
+  for (const double offset : {0.0, -0.4, 0.4})
+    if (!arm.axilla)
+      if (const auto apex = apex_at(depth + offset * radius)) arm.axilla = Vec3(apex->x(), apex->y(), depth);
+  if (!arm.axilla) return;
+  arm.axilla_front = *arm.axilla + Vec3(-sign * 0.0021 * s, 0.22 * radius, 0.75 * radius);
+  arm.axilla_back = *arm.axilla + Vec3(-sign * 0.0035 * s, 0.16 * radius, -1.2 * radius);
 }
 
 } // namespace

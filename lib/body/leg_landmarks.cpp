@@ -1,8 +1,24 @@
 #include <body/landmark_finder.hpp>
 
 #include <cmath>
+#include <optional>
 
 namespace sloper::body {
+
+namespace {
+
+/// Height of the hollow behind the knee: where the back of the leg comes furthest forward.
+std::optional<double> hollow_of_knee(const Finder& f, int side, double around) {
+  std::optional<double> best;
+  double foremost = -1e300;
+  for (double y = around - 0.03 * f.s; y <= around + 0.06 * f.s; y += 0.0025 * f.s)
+    if (const auto loop = f.levels.leg_at(y, side); loop && loop->low.y() > foremost) foremost = loop->low.y(), best = y;
+  // at the end of the search there is no hollow
+  if (best && (*best < around - 0.027 * f.s || *best > around + 0.057 * f.s)) return std::nullopt;
+  return best;
+}
+
+} // namespace
 
 void find_leg_landmarks(const Finder& f) {
   const double s = f.s;
@@ -27,24 +43,31 @@ void find_leg_landmarks(const Finder& f) {
     const auto top = f.levels.leg_at(crotch_y - 0.010, side);
     if (!top) continue;
     f.put("leg_top" + suffix, Vec3(top->centroid.x(), crotch_y - 0.010, top->centroid.y()), 2, "section_under_crotch", 0.9, 0.003);
-    const Vec3 hip(top->centroid.x(), crotch_y + f.number("hip_joint.above_crotch") * s, top->centroid.y() - f.number("hip_joint.behind_leg_top") * s);
+    // the leg's middle leans out with fat and in with muscle: half of it, half the usual breadth between the joints
+    const double hip_x = 0.5 * (top->centroid.x() + sign * f.number("hip_joint.aside") * s);
+    const Vec3 hip(hip_x, crotch_y + f.number("hip_joint.above_crotch") * s, top->centroid.y() - f.number("hip_joint.behind_leg_top") * s);
     f.put("hip_joint" + suffix, hip, 2, "above_leg_top", 0.6, 0.012);
     if (const auto ankle = f.levels.leg_at(ankle_y, side)) {
-      // the section at this height holds the heel's upper rim: its middle in x, two fifths from behind in z
-      const Vec3 joint(ankle->center().x(), ankle_y, ankle->low.y() + 0.45 * ankle->size().y());
+      // the section at this height holds the heel's upper rim: its middle in x, the joint lies nearer to the heel
+      const Vec3 joint(ankle->center().x() - sign * 0.0015 * s, ankle_y, ankle->low.y() + f.number("ankle.from_behind") * ankle->size().y());
       f.put("ankle" + suffix, joint, 2, "height_ratio", 0.7, 0.006);
       double best = -1e300;
       Vec2 outer = Vec2::Zero();
       for (const auto& seg : ankle->segments)
         if (sign * seg[0].x() > best) best = sign * seg[0].x(), outer = seg[0];
       f.put("malleolus" + suffix, Vec3(outer.x(), ankle_y, outer.y()), 2, "outermost_at_ankle", 0.6, 0.006);
-      const double knee_y = ankle_y + f.number("knee.of_leg") * (hip.y() - ankle_y);
+      double knee_y = ankle_y + f.number("knee.of_leg") * (hip.y() - ankle_y);
+      const char* knee_rule = "leg_ratio";
+      if (const auto hollow = hollow_of_knee(f, side, knee_y)) {
+        knee_y = 0.5 * (knee_y + *hollow - f.number("knee.below_hollow") * s);
+        knee_rule = "leg_ratio_and_hollow";
+      }
       if (const auto knee = f.levels.leg_at(knee_y, side)) {
         Vec2 cap = knee->segments.front()[0];
         for (const auto& seg : knee->segments)
           if (seg[0].y() > cap.y()) cap = seg[0];
         f.put("patella" + suffix, Vec3(cap.x(), knee_y, cap.y()), 2, "foremost_at_knee", 0.7, 0.01);
-        f.put("knee" + suffix, Vec3(knee->center().x(), knee_y, cap.y() - f.number("knee.behind_patella") * s), 2, "leg_ratio", 0.6, 0.012);
+        f.put("knee" + suffix, Vec3(knee->center().x(), knee_y, cap.y() - f.number("knee.behind_patella") * s), 2, knee_rule, 0.6, 0.012);
       }
     }
   }

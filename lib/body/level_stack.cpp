@@ -128,12 +128,24 @@ void LevelStack::follow_legs() {
     high_z = std::max(high_z, z);
   }
   if (low_z <= high_z) m_crotch_point.y() = 0.5 * (low_z + high_z);
+  // the skin between the legs may hang a little below the saddle: its lowest point in the middle plane is the crotch
+  std::vector<int> near;
+  for (std::size_t f = 0; f < m_skin->triangles.size(); ++f) {
+    const double y = m_skin->positions[m_skin->triangles[f][0]].y();
+    if (y > low - 0.04 * m_stature && y < low + 0.04 * m_stature) near.push_back(static_cast<int>(f));
+  }
+  double lowest = high;
+  for (const Loop& loop : cut(*m_skin, {Vec3(middle, 0, 0), Vec3::UnitZ(), Vec3::UnitY()}, &near))
+    for (const auto& segment : loop.segments)
+      for (const Vec2& q : segment)
+        if (q.y() < lowest && q.y() > low - 0.006 * m_stature) lowest = q.y(), m_crotch_point.y() = q.x();
+  m_crotch = std::min(low, lowest);
 }
 
 void LevelStack::follow_trunk() {
   if (!m_crotch) return;
   int k = index(*m_crotch);
-  while (k < static_cast<int>(m_slices.size()) && m_slices[k].trunk < 0 && m_slices[k].y < *m_crotch + 3 * m_spacing) ++k;
+  while (k < static_cast<int>(m_slices.size()) && m_slices[k].trunk < 0 && m_slices[k].y < *m_crotch + 0.05 * m_stature) ++k;
   for (++k; k < static_cast<int>(m_slices.size()); ++k) {
     const int from = m_slices[k - 1].trunk;
     if (from < 0) return;

@@ -58,13 +58,15 @@ std::vector<Part> label_faces(const std::vector<Triangle>& triangles, const std:
   return face_part;
 }
 
-std::vector<Part> label_scan(const std::vector<Vec3>& positions, const std::vector<char>& is_body, const TriangleMesh& skin, const std::vector<Part>& skin_part,
-                             double reach) {
+std::vector<Part> label_scan(const std::vector<Vec3>& positions, const std::vector<char>& is_body, const std::vector<int>& of_scan, const TriangleMesh& skin,
+                             const std::vector<Part>& skin_part, double reach) {
   std::vector<Part> part(positions.size(), Part::NONE);
-  const PointGrid grid(skin.positions, reach);
+  const PointGrid near(skin.positions, 0.25 * reach), far(skin.positions, reach);
   for (std::size_t v = 0; v < positions.size(); ++v) {
     if (!is_body[v]) continue;
-    const int i = grid.nearest(positions[v]);
+    int i = of_scan.empty() ? -1 : of_scan[v];
+    if (i < 0) i = near.nearest(positions[v]);
+    if (i < 0) i = far.nearest(positions[v]);
     if (i >= 0) part[v] = skin_part[i];
   }
   return part;

@@ -39,7 +39,8 @@ void restrict_residual(const GridLevel& fine, GridLevel& coarse) {
     for (int y = 1; y < fine.n[1] - 1; ++y)
       for (int x = 1; x < fine.n[0] - 1; ++x) {
         const std::size_t i = fine.at(x, y, z);
-        residual[i] = fine.f[i] - (fine.u[i - sx] + fine.u[i + sx] + fine.u[i - sy] + fine.u[i + sy] + fine.u[i - sz] + fine.u[i + sz] - 6 * fine.u[i]) * inverse;
+        residual[i] =
+            fine.f[i] - (fine.u[i - sx] + fine.u[i + sx] + fine.u[i - sy] + fine.u[i + sy] + fine.u[i - sz] + fine.u[i + sz] - 6 * fine.u[i]) * inverse;
       }
   std::fill(coarse.u.begin(), coarse.u.end(), 0.0f);
   for (int z = 1; z < coarse.n[2] - 1; ++z)
@@ -91,7 +92,8 @@ std::array<double, 3> spline(double t) { return {0.5 * (0.5 - t) * (0.5 - t), 0.
 
 double NodeGrid::sample(const Vec3& p) const {
   const Vec3 q = (p - origin) / h;
-  const int x = std::clamp(static_cast<int>(q.x()), 0, n[0] - 2), y = std::clamp(static_cast<int>(q.y()), 0, n[1] - 2), z = std::clamp(static_cast<int>(q.z()), 0, n[2] - 2);
+  const int x = std::clamp(static_cast<int>(q.x()), 0, n[0] - 2), y = std::clamp(static_cast<int>(q.y()), 0, n[1] - 2),
+            z = std::clamp(static_cast<int>(q.z()), 0, n[2] - 2);
   const double a = q.x() - x, b = q.y() - y, c = q.z() - z;
   double sum = 0;
   for (int dz = 0; dz < 2; ++dz)

@@ -7,9 +7,9 @@ namespace sloper::body {
 /// Values at the nodes of a uniform grid.
 struct NodeGrid {
   Vec3 origin = Vec3::Zero();
-  double h = 0;               ///< m
-  std::array<int, 3> n{};     ///< nodes along x, y, z
-  std::vector<float> value;   ///< x fastest
+  double h = 0;             ///< m
+  std::array<int, 3> n{};   ///< nodes along x, y, z
+  std::vector<float> value; ///< x fastest
   std::size_t at(int x, int y, int z) const { return (static_cast<std::size_t>(z) * n[1] + y) * n[0] + x; }
   Vec3 node(int x, int y, int z) const { return origin + h * Vec3(x, y, z); }
   /// Trilinear; p must lie inside.

@@ -17,9 +17,9 @@ constexpr double MAX_BORDER_SHARE = 1e-3; ///< of all edges: more open edges and
 constexpr double MAX_NOISE = 0.45e-3;     ///< m
 
 /// The scan's faces whose corners are all body; degenerate and duplicate ones and unused vertices are left out.
-TriangleMesh own_faces(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body) {
+TriangleMesh own_faces(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, std::vector<int>& number) {
   TriangleMesh skin;
-  std::vector<int> number(positions.size(), -1);
+  number.assign(positions.size(), -1);
   std::vector<std::pair<std::array<int, 3>, int>> seen;
   for (const Triangle& t : triangles) {
     if (!is_body[t[0]] || !is_body[t[1]] || !is_body[t[2]] || t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
@@ -52,7 +52,7 @@ TriangleMesh own_faces(const std::vector<Vec3>& positions, const std::vector<Tri
 }
 
 /// STL and some exporters give every face its own corners: joins vertices at the same place.
-bool weld(TriangleMesh& mesh) {
+bool weld(TriangleMesh& mesh, std::vector<int>& of_scan) {
   std::vector<int> order(mesh.positions.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
   auto less = [&](int a, int b) {
@@ -82,6 +82,8 @@ bool weld(TriangleMesh& mesh) {
   }
   mesh.positions = std::move(positions);
   mesh.triangles = std::move(triangles);
+  for (int& v : of_scan)
+    if (v >= 0) v = number[target[v]];
   return true;
 }
 
@@ -240,7 +242,8 @@ std::string text_of(const char* format, double x) {
 
 } // namespace
 
-TriangleMesh rebuild_surface(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature, double& noise_m) {
+TriangleMesh rebuild_surface(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature,
+                             double& noise_m) {
   const OrientedPoints samples = sample_surface(positions, triangles, is_body, SAMPLE * stature);
   noise_m = samples.noise_m;
   TriangleMesh mesh = zero_surface(indicator(samples, CELL * stature));
@@ -255,19 +258,20 @@ TriangleMesh rebuild_surface(const std::vector<Vec3>& positions, const std::vect
 
 SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature) {
   SkinSurface skin;
-  skin.mesh = own_faces(positions, triangles, is_body);
+  skin.mesh = own_faces(positions, triangles, is_body, skin.of_scan);
   std::string why;
   if (skin.mesh.triangles.size() < 1000) why = triangles.empty() ? "the scan has points and no faces" : "the scan has hardly any faces";
   else {
     std::vector<HalfEdge> list = half_edges(skin.mesh);
     count_edges(list, skin);
     const double edges = 1.5 * static_cast<double>(skin.mesh.triangles.size());
-    if (skin.border_edges > MAX_BORDER_SHARE * edges && weld(skin.mesh)) {
+    if (skin.border_edges > MAX_BORDER_SHARE * edges && weld(skin.mesh, skin.of_scan)) {
       list = half_edges(skin.mesh);
       count_edges(list, skin);
     }
     orient_faces(skin.mesh, list);
-    if (skin.flipped_edges) skin.findings.push_back({"warning", std::to_string(skin.flipped_edges) + " edges whose faces disagree about outside; turned", "faces"});
+    if (skin.flipped_edges)
+      skin.findings.push_back({"warning", std::to_string(skin.flipped_edges) + " edges whose faces disagree about outside; turned", "faces"});
     skin.noise_m = roughness(skin.mesh);
     if (skin.border_edges > MAX_BORDER_SHARE * edges) why = "the scan has holes (" + std::to_string(skin.border_edges) + " open edges)";
     else if (skin.crowded_edges > MAX_BORDER_SHARE * edges) why = "the scan has " + std::to_string(skin.crowded_edges) + " edges with more than two faces";
@@ -278,7 +282,9 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
   skin.mesh = rebuild_surface(positions, triangles, is_body, stature, noise);
   skin.noise_m = std::max(skin.noise_m, noise);
   skin.rebuilt = true;
-  skin.findings.push_back({"warning", "the skin was rebuilt as a closed surface of " + std::to_string(skin.mesh.triangles.size()) + " triangles: " + why, "body.obj"});
+  skin.of_scan.clear();
+  skin.findings.push_back(
+      {"warning", "the skin was rebuilt as a closed surface of " + std::to_string(skin.mesh.triangles.size()) + " triangles: " + why, "body.obj"});
   return skin;
 }
 

@@ -4,9 +4,10 @@
 namespace sloper::body {
 
 struct SkinSurface {
-  TriangleMesh mesh;         ///< outward
+  TriangleMesh mesh;        ///< outward
+  std::vector<int> of_scan; ///< skin vertex of every scan vertex, -1 where there is none; empty when rebuilt
   bool rebuilt = false;
-  double noise_m = 0;        ///< roughness of the scan, m
+  double noise_m = 0;                                         ///< roughness of the scan, m
   int border_edges = 0, crowded_edges = 0, flipped_edges = 0; ///< of the scan's own faces: one face, more than two, two that disagree
   std::vector<Finding> findings;
 };
@@ -16,6 +17,7 @@ struct SkinSurface {
 SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature);
 
 /// A closed surface near the samples of any scan, about 60k triangles.
-TriangleMesh rebuild_surface(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature, double& noise_m);
+TriangleMesh rebuild_surface(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature,
+                             double& noise_m);
 
 } // namespace sloper::body

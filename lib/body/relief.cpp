@@ -1,0 +1,44 @@
+#include <body/point_grid.hpp>
+#include <body/relief.hpp>
+
+namespace sloper::body {
+
+std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin, const std::vector<Vec3>& normals, const Box3& box, double radius, double sign) {
+  const Vec3 margin = Vec3::Constant(radius);
+  std::vector<Vec3> points, normal;
+  for (std::size_t v = 0; v < skin.positions.size(); ++v) {
+    const Vec3& p = skin.positions[v];
+    if (normals[v].z() < 0.2 || (p - box.low + margin).minCoeff() < 0 || (box.high + margin - p).minCoeff() < 0) continue;
+    points.push_back(p);
+    normal.push_back(normals[v]);
+  }
+  if (points.empty()) return std::nullopt;
+  const PointGrid grid(points, radius);
+  std::vector<double> height(points.size(), -1e300);
+  double most = -1e300;
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3& p = points[i];
+    if ((p - box.low).minCoeff() < 0 || (box.high - p).minCoeff() < 0) continue;
+    double ring = 0;
+    int n = 0, quadrants = 0;
+    grid.within(p, radius, [&](int j, double d) {
+      if (d < 0.3 * radius * radius) return;
+      const Vec3 off = points[j] - p;
+      ring += off.dot(normal[i]);
+      quadrants |= 1 << ((off.x() > 0 ? 1 : 0) + (off.y() > 0 ? 2 : 0));
+      ++n;
+    });
+    if (n < 4 || quadrants != 15) continue; // not surrounded: at an edge
+    height[i] = -sign * ring / n;
+    if (height[i] > most) most = height[i], best = i;
+  }
+  if (most < -1e299) return std::nullopt;
+  Vec3 sum = Vec3::Zero();
+  int n = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (height[i] >= 0.8 * most && (points[i] - points[best]).norm() < radius) sum += points[i], ++n;
+  return ReliefPoint{n && most > 0 ? Vec3(sum / n) : points[best], sign * most};
+}
+
+} // namespace sloper::body

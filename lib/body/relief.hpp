@@ -1,0 +1,16 @@
+#pragma once
+/// Small relief of the skin: bumps and dimples of about a centimetre, such as nipples and the navel.
+#include <geometry/triangle_mesh.hpp>
+#include <optional>
+namespace sloper::body {
+
+struct ReliefPoint {
+  Vec3 p = Vec3::Zero();
+  double height = 0; ///< m, above (below when negative) the ring around it
+};
+
+/// Where the skin inside `box` with normals facing +z stands out most (sign +1) or lies deepest (sign -1) against the ring
+/// of skin between 0.55 and 1 `radius` around it. The place is the mean of all points that reach 0.8 of the most.
+std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin, const std::vector<Vec3>& normals, const Box3& box, double radius, double sign);
+
+} // namespace sloper::body

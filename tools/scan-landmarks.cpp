@@ -1,0 +1,64 @@
+/// scan-landmarks: a raw 3D body scan to landmarks, levels, girths, parts, frames and a skin.
+#include <body/body_json.hpp>
+#include <body/measure_scan.hpp>
+#include <cli/run_tool.hpp>
+#include <io/files.hpp>
+#include <io/scan_reader.hpp>
+
+#include <cstdio>
+
+using namespace sloper;
+
+namespace {
+
+struct Options {
+  std::string scan, output, rules, parts;
+  std::string unit = "auto", up = "auto";
+  bool explain = false;
+};
+
+void write_parts(const std::string& path, const std::vector<body::Part>& parts) {
+  std::string bytes(parts.size(), '\0');
+  for (std::size_t v = 0; v < parts.size(); ++v) bytes[v] = static_cast<char>(parts[v]);
+  io::write_file(path, bytes);
+}
+
+int run(cli::Tool& tool, const Options& o) {
+  body::ScanOptions options;
+  options.unit = o.unit;
+  options.up = o.up;
+  if (!o.rules.empty()) options.rules = body::Rules::read(o.rules);
+  tool.reporter().progress("reading", -1);
+  const io::Scan scan = io::read_scan(o.scan);
+  const body::MeasuredScan measured = body::measure_scan(scan.mesh, o.scan, scan.sha256, options, tool.reporter());
+  body::write_body(o.output, measured.body, tool.name());
+  if (!o.parts.empty()) write_parts(o.parts, measured.vertex_part);
+  if (o.explain)
+    for (const std::string& line : measured.trail) std::fprintf(stderr, "%s\n", line.c_str());
+  for (const body::Finding& finding : measured.body.scan.findings)
+    if (finding.severity != "info") tool.reporter().info(finding.place + ": " + finding.what);
+  if (measured.missing.empty()) return 0;
+  std::string names;
+  for (const std::string& name : measured.missing) names += (names.empty() ? "" : ", ") + name;
+  throw Error(ErrorKind::FAILED, o.scan, "", "landmarks not found: " + names, "the rest is written to " + o.output + ", marked in scan.findings");
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  cli::Tool tool("scan-landmarks", "Find landmarks, levels, girths, parts and frames on a raw body scan");
+  Options o;
+  CLI::App& app = tool.app();
+  app.add_option("SCAN", o.scan, "scan of one standing person: OBJ, PLY, STL, 3DS or XYZ, mesh or bare points")->required()->check(cli::input_file());
+  app.add_option("--unit", o.unit, "unit of the scan's coordinates (default: auto, from the stature)")->check(cli::one_of({"auto", "m", "cm", "mm"}));
+  app.add_option("--up", o.up, "axis along which the body stands (default: auto, from the legs and the head)")->check(cli::one_of({"auto", "x", "y", "z"}));
+  app.add_option("--rules", o.rules, "landmark rules to use in place of the built-in numbers")->check(cli::input_file());
+  app.add_option("--parts", o.parts, "write one byte for each vertex of the scan: 0 head, 1 torso, 2 arm_l, 3 arm_r, 4 leg_l, 5 leg_r, 255 not body")
+      ->check(cli::output_file());
+  app.add_flag("--explain", o.explain, "print the decision path to stderr");
+  app.add_option("-o,--output", o.output, "body.json; body.obj is written beside it")->required()->check(cli::output_file());
+  tool.example("scan-landmarks -o body.json scan.obj", "measure a scan; unit, up axis and facing are found out");
+  tool.example("scan-landmarks --unit mm --parts parts.u8 -o body.json scan.ply", "measure a scan in millimetres and label its vertices");
+  tool.formats("OBJ, PLY, STL, 3DS, XYZ", "body.json (version 1), OBJ");
+  return tool.run(argc, argv, [&] { return run(tool, o); });
+}
