@@ -17,11 +17,7 @@ static std::string join(const std::string& file, const std::string& place, const
 }
 
 Error::Error(ErrorKind kind, std::string file, std::string place, std::string fact, std::string next_step)
-    : std::runtime_error(join(file, place, fact, next_step)),
-      m_kind(kind),
-      m_file(std::move(file)),
-      m_place(std::move(place)),
-      m_fact(std::move(fact)) {}
+    : std::runtime_error(join(file, place, fact, next_step)), m_kind(kind), m_file(std::move(file)), m_place(std::move(place)), m_fact(std::move(fact)) {}
 
 Error input_error(std::string file, std::string place, std::string fact, std::string next_step) {
   return {ErrorKind::INPUT, std::move(file), std::move(place), std::move(fact), std::move(next_step)};

@@ -18,15 +18,19 @@ void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std
     for (std::size_t c = 0; c < chunks; ++c) body(c * grain, std::min(n, (c + 1) * grain));
     return;
   }
-  std::exception_ptr failure; // an exception must not leave a parallel region
+  std::exception_ptr failure; // an exception must not leave a parallel region; the one of the lowest chunk is passed on, as with one thread
+  std::size_t failed_chunk = chunks;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(g_threads)
-  for (long c = 0; c < static_cast<long>(chunks); ++c) {
-    const auto begin = static_cast<std::size_t>(c) * grain;
+  for (long i = 0; i < static_cast<long>(chunks); ++i) {
+    const auto c = static_cast<std::size_t>(i);
     try {
-      body(begin, std::min(n, begin + grain));
+      body(c * grain, std::min(n, (c + 1) * grain));
     } catch (...) {
-#pragma omp critical
-      failure = std::current_exception();
+#pragma omp critical(sloper_parallel_failure)
+      if (c < failed_chunk) {
+        failed_chunk = c;
+        failure = std::current_exception();
+      }
     }
   }
   if (failure) std::rethrow_exception(failure);

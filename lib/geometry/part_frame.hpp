@@ -14,10 +14,10 @@ struct PartCoordinates {
 };
 
 struct PartFrame {
-  Vec3 lower = Vec3::Zero();           ///< L, m
-  Vec3 upper = Vec3(0, 1, 0);          ///< U, m
-  Vec3 theta_zero = Vec3(0, 0, 1);     ///< unit, square to the axis
-  bool mirrored = false;               ///< right-hand parts
+  Vec3 lower = Vec3::Zero();       ///< L, m
+  Vec3 upper = Vec3(0, 1, 0);      ///< U, m
+  Vec3 theta_zero = Vec3(0, 0, 1); ///< unit, square to the axis
+  bool mirrored = false;           ///< right-hand parts
 
   double length() const { return (upper - lower).norm(); }
   Vec3 axis() const { return (upper - lower) / length(); }

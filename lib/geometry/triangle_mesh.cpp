@@ -15,7 +15,7 @@ Box3 bounding_box(const std::vector<Vec3>& points) {
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
   std::vector<Vec3> normals(mesh.positions.size(), Vec3::Zero());
   for (const Triangle& t : mesh.triangles) {
-    const Vec3 *p[3] = {&mesh.positions[t[0]], &mesh.positions[t[1]], &mesh.positions[t[2]]};
+    const Vec3* p[3] = {&mesh.positions[t[0]], &mesh.positions[t[1]], &mesh.positions[t[2]]};
     Vec3 n = area_normal(*p[0], *p[1], *p[2]);
     const double length = n.norm();
     if (length < 1e-300) continue;

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 namespace sloper::io {
@@ -43,40 +44,67 @@ std::string read_file(const std::string& path) {
   }
 }
 
-static void write_all(int fd, std::string_view bytes, const std::string& name) {
+static Error write_error(const std::string& name, const std::string& what, int reason, const std::string& next_step = {}) {
+  return {ErrorKind::OUTPUT, name, "", what + ": " + std::strerror(reason), next_step};
+}
+
+/// 0, or the errno of the write that failed.
+static int write_all(int fd, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t n = write(fd, bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw Error(ErrorKind::OUTPUT, name, "", std::string("cannot write: ") + std::strerror(errno));
+    if (n < 0) return errno;
     bytes.remove_prefix(static_cast<std::size_t>(n));
   }
+  return 0;
+}
+
+/// Bytes into something that is no regular file (a device, a pipe): renaming would replace the thing itself.
+static void write_into(int fd, std::string_view bytes, const std::string& name) {
+  const int reason = write_all(fd, bytes);
+  if (reason != 0 && reason != EPIPE) throw write_error(name, "cannot write", reason); // a reader that has seen enough is not an error
+}
+
+static int write_and_sync(int fd, std::string_view bytes) {
+  int reason = write_all(fd, bytes);
+  if (reason == 0 && fsync(fd) != 0 && errno != EINVAL && errno != EROFS) reason = errno; // some file systems cannot sync
+  if (close(fd) != 0 && reason == 0) reason = errno;
+  return reason;
 }
 
 void write_file(const std::string& path, std::string_view bytes) {
-  if (path == "-") {
+  if (path == "-") return write_into(STDOUT_FILENO, bytes, "standard output");
+  struct stat info {};
+  const bool exists = stat(path.c_str(), &info) == 0;
+  if (exists && S_ISDIR(info.st_mode)) throw Error(ErrorKind::OUTPUT, path, "", "is a folder, not a file", "name a file");
+  if (exists && !S_ISREG(info.st_mode)) {
+    const int fd = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (fd < 0) throw write_error(path, "cannot write", errno);
     try {
-      write_all(STDOUT_FILENO, bytes, "standard output");
-    } catch (const Error&) {
-      if (errno != EPIPE) throw; // a reader that has seen enough is not an error
+      write_into(fd, bytes, path);
+    } catch (...) {
+      close(fd);
+      throw;
     }
+    close(fd);
     return;
   }
-  const std::string temporary = path + ".tmp." + std::to_string(getpid());
-  const int fd = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (fd < 0) throw Error(ErrorKind::OUTPUT, path, "", std::string("cannot write: ") + std::strerror(errno), "check that the folder exists and is writable");
-  try {
-    write_all(fd, bytes, path);
-    if (fsync(fd) != 0 && errno != EINVAL && errno != EROFS) throw Error(ErrorKind::OUTPUT, path, "", std::string("cannot write: ") + std::strerror(errno));
-  } catch (...) {
-    close(fd);
-    unlink(temporary.c_str());
-    throw;
+  std::string target = path; // a link stays a link: what it points to is replaced
+  if (char* resolved = exists ? realpath(path.c_str(), nullptr) : nullptr) {
+    target = resolved;
+    std::free(resolved);
   }
-  close(fd);
-  if (std::rename(temporary.c_str(), path.c_str()) != 0) {
+  const std::string temporary = target + ".tmp." + std::to_string(getpid());
+  const int fd = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (fd < 0) throw write_error(path, "cannot write", errno, "check that the folder exists and is writable");
+  if (const int reason = write_and_sync(fd, bytes)) {
+    unlink(temporary.c_str());
+    throw write_error(path, "cannot write", reason);
+  }
+  if (std::rename(temporary.c_str(), target.c_str()) != 0) {
     const int reason = errno;
     unlink(temporary.c_str());
-    throw Error(ErrorKind::OUTPUT, path, "", std::string("cannot rename into place: ") + std::strerror(reason));
+    throw write_error(path, "cannot rename into place", reason);
   }
 }
 

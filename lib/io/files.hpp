@@ -5,7 +5,8 @@
 namespace sloper::io {
 /// Bytes of a file, or of standard input for "-". @throws Error INPUT
 std::string read_file(const std::string& path);
-/// Writes beside `path` under a temporary name, syncs, renames. "-" writes to standard output. @throws Error OUTPUT
+/// Writes beside `path` under a temporary name, syncs, renames; a link stays a link. "-" is standard output; devices and pipes
+/// are written in place, and a pipe that its reader closed is no error. @throws Error OUTPUT, with what was there untouched
 void write_file(const std::string& path, std::string_view bytes);
 /// Lower-case hex SHA-256 of some bytes.
 std::string sha256(std::string_view bytes);

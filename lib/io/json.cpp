@@ -36,42 +36,42 @@ bool is_flat_array(const Json& value) {
 
 void append_text(std::string& out, const Json& value, int indent, const std::string& pointer) {
   switch (value.type()) {
-    case Json::value_t::number_float: {
-      const double x = value.get<double>();
-      if (!std::isfinite(x)) throw Error(ErrorKind::INTERNAL, "", pointer, "a number to be written is not finite");
-      char buffer[32];
-      const auto end = std::to_chars(buffer, buffer + sizeof buffer, x == 0 ? 0.0 : x).ptr; // no "-0"
-      out.append(buffer, end);
-      break;
+  case Json::value_t::number_float: {
+    const double x = value.get<double>();
+    if (!std::isfinite(x)) throw Error(ErrorKind::INTERNAL, "", pointer, "a number to be written is not finite");
+    char buffer[32];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, x == 0 ? 0.0 : x).ptr; // no "-0"
+    out.append(buffer, end);
+    break;
+  }
+  case Json::value_t::array: {
+    const bool flat = is_flat_array(value);
+    out += '[';
+    std::size_t i = 0;
+    for (const Json& v : value) {
+      if (i) out += flat ? ", " : ",";
+      if (!flat) out += '\n' + std::string(static_cast<std::size_t>(indent) + 2, ' ');
+      append_text(out, v, indent + 2, pointer + "/" + std::to_string(i));
+      ++i;
     }
-    case Json::value_t::array: {
-      const bool flat = is_flat_array(value);
-      out += '[';
-      std::size_t i = 0;
-      for (const Json& v : value) {
-        if (i) out += flat ? ", " : ",";
-        if (!flat) out += '\n' + std::string(static_cast<std::size_t>(indent) + 2, ' ');
-        append_text(out, v, indent + 2, pointer + "/" + std::to_string(i));
-        ++i;
-      }
-      if (!flat && i) out += '\n' + std::string(static_cast<std::size_t>(indent), ' ');
-      out += ']';
-      break;
+    if (!flat && i) out += '\n' + std::string(static_cast<std::size_t>(indent), ' ');
+    out += ']';
+    break;
+  }
+  case Json::value_t::object: {
+    out += '{';
+    bool first = true;
+    for (const auto& [key, v] : value.items()) {
+      if (!first) out += ',';
+      first = false;
+      out += '\n' + std::string(static_cast<std::size_t>(indent) + 2, ' ') + Json(key).dump(-1, ' ', false, Json::error_handler_t::replace) + ": ";
+      append_text(out, v, indent + 2, pointer + "/" + key);
     }
-    case Json::value_t::object: {
-      out += '{';
-      bool first = true;
-      for (const auto& [key, v] : value.items()) {
-        if (!first) out += ',';
-        first = false;
-        out += '\n' + std::string(static_cast<std::size_t>(indent) + 2, ' ') + Json(key).dump() + ": ";
-        append_text(out, v, indent + 2, pointer + "/" + key);
-      }
-      if (!first) out += '\n' + std::string(static_cast<std::size_t>(indent), ' ');
-      out += '}';
-      break;
-    }
-    default: out += value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    if (!first) out += '\n' + std::string(static_cast<std::size_t>(indent), ' ');
+    out += '}';
+    break;
+  }
+  default: out += value.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
 }
 
@@ -96,13 +96,16 @@ Json read_json(const std::string& path) { return parse_json(read_file(path), pat
 
 Json read_document(const std::string& path, const std::string& format, int newest) {
   Json document = read_json(path);
-  const Node node(document, path);
-  if (!node.is_object() || !node.has("format")) throw input_error(path, "/format", "is not a Sloper document", "expected a \"" + format + "\" document");
+  const std::string name = path == "-" ? "standard input" : path;
+  const Node node(document, name);
+  if (!node.is_object() || !node.has("format")) throw input_error(name, "/format", "is not a Sloper document", "expected a \"" + format + "\" document");
   if (const std::string got = node.at("format").string(); got != format)
-    throw input_error(path, "/format", "is a \"" + got + "\" document", "expected a \"" + format + "\" document");
+    throw input_error(name, "/format", "is a \"" + got + "\" document", "expected a \"" + format + "\" document");
   const int version = node.at("version").integer();
-  if (version < 1 || version > newest)
-    throw input_error(path, "/version", "version " + std::to_string(version) + " is newer than version " + std::to_string(newest) + ", the newest this program reads",
+  if (version < 1) throw input_error(name, "/version", std::to_string(version) + " is not a version", "expected 1 to " + std::to_string(newest));
+  if (version > newest)
+    throw input_error(name, "/version",
+                      "version " + std::to_string(version) + " is newer than version " + std::to_string(newest) + ", the newest this program reads",
                       "update Sloper");
   return document;
 }
@@ -192,7 +195,9 @@ void Node::allow_only(std::initializer_list<const char*> allowed) const {
   }
 }
 
-void Node::fail(const std::string& fact, const std::string& next_step) const { throw input_error(m_file, m_pointer.empty() ? "/" : m_pointer, fact, next_step); }
+void Node::fail(const std::string& fact, const std::string& next_step) const {
+  throw input_error(m_file, m_pointer.empty() ? "/" : m_pointer, fact, next_step);
+}
 
 Json to_json(const Vec2& v) { return Json::array({v.x(), v.y()}); }
 Json to_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }

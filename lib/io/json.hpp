@@ -2,8 +2,8 @@
 /// JSON documents: strict reading, deterministic writing, the envelope {"format", "version", "generator", "length_unit"}.
 #include <base/error.hpp>
 #include <geometry/types.hpp>
-#include <nlohmann/json.hpp>
 #include <initializer_list>
+#include <nlohmann/json.hpp>
 #include <string>
 
 namespace sloper::io {
@@ -33,7 +33,7 @@ void write_json(const std::string& path, const Json& document);
 class Node {
 public:
   Node(const Json& value, std::string file, std::string pointer = {}) : m_value(&value), m_file(std::move(file)), m_pointer(std::move(pointer)) {}
-  Node at(const std::string& key) const;         ///< @throws Error INPUT when absent
+  Node at(const std::string& key) const; ///< @throws Error INPUT when absent
   Node at(std::size_t index) const;
   bool has(const std::string& key) const { return m_value->is_object() && m_value->contains(key); }
   std::size_t size() const { return m_value->size(); }
@@ -42,7 +42,7 @@ public:
   bool is_string() const { return m_value->is_string(); }
   bool is_number() const { return m_value->is_number(); }
   bool is_null() const { return m_value->is_null(); }
-  double number() const;                         ///< finite
+  double number() const; ///< finite
   double number(const std::string& key, double fallback) const;
   int integer() const;
   int integer(const std::string& key, int fallback) const;

@@ -15,6 +15,7 @@ public:
   Parser(std::string_view text, const std::string& name) : m_text(text), m_name(name) {}
 
   ObjMesh run() {
+    if (m_text.substr(0, 3) == "\xEF\xBB\xBF") m_text.remove_prefix(3); // byte order mark, as some editors write it
     while (m_at < m_text.size()) {
       auto end = m_text.find('\n', m_at);
       if (end == std::string_view::npos) end = m_text.size();
@@ -86,7 +87,8 @@ private:
     if (!text.empty() && text[0] == '+') text.remove_prefix(1);
     double x = 0;
     const auto result = std::from_chars(text.data(), text.data() + text.size(), x);
-    if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size()) fail(text.empty() ? "a number is missing" : "\"" + std::string(text.substr(0, 20)) + "\" is not a number");
+    if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size())
+      fail(text.empty() ? "a number is missing" : "\"" + std::string(text.substr(0, 20)) + "\" is not a number");
     if (!std::isfinite(x)) fail("a coordinate is not finite");
     return x;
   }

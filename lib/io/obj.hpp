@@ -11,11 +11,11 @@ struct ObjGroup {
 };
 
 struct ObjMesh {
-  std::vector<Vec3> positions;         ///< #V by 3, the file's own unit
-  std::vector<Vec2> texture;           ///< #VT by 2
-  std::vector<Triangle> triangles;     ///< #F by 3 into positions; polygons are cut into fans
+  std::vector<Vec3> positions;             ///< #V by 3, the file's own unit
+  std::vector<Vec2> texture;               ///< #VT by 2
+  std::vector<Triangle> triangles;         ///< #F by 3 into positions; polygons are cut into fans
   std::vector<Triangle> texture_triangles; ///< #F by 3 into texture, -1 where absent; empty when no face has vt
-  std::vector<ObjGroup> groups;        ///< in face order; empty when the file has none
+  std::vector<ObjGroup> groups;            ///< in face order; empty when the file has none
 };
 
 /// Reads OBJ text; "-" is not accepted. Refuses non-finite numbers, indices out of range, binary bytes.

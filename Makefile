@@ -1,0 +1,38 @@
+# Thin: every target is one command that can be typed by hand. `make` builds the five programs into build/tools/.
+.PHONY: all test demo check sanitize install format man bench clean
+
+all:
+	@scripts/build release
+
+test:
+	@scripts/build release
+	@scripts/test build
+
+demo:
+	@scripts/build release scan-landmarks pattern-mesh drape retarget-garment render-png samples
+	@$(MAKE) --no-print-directory -C samples/demo
+
+check:
+	@scripts/setup
+	@scripts/check
+
+sanitize:
+	@scripts/build sanitize
+	@scripts/test build-sanitize
+
+install: all
+	@cmake --install build $(if $(PREFIX),--prefix $(PREFIX))
+
+format:
+	@scripts/format
+
+man:
+	@scripts/build release man
+
+bench:
+	@scripts/build release
+	@scripts/bench build
+
+clean:
+	@cmake -E rm -rf build build-dev build-sanitize
+	@$(MAKE) --no-print-directory -C samples/demo clean

@@ -1,0 +1,47 @@
+#include <base/error.hpp>
+#include <base/version.hpp>
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+using namespace sloper;
+
+TEST(Error, says_file_place_fact_and_next_step_in_that_order) {
+  const Error e = input_error("pattern.json", "/panels/2", "seam refers to panel \"sleve\"", "name a panel of this pattern");
+  EXPECT_STREQ(e.what(), "pattern.json: /panels/2: seam refers to panel \"sleve\"; name a panel of this pattern");
+}
+
+TEST(Error, leaves_out_what_is_empty) {
+  EXPECT_STREQ(input_error("", "", "is empty").what(), "is empty");
+  EXPECT_STREQ(input_error("a.obj", "", "is empty").what(), "a.obj: is empty");
+  EXPECT_STREQ(input_error("", "line 3", "is empty", "mend it").what(), "line 3: is empty; mend it");
+}
+
+TEST(Error, has_the_exit_code_of_its_kind) {
+  EXPECT_EQ(Error(ErrorKind::USAGE, "", "", "x").exit_code(), 2);
+  EXPECT_EQ(input_error("", "", "x").exit_code(), 3);
+  EXPECT_EQ(Error(ErrorKind::FAILED, "", "", "x").exit_code(), 4);
+  EXPECT_EQ(Error(ErrorKind::OUTPUT, "", "", "x").exit_code(), 5);
+  EXPECT_EQ(Error(ErrorKind::INTERNAL, "", "", "x").exit_code(), 70);
+}
+
+static std::string nearest(const std::string& word, const std::vector<std::string>& words) {
+  return nearest_word(word, words.data(), words.data() + words.size());
+}
+
+TEST(NearestWord, finds_a_misspelt_word) {
+  const std::vector<std::string> words = {"--accuracy", "--body", "--panels"};
+  EXPECT_EQ(nearest("--accurcy", words), "--accuracy");
+  EXPECT_EQ(nearest("--boddy", words), "--body");
+  EXPECT_EQ(nearest("--panel", words), "--panels");
+}
+
+TEST(NearestWord, is_empty_when_nothing_is_near) {
+  EXPECT_EQ(nearest("--turntable", {"--body", "--set"}), "");
+  EXPECT_EQ(nearest("x", {}), "");
+}
+
+TEST(NearestWord, takes_the_first_of_two_equally_near) { EXPECT_EQ(nearest("cat", {"bat", "rat"}), "bat"); }
+
+TEST(Version, stamps_a_document_with_tool_and_version) { EXPECT_EQ(generator_stamp("drape"), std::string("drape ") + SLOPER_VERSION); }
