@@ -9,6 +9,9 @@
 #include <collision/topology.hpp>
 #include <collision/triangle_tree.hpp>
 #include <collision/winding_number.hpp>
+
+#include <memory>
+#include <mutex>
 namespace sloper::collision {
 
 struct SignedDistance {
@@ -21,7 +24,7 @@ struct SignedDistance {
 
 enum class ContactKind : unsigned char { FACE, EDGE }; ///< body vertex against cloth face; body edge against cloth edge
 
-/// A cloth face or edge near a body vertex or edge. For FACE both closest points are inside their features.
+/// A cloth face or edge near a body vertex or a convex body edge; both closest points are inside their features.
 struct FaceContact {
   ContactKind kind;
   int triangle;      ///< of the cloth; for EDGE the first triangle of that edge
@@ -55,7 +58,7 @@ public:
   /// @param p m   @param max_distance m, may be infinite   @param hint_triangle the last answer, or -1 (cost only)
   SignedDistance signed_distance(const Vec3& p, double max_distance, int hint_triangle = -1) const;
   /// 1 inside, 0 outside; after turning flipped faces. Within about 0.005 of the exact sum.
-  double winding_number(const Vec3& p) const { return m_winding.at(m_tree, p); }
+  double winding_number(const Vec3& p) const;
   bool is_inside(const Vec3& p) const { return winding_number(p) > 0.5; }
 
   /// Cloth triangles (ascending) that intersect any body triangle; exact, touching counts.
@@ -77,6 +80,7 @@ private:
   void turn_faces();
   void assess_trust();
   void compute_normals();
+  void assign_features();
   Vec3 pseudonormal(int triangle, int feature) const; ///< not unit
   bool is_trusted(int triangle, int feature) const;
 
@@ -86,9 +90,15 @@ private:
   TriangleTree m_skin;              ///< without buried ones; empty when none is
   std::vector<int> m_skin_triangle; ///< of m_skin, in m_mesh
   std::vector<int> m_skin_of;       ///< back: -1 for buried triangles
-  WindingNumber m_winding;
+  /// Moments for the winding number, made when first asked for after a move: a clean body never asks.
+  struct LazyWinding {
+    std::once_flag once;
+    WindingNumber winding;
+  };
+  std::shared_ptr<LazyWinding> m_winding = std::make_shared<LazyWinding>();
   std::vector<Vec3> m_face_normals, m_vertex_normals;
   std::vector<char> m_trusted_face, m_trusted_edge, m_trusted_vertex;
+  std::vector<unsigned char> m_owned; ///< per triangle: bits 0-2 vertices, 3-5 convex edges of which it is the first triangle
   BodyFindings m_findings;
 };
 

@@ -52,34 +52,36 @@ std::vector<FaceContact> BodyCollider::face_contacts(const std::vector<Vec3>& po
     const Triangle& t = triangles[f];
     const Vec3* c[3] = {&positions[t[0]], &positions[t[1]], &positions[t[2]]};
     std::optional<FaceContact> face, edges[3];
-    Box3 box;
+    Box3 box, edge_box[3];
     for (const Vec3* p : c) box.add(*p);
     box.low.array() -= radius;
     box.high.array() += radius;
-    bool owned[3];
-    for (int k = 0; k < 3; ++k) owned[k] = topology.triangles_of_edge(topology.triangle_edges[f][k])[0] == f;
+    for (int k = 0; k < 3; ++k) {
+      if (topology.triangles_of_edge(topology.triangle_edges[f][k])[0] != f) continue; // stays empty: nothing meets it
+      edge_box[k].low = c[k]->cwiseMin(*c[(k + 1) % 3]).array() - radius;
+      edge_box[k].high = c[k]->cwiseMax(*c[(k + 1) % 3]).array() + radius;
+    }
     m_tree.visit_overlaps(box, [&](int g) {
-      if (!m_skin_of.empty() && m_skin_of[g] < 0) return;
+      if (m_owned[g] == 0 || (!m_skin_of.empty() && m_skin_of[g] < 0)) return;
       const Triangle& body = m_mesh.triangles[g];
       for (int j = 0; j < 3; ++j) {
-        if (m_topology.triangles_of_vertex(body[j])[0] == g) {
-          const PointTriangle d = point_triangle(m_mesh.positions[body[j]], *c[0], *c[1], *c[2]);
+        const Vec3 &b0 = m_mesh.positions[body[j]], &b1 = m_mesh.positions[body[(j + 1) % 3]];
+        if ((m_owned[g] & (1 << j)) && (b0.array() >= box.low.array()).all() && (b0.array() <= box.high.array()).all()) {
+          const PointTriangle d = point_triangle(b0, *c[0], *c[1], *c[2]);
           if (d.squared_distance <= radius2 && d.feature == FEATURE_FACE) {
-            FaceContact contact{ContactKind::FACE, f, d.barycentric, g, Vec3::Zero(), m_mesh.positions[body[j]], Vec3::Zero(), 0};
+            FaceContact contact{ContactKind::FACE, f, d.barycentric, g, Vec3::Zero(), b0, Vec3::Zero(), 0};
             contact.body_barycentric[j] = 1;
             if (set_side(contact, d.point, m_vertex_normals[body[j]])) keep_deepest(face, contact);
           }
         }
-        const auto around = m_topology.triangles_of_edge(m_topology.triangle_edges[g][j]);
-        if (around[0] != g) continue;
-        const Vec3 &b0 = m_mesh.positions[body[j]], &b1 = m_mesh.positions[body[(j + 1) % 3]];
+        if (!(m_owned[g] & (8 << j))) continue;
+        const Vec3 low = b0.cwiseMin(b1), high = b0.cwiseMax(b1);
         for (int k = 0; k < 3; ++k) {
-          if (!owned[k]) continue;
+          if ((low.array() > edge_box[k].high.array()).any() || (high.array() < edge_box[k].low.array()).any()) continue;
           const Vec3 &a0 = *c[k], &a1 = *c[(k + 1) % 3];
           const EdgeEdge d = edge_edge(a0, a1, b0, b1);
           if (d.squared_distance > radius2 || d.s <= 0 || d.s >= 1 || d.t <= 0 || d.t >= 1) continue;
-          Vec3 normal = Vec3::Zero();
-          for (int h : around) normal += m_face_normals[h];
+          const Vec3 normal = pseudonormal(g, FEATURE_EDGE + j);
           const double length = normal.norm();
           if (!(length > 0)) continue;
           FaceContact contact{ContactKind::EDGE, f, Vec3::Zero(), g, Vec3::Zero(), b0 + d.t * (b1 - b0), Vec3::Zero(), 0};
