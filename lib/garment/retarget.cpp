@@ -7,6 +7,7 @@
 #include <garment/bind_laplacian.hpp>
 #include <garment/retarget_grade.hpp>
 
+#include <Eigen/SVD>
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
@@ -16,10 +17,12 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double CLEAR_LENGTH = 0.04;   // m over which a push is spread
-constexpr double CLEAR_STIFFNESS = 200; // of a push against the spreading
-constexpr double SEARCH_DEPTH = 0.15;   // m, deeper is not looked for
-constexpr double FINAL_GAP_SHARE = 0.5; // of the gap: near enough to stop
+constexpr double ATTRACTION_LENGTH = 0.25; // m: over this length the shape of the cloth wins over where it was placed
+constexpr double CONTACT_LENGTH = 0.04;    // m over which a push is spread by the cloth's own stiffness
+constexpr double CONTACT_STIFFNESS = 200;  // of a push against the spreading
+constexpr double SEARCH_DEPTH = 0.15;      // m, deeper is not looked for
+constexpr double FINAL_GAP_SHARE = 0.5;    // of the gap: near enough to stop
+constexpr int LEAST_ROUNDS = 6;            // before which the shape has not found its rest
 
 using Field = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
@@ -44,20 +47,70 @@ io::Json state_json(const PlacementState& s) {
           {"self_intersections", s.self_intersections}};
 }
 
-/// Pushes of one round: for each particle the largest wanted move.
+/// Pushes of one round: for each particle that is in contact the largest wanted move, which may be zero.
 class Pushes {
 public:
-  explicit Pushes(std::size_t n) : m_push(n, Vec3::Zero()), m_active(n, 0) {}
-  void add(int particle, const Vec3& push) {
+  Pushes(std::size_t n, double nearest) : m_push(n, Vec3::Zero()), m_active(n, 0), m_nearest(nearest) {}
+  void add(int particle, const Vec3& push, double distance) {
     if (push.squaredNorm() > m_push[particle].squaredNorm()) m_push[particle] = push;
     m_active[particle] = 1;
+    m_nearest = std::min(m_nearest, distance);
   }
   const Vec3& operator[](std::size_t i) const { return m_push[i]; }
   bool active(std::size_t i) const { return m_active[i] != 0; }
+  double nearest() const { return m_nearest; } ///< smallest distance to the skin, m
 
 private:
   std::vector<Vec3> m_push;
   std::vector<char> m_active;
+  double m_nearest;
+};
+
+Pushes pushes_of(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, const collision::Topology& topology, const collision::BodyCollider& body,
+                 double gap, std::vector<int>& hint) {
+  Pushes pushes(x.size(), gap);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const collision::SignedDistance d = body.signed_distance(x[i], SEARCH_DEPTH, hint[i]);
+    if (d.triangle >= 0) hint[i] = d.triangle;
+    // What lies just outside the gap is held too, or it would fall in while its neighbours are pushed.
+    if (d.distance < 1.5 * gap) pushes.add(static_cast<int>(i), std::max(0.0, gap - d.distance) * d.normal, d.distance);
+  }
+  for (const collision::FaceContact& c : body.face_contacts(x, triangles, topology, std::max(gap, 0.01))) {
+    if (c.distance >= gap) continue;
+    const double share = c.barycentric.squaredNorm();
+    for (int k = 0; k < 3; ++k)
+      if (c.barycentric[k] > 0) pushes.add(triangles[c.triangle][k], (gap - c.distance) * c.barycentric[k] / share * c.normal, c.distance);
+  }
+  return pushes;
+}
+
+/// The local step of as-rigid-as-possible deformation (Sorkine and Alexa 2007): best rotation of the spokes of each particle.
+class Rotations {
+public:
+  Rotations(const std::vector<Vec3>& shape, const SurfaceOperators& ops) : m_shape(shape), m_stiffness(ops.stiffness) {}
+  /// Sum over spokes of c_ij (R_i + R_j)/2 (shape_i - shape_j).
+  Field right_side(const std::vector<Vec3>& x) const {
+    std::vector<Mat3> rotation(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      Mat3 covariance = Mat3::Zero();
+      for (Eigen::SparseMatrix<double>::InnerIterator e(m_stiffness, static_cast<Eigen::Index>(i)); e; ++e)
+        if (const auto j = static_cast<std::size_t>(e.row()); j != i) covariance -= e.value() * (m_shape[i] - m_shape[j]) * (x[i] - x[j]).transpose();
+      const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+      Mat3 v = svd.matrixV();
+      if ((v * svd.matrixU().transpose()).determinant() < 0) v.col(2) *= -1;
+      rotation[i] = v * svd.matrixU().transpose();
+    }
+    Field right = Field::Zero(static_cast<Eigen::Index>(x.size()), 3);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      for (Eigen::SparseMatrix<double>::InnerIterator e(m_stiffness, static_cast<Eigen::Index>(i)); e; ++e)
+        if (const auto j = static_cast<std::size_t>(e.row()); j != i)
+          right.row(static_cast<Eigen::Index>(i)) -= 0.5 * e.value() * ((rotation[i] + rotation[j]) * (m_shape[i] - m_shape[j])).transpose();
+    return right;
+  }
+
+private:
+  const std::vector<Vec3>& m_shape;
+  const Eigen::SparseMatrix<double>& m_stiffness;
 };
 
 } // namespace
@@ -73,47 +126,35 @@ io::Json placement_json(const PlacementReport& r) {
           {"cleared", state_json(r.cleared)},
           {"clear_rounds", r.clear_rounds},
           {"largest_move_m", r.largest_move_m},
-          {"stretch", {{"p01", r.stretch_p01}, {"p50", r.stretch_p50}, {"p99", r.stretch_p99}}}};
+          {"stretch", {{"p01", r.stretch_p01}, {"p50", r.stretch_p50}, {"p99", r.stretch_p99}}},
+          {"settled_stretch", {{"p01", r.settled_p01}, {"p50", r.settled_p50}, {"p99", r.settled_p99}}}};
 }
 
-int clear_skin(std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const collision::BodyCollider& body, double gap, int max_rounds) {
+int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, const std::vector<Triangle>& triangles, const collision::BodyCollider& body,
+                 double gap, int max_rounds) {
   const std::size_t n = positions.size();
-  const std::vector<Vec3> start = positions;
+  const std::vector<Vec3> placed = positions;
   const collision::Topology topology = collision::make_topology(n, triangles);
-  const SurfaceOperators ops = surface_operators(start, triangles);
-  Field move = Field::Zero(static_cast<Eigen::Index>(n), 3);
-  std::vector<char> held(n, 0);
+  const SurfaceOperators ops = surface_operators(shape, triangles);
+  const Rotations rotations(shape, ops);
+  const double attraction = 1 / (ATTRACTION_LENGTH * ATTRACTION_LENGTH), push_stiffness = CONTACT_STIFFNESS / (CONTACT_LENGTH * CONTACT_LENGTH);
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
+  solver.analyzePattern(ops.stiffness);
   std::vector<int> hint(n, -1);
   for (int round = 0; round < max_rounds; ++round) {
-    Pushes pushes(n);
-    double worst = gap;
-    for (std::size_t i = 0; i < n; ++i) {
-      const collision::SignedDistance d = body.signed_distance(positions[i], SEARCH_DEPTH, hint[i]);
-      if (d.triangle >= 0) hint[i] = d.triangle;
-      if (d.distance >= gap) continue;
-      worst = std::min(worst, d.distance);
-      pushes.add(static_cast<int>(i), (gap - d.distance) * d.normal);
-    }
-    for (const collision::FaceContact& c : body.face_contacts(positions, triangles, topology, std::max(gap, 0.01))) {
-      if (c.distance >= gap) continue;
-      worst = std::min(worst, c.distance);
-      const double share = c.barycentric.squaredNorm();
-      for (int k = 0; k < 3; ++k)
-        if (c.barycentric[k] > 0) pushes.add(triangles[c.triangle][k], (gap - c.distance) * c.barycentric[k] / share * c.normal);
-    }
-    if (worst >= FINAL_GAP_SHARE * gap && body.faces_through(positions, triangles).empty()) return round;
-    Eigen::SparseMatrix<double> system = CLEAR_LENGTH * CLEAR_LENGTH * ops.stiffness;
-    Field right = Field::Zero(static_cast<Eigen::Index>(n), 3);
+    const Pushes pushes = pushes_of(positions, triangles, topology, body, gap, hint);
+    if (round >= LEAST_ROUNDS && pushes.nearest() >= FINAL_GAP_SHARE * gap && body.faces_through(positions, triangles).empty()) return round;
+    Field right = rotations.right_side(positions);
+    Eigen::SparseMatrix<double> system = ops.stiffness;
     for (std::size_t i = 0; i < n; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
-      held[i] = held[i] || pushes.active(i); // once in contact, held: else it would fall back in the next round
-      system.coeffRef(row, row) += ops.mass[row] * (held[i] ? 1 + CLEAR_STIFFNESS : 1);
-      if (held[i]) right.row(row) = CLEAR_STIFFNESS * ops.mass[row] * (move.row(row) + pushes[i].transpose());
+      const double pull = attraction * ops.mass[row], push = pushes.active(i) ? push_stiffness * ops.mass[row] : 0;
+      system.coeffRef(row, row) += pull + push;
+      right.row(row) += (pull * placed[i] + push * (positions[i] + pushes[i])).transpose();
     }
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(system);
+    solver.factorize(system);
     const Field solved = solver.solve(right);
-    move = solved;
-    for (std::size_t i = 0; i < n; ++i) positions[i] = start[i] + move.row(static_cast<Eigen::Index>(i)).transpose();
+    for (std::size_t i = 0; i < n; ++i) positions[i] = solved.row(static_cast<Eigen::Index>(i)).transpose();
   }
   return max_rounds;
 }
@@ -134,24 +175,28 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
   g.converged = false;
   g.position = place_garment(garment, to);
   const std::vector<Triangle> triangles = g.particle_triangles();
-  std::vector<double> stretch;
-  for (const auto& [a, b] : edges_of(triangles))
-    if (const double before = (garment.position[a] - garment.position[b]).norm(); before > 0)
-      stretch.push_back((g.position[a] - g.position[b]).norm() / before - 1);
-  std::sort(stretch.begin(), stretch.end());
-  if (!stretch.empty()) {
+  const auto measure = [&](double& p01, double& p50, double& p99) {
+    std::vector<double> stretch;
+    for (const auto& [a, b] : edges_of(triangles))
+      if (const double before = (garment.position[a] - garment.position[b]).norm(); before > 0)
+        stretch.push_back((g.position[a] - g.position[b]).norm() / before - 1);
+    if (stretch.empty()) return;
+    std::sort(stretch.begin(), stretch.end());
     const auto quantile = [&](double q) { return stretch[static_cast<std::size_t>(q * static_cast<double>(stretch.size() - 1))]; };
-    result.report.stretch_p01 = quantile(0.01), result.report.stretch_p50 = quantile(0.5), result.report.stretch_p99 = quantile(0.99);
-  }
-  result.report.placed = state_of(g.position, triangles, skin);
+    p01 = quantile(0.01), p50 = quantile(0.5), p99 = quantile(0.99);
+  };
+  PlacementReport& report = result.report;
+  measure(report.stretch_p01, report.stretch_p50, report.stretch_p99);
+  report.placed = state_of(g.position, triangles, skin);
   if (mode == RetargetMode::KEEP_FIT) regrade(g, garment.position, g.position);
   const std::vector<Vec3> placed = g.position;
-  result.report.clear_rounds = clear_skin(g.position, triangles, skin, g.offset_m);
-  for (std::size_t i = 0; i < placed.size(); ++i) result.report.largest_move_m = std::max(result.report.largest_move_m, (g.position[i] - placed[i]).norm());
-  result.report.cleared = state_of(g.position, triangles, skin);
-  reporter.info("placed: " + std::to_string(result.report.placed.vertices_inside) + " particles in the body, " +
-                std::to_string(result.report.cleared.vertices_inside) + " after clearing the skin in " + std::to_string(result.report.clear_rounds) +
-                " rounds");
+  // keep-fabric: the cloth wants the shape it had; keep-fit: the regraded cloth wants the shape it was placed in.
+  report.clear_rounds = settle_shape(g.position, mode == RetargetMode::KEEP_FIT ? placed : garment.position, triangles, skin, g.offset_m);
+  for (std::size_t i = 0; i < placed.size(); ++i) report.largest_move_m = std::max(report.largest_move_m, (g.position[i] - placed[i]).norm());
+  measure(report.settled_p01, report.settled_p50, report.settled_p99);
+  report.cleared = state_of(g.position, triangles, skin);
+  reporter.info("placed: " + std::to_string(report.placed.vertices_inside) + " particles in the body, " + std::to_string(report.cleared.vertices_inside) +
+                " after clearing the skin in " + std::to_string(report.clear_rounds) + " rounds");
   return result;
 }
 

@@ -25,17 +25,21 @@ struct PlacementState {
 };
 struct PlacementReport {
   PlacementState placed;  ///< by coordinates alone
-  PlacementState cleared; ///< after clear_skin()
+  PlacementState cleared; ///< after settle_shape()
   int clear_rounds = 0;
   double stretch_p01 = 0, stretch_p50 = 0, stretch_p99 = 0; ///< edge length after / before - 1, placed against the source
-  double largest_move_m = 0;                                ///< of clear_skin()
+  double settled_p01 = 0, settled_p50 = 0, settled_p99 = 0; ///< the same after settle_shape()
+  double largest_move_m = 0;                                ///< of settle_shape()
 };
 io::Json placement_json(const PlacementReport& report);
 
-/// Moves what lies in or nearer than `gap` to the skin outward, spread smoothly over the garment: minimises the squared move plus
-/// the squared gradient of it over 4 cm, under the pushes of particles and of faces that the body shows through.
-/// @param positions #P by 3, m, in and out   @return rounds taken; at most max_rounds, what then remains is left to the drape
-int clear_skin(std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const collision::BodyCollider& body, double gap, int max_rounds = 20);
+/// Brings placed cloth near its own shape and out of the skin: minimises the as-rigid-as-possible energy of `shape`
+/// (Sorkine and Alexa 2007) plus the squared way from where it was placed over 25 cm, under pushes that keep particles and faces
+/// `gap` off the skin. Quasi-static and without inertia; what strain remains is the drape's.
+/// @param positions #P by 3, m, in and out   @param shape #P by 3, m: the cloth at rest or nearly so
+/// @return rounds taken; at most max_rounds, what then still touches is left to the drape. About 0.1 s a round for 7k particles.
+int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, const std::vector<Triangle>& triangles, const collision::BodyCollider& body,
+                 double gap, int max_rounds = 15);
 
 /// Frames that some of the garment hangs on mainly and the body lacks, with the share of the garment that does: a shirt cannot
 /// do without arms, but a collar that lies on the shoulders can do without a head.
