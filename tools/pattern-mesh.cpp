@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   CLI::App& app = tool.app();
   app.add_option("PATTERN", o.pattern, "pattern JSON, GarmentCode specification, sewing-spec JSON or AAMA / ASTM DXF")->required()->check(cli::input_file());
   app.add_option("--edge-length", o.edge_length, "length of mesh edges, m (default: 0.015)")->check(cli::finite_in(0.001, 0.2, "m"));
+  app.add_option("--sewing", o.sewing, "sidecar with the seams of a DXF that has none")->check(cli::input_file());
   app.add_option("-o,--output", o.output, "panels.json; panels.obj is written beside it")->required();
   tool.example("pattern-mesh --body body.json -o panels.json shirt.pattern.json", "mesh a pattern and place it around a scanned body");
   return tool.run(argc, argv, [&] { return run(tool, o); });

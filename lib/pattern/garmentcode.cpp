@@ -4,8 +4,6 @@
 #include <base/units.hpp>
 #include <pattern/read_pattern.hpp>
 
-#include <cmath>
-
 namespace sloper::pattern {
 namespace {
 
@@ -128,24 +126,6 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
       if (!same_direction) std::swap(seam.b[0].from, seam.b[0].to);
       if (seam.a[0].panel == seam.b[0].panel) seam.kind = "dart";
       pattern.seams.push_back(std::move(seam));
-    }
-  }
-  // Directions above hold for loops that are all drawn as seen from outside: a clockwise loop is one seen from inside.
-  for (std::size_t k = 0; k < pattern.panels.size(); ++k) {
-    std::vector<Path> outline;
-    for (const PanelEdge& e : pattern.panels[k].loops[0]) outline.push_back(e.path);
-    if (signed_area(outline) < 0) {
-      // turn_over() reverses loops as well; here the sense was the message, so only the drawing is mirrored.
-      Panel& panel = pattern.panels[k];
-      for (PanelEdge& e : panel.loops[0])
-        for (Segment& s : e.path)
-          for (Vec2& p : s.p) p.x() = -p.x();
-      panel.grain.x() = -panel.grain.x();
-      if (panel.hint.rigid) {
-        Mat4 turn = Mat4::Identity();
-        turn(0, 0) = turn(2, 2) = -1;
-        panel.hint.rigid = *panel.hint.rigid * turn;
-      }
     }
   }
   return pattern;

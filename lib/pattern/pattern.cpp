@@ -77,6 +77,51 @@ void turn_over(Pattern& pattern, int index) {
         if (run.panel == index) run.edge = renumber[static_cast<std::size_t>(run.edge)], run.from = 1 - run.from, run.to = 1 - run.to;
 }
 
+namespace {
+
+Vec2 reflect(const Vec2& p, const Vec2& origin, const Vec2& along) {
+  const Vec2 d = p - origin;
+  return origin + 2 * d.dot(along) * along - d;
+}
+
+std::vector<PanelEdge> reflected(const std::vector<PanelEdge>& edges, const Vec2& origin, const Vec2& along, const std::string& suffix) {
+  std::vector<PanelEdge> out;
+  for (auto it = edges.rbegin(); it != edges.rend(); ++it) {
+    PanelEdge e{it->name + suffix, reversed(it->path)};
+    for (Segment& s : e.path)
+      for (Vec2& p : s.p) p = reflect(p, origin, along);
+    out.push_back(std::move(e));
+  }
+  return out;
+}
+
+} // namespace
+
+bool unfold(Panel& panel, int fold_edge, const std::string& suffix, const std::string& mirror_suffix) {
+  auto& loop = panel.loops[0];
+  if (fold_edge >= static_cast<int>(loop.size()) || loop.size() < 2) return false;
+  const Path line = loop[static_cast<std::size_t>(fold_edge)].path;
+  const Vec2 origin = line.front().p[0], end = line.back().p[3];
+  if (!((end - origin).norm() > 1e-6)) return false;
+  const Vec2 along = (end - origin).normalized();
+  for (const Segment& s : line)
+    for (const Vec2& p : s.p)
+      if ((reflect(p, origin, along) - p).norm() > 1e-3) return false;
+  std::rotate(loop.begin(), loop.begin() + fold_edge, loop.end());
+  loop.erase(loop.begin());
+  std::vector<PanelEdge> other = reflected(loop, origin, along, mirror_suffix);
+  // Both halves meet on the fold line exactly.
+  loop.front().path.front().p[0] = other.back().path.back().p[3] = end;
+  loop.back().path.back().p[3] = other.front().path.front().p[0] = origin;
+  for (PanelEdge& e : loop) e.name += suffix;
+  loop.insert(loop.end(), other.begin(), other.end());
+  for (std::size_t h = 1, n = panel.loops.size(); h < n; ++h) {
+    panel.loops.push_back(reflected(panel.loops[h], origin, along, mirror_suffix));
+    for (PanelEdge& e : panel.loops[h]) e.name += suffix;
+  }
+  return true;
+}
+
 std::string place_of(const Pattern& pattern, const Run& run) {
   const Panel& panel = pattern.panels[static_cast<std::size_t>(run.panel)];
   return panel.name + ": " + panel.edge(run.edge).name;

@@ -1,16 +1,86 @@
 #include <io/files.hpp>
 #include <pattern/read_pattern.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace sloper::pattern {
+namespace {
 
-Pattern read_pattern(const std::string& path, const std::string& /*sewing*/) {
-  const io::Json json = io::read_json(path);
+bool all_finite(const Panel& panel) {
+  for (const auto& loop : panel.loops)
+    for (const PanelEdge& e : loop)
+      for (const Segment& s : e.path)
+        for (const Vec2& p : s.p)
+          if (!p.allFinite()) return false;
+  return true;
+}
+
+} // namespace
+
+void finish_pattern(Pattern& pattern, const std::string& file) {
+  double largest = 0;
+  for (std::size_t k = 0; k < pattern.panels.size(); ++k) {
+    Panel& panel = pattern.panels[k];
+    if (!all_finite(panel)) throw input_error(file, panel.name, "a coordinate is no finite number");
+    for (std::size_t l = 0; l < panel.loops.size(); ++l) {
+      std::vector<Path> paths;
+      Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+      for (const PanelEdge& e : panel.loops[l]) {
+        paths.push_back(e.path);
+        for (const Segment& s : e.path) low = low.cwiseMin(s.p[0]), high = high.cwiseMax(s.p[0]);
+        if (!(length(e.path) > 1e-6)) throw input_error(file, panel.name + ": " + e.name, "the edge has no length (duplicate points)", "take it out of the outline");
+      }
+      largest = std::max(largest, (high - low).maxCoeff());
+      const double area = signed_area(paths);
+      if (std::abs(area) < 1e-6) throw input_error(file, panel.name, "the outline encloses " + std::to_string(std::abs(area) * 1e4) + " cm2", "give the panel an area");
+      if ((area > 0) == (l == 0)) continue;
+      if (l > 0) throw input_error(file, panel.name, "hole " + std::to_string(l) + " is drawn counter-clockwise", "draw holes clockwise");
+      pattern.findings.push_back(panel.name + ": drawn clockwise, so taken as seen from inside and turned over");
+      for (std::size_t h = 1; h < panel.loops.size(); ++h) {
+        std::vector<Path> hole;
+        for (const PanelEdge& e : panel.loops[h]) hole.push_back(e.path);
+        if (signed_area(hole) < 0) throw input_error(file, panel.name, "hole " + std::to_string(h) + " runs in the sense of the outline");
+      }
+      // The sense is the message: mirror the drawing, keep the order of edges and the direction of runs.
+      for (auto& loop : panel.loops)
+        for (PanelEdge& e : loop)
+          for (Segment& s : e.path)
+            for (Vec2& p : s.p) p.x() = -p.x();
+      panel.grain.x() = -panel.grain.x();
+      if (panel.hint.anchor) panel.hint.anchor->x() *= -1;
+      if (panel.hint.rigid) {
+        Mat4 turn = Mat4::Identity();
+        turn(0, 0) = turn(2, 2) = -1;
+        panel.hint.rigid = *panel.hint.rigid * turn;
+      }
+      break;
+    }
+  }
+  if (largest > 20 || largest < 0.05)
+    throw input_error(file, "", "the largest panel measures " + centimetres(largest) + ", so the unit is wrong", "check the unit that the file states");
+}
+
+Pattern read_pattern(const std::string& path, const std::string& sewing) {
+  const std::string text = io::read_file(path);
   Pattern pattern;
-  if (json.is_object() && json.contains("pattern")) pattern = read_garmentcode(json, path);
-  else throw input_error(path, "", "this is no pattern that is known", "give a pattern JSON, a GarmentCode specification, a sewing-spec JSON or a DXF");
+  const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (first == std::string::npos) throw input_error(path, "", "the file is empty", "give a pattern");
+  if (text[first] == '{' || text[first] == '[') {
+    const io::Json json = io::parse_json(text, path);
+    const std::string format = json.is_object() && json.contains("format") && json["format"].is_string() ? json["format"].get<std::string>() : "";
+    if (format == "pattern") pattern = read_pattern_json(json, path);
+    else if (format == "sewing-spec") pattern = read_sewing_spec(json, path);
+    else if (json.is_object() && json.contains("pattern")) pattern = read_garmentcode(json, path);
+    else throw input_error(path, "/format", "'" + format + "' is no pattern format that is known", "give a pattern JSON, a GarmentCode specification, a sewing-spec JSON or a DXF");
+  } else {
+    pattern = read_dxf(text, path);
+  }
+  if (!sewing.empty()) read_sewing_seams(pattern, io::read_json(sewing), sewing);
   if (pattern.name.empty()) pattern.name = path == "-" ? "pattern" : std::filesystem::path(path).stem().string();
+  if (pattern.panels.empty()) throw input_error(path, "", "there are no panels");
+  finish_pattern(pattern, path);
   return pattern;
 }
 

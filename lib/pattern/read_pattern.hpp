@@ -20,11 +20,14 @@ Pattern read_pattern_json(const io::Json& json, const std::string& file);
 /// The neutral sewing JSON, "format": "sewing-spec", millimetres.
 Pattern read_sewing_spec(const io::Json& json, const std::string& file);
 
+/// AAMA / ASTM D6673 DXF text: one panel per block, sewing from layer-15 texts when there are any.
+Pattern read_dxf(const std::string& text, const std::string& file);
+
 /// Seams of a "sewing-seams" sidecar, added to a pattern whose panels and edges have names.
 void read_sewing_seams(Pattern& pattern, const io::Json& json, const std::string& file);
 
-/// What every reader ends with: loops given their sense, panels turned to be seen from outside where seams ask for it,
-/// and errors that make meshing pointless thrown.
+/// What every reader ends with: finite, closed, non-empty outlines of a plausible size; a panel drawn clockwise is one seen from
+/// inside and is mirrored. @throws Error INPUT
 void finish_pattern(Pattern& pattern, const std::string& file);
 
 } // namespace sloper::pattern

@@ -1,0 +1,320 @@
+/// AAMA / ASTM D6673 DXF: one block per piece. Layers: 1 cut line, 14 sew line, 2 turn and 3 curve points, 4 and 80-83 notches,
+/// 6 mirror line, 7 grain, 8 internal lines, 11 cut-outs, 15 annotation. Pieces are drawn face up, so every outline is taken
+/// counter-clockwise whatever its drawing order.
+#include <base/units.hpp>
+#include <pattern/dxf_blocks.hpp>
+#include <pattern/outline_json.hpp>
+#include <pattern/read_pattern.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace sloper::pattern {
+namespace {
+
+using Ring = std::vector<Vec2>;
+
+double ring_area(const Ring& r) {
+  double a = 0;
+  for (std::size_t k = 0; k < r.size(); ++k) a += 0.5 * (r[k].x() * r[(k + 1) % r.size()].y() - r[k].y() * r[(k + 1) % r.size()].x());
+  return a;
+}
+
+/// The value of a text "Key: value" (the blank may be missing), or empty.
+std::string value_of(const std::string& text, const std::string& key) {
+  if (text.compare(0, key.size(), key) != 0) return {};
+  std::size_t at = key.size();
+  while (at < text.size() && (text[at] == ':' || text[at] == ' ')) ++at;
+  return text.substr(at);
+}
+
+std::string find_value(const std::vector<DxfText>& texts, const std::string& key) {
+  for (const DxfText& t : texts)
+    if (const std::string v = value_of(t.text, key); !v.empty()) return v;
+  return {};
+}
+
+/// Closed rings out of closed polylines and of open ones whose ends meet within `join`.
+std::vector<Ring> rings_of(const DxfBlock& block, int layer, double unit, double join) {
+  std::vector<Ring> rings;
+  std::vector<Ring> open;
+  for (const DxfLine& line : block.lines) {
+    if (line.layer != layer) continue;
+    Ring points;
+    for (const Vec2& p : line.points)
+      if (points.empty() || (points.back() - p * unit).norm() > 1e-6) points.push_back(p * unit);
+    if (points.size() < 2) continue;
+    if (line.closed || (points.size() > 3 && (points.front() - points.back()).norm() < join)) rings.push_back(points);
+    else open.push_back(points);
+  }
+  while (!open.empty()) {
+    Ring chain = open.front();
+    open.erase(open.begin());
+    for (bool grown = true; grown && (chain.front() - chain.back()).norm() >= join;) {
+      grown = false;
+      for (std::size_t k = 0; k < open.size() && !grown; ++k)
+        for (bool turn : {false, true}) {
+          Ring next = open[k];
+          if (turn) std::reverse(next.begin(), next.end());
+          if ((next.front() - chain.back()).norm() >= join) continue;
+          chain.insert(chain.end(), next.begin() + 1, next.end());
+          open.erase(open.begin() + static_cast<long>(k));
+          grown = true;
+          break;
+        }
+    }
+    if (chain.size() > 3 && (chain.front() - chain.back()).norm() < join) rings.push_back(chain);
+  }
+  for (Ring& r : rings)
+    while (r.size() > 1 && (r.front() - r.back()).norm() < 1e-6) r.pop_back();
+  rings.erase(std::remove_if(rings.begin(), rings.end(), [](const Ring& r) { return r.size() < 3; }), rings.end());
+  std::sort(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) { return std::abs(ring_area(a)) > std::abs(ring_area(b)); });
+  return rings;
+}
+
+/// Ring vertices at which edges begin: turn points of layer 2, or corners of more than 30 degrees where there are none.
+std::vector<std::size_t> corners_of(const Ring& ring, const std::vector<Vec2>& turn_points) {
+  std::vector<std::size_t> corners;
+  for (std::size_t k = 0; k < ring.size(); ++k)
+    for (const Vec2& p : turn_points)
+      if ((p - ring[k]).norm() < 2e-4) {
+        corners.push_back(k);
+        break;
+      }
+  if (!corners.empty()) return corners;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Vec2 in = ring[k] - ring[(k + ring.size() - 1) % ring.size()], out = ring[(k + 1) % ring.size()] - ring[k];
+    if (std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out))) > units::radians(30)) corners.push_back(k);
+  }
+  if (corners.empty()) corners.push_back(0);
+  return corners;
+}
+
+std::vector<PanelEdge> edges_of(const Ring& ring, const std::vector<std::size_t>& corners, const std::string& prefix) {
+  std::vector<PanelEdge> loop;
+  const std::size_t n = ring.size();
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    const std::size_t from = corners[c], to = c + 1 < corners.size() ? corners[c + 1] : corners[0] + n;
+    PanelEdge e;
+    e.name = prefix + std::to_string(c);
+    for (std::size_t k = from; k < to; ++k) e.path.push_back(Segment::straight(ring[k % n], ring[(k + 1) % n]));
+    loop.push_back(std::move(e));
+  }
+  return loop;
+}
+
+double distance_to(const Path& path, const Vec2& p) {
+  double best = 1e300;
+  for (const Segment& s : path) {
+    const Vec2 along = s.p[3] - s.p[0];
+    const double t = along.squaredNorm() > 0 ? std::clamp((p - s.p[0]).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0.0;
+    best = std::min(best, (p - s.p[0] - t * along).norm());
+  }
+  return best;
+}
+
+/// The panel edge nearest to p by distance to its middle part, so that a text set at a corner by rounding finds its own run.
+int edge_near(const Panel& panel, const Vec2& p) {
+  int best = -1;
+  double least = 1e300;
+  for (int k = 0; k < panel.n_edges(); ++k) {
+    const double to_curve = distance_to(panel.edge(k).path, p);
+    const ArcLength arc(panel.edge(k).path);
+    const double score = to_curve + 1e-3 * (arc.at(0.5 * arc.length()) - p).norm();
+    if (score < least) least = score, best = k;
+  }
+  return best;
+}
+
+struct SewText {
+  int panel, edge, order;
+  bool with_outline;
+};
+
+class Reader {
+public:
+  Reader(const DxfFile& dxf, const std::string& file) : m_dxf(dxf), m_file(file) {}
+
+  Pattern run() {
+    m_pattern.source_format = "dxf";
+    m_unit = unit();
+    std::vector<DxfText> all = m_dxf.texts;
+    m_pattern.name = find_value(all, "Style Name");
+    for (const DxfBlock* block : chosen_blocks()) read_piece(*block);
+    if (m_pattern.panels.empty()) throw input_error(m_file, "", "no block has a closed outline on layer 14 or 1", "export the pieces as AAMA or ASTM DXF");
+    make_seams();
+    return std::move(m_pattern);
+  }
+
+private:
+  double unit() {
+    std::string word = find_value(m_dxf.texts, "Units");
+    for (const DxfBlock& b : m_dxf.blocks)
+      if (word.empty()) word = find_value(b.texts, "Units");
+    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    if (word.rfind("METRIC", 0) == 0 || word.rfind("MM", 0) == 0) return units::MM;
+    if (word.rfind("CM", 0) == 0) return units::CM;
+    if (word.rfind("ENGLISH", 0) == 0 || word.rfind("INCH", 0) == 0 || word.rfind("IMPERIAL", 0) == 0) return units::INCH;
+    switch (m_dxf.insunits) {
+    case 1: return units::INCH;
+    case 4: return units::MM;
+    case 5: return units::CM;
+    case 6: return 1;
+    default: break;
+    }
+    const double guess = m_dxf.measurement == 0 ? units::INCH : units::MM;
+    m_pattern.findings.push_back(std::string("the file states no unit; ") + (guess == units::MM ? "millimetres" : "inches") + " are assumed");
+    return guess;
+  }
+
+  /// One block per piece: of a graded nest, the sample size, else the middle one.
+  std::vector<const DxfBlock*> chosen_blocks() {
+    std::map<std::string, std::vector<const DxfBlock*>> by_piece;
+    std::vector<std::string> order;
+    const std::string sample = find_value(m_dxf.texts, "Sample Size");
+    for (const DxfBlock& b : m_dxf.blocks) {
+      if (b.lines.empty()) continue;
+      std::string piece = find_value(b.texts, "Piece Name");
+      if (piece.empty()) piece = b.name;
+      if (by_piece[piece].empty()) order.push_back(piece);
+      by_piece[piece].push_back(&b);
+    }
+    std::vector<const DxfBlock*> out;
+    for (const std::string& piece : order) {
+      const auto& blocks = by_piece[piece];
+      std::map<std::string, int> sizes;
+      for (const DxfBlock* b : blocks) ++sizes[find_value(b->texts, "Size")];
+      if (blocks.size() == 1 || sizes.size() < blocks.size()) { // the same name and size twice: two pieces
+        out.insert(out.end(), blocks.begin(), blocks.end());
+        continue;
+      }
+      const DxfBlock* pick = blocks[blocks.size() / 2];
+      for (const DxfBlock* b : blocks)
+        if (!sample.empty() && find_value(b->texts, "Size") == sample) pick = b;
+      out.push_back(pick);
+      m_pattern.findings.push_back(piece + ": " + std::to_string(blocks.size()) + " sizes; size " + find_value(pick->texts, "Size") + " is taken");
+    }
+    return out;
+  }
+
+  void read_piece(const DxfBlock& block) {
+    Panel panel;
+    panel.name = find_value(block.texts, "Piece Name");
+    if (panel.name.empty()) panel.name = block.name;
+    for (int k = 2; m_pattern.find_panel(panel.name) >= 0; ++k) { // reused names
+      const std::string base = panel.name.substr(0, panel.name.rfind('#'));
+      panel.name = base + "#" + std::to_string(k);
+    }
+    const double join = 1e-3;
+    std::vector<Ring> outer = rings_of(block, 14, m_unit, join), cut = rings_of(block, 1, m_unit, join);
+    if (outer.empty()) { // Valentina writes the sew line on layer 8, where others keep internal lines
+      const std::vector<Ring> inner = rings_of(block, 8, m_unit, join);
+      if (!inner.empty() && !cut.empty() && std::abs(ring_area(inner[0])) > 0.5 * std::abs(ring_area(cut[0]))) outer = inner;
+    }
+    if (outer.empty() && !cut.empty()) {
+      outer = cut;
+      m_pattern.findings.push_back(panel.name + ": no sew line; the cut line is taken as it");
+    }
+    if (outer.empty()) {
+      m_pattern.findings.push_back("block " + block.name + " has no closed outline and is left out");
+      return;
+    }
+    Ring ring = outer[0];
+    if (ring_area(ring) < 0) std::reverse(ring.begin(), ring.end());
+    std::vector<Vec2> turns;
+    for (const DxfPoint& p : block.points)
+      if (p.layer == 2) turns.push_back(p.p * m_unit);
+    panel.loops.push_back(edges_of(ring, corners_of(ring, turns), "edge"));
+    for (Ring hole : rings_of(block, 11, m_unit, join)) {
+      if (ring_area(hole) > 0) std::reverse(hole.begin(), hole.end());
+      panel.loops.push_back(edges_of(hole, corners_of(hole, turns), "hole" + std::to_string(panel.loops.size()) + "_"));
+    }
+    for (const DxfLine& line : block.lines)
+      if (line.layer == 7 && line.points.size() >= 2) {
+        Vec2 along = line.points.back() - line.points.front();
+        if (along.norm() > 0) panel.grain = (along.y() < -1e-9 * along.norm() ? Vec2(-along) : along).normalized();
+      }
+    for (const DxfPoint& p : block.points)
+      if (p.layer == 4 || (p.layer >= 80 && p.layer <= 83)) {
+        const int e = edge_near(panel, p.p * m_unit);
+        const ArcLength arc(panel.edge(e).path);
+        double best = 1e300, at = 0;
+        for (int k = 0; k <= 1000; ++k) {
+          const double d = (arc.at(arc.length() * k / 1000) - p.p * m_unit).norm();
+          if (d < best) best = d, at = k / 1000.0;
+        }
+        if (best < 0.01) panel.notches.push_back({e, at, "layer " + std::to_string(p.layer)});
+      }
+    const int index = static_cast<int>(m_pattern.panels.size());
+    const std::string material = find_value(block.texts, "Material");
+    if (!material.empty()) panel.label = material;
+    read_sewing(block, panel, index);
+    for (const DxfLine& line : block.lines)
+      if (line.layer == 6 && line.points.size() >= 2) open_fold(panel, line);
+    m_pattern.panels.push_back(std::move(panel));
+  }
+
+  void open_fold(Panel& panel, const DxfLine& line) {
+    const Vec2 middle = 0.5 * (line.points.front() + line.points.back()) * m_unit;
+    const int e = edge_near(panel, middle);
+    if (e >= static_cast<int>(panel.loops[0].size()) || distance_to(panel.edge(e).path, middle) > 1e-3 || !unfold(panel, e, "", "_mirror"))
+      m_pattern.findings.push_back(panel.name + ": its mirror line lies on no straight edge; the piece is taken as whole");
+    else m_pattern.findings.push_back(panel.name + ": a half piece, unfolded about its mirror line");
+  }
+
+  void read_sewing(const DxfBlock& block, Panel& panel, int index) {
+    for (const DxfText& t : block.texts) {
+      if (t.layer != 15) continue;
+      std::istringstream words(t.text);
+      std::string what, seam, side, direction, run;
+      int order = 0;
+      words >> what;
+      const int e = edge_near(panel, t.p * m_unit);
+      if (what == "RUN" && words >> run) panel.edge(e).name = run;
+      else if (what == "SEW" && words >> seam >> side >> order >> direction >> run) {
+        panel.edge(e).name = run;
+        if ((side != "a" && side != "b") || (direction != "+" && direction != "-"))
+          throw input_error(m_file, panel.name, "'" + t.text + "' is no sewing text", "write SEW <seam> <a|b> <order> <+|-> <run>");
+        auto& sides = m_sewing[seam];
+        if (std::find(m_seam_order.begin(), m_seam_order.end(), seam) == m_seam_order.end()) m_seam_order.push_back(seam);
+        sides[side == "b"].push_back({index, e, order, direction == "+"});
+      }
+    }
+  }
+
+  void make_seams() {
+    for (const std::string& name : m_seam_order) {
+      auto& sides = m_sewing[name];
+      Seam seam;
+      seam.name = name;
+      for (std::size_t s = 0; s < 2; ++s) {
+        std::stable_sort(sides[s].begin(), sides[s].end(), [](const SewText& a, const SewText& b) { return a.order < b.order; });
+        for (const SewText& t : sides[s]) (s == 0 ? seam.a : seam.b).push_back({t.panel, t.edge, t.with_outline ? 0.0 : 1.0, t.with_outline ? 1.0 : 0.0});
+      }
+      if (seam.a.empty() || seam.b.empty()) throw input_error(m_file, "seam " + name, std::string("side ") + (seam.a.empty() ? "a" : "b") + " has no run", "add its SEW text");
+      if (seam.a.size() == 1 && seam.b.size() == 1 && seam.a[0].panel == seam.b[0].panel && name.find("dart") != std::string::npos) seam.kind = "dart";
+      const double ratio = side_length(m_pattern, seam.a) / side_length(m_pattern, seam.b);
+      if (ratio > 1.08 || ratio < 1 / 1.08) seam.kind = "gather";
+      if (name.find("clos") != std::string::npos) seam.kind = "closure";
+      m_pattern.seams.push_back(std::move(seam));
+    }
+  }
+
+  const DxfFile& m_dxf;
+  std::string m_file;
+  double m_unit = units::MM;
+  Pattern m_pattern;
+  std::map<std::string, std::array<std::vector<SewText>, 2>> m_sewing;
+  std::vector<std::string> m_seam_order;
+};
+
+} // namespace
+
+Pattern read_dxf(const std::string& text, const std::string& file) {
+  if (text.find('\0') != std::string::npos) throw input_error(file, "", "this is a binary file", "give a pattern JSON or a text DXF");
+  return Reader(parse_dxf(text, file), file).run();
+}
+
+} // namespace sloper::pattern
