@@ -29,7 +29,7 @@ struct LegSection {
 const std::vector<LegSection> LEG = {
     {0.036, 0.0205, 0.0215, 0.020, -0.030},   {0.062, 0.0185, 0.0190, 0.0150, -0.0255}, {0.100, 0.0195, 0.0205, 0.0150, -0.0280},
     {0.150, 0.0255, 0.0265, 0.0190, -0.0370}, {0.200, 0.0310, 0.0325, 0.0240, -0.0430}, {0.235, 0.0312, 0.0325, 0.0275, -0.0390},
-    {0.285, 0.0318, 0.0318, 0.0390, -0.0300}, {0.335, 0.0365, 0.0380, 0.0440, -0.0370}, {0.400, 0.0450, 0.0475, 0.0500, -0.0480},
+    {0.280, 0.0318, 0.0318, 0.0390, -0.0300}, {0.335, 0.0365, 0.0380, 0.0440, -0.0370}, {0.400, 0.0450, 0.0475, 0.0500, -0.0480},
     {0.450, 0.0500, 0.0515, 0.0550, -0.0580}, {0.478, 0.0480, 0.0480, 0.0510, -0.0540}, {0.503, 0.0440, 0.0420, 0.0420, -0.0440},
     {0.525, 0.0300, 0.0300, 0.0270, -0.0270}};
 
@@ -38,8 +38,8 @@ const std::vector<LegSection> LEG = {
 BodyField::BodyField(const Mannequin& shape, const GirthFactors& g) : m_shape(shape), m_female(shape.sex == "f") {
   const double h = stature = shape.stature_m;
   const bool f = m_female;
-  y_neck_back = (f ? 0.855 : 0.858) * h;
-  y_neck_front = (f ? 0.826 : 0.828) * h;
+  y_neck_back = (f ? 0.854 : 0.851) * h;
+  y_neck_front = (f ? 0.834 : 0.835) * h;
   y_bust = (f ? 0.716 : 0.725) * h;
   y_chest = 0.762 * h;
   y_underbust = (f ? 0.672 : 0.690) * h;
@@ -68,6 +68,7 @@ void BodyField::build_trunk(const GirthFactors& g) {
     knots.push_back({y, 0, center, s.half * h * k, s.half * h * k, front - center, center - back, s.exponent});
   }
   m_trunk = Tube(knots, 0.022 * h, 0.015 * h);
+  y_fold = y_underbust;
   m_buttock = Vec3(0.046, m_female ? 0.508 : 0.512, m_female ? -0.026 : -0.024) * h;
   m_buttock_radii = (m_female ? Vec3(0.054, 0.056, 0.052) : Vec3(0.050, 0.052, 0.047)) * h * std::sqrt(g.hip);
   m_buttock.z() -= 0.02 * h * (g.hip - 1);
@@ -77,6 +78,9 @@ void BodyField::build_trunk(const GirthFactors& g) {
     const double r = (0.040 + 0.35 * g.breast_m / h) * h;
     breast_radii = Vec3(r, 1.05 * r, 0.9 * r);
     breast_center = Vec3(0.30 * bust.left + 0.5 * r, y_bust, skin - 0.60 * r + g.breast_m);
+    // The fold: where the breast's lower side meets the rib cage, and a little of the blend.
+    const double out = std::clamp((skin - breast_center.z()) / breast_radii.z(), -0.9, 0.9);
+    y_fold = y_bust - breast_radii.y() * std::sqrt(1 - out * out) - 0.004 * h;
   } else { // the breast muscle: wide and flat
     breast_radii = Vec3(0.046, 0.036, 0.024) * h * std::sqrt(g.chest);
     breast_center = Vec3(0.47 * bust.left, y_bust + 0.006 * h, skin - 0.80 * breast_radii.z());
@@ -105,8 +109,9 @@ void BodyField::build_arm(const GirthFactors& g) {
   forearm_length = 0.147 * h;
   hand_length = 0.106 * h;
   // The shoulder girdle rises and turns inward as the arm is lifted.
-  const double lift = smooth_step(30, 100, m_shape.arm_deg), chest = 0.30 * (g.chest - 1);
-  shoulder_joint = Vec3((m_female ? 0.0975 : 0.1070) * (1 + chest) - 0.006 * lift, 0.796 + 0.016 * lift, -0.014) * h;
+  lift = smooth_step(30, 100, m_shape.arm_deg);
+  const double chest = 0.30 * (g.chest - 1);
+  shoulder_joint = Vec3((m_female ? 0.0975 : 0.1070) * (1 + chest) - 0.006 * lift, 0.796 + 0.016 * lift, -0.009) * h;
   m_arm_x = Vec3(std::cos(angle), std::sin(angle), 0);
   m_arm_y = Vec3(-std::sin(angle), std::cos(angle), 0);
   const double forward = 0.020 * h; // an easy elbow: wrist and hand lie a little forward
@@ -145,11 +150,11 @@ void BodyField::build_leg(const GirthFactors& g) {
   const double thigh = g.thigh, gap = 0.005 * h;
   leg_slope = std::tan(radians(m_shape.leg_deg));
   const double hip_x = (m_female ? 0.054 : 0.052) * h, top = 0.46 * h;
-  hip_joint = Vec3(hip_x, (m_female ? 0.523 : 0.528) * h, 0);
-  const MonotoneCurve scale({0.065 * h, 0.205 * h, 0.285 * h, 0.42 * h}, {g.ankle, g.calf, g.knee, thigh});
+  hip_joint = Vec3(hip_x, 0.509 * h, -0.018 * h);
+  const MonotoneCurve scale({0.065 * h, 0.205 * h, 0.279 * h, 0.42 * h}, {g.ankle, g.calf, g.knee, thigh});
   // The leg's middle: by its inner skin at the top, by the line of the bones from the knee down.
   const auto center_x = [&](double y) {
-    const double bones = hip_x - 0.10 * (hip_joint.y() - std::max(y, 0.285 * h)) * (m_female ? 1 : 0.6);
+    const double bones = hip_x - 0.10 * (hip_joint.y() - std::max(y, 0.279 * h)) * (m_female ? 1 : 0.6);
     const double skin = gap + 0.0500 * h * thigh;
     return bones + (skin - bones) * smooth_step(0.27 * h, top, y) + leg_slope * (hip_joint.y() - y);
   };
@@ -164,7 +169,7 @@ void BodyField::build_leg(const GirthFactors& g) {
   }
   m_leg = Tube(knots, 0.012 * h, 0.03 * h);
   const auto joint = [&](double y, double z) { return Vec3(center_x(y), y, z * h); };
-  knee = joint(0.285 * h, 0.006);
+  knee = joint(0.279 * h, 0.006);
   ankle = joint(0.042 * h, -0.006);
   // The foot lies along its own z, from the heel to the toe, turned out a little; tube axis = that line.
   m_foot_turn = radians(7 + 0.5 * m_shape.leg_deg);

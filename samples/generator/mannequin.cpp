@@ -167,6 +167,10 @@ MadeMannequin make_mannequin(const Mannequin& shape) {
   }
   made.parts = vertex_parts(made.mesh, body);
   made.truth = mannequin_truth(made.mesh, made.parts, body, shape);
+  // The origin is below the middle of the hip joints; the figure was modelled around its trunk's axis.
+  const double forward = -std::round(body.hip_joint.z() * 1e6) / 1e6;
+  for (Vec3& p : made.mesh.positions) p.z() = std::round((p.z() + forward) * 1e6) / 1e6;
+  for (auto& [name, landmark] : made.truth["landmarks"].items()) landmark["p"][2] = std::round((landmark["p"][2].get<double>() + forward) * 1e6) / 1e6;
   return made;
 }
 

@@ -125,19 +125,25 @@ private:
     m_neck_center = Vec3(0, 0.5 * (yb + yf), 0.5 * (back.z() + front.z()));
     put("neck_center", m_neck_center, "medium");
     // On the shoulder line, where the neck has turned into the shoulder.
-    const double z = back.z() + 0.42 * (front.z() - back.z());
+    const double z = back.z() + 0.32 * (front.z() - back.z());
     const Vec3 side = exit_point(m_field, Vec3(0.046 * h, 0.80 * h, z), Vec3::UnitY());
     pair("neck_side", side, "medium");
-    pair("acromion", exit_point(m_field, m_body.shoulder_joint, Vec3(0.35, 0.93, -0.12)), "medium");
+    pair("acromion", exit_point(m_field, m_body.shoulder_joint, Vec3(0.60 - 0.85 * m_body.lift, 0.80, -0.10)), "medium");
     pair("olecranon", exit_point(m_field, m_body.elbow, -Vec3::UnitZ()), "medium");
-    // Neck base: the plane through back and front neck point and the x axis; neck: square to its axis, at mid height.
-    const Vec3 in_plane = (back - front).normalized();
-    Vec3 normal = Vec3::UnitX().cross(in_plane);
-    if (normal.y() < 0) normal = -normal;
+    // Neck base: the ring on the skin through front, side and back neck point.
+    const MonotoneCurve height({0, 0.5 * units::PI, units::PI}, {yf, side.y(), yb});
+    double ring = 0;
+    Vec3 last = front;
+    for (int k = 1; k <= 45; ++k) {
+      const double angle = units::PI * k / 45, y = height.at(angle);
+      const Vec3 p = exit_point(m_field, Vec3(0, y, m_neck_center.z()), Vec3(std::sin(angle), 0, std::cos(angle)));
+      ring += 2 * (p - last).norm();
+      last = p;
+    }
+    m_girths["neck_base"] = ring;
     const auto near_neck = [&](const Triangle& t) {
       return (m_mesh.positions[t[0]] - m_neck_center).norm() < 0.09 * h && m_parts[t[0]] != ARM_L && m_parts[t[0]] != ARM_R;
     };
-    m_girths["neck_base"] = mesh_section(m_mesh, m_neck_center, normal, near_neck).girth_m;
     m_girths["neck"] = mesh_section(m_mesh, m_body.neck_axis_point(0.863 * h), m_body.neck_front_direction().cross(Vec3::UnitX()), near_neck).girth_m;
   }
 
@@ -181,7 +187,7 @@ private:
       const Vec3 n = field_normal(m_field, bust);
       bust = onto_surface(m_field, bust + 0.03 * (Vec3::UnitZ() - n.z() * n), 1);
     }
-    pair("bust_point", bust, m_female ? "high" : "medium");
+    pair("bust_point", bust, m_female ? "high" : "low");
     pair("bust_prominent", bust, m_female ? "high" : "low");
     m_bust_y = bust.y();
     put("omphalion", exit_point(m_field, Vec3(0, m_body.y_omphalion, 0), Vec3::UnitZ()), "low");
@@ -213,9 +219,10 @@ private:
   void levels() {
     level("bust", m_bust_y, m_female ? "high" : "low");
     level("chest_axilla", m_chest_y, "low");
-    const double fold = m_female ? m_body.breast_center.y() - 1.02 * m_body.breast_radii.y() : m_body.y_underbust;
+    const double fold = m_body.y_fold;
     level("underbust", fold, "medium");
     m_levels["underbust"]["applies"] = m_female;
+    m_levels["underbust"]["girth_trust"] = "low"; // it changes by a centimetre for two millimetres of height
     level("waist_semantic", m_body.y_waist, "medium");
     level("omphalion", m_body.y_omphalion, "low");
     level("abdomen", m_abdomen_y, "medium");

@@ -124,8 +124,39 @@ Measures measures_from_body(const io::Json& body, const std::string& file) {
 }
 
 io::Json pattern_document(const Draft& draft) {
+  const auto cm = [](double metres) { return std::round(metres * 1e6) / 1e4; }; // to a micrometre
   io::Json d = io::new_document("pattern", 1, "make-pattern");
+  d["length_unit"] = "cm";
   d["name"] = draft.name;
+  d["panels"] = io::Json::array();
+  for (const DraftPanel& p : draft.panels) {
+    io::Json panel = {{"name", p.name}, {"outline", io::Json::array()}};
+    const std::size_t n = p.points.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec2 &a = p.points[i], &b = p.points[(i + 1) % n];
+      io::Json path = io::Json::array();
+      path.push_back({"M", cm(a.x()), cm(a.y())});
+      const std::vector<Vec2>& c = p.edges[i].control;
+      if (c.empty()) path.push_back({"L", cm(b.x()), cm(b.y())});
+      else path.push_back({"C", cm(c[0].x()), cm(c[0].y()), cm(c[1].x()), cm(c[1].y()), cm(b.x()), cm(b.y())});
+      panel["outline"].push_back({{"edge", p.edges[i].name}, {"path", path}});
+    }
+    panel["grain"] = {p.grain.x(), p.grain.y()};
+    panel["place"] = {{"part", p.placement.part}, {"theta_deg", p.placement.theta_deg}, {"anchor", {cm(p.placement.anchor.x()), cm(p.placement.anchor.y())}}};
+    if (p.placement.height > 0) panel["place"]["height"] = cm(p.placement.height);
+    d["panels"].push_back(panel);
+  }
+  d["seams"] = io::Json::array();
+  for (const DraftSeam& s : draft.seams) {
+    io::Json a = {{"panel", s.panel_a}, {"edge", s.edge_a}}, b = {{"panel", s.panel_b}, {"edge", s.edge_b}};
+    if (s.same_direction) { // otherwise neighbours' outlines run against each other, which is the format's rule
+      b["from"] = 0;
+      b["to"] = 1;
+    }
+    io::Json seam = {{"name", s.name}, {"kind", s.kind}, {"a", io::Json::array({a})}, {"b", io::Json::array({b})}};
+    if (s.ease != 0) seam["ease"] = "sleeve cap";
+    d["seams"].push_back(seam);
+  }
   return d;
 }
 
