@@ -6,4 +6,9 @@ void Finder::put(const std::string& name, const Vec3& p, int step, const std::st
   body.landmarks[name] = {p, step, rule, confidence, spread_m, {}};
 }
 
+double Finder::number(const std::string& name) const {
+  if (!rules.has(name + ".female")) return rules.number(name);
+  return figure.female * rules.number(name + ".female") + (1 - figure.female) * rules.number(name + ".male");
+}
+
 } // namespace sloper::body

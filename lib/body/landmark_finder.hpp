@@ -3,13 +3,25 @@
 /// closed skin in the body frame and fill body.landmarks, body.levels and body.girths; nothing is guessed silently.
 #include <body/arm_trace.hpp>
 #include <body/body.hpp>
+#include <body/relief.hpp>
 #include <body/rules.hpp>
 namespace sloper::body {
+
+/// What the decision tree's first questions find: which proportions to expect. Not a statement about a person.
+struct FigureClass {
+  double female = 0.5; ///< 0 male proportions .. 1 female proportions, from shape alone
+  std::optional<ReliefPoint> nipple[2], navel;
+};
+
+FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace, 2>& arms, const std::vector<Vec3>& normals, const Rules& rules,
+                            std::vector<std::string>& trail);
 
 struct Finder {
   const LevelStack& levels;
   const std::array<ArmTrace, 2>& arms;
+  const std::vector<Vec3>& normals; ///< of the skin's vertices
   const Rules& rules;
+  const FigureClass& figure;
   Body& body;
   std::vector<std::string>& trail; ///< the decision path, for --explain
   double s;                        ///< stature, m
@@ -17,7 +29,8 @@ struct Finder {
   void put(const std::string& name, const Vec3& p, int step, const std::string& rule, double confidence, double spread_m) const;
   bool has(const std::string& name) const { return body.landmarks.count(name) != 0; }
   const Vec3& at(const std::string& name) const { return body.landmarks.at(name).p; }
-  double number(const std::string& name) const { return rules.number(name); }
+  /// A rule's number; where it differs with the figure (name.female, name.male), the two are mixed.
+  double number(const std::string& name) const;
   void explain(const std::string& line) const { trail.push_back(line); }
 };
 
@@ -34,5 +47,6 @@ void find_head_landmarks(const Finder& finder);  ///< head tip, neck
 void find_arm_landmarks(const Finder& finder);   ///< hand tips, axillae, acromia, shoulders, elbows, wrists
 void find_trunk_landmarks(const Finder& finder); ///< bust, waist, abdomen, hip and all levels
 void find_girths(const Finder& finder);
+void name_body_class(const Finder& finder); ///< body.body_class and its reasons
 
 } // namespace sloper::body

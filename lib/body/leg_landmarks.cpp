@@ -44,7 +44,7 @@ void find_leg_landmarks(const Finder& f) {
     if (!top) continue;
     f.put("leg_top" + suffix, Vec3(top->centroid.x(), crotch_y - 0.010, top->centroid.y()), 2, "section_under_crotch", 0.9, 0.003);
     // the leg's middle leans out with fat and in with muscle: half of it, half the usual breadth between the joints
-    const double hip_x = 0.5 * (top->centroid.x() + sign * f.number("hip_joint.aside") * s);
+    const double hip_x = 0.5 * (top->centroid.x() + sign * (f.number("hip_joint.from_leg_top") + f.number("hip_joint.aside")) * s);
     const Vec3 hip(hip_x, crotch_y + f.number("hip_joint.above_crotch") * s, top->centroid.y() - f.number("hip_joint.behind_leg_top") * s);
     f.put("hip_joint" + suffix, hip, 2, "above_leg_top", 0.6, 0.012);
     if (const auto ankle = f.levels.leg_at(ankle_y, side)) {

@@ -2,7 +2,6 @@
 #include <body/canonical_frame.hpp>
 #include <body/measure_scan.hpp>
 #include <body/part_labels.hpp>
-#include <body/relief.hpp>
 #include <body/skin_profile.hpp>
 #include <body/skin_surface.hpp>
 #include <io/json.hpp>
@@ -68,53 +67,25 @@ MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, con
   const EdgeGraph graph(body.skin);
   const std::array<ArmTrace, 2> arms = trace_arms(levels, graph);
   describe_stance(body, arms);
-  if (std::getenv("DUMP_NECK"))
-    for (double y = 0.78 * s; y < 0.95 * s; y += 0.004 * s) {
-      const auto m = midline(levels, y, 0, 0.008 * s);
-      const auto loop = levels.trunk_at(y);
-      if (m && loop) std::fprintf(stderr, "NECK %.5f %.5f %.5f %.5f %.5f\n", y / s, m->front / s, m->back / s, loop->low.x() / s, loop->high.x() / s);
-    }
-  if (std::getenv("DUMP_LEG"))
-    for (double y = 0.02 * s; y < 0.48 * s; y += 0.005 * s)
-      if (const auto loop = levels.leg_at(y, 0))
-        std::fprintf(stderr, "LEG %.5f %.5f %.5f %.5f %.5f %.5f %.5f %.5f %.5f\n", y, taut_girth(*loop), loop->area, loop->low.x(), loop->high.x(),
-                     loop->low.y(), loop->high.y(), loop->centroid.x(), loop->centroid.y());
   for (const ArmTrace& arm : arms) {
     if (arm.sections.empty()) {
       result.trail.push_back(std::string("arm ") + (arm.left ? "left" : "right") + ": cannot be told from the trunk");
       continue;
     }
-    if (std::getenv("DUMP_ARM"))
-      for (const LimbSection& sec : arm.sections)
-        std::fprintf(stderr, "ARM %d %.5f %.5f %.5f %.5f %.5f %.5f %.5f %.5f %.5f\n", arm.left ? 0 : 1, sec.along, sec.girth, sec.loop.area,
-                     sec.loop.size().x(), sec.loop.size().y(), sec.center.x(), sec.center.y(), sec.center.z(), (sec.center - arm.tip).norm());
     char line[200];
     std::snprintf(line, sizeof line, "arm %s: %zu sections, %.3f m from the hand to the trunk, last girth %.3f m, pit %s", arm.left ? "left" : "right",
                   arm.sections.size(), arm.length(), arm.sections.back().girth, arm.axilla ? "found" : "not found");
     result.trail.push_back(line);
   }
-  const Finder finder{levels, arms, options.rules, body, result.trail, s};
+  const std::vector<Vec3> normals = vertex_normals(body.skin);
+  const FigureClass figure = classify_figure(levels, arms, normals, options.rules, result.trail);
+  const Finder finder{levels, arms, normals, options.rules, figure, body, result.trail, s};
   find_leg_landmarks(finder);
   find_head_landmarks(finder);
   find_arm_landmarks(finder);
   find_trunk_landmarks(finder);
   find_girths(finder);
-  if (std::getenv("DUMP_CLASS")) {
-    const auto nn = vertex_normals(body.skin);
-    auto rel = [&](double x0, double x1, double y0, double y1, double sg) {
-      Box3 box;
-      box.low = Vec3(x0 * s, y0 * s, -1);
-      box.high = Vec3(x1 * s, y1 * s, 1);
-      const auto r = strongest_relief(body.skin, nn, box, 0.011 * s, sg);
-      return r ? *r : ReliefPoint{};
-    };
-    const auto l = rel(0.03, 0.11, 0.66, 0.76, 1), r = rel(-0.11, -0.03, 0.66, 0.76, 1), nv = rel(-0.015, 0.015, 0.55, 0.65, -1);
-    std::fprintf(stderr, "CLASS bump %.1f %.1f at (%.3f %.3f) (%.3f %.3f) navel %.1f at %.3f %.3f; sj/hipw %.3f sj/S %.3f hipw/S %.3f waistw/hipw %.3f\n",
-                 1000 * l.height, 1000 * r.height, l.p.x(), l.p.y(), r.p.x(), r.p.y(), 1000 * nv.height, nv.p.x(), nv.p.y(),
-                 (finder.at("shoulder_joint_l").x() - finder.at("shoulder_joint_r").x()) / body.levels["hip"].width_m,
-                 (finder.at("shoulder_joint_l").x() - finder.at("shoulder_joint_r").x()) / s, body.levels["hip"].width_m / s,
-                 body.levels["waist_width_min"].width_m / body.levels["hip"].width_m);
-  }
+  name_body_class(finder);
   const std::vector<Part> skin_part = label_skin(finder);
   body.face_part = label_faces(body.skin.triangles, skin_part);
   result.vertex_part = label_scan(positions, sorted.is_body, skin.of_scan, body.skin, skin_part, 0.03 * s);

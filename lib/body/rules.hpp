@@ -10,6 +10,7 @@ public:
   static Rules standard();
   /// The built-in rules with the numbers of `path` in their place. @throws Error INPUT; an unknown name is an error.
   static Rules read(const std::string& path);
+  bool has(const std::string& name) const { return m_numbers.count(name) != 0; }
   double number(const std::string& name) const; ///< @throws Error INTERNAL when there is no such number
   const std::map<std::string, double>& numbers() const { return m_numbers; }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <optional>
 
 namespace sloper::body {
 
@@ -56,35 +58,165 @@ std::optional<Vec3> extreme_depth(const Finder& f, double y0, double y1, double 
 
 } // namespace
 
+namespace {
+
+/// Foremost skin of the trunk at (x, y).
+std::optional<Vec3> front_at(const Finder& f, double x, double y, double half_width) {
+  const auto m = midline(f.levels, y, x, half_width);
+  if (!m) return std::nullopt;
+  return Vec3(x, y, m->front);
+}
+
+/// A bump of the chest is a nipple when it is high, both sides agree and it lies where one can be.
+bool is_nipple_pair(const Finder& f) {
+  const auto &l = f.figure.nipple[0], &r = f.figure.nipple[1];
+  if (!l || !r || f.figure.female < 0.5) return false;
+  const double low = std::min(l->height, r->height);
+  return low > 0.0024 && std::abs(l->p.y() - r->p.y()) < 0.015 * f.s && std::abs(l->p.x() + r->p.x()) < 0.03 * f.s;
+}
+
+void find_bust(const Finder& f, double pit) {
+  const double s = f.s, crotch = f.at("crotch").y(), trunk = f.at("neck_back").y() - crotch;
+  const double by_trunk = crotch + f.number("bust.of_trunk") * trunk, by_pit = pit - f.number("bust.below_pit") * s;
+  const double expected = pit > 0 ? 0.5 * (by_trunk + by_pit) : by_trunk;
+  const bool relief = is_nipple_pair(f);
+  f.explain(relief ? "bust: both sides have a bump, taken as the bust points" : "bust: no clear bumps, taken by proportion and the foremost skin");
+  double sum = 0;
+  int n = 0;
+  for (int side = 0; side < 2; ++side) {
+    const double sign = side == 0 ? 1 : -1;
+    const std::string suffix = side_suffix(side);
+    std::optional<Vec3> point;
+    if (relief) {
+      const Vec3& p = f.figure.nipple[side]->p;
+      point = front_at(f, p.x(), p.y() + 0.002 * s, 0.004 * s);
+    } else {
+      double y = expected;
+      if (f.figure.female > 0.5) { // the foremost skin near the expected height
+        const double a = 0.02 * s, b = 0.10 * s;
+        if (const auto p = extreme_depth(f, expected - 0.035 * s, expected + 0.035 * s, 1, side == 0 ? a : -b, side == 0 ? b : -a))
+          if (p->y() > expected - 0.033 * s && p->y() < expected + 0.033 * s) y = 0.5 * (y + p->y());
+      }
+      point = front_at(f, sign * f.number("bust.beside") * s, y, 0.006 * s);
+    }
+    if (!point) continue;
+    f.put("bust_point" + suffix, *point, 2, relief ? "bump_of_chest" : "proportion", relief ? 0.85 : 0.5, relief ? 0.004 : 0.015);
+    if (const auto p = extreme_depth(f, point->y() - 0.025 * s, point->y() + 0.06 * s, 1, side == 0 ? 0.002 : -0.14 * s, side == 0 ? 0.14 * s : -0.002))
+      f.put("bust_prominent" + suffix, *p, 2, "foremost_of_chest", 0.8, 0.006);
+    sum += point->y(), ++n;
+  }
+  if (n == 2) put_level(f, "bust", sum / 2, relief ? "bump_of_chest" : "proportion");
+}
+
+/// Height of the fold under the breast: below the bust point, where the front turns from falling back to falling straight.
+double breast_fold(const Finder& f, double bust_y) {
+  const double s = f.s, step = 0.003 * s;
+  const double expected = bust_y - f.number("underbust.below_bust") * s;
+  if (f.figure.female < 0.5 || !f.has("bust_point_l") || !f.has("bust_point_r")) return expected;
+  double sum = 0;
+  int n = 0;
+  for (const char* name : {"bust_point_l", "bust_point_r"}) {
+    const double x = f.at(name).x();
+    double sharpest = 0.06, at = 0; // rad of turn that a fold must have
+    for (double y = bust_y - 0.012 * s; y > bust_y - 0.065 * s; y -= 0.0015 * s) {
+      const auto a = front_at(f, x, y + 2 * step, 0.005 * s), b = front_at(f, x, y, 0.005 * s), c = front_at(f, x, y - 2 * step, 0.005 * s);
+      if (!a || !b || !c) continue;
+      const double turn = (c->z() - b->z()) / (2 * step) - (b->z() - a->z()) / (2 * step);
+      if (turn > sharpest) sharpest = turn, at = y;
+    }
+    if (at > 0) sum += at, ++n;
+  }
+  return n ? (sum + (2 - n) * expected) / 2 : expected;
+}
+
+/// One side of a curve is higher than `least` by so much before it falls below it again: the smaller of both sides.
+double prominence(const std::vector<double>& curve, std::size_t least) {
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < least; ++i) before = std::max(before, curve[i] - curve[least]);
+  for (std::size_t i = least + 1; i < curve.size(); ++i) after = std::max(after, curve[i] - curve[least]);
+  return std::min(before, after);
+}
+
+void find_waist_minima(const Finder& f, double top, double bottom) {
+  std::vector<Level> curve;
+  for (double y = top; y > bottom; y -= 0.002)
+    if (const auto level = measure_level(f, y)) curve.push_back(*level);
+  if (curve.size() < 5) return;
+  auto take = [&](const char* name, const char* rule, double Level::*measure) {
+    std::vector<double> values;
+    for (const Level& level : curve) values.push_back(level.*measure);
+    const std::size_t least = static_cast<std::size_t>(std::min_element(values.begin(), values.end()) - values.begin());
+    const double rise = prominence(values, least);
+    char text[160];
+    std::snprintf(text, sizeof text, "%s: least %.3f m at y %.3f, %.1f mm below its surroundings%s", name, values[least], curve[least].y, 1000 * rise,
+                  rise < f.number("waist.prominence") ? ": no minimum" : "");
+    f.explain(text);
+    if (rise < f.number("waist.prominence")) return;
+    Level level = curve[least];
+    level.rule = rule;
+    f.body.levels[name] = level;
+  };
+  take("waist_girth_min", "smallest_girth", &Level::girth_m);
+  take("waist_width_min", "smallest_width", &Level::width_m);
+}
+
+/// Navel: a dimple near the middle, or the proportion. @return its height
+double find_navel(const Finder& f) {
+  const double s = f.s, crotch = f.at("crotch").y(), trunk = f.at("neck_back").y() - crotch;
+  const double expected = crotch + f.number("omphalion.of_trunk") * trunk;
+  const auto& dimple = f.figure.navel;
+  const bool seen = dimple && -dimple->height > f.number("omphalion.dimple") && std::abs(dimple->p.y() - expected) < 0.06 * s;
+  const double y = seen ? dimple->p.y() : expected, x = seen ? dimple->p.x() : 0.0;
+  f.explain(seen ? "navel: a dimple near the middle" : "navel: no dimple, taken by proportion");
+  // the tape and the truth lie on the belly's surface beside the dimple, not at its bottom
+  if (const auto p = front_at(f, x, y, 0.006 * s)) f.put("omphalion", *p, 2, seen ? "dimple" : "trunk_ratio", seen ? 0.85 : 0.4, seen ? 0.006 : 0.02);
+  put_level(f, "omphalion", y, seen ? "dimple" : "trunk_ratio");
+  return y;
+}
+
+double find_waist(const Finder& f, double navel, double pit) {
+  const double s = f.s, crotch = f.at("crotch").y();
+  const double top = pit > 0 ? pit : 0.757 * s;
+  double waist = crotch + f.number("waist.of_trunk") * (top - crotch);
+  std::string rule = "trunk_ratio";
+  if (f.has("omphalion") && f.body.landmarks["omphalion"].rule == "dimple") {
+    const double above = std::clamp(navel + f.number("waist.above_navel") * s, waist - 0.02 * s, waist + 0.02 * s);
+    waist += (0.25 + 0.25 * f.figure.female) * (above - waist);
+    rule = "trunk_ratio_and_navel";
+  }
+  put_level(f, "waist_semantic", waist, rule);
+  const auto loop = f.levels.trunk_at(waist);
+  if (!loop) return waist;
+  const double depth = f.has("hip_center") ? f.at("hip_center").z() + f.number("waist.side_depth") * s : loop->centroid.y();
+  for (int side = 0; side < 2; ++side) {
+    const double sign = side == 0 ? 1 : -1;
+    std::optional<Vec2> outer;
+    for (const auto& seg : loop->segments)
+      if (std::abs(seg[0].y() - depth) < 0.01 * s && (!outer || sign * seg[0].x() > sign * outer->x())) outer = seg[0];
+    if (outer) f.put(std::string("waist_side") + side_suffix(side), Vec3(outer->x(), waist, depth), 2, rule, 0.5, 0.015);
+  }
+  return waist;
+}
+
+} // namespace
+
 void find_trunk_landmarks(const Finder& f) {
   const double s = f.s;
   if (!f.has("crotch") || !f.has("neck_back")) return;
-  const double crotch = f.at("crotch").y(), trunk = f.at("neck_back").y() - crotch;
-  auto share = [&](const char* rule) { return crotch + f.number(rule) * trunk; };
-  const double waist = share("waist.of_trunk"), navel = share("omphalion.of_trunk"), bust = share("bust.of_trunk");
-  const double shoulder_width = f.arms[0].axilla ? std::abs(f.arms[0].axilla->x()) : 0.11 * s;
-  // bust: the foremost point of each side around the expected height
-  double bust_y = 0;
-  int n_bust = 0;
+  const double crotch = f.at("crotch").y();
+  double pit = 0, fold = 0;
+  int n_pit = 0, n_fold = 0;
   for (int side = 0; side < 2; ++side) {
-    const double a = side == 0 ? 0.025 * s : -shoulder_width, b = side == 0 ? shoulder_width : -0.025 * s;
-    if (const auto p = extreme_depth(f, bust - 0.045 * s, bust + 0.03 * s, 1, a, b)) {
-      f.put(std::string("bust_prominent") + side_suffix(side), *p, 2, "foremost_of_chest", 0.8, 0.006);
-      f.put(std::string("bust_point") + side_suffix(side), *p, 2, "foremost_of_chest", 0.5, 0.012);
-      bust_y += p->y(), ++n_bust;
-    }
+    const std::string suffix = side_suffix(side);
+    if (f.has("axilla" + suffix)) pit += f.at("axilla" + suffix).y(), ++n_pit;
+    for (const char* name : {"axilla_front", "axilla_back"})
+      if (f.has(name + suffix)) fold += f.at(name + suffix).y(), ++n_fold;
   }
-  if (n_bust == 2) put_level(f, "bust", bust_y / 2, "bust_points");
-  if (const auto p = midline(f.levels, navel, 0, 0.006 * s)) f.put("omphalion", Vec3(0, navel, p->front), 2, "trunk_ratio", 0.4, 0.02);
-  put_level(f, "omphalion", navel, "trunk_ratio");
-  put_level(f, "waist_semantic", waist, "trunk_ratio");
-  if (const auto loop = f.levels.trunk_at(waist))
-    for (int side = 0; side < 2; ++side) {
-      Vec2 outer = loop->segments.front()[0];
-      for (const auto& seg : loop->segments)
-        if ((side == 0 ? 1 : -1) * (seg[0].x() - outer.x()) > 0) outer = seg[0];
-      f.put(std::string("waist_side") + side_suffix(side), Vec3(outer.x(), waist, outer.y()), 2, "outermost_at_waist", 0.5, 0.015);
-    }
+  if (n_pit) pit /= n_pit;
+  if (n_fold) put_level(f, "chest_axilla", fold / n_fold, "axilla_folds");
+  find_bust(f, pit);
+  const double navel = find_navel(f);
+  const double waist = find_waist(f, navel, pit);
   if (const auto p = extreme_depth(f, crotch + 0.004, waist, 1, -0.1 * s, 0.1 * s)) {
     f.put("abdomen_front", *p, 2, "foremost_below_waist", 0.8, 0.008);
     put_level(f, "abdomen", p->y(), "abdomen_front");
@@ -97,81 +229,19 @@ void find_trunk_landmarks(const Finder& f) {
   }
   put_level(f, "crotch", crotch + 0.004, "crotch");
   if (f.body.levels.count("crotch")) f.body.levels["crotch"].y = crotch;
-  double fold_y = 0;
-  int n_fold = 0;
-  for (int side = 0; side < 2; ++side)
-    for (const char* name : {"axilla_front", "axilla_back"})
-      if (f.has(name + std::string(side_suffix(side)))) fold_y += f.at(name + std::string(side_suffix(side))).y(), ++n_fold;
-  if (n_fold) put_level(f, "chest_axilla", fold_y / n_fold, "axilla_folds");
-  // girth curve: smallest between bust and hip, largest below the waist
-  const double fold = n_bust == 2 ? bust_y / 2 - 0.03 * s : bust - 0.03 * s;
-  put_level(f, "underbust", fold, "below_bust");
-  std::optional<Level> least, narrow, most;
-  for (double y = fold - 0.005; y > 0.5 * (navel + crotch); y -= 0.002)
-    if (const auto level = measure_level(f, y)) {
-      if (!least || level->girth_m < least->girth_m) least = level;
-      if (!narrow || level->width_m < narrow->width_m) narrow = level;
-    }
+  double under = waist + 0.055 * s;
+  if (f.body.levels.count("bust")) {
+    under = breast_fold(f, f.body.levels["bust"].y);
+    put_level(f, "underbust", under, f.figure.female > 0.5 ? "fold_under_bust" : "proportion");
+  }
+  find_waist_minima(f, under - 0.005, 0.5 * (navel + crotch));
+  std::optional<Level> most;
   for (double y = crotch + 0.004; y < waist; y += 0.002)
     if (const auto level = measure_level(f, y))
       if (!most || level->girth_m > most->girth_m) most = level;
-  auto put_extremum = [&](const char* name, std::optional<Level> level, const char* rule) {
-    if (!level) return;
-    level->rule = rule;
-    f.body.levels[name] = *level;
-  };
-  put_extremum("waist_girth_min", least, "smallest_girth");
-  put_extremum("waist_width_min", narrow, "smallest_width");
-  put_extremum("hip_girth_max", most, "largest_girth");
-}
-
-void find_girths(const Finder& f) {
-  const double s = f.s;
-  for (int side = 0; side < 2; ++side) {
-    const std::string suffix = side_suffix(side);
-    auto put = [&](const char* name, double value) {
-      if (value > 0) f.body.girths[name + suffix] = {value, 0.003};
-    };
-    auto leg_girth = [&](double y) {
-      const auto loop = f.levels.leg_at(y, side);
-      return loop ? taut_girth(*loop) : 0.0;
-    };
-    if (f.has("crotch")) put("thigh", leg_girth(f.at("crotch").y() - 0.010));
-    if (f.has("knee" + suffix) && f.has("ankle" + suffix)) {
-      const double knee = f.at("knee" + suffix).y(), ankle = f.at("ankle" + suffix).y();
-      put("knee", leg_girth(knee));
-      double calf = 0, calf_y = 0, least = 1e300;
-      for (double y = ankle; y < knee; y += 0.004)
-        if (const double g = leg_girth(y); g > calf && y > ankle + 0.3 * (knee - ankle)) calf = g, calf_y = y;
-      for (double y = ankle; y < calf_y; y += 0.004)
-        if (const double g = leg_girth(y); g > 0) least = std::min(least, g);
-      put("calf", calf);
-      if (least < 1e299) put("ankle_min", least);
-    }
-    const ArmTrace& arm = f.arms[side];
-    if (!f.has("elbow" + suffix) || arm.sections.empty()) continue;
-    auto arm_girth = [&](const Vec3& center, const Vec3& axis) {
-      double girth = 0, nearest = 0.05 * s;
-      for (const Loop& loop : cut(f.levels.skin(), cross_plane(center, axis), &arm.triangles))
-        if (loop.area > 0 && loop.centroid.norm() < nearest) nearest = loop.centroid.norm(), girth = taut_girth(loop);
-      return girth;
-    };
-    const Vec3 &shoulder = f.at("shoulder_joint" + suffix), &elbow = f.at("elbow" + suffix), &wrist = f.at("wrist" + suffix);
-    put("upper_arm", arm_girth(0.5 * (shoulder + elbow), shoulder - elbow));
-    put("wrist", arm_girth(wrist, elbow - wrist));
-  }
-  // neck: rings through the neck landmarks
-  auto ring = [&](const Vec3& back, const Vec3& front) {
-    const Vec3 middle = 0.5 * (back + front), axis = Vec3::UnitX().cross(front - back);
-    double girth = 0;
-    for (const Loop& loop : cut(f.levels.skin(), cross_plane(middle, -axis)))
-      if (encloses(loop, Vec2::Zero())) girth = std::max(girth, taut_girth(loop));
-    return girth;
-  };
-  if (f.has("neck_back") && f.has("neck_front")) {
-    const Vec3 back = f.at("neck_back"), front = f.at("neck_front"), up(0, 0.03 * s, 0);
-    if (const double g = ring(back + up, front + up); g > 0 && g < 0.4 * s) f.body.girths["neck"] = {g, 0.006};
-    if (const double g = ring(back, front); g > 0) f.body.girths["neck_base"] = {std::min(g, 0.3 * s), 0.01};
+  if (most) {
+    most->rule = "largest_girth";
+    f.body.levels["hip_girth_max"] = *most;
   }
 }
 
