@@ -28,15 +28,18 @@ std::optional<Vec3> top_of_shoulder(const TriangleMesh& skin, double stature, do
   return top;
 }
 
-/// Where the wrist is: the hand's girth has fallen to its least. Empty when the girth has no minimum there.
+/// Where the wrist is: behind the widest of the hand the girth falls to its least. Empty when it does not. The search
+/// starts at the palm, so that a fist, whose hand is short, has a wrist too.
 std::optional<double> wrist_by_girth(const ArmTrace& arm, double s) {
-  std::size_t least = 0;
   const auto& sections = arm.sections;
-  for (std::size_t k = 1; k + 1 < sections.size(); ++k) {
-    if (sections[k].along < 0.08 * s || sections[k].along > 0.16 * s) continue;
-    if (least == 0 || sections[k].girth < 0.995 * sections[least].girth) least = k;
-  }
-  if (least == 0 || sections[least - 1].girth < sections[least].girth) return std::nullopt;
+  std::size_t palm = 0;
+  for (std::size_t k = 0; k < sections.size() && sections[k].along < 0.11 * s; ++k)
+    if (sections[k].girth > sections[palm].girth) palm = k;
+  if (sections.empty() || sections[palm].along > 0.105 * s) return std::nullopt; // still rising: no palm
+  std::size_t least = palm;
+  for (std::size_t k = palm + 1; k + 1 < sections.size() && sections[k].along < sections[palm].along + 0.085 * s; ++k)
+    if (sections[k].girth < 0.995 * sections[least].girth) least = k;
+  if (sections[least].girth > 0.92 * sections[palm].girth) return std::nullopt;
   return sections[least].along;
 }
 
@@ -72,7 +75,9 @@ void find_arm_landmarks(const Finder& f) {
     joint.z() += f.number("shoulder_joint.before_axis") * s;
     const char* joint_rule = "end_of_arm_axis";
     if (arm.axilla) {
-      f.put("axilla" + suffix, *arm.axilla, 1, "gap_closes", 0.7, 0.008);
+      f.put("axilla" + suffix, *arm.axilla, 1, arm.pit_hidden ? "proportion" : "gap_closes", arm.pit_hidden ? 0.2 : 0.7, arm.pit_hidden ? 0.03 : 0.008);
+      if (arm.merge) f.put("axilla_merge" + suffix, *arm.merge, 1, "level_sections_merge", 0.8, 0.005);
+      if (arm.pit_hidden) f.body.scan.findings.push_back({"warning", "the arm pit is hidden, its place is estimated", "axilla" + suffix});
       if (arm.axilla_front) f.put("axilla_front" + suffix, *arm.axilla_front, 2, "beside_arm_pit", 0.5, 0.010);
       if (arm.axilla_back) f.put("axilla_back" + suffix, *arm.axilla_back, 2, "beside_arm_pit", 0.5, 0.010);
       // a raised arm draws the pit outward from under the joint

@@ -9,12 +9,13 @@ namespace {
 
 // all shares of stature
 constexpr double SEED_LEVEL = 0.60; ///< trunk level from which arms are the farthest reach
-constexpr double HAND_SKIP = 0.05;  ///< fingers: no single section
+constexpr double HAND_SKIP = 0.030; ///< fingers: no single section
 constexpr double STEP = 0.005;
 constexpr double ARM_REACH = 0.46; ///< over the skin from finger tip to beyond the shoulder
 constexpr double MAX_ARM_GIRTH = 0.36;
-constexpr double JUMP = 1.35;      ///< of the girth, where the section runs into the trunk
-constexpr double MIN_ARM = 0.24;   ///< a shorter trace is no arm
+constexpr double JUMP = 1.35;    ///< of the girth, where the section runs into the trunk
+constexpr double MIN_ARM = 0.24; ///< a shorter trace is no arm
+constexpr double LOWEST_PIT = 0.727;
 constexpr double TRUNK_LEAN = 0.5; ///< of the bisector between arm and trunk
 
 /// Legs below the crotch, flooded from the calves.
@@ -59,10 +60,30 @@ std::optional<Vec3> ring_center(const TriangleMesh& skin, const std::vector<doub
   return 0.5 * (sum / n + box.center());
 }
 
-void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& from_tip, double s) {
-  const auto start = ring_center(skin, from_tip, (HAND_SKIP - 0.01) * s, (HAND_SKIP + 0.01) * s);
+/// The mean of the three scan points of the hand that are farthest from its wrist: a rebuilt skin rounds the fingers off.
+void reach_for_fingers(ArmTrace& arm, const Vec3& wrist, const std::vector<Vec3>& scan_points, double s) {
+  const double length = (arm.tip - wrist).norm();
+  if (scan_points.empty() || length < 1e-6) return;
+  const Vec3 axis = (arm.tip - wrist) / length;
+  std::vector<std::pair<double, int>> far;
+  for (std::size_t i = 0; i < scan_points.size(); ++i) {
+    const Vec3 d = scan_points[i] - wrist;
+    const double along = d.dot(axis);
+    if (along < 0.5 * length || along > length + 0.05 * s || (d - along * axis).norm() > 0.045 * s) continue;
+    far.emplace_back(d.norm(), static_cast<int>(i));
+  }
+  if (far.size() < 3) return;
+  std::partial_sort(far.begin(), far.begin() + 3, far.end(),
+                    [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
+  const Vec3 tip = (scan_points[far[0].second] + scan_points[far[1].second] + scan_points[far[2].second]) / 3;
+  if ((tip - wrist).norm() > length) arm.tip = tip;
+}
+
+void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& from_tip, const std::vector<Vec3>& scan_points, double s) {
+  const auto start = ring_center(skin, from_tip, (HAND_SKIP - 0.008) * s, (HAND_SKIP + 0.008) * s);
   const auto ahead = ring_center(skin, from_tip, 0.11 * s, 0.13 * s);
   if (!start || !ahead) return;
+  reach_for_fingers(arm, *ahead, scan_points, s);
   Vec3 center = *start, axis = (*ahead - *start).normalized();
   double along = (center - arm.tip).norm();
   for (int step = 0; step < 120; ++step) {
@@ -173,8 +194,62 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels) {
     if (!arm.axilla)
       if (const auto apex = apex_at(depth + offset * radius)) arm.axilla = Vec3(apex->x(), apex->y(), depth);
   if (!arm.axilla) return;
+  if (arm.axilla->y() < LOWEST_PIT * s) { // arm and trunk touch, or a hole was closed there
+    arm.pit_hidden = true;
+    *arm.axilla = Vec3(sign * 0.5 * (std::abs(arm.axilla->x()) + 0.105 * s), 0.751 * s, depth);
+  }
   arm.axilla_front = *arm.axilla + Vec3(-sign * 0.0021 * s, 0.22 * radius, 0.75 * radius);
   arm.axilla_back = *arm.axilla + Vec3(-sign * 0.0035 * s, 0.16 * radius, -1.2 * radius);
+}
+
+/// Going up, the level at which the loops of a hanging arm and of the trunk become one, by bisection to 0.2 mm.
+void find_merge(ArmTrace& arm, const LevelStack& levels) {
+  const double s = levels.stature();
+  auto loops_at = [&](double y, int& trunk, int& limb) {
+    std::vector<Loop> loops = levels.exact(y);
+    trunk = limb = -1;
+    double nearest = 0.03 * s;
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      if (loops[i].area <= 0) continue;
+      if (trunk < 0 && std::abs(loops[i].centroid.x()) < 0.06 * s) trunk = static_cast<int>(i); // the largest near the middle
+      double d = 1e300;
+      for (const LimbSection& section : arm.sections) {
+        if (std::abs(section.center.y() - y) > 0.01 * s) continue;
+        const Vec2 c(section.center.x(), section.center.z());
+        d = std::min(d, encloses(loops[i], c) ? 0.0 : (c - loops[i].centroid).norm());
+      }
+      if (d < nearest) nearest = d, limb = static_cast<int>(i);
+    }
+    return loops;
+  };
+  double low = 0, high = 0;
+  for (double y = 0.80 * s; y > 0.62 * s; y -= 0.005 * s) {
+    int trunk, limb;
+    loops_at(y, trunk, limb);
+    if (trunk >= 0 && limb >= 0 && trunk != limb) {
+      low = y;
+      break;
+    }
+    high = y;
+  }
+  if (low == 0 || high == 0 || arm.out.y() > -0.25) return; // a level arm never stands apart in level sections
+  while (high - low > 2e-4) {
+    const double y = 0.5 * (low + high);
+    int trunk, limb;
+    loops_at(y, trunk, limb);
+    (trunk >= 0 && limb >= 0 && trunk != limb ? low : high) = y;
+  }
+  int trunk, limb;
+  const std::vector<Loop> loops = loops_at(low, trunk, limb);
+  if (trunk < 0 || limb < 0) return;
+  double best = 1e300;
+  for (const auto& a : loops[trunk].segments)
+    for (const auto& b : loops[limb].segments)
+      if (const double d = (a[0] - b[0]).squaredNorm(); d < best) {
+        best = d;
+        const Vec2 middle = 0.5 * (a[0] + b[0]);
+        arm.merge = Vec3(middle.x(), low, middle.y());
+      }
 }
 
 } // namespace
@@ -193,7 +268,7 @@ Vec3 ArmTrace::at(double along) const {
   return a.center + w * (b.center - a.center);
 }
 
-std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& graph) {
+std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& graph, const std::vector<Vec3>& scan_points) {
   std::array<ArmTrace, 2> arms;
   arms[1].left = false;
   if (!levels.crotch()) return arms;
@@ -223,7 +298,7 @@ std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& gr
       const Triangle& t = skin.triangles[f];
       if (from_tip[t[0]] < 1e199 && from_tip[t[1]] < 1e199 && from_tip[t[2]] < 1e199) arm.triangles.push_back(static_cast<int>(f));
     }
-    follow(arm, skin, from_tip, s);
+    follow(arm, skin, from_tip, scan_points, s);
     if (arm.sections.empty() || arm.length() < MIN_ARM * s) {
       arm.sections.clear();
       continue;
@@ -231,6 +306,7 @@ std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& gr
     const double end = arm.length();
     arm.out = (arm.at(end - 0.12 * s) - arm.at(end)).normalized();
     find_axilla(arm, levels);
+    if (!arm.pit_hidden) find_merge(arm, levels);
   }
   return arms;
 }

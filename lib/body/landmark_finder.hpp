@@ -19,7 +19,10 @@ FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace,
 struct Finder {
   const LevelStack& levels;
   const std::array<ArmTrace, 2>& arms;
-  const std::vector<Vec3>& normals; ///< of the skin's vertices
+  const std::vector<Vec3>& normals;     ///< of the skin's vertices
+  const std::vector<Vec3>& scan_points; ///< the scan's own points of the body
+  bool rebuilt;                         ///< the skin is not the scan's own and has lost its finest ends
+  bool crotch_moved;                    ///< the crotch is an estimate
   const Rules& rules;
   const FigureClass& figure;
   Body& body;

@@ -1,5 +1,6 @@
 #include <body/landmark_finder.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -18,28 +19,39 @@ std::optional<double> hollow_of_knee(const Finder& f, int side, double around) {
   return best;
 }
 
+/// Foremost and rearmost points of the foot. On a rough scan the mean of three, and only points with company.
+void find_foot_ends(const Finder& f, int side, double ankle_y) {
+  const double sign = side == 0 ? 1 : -1;
+  const std::vector<Vec3>& points = f.rebuilt ? f.scan_points : f.levels.skin().positions;
+  std::vector<int> foot;
+  for (std::size_t v = 0; v < points.size(); ++v)
+    if (points[v].y() <= ankle_y && points[v].y() > -0.01 * f.s && sign * points[v].x() > 0) foot.push_back(static_cast<int>(v));
+  const std::size_t wanted = f.rebuilt ? 3 : 1;
+  if (foot.size() < 10) return;
+  for (const double direction : {1.0, -1.0}) {
+    std::partial_sort(foot.begin(), foot.begin() + static_cast<std::ptrdiff_t>(wanted), foot.end(), [&](int a, int b) {
+      const double za = direction * points[a].z(), zb = direction * points[b].z();
+      return za != zb ? za > zb : a < b;
+    });
+    Vec3 mean = Vec3::Zero();
+    for (std::size_t k = 0; k < wanted; ++k) mean += points[foot[k]] / static_cast<double>(wanted);
+    f.put(std::string(direction > 0 ? "foot_tip" : "heel") + side_suffix(side), mean, 1, direction > 0 ? "foremost_of_foot" : "rearmost_of_foot", 0.95, 0.002);
+  }
+}
+
 } // namespace
 
 void find_leg_landmarks(const Finder& f) {
   const double s = f.s;
-  const TriangleMesh& skin = f.levels.skin();
   if (!f.levels.crotch()) return;
   const double crotch_y = *f.levels.crotch();
-  f.put("crotch", Vec3(f.levels.crotch_point().x(), crotch_y, f.levels.crotch_point().y()), 1, "leg_sections_merge", 0.9, 0.003);
+  f.put("crotch", Vec3(f.levels.crotch_point().x(), crotch_y, f.levels.crotch_point().y()), 1, f.crotch_moved ? "below_buttocks" : "leg_sections_merge",
+        f.crotch_moved ? 0.3 : 0.9, f.crotch_moved ? 0.02 : 0.003);
   for (int side = 0; side < 2; ++side) {
     const std::string suffix = side_suffix(side);
     const double sign = side == 0 ? 1 : -1;
-    // foot: the skin below the ankle on this side
     const double ankle_y = f.number("ankle.height") * s;
-    int toe = -1, heel = -1;
-    for (std::size_t v = 0; v < skin.positions.size(); ++v) {
-      const Vec3& p = skin.positions[v];
-      if (p.y() > ankle_y || sign * p.x() < 0) continue;
-      if (toe < 0 || p.z() > skin.positions[toe].z()) toe = static_cast<int>(v);
-      if (heel < 0 || p.z() < skin.positions[heel].z()) heel = static_cast<int>(v);
-    }
-    if (toe >= 0) f.put("foot_tip" + suffix, skin.positions[toe], 1, "foremost_of_foot", 0.95, 0.002);
-    if (heel >= 0) f.put("heel" + suffix, skin.positions[heel], 1, "rearmost_of_foot", 0.95, 0.002);
+    find_foot_ends(f, side, ankle_y);
     const auto top = f.levels.leg_at(crotch_y - 0.010, side);
     if (!top) continue;
     f.put("leg_top" + suffix, Vec3(top->centroid.x(), crotch_y - 0.010, top->centroid.y()), 2, "section_under_crotch", 0.9, 0.003);

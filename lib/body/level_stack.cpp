@@ -1,6 +1,7 @@
 #include <body/level_stack.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sloper::body {
@@ -27,7 +28,37 @@ int best_overlap(const std::vector<Loop>& loops, const Loop& from) {
   return best;
 }
 
+/// The part of a loop on one side of x = middle, closed along that line.
+Loop half_of(const Loop& loop, double middle, double sign) {
+  Loop half;
+  std::vector<double> crossings;
+  for (const auto& segment : loop.segments) {
+    const double a = sign * (segment[0].x() - middle), b = sign * (segment[1].x() - middle);
+    if (a < 0 && b < 0) continue;
+    std::array<Vec2, 2> kept = segment;
+    if ((a < 0) != (b < 0)) {
+      const Vec2 p = segment[0] + a / (a - b) * (segment[1] - segment[0]);
+      kept[a < 0 ? 0 : 1] = p;
+      crossings.push_back(p.y());
+    }
+    half.segments.push_back(kept);
+  }
+  std::sort(crossings.begin(), crossings.end());
+  for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) { // the body is on the left: the cut runs along the line
+    const Vec2 p(middle, crossings[k]), q(middle, crossings[k + 1]);
+    if (sign > 0) half.segments.push_back({q, p});
+    else half.segments.push_back({p, q});
+  }
+  measure_loop(half);
+  return half;
+}
+
 } // namespace
+
+void LevelStack::move_crotch(double y, double z) {
+  m_crotch = y;
+  m_crotch_point.y() = z;
+}
 
 LevelStack::LevelStack(const TriangleMesh& skin, double stature, double spacing) : m_skin(&skin), m_stature(stature), m_spacing(spacing) {
   const int n = static_cast<int>(stature * 1.02 / spacing) + 2;
@@ -57,7 +88,12 @@ std::optional<Loop> LevelStack::trunk_at(double y) const {
 
 std::optional<Loop> LevelStack::leg_at(double y, int side) const {
   const Slice& slice = at(y);
-  if (slice.leg[side] < 0) return std::nullopt;
+  if (slice.leg[side] < 0) { // thighs that touch are one loop
+    if (!m_crotch || y > *m_crotch) return std::nullopt;
+    auto both = trunk_at(y);
+    if (!both) return std::nullopt;
+    return half_of(*both, m_crotch_point.x(), side == 0 ? 1 : -1);
+  }
   std::vector<Loop> loops = exact(y);
   const int i = best_overlap(loops, slice.loops[slice.leg[side]]);
   if (i < 0) return std::nullopt;

@@ -32,6 +32,9 @@ public:
   std::optional<double> crotch() const { return m_crotch; }
   Vec2 crotch_point() const { return m_crotch_point; } ///< (x, z) where they meet
 
+  /// Puts the crotch elsewhere, where the scan does not show it: legs are cut apart in the middle plane up to there.
+  void move_crotch(double y, double z);
+
 private:
   void follow_legs();
   void follow_trunk();

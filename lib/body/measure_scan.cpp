@@ -1,5 +1,6 @@
 #include <base/units.hpp>
 #include <body/canonical_frame.hpp>
+#include <body/crotch.hpp>
 #include <body/measure_scan.hpp>
 #include <body/part_labels.hpp>
 #include <body/skin_profile.hpp>
@@ -63,9 +64,13 @@ MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, con
   body.scan.findings.insert(body.scan.findings.end(), skin.findings.begin(), skin.findings.end());
 
   const double s = frame.stature_m;
-  const LevelStack levels(body.skin, s, 0.0025 * s);
+  LevelStack levels(body.skin, s, 0.0025 * s);
+  std::vector<Vec3> scan_points;
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    if (sorted.is_body[v]) scan_points.push_back(positions[v]);
+  const bool crotch_moved = doubt_crotch(levels, scan_points, body.scan.findings, result.trail);
   const EdgeGraph graph(body.skin);
-  const std::array<ArmTrace, 2> arms = trace_arms(levels, graph);
+  const std::array<ArmTrace, 2> arms = trace_arms(levels, graph, skin.rebuilt ? scan_points : std::vector<Vec3>{});
   describe_stance(body, arms);
   for (const ArmTrace& arm : arms) {
     if (arm.sections.empty()) {
@@ -79,7 +84,7 @@ MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, con
   }
   const std::vector<Vec3> normals = vertex_normals(body.skin);
   const FigureClass figure = classify_figure(levels, arms, normals, options.rules, result.trail);
-  const Finder finder{levels, arms, normals, options.rules, figure, body, result.trail, s};
+  const Finder finder{levels, arms, normals, scan_points, skin.rebuilt, crotch_moved, options.rules, figure, body, result.trail, s};
   find_leg_landmarks(finder);
   find_head_landmarks(finder);
   find_arm_landmarks(finder);

@@ -52,7 +52,10 @@ std::vector<int> loop_numbers(const std::vector<Cut>& cuts, std::vector<char>& i
   return number;
 }
 
-void measure(Loop& loop) {
+} // namespace
+
+void measure_loop(Loop& loop) {
+  if (loop.segments.empty()) return;
   const Vec2 o = loop.segments.front()[0];
   Vec2 moment = Vec2::Zero();
   double twice = 0;
@@ -68,8 +71,6 @@ void measure(Loop& loop) {
   loop.centroid = std::abs(twice) > 1e-12 ? Vec2(o + moment / (3 * twice)) : loop.center();
   loop.centroid = loop.centroid.cwiseMax(loop.low).cwiseMin(loop.high); // an open outline can throw it far off
 }
-
-} // namespace
 
 Plane level_plane(double height) {
   // (x, z) has the normal -y; cut() keeps the body on the left of a segment all the same
@@ -122,7 +123,7 @@ std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane, const std::v
   std::vector<Loop> loops(is_open.size());
   for (std::size_t k = 0; k < loops.size(); ++k) loops[k].closed = !is_open[k];
   for (std::size_t i = 0; i < cuts.size(); ++i) loops[number[i]].segments.push_back({cuts[i].a, cuts[i].b});
-  for (Loop& loop : loops) measure(loop);
+  for (Loop& loop : loops) measure_loop(loop);
   std::erase_if(loops, [](const Loop& loop) { return std::abs(loop.area) < 1e-6; });
   std::stable_sort(loops.begin(), loops.end(), [](const Loop& a, const Loop& b) { return std::abs(a.area) > std::abs(b.area); });
   return loops;

@@ -30,6 +30,9 @@ struct Loop {
   Vec2 size() const { return high - low; }
 };
 
+/// Fills area, centroid and extent from the segments.
+void measure_loop(Loop& loop);
+
 /// Loops of the cut, the one with the largest |area| first; ties keep mesh order. Loops of less than 1e-6 m2 are left out.
 /// @param subset triangle numbers to look at; all when null
 std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane, const std::vector<int>* subset = nullptr);

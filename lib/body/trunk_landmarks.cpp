@@ -227,7 +227,8 @@ void find_trunk_landmarks(const Finder& f) {
     if (const auto loop = f.levels.trunk_at(p->y()))
       f.put("hip_section_center", Vec3(loop->centroid.x(), p->y(), loop->centroid.y()), 2, "section_at_hip", 0.9, 0.005);
   }
-  put_level(f, "crotch", crotch + 0.004, "crotch");
+  // the first level above the crotch that has one loop
+  for (double y = crotch + 0.004; y < crotch + 0.02 && !f.body.levels.count("crotch"); y += 0.002) put_level(f, "crotch", y, "crotch");
   if (f.body.levels.count("crotch")) f.body.levels["crotch"].y = crotch;
   double under = waist + 0.055 * s;
   if (f.body.levels.count("bust")) {

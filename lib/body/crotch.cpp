@@ -1,0 +1,57 @@
+#include <body/crotch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace sloper::body {
+
+namespace {
+
+constexpr double BELOW_BUTTOCKS = 0.051; ///< crotch below the level of the greatest buttock prominence, share of stature
+constexpr double TOO_LOW = 0.032;        ///< below the expected height by this share of stature: the thighs touch
+constexpr double SAG = 0.015;            ///< a closed hole hangs this much lower than the skin that was there
+constexpr double SEEN = 0.018;           ///< a point of the scan this near shows the crotch
+
+/// Height of the rearmost part of the trunk below the waist.
+std::optional<double> buttock_level(const LevelStack& levels) {
+  const double s = levels.stature();
+  std::optional<double> best;
+  double rearmost = 1e300;
+  for (double y = 0.46 * s; y < 0.60 * s; y += levels.spacing()) {
+    const Slice& slice = levels.at(y);
+    if (slice.trunk < 0) continue;
+    const double z = slice.loops[slice.trunk].low.y();
+    if (z < rearmost) rearmost = z, best = slice.y;
+  }
+  return best;
+}
+
+} // namespace
+
+bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, std::vector<Finding>& findings, std::vector<std::string>& trail) {
+  if (!levels.crotch()) return false;
+  const double s = levels.stature(), found = *levels.crotch();
+  const Vec3 place(levels.crotch_point().x(), found, levels.crotch_point().y());
+  int seen = 0;
+  for (const Vec3& p : scan_points) seen += (p - place).squaredNorm() < SEEN * SEEN * s * s;
+  const auto buttock = buttock_level(levels);
+  const double expected = buttock ? *buttock - BELOW_BUTTOCKS * s : 0.463 * s;
+  const bool fused = found < expected - TOO_LOW * s;
+  if (seen >= 3 && !fused) return false;
+  const double y = fused ? expected : 0.5 * (expected + found + SAG * s);
+  double z = levels.crotch_point().y();
+  levels.move_crotch(y, z);
+  if (const auto l = levels.leg_at(y - 0.01, 0))
+    if (const auto r = levels.leg_at(y - 0.01, 1)) levels.move_crotch(y, 0.5 * (l->centroid.y() + r->centroid.y()) + 0.013 * s);
+  char text[200];
+  std::snprintf(text, sizeof text, "crotch: the slices join at %.3f m, %s; put at %.3f m by the level of the buttocks", found,
+                fused ? "too low: the thighs touch" : "in a hole", y);
+  trail.push_back(text);
+  findings.push_back({"warning",
+                      fused ? "the thighs touch: the crotch is hidden, its height is estimated" : "the crotch is not in the scan, its height is estimated",
+                      "crotch"});
+  return true;
+}
+
+} // namespace sloper::body
