@@ -29,6 +29,7 @@ struct PlacementHint {
   std::string part;                  ///< torso, neck, arm_l, arm_r, leg_l, leg_r, lower_body; empty when unknown
   std::optional<double> theta;       ///< rad about the part's axis: 0 front (arms: outer, upper side), +pi/2 the wearer's left
   std::optional<Vec2> anchor;        ///< pattern point, m, that lies at theta and height
+  std::optional<double> radius;      ///< m, of the cylinder that theta was meant on: arc length from the front is theta times this
   std::optional<double> height;      ///< m, world y of the anchor on the body that the pattern was made for
   std::optional<Mat4> rigid;         ///< panel (x, y, 0) to the world of the body that the pattern was made for, m
 };

@@ -31,12 +31,13 @@ void read_fold(const io::Node& node, Panel& panel) {
 }
 
 void read_place(const io::Node& node, Panel& panel, double unit) {
-  node.allow_only({"part", "theta_deg", "anchor", "height"});
+  node.allow_only({"part", "theta_deg", "radius", "anchor", "height"});
   panel.hint.part = node.string("part", "");
   const char* parts[] = {"", "torso", "neck", "arm_l", "arm_r", "leg_l", "leg_r", "lower_body", "head"};
   if (std::find(std::begin(parts), std::end(parts), panel.hint.part) == std::end(parts))
     node.fail("unknown part '" + panel.hint.part + "'", "known are torso, neck, head, arm_l, arm_r, leg_l, leg_r and lower_body");
   if (node.has("theta_deg")) panel.hint.theta = units::radians(node.at("theta_deg").number());
+  if (node.has("radius")) panel.hint.radius = node.at("radius").number() * unit;
   if (node.has("anchor")) panel.hint.anchor = node.at("anchor").vec2() * unit;
   if (node.has("height")) panel.hint.height = node.at("height").number() * unit;
 }

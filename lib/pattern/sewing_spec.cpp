@@ -70,6 +70,7 @@ Pattern read_sewing_spec(const io::Json& json, const std::string& file) {
       } else if (!frame.empty()) {
         panel.hint.part = frame;
         panel.hint.theta = units::radians(place.number("theta_deg", 0));
+        if (place.has("radius")) panel.hint.radius = place.at("radius").number() * unit;
         panel.hint.anchor = place.at("anchor").vec2() * unit;
         panel.hint.height = place.at("height").number() * unit;
       }

@@ -1,0 +1,41 @@
+#pragma once
+/// What placement asks of a body: its skin points by part, the axes of arms, and the heights at which garments hang.
+#include <body/body.hpp>
+
+namespace sloper::pattern {
+
+/// A part's axis with plane coordinates (x, z) square to it: point = origin + x right + v up + z front.
+struct Axis {
+  Vec3 origin = Vec3::Zero(), up = Vec3::UnitY(), front = Vec3::UnitZ();
+  Vec3 right() const { return up.cross(front); } ///< the way u grows, seen from outside
+  Vec3 point(const Vec2& plane, double v) const { return origin + plane.x() * right() + v * up + plane.y() * front; }
+  Vec2 plane(const Vec3& p) const { return {(p - origin).dot(right()), (p - origin).dot(front)}; }
+  double height(const Vec3& p) const { return (p - origin).dot(up); }
+};
+
+class BodySpace {
+public:
+  explicit BodySpace(const body::Body& body);
+  const body::Body& body() const { return m_body; }
+
+  /// Skin points of some parts with axis heights in [low, high], in the axis's plane; thinned to the points that matter for a hull.
+  std::vector<Vec2> points(const Axis& axis, const std::vector<body::Part>& parts, double low, double high) const;
+
+  Axis trunk(bool back) const;             ///< vertical through the torso
+  Axis neck() const;
+  /// Along the arm from the shoulder joint to the elbow, or to the wrist for sleeves longer than the upper arm.
+  /// @param facing 0 front, 1 back, 2 the outer, upper side
+  Axis arm(bool left, int facing, double sleeve_length) const;
+
+  double shoulder_height(double x) const; ///< of the skin at |x| from the middle, m
+  /// Height at which a waist edge of this length comes to sit: from the waist down, the first where the body is as wide; else the waist.
+  double waist_height(double length) const;
+  double level(const std::string& name, double fallback_fraction) const; ///< y of a level, or that fraction of the stature
+
+private:
+  const body::Body& m_body;
+  std::vector<body::Part> m_part; ///< of each skin vertex
+  double m_stature;
+};
+
+} // namespace sloper::pattern

@@ -1,0 +1,190 @@
+#include <pattern/panel_layout.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::pattern {
+namespace {
+
+constexpr double CLEAR = 0.01; // m between neighbours
+
+class Layout {
+public:
+  Layout(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph, std::vector<PanelRole>& roles)
+      : m_pattern(pattern), m_mesh(mesh), m_graph(graph), m_roles(roles), m_spots(roles.size()), m_done(roles.size(), false), m_u_known(roles.size(), false),
+        m_block(roles.size(), -1) {}
+
+  std::vector<PanelSpot> run() {
+    for (Region region : {Region::TRUNK, Region::ARM_L, Region::ARM_R, Region::NECK}) lay_region(region);
+    return std::move(m_spots);
+  }
+
+private:
+  std::size_t count() const { return m_roles.size(); }
+  Vec2 at(std::size_t panel, int vertex) const { return laid(m_mesh, m_roles[panel], m_spots[panel], vertex); }
+  std::array<Vec2, 2> bounds(std::size_t panel) const { return laid_bounds(m_mesh, m_roles[panel], m_spots[panel], static_cast<int>(panel)); }
+
+  double seam_length(std::size_t p, std::size_t q) const {
+    double sum = 0;
+    for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q)))
+      for (std::size_t k = 0; k + 1 < seam.size(); ++k)
+        sum += (m_mesh.pattern[static_cast<std::size_t>(seam[k + 1][0])] - m_mesh.pattern[static_cast<std::size_t>(seam[k][0])]).norm();
+    return sum;
+  }
+
+  void lay_region(Region region) {
+    const bool trunk = region == Region::TRUNK;
+    for (std::size_t k = 0; k < count(); ++k) {
+      if (m_roles[k].region != region || !m_roles[k].dv) continue;
+      m_spots[k].offset.y() = *m_roles[k].dv;
+      m_done[k] = true;
+      if (m_roles[k].du) m_spots[k].offset.x() = *m_roles[k].du, m_u_known[k] = true;
+    }
+    for (;;) {
+      // The unplaced panel with the longest seam to a placed one; seams within one side count ten times.
+      std::size_t best = count(), partner = count();
+      double most = 0;
+      for (std::size_t k = 0; k < count(); ++k) {
+        if (m_roles[k].region != region || m_done[k]) continue;
+        for (int q : m_graph.neighbours(static_cast<int>(k))) {
+          const std::size_t o = static_cast<std::size_t>(q);
+          if (m_roles[o].region != region || !m_done[o]) continue;
+          const double score = seam_length(k, o) * (m_roles[k].side == m_roles[o].side ? 10 : 1);
+          if (score > most) most = score, best = k, partner = o;
+        }
+      }
+      if (best < count()) {
+        attach(best, partner);
+        continue;
+      }
+      // A new piece: the widest that is left, or for arms and necks the one sewn to the trunk.
+      for (std::size_t k = 0; k < count(); ++k) {
+        if (m_roles[k].region != region || m_done[k]) continue;
+        double score = 1 + (bounds(k)[1] - bounds(k)[0]).prod();
+        if (!trunk)
+          for (int q : m_graph.neighbours(static_cast<int>(k))) score += m_roles[static_cast<std::size_t>(q)].region == Region::TRUNK ? 10 : 0;
+        if (score > most) most = score, best = k;
+      }
+      if (best == count()) break;
+      m_spots[best].offset = Vec2(0, 0);
+      if (!trunk) m_spots[best].offset.y() = -bounds(best)[1].y();
+      m_block[best] = static_cast<int>(best);
+      m_done[best] = true;
+    }
+    middle_blocks(region);
+  }
+
+  /// Puts panel p where its seams with q ask for.
+  void attach(std::size_t p, std::size_t q) {
+    Vec2 own = Vec2::Zero(), other = Vec2::Zero(), along = Vec2::Zero();
+    int n = 0;
+    for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q))) {
+      for (const auto& s : seam) own += at(p, s[0]), other += at(q, s[1]), ++n;
+      const Vec2 d = at(p, seam.back()[0]) - at(p, seam.front()[0]);
+      along += d.cwiseAbs();
+    }
+    const bool same_side = m_roles[p].side == m_roles[q].side;
+    m_spots[p].offset += (other - own) / std::max(n, 1);
+    m_done[p] = true;
+    if (!same_side) {
+      m_spots[p].offset.x() = 0;
+      m_block[p] = static_cast<int>(p);
+      return;
+    }
+    m_block[p] = m_block[q];
+    m_u_known[p] = m_u_known[q];
+    const std::size_t axis = along.x() > along.y() ? 1 : 0; // a level seam parts them in v, an upright one in u
+    const Vec2 mine = middle_of(p), theirs = middle_of(q);
+    part(p, q, static_cast<long>(axis), mine[static_cast<long>(axis)] >= theirs[static_cast<long>(axis)] ? 1 : -1);
+  }
+
+  Vec2 middle_of(std::size_t p) const {
+    const auto b = bounds(p);
+    return 0.5 * (b[0] + b[1]);
+  }
+
+  /// Moves p along an axis until it is CLEAR of q on every line across.
+  void part(std::size_t p, std::size_t q, long axis, double sense) {
+    const long across = 1 - axis;
+    double need = 0;
+    const auto extent = [&](std::size_t panel, double line, double& low, double& high) {
+      low = 1e300, high = -1e300;
+      const auto& outline = m_mesh.panels[panel].outline;
+      for (std::size_t k = 0; k < outline.size(); ++k) {
+        const Vec2 a = at(panel, outline[k]), b = at(panel, outline[(k + 1) % outline.size()]);
+        if ((a[across] <= line) == (b[across] <= line)) continue;
+        const double x = a[axis] + (line - a[across]) / (b[across] - a[across]) * (b[axis] - a[axis]);
+        low = std::min(low, x), high = std::max(high, x);
+      }
+    };
+    const auto bp = bounds(p), bq = bounds(q);
+    const double from = std::max(bp[0][across], bq[0][across]), to = std::min(bp[1][across], bq[1][across]);
+    for (int k = 1; k < 200; ++k) {
+      const double line = from + (to - from) * k / 200;
+      double pl, ph, ql, qh;
+      extent(p, line, pl, ph), extent(q, line, ql, qh);
+      if (pl > ph || ql > qh) continue;
+      need = std::max(need, sense > 0 ? qh + CLEAR - pl : ph + CLEAR - ql);
+    }
+    if (need > 0) m_spots[p].offset[axis] += sense * need;
+  }
+
+  /// Blocks of panels without a known u: their middle goes to u = 0; of two blocks on one side, left to the left.
+  void middle_blocks(Region region) {
+    for (Side side : {Side::FRONT, Side::BACK, Side::RING}) {
+      std::vector<int> blocks;
+      for (std::size_t k = 0; k < count(); ++k)
+        if (m_roles[k].region == region && m_roles[k].side == side && !m_u_known[k] && m_block[k] >= 0 && std::find(blocks.begin(), blocks.end(), m_block[k]) == blocks.end())
+          blocks.push_back(m_block[k]);
+      std::vector<std::array<Vec2, 2>> taken;
+      for (int block : blocks) {
+        Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+        bool left = true, right = true;
+        for (std::size_t k = 0; k < count(); ++k) {
+          if (m_block[k] != block) continue;
+          const auto b = bounds(k);
+          low = low.cwiseMin(b[0]), high = high.cwiseMax(b[1]);
+          const std::string& part = m_roles[k].part;
+          const std::string& name = m_pattern.panels[k].name;
+          const auto ends_with = [&](const std::string& tail) { return name.size() > tail.size() && name.compare(name.size() - tail.size(), tail.size(), tail) == 0; };
+          left = left && (part == "leg_l" || ends_with("_l") || ends_with("left"));
+          right = right && (part == "leg_r" || ends_with("_r") || ends_with("right"));
+        }
+        double shift = -0.5 * (low.x() + high.x());
+        const double sense = (left ? 1 : right ? -1 : 0) * (side == Side::BACK ? -1.0 : 1.0);
+        if (region == Region::TRUNK && side != Side::RING && sense != 0) shift = sense > 0 ? 0.5 * CLEAR - low.x() : -0.5 * CLEAR - high.x();
+        for (std::size_t k = 0; k < count(); ++k)
+          if (m_block[k] == block) m_spots[k].offset.x() += shift;
+      }
+    }
+  }
+
+  const Pattern& m_pattern;
+  const PanelMesh& m_mesh;
+  const SeamGraph& m_graph;
+  std::vector<PanelRole>& m_roles;
+  std::vector<PanelSpot> m_spots;
+  std::vector<bool> m_done, m_u_known;
+  std::vector<int> m_block; ///< panels whose relative u is known share one
+};
+
+} // namespace
+
+Vec2 laid(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot, int vertex) {
+  return role.turn * mesh.pattern[static_cast<std::size_t>(vertex)] + spot.offset;
+}
+
+std::array<Vec2, 2> laid_bounds(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot, int panel) {
+  std::array<Vec2, 2> b = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
+  for (int v : mesh.panels[static_cast<std::size_t>(panel)].outline) {
+    const Vec2 p = laid(mesh, role, spot, v);
+    b[0] = b[0].cwiseMin(p), b[1] = b[1].cwiseMax(p);
+  }
+  return b;
+}
+
+std::vector<PanelSpot> lay_out(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph, std::vector<PanelRole>& roles) {
+  return Layout(pattern, mesh, graph, roles).run();
+}
+
+} // namespace sloper::pattern

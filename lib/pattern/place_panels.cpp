@@ -1,0 +1,384 @@
+#include <base/error.hpp>
+#include <collision/body_collider.hpp>
+#include <collision/intersections.hpp>
+#include <pattern/body_space.hpp>
+#include <pattern/panel_layout.hpp>
+#include <pattern/place_panels.hpp>
+#include <pattern/wrap_curve.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace sloper::pattern {
+namespace {
+
+using body::Part;
+
+constexpr double GAP = 0.015;        // m between skin and cloth at the start
+constexpr double LAYER = 0.012;      // m between panels that lie over each other
+constexpr double FILLET = 0.06;      // m: radius with which the front curve turns into its wings
+constexpr double WING = 0.02;        // m between the wings and what they pass: arms, or each other
+constexpr double SHOULDER_RAISE = 0.02; // m above the shoulders, so that the shoulder seam closes downwards
+constexpr int ROUNDS = 60;
+
+/// Panels that share one cylinder.
+struct Group {
+  Region region;
+  Side side;
+  std::vector<std::size_t> panels;
+  double extra = 0; ///< m added to the gap while panels are pushed free
+};
+
+class Placer {
+public:
+  Placer(const Pattern& pattern, const body::Body& body, PanelMesh& mesh)
+      : m_pattern(pattern), m_mesh(mesh), m_space(body), m_graph(mesh), m_roles(panel_roles(pattern, mesh, m_graph)), m_spots(lay_out(pattern, mesh, m_graph, m_roles)),
+        m_depth(m_roles.size(), 0), m_collider(body.skin) {
+    for (const PanelInfo& p : mesh.panels)
+      for (int t = 0; t < p.n_triangles; ++t) m_panel_of_triangle.push_back(static_cast<int>(&p - mesh.panels.data()));
+  }
+
+  PlacementReport run() {
+    make_groups();
+    anchor_trunk();
+    anchor_neck();
+    place_all();
+    PlacementReport report = push_free();
+    for (std::size_t k = 0; k < m_roles.size(); ++k) m_mesh.panels[k].part = m_roles[k].part.empty() ? region_name(m_roles[k].region) : m_roles[k].part;
+    measure_gaps(report);
+    return report;
+  }
+
+private:
+  static std::string region_name(Region r) { return r == Region::TRUNK ? "torso" : r == Region::ARM_L ? "arm_l" : r == Region::ARM_R ? "arm_r" : "neck"; }
+  bool is_arm(std::size_t k) const { return m_roles[k].region == Region::ARM_L || m_roles[k].region == Region::ARM_R; }
+  Vec2 uv(std::size_t panel, int vertex) const { return laid(m_mesh, m_roles[panel], m_spots[panel], vertex); }
+
+  void make_groups() {
+    for (std::size_t k = 0; k < m_roles.size(); ++k) {
+      std::size_t g = 0;
+      while (g < m_groups.size() && (m_groups[g].region != m_roles[k].region || m_groups[g].side != m_roles[k].side)) ++g;
+      if (g == m_groups.size()) m_groups.push_back({m_roles[k].region, m_roles[k].side, {}});
+      m_groups[g].panels.push_back(k);
+      m_group_of.push_back(g);
+    }
+  }
+
+  std::array<Vec2, 2> bounds(const Group& group) const {
+    std::array<Vec2, 2> all = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
+    for (std::size_t k : group.panels) {
+      const auto b = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+      all[0] = all[0].cwiseMin(b[0]), all[1] = all[1].cwiseMax(b[1]);
+    }
+    return all;
+  }
+
+  /// Whether the garment hangs on the shoulders: front and back are sewn together near their tops, or there are sleeves or a collar.
+  bool hangs_on_shoulders(double top) const {
+    for (std::size_t k = 0; k < m_roles.size(); ++k) {
+      if (m_roles[k].region != Region::TRUNK) return true;
+      if (m_roles[k].side != Side::FRONT) continue;
+      for (int q : m_graph.neighbours(static_cast<int>(k))) {
+        if (m_roles[static_cast<std::size_t>(q)].side != Side::BACK) continue;
+        for (const auto& seam : m_graph.between(static_cast<int>(k), q)) { // a level seam at the top
+          const Vec2 a = uv(k, seam.front()[0]), b = uv(k, seam.back()[0]);
+          if (std::abs(a.x() - b.x()) > 1.2 * std::abs(a.y() - b.y()) && std::min(a.y(), b.y()) > top - 0.15) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  void anchor_trunk() {
+    double top = -1e300;
+    for (const Group& g : m_groups)
+      if (g.region == Region::TRUNK) top = std::max(top, bounds(g)[1].y());
+    if (top < -1e299) return;
+    double shift = 0;
+    if (hangs_on_shoulders(top)) {
+      // The highest point is the neck end of the shoulder seam: it goes to the skin's height there.
+      double x = 0;
+      for (const Group& g : m_groups)
+        if (g.region == Region::TRUNK)
+          for (std::size_t k : g.panels)
+            for (int v : m_mesh.panels[k].outline)
+              if (const Vec2 p = uv(k, v); p.y() > top - 0.005) x = std::max(x, std::abs(p.x()));
+      shift = m_space.shoulder_height(std::clamp(x, 0.05, 0.12)) + SHOULDER_RAISE - top;
+    } else {
+      // The top edge: boundary within 6 cm of the top on the way round, as far as it is level and not sewn.
+      double waist = 0;
+      for (std::size_t k = 0; k < m_roles.size(); ++k) {
+        const auto& outline = m_mesh.panels[k].outline;
+        for (std::size_t i = 0; i < outline.size(); ++i) {
+          const int a = outline[i], b = outline[(i + 1) % outline.size()];
+          const Vec2 p = uv(k, a), q = uv(k, b);
+          if (std::min(p.y(), q.y()) > top - 0.06 && std::abs(p.x() - q.x()) > std::abs(p.y() - q.y()) && !(sewn(a) && sewn(b))) waist += (p - q).norm();
+        }
+      }
+      shift = m_space.waist_height(waist) + 0.01 - top;
+    }
+    for (std::size_t k = 0; k < m_roles.size(); ++k)
+      if (m_roles[k].region == Region::TRUNK) m_spots[k].offset.y() += shift;
+  }
+
+  bool sewn(int vertex) {
+    if (m_sewn.empty()) {
+      m_sewn.assign(m_mesh.pattern.size(), 0);
+      for (const MeshSeam& s : m_mesh.seams)
+        for (std::size_t k = 0; k < s.a.size(); ++k) m_sewn[static_cast<std::size_t>(s.a[k])] = m_sewn[static_cast<std::size_t>(s.b[k])] = 1;
+    }
+    return m_sewn[static_cast<std::size_t>(vertex)] != 0;
+  }
+
+  void anchor_neck() {
+    for (const Group& g : m_groups) {
+      if (g.region != Region::NECK) continue;
+      const auto b = bounds(g);
+      const double neck = std::max(m_space.shoulder_height(0.06), m_space.body().has_landmark("neck_side_l") ? m_space.body().landmark("neck_side_l").y() : 0.0);
+      for (std::size_t k : g.panels) m_spots[k].offset.y() += neck + SHOULDER_RAISE + 0.01 - b[0].y();
+    }
+  }
+
+  /// z in front of which (or behind which, for backs) the wings must stay: past the arms that hang within the panels' reach.
+  double wing_limit(const Group& group, const Axis& axis, const std::array<Vec2, 2>& b, const std::vector<Vec2>& hull) const {
+    double low = 1e300, high = -1e300;
+    for (const Vec2& p : hull) low = std::min(low, p.y()), high = std::max(high, p.y());
+    // Fronts and backs share the middle plane of the hull; plane z of the back axis is turned.
+    double limit = 0.5 * (low + high) + 0.5 * WING;
+    const double reach = std::max(std::abs(b[0].x()), std::abs(b[1].x())) + 0.03;
+    for (const Vec2& p : m_space.points(axis, {Part::ARM_L, Part::ARM_R}, b[0].y() - 0.02, b[1].y() + 0.02))
+      if (std::abs(p.x()) < reach) limit = std::max(limit, p.y() + WING);
+    (void)group;
+    return limit;
+  }
+
+  void place_trunk(const Group& group) {
+    const auto b = bounds(group);
+    std::vector<Part> parts = {Part::TORSO};
+    if (b[0].y() < m_space.level("hip", 0.5)) parts.push_back(Part::LEG_L), parts.push_back(Part::LEG_R);
+    const Axis axis = m_space.trunk(group.side == Side::BACK);
+    std::vector<Vec2> hull = m_space.points(axis, parts, b[0].y() - 0.02, b[1].y() + 0.02);
+    if (hull.size() < 3) hull = m_space.points(axis, {Part::TORSO, Part::LEG_L, Part::LEG_R}, -1, 3);
+    std::map<int, WrapCurve> curves;
+    if (group.side == Side::RING) {
+      double widest = 0;
+      std::vector<std::pair<double, std::size_t>> by_theta;
+      for (std::size_t k : group.panels) by_theta.push_back({m_roles[k].theta, k});
+      std::sort(by_theta.begin(), by_theta.end());
+      // Panels of one height stand side by side: what overlaps in v adds up.
+      std::vector<double> half(m_roles.size(), 0);
+      for (auto& [theta, k] : by_theta) {
+        const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+        double sum = 0;
+        for (auto& [other_theta, o] : by_theta) {
+          const auto other = laid_bounds(m_mesh, m_roles[o], m_spots[o], static_cast<int>(o));
+          if (std::min(own[1].y(), other[1].y()) - std::max(own[0].y(), other[0].y()) > 0.02) sum += other[1].x() - other[0].x() + 0.01;
+        }
+        half[k] = 0.5 * (own[1].x() - own[0].x());
+        widest = std::max(widest, sum);
+      }
+      for (std::size_t k : group.panels) {
+        const int depth = m_depth[k];
+        if (!curves.count(depth)) curves.emplace(depth, WrapCurve::around(hull, GAP + group.extra + LAYER * depth, widest));
+        const WrapCurve& curve = curves.at(depth);
+        const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+        const double center = m_roles[k].theta / (2 * M_PI) * curve.length() - 0.5 * (own[0].x() + own[1].x());
+        put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x() + center), p.y()); });
+      }
+      return;
+    }
+    const double wing = wing_limit(group, axis, b, hull);
+    for (std::size_t k : group.panels) {
+      const int depth = m_depth[k];
+      if (!curves.count(depth)) {
+        const double out = group.extra + LAYER * depth;
+        curves.emplace(depth, WrapCurve::front_of(hull, GAP + out, wing + out, FILLET, axis.plane(Vec3(0, 0, 0)).x()));
+      }
+      const WrapCurve& curve = curves.at(depth);
+      put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x()), p.y()); });
+    }
+  }
+
+  void place_arm(const Group& group) {
+    const bool left = group.region == Region::ARM_L;
+    double low = 1e300, high = -1e300;
+    for (const Group& g : m_groups) // front, back and ring of one arm share one axis and one hull
+      if (g.region == group.region) low = std::min(low, bounds(g)[0].y()), high = std::max(high, bounds(g)[1].y());
+    const Axis axis = m_space.arm(left, group.side == Side::FRONT ? 0 : group.side == Side::BACK ? 1 : 2, high - low);
+    const double shift = m_arm_shift[left] - high;
+    std::vector<Vec2> hull = m_space.points(axis, {left ? Part::ARM_L : Part::ARM_R}, low + shift - 0.02, high + shift + 0.02);
+    if (hull.size() < 3) hull = m_space.points(axis, {left ? Part::ARM_L : Part::ARM_R}, -3, 3);
+    if (hull.size() < 3) throw input_error("", "body", std::string("the ") + (left ? "left" : "right") + " arm has no skin", "scan the arms, or leave the sleeves out");
+    const auto b = bounds(group);
+    if (group.side == Side::RING) {
+      const WrapCurve curve = WrapCurve::around(hull, GAP + group.extra, b[1].x() - b[0].x() + 0.01);
+      for (std::size_t k : group.panels) {
+        const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+        const double center = -0.5 * (own[0].x() + own[1].x());
+        put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x() + center), p.y() + shift); });
+      }
+      return;
+    }
+    double from = 1e300, to = -1e300;
+    for (const Vec2& p : hull) from = std::min(from, p.y()), to = std::max(to, p.y());
+    const WrapCurve curve = WrapCurve::front_of(hull, GAP + group.extra, 0.5 * (from + to) + 0.5 * WING + group.extra, 0.04, 0.5 * (plane_low(hull) + plane_high(hull)));
+    for (std::size_t k : group.panels) put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x()), p.y() + shift); });
+  }
+
+  static double plane_low(const std::vector<Vec2>& hull) {
+    double x = 1e300;
+    for (const Vec2& p : hull) x = std::min(x, p.x());
+    return x;
+  }
+  static double plane_high(const std::vector<Vec2>& hull) {
+    double x = -1e300;
+    for (const Vec2& p : hull) x = std::max(x, p.x());
+    return x;
+  }
+
+  void place_neck(const Group& group) {
+    const auto b = bounds(group);
+    const Axis axis = m_space.neck();
+    std::vector<Vec2> hull = m_space.points(axis, {Part::HEAD, Part::TORSO}, b[0].y() - 0.005, b[0].y() + 0.03);
+    if (hull.size() < 3) hull = m_space.points(axis, {Part::HEAD}, -1, 3);
+    for (std::size_t k : group.panels) {
+      const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+      const WrapCurve curve = WrapCurve::around(hull, 0.008 + group.extra + LAYER * m_depth[k], own[1].x() - own[0].x() + 0.02);
+      const double center = m_roles[k].theta / (2 * M_PI) * curve.length() - 0.5 * (own[0].x() + own[1].x());
+      put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x() + center), p.y()); });
+    }
+  }
+
+  template <class Point> void put(std::size_t panel, Point point) {
+    const PanelInfo& info = m_mesh.panels[panel];
+    for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) m_mesh.placed[static_cast<std::size_t>(v)] = point(uv(panel, v));
+  }
+
+  void place_group(const Group& g) {
+    if (g.region == Region::TRUNK) place_trunk(g);
+    else if (g.region == Region::NECK) place_neck(g);
+    else place_arm(g);
+  }
+  void place_all() {
+    for (const Group& g : m_groups) place_group(g);
+  }
+
+  std::map<std::pair<int, int>, int> crossings() const {
+    const collision::TriangleTree tree(m_mesh.placed, m_mesh.triangles);
+    std::map<std::pair<int, int>, int> count;
+    for (const auto& pair : collision::self_intersections(m_mesh.placed, m_mesh.triangles, tree)) {
+      const int p = m_panel_of_triangle[static_cast<std::size_t>(pair[0])], q = m_panel_of_triangle[static_cast<std::size_t>(pair[1])];
+      ++count[{std::min(p, q), std::max(p, q)}];
+    }
+    return count;
+  }
+
+  /// Pushes what crosses apart, arms outwards along their axis, collars up, the smaller of two panels of one side outwards, and
+  /// grows the gap of groups that meet the body.
+  PlacementReport push_free() {
+    PlacementReport report;
+    for (int round = 0; round < ROUNDS; ++round) {
+      bool changed = false;
+      report.crossings = report.vertices_inside = report.faces_through = 0;
+      std::set<int> moved_arms;
+      std::set<std::size_t> grow;
+      bool raise_neck = false;
+      for (const auto& [pair, n] : crossings()) {
+        report.crossings += n;
+        const std::size_t p = static_cast<std::size_t>(pair.first), q = static_cast<std::size_t>(pair.second);
+        if (m_roles[p].region == Region::NECK || m_roles[q].region == Region::NECK) {
+          if (m_roles[p].region == m_roles[q].region) {
+            if (p != q) ++m_depth[area(p) > area(q) ? q : p], changed = true;
+          } else raise_neck = true;
+        } else if (is_arm(p) != is_arm(q)) moved_arms.insert(m_roles[is_arm(p) ? p : q].region == Region::ARM_L);
+        else if (is_arm(p)) {
+          if (m_group_of[p] != m_group_of[q]) grow.insert(m_group_of[p]), grow.insert(m_group_of[q]);
+          else grow.insert(m_group_of[p]);
+        } else if (m_group_of[p] == m_group_of[q] && p != q) {
+          if (m_depth[p] == m_depth[q]) ++m_depth[area(p) > area(q) ? q : p], changed = true;
+          else ++m_depth[m_depth[p] > m_depth[q] ? p : q], changed = true;
+        } else grow.insert(m_group_of[p]), grow.insert(m_group_of[q]);
+      }
+      for (int left : moved_arms)
+        if (m_arm_shift[left] > -0.4) m_arm_shift[left] -= 0.01, changed = true;
+      if (raise_neck && m_raised < 0.15) {
+        m_raised += 0.01, changed = true;
+        for (std::size_t k = 0; k < m_roles.size(); ++k)
+          if (m_roles[k].region == Region::NECK) m_spots[k].offset.y() += 0.01;
+      }
+      for (std::size_t g = 0; g < m_groups.size(); ++g) {
+        int inside = 0;
+        std::vector<Triangle> triangles;
+        for (std::size_t k : m_groups[g].panels) {
+          const PanelInfo& info = m_mesh.panels[k];
+          for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) inside += m_collider.is_inside(m_mesh.placed[static_cast<std::size_t>(v)]);
+          triangles.insert(triangles.end(), m_mesh.triangles.begin() + info.first_triangle, m_mesh.triangles.begin() + info.first_triangle + info.n_triangles);
+        }
+        const int through = static_cast<int>(m_collider.faces_through(m_mesh.placed, triangles).size());
+        report.vertices_inside += inside, report.faces_through += through;
+        if (inside + through > 0) grow.insert(g);
+      }
+      for (std::size_t g : grow)
+        if (m_groups[g].extra < 0.12) m_groups[g].extra += 0.005, changed = true;
+      if (!changed) break;
+      place_all();
+    }
+    if (report.crossings) m_mesh.findings.push_back("start: " + std::to_string(report.crossings) + " pairs of triangles of panels cross");
+    if (report.vertices_inside + report.faces_through)
+      m_mesh.findings.push_back("start: " + std::to_string(report.vertices_inside) + " vertices inside the body, " + std::to_string(report.faces_through) + " faces through its skin");
+    return report;
+  }
+
+  double area(std::size_t k) const { return static_cast<double>(m_mesh.panels[k].n_triangles); }
+
+  void measure_gaps(PlacementReport& report) const {
+    double sum = 0;
+    int n = 0;
+    for (const MeshSeam& s : m_mesh.seams)
+      for (std::size_t k = 0; k < s.a.size(); ++k) {
+        const double gap = (m_mesh.placed[static_cast<std::size_t>(s.a[k])] - m_mesh.placed[static_cast<std::size_t>(s.b[k])]).norm();
+        sum += gap, ++n;
+        report.seam_gap_max = std::max(report.seam_gap_max, gap);
+      }
+    report.seam_gap_mean = n ? sum / n : 0;
+  }
+
+  const Pattern& m_pattern;
+  PanelMesh& m_mesh;
+  BodySpace m_space;
+  SeamGraph m_graph;
+  std::vector<PanelRole> m_roles;
+  std::vector<PanelSpot> m_spots;
+  std::vector<int> m_depth;
+  collision::BodyCollider m_collider;
+  std::vector<Group> m_groups;
+  std::vector<std::size_t> m_group_of;
+  std::vector<int> m_panel_of_triangle;
+  std::vector<char> m_sewn;
+  double m_arm_shift[2] = {0.0, 0.0}; ///< m along the arm; right, left
+  double m_raised = 0;
+};
+
+} // namespace
+
+PlacementReport place_panels(const Pattern& pattern, const body::Body& body, PanelMesh& mesh) { return Placer(pattern, body, mesh).run(); }
+
+void lay_flat(const Pattern& pattern, PanelMesh& mesh) {
+  const bool stated = std::all_of(pattern.panels.begin(), pattern.panels.end(), [](const Panel& p) { return p.hint.rigid.has_value(); });
+  if (stated) return;
+  double x = 0;
+  for (const PanelInfo& info : mesh.panels) {
+    Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+    for (int v : info.outline) low = low.cwiseMin(mesh.pattern[static_cast<std::size_t>(v)]), high = high.cwiseMax(mesh.pattern[static_cast<std::size_t>(v)]);
+    for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
+      const Vec2 p = mesh.pattern[static_cast<std::size_t>(v)] - low;
+      mesh.placed[static_cast<std::size_t>(v)] = Vec3(x + p.x(), p.y(), 0);
+    }
+    x += high.x() - low.x() + 0.05;
+  }
+  mesh.findings.push_back("no body is given: the panels lie flat side by side");
+}
+
+} // namespace sloper::pattern
