@@ -115,7 +115,12 @@ void find_arm_landmarks(const Finder& f) {
     }
     const Vec3 elbow = arm.at(elbow_along) - Vec3(0, 0, f.number("elbow.behind_axis") * s);
     f.put("elbow" + suffix, elbow, 2, elbow_rule, 0.6, 0.012);
-    f.put("hand_extreme" + suffix, arm.tip, 1, "farthest_over_the_skin", 0.9, 0.004);
+    // a fist's farthest point is not the finger tip
+    Vec3 extreme = arm.tip;
+    for (const int t : arm.triangles)
+      for (const int v : skin.triangles[t])
+        if ((skin.positions[v] - joint).squaredNorm() > (extreme - joint).squaredNorm()) extreme = skin.positions[v];
+    f.put("hand_extreme" + suffix, extreme, 1, "farthest_from_shoulder", 0.9, 0.004);
     // the elbow's point: rearmost skin of the section through the joint
     const LimbSection* section = &arm.sections.front();
     for (const LimbSection& candidate : arm.sections)

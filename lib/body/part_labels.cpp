@@ -1,6 +1,7 @@
 #include <body/part_labels.hpp>
 #include <body/point_grid.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sloper::body {
@@ -10,31 +11,33 @@ std::vector<Part> label_skin(const Finder& f) {
   std::vector<Part> part(skin.positions.size(), Part::TORSO);
   const double s = f.s;
   const double crotch = f.has("crotch") ? f.at("crotch").y() : 0.47 * s;
-  // head: above the neck ring
-  if (f.has("neck_back") && f.has("neck_front")) {
-    const Vec3 middle = 0.5 * (f.at("neck_back") + f.at("neck_front"));
-    Vec3 up = (f.at("neck_front") - f.at("neck_back")).cross(Vec3::UnitX()).normalized();
-    if (up.y() < 0) up = -up;
+  // head: above a slanting plane, from over the notch in front to under the skull behind
+  if (f.has("neck_center")) {
+    const Vec3 middle = f.at("neck_center") + Vec3(0, 0.032 * s, 0.010 * s), up = Vec3(0, 0.78, 0.63);
     for (std::size_t v = 0; v < part.size(); ++v)
       if ((skin.positions[v] - middle).dot(up) > 0 && std::abs(skin.positions[v].x()) < 0.1 * s) part[v] = Part::HEAD;
   }
-  // legs: below the groin, which rises to the outside
+  // legs: below the groin, which rises from the crotch to the hip joint, higher in front than behind
   const double hip_x = f.has("hip_joint_l") ? std::abs(f.at("hip_joint_l").x()) : 0.06 * s;
-  const double hip_y = f.has("hip_center") ? f.at("hip_center").y() : crotch + 0.05 * s;
+  const double hip_y = f.has("hip_center") ? f.at("hip_center").y() : crotch + 0.05 * s, hip_z = f.has("hip_center") ? f.at("hip_center").z() : 0.0;
   for (std::size_t v = 0; v < part.size(); ++v) {
     const Vec3& p = skin.positions[v];
-    const double border = crotch + (hip_y - crotch) * std::min(1.0, std::abs(p.x()) / hip_x);
-    if (p.y() < border) part[v] = p.x() > 0 ? Part::LEG_L : Part::LEG_R;
+    const double border = crotch - 0.006 * s + (hip_y - crotch + 0.002 * s) * std::min(1.0, std::abs(p.x()) / hip_x) +
+                          0.009 * s * std::clamp((p.z() - hip_z) / (0.06 * s), -1.0, 1.0);
+    if (p.y() < border) part[v] = p.x() > f.levels.crotch_point().x() ? Part::LEG_L : Part::LEG_R;
   }
-  // arms: beyond the plane through arm pit and shoulder joint, on the traced arm
+  // arms: beyond the plane through arm pit and the top of the shoulder, on the traced arm
   for (int side = 0; side < 2; ++side) {
     const ArmTrace& arm = f.arms[side];
     if (arm.sections.empty()) continue;
     const Vec3 joint = f.at(std::string("shoulder_joint") + side_suffix(side));
+    const double outward = arm.left ? 1 : -1;
     const Vec3 corner = arm.axilla ? *arm.axilla : arm.at(arm.length());
-    const Vec3 outward = arm.left ? Vec3::UnitX() : Vec3(-Vec3::UnitX());
-    const Vec3 n = (arm.out + outward).normalized();
-    const Vec3 base = 0.5 * (joint + corner);
+    const Vec3 top = joint + Vec3(-outward * 0.014 * s, 0.037 * s, -0.007 * s);
+    Vec3 n = Vec3(top.y() - corner.y(), corner.x() - top.x(), 0).normalized(); // square to the line from pit to top
+    if (n.x() * outward < 0) n = -n;
+    n = (n + Vec3(0, 0, 0.13)).normalized();
+    const Vec3 base = 0.5 * (top + corner);
     for (const int t : arm.triangles)
       for (const int v : skin.triangles[t]) {
         const Vec3& p = skin.positions[v];

@@ -236,11 +236,28 @@ void rescue_soles(const TriangleMesh& scan, const Voxels& voxels, const Reading&
         if (x >= 0 && z >= 0 && x < voxels.extent(a) && z < voxels.extent(b)) above[static_cast<std::size_t>(x) * voxels.extent(b) + z] = 1;
       }
   }
+  // of a mesh, the pieces that reach up into the body are feet whatever their height; a floor that is joined to them is not told apart
+  std::vector<char> foot_piece;
+  std::vector<int> piece;
+  if (!scan.triangles.empty()) {
+    piece = connected_components(scan.positions.size(), scan.triangles);
+    std::vector<int> in_floor(scan.positions.size(), 0), in_body(scan.positions.size(), 0);
+    for (std::size_t v = 0; v < scan.positions.size(); ++v) {
+      if (layer_of(voxels, voxels.of_vertex(v), r) <= r.floor_top) ++in_floor[piece[v]];
+      else if (r.is_body[voxels.of_vertex(v)]) ++in_body[piece[v]];
+    }
+    foot_piece.assign(scan.positions.size(), 0);
+    for (std::size_t c = 0; c < in_floor.size(); ++c) foot_piece[c] = in_body[c] > in_floor[c];
+  }
   const double tolerance = 0.5 * voxels.cell_size(); // a floor is rough by some millimetres
   for (std::size_t v = 0; v < scan.positions.size(); ++v) {
     const int c = voxels.of_vertex(v);
     if (layer_of(voxels, c, r) > r.floor_top) continue;
     const auto& at = voxels.cell(c);
+    if (!foot_piece.empty() && foot_piece[piece[v]]) {
+      sorted.is_body[v] = 1;
+      continue;
+    }
     if (above[static_cast<std::size_t>(at[a]) * voxels.extent(b) + at[b]] && scan.positions[v].dot(sorted.up) > sorted.floor_height + tolerance)
       sorted.is_body[v] = 1;
   }
