@@ -5,7 +5,6 @@ OUT ?= $(BUILD)/samples/$(GARMENT)
 MAKERS ?= $(BUILD)/samples
 ACCURACY ?= draft
 EDGE ?= 0.02
-THREADS ?= 0
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
@@ -28,7 +27,7 @@ $(OUT)/panels.json: $(OUT)/$(GARMENT).pattern.json $(OUT)/$(FIGURE).body.json
 	$(BIN)/pattern-mesh --edge-length $(EDGE) --body $(OUT)/$(FIGURE).body.json -o $@ $<
 
 $(OUT)/$(GARMENT).json: $(OUT)/panels.json $(OUT)/$(FIGURE).body.json
-	$(BIN)/drape --body $(OUT)/$(FIGURE).body.json --panels $< --accuracy $(ACCURACY) --threads $(THREADS) --report $(OUT)/report.json -o $@
+	$(BIN)/drape --body $(OUT)/$(FIGURE).body.json --panels $< --accuracy $(ACCURACY) --report $(OUT)/report.json -o $@
 
 $(OUT)/%.png: $(OUT)/$(GARMENT).json $(OUT)/$(FIGURE).body.json
 	$(BIN)/render-png --view $* -o $@ $(OUT)/$(FIGURE).body.json $<
