@@ -72,6 +72,56 @@ private:
       m_done[best] = true;
     }
     middle_blocks(region);
+    if (trunk) close_level_seams();
+  }
+
+  /// Hints may leave panels above each other far apart, or overlapping: along level seams the lower one is brought to CLEAR below.
+  void close_level_seams() {
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < count(); ++k)
+      if (m_roles[k].region == Region::TRUNK) order.push_back(k);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return middle_of(a).y() > middle_of(b).y() + 1e-9; });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const std::size_t p = order[i];
+      double shift = 1e300;
+      for (std::size_t j = 0; j < i; ++j) {
+        const std::size_t q = order[j];
+        if (m_roles[p].side != m_roles[q].side && m_roles[p].side != Side::RING && m_roles[q].side != Side::RING) continue;
+        Vec2 along = Vec2::Zero();
+        for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q)))
+          along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
+        if (along.x() <= along.y() || along.x() < 0.05) continue; // no seam, an upright or a small one
+        const double clearance = m_roles[p].side == m_roles[q].side ? column_clearance(p, q) : bounds(q)[0].y() - bounds(p)[1].y();
+        shift = std::min(shift, clearance - CLEAR);
+      }
+      if (shift < 1e299) m_spots[p].offset.y() += shift;
+    }
+  }
+
+  /// How far p lies below q, over the columns that both cover, m; negative where they overlap.
+  double column_clearance(std::size_t p, std::size_t q) const {
+    const auto bp = bounds(p), bq = bounds(q);
+    const double from = std::max(bp[0].x(), bq[0].x()), to = std::min(bp[1].x(), bq[1].x());
+    if (from >= to) return bq[0].y() - bp[1].y();
+    double least = 1e300;
+    for (int k = 1; k < 100; ++k) {
+      const double line = from + (to - from) * k / 100;
+      const double top = reach(p, line, 1), bottom = reach(q, line, -1);
+      if (top > -1e299 && bottom < 1e299) least = std::min(least, bottom - top);
+    }
+    return least < 1e299 ? least : bq[0].y() - bp[1].y();
+  }
+
+  /// Highest (sense 1) or lowest (-1) v of a panel's outline on the column u.
+  double reach(std::size_t panel, double u, double sense) const {
+    double best = -1e300;
+    const auto& outline = m_mesh.panels[panel].outline;
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      const Vec2 a = at(panel, outline[k]), b = at(panel, outline[(k + 1) % outline.size()]);
+      if ((a.x() <= u) == (b.x() <= u)) continue;
+      best = std::max(best, sense * (a.y() + (u - a.x()) / (b.x() - a.x()) * (b.y() - a.y())));
+    }
+    return sense * best;
   }
 
   /// Puts panel p where its seams with q ask for.

@@ -102,7 +102,7 @@ private:
       side_from_theta(role, hint.theta.value_or(has_word(k, "back") ? units::PI : 0));
       if (hint.anchor && (hint.radius || std::abs(std::remainder(*hint.theta, units::PI)) < 1e-6) && role.side != Side::RING && hint.part != "leg_l" && hint.part != "leg_r")
         role.du = std::remainder(role.theta - (role.side == Side::BACK ? units::PI : 0), 2 * units::PI) * hint.radius.value_or(0) - hint.anchor->x();
-      if (hint.anchor && hint.height) role.dv = *hint.height - hint.anchor->y();
+      if (hint.anchor && hint.height && (role.du || role.side == Side::RING)) role.dv = *hint.height - hint.anchor->y();
       return;
     }
     if (!hint.rigid) return;

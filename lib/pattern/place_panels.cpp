@@ -137,7 +137,7 @@ private:
       if (g.region != Region::NECK) continue;
       const auto b = bounds(g);
       const double neck = std::max(m_space.shoulder_height(0.06), m_space.body().has_landmark("neck_side_l") ? m_space.body().landmark("neck_side_l").y() : 0.0);
-      for (std::size_t k : g.panels) m_spots[k].offset.y() += neck + SHOULDER_RAISE + 0.01 - b[0].y();
+      for (std::size_t k : g.panels) m_spots[k].offset.y() += neck + 0.005 - b[0].y();
     }
   }
 
@@ -162,6 +162,7 @@ private:
     std::vector<Vec2> hull = m_space.points(axis, parts, b[0].y() - 0.02, b[1].y() + 0.02);
     if (hull.size() < 3) hull = m_space.points(axis, {Part::TORSO, Part::LEG_L, Part::LEG_R}, -1, 3);
     std::map<int, WrapCurve> curves;
+    if (group.side == Side::RING && place_on_cone(group, hull)) return;
     if (group.side == Side::RING) {
       double widest = 0;
       std::vector<std::pair<double, std::size_t>> by_theta;
@@ -199,6 +200,64 @@ private:
       const WrapCurve& curve = curves.at(depth);
       put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x()), p.y()); });
     }
+  }
+
+  /// Angle between a panel's two sides, rad, and its width near the top, m.
+  std::array<double, 2> flare(std::size_t k) const {
+    const auto b = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+    double width[2] = {0, 0};
+    for (int end = 0; end < 2; ++end) {
+      const double line = b[1].y() - (end ? 0.85 : 0.15) * (b[1].y() - b[0].y());
+      double low = 1e300, high = -1e300;
+      const auto& outline = m_mesh.panels[k].outline;
+      for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Vec2 p = uv(k, outline[i]), q = uv(k, outline[(i + 1) % outline.size()]);
+        if ((p.y() <= line) == (q.y() <= line)) continue;
+        const double x = p.x() + (line - p.y()) / (q.y() - p.y()) * (q.x() - p.x());
+        low = std::min(low, x), high = std::max(high, x);
+      }
+      width[end] = high - low;
+    }
+    return {2 * std::atan2(0.5 * (width[1] - width[0]), 0.7 * (b[1].y() - b[0].y())), width[0]};
+  }
+
+  /// Gores that widen downwards stand on a cone: each is a sector of it, so that neighbours' sides lie along each other.
+  bool place_on_cone(const Group& group, const std::vector<Vec2>& hull) {
+    std::vector<std::pair<double, std::size_t>> by_theta;
+    double total = 0;
+    for (std::size_t k : group.panels) {
+      const double angle = flare(k)[0];
+      if (angle < 0.03) return false;
+      total += angle;
+      by_theta.push_back({m_roles[k].theta, k});
+    }
+    if (group.panels.size() < 3 || total < 0.3 || total > 5.5) return false;
+    std::sort(by_theta.begin(), by_theta.end());
+    const double slope = std::asin(total / (2 * M_PI)); // half the cone's opening angle
+    const Vec2 center = 0.5 * (Vec2(plane_low(hull), hull_end(hull, -1)) + Vec2(plane_high(hull), hull_end(hull, 1)));
+    double theta = by_theta[0].first - 0.5 * flare(by_theta[0].second)[0] / std::sin(slope);
+    for (auto& [hint, k] : by_theta) {
+      const auto [angle, top_width] = flare(k);
+      const auto b = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+      const double middle = theta + 0.5 * angle / std::sin(slope), u0 = 0.5 * (b[0].x() + b[1].x());
+      theta += angle / std::sin(slope);
+      const double top = b[1].y(), apex = top - 0.15 * (top - b[0].y()) + 0.5 * top_width / std::tan(0.5 * angle);
+      const double out = GAP + group.extra + LAYER * m_depth[k];
+      const Vec2 push(std::sin(middle) * out, std::cos(middle) * out); // each gore as a whole, so that it keeps its shape
+      put(k, [&](const Vec2& p) {
+        const Vec2 d(p.x() - u0, apex - p.y());
+        const double rho = d.norm(), t = middle + std::atan2(d.x(), d.y()) / std::sin(slope), r = rho * std::sin(slope);
+        const double y = top - (rho - (apex - top)) * std::cos(slope);
+        return Vec3(center.x() + r * std::sin(t) + push.x(), y, center.y() + r * std::cos(t) + push.y());
+      });
+    }
+    return true;
+  }
+
+  static double hull_end(const std::vector<Vec2>& hull, double sense) {
+    double z = -1e300;
+    for (const Vec2& p : hull) z = std::max(z, sense * p.y());
+    return sense * z;
   }
 
   void place_arm(const Group& group) {
@@ -241,7 +300,7 @@ private:
   void place_neck(const Group& group) {
     const auto b = bounds(group);
     const Axis axis = m_space.neck();
-    std::vector<Vec2> hull = m_space.points(axis, {Part::HEAD, Part::TORSO}, b[0].y() - 0.005, b[0].y() + 0.03);
+    std::vector<Vec2> hull = m_space.points(axis, {Part::HEAD, Part::TORSO}, b[0].y(), b[0].y() + 0.04);
     if (hull.size() < 3) hull = m_space.points(axis, {Part::HEAD}, -1, 3);
     for (std::size_t k : group.panels) {
       const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
@@ -321,7 +380,7 @@ private:
         if (inside + through > 0) grow.insert(g);
       }
       for (std::size_t g : grow)
-        if (m_groups[g].extra < 0.12) m_groups[g].extra += 0.005, changed = true;
+        if (m_groups[g].extra < 0.25) m_groups[g].extra += 0.005, changed = true;
       if (!changed) break;
       place_all();
     }
