@@ -190,19 +190,19 @@ Draft draft_shirt(const Measures& m) {
   stand.edges = {{"neck_l", {}}, {"neck_back", {}}, {"neck_r", {}}, {"end_r", {}}, {"top", {}}, {"end_l", {}}};
   stand.placement = {"neck", 180, m.neck_back_height, Vec2(0, 0)};
   d.add(stand);
-  // Collar: a sector of a ring that hangs outside the stand, so that its free edge is longer than the edge at the stand.
-  const double spread = 1.25, radius = 2 * half_top / spread, fall = 0.050, point = 0.018;
-  const auto arc = [&](double r, double angle) { return Vec2(r * std::sin(angle), radius - r * std::cos(angle)); };
+  // Collar: a sector of a ring, so that its free edge is longer than the edge at the stand and turns over under its weight.
+  const double spread = 1.25, radius = 2 * half_top / spread, fall = 0.045, point = 0.015;
+  const auto arc = [&](double r, double angle) { return Vec2(r * std::sin(angle), r * std::cos(angle) - radius); };
   const double handle = 4.0 / 3 * std::tan(spread / 4); // cubic that follows the arc
   const Vec2 a = arc(radius, -spread / 2), e = arc(radius, spread / 2);
-  const Vec2 low_a = arc(radius + fall + point, -spread / 2), low_e = arc(radius + fall + point, spread / 2);
-  const auto along = [&](double angle, double r) { return Vec2(handle * r * std::cos(angle), handle * r * std::sin(angle)); };
+  const Vec2 free_a = arc(radius + fall + point, -spread / 2), free_e = arc(radius + fall + point, spread / 2);
+  const auto along = [&](double angle, double r) { return Vec2(handle * r * std::cos(angle), -handle * r * std::sin(angle)); };
   DraftPanel collar;
   collar.name = "collar";
-  collar.points = {low_a, low_e, e, a};
-  collar.edges = {{"free", {low_a + along(-spread / 2, radius + fall - 2 * point), low_e - along(spread / 2, radius + fall - 2 * point)}},
+  collar.points = {a, e, free_e, free_a};
+  collar.edges = {{"low", {a + along(-spread / 2, radius), e - along(spread / 2, radius)}},
                   {"front_r", {}},
-                  {"top", {e - along(spread / 2, radius), a + along(-spread / 2, radius)}},
+                  {"free", {free_e - along(spread / 2, radius + fall - 2 * point), free_a + along(-spread / 2, radius + fall - 2 * point)}},
                   {"front_l", {}}};
   collar.placement = {"neck", 180, m.neck_back_height + stand_height, Vec2(0, 0)};
   d.add(collar);
@@ -225,8 +225,7 @@ Draft draft_shirt(const Measures& m) {
   d.sew("stand", "neck_back", "yoke", "neck");
   d.sew("stand", "neck_r", "front_r", "neck");
   d.sew("stand", "end_l", "stand", "end_r", 0, "closure");
-  d.sew("collar", "top", "stand", "top");
-  d.seams.back().same_direction = true; // folded over: both are seen from outside
+  d.sew("collar", "low", "stand", "top");
   return d;
 }
 
