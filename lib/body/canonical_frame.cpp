@@ -11,7 +11,6 @@ namespace sloper::body {
 namespace {
 
 constexpr double MIN_STATURE = 0.5, MAX_STATURE = 2.5; ///< m
-constexpr double MIN_LEG_SHARE = 0.25, MIN_HEAD_SHARE = 0.4;
 
 struct Unit {
   const char* name;
@@ -205,11 +204,9 @@ Vec3 transform(const Mat4& m, const Vec3& p) { return m.block<3, 3>(0, 0) * p + 
 CanonicalFrame guess_frame(const TriangleMesh& scan, const SortedScan& sorted, const std::string& unit, const std::string& file) {
   CanonicalFrame frame;
   const double height = sorted.high - sorted.low;
-  if (!(height > 0)) throw input_error(file, "", "holds no body: all vertices are in one place");
-  if (sorted.leg_share < MIN_LEG_SHARE || sorted.head_share < MIN_HEAD_SHARE)
+  if (!shows_a_person(sorted))
     throw input_error(file, "",
-                      sorted.leg_share < MIN_LEG_SHARE ? "no standing person: no two legs in any axis direction"
-                                                       : "no standing person: no head above the shoulders",
+                      !(sorted.leg_share >= 0.25) ? "no standing person: no two legs in any axis direction" : "no standing person: no head above the shoulders",
                       "a scan must show a whole standing body with its legs apart; check --up, or cut away what is not the body");
   if (sorted.second_share > 0.5) throw input_error(file, "", "two bodies stand in this scan", "cut the scan so that one person is left");
   const Unit chosen = guess_unit(height, unit, file);

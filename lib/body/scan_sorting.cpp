@@ -8,24 +8,21 @@ namespace sloper::body {
 
 namespace {
 
-constexpr int N_CELLS = 200;                      ///< along the longest side of the scan
-constexpr double LEG_LOW = 0.06, LEG_HIGH = 0.36; ///< where two legs are looked for, share of the height
-constexpr double TOP_LOW = 0.92;                  ///< above it there is only the head
-constexpr double TOP_WIDTH = 0.22;                ///< a head is narrower than this share of the height
-constexpr double FLOOR_BAND = 0.08;               ///< a floor lies in this share of the height from below
-constexpr double FLOOR_FACTOR = 4;                ///< ... and fills this many times the cells of an ordinary layer
+constexpr int N_CELLS = 200;                                 ///< along the longest side of the scan
+constexpr double LEG_LOW = 0.06, LEG_HIGH = 0.36;            ///< where two legs are looked for, share of the height
+constexpr double MIN_LEG_SHARE = 0.25, MIN_HEAD_SHARE = 0.4; ///< below these there is no person
+constexpr double MAX_LOST_SHARE = 0.04;                      ///< more cells than this in pieces over or under the body: it fell apart
+constexpr double TOP_LOW = 0.92;                             ///< above it there is only the head
+constexpr double TOP_WIDTH = 0.22;                           ///< a head is narrower than this share of the height
+constexpr double FLOOR_BAND = 0.08;                          ///< a floor lies in this share of the height from below
+constexpr double FLOOR_FACTOR = 4;                           ///< ... and fills this many times the cells of an ordinary layer
 
 /// Occupied cells of a grid over the scan.
 class Voxels {
 public:
-  explicit Voxels(const TriangleMesh& scan) {
+  Voxels(const TriangleMesh& scan, int n_cells) {
     for (const Vec3& p : scan.positions) m_box.add(p);
-    m_cell = std::max(m_box.size().maxCoeff() / N_CELLS, 1e-12);
-    for (int a = 0; a < 3; ++a) m_n[a] = static_cast<int>(m_box.size()[a] / m_cell) + 1;
-    m_number.assign(static_cast<std::size_t>(m_n[0]) * m_n[1] * m_n[2], -1);
-    m_of_vertex.resize(scan.positions.size());
-    for (std::size_t v = 0; v < scan.positions.size(); ++v) m_of_vertex[v] = add(scan.positions[v]);
-    for (const Triangle& t : scan.triangles) fill(scan.positions[t[0]], scan.positions[t[1]], scan.positions[t[2]]);
+    fill_cells(scan, n_cells);
   }
   double cell_size() const { return m_cell; }
   const Box3& box() const { return m_box; }
@@ -39,6 +36,15 @@ public:
   }
 
 private:
+  void fill_cells(const TriangleMesh& scan, int n_cells) {
+    m_cells.clear();
+    m_cell = std::max(m_box.size().maxCoeff() / n_cells, 1e-12);
+    for (int a = 0; a < 3; ++a) m_n[a] = static_cast<int>(m_box.size()[a] / m_cell) + 1;
+    m_number.assign(static_cast<std::size_t>(m_n[0]) * m_n[1] * m_n[2], -1);
+    m_of_vertex.resize(scan.positions.size());
+    for (std::size_t v = 0; v < scan.positions.size(); ++v) m_of_vertex[v] = add(scan.positions[v]);
+    for (const Triangle& t : scan.triangles) fill(scan.positions[t[0]], scan.positions[t[1]], scan.positions[t[2]]);
+  }
   int add(const Vec3& p) {
     std::array<int, 3> c;
     for (int a = 0; a < 3; ++a) c[a] = std::clamp(static_cast<int>((p[a] - m_box.low[a]) / m_cell), 0, m_n[a] - 1);
@@ -69,7 +75,7 @@ private:
 struct Reading {
   int axis = 1;
   bool flipped = false;
-  double score = -1, leg_share = 0, head_share = 0, second_share = 0;
+  double score = -1, leg_share = 0, lost_share = 0, head_share = 0, second_share = 0;
   bool has_floor = false;
   int floor_top = -1; ///< highest layer of the floor
   int low = 0, high = 0, n_debris = 0;
@@ -184,9 +190,23 @@ Reading read_direction(const Voxels& voxels, int axis, bool flipped) {
       high[label[c]] = std::max(high[label[c]], k);
     }
   r.low = low[body], r.high = high[body];
+  // limbs that fell off stand over or under the body; a pole or a second person stands beside it
+  const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+  std::vector<std::array<int, 4>> extent(sizes.size(), {1 << 30, -1, 1 << 30, -1});
+  for (int c = 0; c < voxels.count(); ++c)
+    if (label[c] >= 0) {
+      auto& e = extent[label[c]];
+      e[0] = std::min(e[0], voxels.cell(c)[a]), e[1] = std::max(e[1], voxels.cell(c)[a]);
+      e[2] = std::min(e[2], voxels.cell(c)[b]), e[3] = std::max(e[3], voxels.cell(c)[b]);
+    }
+  auto is_above_or_below = [&](std::size_t p) {
+    const auto &e = extent[p], &of = extent[static_cast<std::size_t>(body)];
+    return e[0] >= of[0] - 3 && e[1] <= of[1] + 3 && e[2] >= of[2] - 3 && e[3] <= of[3] + 3;
+  };
   for (std::size_t p = 0; p < sizes.size(); ++p) {
     if (static_cast<int>(p) == body) continue;
     ++r.n_debris;
+    if (is_above_or_below(p)) r.lost_share += static_cast<double>(sizes[p]) / sizes[body];
     if (high[p] - low[p] > 0.5 * (r.high - r.low)) r.second_share = std::max(r.second_share, static_cast<double>(sizes[p]) / sizes[body]);
   }
   for (int c = 0; c < voxels.count(); ++c) r.is_body[c] = label[c] == body;
@@ -263,10 +283,8 @@ void rescue_soles(const TriangleMesh& scan, const Voxels& voxels, const Reading&
   }
 }
 
-} // namespace
-
-SortedScan sort_scan(const TriangleMesh& scan, const std::string& up_axis) {
-  const Voxels voxels(scan);
+SortedScan sort_in_cells(const TriangleMesh& scan, const std::string& up_axis, int n_cells) {
+  const Voxels voxels(scan, n_cells);
   Reading best;
   double next = -1;
   for (int axis : {1, 2, 0}) { // ties go to y, then z
@@ -283,6 +301,7 @@ SortedScan sort_scan(const TriangleMesh& scan, const std::string& up_axis) {
   sorted.up = Vec3::Zero();
   sorted.up[best.axis] = best.flipped ? -1 : 1;
   sorted.up_name = std::string(best.flipped ? "-" : "+") + static_cast<char>('x' + best.axis);
+  sorted.falls_apart = best.lost_share > MAX_LOST_SHARE;
   sorted.up_score = best.score;
   sorted.next_score = next;
   sorted.cell = voxels.cell_size();
@@ -304,5 +323,20 @@ SortedScan sort_scan(const TriangleMesh& scan, const std::string& up_axis) {
     }
   return sorted;
 }
+
+} // namespace
+
+SortedScan sort_scan(const TriangleMesh& scan, const std::string& up_axis) {
+  // a thin cloud of points falls apart in small cells: larger ones are tried when no person stands in the small ones
+  SortedScan first;
+  for (const int n_cells : {N_CELLS, N_CELLS * 5 / 8, N_CELLS * 2 / 5, N_CELLS / 4}) {
+    SortedScan sorted = sort_in_cells(scan, up_axis, n_cells);
+    if (shows_a_person(sorted) && !sorted.falls_apart) return sorted;
+    if (n_cells == N_CELLS || (!shows_a_person(first) && shows_a_person(sorted))) first = std::move(sorted);
+  }
+  return first;
+}
+
+bool shows_a_person(const SortedScan& sorted) { return sorted.high > sorted.low && sorted.leg_share >= MIN_LEG_SHARE && sorted.head_share >= MIN_HEAD_SHARE; }
 
 } // namespace sloper::body

@@ -9,6 +9,7 @@ struct SortedScan {
   Vec3 up = Vec3::UnitY();              ///< axis direction in the scan's frame
   std::string up_name;                  ///< "+y", "-z", ...
   double up_score = 0, next_score = 0;  ///< of the best and of the second-best direction, 0..1
+  bool falls_apart = false;             ///< large pieces over or under the body are not joined to it
   double cell = 0;                      ///< voxel size, scan units
   double low = 0, high = 0;             ///< extent of the body along up, scan units
   std::vector<char> is_body;            ///< one per vertex of the scan
@@ -21,5 +22,8 @@ struct SortedScan {
 
 /// @param up_axis "auto", "x", "y" or "z" (both signs are tried)
 SortedScan sort_scan(const TriangleMesh& scan, const std::string& up_axis);
+
+/// Two legs below, a narrow top: a whole person stands along `up`.
+bool shows_a_person(const SortedScan& sorted);
 
 } // namespace sloper::body

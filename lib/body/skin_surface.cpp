@@ -87,6 +87,30 @@ bool weld(TriangleMesh& mesh, std::vector<int>& of_scan) {
   return true;
 }
 
+/// Leaves out pieces of less than a hundredth of all faces: eyes, inner shells, crumbs. @return how many pieces
+int drop_small_pieces(TriangleMesh& mesh, std::vector<int>& of_scan) {
+  const std::vector<int> piece = connected_components(mesh.positions.size(), mesh.triangles);
+  std::vector<std::size_t> faces(mesh.positions.size(), 0);
+  for (const Triangle& t : mesh.triangles) ++faces[piece[t[0]]];
+  int dropped = 0;
+  for (std::size_t n : faces) dropped += n > 0 && n * 100 < mesh.triangles.size();
+  if (dropped == 0) return 0;
+  auto keep = [&](int v) { return faces[piece[v]] * 100 >= mesh.triangles.size(); };
+  std::vector<int> number(mesh.positions.size(), -1);
+  TriangleMesh kept;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    if (keep(static_cast<int>(v))) {
+      number[v] = static_cast<int>(kept.positions.size());
+      kept.positions.push_back(mesh.positions[v]);
+    }
+  for (const Triangle& t : mesh.triangles)
+    if (keep(t[0])) kept.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  for (int& v : of_scan)
+    if (v >= 0) v = number[v];
+  mesh = std::move(kept);
+  return dropped;
+}
+
 struct HalfEdge {
   std::uint64_t key;
   int face;
@@ -244,14 +268,22 @@ std::string text_of(const char* format, double x) {
 
 TriangleMesh rebuild_surface(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature,
                              double& noise_m) {
-  const OrientedPoints samples = sample_surface(positions, triangles, is_body, SAMPLE * stature);
+  // a thin cloud needs wider samples: about two points in each
+  double spacing = SAMPLE * stature;
+  const auto n_points = static_cast<double>(std::count(is_body.begin(), is_body.end(), 1));
+  OrientedPoints samples = sample_surface(positions, triangles, is_body, spacing);
+  while (triangles.empty() && static_cast<double>(samples.position.size()) > 0.6 * n_points && spacing < 0.02 * stature) {
+    spacing *= 1.35;
+    samples = sample_surface(positions, triangles, is_body, spacing);
+  }
   noise_m = samples.noise_m;
-  TriangleMesh mesh = zero_surface(indicator(samples, CELL * stature));
+  const double cell = std::max(CELL * stature, 1.2 * spacing);
+  TriangleMesh mesh = zero_surface(indicator(samples, cell));
   fair(mesh, 2);
   std::vector<Vec3> points;
   for (std::size_t v = 0; v < positions.size(); ++v)
     if (is_body[v]) points.push_back(positions[v]);
-  settle_on_points(mesh, points, samples, 1.3 * CELL * stature);
+  settle_on_points(mesh, points, samples, 1.3 * cell);
   fair(mesh, 1);
   return mesh;
 }
@@ -262,10 +294,13 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
   std::string why;
   if (skin.mesh.triangles.size() < 1000) why = triangles.empty() ? "the scan has points and no faces" : "the scan has hardly any faces";
   else {
+    if (skin.mesh.positions.size() > 0.9 * static_cast<double>(skin.mesh.triangles.size())) weld(skin.mesh, skin.of_scan); // STL: three vertices a face
+    if (const int dropped = drop_small_pieces(skin.mesh, skin.of_scan))
+      skin.findings.push_back({"info", std::to_string(dropped) + " small loose pieces are left out of the skin", "faces"});
     std::vector<HalfEdge> list = half_edges(skin.mesh);
     count_edges(list, skin);
     const double edges = 1.5 * static_cast<double>(skin.mesh.triangles.size());
-    if (skin.border_edges > MAX_BORDER_SHARE * edges && weld(skin.mesh, skin.of_scan)) {
+    if (skin.border_edges > MAX_BORDER_SHARE * edges && weld(skin.mesh, skin.of_scan)) { // texture seams
       list = half_edges(skin.mesh);
       count_edges(list, skin);
     }
