@@ -4,7 +4,7 @@
 /// The sign comes from angle-weighted pseudonormals (Baerentzen and Aanaes 2005) where the surface around the closest point is
 /// an oriented manifold that bounds a volume, and from the generalized winding number (Jacobson et al. 2013) where it is not:
 /// at holes, non-manifold edges and where the skin passes through itself. Flipped faces are turned first, by their neighbours;
-/// a body that is inside out as a whole is turned as a whole. Skin buried inside the body (an arm that a scan has grown into
+/// a piece that is inside out as a whole is turned as a whole. Skin buried inside the body (an arm that a scan has grown into
 /// the trunk) is no closest point. Test: tests/collision/test_body_collider.cpp
 #include <collision/topology.hpp>
 #include <collision/triangle_tree.hpp>
@@ -38,7 +38,7 @@ struct FaceContact {
 
 /// What was wrong with the body's mesh and how it was met.
 struct BodyFindings {
-  int flipped_triangles = 0; ///< turned to agree with their neighbours, or with the whole
+  int flipped_triangles = 0; ///< turned to agree with their neighbours, or with their whole piece
   int boundary_edges = 0;
   int non_manifold_edges = 0;  ///< of three or more triangles, or of two that cannot be made to agree
   int self_intersections = 0;  ///< pairs of body triangles
@@ -79,6 +79,7 @@ public:
 private:
   void turn_faces();
   void assess_trust();
+  std::vector<char> ask_winding_numbers();
   void compute_normals();
   void assign_features();
   Vec3 pseudonormal(int triangle, int feature) const; ///< not unit
