@@ -78,7 +78,7 @@ Draft draft_skirt(const Measures& m) {
 
 Draft draft_trousers(const Measures& m) {
   Draft d{"trousers", {}, {}};
-  const double band = 0.035, rise = m.body_rise + 0.015 - 0.5 * band, leg = m.inside_leg - 0.03, y_hip = -(m.waist_to_hip - 0.5 * band), y_crotch = -rise;
+  const double band = 0.035, rise = m.body_rise + 0.015 - 0.5 * band, leg = m.inside_leg - 0.06, y_hip = -(m.waist_to_hip - 0.5 * band), y_crotch = -rise;
   const double y_knee = y_crotch - 0.46 * m.inside_leg, y_hem = y_crotch - leg;
   const double waist = (m.waist + 0.01) / 4, hip = (m.hip + 0.07) / 4;
   const double knee = 0.5 * (m.knee + 0.09), hem = 0.5 * (m.ankle + 0.17);

@@ -125,7 +125,7 @@ void sew_sleeve(Draft& d, const char* side, double ease) {
 
 Draft draft_shirt(const Measures& m) {
   constexpr double CAP_EASE = 0.012;
-  const Block b = make_block(m, 0.10, 0.85 * m.waist_to_hip + 0.02, 1.14 * m.neck + 0.02);
+  const Block b = make_block(m, 0.10, m.waist_to_hip + 0.03, 1.14 * m.neck + 0.02);
   const double waist_in = 0.012;
   Draft d{"shirt", {}, {}};
   const DraftPanel front = make_front(b, m, waist_in);
@@ -167,7 +167,7 @@ Draft draft_shirt(const Measures& m) {
 
   const double front_armhole = edge_length(front, "armhole"), back_armhole = edge_length(back, "armhole_r"), yoke_armhole = edge_length(yoke, "armhole_r");
   const double armhole = front_armhole + back_armhole + yoke_armhole, cap = 0.25 * armhole;
-  const double cuff_height = 0.055, cuff = m.wrist + 0.055;
+  const double cuff_height = 0.055, cuff = m.wrist + 0.07;
   DraftPanel sleeve = make_sleeve(front_armhole, back_armhole + yoke_armhole, m.arm_length + 0.01 - cuff_height - cap, cuff, cap, CAP_EASE);
   // The back of the cap is set into the back first, then into the yoke.
   split_edge(sleeve, "cap_back", back_armhole / (back_armhole + yoke_armhole), "cap_back", "cap_yoke");
@@ -231,7 +231,7 @@ Draft draft_shirt(const Measures& m) {
 
 Draft draft_tshirt(const Measures& m) {
   constexpr double CAP_EASE = 0.008;
-  const Block b = make_block(m, 0.08, 0.85 * m.waist_to_hip, 1.30 * m.neck + 0.06);
+  const Block b = make_block(m, 0.08, m.waist_to_hip + 0.02, 1.30 * m.neck + 0.06);
   Draft d{"tshirt", {}, {}};
   const auto whole = [&](const char* name, double theta, double hollow, bool is_front) {
     DraftPanel p;
