@@ -8,7 +8,7 @@ EDGE ?= 0.02
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
-all: $(OUT)/front.png $(OUT)/back.png
+all: pictures
 
 $(OUT):
 	mkdir -p $@
@@ -29,11 +29,14 @@ $(OUT)/panels.json: $(OUT)/$(GARMENT).pattern.json $(OUT)/$(FIGURE).body.json
 $(OUT)/$(GARMENT).json: $(OUT)/panels.json $(OUT)/$(FIGURE).body.json
 	$(BIN)/drape --body $(OUT)/$(FIGURE).body.json --panels $< --accuracy $(ACCURACY) --report $(OUT)/report.json -o $@
 
-$(OUT)/%.png: $(OUT)/$(GARMENT).json $(OUT)/$(FIGURE).body.json
+VIEWS ?= front back
+$(VIEWS:%=$(OUT)/%.png): $(OUT)/%.png: $(OUT)/$(GARMENT).json $(OUT)/$(FIGURE).body.json
 	$(BIN)/render-png --view $* -o $@ $(OUT)/$(FIGURE).body.json $<
 
 clean:
 	rm -rf $(OUT)
 
-.PHONY: all clean
+pictures: $(VIEWS:%=$(OUT)/%.png)
+
+.PHONY: all pictures clean
 .SECONDARY:
