@@ -121,7 +121,8 @@ void orient_outward(OrientedPoints& samples, const PointGrid& grid) {
 
 } // namespace
 
-OrientedPoints sample_surface(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& use, double spacing) {
+OrientedPoints sample_surface(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& use, double spacing,
+                              double max_lonely_share) {
   std::vector<Vec3> points;
   for (std::size_t v = 0; v < positions.size(); ++v)
     if (use[v]) points.push_back(positions[v]);
@@ -136,6 +137,7 @@ OrientedPoints sample_surface(const std::vector<Vec3>& positions, const std::vec
   samples.area.assign(n, spacing * spacing);
   const double reach = 2.2 * spacing;
   const PointGrid grid(samples.position, reach);
+  int lonely = 0;
   for (std::size_t i = 0; i < n; ++i) {
     Vec3 mean = Vec3::Zero();
     int count = 0, close = 0;
@@ -144,6 +146,7 @@ OrientedPoints sample_surface(const std::vector<Vec3>& positions, const std::vec
       ++count;
       close += d < 1.5 * 1.5 * spacing * spacing;
     });
+    lonely += count < 6;
     mean /= count;
     Mat3 spread = Mat3::Zero();
     grid.within(samples.position[i], reach, [&](int j, double) {
@@ -155,6 +158,8 @@ OrientedPoints sample_surface(const std::vector<Vec3>& positions, const std::vec
     samples.normal[i] = solver.eigenvectors().col(0);
     samples.area[i] = 3.14159265 * 1.5 * 1.5 * spacing * spacing / close;
   }
+  samples.lonely_share = n ? static_cast<double>(lonely) / static_cast<double>(n) : 0;
+  if (samples.lonely_share > max_lonely_share) return samples;
   orient_outward(samples, grid);
   // noise: how far the scan's own points lie from the plane of their nearest sample
   double sum = 0;

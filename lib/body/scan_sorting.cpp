@@ -74,6 +74,7 @@ private:
 /// One reading of the scan: this axis, this sign is up.
 struct Reading {
   int axis = 1;
+  int reach = 1; ///< cells this near are joined
   bool flipped = false;
   double score = -1, leg_share = 0, lost_share = 0, head_share = 0, second_share = 0;
   bool has_floor = false;
@@ -101,9 +102,9 @@ std::vector<int> label_pieces(const Voxels& voxels, const Reading& r, std::vecto
       stack.pop_back();
       ++sizes[piece];
       const auto& at = voxels.cell(c);
-      for (int dx = -1; dx <= 1; ++dx)
-        for (int dy = -1; dy <= 1; ++dy)
-          for (int dz = -1; dz <= 1; ++dz) {
+      for (int dx = -r.reach; dx <= r.reach; ++dx)
+        for (int dy = -r.reach; dy <= r.reach; ++dy)
+          for (int dz = -r.reach; dz <= r.reach; ++dz) {
             const int n = voxels.number_at(at[0] + dx, at[1] + dy, at[2] + dz);
             if (n < 0 || label[n] >= 0 || layer_of(voxels, n, r) <= r.floor_top) continue;
             label[n] = piece;
@@ -138,8 +139,8 @@ LayerShape shape_of_layer(const Voxels& voxels, const Reading& r, const std::vec
   }
   std::sort(flat.begin(), flat.end());
   for (std::size_t i = 0; i < flat.size(); ++i)
-    for (std::size_t j = i + 1; j < flat.size() && flat[j][0] - flat[i][0] <= 1; ++j)
-      if (std::abs(flat[j][1] - flat[i][1]) <= 1) {
+    for (std::size_t j = i + 1; j < flat.size() && flat[j][0] - flat[i][0] <= r.reach; ++j)
+      if (std::abs(flat[j][1] - flat[i][1]) <= r.reach) {
         const int p = root(flat[i][2]), q = root(flat[j][2]);
         if (p != q) parent[std::max(p, q)] = std::min(p, q);
       }
@@ -169,8 +170,9 @@ void find_floor(const std::vector<int>& layer_count, Reading& r) {
   if (r.has_floor && layer_count[r.floor_top + 1] > 2 * usual) ++r.floor_top;
 }
 
-Reading read_direction(const Voxels& voxels, int axis, bool flipped) {
+Reading read_direction(const Voxels& voxels, int axis, bool flipped, int reach) {
   Reading r;
+  r.reach = reach;
   r.axis = axis;
   r.flipped = flipped;
   std::vector<int> layer_count(static_cast<std::size_t>(voxels.extent(axis)), 0);
@@ -283,14 +285,14 @@ void rescue_soles(const TriangleMesh& scan, const Voxels& voxels, const Reading&
   }
 }
 
-SortedScan sort_in_cells(const TriangleMesh& scan, const std::string& up_axis, int n_cells) {
+SortedScan sort_in_cells(const TriangleMesh& scan, const std::string& up_axis, int n_cells, int reach) {
   const Voxels voxels(scan, n_cells);
   Reading best;
   double next = -1;
   for (int axis : {1, 2, 0}) { // ties go to y, then z
     if (up_axis != "auto" && up_axis[0] - 'x' != axis) continue;
     for (bool flipped : {false, true}) {
-      Reading r = read_direction(voxels, axis, flipped);
+      Reading r = read_direction(voxels, axis, flipped, reach);
       if (r.score > best.score + 1e-9) {
         next = best.score;
         best = std::move(r);
@@ -329,8 +331,8 @@ SortedScan sort_in_cells(const TriangleMesh& scan, const std::string& up_axis, i
 SortedScan sort_scan(const TriangleMesh& scan, const std::string& up_axis) {
   // a thin cloud of points falls apart in small cells: larger ones are tried when no person stands in the small ones
   SortedScan first;
-  for (const int n_cells : {N_CELLS, N_CELLS * 5 / 8, N_CELLS * 2 / 5, N_CELLS / 4}) {
-    SortedScan sorted = sort_in_cells(scan, up_axis, n_cells);
+  for (const int n_cells : {N_CELLS, N_CELLS * 5 / 8, N_CELLS * 2 / 5}) {
+    SortedScan sorted = sort_in_cells(scan, up_axis, n_cells, n_cells == N_CELLS ? 1 : 2);
     if (shows_a_person(sorted) && !sorted.falls_apart) return sorted;
     if (n_cells == N_CELLS || (!shows_a_person(first) && shows_a_person(sorted))) first = std::move(sorted);
   }

@@ -268,13 +268,14 @@ std::string text_of(const char* format, double x) {
 
 TriangleMesh rebuild_surface(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature,
                              double& noise_m) {
-  // a thin cloud needs wider samples: about two points in each
+  // a thin cloud needs wider samples
+  constexpr double MAX_LONELY = 0.03;
   double spacing = SAMPLE * stature;
-  const auto n_points = static_cast<double>(std::count(is_body.begin(), is_body.end(), 1));
-  OrientedPoints samples = sample_surface(positions, triangles, is_body, spacing);
-  while (triangles.empty() && static_cast<double>(samples.position.size()) > 0.6 * n_points && spacing < 0.02 * stature) {
+  OrientedPoints samples = sample_surface(positions, triangles, is_body, spacing, MAX_LONELY);
+  while (samples.lonely_share > MAX_LONELY) {
     spacing *= 1.35;
-    samples = sample_surface(positions, triangles, is_body, spacing);
+    samples = sample_surface(positions, triangles, is_body, spacing, spacing < 0.02 * stature ? MAX_LONELY : 1.0);
+    if (spacing >= 0.02 * stature) break;
   }
   noise_m = samples.noise_m;
   const double cell = std::max(CELL * stature, 1.2 * spacing);
