@@ -8,6 +8,8 @@ namespace sloper::cloth {
 
 /// In one step a particle comes down at most to this share of its gap, or uses this share of what it has below that.
 static constexpr double APPROACH = 0.5;
+/// Below this share of the gap the push grows as 1/d, up to a factor.
+static constexpr double BARRIER = 0.3, LARGEST_BARRIER = 100;
 /// Along the skin a touching particle moves at most this far in one step, m: the normal is only known here.
 static constexpr double LARGEST_SLIDE = 0.01;
 /// Clearance beyond the gap below which a particle is asked again, m.
@@ -67,10 +69,12 @@ void BodyContactEffect::add(StepContext& c) {
       continue;
     }
     // E = k A depth^3 / (6 gap): stiffness grows from 0, so that particles that come and go do not kick the rest, and Newton
-    // comes from the deep side without overshooting.
+    // comes from the deep side without overshooting. Near the skin both grow with 1/d: pinched cloth shares what room there is.
     const double depth = std::min(m_gap[i] - s.distance, m_gap[i] + 0.002); // a deep start is pushed out, not shot out
-    const double k = m_options.stiffness_n_m3 * m_mesh.area[i] * depth / m_gap[i];
+    const double barrier = std::clamp(BARRIER * m_gap[i] / std::max(s.distance, 1e-9), 1.0, LARGEST_BARRIER);
+    double k = m_options.stiffness_n_m3 * m_mesh.area[i] * depth / m_gap[i] * barrier;
     s.normal_force = 0.5 * k * depth;
+    k *= barrier;
     Vec3 force = s.normal_force * s.normal;
     double tangent = 0;
     if (m_options.friction > 0) {

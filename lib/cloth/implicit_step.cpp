@@ -98,9 +98,13 @@ StepResult ClothSolver::step(const StepOptions& o) {
     result.cg = conjugate_gradient(system, *m_preconditioner, m_rhs, o.cg_tolerance, o.cg_max_iterations, m_dx, m_work);
     m_preconditioner->report_iterations(result.cg.iterations);
   }
-  for (Vec3& d : m_dx) {
-    const double move = d.norm();
-    if (move > o.largest_move_m) d *= o.largest_move_m / move;
+  if (o.relaxation < 1)
+    for (Vec3& d : m_dx) d *= o.relaxation;
+  double largest2 = 0;
+  for (const Vec3& d : m_dx) largest2 = std::max(largest2, d.squaredNorm());
+  if (largest2 > o.largest_move_m * o.largest_move_m) { // the whole step is shortened: cut one by one, neighbours would crumple
+    const double scale = o.largest_move_m / std::sqrt(largest2);
+    for (Vec3& d : m_dx) d *= scale;
   }
   {
     const Stopwatch watch(contact_s);

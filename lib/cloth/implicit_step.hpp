@@ -15,11 +15,13 @@ struct StepOptions {
   double inertia = 0;         ///< 0..1: share of the velocity that is carried over
   double cg_tolerance = 1e-2; ///< relative residual
   int cg_max_iterations = 400;
+  double relaxation = 1;        ///< (0, 1]: share of the solution that is taken; below 1 where steps swing to and fro
   double largest_move_m = 0.05; ///< no particle moves farther in one step
 };
 
 struct StepResult {
   CgResult cg;
+  double relaxation = 1;           ///< (0, 1]: share of the solution that is taken; below 1 where steps swing to and fro
   double largest_move_m = 0;       ///< after limits
   double residual_force_rms = 0;   ///< N, of f0 before the step
   double residual_force_ratio = 0; ///< RMS over particles of |f0| over the mean weight of a particle

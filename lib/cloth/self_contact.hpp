@@ -1,11 +1,12 @@
 #pragma once
-/// Contact of cloth with cloth: repulsion inside the thickness, friction, and a bound on every particle's motion that no
+/// Contact of cloth with cloth: repulsion inside the thickness, friction, and limits on every particle's motion that no
 /// crossing can survive.
 ///
-/// Between two searches no particle moves farther than `displacement_bound` (less than half of the distance between any two
-/// elements that it belongs to), so that a state free of crossings stays free of them, whatever the forces do (the
-/// conservative bound of Offset Geometric Contact, Chen et al. 2025). Repulsion: E = k A (t - d)^3 / (6 t) for d < t, stiffened as
-/// d -> 0 so that cloth pressed together keeps a gap.
+/// Two elements (vertex and face, or edge and edge) are convex, so the plane half way between their closest points separates
+/// them. Until the next search every particle stays on its element's side of all its planes and within less than half the
+/// search radius; so a state free of crossings stays free of them, whatever the forces do, while sliding along and moving
+/// apart are free (conservative bounds as in Offset Geometric Contact, Chen et al. 2025, with planes for balls). Repulsion:
+/// E = k A (t - d)^3 / (6 t) for d < t, stiffened as d -> 0 so that cloth pressed together keeps a gap.
 #include <cloth/cloth_mesh.hpp>
 #include <cloth/effect.hpp>
 #include <collision/distance.hpp>
@@ -22,33 +23,44 @@ struct SelfContactOptions {
 
 class SelfContactEffect : public Effect {
 public:
-  /// @param never_collide  #P lists or empty: pairs of elements holding particles that are listed together are left out
-  ///                       (the two sides of a seam that is not welded yet)
-  SelfContactEffect(const ClothMesh& mesh, const SelfContactOptions& options, std::vector<std::vector<int>> never_collide = {});
+  /// @param seam_class  #P or empty: particles that a seam will weld share a number >= 0, all others have -1. Elements that meet at
+  ///                    a seam do not repel each other; once the seam is closed there, neither do they bind each other's motion.
+  SelfContactEffect(const ClothMesh& mesh, const SelfContactOptions& options, std::vector<int> seam_class = {});
   const char* name() const override { return "self_contact"; }
   void begin_step(const std::vector<Vec3>& x, double h) override;
   void add(StepContext& c) override;
   void limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx) override;
   void set_search(double search_m);
   void set_friction(double mu) { m_options.friction = mu; }
-  /// Room that a particle still has before the next search, m.
-  double room(int particle, const Vec3& x) const;
   /// Crossing pairs of triangles at the last search; while there are any, each search looks for them anew.
   const std::vector<std::array<int, 2>>& crossings() const { return m_crossings; }
   /// Positions were changed from outside: search before the next step.
   void refresh() { m_stale = true; }
-  long searches = 0;
+  long searches = 0; ///< so far
 
 private:
+  enum class Pair { FREE, OPEN_SEAM, CLOSED_SEAM };
+  Pair kind_of(const int* a, int n_a, const int* b, int n_b) const;
+  void find_closed_seams(const std::vector<Vec3>& x);
   void search(const std::vector<Vec3>& x);
   void add_pair(StepContext& c, const std::array<int, 4>& particle, const std::array<double, 4>& weight);
 
   const ClothMesh& m_mesh;
   SelfContactOptions m_options;
   collision::SelfProximity m_proximity;
+  std::vector<int> m_seam_class;   // #P or empty
+  std::vector<char> m_closed;      // by seam class
   std::vector<double> m_thickness; // #P
-  std::vector<double> m_bound;     // #P, m, from m_searched_at
+  struct Near {
+    std::array<int, 4> particle; // vertex and face, or edge and edge
+    bool is_edge, repels;
+    Vec3 normal;     // unit, from the second element to the first
+    double level;    // of the plane half way: normal . point, m
+    double distance; // at the search, m
+  };
+  std::vector<Near> m_pairs;
   std::vector<Vec3> m_searched_at, m_last_dx;
+  std::vector<double> m_share; // #P: of the displacement that is allowed
   std::vector<std::array<int, 2>> m_crossings;
   bool m_stale = true, m_look_for_crossings = true;
 };

@@ -1,4 +1,5 @@
 #include <base/error.hpp>
+#include <base/units.hpp>
 #include <cloth/bending.hpp>
 #include <cloth/edge_spring.hpp>
 #include <cloth/gravity.hpp>
@@ -15,9 +16,17 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double SEWN_GAP = 5e-4;        // m: a stitch this short is welded
-constexpr int SEW_STEPS = 600;           // at most
+constexpr double SEWN_GAP = 5e-4;   // m: a stitch this short is welded
+constexpr int SEW_STEPS = 600;      // at most
+constexpr double SEW_REACH = 0.05;  // m: the pull of a stitch does not grow beyond this gap
+constexpr double SEW_PULL = 10;     // of a stitch at reach, in weights of a particle
+constexpr double SEW_SEARCH = 0.02; // m: cloth nearer than this is watched while sewing
+constexpr double SEW_MOVE = 0.008;  // m: of any particle in one step
+constexpr double SEW_STEP_S = 0.1;
+constexpr double SEW_STRONGEST = 10;     // N at reach
+constexpr double SEW_BENDING = 30;       // times that of the fabric
 constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step while the body is inflated
+constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
 constexpr int REPAIR_ROUNDS = 25;
 constexpr double GAP_RAISE = 0.0007;  // m per repair round
 constexpr double LARGEST_GAP = 0.012; // m
@@ -86,11 +95,13 @@ void DrapeRun::build_solver(bool open_seams) {
     for (cloth::EdgeSpring& s : m_cloth->springs) s.damping_s = 0;
   if (!active("damping"))
     for (cloth::Fabric& f : m_cloth->fabrics) f.damping_s = 0;
+  if (open_seams)
+    for (cloth::Hinge& hinge : m_cloth->hinges) hinge.stiffness *= SEW_BENDING; // panels travel as boards and do not crumple
   if (active("edge_springs")) m_solver->emplace<cloth::EdgeSpringEffect>(*m_cloth);
   if (active("shear")) m_solver->emplace<cloth::ShearEffect>(*m_cloth);
   if (active("bending")) m_solver->emplace<cloth::BendingEffect>(*m_cloth);
   m_sewing = nullptr;
-  if (open_seams) m_sewing = &m_solver->emplace<cloth::SewingSpringEffect>(open_stitches(m_garment), 60.0, 0.05);
+  if (open_seams) m_sewing = &m_solver->emplace<cloth::SewingSpringEffect>(open_stitches(m_garment), 1.0, SEW_REACH);
   m_body_contact = nullptr;
   if (m_collider && active("body_contact")) {
     cloth::BodyContactOptions options;
@@ -99,14 +110,16 @@ void DrapeRun::build_solver(bool open_seams) {
   }
   cloth::SelfContactOptions options;
   options.thickness_m = m_settings.self_thickness_m;
-  if (open_seams) options.search_m = 0.02;
+  if (open_seams) options.search_m = SEW_SEARCH;
   m_self_contact = nullptr;
   if (active("self_contact"))
-    m_self_contact = &m_solver->emplace<cloth::SelfContactEffect>(*m_cloth, options, open_seams ? seam_partners(m_garment) : std::vector<std::vector<int>>{});
+    m_self_contact = &m_solver->emplace<cloth::SelfContactEffect>(*m_cloth, options, open_seams ? seam_classes(m_garment) : std::vector<int>{});
 }
 
-bool DrapeRun::step(double h, double inertia) {
+bool DrapeRun::step(double h, double inertia, double largest_move_m) {
   cloth::StepOptions options;
+  options.largest_move_m = largest_move_m;
+  options.relaxation = m_relaxation;
   options.h = h;
   options.inertia = inertia;
   options.cg_tolerance = m_settings.cg_tolerance;
@@ -138,25 +151,24 @@ bool DrapeRun::step(double h, double inertia) {
 void DrapeRun::sew() {
   const Phase phase(*this, "sew");
   build_solver(true);
-  double stiffness = 60, best = 1e300;
-  int since_best = 0;
+  double weight = 0;
+  for (double m : m_cloth->mass) weight += m * units::GRAVITY / m_cloth->n_particles;
+  double pull = SEW_PULL * weight;
+  std::vector<double> gaps;
+  int last_change = 0;
   for (int k = 0; k < SEW_STEPS; ++k) {
-    const double gap = m_sewing->largest_gap(m_solver->x());
+    m_sewing->set_stiffness(pull / SEW_REACH);
+    gaps.push_back(m_sewing->largest_gap(m_solver->x()));
     m_reporter.progress("sew", 0.4 * k / SEW_STEPS);
-    if (k % 20 == 0)
-      m_reporter.info("sew step " + std::to_string(k) + ": largest gap " + std::to_string(gap) + " m, move " + std::to_string(m_last.largest_move_m) + " cg " +
-                      std::to_string(m_last.cg.iterations));
-    if (gap < SEWN_GAP) break;
-    if (gap < 0.97 * best) {
-      best = gap;
-      since_best = 0;
-    } else if (++since_best >= 8 && stiffness < 2e4) { // stuck: pull harder
-      stiffness *= 2;
-      m_sewing->set_stiffness(stiffness);
-      since_best = 0;
-      best = gap;
+    if (k % 20 == 0) m_reporter.info("sew step " + std::to_string(k) + ": largest gap " + millimetres(gaps.back()) + ", pull " + std::to_string(pull) + " N");
+    if (gaps.back() < SEWN_GAP) break;
+    const bool slow = k >= last_change + 8 && gaps[k] > 0.97 * gaps[k - 8];
+    if (slow && pull >= SEW_STRONGEST && k >= last_change + 24) break; // it will not come closer
+    if (slow && pull < SEW_STRONGEST) {
+      pull = std::min(1.6 * pull, SEW_STRONGEST);
+      last_change = k;
     }
-    if (!step(1.0 / 30, 0)) return;
+    if (!step(SEW_STEP_S, 0, SEW_MOVE)) return;
   }
   const double gap = m_sewing->largest_gap(m_solver->x());
   if (gap > 5 * SEWN_GAP) m_report.repairs.push_back("seams were still open by " + millimetres(gap) + " when they were welded");
@@ -186,23 +198,35 @@ void DrapeRun::settle() {
   const Material& material = material_of(m_garment, "");
   if (active("friction") && m_body_contact) m_body_contact->set_friction(material.friction_body);
   if (active("friction") && m_self_contact) m_self_contact->set_friction(material.friction_self);
-  double h = m_settings.time_step_s;
-  int calm = 0, round = 0;
+  double h = m_settings.time_step_s, least = 1e300;
+  int calm = 0, round = 0, since_least = 0;
+  m_relaxation = 1;
   for (int k = 0; !m_stopped; ++k) {
     if (!step(h, 0)) break;
-    const double speed = m_last.largest_move_m / h;
+    const double speed = m_last.largest_move_m / h, residual = m_last.residual_force_ratio;
     if (k % 20 == 0)
-      m_reporter.info("settle step " + std::to_string(k) + ": h " + std::to_string(h) + " speed " + std::to_string(speed) + " residual " +
-                      std::to_string(m_last.residual_force_ratio) + " cg " + std::to_string(m_last.cg.iterations));
+      m_reporter.info("settle step " + std::to_string(k) + ": h " + std::to_string(h) + " s, speed " + std::to_string(speed) + " m/s, residual force " +
+                      std::to_string(residual) + " of the weight, relaxation " + std::to_string(m_relaxation));
     m_reporter.progress("settle", -1);
-    if (m_last.largest_move_m < 0.003) h = std::min(h * 1.15, 0.2);
+    if (m_last.largest_move_m < 0.003) h = std::min(h * 1.15, LARGEST_STEP_S);
     else if (m_last.largest_move_m > 0.01) h = std::max(h * 0.8, m_settings.time_step_s);
-    const bool still = speed < m_settings.settle_speed_m_s && m_last.residual_force_ratio < m_settings.settle_force_ratio;
+    // Contacts that change sides from step to step make Newton swing between two states: shorter steps meet in the middle.
+    if (residual < 0.9 * least) {
+      least = residual;
+      since_least = 0;
+      m_relaxation = std::min(1.0, 1.1 * m_relaxation);
+    } else if (++since_least >= 8) {
+      m_relaxation = std::max(0.3, 0.7 * m_relaxation);
+      least = residual;
+      since_least = 0;
+    }
+    const bool still = speed < m_settings.settle_speed_m_s && residual < m_settings.settle_force_ratio;
     calm = still ? calm + 1 : 0;
     if (calm < 3) continue;
     m_garment.position = m_solver->x();
     if (round++ < REPAIR_ROUNDS && repair_faces_through()) {
       calm = 0;
+      least = 1e300;
       h = m_settings.time_step_s;
       continue;
     }

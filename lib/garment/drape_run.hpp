@@ -27,11 +27,11 @@ private:
   void sew();
   void inflate();
   void settle();
-  bool repair_faces_through();         ///< raises the gap where faces cross the skin; true when there was something to do
-  bool step(double h, double inertia); ///< one guarded step; false when the run must end
+  bool repair_faces_through();                                       ///< raises the gap where faces cross the skin; true when there was something to do
+  bool step(double h, double inertia, double largest_move_m = 0.02); ///< one guarded step; false when the run must end
   double elapsed() const;
   void finish();
-  void report_effects();                    ///< adds the solver's counts to the report
+  void report_effects(); ///< adds the solver's counts to the report
   bool active(const char* effect) const;
 
   Garment& m_garment;
@@ -43,7 +43,8 @@ private:
 
   std::optional<collision::BodyCollider> m_collider;
   std::optional<BodyShrink> m_shrink;
-  double m_scale = 1; ///< of the body, see BodyShrink
+  double m_relaxation = 1; ///< of the Newton step
+  double m_scale = 1;      ///< of the body, see BodyShrink
 
   std::unique_ptr<cloth::ClothMesh> m_cloth;
   std::unique_ptr<cloth::ClothSolver> m_solver;

@@ -60,15 +60,37 @@ std::vector<std::array<int, 2>> open_stitches(const Garment& garment) {
   return stitches;
 }
 
-std::vector<std::vector<int>> seam_partners(const Garment& garment) {
+std::vector<int> seam_classes(const Garment& garment) {
   const std::vector<int> classes = weld_classes(garment.panels);
-  std::vector<std::vector<int>> members(classes.size()), partners(garment.position.size());
-  for (std::size_t v = 0; v < classes.size(); ++v) members[classes[v]].push_back(garment.particle_of[v]);
-  for (const std::vector<int>& m : members)
-    for (int a : m)
-      for (int b : m)
-        if (a != b) partners[a].push_back(b);
-  return partners;
+  std::vector<int> members(classes.size(), 0), of(garment.position.size(), -1);
+  for (int c : classes) ++members[c];
+  for (std::size_t v = 0; v < classes.size(); ++v)
+    if (members[classes[v]] > 1) of[garment.particle_of[v]] = classes[v];
+  return of;
+}
+
+/// Along a seam of unequal lengths the shorter side decides (the longer one is gathered into it): its length holds for both.
+static void gather_seams(const Garment& garment, cloth::ClothMesh& mesh) {
+  auto spring = [&](int a, int b) {
+    const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
+    const auto found = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), edge);
+    return found != mesh.edges.end() && *found == edge ? &mesh.springs[found - mesh.edges.begin()] : nullptr;
+  };
+  const auto& pattern = garment.panels.pattern;
+  for (const pattern::MeshSeam& seam : garment.panels.seams)
+    for (std::size_t k = 0; k + 1 < seam.a.size(); ++k) {
+      cloth::EdgeSpring* a = spring(garment.particle_of[seam.a[k]], garment.particle_of[seam.a[k + 1]]);
+      cloth::EdgeSpring* b = spring(garment.particle_of[seam.b[k]], garment.particle_of[seam.b[k + 1]]);
+      if (!a || !b) continue;
+      const double length_a = (pattern[seam.a[k + 1]] - pattern[seam.a[k]]).norm(), length_b = (pattern[seam.b[k + 1]] - pattern[seam.b[k]]).norm();
+      const double shorter = std::min(length_a, length_b);
+      if (a == b) {
+        a->rest_length *= shorter / (0.5 * (length_a + length_b)); // welded: it had the mean, edits included
+      } else {
+        a->rest_length *= shorter / length_a;
+        b->rest_length *= shorter / length_b;
+      }
+    }
 }
 
 cloth::ClothMesh cloth_mesh_of(const Garment& garment) {
@@ -92,7 +114,9 @@ cloth::ClothMesh cloth_mesh_of(const Garment& garment) {
       t.fabric = static_cast<int>(fabrics.size()) - 1;
     }
   }
-  return cloth::make_cloth_mesh(static_cast<int>(garment.position.size()), std::move(triangles), std::move(fabrics), garment.rest_scale);
+  cloth::ClothMesh mesh = cloth::make_cloth_mesh(static_cast<int>(garment.position.size()), std::move(triangles), std::move(fabrics), garment.rest_scale);
+  gather_seams(garment, mesh);
+  return mesh;
 }
 
 } // namespace sloper::garment

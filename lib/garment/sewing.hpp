@@ -17,8 +17,8 @@ void weld(Garment& garment, const std::vector<Vec3>& position);
 /// Pairs of particles that the seams join, each once; pairs that are one particle already are left out.
 std::vector<std::array<int, 2>> open_stitches(const Garment& garment);
 
-/// For each particle the others of its weld class (empty where it has none): they may touch while the seam is open.
-std::vector<std::vector<int>> seam_partners(const Garment& garment);
+/// For each particle the weld class that it will belong to, -1 where no seam meets it.
+std::vector<int> seam_classes(const Garment& garment);
 
 /// Rest state for the solver. Materials by panel; rest lengths scaled by garment.rest_scale. @throws Error INPUT
 cloth::ClothMesh cloth_mesh_of(const Garment& garment);
