@@ -183,6 +183,54 @@ void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
   }
 }
 
+/// Closes every hole with a fan around its middle. @return false, and leaves the mesh alone, where border edges do not form simple loops
+bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
+  std::vector<std::array<int, 2>> border; // against the face's direction, so that the new face agrees with it
+  for (std::size_t i = 0; i < list.size();) {
+    std::size_t j = i;
+    while (j < list.size() && list[j].key == list[i].key) ++j;
+    if (j - i == 1) {
+      const int low = static_cast<int>(list[i].key >> 32), high = static_cast<int>(list[i].key & 0xffffffffu);
+      const Triangle& t = mesh.triangles[list[i].face];
+      bool forward = false; // the face may have been turned since: look again
+      for (int k = 0; k < 3; ++k) forward |= t[k] == low && t[(k + 1) % 3] == high;
+      border.push_back(forward ? std::array<int, 2>{high, low} : std::array<int, 2>{low, high});
+    }
+    i = j;
+  }
+  std::sort(border.begin(), border.end());
+  for (std::size_t i = 1; i < border.size(); ++i)
+    if (border[i][0] == border[i - 1][0]) return false; // two holes meet in a vertex
+  auto next_of = [&](int v) {
+    const auto it = std::lower_bound(border.begin(), border.end(), std::array<int, 2>{v, -1});
+    return it != border.end() && (*it)[0] == v ? static_cast<int>(it - border.begin()) : -1;
+  };
+  std::vector<char> done(border.size(), 0);
+  TriangleMesh filled = mesh;
+  for (std::size_t start = 0; start < border.size(); ++start) {
+    if (done[start]) continue;
+    std::vector<int> loop;
+    int e = static_cast<int>(start);
+    while (e >= 0 && !done[e]) {
+      done[e] = 1;
+      loop.push_back(border[e][0]);
+      e = next_of(border[e][1]);
+    }
+    if (e != static_cast<int>(start) || loop.size() < 3) return false;
+    if (loop.size() == 3) {
+      filled.triangles.push_back({loop[0], loop[1], loop[2]});
+      continue;
+    }
+    Vec3 middle = Vec3::Zero();
+    for (const int v : loop) middle += filled.positions[v] / static_cast<double>(loop.size());
+    const int hub = static_cast<int>(filled.positions.size());
+    filled.positions.push_back(middle);
+    for (std::size_t k = 0; k < loop.size(); ++k) filled.triangles.push_back({loop[k], loop[(k + 1) % loop.size()], hub});
+  }
+  mesh = std::move(filled);
+  return true;
+}
+
 /// Roughness at the scale of the mesh: the part of the umbrella vector along the normal that neighbours do not share.
 double roughness(const TriangleMesh& mesh) {
   const std::vector<Vec3> normals = vertex_normals(mesh);
@@ -309,7 +357,13 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
     if (skin.flipped_edges)
       skin.findings.push_back({"warning", std::to_string(skin.flipped_edges) + " edges whose faces disagree about outside; turned", "faces"});
     skin.noise_m = roughness(skin.mesh);
-    if (skin.border_edges > MAX_BORDER_SHARE * edges) why = "the scan has holes (" + std::to_string(skin.border_edges) + " open edges)";
+    if (skin.border_edges > 0 && skin.border_edges <= MAX_BORDER_SHARE * edges && skin.noise_m <= MAX_NOISE) {
+      if (fill_holes(skin.mesh, list))
+        skin.findings.push_back({"info", "small holes with " + std::to_string(skin.border_edges) + " open edges were closed", "body.obj"});
+      else why = "the scan has holes that meet";
+    }
+    if (!why.empty()) {
+    } else if (skin.border_edges > MAX_BORDER_SHARE * edges) why = "the scan has holes (" + std::to_string(skin.border_edges) + " open edges)";
     else if (skin.crowded_edges > MAX_BORDER_SHARE * edges) why = "the scan has " + std::to_string(skin.crowded_edges) + " edges with more than two faces";
     else if (skin.noise_m > MAX_NOISE) why = text_of("the scan is rough (%.1f mm)", 1000 * skin.noise_m);
   }

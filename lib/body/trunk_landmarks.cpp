@@ -221,7 +221,11 @@ void find_trunk_landmarks(const Finder& f) {
     f.put("abdomen_front", *p, 2, "foremost_below_waist", 0.8, 0.008);
     put_level(f, "abdomen", p->y(), "abdomen_front");
   }
-  if (const auto p = extreme_depth(f, crotch + 0.004, waist, -1, -0.12 * s, 0.12 * s)) {
+  // both sides of the seat are nearly level: the left one is taken unless the right one stands out clearly
+  auto rear = extreme_depth(f, crotch + 0.004, waist, -1, -0.12 * s, 0.12 * s);
+  if (rear && rear->x() < 0)
+    if (const auto left = extreme_depth(f, crotch + 0.004, waist, -1, 0, 0.12 * s); left && left->z() < rear->z() + 0.0025) rear = left;
+  if (const auto p = rear) {
     f.put("buttock_back", *p, 2, "rearmost_below_waist", 0.9, 0.005);
     put_level(f, "hip", p->y(), "buttock_back");
     if (const auto loop = f.levels.trunk_at(p->y()))

@@ -1,0 +1,72 @@
+#include "figures.hpp"
+
+#include <base/error.hpp>
+#include <body/body_json.hpp>
+#include <gtest/gtest.h>
+#include <io/files.hpp>
+
+#include <filesystem>
+#include <unistd.h>
+
+using namespace sloper;
+using namespace sloper::body;
+
+namespace {
+
+struct Folder {
+  std::filesystem::path path = std::filesystem::temp_directory_path() / ("sloper-body-" + std::to_string(::getpid()));
+  Folder() { std::filesystem::create_directories(path); }
+  ~Folder() { std::filesystem::remove_all(path); }
+  std::string file(const std::string& name) const { return (path / name).string(); }
+};
+
+} // namespace
+
+TEST(BodyDocument, comes_back_as_it_was_written) {
+  const Folder folder;
+  const Body written = test::measure(test::mannequin("f-165-a").mesh).body;
+  write_body(folder.file("a.body.json"), written, "scan-landmarks");
+  ASSERT_TRUE(std::filesystem::exists(folder.file("a.body.obj")));
+  const Body read = read_body(folder.file("a.body.json"));
+  ASSERT_EQ(read.landmarks.size(), written.landmarks.size());
+  for (const auto& [name, landmark] : written.landmarks) {
+    EXPECT_LT((read.landmark(name) - landmark.p).norm(), 2e-6) << name;
+    EXPECT_EQ(read.landmarks.at(name).rule, landmark.rule);
+  }
+  ASSERT_EQ(read.frames.size(), written.frames.size());
+  for (const auto& [name, frame] : written.frames) {
+    EXPECT_EQ(read.frames.at(name).frame.mirrored, frame.frame.mirrored);
+    EXPECT_NEAR(read.frames.at(name).profile.at(0.3, 0.5), frame.profile.at(0.3, 0.5), 2e-6);
+  }
+  EXPECT_EQ(read.skin.triangles.size(), written.skin.triangles.size());
+  std::map<Part, int> before, after;
+  for (Part part : written.face_part) ++before[part];
+  for (Part part : read.face_part) ++after[part];
+  EXPECT_EQ(before, after);
+  EXPECT_EQ(read.bones.size(), written.bones.size());
+  EXPECT_EQ(read.levels.size(), written.levels.size());
+}
+
+TEST(BodyDocument, writing_twice_gives_the_same_bytes) {
+  const Folder folder;
+  write_body(folder.file("a.json"), test::measure(test::mannequin("f-165-a").mesh).body, "scan-landmarks");
+  write_body(folder.file("b.json"), test::measure(test::mannequin("f-165-a").mesh).body, "scan-landmarks");
+  EXPECT_EQ(io::read_file(folder.file("a.obj")), io::read_file(folder.file("b.obj")));
+}
+
+TEST(BodyDocument, of_a_newer_version_is_refused) {
+  const Folder folder;
+  io::write_file(folder.file("a.json"), R"({"format": "body", "version": 99, "generator": "x", "length_unit": "m"})");
+  EXPECT_THROW(read_body(folder.file("a.json")), Error);
+}
+
+TEST(BodyDocument, asking_for_a_landmark_that_was_not_found_names_it) {
+  Body body;
+  body.scan.file = "scan.obj";
+  try {
+    body.landmark("crotch");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("crotch"), std::string::npos);
+  }
+}

@@ -1,0 +1,210 @@
+#include "figures.hpp"
+
+#include <base/error.hpp>
+#include <gtest/gtest.h>
+
+using namespace sloper;
+using namespace sloper::body;
+using test::measure;
+
+namespace {
+
+/// The largest shift of any landmark, m, with its name; scans differ by p -> linear p + shift.
+std::pair<double, std::string> largest_change(const Body& before, const Body& after, const Eigen::Matrix3d& linear, const Vec3& shift, double scale) {
+  std::pair<double, std::string> worst{0, ""};
+  for (const auto& [name, landmark] : before.landmarks) {
+    if (!after.has_landmark(name)) return {1e9, name + " is missing"};
+    const double d = (linear * test::in_scan(before, name) + shift - test::in_scan(after, name)).norm() / scale;
+    if (d > worst.first) worst = {d, name};
+  }
+  return worst;
+}
+
+void expect_refused(const TriangleMesh& scan, const std::string& reason) {
+  try {
+    measure(scan);
+    ADD_FAILURE() << "was measured; expected: " << reason;
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::INPUT);
+    EXPECT_NE(std::string(e.what()).find(reason), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("scan.obj"), std::string::npos);
+  }
+}
+
+void add_box(TriangleMesh& mesh, const Vec3& low, const Vec3& high) {
+  const int first = static_cast<int>(mesh.positions.size());
+  for (int k = 0; k < 8; ++k) mesh.positions.emplace_back(k & 1 ? high.x() : low.x(), k & 2 ? high.y() : low.y(), k & 4 ? high.z() : low.z());
+  static constexpr int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& q : quads) {
+    mesh.triangles.push_back({first + q[0], first + q[1], first + q[2]});
+    mesh.triangles.push_back({first + q[0], first + q[2], first + q[3]});
+  }
+}
+
+} // namespace
+
+TEST(MeasureScan, finds_a_mannequins_points_where_they_were_built) {
+  for (const char* name : {"f-165-a", "m-185-t", "f-165-plus", "m-170-stout"}) {
+    const samples::MadeMannequin& made = test::mannequin(name);
+    const MeasuredScan measured = measure(made.mesh);
+    EXPECT_TRUE(measured.missing.empty());
+    const std::map<std::string, double> bounds = {{"head_tip", 0.005}, {"crotch", 0.012},          {"hip_joint_l", 0.035},     {"hip_joint_r", 0.035},
+                                                  {"knee_l", 0.03},    {"wrist_r", 0.03},          {"elbow_l", 0.035},         {"neck_front", 0.02},
+                                                  {"neck_back", 0.02}, {"shoulder_joint_l", 0.04}, {"shoulder_joint_r", 0.04}, {"buttock_back", 0.02}};
+    for (const auto& [landmark, bound] : bounds) {
+      const auto& truth = made.truth["landmarks"][landmark]["p"];
+      ASSERT_TRUE(measured.body.has_landmark(landmark)) << name << " " << landmark;
+      Vec3 d = test::in_scan(measured.body, landmark) - Vec3(truth[0], truth[1], truth[2]);
+      if (landmark == "head_tip") d = Vec3(0, d.y(), 0);
+      if (landmark == "buttock_back") d.x() = 0;
+      EXPECT_LT(d.norm(), bound) << name << " " << landmark;
+    }
+  }
+}
+
+TEST(MeasureScan, labels_at_least_95_of_100_vertices_as_they_were_built) {
+  for (const char* name : {"f-165-a", "m-178-a", "f-172-t"}) {
+    const samples::MadeMannequin& made = test::mannequin(name);
+    const MeasuredScan measured = measure(made.mesh);
+    ASSERT_EQ(measured.vertex_part.size(), made.parts.size());
+    int agree = 0;
+    for (std::size_t v = 0; v < made.parts.size(); ++v) agree += static_cast<int>(measured.vertex_part[v]) == made.parts[v];
+    EXPECT_GT(agree, 0.95 * static_cast<double>(made.parts.size())) << name;
+  }
+}
+
+TEST(MeasureScan, turning_shifting_and_scaling_move_no_landmark_by_5_mm) {
+  const TriangleMesh& mesh = test::mannequin("f-165-a").mesh;
+  const Body before = measure(mesh).body;
+  Eigen::Matrix3d z_up;
+  z_up << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  const struct {
+    Eigen::Matrix3d linear;
+    Vec3 shift;
+    double scale;
+    const char* unit;
+  } cases[] = {{test::turn_about_y(37), Vec3(3, -1, 0.4), 1, "m"},
+               {test::turn_about_y(180), Vec3(0, 0, 0), 1, "m"},
+               {1000 * z_up * test::turn_about_y(-118), Vec3(800, 1400, 100), 1000, "mm"},
+               {100 * test::turn_about_y(5), Vec3(0, 50, 0), 100, "cm"},
+               {test::turn_about_y(90) / 0.0254, Vec3(1, 2, 3), 1 / 0.0254, "inch"},
+               {Eigen::Matrix3d(Eigen::AngleAxisd(3.14159265358979, Vec3::UnitX())), Vec3(0, 0, 0), 1, "m"}}; // upside down
+  for (const auto& c : cases) {
+    const Body after = measure(test::moved(mesh, c.linear, c.shift)).body;
+    EXPECT_EQ(after.scan.unit, c.unit);
+    const auto [worst, name] = largest_change(before, after, c.linear, c.shift, c.scale);
+    EXPECT_LT(worst, 0.005) << c.unit << ": " << name;
+  }
+}
+
+TEST(MeasureScan, never_swaps_left_and_right) {
+  for (const double degrees : {0.0, 90.0, 200.0}) {
+    const Body body = measure(test::moved(test::mannequin("m-178-a").mesh, test::turn_about_y(degrees), Vec3::Zero())).body;
+    for (const auto& [name, landmark] : body.landmarks) {
+      if (name.size() < 3 || name.substr(name.size() - 2) != "_l") continue;
+      EXPECT_GT(landmark.p.x(), 0) << name;
+      EXPECT_LT(body.landmark(name.substr(0, name.size() - 2) + "_r").x(), 0) << name;
+    }
+    EXPECT_GT(body.landmark("foot_tip_l").z(), body.landmark("heel_l").z());
+  }
+}
+
+TEST(MeasureScan, the_frame_is_the_documents_frame) {
+  const Body body = measure(test::moved(test::mannequin("f-165-a").mesh, test::turn_about_y(70), Vec3(2, 0.3, -5))).body;
+  EXPECT_NEAR(body.landmark("hip_center").x(), 0, 1e-9);
+  EXPECT_NEAR(body.landmark("hip_center").z(), 0, 1e-9);
+  double low = 1e9;
+  for (const Vec3& p : body.skin.positions) low = std::min(low, p.y());
+  EXPECT_NEAR(low, 0, 0.003);
+  const Eigen::Matrix3d rotation = body.scan_to_body.block<3, 3>(0, 0);
+  EXPECT_NEAR(rotation.determinant(), 1, 1e-9);
+}
+
+TEST(MeasureScan, floor_pole_and_debris_are_no_body) {
+  TriangleMesh scan = test::mannequin("f-165-a").mesh;
+  const std::size_t n_body = scan.positions.size();
+  Random random(11);
+  const int first = static_cast<int>(scan.positions.size());
+  constexpr int N = 90;
+  for (int i = 0; i <= N; ++i)
+    for (int j = 0; j <= N; ++j) scan.positions.emplace_back(-0.65 + 1.3 * i / N, random.uniform(-0.003, 0.001), -0.65 + 1.3 * j / N);
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) {
+      const int a = first + i * (N + 1) + j;
+      scan.triangles.push_back({a, a + 1, a + N + 2});
+      scan.triangles.push_back({a, a + N + 2, a + N + 1});
+    }
+  add_box(scan, Vec3(0.40, 0, -0.55), Vec3(0.44, 1.9, -0.51));
+  for (int k = 0; k < 12; ++k) {
+    const Vec3 at(random.uniform(-0.6, 0.6), random.uniform(0.2, 1.6), random.uniform(0.35, 0.6));
+    add_box(scan, at, at + Vec3::Constant(0.015));
+  }
+  const Body alone = measure(test::mannequin("f-165-a").mesh).body;
+  const MeasuredScan measured = measure(scan);
+  for (const char* name : {"head_tip", "crotch", "neck_center", "hand_tip_l", "knee_r"})
+    EXPECT_LT((test::in_scan(alone, name) - test::in_scan(measured.body, name)).norm(), 0.01) << name;
+  int lost = 0, taken = 0;
+  for (std::size_t v = 0; v < scan.positions.size(); ++v) {
+    const bool none = measured.vertex_part[v] == Part::NONE;
+    if (v < n_body) lost += none;
+    else taken += !none;
+  }
+  EXPECT_LT(lost, 0.02 * static_cast<double>(n_body));
+  EXPECT_LT(taken, 0.02 * static_cast<double>(scan.positions.size() - n_body));
+}
+
+TEST(MeasureScan, bare_noisy_points_give_nearly_the_same_landmarks) {
+  const TriangleMesh& mesh = test::mannequin("f-165-a").mesh;
+  const Body before = measure(mesh).body;
+  TriangleMesh cloud = test::with_noise(mesh, 0.001, 7);
+  cloud.triangles.clear();
+  const MeasuredScan measured = measure(cloud);
+  EXPECT_TRUE(measured.missing.empty());
+  std::vector<double> changes;
+  for (const auto& [name, landmark] : before.landmarks)
+    if (measured.body.has_landmark(name)) changes.push_back((test::in_scan(before, name) - test::in_scan(measured.body, name)).norm());
+  std::sort(changes.begin(), changes.end());
+  ASSERT_GT(changes.size(), 45u);
+  EXPECT_LT(changes[changes.size() / 2], 0.006);
+  EXPECT_EQ(measured.vertex_part.size(), cloud.positions.size());
+}
+
+TEST(MeasureScan, what_is_no_standing_person_is_refused) {
+  TriangleMesh cube;
+  add_box(cube, Vec3(0, 0, 0), Vec3(1, 1, 1));
+  expect_refused(cube, "no standing person");
+  TriangleMesh chair;
+  for (const double x : {0.0, 0.4})
+    for (const double z : {0.0, 0.4}) add_box(chair, Vec3(x, 0, z), Vec3(x + 0.04, 0.45, z + 0.04));
+  add_box(chair, Vec3(0, 0.45, 0), Vec3(0.44, 0.5, 0.44));
+  add_box(chair, Vec3(0, 0.5, 0), Vec3(0.44, 1.0, 0.05));
+  expect_refused(chair, "no standing person");
+  TriangleMesh torso = test::mannequin("f-165-a").mesh;
+  std::erase_if(torso.triangles, [&](const Triangle& t) { return torso.positions[t[0]].y() < 0.8; });
+  std::vector<int> number(torso.positions.size(), -1);
+  TriangleMesh upper;
+  for (Triangle t : torso.triangles) {
+    for (int& v : t) {
+      if (number[v] < 0) number[v] = static_cast<int>(upper.positions.size()), upper.positions.push_back(torso.positions[v]);
+      v = number[v];
+    }
+    upper.triangles.push_back(t);
+  }
+  expect_refused(upper, "no standing person");
+}
+
+TEST(MeasureScan, two_people_are_refused) {
+  TriangleMesh two = test::mannequin("f-165-a").mesh;
+  const TriangleMesh other = test::moved(test::mannequin("m-178-a").mesh, Eigen::Matrix3d::Identity(), Vec3(1.8, 0, 0));
+  const int shift = static_cast<int>(two.positions.size());
+  two.positions.insert(two.positions.end(), other.positions.begin(), other.positions.end());
+  for (const Triangle& t : other.triangles) two.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  expect_refused(two, "two bodies");
+}
+
+TEST(MeasureScan, a_stature_that_no_unit_explains_is_refused) {
+  expect_refused(test::moved(test::mannequin("f-165-a").mesh, 0.03 * Eigen::Matrix3d::Identity(), Vec3::Zero()), "no person in m, cm, mm");
+  ScanOptions options;
+  options.unit = "mm";
+  EXPECT_THROW(measure(test::mannequin("f-165-a").mesh, options), Error);
+}

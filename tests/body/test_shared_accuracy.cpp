@@ -1,0 +1,71 @@
+/// Accuracy on scans with known truth that are not part of the repository: SLOPER_SHARED names their folder.
+#include "figures.hpp"
+
+#include <gtest/gtest.h>
+#include <io/json.hpp>
+#include <io/scan_reader.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+
+using namespace sloper;
+using namespace sloper::body;
+
+namespace {
+
+/// Errors of all trusted landmarks of one scan in metres, missing ones counted apart.
+struct Errors {
+  std::vector<double> found;
+  int missing = 0;
+};
+
+Errors errors_of(const std::filesystem::path& truth_file) {
+  const io::Json truth = io::read_json(truth_file.string());
+  const io::Scan scan = io::read_scan((truth_file.parent_path() / truth["mesh"]["file"].get<std::string>()).string());
+  const MeasuredScan measured = test::measure(scan.mesh);
+  Mat4 body_to_file = Mat4::Identity();
+  if (truth.contains("corruption") && truth["corruption"].contains("matrix_body_m_to_file"))
+    for (int r = 0; r < 4; ++r)
+      for (int c = 0; c < 4; ++c) {
+        const io::Json& m = truth["corruption"]["matrix_body_m_to_file"];
+        body_to_file(r, c) = m[0].is_array() ? m[r][c].get<double>() : m[4 * r + c].get<double>();
+      }
+  const Eigen::Matrix3d to_body = body_to_file.block<3, 3>(0, 0).inverse();
+  Errors errors;
+  for (const auto& [name, entry] : truth["landmarks"].items()) {
+    if (!entry.contains("p") || entry["p"].is_null() || entry.value("trust", "") == "low") continue;
+    if (!measured.body.has_landmark(name)) {
+      ++errors.missing;
+      continue;
+    }
+    const Vec3 off = to_body * (test::in_scan(measured.body, name) - Vec3(entry["p"][0], entry["p"][1], entry["p"][2]));
+    double sum = 0;
+    for (const char axis : entry.value("compare", "xyz")) sum += off[axis - 'x'] * off[axis - 'x'];
+    errors.found.push_back(std::sqrt(sum));
+  }
+  return errors;
+}
+
+void expect_accuracy(const std::string& folder, double median_bound, double p95_bound, int missing_bound) {
+  const char* shared = std::getenv("SLOPER_SHARED");
+  if (!shared) GTEST_SKIP() << "SLOPER_SHARED is not set";
+  Errors all;
+  std::set<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(shared) / "data" / "bodies" / folder))
+    if (entry.path().string().ends_with(".truth.json")) files.insert(entry.path());
+  if (files.empty()) GTEST_SKIP() << "no truth in " << folder;
+  for (const auto& file : files) {
+    const Errors one = errors_of(file);
+    all.found.insert(all.found.end(), one.found.begin(), one.found.end());
+    all.missing += one.missing;
+  }
+  std::sort(all.found.begin(), all.found.end());
+  EXPECT_LT(all.found[all.found.size() / 2], median_bound);
+  EXPECT_LT(all.found[all.found.size() * 95 / 100], p95_bound);
+  EXPECT_LE(all.missing, missing_bound);
+}
+
+} // namespace
+
+TEST(SharedAccuracy, of_plain_bodies) { expect_accuracy("plain", 0.006, 0.021, 4); }
+TEST(SharedAccuracy, of_corrupted_scans) { expect_accuracy("corrupted", 0.0075, 0.035, 8); }
