@@ -1,5 +1,4 @@
 /// retarget-garment: a draped garment on another body, and how it fits there.
-#include <base/parallel.hpp>
 #include <body/body_json.hpp>
 #include <cli/run_tool.hpp>
 #include <garment/bind.hpp>
@@ -18,7 +17,6 @@ struct Options {
   std::string garment, to, mode = "keep-fabric", accuracy = "standard", policy, fit, report, output;
   std::vector<std::string> set;
   double max_seconds = 0;
-  int threads = 1;
   bool no_drape = false;
 };
 
@@ -33,7 +31,6 @@ void add_options(cli::Tool& tool, Options& o) {
   app.add_option("--accuracy", o.accuracy, "preset of the re-drape: draft, standard, fine or reference (default: standard)");
   app.add_option("--set", o.set, "KNOB=VALUE, one setting of the re-drape; may be given several times");
   app.add_option("--max-seconds", o.max_seconds, "stop after this wall time, s, with the best state so far (exit 4)")->check(cli::finite_in(0, 1e6, "s"));
-  app.add_option("--threads", o.threads, "threads; 0 means all cores; the result does not depend on it (default: 1)")->check(CLI::Range(0, 1024));
   app.add_flag("--no-drape", o.no_drape, "only place the garment by its coordinates, without a drape");
   app.add_option("-o,--output", o.output, "shirt-b.json; shirt-b.obj is written beside it")->required();
   tool.example("retarget-garment --garment shirt.json --to other.body.json --fit fit.json -o shirt-b.json", "put a shirt on another body and see how it fits");
@@ -66,7 +63,6 @@ int run(cli::Tool& tool, const Options& o) {
   for (const std::string& assignment : o.set) garment::set_knob(settings, assignment);
   if (o.max_seconds > 0) settings.max_seconds = o.max_seconds;
   const garment::FitPolicy policy = o.policy.empty() ? garment::standard_fit_policy() : garment::read_fit_policy(o.policy);
-  set_thread_count(o.threads);
 
   const garment::Garment source = garment::read_garment(o.garment);
   if (source.bind.empty()) throw input_error(o.garment, "/bind", "the garment is not bound to a body", "drape it with --body first");

@@ -32,7 +32,7 @@ struct Tool::Impl {
   bool no_progress = false;
   bool version_asked = false, man_asked = false; ///< declared for the table; check_words() answers them
   std::string shell_asked;
-  int threads = 0;
+  int threads = -1; ///< -1: not given
   Impl(const std::string& n, const std::string& s) : name(n), summary(s), app(s, n), reporter(n) {}
   ToolDescription description() const { return {name, summary, reads, writes, option_rows(app), examples}; }
 };
@@ -56,8 +56,8 @@ Tool::Tool(const std::string& name, const std::string& summary) : m_impl(std::ma
   m.app.add_flag("-v,--verbose", m.reporter.verbose, "say what is done, the options as resolved, time and memory")->group(common);
   m.app.add_flag("-V,--version", m.version_asked, "show the version and the formats")->group(common);
   m.app.add_flag("--no-progress", m.no_progress, "no progress line (there is none when stderr is not a terminal)")->group(common);
-  m.app.add_option("--threads", m.threads, "threads; results do not depend on it (default: the processors available, at most 8)")
-      ->check(finite_in(1, 1024, ""))
+  m.app.add_option("--threads", m.threads, "threads, 0 for all processors; results do not depend on it (default: the processors available, at most 8)")
+      ->check(finite_in(0, 1024, ""))
       ->group(common);
   m.app.add_flag("--generate-man", m.man_asked)->group("");
   m.app.add_option("--generate-completion", m.shell_asked)->group("");
@@ -244,7 +244,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& body) {
     }
     auto parsed = [&m] {
       m.reporter.show_progress = !m.no_progress;
-      set_thread_count(m.threads > 0 ? m.threads : std::min(available_processors(), MAX_DEFAULT_THREADS));
+      set_thread_count(m.threads > 0 ? m.threads : m.threads == 0 ? available_processors() : std::min(available_processors(), MAX_DEFAULT_THREADS));
     };
     const int code = parse_and_run(m.app, words, m.reporter, parsed, body);
     m.reporter.clear_line();
