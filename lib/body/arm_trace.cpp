@@ -30,7 +30,9 @@ std::vector<char> leg_vertices(const LevelStack& levels, const TriangleMesh& ski
   }();
   // the pieces that hold the leg loops at knee height
   std::vector<char> is_leg_piece(skin.positions.size(), 0), blocked(skin.positions.size(), 0);
-  const Slice& slice = levels.at(0.2 * s);
+  double seed = 0.2 * s; // lower where thighs and knees touch
+  while (seed > 0.06 * s && (levels.at(seed).leg[0] < 0 || levels.at(seed).leg[1] < 0)) seed -= levels.spacing();
+  const Slice& slice = levels.at(seed);
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
     const Vec3& p = skin.positions[v];
     if (std::abs(p.y() - slice.y) > 0.02 * s) continue;

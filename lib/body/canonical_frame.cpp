@@ -206,7 +206,8 @@ CanonicalFrame guess_frame(const TriangleMesh& scan, const SortedScan& sorted, c
   const double height = sorted.high - sorted.low;
   if (!shows_a_person(sorted))
     throw input_error(file, "",
-                      !(sorted.leg_share >= 0.25) ? "no standing person: no two legs in any axis direction" : "no standing person: no head above the shoulders",
+                      sorted.head_share >= sorted.leg_share ? "no standing person: no two legs in any axis direction"
+                                                            : "no standing person: no head above the shoulders",
                       "a scan must show a whole standing body with its legs apart; check --up, or cut away what is not the body");
   if (sorted.second_share > 0.5) throw input_error(file, "", "two bodies stand in this scan", "cut the scan so that one person is left");
   const Unit chosen = guess_unit(height, unit, file);

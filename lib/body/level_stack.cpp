@@ -8,7 +8,7 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double CALF = 0.15;         ///< of stature: where the two legs are surely apart
+constexpr double CALF = 0.08;         ///< of stature: from here up two legs are looked for
 constexpr double MIN_LEG_AREA = 6e-4; ///< of stature squared, below it a loop at the calf is no leg
 
 double overlap(const Loop& a, const Loop& b) {

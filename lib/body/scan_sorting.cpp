@@ -9,8 +9,8 @@ namespace sloper::body {
 namespace {
 
 constexpr int N_CELLS = 200;                                 ///< along the longest side of the scan
-constexpr double LEG_LOW = 0.06, LEG_HIGH = 0.36;            ///< where two legs are looked for, share of the height
-constexpr double MIN_LEG_SHARE = 0.25, MIN_HEAD_SHARE = 0.4; ///< below these there is no person
+constexpr double LEG_LOW = 0.05, LEG_HIGH = 0.36;            ///< where two legs are looked for, share of the height
+constexpr double MIN_LEG_SHARE = 0.15, MIN_HEAD_SHARE = 0.4; ///< below these there is no person
 constexpr double MAX_LOST_SHARE = 0.04;                      ///< more cells than this in pieces over or under the body: it fell apart
 constexpr double TOP_LOW = 0.92;                             ///< above it there is only the head
 constexpr double TOP_WIDTH = 0.22;                           ///< a head is narrower than this share of the height
