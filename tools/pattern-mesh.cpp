@@ -2,10 +2,14 @@
 #include <base/progress.hpp>
 #include <body/body_json.hpp>
 #include <cli/run_tool.hpp>
+#include <io/json.hpp>
+#include <pattern/check_pattern.hpp>
 #include <pattern/mesh_pattern.hpp>
 #include <pattern/panel_mesh_json.hpp>
 #include <pattern/place_panels.hpp>
 #include <pattern/read_pattern.hpp>
+
+#include <iostream>
 
 using namespace sloper;
 
@@ -14,10 +18,28 @@ namespace {
 struct Options {
   std::string pattern, output, sewing, body;
   double edge_length = 0.015;
+  bool check = false;
 };
+
+/// Findings to standard output, as JSON too where an output is named. 1 where the pattern cannot be sewn as drawn.
+int check(const cli::Tool& tool, const pattern::Pattern& source, const Options& o) {
+  io::Json document = io::new_document("pattern-findings", 1, tool.name());
+  document["findings"] = io::Json::array();
+  bool bad = false;
+  for (const pattern::PatternFinding& f : pattern::check_pattern(source)) {
+    std::cout << f.severity << ": " << f.rule << ": " << f.place << ": " << f.fact << '\n';
+    document["findings"].push_back({{"severity", f.severity}, {"rule", f.rule}, {"place", f.place}, {"fact", f.fact}});
+    bad = bad || f.severity == "error";
+  }
+  if (!o.output.empty()) io::write_json(o.output, document);
+  return bad ? 1 : 0;
+}
 
 int run(cli::Tool& tool, const Options& o) {
   const pattern::Pattern source = pattern::read_pattern(o.pattern, o.sewing);
+  if (o.check) return check(tool, source, o);
+  if (o.output.empty()) throw Error(ErrorKind::USAGE, "", "-o", "no output is named", "give -o panels.json");
+  pattern::require_sewable(source, o.pattern);
   pattern::PanelMesh mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern);
   if (o.body.empty()) pattern::lay_flat(source, mesh);
   else {
@@ -39,7 +61,9 @@ int main(int argc, char** argv) {
   app.add_option("--edge-length", o.edge_length, "length of mesh edges, m (default: 0.015)")->check(cli::finite_in(0.001, 0.2, "m"));
   app.add_option("--body", o.body, "body.json from scan-landmarks: panels are placed around this body")->check(cli::input_file());
   app.add_option("--sewing", o.sewing, "sidecar with the seams of a DXF that has none")->check(cli::input_file());
-  app.add_option("-o,--output", o.output, "panels.json; panels.obj is written beside it")->required();
+  app.add_option("-o,--output", o.output, "panels.json; panels.obj is written beside it");
+  app.add_flag("--check", o.check, "validate only: findings to standard output (and as JSON to -o), exit 1 where the pattern cannot be sewn as drawn");
   tool.example("pattern-mesh --body body.json -o panels.json shirt.pattern.json", "mesh a pattern and place it around a scanned body");
+  tool.example("pattern-mesh --check shirt.pattern.json", "list what is wrong with a pattern without meshing it");
   return tool.run(argc, argv, [&] { return run(tool, o); });
 }

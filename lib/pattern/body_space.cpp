@@ -30,7 +30,8 @@ std::vector<Vec2> BodySpace::points(const Axis& axis, const std::vector<Part>& p
   if (all.size() < 300) return all;
   std::vector<int> keep(256, -1);
   std::vector<Vec2> direction(keep.size());
-  for (std::size_t d = 0; d < keep.size(); ++d) direction[d] = Vec2(std::cos(2 * M_PI * static_cast<double>(d) / 256), std::sin(2 * M_PI * static_cast<double>(d) / 256));
+  for (std::size_t d = 0; d < keep.size(); ++d)
+    direction[d] = Vec2(std::cos(2 * M_PI * static_cast<double>(d) / 256), std::sin(2 * M_PI * static_cast<double>(d) / 256));
   for (std::size_t k = 0; k < all.size(); ++k)
     for (std::size_t d = 0; d < keep.size(); ++d)
       if (keep[d] < 0 || all[k].dot(direction[d]) > all[static_cast<std::size_t>(keep[d])].dot(direction[d])) keep[d] = static_cast<int>(k);
@@ -88,14 +89,16 @@ double BodySpace::waist_height(double length) const {
   // Girths of the levels that are known, from the waist down, with straight lines between them.
   std::vector<std::array<double, 2>> known;
   for (const auto& [name, level] : m_body.levels)
-    if (name == "waist_girth_min" || name == "waist_semantic" || name == "omphalion" || name == "abdomen" || name == "hip") known.push_back({level.y, level.girth_m});
+    if (name == "waist_girth_min" || name == "waist_semantic" || name == "omphalion" || name == "abdomen" || name == "hip")
+      known.push_back({level.y, level.girth_m});
   const double waist = level("waist_semantic", 0.63), hip = level("hip", 0.51);
   if (known.size() < 2) return waist;
   std::sort(known.begin(), known.end());
   for (double y = waist; y > hip + 0.05; y -= 0.005) {
     double girth = known.back()[1];
     for (std::size_t k = 0; k + 1 < known.size(); ++k)
-      if (y >= known[k][0] && y <= known[k + 1][0]) girth = known[k][1] + (y - known[k][0]) / std::max(known[k + 1][0] - known[k][0], 1e-6) * (known[k + 1][1] - known[k][1]);
+      if (y >= known[k][0] && y <= known[k + 1][0])
+        girth = known[k][1] + (y - known[k][0]) / std::max(known[k + 1][0] - known[k][0], 1e-6) * (known[k + 1][1] - known[k][1]);
     if (girth >= length - 0.005) return y;
   }
   return waist;

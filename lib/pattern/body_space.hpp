@@ -21,7 +21,7 @@ public:
   /// Skin points of some parts with axis heights in [low, high], in the axis's plane; thinned to the points that matter for a hull.
   std::vector<Vec2> points(const Axis& axis, const std::vector<body::Part>& parts, double low, double high) const;
 
-  Axis trunk(bool back) const;             ///< vertical through the torso
+  Axis trunk(bool back) const; ///< vertical through the torso
   Axis neck() const;
   /// Along the arm from the shoulder joint to the elbow, or to the wrist for sleeves longer than the upper arm.
   /// @param facing 0 front, 1 back, 2 the outer, upper side

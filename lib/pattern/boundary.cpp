@@ -101,6 +101,7 @@ public:
   Boundary run() {
     m_pieces.resize(m_pattern.panels.size());
     for (std::size_t p = 0; p < m_pattern.panels.size(); ++p) m_pieces[p].resize(static_cast<std::size_t>(m_pattern.panels[p].n_edges()));
+    for (const Panel& panel : m_pattern.panels) m_chord.push_back(chord_limit(panel));
     m_pairs.resize(m_pattern.seams.size());
     for (std::size_t s = 0; s < m_pattern.seams.size(); ++s) cut_seam(s);
     for (std::size_t p = 0; p < m_pattern.panels.size(); ++p) {
@@ -114,6 +115,32 @@ public:
 private:
   double piece_length(const Run& run) const { return run_length(m_pattern, run); }
 
+  /// Longest chord on curves for which all chords together cut off less than 0.05 % of the panel: an arc that turns by T in chords
+  /// of length c loses T c^2 / 12.
+  double chord_limit(const Panel& panel) const {
+    double turn = 0, area = 0;
+    for (const auto& loop : panel.loops) {
+      std::vector<Path> paths;
+      for (const PanelEdge& e : loop) {
+        const ArcLength arc(e.path);
+        turn += turning(arc, 0, arc.length());
+        paths.push_back(e.path);
+      }
+      area += signed_area(paths);
+    }
+    return std::max(turn > 0 ? std::sqrt(12 * 5e-4 * std::abs(area) / turn) : m_h, m_h / 3);
+  }
+
+  /// Segments that a run needs on account of its bends.
+  int segments_for_bends(const Run& run) const {
+    const double limit = m_chord[static_cast<std::size_t>(run.panel)];
+    if (limit >= m_h) return 0;
+    const ArcLength arc(m_pattern.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path);
+    const double s0 = std::min(run.from, run.to) * arc.length(), s1 = std::max(run.from, run.to) * arc.length();
+    if (turning(arc, s0, s1) * (s1 - s0) < 0.3 * m_h) return 0; // bends gently: shorter chords would gain next to nothing
+    return static_cast<int>(std::ceil((s1 - s0) / limit));
+  }
+
   int segments_for(double length_a, double length_b) const {
     if (std::max(length_a, length_b) < 0.2 * m_h) return 0;
     return std::max(1, static_cast<int>(std::lround(std::sqrt(length_a * length_b) / m_h)));
@@ -125,7 +152,8 @@ private:
     for (const Piece& other : pieces)
       if (piece.from < other.to - 1e-7 && other.from < piece.to - 1e-7)
         throw input_error(m_file, place_of(m_pattern, run),
-                          centimetres((std::min(piece.to, other.to) - std::max(piece.from, other.from)) * length(m_pattern.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path)) +
+                          centimetres((std::min(piece.to, other.to) - std::max(piece.from, other.from)) *
+                                      length(m_pattern.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path)) +
                               " of this edge are sewn twice",
                           "let every stretch of an edge be in one seam only");
     pieces.push_back(piece);
@@ -139,6 +167,7 @@ private:
     for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
       Pair pair{a.stretch(breaks[k][0], breaks[k + 1][0]), b.stretch(breaks[k][1], breaks[k + 1][1])};
       pair.n = segments_for(piece_length(pair.a), piece_length(pair.b));
+      if (pair.n > 0) pair.n = std::max({pair.n, segments_for_bends(pair.a), segments_for_bends(pair.b)});
       if (pair.n == 0)
         m_out.findings.push_back(place_of(m_pattern, pair.a) + " and " + place_of(m_pattern, pair.b) + ": a stretch of " + centimetres(piece_length(pair.a)) +
                                  " is merged into its neighbours (edge length " + centimetres(m_h) + ")");
@@ -158,8 +187,10 @@ private:
       const auto free_to = [&](double to) {
         if (to - at < 1e-7) return;
         Piece piece{p, static_cast<int>(e), at, to, segments_for((to - at) * total, (to - at) * total)};
+        if (piece.n > 0) piece.n = std::max(piece.n, segments_for_bends({p, static_cast<int>(e), at, to}));
         if (piece.n == 0)
-          m_out.findings.push_back(place_of(m_pattern, {p, static_cast<int>(e)}) + ": a free stretch of " + centimetres((to - at) * total) + " is merged into its neighbours");
+          m_out.findings.push_back(place_of(m_pattern, {p, static_cast<int>(e)}) + ": a free stretch of " + centimetres((to - at) * total) +
+                                   " is merged into its neighbours");
         all.push_back(piece);
       };
       for (const Piece& piece : pieces) {
@@ -202,7 +233,8 @@ private:
       }
       const int n = static_cast<int>(points.size());
       if (n < 3)
-        throw input_error(m_file, panel.name, "the outline is too small: " + std::to_string(n) + " vertices at an edge length of " + centimetres(m_h), "give a smaller --edge-length");
+        throw input_error(m_file, panel.name, "the outline is too small: " + std::to_string(n) + " vertices at an edge length of " + centimetres(m_h),
+                          "give a smaller --edge-length");
       // Ends: the end of each edge is the start of the next; the last edge ends at the loop's first vertex.
       for (int k = first_edge; k < e; ++k) {
         EdgeVertices& ev = vertices[static_cast<std::size_t>(k)];
@@ -248,9 +280,10 @@ private:
   const Pattern& m_pattern;
   double m_h;
   std::string m_file;
-  std::vector<std::vector<std::vector<Piece>>> m_pieces;   ///< by panel, edge
-  std::vector<std::vector<Pair>> m_pairs;                  ///< by seam
-  std::vector<std::vector<EdgeVertices>> m_vertices;       ///< by panel, edge
+  std::vector<std::vector<std::vector<Piece>>> m_pieces; ///< by panel, edge
+  std::vector<std::vector<Pair>> m_pairs;                ///< by seam
+  std::vector<std::vector<EdgeVertices>> m_vertices;     ///< by panel, edge
+  std::vector<double> m_chord;                           ///< by panel, m
   Boundary m_out;
 };
 

@@ -293,7 +293,8 @@ private:
         std::stable_sort(sides[s].begin(), sides[s].end(), [](const SewText& a, const SewText& b) { return a.order < b.order; });
         for (const SewText& t : sides[s]) (s == 0 ? seam.a : seam.b).push_back({t.panel, t.edge, t.with_outline ? 0.0 : 1.0, t.with_outline ? 1.0 : 0.0});
       }
-      if (seam.a.empty() || seam.b.empty()) throw input_error(m_file, "seam " + name, std::string("side ") + (seam.a.empty() ? "a" : "b") + " has no run", "add its SEW text");
+      if (seam.a.empty() || seam.b.empty())
+        throw input_error(m_file, "seam " + name, std::string("side ") + (seam.a.empty() ? "a" : "b") + " has no run", "add its SEW text");
       if (seam.a.size() == 1 && seam.b.size() == 1 && seam.a[0].panel == seam.b[0].panel && name.find("dart") != std::string::npos) seam.kind = "dart";
       const double ratio = side_length(m_pattern, seam.a) / side_length(m_pattern, seam.b);
       if (ratio > 1.08 || ratio < 1 / 1.08) seam.kind = "gather";

@@ -17,7 +17,8 @@ double cross(const Vec2& a, const Vec2& b, const Vec2& c) { return (b.x() - a.x(
 /// Positive when d lies inside the circle through the counter-clockwise a, b, c.
 double in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const Vec2 p = a - d, q = b - d, r = c - d;
-  return p.squaredNorm() * (q.x() * r.y() - q.y() * r.x()) - q.squaredNorm() * (p.x() * r.y() - p.y() * r.x()) + r.squaredNorm() * (p.x() * q.y() - p.y() * q.x());
+  return p.squaredNorm() * (q.x() * r.y() - q.y() * r.x()) - q.squaredNorm() * (p.x() * r.y() - p.y() * r.x()) +
+         r.squaredNorm() * (p.x() * q.y() - p.y() * q.x());
 }
 
 /// GEOS handles, released in order.
@@ -107,6 +108,7 @@ FlatDelaunay::FlatDelaunay(const std::vector<std::vector<Vec2>>& loops, const st
 int FlatDelaunay::add_point(const Vec2& p) {
   m_points.push_back(p);
   m_dead.push_back(0);
+  m_pinned.push_back(0);
   m_face_of.push_back(-1);
   return static_cast<int>(m_points.size()) - 1;
 }
@@ -140,10 +142,12 @@ int FlatDelaunay::locate(const Vec2& p) const {
   return -1;
 }
 
-bool FlatDelaunay::insert(const Vec2& p) {
+bool FlatDelaunay::insert(const Vec2& p, bool pinned) {
   const int f = locate(p);
   if (f < 0) return false;
-  split_face(f, add_point(p));
+  const int v = add_point(p);
+  m_pinned.back() = pinned;
+  split_face(f, v);
   return true;
 }
 
@@ -188,7 +192,7 @@ void FlatDelaunay::split_edge(int face, int k, int vertex) {
     for (int i = 0; i < 3; ++i)
       if (n.next[i] == from && n.v[(i + 1) % 3] == v1 && n.v[(i + 2) % 3] == v2) n.next[i] = to;
   };
-  const int n_bA = old.next[(k + 1) % 3], n_Aa = old.next[(k + 2) % 3]; // across b-apex and apex-a
+  const int n_bA = old.next[(k + 1) % 3], n_Aa = old.next[(k + 2) % 3];   // across b-apex and apex-a
   const int n_aB = twin.next[(j + 1) % 3], n_Bb = twin.next[(j + 2) % 3]; // twin corners: below, b, a; across a-below and below-b
   set(face, apex, a, vertex, other, f2, n_Aa);
   set(f2, apex, vertex, b, f3, n_bA, face);
@@ -281,7 +285,8 @@ double FlatDelaunay::star_quality(const std::vector<int>& faces, int vertex, con
   for (int f : faces) {
     const Face& face = m_faces[static_cast<std::size_t>(f)];
     const int k = index_in(f, vertex);
-    worst = std::min(worst, smallest_angle(at, m_points[static_cast<std::size_t>(face.v[(k + 1) % 3])], m_points[static_cast<std::size_t>(face.v[(k + 2) % 3])]));
+    worst =
+        std::min(worst, smallest_angle(at, m_points[static_cast<std::size_t>(face.v[(k + 1) % 3])], m_points[static_cast<std::size_t>(face.v[(k + 2) % 3])]));
   }
   return worst;
 }
@@ -292,7 +297,8 @@ void FlatDelaunay::take(std::vector<Vec2>& points, std::vector<Triangle>& triang
   for (std::size_t k = 0; k < m_points.size(); ++k)
     if (!m_dead[k]) number[k] = static_cast<int>(points.size()), points.push_back(m_points[k]);
   for (const Face& f : m_faces)
-    if (f.alive) triangles.push_back({number[static_cast<std::size_t>(f.v[0])], number[static_cast<std::size_t>(f.v[1])], number[static_cast<std::size_t>(f.v[2])]});
+    if (f.alive)
+      triangles.push_back({number[static_cast<std::size_t>(f.v[0])], number[static_cast<std::size_t>(f.v[1])], number[static_cast<std::size_t>(f.v[2])]});
 }
 
 } // namespace sloper::pattern

@@ -12,18 +12,18 @@ public:
   /// Constrained Delaunay triangulation of the loops. @throws Error INPUT when they cross
   FlatDelaunay(const std::vector<std::vector<Vec2>>& loops, const std::string& panel);
   int n_boundary() const { return m_n_boundary; }
-  bool insert(const Vec2& p); ///< false when p is not inside
+  bool insert(const Vec2& p, bool pinned = false); ///< false when p is not inside; a pinned point stays where it is
   /// Splits interior edges whose ends are both on the boundary; ears of corners under 50 degrees stay unless must_split.
   void split_chords(const std::vector<char>& must_split);
-  void smooth();                        ///< one round: interior points to the area-weighted mean of their circumcentres, then flips
-  void fix_density(double h);           ///< points too close to others are taken out, edges too long are halved
+  void smooth();                         ///< one round: interior points to the area-weighted mean of their circumcentres, then flips
+  void fix_density(double h);            ///< points too close to others are taken out, edges too long are halved
   bool improve_worst(double good_angle); ///< one round of local search where an angle is below; false when there is nothing (more) to gain
   void take(std::vector<Vec2>& points, std::vector<Triangle>& triangles);
 
 private:
   struct Face {
-    int v[3];      ///< corners, counter-clockwise
-    int next[3];   ///< neighbour across the edge opposite v[k], -1 on the boundary
+    int v[3];    ///< corners, counter-clockwise
+    int next[3]; ///< neighbour across the edge opposite v[k], -1 on the boundary
     bool alive = true;
   };
   int locate(const Vec2& p) const;
@@ -45,6 +45,7 @@ private:
 
   std::vector<Vec2> m_points;
   std::vector<char> m_dead; ///< points taken out
+  std::vector<char> m_pinned;
   std::vector<Face> m_faces;
   std::vector<int> m_face_of; ///< some face of each point
   int m_n_boundary = 0;

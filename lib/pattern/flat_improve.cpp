@@ -42,13 +42,14 @@ void FlatDelaunay::split_chords(const std::vector<char>& must_split) {
 void FlatDelaunay::smooth() {
   std::vector<int> faces;
   for (int v = m_n_boundary; v < static_cast<int>(m_points.size()); ++v) {
-    if (m_dead[static_cast<std::size_t>(v)]) continue;
+    if (m_dead[static_cast<std::size_t>(v)] || m_pinned[static_cast<std::size_t>(v)]) continue;
     star(v, faces);
     Vec2 sum = Vec2::Zero();
     double weight = 0;
     for (int f : faces) { // optimal Delaunay smoothing (Chen and Xu 2004): circumcentres weighted by area
       const Face& face = m_faces[static_cast<std::size_t>(f)];
-      const Vec2 &a = m_points[static_cast<std::size_t>(face.v[0])], &b = m_points[static_cast<std::size_t>(face.v[1])], &c = m_points[static_cast<std::size_t>(face.v[2])];
+      const Vec2 &a = m_points[static_cast<std::size_t>(face.v[0])], &b = m_points[static_cast<std::size_t>(face.v[1])],
+                 &c = m_points[static_cast<std::size_t>(face.v[2])];
       const Vec2 p = b - a, q = c - a;
       const double area2 = p.x() * q.y() - p.y() * q.x();
       if (!(area2 > 0)) continue;
@@ -123,7 +124,7 @@ bool FlatDelaunay::remove(int vertex) {
 void FlatDelaunay::fix_density(double h) {
   std::vector<int> faces;
   for (int v = m_n_boundary; v < static_cast<int>(m_points.size()); ++v) {
-    if (m_dead[static_cast<std::size_t>(v)]) continue;
+    if (m_dead[static_cast<std::size_t>(v)] || m_pinned[static_cast<std::size_t>(v)]) continue;
     star(v, faces);
     if (faces.size() > 4) continue; // a corner of three or four faces has angles of 90 degrees and more around it
     bool bridge = false;            // taking it out may make a boundary-to-boundary edge
@@ -148,17 +149,19 @@ bool FlatDelaunay::improve_worst(double good_angle) {
   std::vector<char> look(m_points.size(), 0);
   bool any = false, gained = false;
   for (const Face& f : m_faces)
-    if (f.alive && smallest_angle(m_points[static_cast<std::size_t>(f.v[0])], m_points[static_cast<std::size_t>(f.v[1])], m_points[static_cast<std::size_t>(f.v[2])]) < good_angle)
+    if (f.alive && smallest_angle(m_points[static_cast<std::size_t>(f.v[0])], m_points[static_cast<std::size_t>(f.v[1])],
+                                  m_points[static_cast<std::size_t>(f.v[2])]) < good_angle)
       for (int v : f.v)
         if (!on_boundary(v)) look[static_cast<std::size_t>(v)] = 1, any = true;
   if (!any) return false;
   for (int v = m_n_boundary; v < static_cast<int>(m_points.size()); ++v) {
-    if (!look[static_cast<std::size_t>(v)] || m_dead[static_cast<std::size_t>(v)]) continue;
+    if (!look[static_cast<std::size_t>(v)] || m_dead[static_cast<std::size_t>(v)] || m_pinned[static_cast<std::size_t>(v)]) continue;
     star(v, faces);
     Vec2 best = m_points[static_cast<std::size_t>(v)];
     double quality = star_quality(faces, v, best);
     double size = 0;
-    for (int f : faces) size = std::max(size, (m_points[static_cast<std::size_t>(m_faces[static_cast<std::size_t>(f)].v[(index_in(f, v) + 1) % 3])] - best).norm());
+    for (int f : faces)
+      size = std::max(size, (m_points[static_cast<std::size_t>(m_faces[static_cast<std::size_t>(f)].v[(index_in(f, v) + 1) % 3])] - best).norm());
     for (double step = 0.25 * size; step > 0.01 * size;) {
       bool moved = false;
       for (int d = 0; d < 8; ++d) {

@@ -10,7 +10,8 @@ namespace {
 Mat4 placement_of(const io::Node& panel, double unit) {
   const Vec3 t = panel.at("translation").vec3() * unit, r = panel.at("rotation").vec3() * (units::PI / 180);
   // Intrinsic XYZ (scipy's upper-case "XYZ"): turn about x, then about the turned y, then about the turned z.
-  const Mat3 rotation = (Eigen::AngleAxisd(r.x(), Vec3::UnitX()) * Eigen::AngleAxisd(r.y(), Vec3::UnitY()) * Eigen::AngleAxisd(r.z(), Vec3::UnitZ())).toRotationMatrix();
+  const Mat3 rotation =
+      (Eigen::AngleAxisd(r.x(), Vec3::UnitX()) * Eigen::AngleAxisd(r.y(), Vec3::UnitY()) * Eigen::AngleAxisd(r.z(), Vec3::UnitZ())).toRotationMatrix();
   Mat4 m = Mat4::Identity();
   m.topLeftCorner<3, 3>() = rotation;
   m.topRightCorner<3, 1>() = t;

@@ -26,8 +26,8 @@ void list_small_angles(PanelMesh& mesh, const PanelInfo& panel) {
   }
   if (n == 0) return;
   char text[160];
-  std::snprintf(text, sizeof text, "%s: %d triangle%s below 25 degrees, the smallest %.1f at (%.1f, %.1f) cm", panel.name.c_str(), n, n == 1 ? "" : "s", units::degrees(worst),
-                where.x() * 100, where.y() * 100);
+  std::snprintf(text, sizeof text, "%s: %d triangle%s below 25 degrees, the smallest %.1f at (%.1f, %.1f) cm", panel.name.c_str(), n, n == 1 ? "" : "s",
+                units::degrees(worst), where.x() * 100, where.y() * 100);
   mesh.findings.push_back(text);
 }
 
@@ -47,7 +47,9 @@ PanelMesh mesh_pattern(const Pattern& pattern, double edge_length, const std::st
     for (std::size_t p = begin; p < end; ++p) {
       try {
         flat[p] = triangulate(boundary.panels[p].loops, edge_length, boundary.panels[p].must_split, pattern.panels[p].name);
-      } catch (const Error& e) { failed[p] = e.fact(); }
+      } catch (const Error& e) {
+        failed[p] = e.fact();
+      }
     }
   });
   for (std::size_t p = 0; p < flat.size(); ++p)
@@ -95,7 +97,8 @@ double smallest_angle_deg(const PanelMesh& mesh, int panel) {
   const std::size_t n = panel < 0 ? mesh.triangles.size() : static_cast<std::size_t>(mesh.panels[static_cast<std::size_t>(panel)].n_triangles);
   for (std::size_t t = first; t < first + n; ++t) {
     const Triangle& tri = mesh.triangles[t];
-    worst = std::min(worst, smallest_angle(mesh.pattern[static_cast<std::size_t>(tri[0])], mesh.pattern[static_cast<std::size_t>(tri[1])], mesh.pattern[static_cast<std::size_t>(tri[2])]));
+    worst = std::min(worst, smallest_angle(mesh.pattern[static_cast<std::size_t>(tri[0])], mesh.pattern[static_cast<std::size_t>(tri[1])],
+                                           mesh.pattern[static_cast<std::size_t>(tri[2])]));
   }
   return units::degrees(worst);
 }

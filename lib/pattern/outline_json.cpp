@@ -63,7 +63,8 @@ std::vector<PanelEdge> read_loop(const io::Node& node, const char* key, double u
     const PanelEdge& next = loop[(k + 1) % loop.size()];
     const double gap = (next.path.front().p[0] - end).norm();
     if (!(gap <= 1e-4))
-      node.fail("the outline of panel " + panel + " is open: edge '" + loop[k].name + "' ends " + centimetres(gap) + " from where '" + next.name + "' starts", "close the gap");
+      node.fail("the outline of panel " + panel + " is open: edge '" + loop[k].name + "' ends " + centimetres(gap) + " from where '" + next.name + "' starts",
+                "close the gap");
     end = next.path.front().p[0];
   }
   return loop;

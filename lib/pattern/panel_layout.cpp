@@ -88,8 +88,7 @@ private:
         const std::size_t q = order[j];
         if (m_roles[p].side != m_roles[q].side && m_roles[p].side != Side::RING && m_roles[q].side != Side::RING) continue;
         Vec2 along = Vec2::Zero();
-        for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q)))
-          along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
+        for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q))) along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
         if (along.x() <= along.y() || along.x() < 0.05) continue; // no seam, an upright or a small one
         const double clearance = m_roles[p].side == m_roles[q].side ? column_clearance(p, q) : bounds(q)[0].y() - bounds(p)[1].y();
         shift = std::min(shift, clearance - CLEAR);
@@ -184,7 +183,8 @@ private:
     for (Side side : {Side::FRONT, Side::BACK, Side::RING}) {
       std::vector<int> blocks;
       for (std::size_t k = 0; k < count(); ++k)
-        if (m_roles[k].region == region && m_roles[k].side == side && !m_u_known[k] && m_block[k] >= 0 && std::find(blocks.begin(), blocks.end(), m_block[k]) == blocks.end())
+        if (m_roles[k].region == region && m_roles[k].side == side && !m_u_known[k] && m_block[k] >= 0 &&
+            std::find(blocks.begin(), blocks.end(), m_block[k]) == blocks.end())
           blocks.push_back(m_block[k]);
       std::vector<std::array<Vec2, 2>> taken;
       for (int block : blocks) {
@@ -196,7 +196,9 @@ private:
           low = low.cwiseMin(b[0]), high = high.cwiseMax(b[1]);
           const std::string& part = m_roles[k].part;
           const std::string& name = m_pattern.panels[k].name;
-          const auto ends_with = [&](const std::string& tail) { return name.size() > tail.size() && name.compare(name.size() - tail.size(), tail.size(), tail) == 0; };
+          const auto ends_with = [&](const std::string& tail) {
+            return name.size() > tail.size() && name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
+          };
           left = left && (part == "leg_l" || ends_with("_l") || ends_with("left"));
           right = right && (part == "leg_r" || ends_with("_r") || ends_with("right"));
         }

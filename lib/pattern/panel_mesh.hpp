@@ -20,30 +20,30 @@ struct PanelInfo {
   std::string name;
   int first_vertex = 0, n_vertices = 0;
   int first_triangle = 0, n_triangles = 0;
-  Vec2 grain = Vec2(0, 1);      ///< unit warp direction in pattern coordinates
-  std::string material;         ///< name of a material preset, or empty for the scene's
-  int layer = 0;                ///< 0 next to the skin
-  std::string part;             ///< body part it was placed on: "torso", "arm_l", ..., or empty
-  std::vector<int> outline;     ///< global vertex indices of the boundary loop, counter-clockwise, closed implicitly
+  Vec2 grain = Vec2(0, 1);  ///< unit warp direction in pattern coordinates
+  std::string material;     ///< name of a material preset, or empty for the scene's
+  int layer = 0;            ///< 0 next to the skin
+  std::string part;         ///< body part it was placed on: "torso", "arm_l", ..., or empty
+  std::vector<int> outline; ///< global vertex indices of the boundary loop, counter-clockwise, closed implicitly
 };
 
 /// One sewn line: run a goes to run b, start to start and end to end. Both runs have the same number of vertices.
 struct MeshSeam {
-  std::string name, kind;       ///< kind: "seam", "dart", "gather", "closure"
-  std::vector<int> a, b;        ///< global vertex indices in sewing order, |a| = |b| >= 2
+  std::string name, kind;            ///< kind: "seam", "dart", "gather", "closure"
+  std::vector<int> a, b;             ///< global vertex indices in sewing order, |a| = |b| >= 2
   double length_a = 0, length_b = 0; ///< m, in the pattern
 };
 
 struct PanelMesh {
-  std::string name;                   ///< of the pattern
-  double edge_length = 0;             ///< m, asked for
+  std::string name;       ///< of the pattern
+  double edge_length = 0; ///< m, asked for
   std::vector<PanelInfo> panels;
-  std::vector<Vec2> pattern;          ///< #V by 2, m: vt
-  std::vector<Vec3> placed;           ///< #V by 3, m, start position in the world (body frame)
-  std::vector<StableId> ids;          ///< #V
-  std::vector<Triangle> triangles;    ///< #F by 3, global
-  std::vector<MeshSeam> seams;        ///< stitches are the pairs (a[i], b[i])
-  std::vector<std::string> findings;  ///< what a user should know: merged edges, small angles, length mismatches
+  std::vector<Vec2> pattern;         ///< #V by 2, m: vt
+  std::vector<Vec3> placed;          ///< #V by 3, m, start position in the world (body frame)
+  std::vector<StableId> ids;         ///< #V
+  std::vector<Triangle> triangles;   ///< #F by 3, global
+  std::vector<MeshSeam> seams;       ///< stitches are the pairs (a[i], b[i])
+  std::vector<std::string> findings; ///< what a user should know: merged edges, small angles, length mismatches
 };
 
 } // namespace sloper::pattern

@@ -1,6 +1,6 @@
+#include <base/version.hpp>
 #include <io/json.hpp>
 #include <io/obj.hpp>
-#include <base/version.hpp>
 #include <pattern/panel_mesh_json.hpp>
 
 #include <cmath>
@@ -44,15 +44,26 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
       const StableId& id = mesh.ids[static_cast<std::size_t>(v)];
       st.push_back(id.s), st.push_back(id.t);
     }
-    panels.push_back({{"name", p.name}, {"part", p.part}, {"material", p.material}, {"layer", p.layer}, {"grain", io::to_json(p.grain)},
-                      {"vertices", io::Json::array({p.first_vertex, p.n_vertices})}, {"triangles", io::Json::array({p.first_triangle, p.n_triangles})},
-                      {"outline", numbers(p.outline)}, {"st", st}});
+    panels.push_back({{"name", p.name},
+                      {"part", p.part},
+                      {"material", p.material},
+                      {"layer", p.layer},
+                      {"grain", io::to_json(p.grain)},
+                      {"vertices", io::Json::array({p.first_vertex, p.n_vertices})},
+                      {"triangles", io::Json::array({p.first_triangle, p.n_triangles})},
+                      {"outline", numbers(p.outline)},
+                      {"st", st}});
   }
   doc["panels"] = panels;
   io::Json seams = io::Json::array();
   for (const MeshSeam& s : mesh.seams)
-    seams.push_back({{"name", s.name}, {"kind", s.kind}, {"length_a", s.length_a}, {"length_b", s.length_b}, {"ease", s.length_b > 0 ? s.length_a / s.length_b - 1 : 0.0},
-                     {"a", numbers(s.a)}, {"b", numbers(s.b)}});
+    seams.push_back({{"name", s.name},
+                     {"kind", s.kind},
+                     {"length_a", s.length_a},
+                     {"length_b", s.length_b},
+                     {"ease", s.length_b > 0 ? s.length_a / s.length_b - 1 : 0.0},
+                     {"a", numbers(s.a)},
+                     {"b", numbers(s.b)}});
   doc["seams"] = seams;
   doc["findings"] = mesh.findings;
   const std::string text = io::to_text(doc); // before anything is written
@@ -69,7 +80,9 @@ PanelMesh read_panel_mesh(const std::string& path) {
   mesh.edge_length = doc.number("edge_length", 0);
   mesh.placed = obj.positions, mesh.pattern = obj.texture, mesh.triangles = obj.triangles;
   const std::size_t n = mesh.placed.size();
-  if (mesh.pattern.size() != n) doc.at("mesh").fail("the mesh has " + std::to_string(n) + " v and " + std::to_string(mesh.pattern.size()) + " vt", "write both files with one pattern-mesh run");
+  if (mesh.pattern.size() != n)
+    doc.at("mesh").fail("the mesh has " + std::to_string(n) + " v and " + std::to_string(mesh.pattern.size()) + " vt",
+                        "write both files with one pattern-mesh run");
   const io::Node panels = doc.at("panels");
   int vertex = 0, triangle = 0;
   for (std::size_t k = 0; k < panels.size(); ++k) {
@@ -79,12 +92,15 @@ PanelMesh read_panel_mesh(const std::string& path) {
     p.grain = node.at("grain").vec2();
     p.first_vertex = node.at("vertices").at(0).integer(), p.n_vertices = node.at("vertices").at(1).integer();
     p.first_triangle = node.at("triangles").at(0).integer(), p.n_triangles = node.at("triangles").at(1).integer();
-    if (p.first_vertex != vertex || p.n_vertices < 0 || p.first_triangle != triangle || p.n_triangles < 0) node.fail("panel " + p.name + " does not follow the panel before it");
+    if (p.first_vertex != vertex || p.n_vertices < 0 || p.first_triangle != triangle || p.n_triangles < 0)
+      node.fail("panel " + p.name + " does not follow the panel before it");
     vertex += p.n_vertices, triangle += p.n_triangles;
     p.outline = vertex_list(node.at("outline"), n);
     const io::Node st = node.at("st");
-    if (st.size() != 2 * static_cast<std::size_t>(p.n_vertices)) st.fail("there are " + std::to_string(st.size()) + " numbers for " + std::to_string(p.n_vertices) + " vertices");
-    for (std::size_t v = 0; v < static_cast<std::size_t>(p.n_vertices); ++v) mesh.ids.push_back({static_cast<int>(k), st.at(2 * v).number(), st.at(2 * v + 1).number()});
+    if (st.size() != 2 * static_cast<std::size_t>(p.n_vertices))
+      st.fail("there are " + std::to_string(st.size()) + " numbers for " + std::to_string(p.n_vertices) + " vertices");
+    for (std::size_t v = 0; v < static_cast<std::size_t>(p.n_vertices); ++v)
+      mesh.ids.push_back({static_cast<int>(k), st.at(2 * v).number(), st.at(2 * v + 1).number()});
     mesh.panels.push_back(p);
   }
   if (static_cast<std::size_t>(vertex) != n || static_cast<std::size_t>(triangle) != mesh.triangles.size())
@@ -94,8 +110,10 @@ PanelMesh read_panel_mesh(const std::string& path) {
   const io::Node seams = doc.at("seams");
   for (std::size_t k = 0; k < seams.size(); ++k) {
     const io::Node node = seams.at(k);
-    MeshSeam s{node.string("name", ""), node.string("kind", "seam"), vertex_list(node.at("a"), n), vertex_list(node.at("b"), n), node.number("length_a", 0), node.number("length_b", 0)};
-    if (s.a.size() != s.b.size() || s.a.size() < 2) node.fail("seam " + s.name + " has " + std::to_string(s.a.size()) + " and " + std::to_string(s.b.size()) + " vertices");
+    MeshSeam s{node.string("name", ""),      node.string("kind", "seam"), vertex_list(node.at("a"), n),
+               vertex_list(node.at("b"), n), node.number("length_a", 0),  node.number("length_b", 0)};
+    if (s.a.size() != s.b.size() || s.a.size() < 2)
+      node.fail("seam " + s.name + " has " + std::to_string(s.a.size()) + " and " + std::to_string(s.b.size()) + " vertices");
     mesh.seams.push_back(std::move(s));
   }
   if (doc.has("findings"))

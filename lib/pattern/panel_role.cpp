@@ -42,7 +42,8 @@ bool any_begins(const Words& words, std::initializer_list<const char*> wanted) {
 
 class Roles {
 public:
-  Roles(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph) : m_pattern(pattern), m_mesh(mesh), m_graph(graph), m_roles(pattern.panels.size()) {}
+  Roles(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph)
+      : m_pattern(pattern), m_mesh(mesh), m_graph(graph), m_roles(pattern.panels.size()) {}
 
   std::vector<PanelRole> run() {
     const std::size_t n = m_roles.size();
@@ -90,7 +91,10 @@ private:
     if (!hint.part.empty()) {
       m_known[k] = true;
       role.part = hint.part;
-      role.region = hint.part == "arm_l" ? Region::ARM_L : hint.part == "arm_r" ? Region::ARM_R : hint.part == "neck" || hint.part == "head" ? Region::NECK : Region::TRUNK;
+      role.region = hint.part == "arm_l"                         ? Region::ARM_L
+                    : hint.part == "arm_r"                       ? Region::ARM_R
+                    : hint.part == "neck" || hint.part == "head" ? Region::NECK
+                                                                 : Region::TRUNK;
       if (role.region == Region::NECK) {
         role.side = Side::RING, role.theta = hint.theta.value_or(units::PI);
         return;
@@ -100,7 +104,8 @@ private:
         return;
       }
       side_from_theta(role, hint.theta.value_or(has_word(k, "back") ? units::PI : 0));
-      if (hint.anchor && (hint.radius || std::abs(std::remainder(*hint.theta, units::PI)) < 1e-6) && role.side != Side::RING && hint.part != "leg_l" && hint.part != "leg_r")
+      if (hint.anchor && (hint.radius || std::abs(std::remainder(*hint.theta, units::PI)) < 1e-6) && role.side != Side::RING && hint.part != "leg_l" &&
+          hint.part != "leg_r")
         role.du = std::remainder(role.theta - (role.side == Side::BACK ? units::PI : 0), 2 * units::PI) * hint.radius.value_or(0) - hint.anchor->x();
       if (hint.anchor && hint.height && (role.du || role.side == Side::RING)) role.dv = *hint.height - hint.anchor->y();
       return;
@@ -166,7 +171,8 @@ private:
         const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
         if (other.region != Region::TRUNK) continue;
         for (const auto& seam : m_graph.between(static_cast<int>(k), q))
-          for (const auto& s : seam) vote += (m_mesh.pattern[static_cast<std::size_t>(s[1])].x() - middle(static_cast<std::size_t>(q)).x()) * (other.side == Side::BACK ? -1 : 1);
+          for (const auto& s : seam)
+            vote += (m_mesh.pattern[static_cast<std::size_t>(s[1])].x() - middle(static_cast<std::size_t>(q)).x()) * (other.side == Side::BACK ? -1 : 1);
       }
       role.region = vote >= 0 ? Region::ARM_L : Region::ARM_R;
     }
@@ -187,7 +193,8 @@ private:
     const bool arm = role.region == Region::ARM_L || role.region == Region::ARM_R;
     if (arm && role.side != Side::RING && !m_pattern.panels[k].hint.rigid) { // one piece, unless a partner makes the tube
       bool partner = false;
-      for (int q : m_graph.neighbours(static_cast<int>(k))) partner = partner || (m_roles[static_cast<std::size_t>(q)].region == role.region && m_graph.between(static_cast<int>(k), q).size() >= 2);
+      for (int q : m_graph.neighbours(static_cast<int>(k)))
+        partner = partner || (m_roles[static_cast<std::size_t>(q)].region == role.region && m_graph.between(static_cast<int>(k), q).size() >= 2);
       if (!partner) role.side = Side::RING, role.theta = 0;
     }
   }
@@ -199,7 +206,8 @@ private:
       if (m_graph.between(static_cast<int>(k), static_cast<int>(k)).size() > 0) continue;
       for (int q : m_graph.neighbours(static_cast<int>(k))) {
         PanelRole& other = m_roles[static_cast<std::size_t>(q)];
-        if (other.region == Region::TRUNK && other.part == m_roles[k].part && m_pattern.panels[static_cast<std::size_t>(q)].label == m_pattern.panels[k].label) other.side = Side::RING;
+        if (other.region == Region::TRUNK && other.part == m_roles[k].part && m_pattern.panels[static_cast<std::size_t>(q)].label == m_pattern.panels[k].label)
+          other.side = Side::RING;
       }
     }
   }
@@ -259,16 +267,19 @@ private:
         int n_long = 0;
         const PanelInfo& info = m_mesh.panels[k];
         double low = 1e300, high = -1e300;
-        for (int v : info.outline) low = std::min(low, m_mesh.pattern[static_cast<std::size_t>(v)].y()), high = std::max(high, m_mesh.pattern[static_cast<std::size_t>(v)].y());
+        for (int v : info.outline)
+          low = std::min(low, m_mesh.pattern[static_cast<std::size_t>(v)].y()), high = std::max(high, m_mesh.pattern[static_cast<std::size_t>(v)].y());
         for (const auto& seam : m_graph.between(static_cast<int>(k), q)) {
           double a = 1e300, b = -1e300;
-          for (const auto& s : seam) a = std::min(a, m_mesh.pattern[static_cast<std::size_t>(s[0])].y()), b = std::max(b, m_mesh.pattern[static_cast<std::size_t>(s[0])].y());
+          for (const auto& s : seam)
+            a = std::min(a, m_mesh.pattern[static_cast<std::size_t>(s[0])].y()), b = std::max(b, m_mesh.pattern[static_cast<std::size_t>(s[0])].y());
           if (b - a > 0.3 * (high - low)) ++n_long;
         }
         tube = tube || n_long >= 2;
       }
       const std::string& name = m_pattern.panels[k].name;
-      if (tube || name.find("pant") != std::string::npos || name.find("trouser") != std::string::npos || name.find("leg") != std::string::npos) tubes.push_back(k);
+      if (tube || name.find("pant") != std::string::npos || name.find("trouser") != std::string::npos || name.find("leg") != std::string::npos)
+        tubes.push_back(k);
     }
     if (tubes.size() < 4) return;
     for (std::size_t k : tubes) {
@@ -295,7 +306,8 @@ private:
 
 SeamGraph::SeamGraph(const PanelMesh& mesh) : m_mesh(&mesh), m_panel_of(mesh.pattern.size()), m_neighbours(mesh.panels.size()) {
   for (std::size_t p = 0; p < mesh.panels.size(); ++p)
-    for (int v = mesh.panels[p].first_vertex; v < mesh.panels[p].first_vertex + mesh.panels[p].n_vertices; ++v) m_panel_of[static_cast<std::size_t>(v)] = static_cast<int>(p);
+    for (int v = mesh.panels[p].first_vertex; v < mesh.panels[p].first_vertex + mesh.panels[p].n_vertices; ++v)
+      m_panel_of[static_cast<std::size_t>(v)] = static_cast<int>(p);
   std::vector<std::set<int>> sets(mesh.panels.size());
   for (const MeshSeam& s : mesh.seams)
     for (std::size_t k = 0; k < s.a.size(); ++k) {

@@ -12,10 +12,10 @@ enum class Side { FRONT, BACK, RING };           ///< RING goes around: a one-pi
 struct PanelRole {
   Region region = Region::TRUNK;
   Side side = Side::FRONT;
-  std::string part;                     ///< for PanelInfo: torso, arm_l, leg_l, lower_body, neck
-  double theta = 0;                     ///< rad, RING only: where its middle looks (0 front, +pi/2 the wearer's left)
+  std::string part;                                   ///< for PanelInfo: torso, arm_l, leg_l, lower_body, neck
+  double theta = 0;                                   ///< rad, RING only: where its middle looks (0 front, +pi/2 the wearer's left)
   Eigen::Matrix2d turn = Eigen::Matrix2d::Identity(); ///< pattern coordinates to (u, v): v up the trunk, or up the arm to the shoulder
-  std::optional<double> du, dv;         ///< m: (u, v) = turn p + (du, dv) where the pattern's hint says so; heights are those of its own body
+  std::optional<double> du, dv;                       ///< m: (u, v) = turn p + (du, dv) where the pattern's hint says so; heights are those of its own body
 };
 
 /// All seams of a mesh between panel p and panel q (p = q for tubes), as (seam, whether p is its side a).

@@ -51,7 +51,7 @@ Path circle_arc(const Vec2& a, const Vec2& b, double radius, bool large, bool cc
   double sweep = 2 * std::asin(std::min(1.0, half / radius));
   if (large) sweep = 2 * units::PI - sweep;
   if (!ccw) sweep = -sweep;
-  const int n = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / (units::PI / 6) - 1e-9)));
+  const int n = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / (units::PI / 12) - 1e-9)));
   const double step = sweep / n, handle = 4.0 / 3.0 * std::tan(step / 4);
   const double start = std::atan2(a.y() - center.y(), a.x() - center.x());
   Path path;
@@ -59,7 +59,8 @@ Path circle_arc(const Vec2& a, const Vec2& b, double radius, bool large, bool cc
   for (int i = 0; i < n; ++i) {
     const double t0 = start + i * step, t1 = t0 + step;
     const Vec2 to = i + 1 == n ? b : Vec2(center + radius * Vec2(std::cos(t1), std::sin(t1)));
-    path.push_back(Segment::cubic(from, from + handle * radius * Vec2(-std::sin(t0), std::cos(t0)), to - handle * radius * Vec2(-std::sin(t1), std::cos(t1)), to));
+    path.push_back(
+        Segment::cubic(from, from + handle * radius * Vec2(-std::sin(t0), std::cos(t0)), to - handle * radius * Vec2(-std::sin(t1), std::cos(t1)), to));
     from = to;
   }
   return path;
@@ -117,6 +118,18 @@ double length(const Path& path) {
   double sum = 0;
   for (const Segment& s : path)
     for (int i = 0, n = s.line ? 1 : 16; i < n; ++i) sum += s.length(static_cast<double>(i) / n, static_cast<double>(i + 1) / n);
+  return sum;
+}
+
+double turning(const ArcLength& arc, double s0, double s1) {
+  constexpr int N = 24;
+  double sum = 0;
+  Vec2 before = arc.tangent(s0 + (s1 - s0) * 0.5 / N);
+  for (int k = 1; k < N; ++k) {
+    const Vec2 t = arc.tangent(s0 + (s1 - s0) * (k + 0.5) / N);
+    sum += std::abs(std::atan2(before.x() * t.y() - before.y() * t.x(), before.dot(t)));
+    before = t;
+  }
   return sum;
 }
 

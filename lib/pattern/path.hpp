@@ -22,7 +22,7 @@ struct Segment {
 
 using Path = std::vector<Segment>; ///< each segment starts where the one before ends
 
-/// A circle arc as cubic Beziers of at most 30 degrees (radial error below 1e-7 of the radius).
+/// A circle arc as cubic Beziers of at most 15 degrees (radial error below 1e-8 of the radius).
 /// @param radius m, raised to half the chord when smaller
 /// @param large  the longer of the two arcs
 /// @param ccw    turning counter-clockwise (x right, y up) from a to b
@@ -49,6 +49,9 @@ private:
 };
 
 double length(const Path& path);
+
+/// How far the tangent turns along the stretch [s0, s1] (m), all bends added, rad; corners between segments count.
+double turning(const ArcLength& arc, double s0, double s1);
 
 /// Signed area of a closed chain of paths, m2, exact for Beziers; positive when counter-clockwise.
 double signed_area(const std::vector<Path>& loop);

@@ -26,12 +26,12 @@ struct Notch {
 
 /// Where the author of a pattern wants a panel to start. All fields are optional; unset ones are derived from name and seams.
 struct PlacementHint {
-  std::string part;                  ///< torso, neck, arm_l, arm_r, leg_l, leg_r, lower_body; empty when unknown
-  std::optional<double> theta;       ///< rad about the part's axis: 0 front (arms: outer, upper side), +pi/2 the wearer's left
-  std::optional<Vec2> anchor;        ///< pattern point, m, that lies at theta and height
-  std::optional<double> radius;      ///< m, of the cylinder that theta was meant on: arc length from the front is theta times this
-  std::optional<double> height;      ///< m, world y of the anchor on the body that the pattern was made for
-  std::optional<Mat4> rigid;         ///< panel (x, y, 0) to the world of the body that the pattern was made for, m
+  std::string part;             ///< torso, neck, arm_l, arm_r, leg_l, leg_r, lower_body; empty when unknown
+  std::optional<double> theta;  ///< rad about the part's axis: 0 front (arms: outer, upper side), +pi/2 the wearer's left
+  std::optional<Vec2> anchor;   ///< pattern point, m, that lies at theta and height
+  std::optional<double> radius; ///< m, of the cylinder that theta was meant on: arc length from the front is theta times this
+  std::optional<double> height; ///< m, world y of the anchor on the body that the pattern was made for
+  std::optional<Mat4> rigid;    ///< panel (x, y, 0) to the world of the body that the pattern was made for, m
 };
 
 struct Panel {
@@ -40,7 +40,7 @@ struct Panel {
   Vec2 grain = Vec2(0, 1);                   ///< unit, warp
   std::string material;
   int layer = 0;
-  std::string label;                         ///< the source's own word for the body part, if any
+  std::string label; ///< the source's own word for the body part, if any
   std::vector<Notch> notches;
   PlacementHint hint;
 

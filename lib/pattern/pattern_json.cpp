@@ -27,7 +27,8 @@ void read_fold(const io::Node& node, Panel& panel) {
   std::string suffix[2] = {"", "_mirror"};
   if (node.has("suffix"))
     for (std::size_t k = 0; k < 2; ++k) suffix[k] = node.at("suffix").at(k).string();
-  if (!unfold(panel, fold, suffix[0], suffix[1])) node.fail("panel " + panel.name + ": the fold edge '" + panel.edge(fold).name + "' is not straight, or on a hole");
+  if (!unfold(panel, fold, suffix[0], suffix[1]))
+    node.fail("panel " + panel.name + ": the fold edge '" + panel.edge(fold).name + "' is not straight, or on a hole");
 }
 
 void read_place(const io::Node& node, Panel& panel, double unit) {
@@ -46,7 +47,8 @@ void read_panel(const io::Node& node, Pattern& pattern, double unit) {
   node.allow_only({"name", "outline", "holes", "grain", "material", "layer", "notches", "mirror_of", "fold", "place", "label"});
   Panel panel;
   panel.name = node.at("name").string();
-  if (panel.name.empty() || pattern.find_panel(panel.name) >= 0) node.fail(panel.name.empty() ? "a panel has no name" : "there are two panels named '" + panel.name + "'");
+  if (panel.name.empty() || pattern.find_panel(panel.name) >= 0)
+    node.fail(panel.name.empty() ? "a panel has no name" : "there are two panels named '" + panel.name + "'");
   if (node.has("mirror_of")) {
     if (node.has("outline") || node.has("holes") || node.has("fold")) node.fail("panel " + panel.name + " has both mirror_of and an outline");
     const Panel& other = pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("mirror_of")))];
@@ -93,7 +95,8 @@ std::vector<Run> read_side(const io::Node& node, const Pattern& pattern, bool ag
     run.edge = edge_named(pattern.panels[static_cast<std::size_t>(run.panel)], item.at("edge"));
     run.from = item.number("from", against ? 1 : 0), run.to = item.number("to", against ? 0 : 1);
     for (double f : {run.from, run.to})
-      if (f < 0 || f > 1) item.fail("a run goes from " + std::to_string(run.from) + " to " + std::to_string(run.to) + " of its edge", "give fractions from 0 to 1");
+      if (f < 0 || f > 1)
+        item.fail("a run goes from " + std::to_string(run.from) + " to " + std::to_string(run.to) + " of its edge", "give fractions from 0 to 1");
     if (run.from == run.to) item.fail("a run has no length");
     side.push_back(run);
   }
@@ -105,7 +108,8 @@ std::vector<Run> read_side(const io::Node& node, const Pattern& pattern, bool ag
 Pattern read_pattern_json(const io::Json& json, const std::string& file) {
   const io::Node root(json, file);
   root.allow_only({"format", "version", "generator", "length_unit", "name", "panels", "seams"});
-  if (root.integer("version", 1) > 1) root.at("version").fail("version " + std::to_string(root.at("version").integer()) + " is newer than this program knows", "update, or write version 1");
+  if (root.integer("version", 1) > 1)
+    root.at("version").fail("version " + std::to_string(root.at("version").integer()) + " is newer than this program knows", "update, or write version 1");
   const double unit = unit_of(root.at("length_unit"));
   Pattern pattern;
   pattern.source_format = "pattern";

@@ -16,10 +16,10 @@ namespace {
 
 using body::Part;
 
-constexpr double GAP = 0.015;        // m between skin and cloth at the start
-constexpr double LAYER = 0.012;      // m between panels that lie over each other
-constexpr double FILLET = 0.06;      // m: radius with which the front curve turns into its wings
-constexpr double WING = 0.02;        // m between the wings and what they pass: arms, or each other
+constexpr double GAP = 0.015;           // m between skin and cloth at the start
+constexpr double LAYER = 0.012;         // m between panels that lie over each other
+constexpr double FILLET = 0.06;         // m: radius with which the front curve turns into its wings
+constexpr double WING = 0.02;           // m between the wings and what they pass: arms, or each other
 constexpr double SHOULDER_RAISE = 0.02; // m above the shoulders, so that the shoulder seam closes downwards
 constexpr int ROUNDS = 60;
 
@@ -34,8 +34,8 @@ struct Group {
 class Placer {
 public:
   Placer(const Pattern& pattern, const body::Body& body, PanelMesh& mesh)
-      : m_pattern(pattern), m_mesh(mesh), m_space(body), m_graph(mesh), m_roles(panel_roles(pattern, mesh, m_graph)), m_spots(lay_out(pattern, mesh, m_graph, m_roles)),
-        m_depth(m_roles.size(), 0), m_collider(body.skin) {
+      : m_pattern(pattern), m_mesh(mesh), m_space(body), m_graph(mesh), m_roles(panel_roles(pattern, mesh, m_graph)),
+        m_spots(lay_out(pattern, mesh, m_graph, m_roles)), m_depth(m_roles.size(), 0), m_collider(body.skin) {
     for (const PanelInfo& p : mesh.panels)
       for (int t = 0; t < p.n_triangles; ++t) m_panel_of_triangle.push_back(static_cast<int>(&p - mesh.panels.data()));
   }
@@ -136,7 +136,8 @@ private:
     for (const Group& g : m_groups) {
       if (g.region != Region::NECK) continue;
       const auto b = bounds(g);
-      const double neck = std::max(m_space.shoulder_height(0.06), m_space.body().has_landmark("neck_side_l") ? m_space.body().landmark("neck_side_l").y() : 0.0);
+      const double neck =
+          std::max(m_space.shoulder_height(0.06), m_space.body().has_landmark("neck_side_l") ? m_space.body().landmark("neck_side_l").y() : 0.0);
       for (std::size_t k : g.panels) m_spots[k].offset.y() += neck + 0.005 - b[0].y();
     }
   }
@@ -269,7 +270,8 @@ private:
     const double shift = m_arm_shift[left] - high;
     std::vector<Vec2> hull = m_space.points(axis, {left ? Part::ARM_L : Part::ARM_R}, low + shift - 0.02, high + shift + 0.02);
     if (hull.size() < 3) hull = m_space.points(axis, {left ? Part::ARM_L : Part::ARM_R}, -3, 3);
-    if (hull.size() < 3) throw input_error("", "body", std::string("the ") + (left ? "left" : "right") + " arm has no skin", "scan the arms, or leave the sleeves out");
+    if (hull.size() < 3)
+      throw input_error("", "body", std::string("the ") + (left ? "left" : "right") + " arm has no skin", "scan the arms, or leave the sleeves out");
     const auto b = bounds(group);
     if (group.side == Side::RING) {
       const WrapCurve curve = WrapCurve::around(hull, GAP + group.extra, b[1].x() - b[0].x() + 0.01);
@@ -282,7 +284,8 @@ private:
     }
     double from = 1e300, to = -1e300;
     for (const Vec2& p : hull) from = std::min(from, p.y()), to = std::max(to, p.y());
-    const WrapCurve curve = WrapCurve::front_of(hull, GAP + group.extra, 0.5 * (from + to) + 0.5 * WING + group.extra, 0.04, 0.5 * (plane_low(hull) + plane_high(hull)));
+    const WrapCurve curve =
+        WrapCurve::front_of(hull, GAP + group.extra, 0.5 * (from + to) + 0.5 * WING + group.extra, 0.04, 0.5 * (plane_low(hull) + plane_high(hull)));
     for (std::size_t k : group.panels) put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x()), p.y() + shift); });
   }
 
@@ -310,7 +313,7 @@ private:
     }
   }
 
-  template <class Point> void put(std::size_t panel, Point point) {
+  template<class Point> void put(std::size_t panel, Point point) {
     const PanelInfo& info = m_mesh.panels[panel];
     for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) m_mesh.placed[static_cast<std::size_t>(v)] = point(uv(panel, v));
   }
@@ -372,7 +375,8 @@ private:
         std::vector<Triangle> triangles;
         for (std::size_t k : m_groups[g].panels) {
           const PanelInfo& info = m_mesh.panels[k];
-          for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) inside += m_collider.is_inside(m_mesh.placed[static_cast<std::size_t>(v)]);
+          for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v)
+            inside += m_collider.is_inside(m_mesh.placed[static_cast<std::size_t>(v)]);
           triangles.insert(triangles.end(), m_mesh.triangles.begin() + info.first_triangle, m_mesh.triangles.begin() + info.first_triangle + info.n_triangles);
         }
         const int through = static_cast<int>(m_collider.faces_through(m_mesh.placed, triangles).size());
@@ -386,7 +390,8 @@ private:
     }
     if (report.crossings) m_mesh.findings.push_back("start: " + std::to_string(report.crossings) + " pairs of triangles of panels cross");
     if (report.vertices_inside + report.faces_through)
-      m_mesh.findings.push_back("start: " + std::to_string(report.vertices_inside) + " vertices inside the body, " + std::to_string(report.faces_through) + " faces through its skin");
+      m_mesh.findings.push_back("start: " + std::to_string(report.vertices_inside) + " vertices inside the body, " + std::to_string(report.faces_through) +
+                                " faces through its skin");
     return report;
   }
 

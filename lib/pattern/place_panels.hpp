@@ -8,9 +8,9 @@
 namespace sloper::pattern {
 
 struct PlacementReport {
-  int crossings = 0;          ///< pairs of triangles of the start that cross, after pushing apart
-  int vertices_inside = 0;    ///< of the body
-  int faces_through = 0;      ///< that cross the skin
+  int crossings = 0;                          ///< pairs of triangles of the start that cross, after pushing apart
+  int vertices_inside = 0;                    ///< of the body
+  int faces_through = 0;                      ///< that cross the skin
   double seam_gap_mean = 0, seam_gap_max = 0; ///< m
 };
 

@@ -30,11 +30,13 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
       for (const PanelEdge& e : panel.loops[l]) {
         paths.push_back(e.path);
         for (const Segment& s : e.path) low = low.cwiseMin(s.p[0]), high = high.cwiseMax(s.p[0]);
-        if (!(length(e.path) > 1e-6)) throw input_error(file, panel.name + ": " + e.name, "the edge has no length (duplicate points)", "take it out of the outline");
+        if (!(length(e.path) > 1e-6))
+          throw input_error(file, panel.name + ": " + e.name, "the edge has no length (duplicate points)", "take it out of the outline");
       }
       largest = std::max(largest, (high - low).maxCoeff());
       const double area = signed_area(paths);
-      if (std::abs(area) < 1e-6) throw input_error(file, panel.name, "the outline encloses " + std::to_string(std::abs(area) * 1e4) + " cm2", "give the panel an area");
+      if (std::abs(area) < 1e-6)
+        throw input_error(file, panel.name, "the outline encloses " + std::to_string(std::abs(area) * 1e4) + " cm2", "give the panel an area");
       if ((area > 0) == (l == 0)) continue;
       if (l > 0) throw input_error(file, panel.name, "hole " + std::to_string(l) + " is drawn counter-clockwise", "draw holes clockwise");
       pattern.findings.push_back(panel.name + ": drawn clockwise, so taken as seen from inside and turned over");
@@ -73,7 +75,9 @@ Pattern read_pattern(const std::string& path, const std::string& sewing) {
     if (format == "pattern") pattern = read_pattern_json(json, path);
     else if (format == "sewing-spec") pattern = read_sewing_spec(json, path);
     else if (json.is_object() && json.contains("pattern")) pattern = read_garmentcode(json, path);
-    else throw input_error(path, "/format", "'" + format + "' is no pattern format that is known", "give a pattern JSON, a GarmentCode specification, a sewing-spec JSON or a DXF");
+    else
+      throw input_error(path, "/format", "'" + format + "' is no pattern format that is known",
+                        "give a pattern JSON, a GarmentCode specification, a sewing-spec JSON or a DXF");
   } else {
     pattern = read_dxf(text, path);
   }

@@ -83,11 +83,38 @@ std::vector<Vec2> lattice(const std::vector<std::vector<Vec2>>& loops, double h,
   return points;
 }
 
+/// Where two edges that meet in a corner are sewn to each other, the corner needs three faces or more: two would be welded onto one
+/// another. Points on a circle about the corner, nearer than all others, are its Delaunay neighbours.
+std::vector<Vec2> fan_points(const std::vector<std::vector<Vec2>>& loops, const std::vector<char>& must_split) {
+  std::vector<Vec2> out;
+  std::size_t first = 0;
+  for (const auto& loop : loops) {
+    const std::size_t n = loop.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      if (!must_split[first + k]) continue;
+      const Vec2 corner = loop[k], a = loop[(k + 1) % n] - corner, b = loop[(k + n - 1) % n] - corner;
+      double angle = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+      if (angle <= 0) continue; // a tip that points inwards has faces enough
+      const int count = std::max(2, static_cast<int>(std::ceil(angle * 3 / 3.14159265358979)) - 1);
+      const double radius = 0.85 * std::min(a.norm(), b.norm()), start = std::atan2(a.y(), a.x());
+      for (int i = 1; i <= count; ++i) {
+        const double t = start + angle * i / (count + 1);
+        out.push_back(corner + radius * Vec2(std::cos(t), std::sin(t)));
+      }
+    }
+    first += n;
+  }
+  return out;
+}
+
 } // namespace
 
 FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, double h, const std::vector<char>& must_split, const std::string& panel) {
   FlatDelaunay mesh(loops, panel);
-  for (const Vec2& p : lattice(loops, h, 0.62 * h)) mesh.insert(p);
+  const std::vector<Vec2> fans = fan_points(loops, must_split);
+  for (const Vec2& p : fans) mesh.insert(p, true);
+  for (const Vec2& p : lattice(loops, h, 0.62 * h))
+    if (std::none_of(fans.begin(), fans.end(), [&](const Vec2& q) { return (p - q).norm() < 0.7 * h; })) mesh.insert(p);
   mesh.split_chords(must_split);
   for (int round = 0; round < 8; ++round) mesh.smooth();
   mesh.split_chords(must_split);

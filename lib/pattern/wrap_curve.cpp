@@ -45,7 +45,8 @@ public:
     std::vector<Vec2> points(n - 1);
     double area = 0;
     for (unsigned k = 0; k + 1 < n; ++k) GEOSCoordSeq_getXY_r(m_context, c, k, &points[k].x(), &points[k].y());
-    for (std::size_t k = 0; k < points.size(); ++k) area += points[k].x() * points[(k + 1) % points.size()].y() - points[k].y() * points[(k + 1) % points.size()].x();
+    for (std::size_t k = 0; k < points.size(); ++k)
+      area += points[k].x() * points[(k + 1) % points.size()].y() - points[k].y() * points[(k + 1) % points.size()].x();
     if (area < 0) std::reverse(points.begin(), points.end());
     return points;
   }

@@ -1,0 +1,167 @@
+#include <base/error.hpp>
+#include <base/units.hpp>
+#include <pattern/check_pattern.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+namespace sloper::pattern {
+namespace {
+
+constexpr double SAMPLE = 0.004; // m between points on curves
+constexpr double SPIKE = 10;     // degrees
+
+struct Sampled {
+  std::vector<Vec2> points;
+  std::vector<int> edge; ///< of the segment that starts at each point
+  std::vector<int> loop;
+  std::vector<std::size_t> next;
+};
+
+Sampled sample(const Panel& panel) {
+  Sampled out;
+  int e = 0, l = 0;
+  for (const auto& loop : panel.loops) {
+    const std::size_t first = out.points.size();
+    for (const PanelEdge& edge : loop) {
+      for (const Segment& s : edge.path) {
+        const int n = s.line ? 1 : std::clamp(static_cast<int>(std::ceil(s.length(0, 1) / SAMPLE)), 8, 400);
+        for (int k = 0; k < n; ++k) out.points.push_back(s.at(static_cast<double>(k) / n)), out.edge.push_back(e), out.loop.push_back(l);
+      }
+      ++e;
+    }
+    for (std::size_t k = first; k < out.points.size(); ++k) out.next.push_back(k + 1 < out.points.size() ? k + 1 : first);
+    ++l;
+  }
+  return out;
+}
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Whether the open segments ab and cd cross or touch.
+bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const double o1 = cross(b - a, c - a), o2 = cross(b - a, d - a), o3 = cross(d - c, a - c), o4 = cross(d - c, b - c);
+  if (((o1 > 0 && o2 < 0) || (o1 < 0 && o2 > 0)) && ((o3 > 0 && o4 < 0) || (o3 < 0 && o4 > 0))) return true;
+  const auto on = [](const Vec2& p, const Vec2& q, const Vec2& x, double o) {
+    return std::abs(o) <= 1e-12 && (x - p).dot(q - p) >= 0 && (x - p).dot(q - p) <= (q - p).squaredNorm();
+  };
+  return on(a, b, c, o1) || on(a, b, d, o2) || on(c, d, a, o3) || on(c, d, b, o4);
+}
+
+std::string at_point(const Vec2& p) {
+  char text[64];
+  std::snprintf(text, sizeof text, "at (%.2f, %.2f) cm", p.x() * 100, p.y() * 100);
+  return text;
+}
+
+class Check {
+public:
+  explicit Check(const Pattern& pattern) : m_pattern(pattern) {}
+  std::vector<PatternFinding> run() {
+    for (const Panel& p : m_pattern.panels) check_outline(p);
+    check_runs();
+    for (const Seam& s : m_pattern.seams) check_seam(s);
+    check_unsewn();
+    return std::move(m_out);
+  }
+
+private:
+  void add(const char* severity, const char* rule, const std::string& place, const std::string& fact) { m_out.push_back({severity, rule, place, fact}); }
+
+  void check_outline(const Panel& panel) {
+    const Sampled s = sample(panel);
+    const std::size_t n = s.points.size();
+    std::vector<std::size_t> order(n); // by their left end, so that only neighbours in x are compared
+    for (std::size_t k = 0; k < n; ++k) order[k] = k;
+    const auto left = [&](std::size_t k) { return std::min(s.points[k].x(), s.points[s.next[k]].x()); };
+    const auto right = [&](std::size_t k) { return std::max(s.points[k].x(), s.points[s.next[k]].x()); };
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return left(a) < left(b); });
+    std::map<std::pair<int, int>, bool> told;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = i + 1; j < n && left(order[j]) <= right(order[i]); ++j) {
+        const std::size_t a = std::min(order[i], order[j]), b = std::max(order[i], order[j]);
+        if (s.next[a] == b || s.next[b] == a || !meet(s.points[a], s.points[s.next[a]], s.points[b], s.points[s.next[b]])) continue;
+        const std::pair<int, int> edges{std::min(s.edge[a], s.edge[b]), std::max(s.edge[a], s.edge[b])};
+        if (told[edges]) continue;
+        told[edges] = true;
+        const std::string first = panel.edge(edges.first).name, second = panel.edge(edges.second).name;
+        add("error", "crossing-outline", panel.name + ": " + first,
+            (edges.first == edges.second ? "crosses itself " : "crosses or touches " + second + " ") + at_point(s.points[a]));
+      }
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t b = s.next[k], c = s.next[b];
+      const Vec2 in = s.points[k] - s.points[b], out = s.points[c] - s.points[b];
+      if (in.norm() < 1e-9 || out.norm() < 1e-9) continue;
+      double angle = units::degrees(std::atan2(cross(out, in), out.dot(in)));
+      if (angle < 0) angle += 360;
+      if (angle < SPIKE) {
+        char text[80];
+        std::snprintf(text, sizeof text, "a spike of %.1f degrees %s", angle, at_point(s.points[b]).c_str());
+        add("warning", "sharp-spike", panel.name + ": " + panel.edge(s.edge[b]).name, text);
+      }
+    }
+  }
+
+  void check_runs() {
+    struct Use {
+      double from, to;
+      std::string seam;
+    };
+    std::map<std::pair<int, int>, std::vector<Use>> uses;
+    for (const Seam& seam : m_pattern.seams)
+      for (const auto* side : {&seam.a, &seam.b})
+        for (const Run& run : *side) {
+          const Use use{std::min(run.from, run.to), std::max(run.from, run.to), seam.name};
+          for (const Use& other : uses[{run.panel, run.edge}]) {
+            const double overlap = std::min(use.to, other.to) - std::max(use.from, other.from);
+            if (overlap < 1e-6) continue;
+            const double metres = overlap * length(m_pattern.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path);
+            add("error", "sewn-twice", place_of(m_pattern, run), centimetres(metres) + " are sewn twice, by " + other.seam + " and by " + use.seam);
+          }
+          uses[{run.panel, run.edge}].push_back(use);
+        }
+  }
+
+  void check_seam(const Seam& seam) {
+    const double a = side_length(m_pattern, seam.a), b = side_length(m_pattern, seam.b);
+    const double difference = std::abs(a - b), ratio = difference / std::max(std::min(a, b), 1e-9);
+    if (difference > 0.003 && ratio > 0.02 && seam.kind != "gather" && seam.ease.empty()) {
+      char text[200];
+      std::snprintf(text, sizeof text, "%s is %s, %s is %s: %s (%.1f %%) apart", place_of(m_pattern, seam.a[0]).c_str(), centimetres(a).c_str(),
+                    place_of(m_pattern, seam.b[0]).c_str(), centimetres(b).c_str(), centimetres(difference).c_str(), ratio * 100);
+      // GarmentCode and DXF cannot say that a difference is meant.
+      const bool can_tell = m_pattern.source_format == "pattern" || m_pattern.source_format == "sewing-spec";
+      add(can_tell ? "error" : "warning", "length-mismatch", "seam " + seam.name, text);
+    }
+    // Loops are counter-clockwise from outside: a seam that keeps the face outside runs along one and against the other.
+    if ((seam.a[0].from < seam.a[0].to) == (seam.b[0].from < seam.b[0].to))
+      add("warning", "face-to-back", "seam " + seam.name, "joins the outside of one panel to the inside of the other");
+  }
+
+  void check_unsewn() {
+    std::vector<char> sewn(m_pattern.panels.size(), 0);
+    for (const Seam& seam : m_pattern.seams)
+      for (const auto* side : {&seam.a, &seam.b})
+        for (const Run& run : *side) sewn[static_cast<std::size_t>(run.panel)] = 1;
+    for (std::size_t k = 0; k < sewn.size(); ++k)
+      if (!sewn[k]) add(m_pattern.panels.size() == 1 ? "info" : "warning", "unsewn-panel", m_pattern.panels[k].name, "nothing is sewn to this panel");
+  }
+
+  const Pattern& m_pattern;
+  std::vector<PatternFinding> m_out;
+};
+
+} // namespace
+
+std::vector<PatternFinding> check_pattern(const Pattern& pattern) { return Check(pattern).run(); }
+
+void require_sewable(const Pattern& pattern, const std::string& file) {
+  for (const PatternFinding& f : check_pattern(pattern)) {
+    // A difference in length can be sewn (it puckers); the mesher takes it and the report tells.
+    if (f.severity == "error" && f.rule != "length-mismatch") throw input_error(file, f.place, f.fact, "pattern-mesh --check lists all findings");
+  }
+}
+
+} // namespace sloper::pattern
