@@ -5,6 +5,26 @@
 
 namespace sloper::body {
 
+namespace {
+
+/// Length of the closed curve of four quarter ellipses through front, left, back and right.
+double ring_length(const std::array<Vec3, 4>& corner) {
+  const Vec3 middle = 0.5 * (corner[0] + corner[2]);
+  constexpr int STEPS = 16;
+  double length = 0;
+  Vec3 last = corner[0];
+  for (int k = 0; k < 4; ++k)
+    for (int i = 1; i <= STEPS; ++i) {
+      const double a = 0.5 * 3.14159265358979323846 * i / STEPS;
+      const Vec3 p = middle + std::cos(a) * (corner[k] - middle) + std::sin(a) * (corner[(k + 1) % 4] - middle);
+      length += (p - last).norm();
+      last = p;
+    }
+  return length;
+}
+
+} // namespace
+
 void find_girths(const Finder& f) {
   const double s = f.s;
   for (int side = 0; side < 2; ++side) {
@@ -40,33 +60,32 @@ void find_girths(const Finder& f) {
     put("upper_arm", arm_girth(0.5 * (shoulder + elbow), shoulder - elbow));
     put("wrist", arm_girth(wrist, elbow - wrist));
   }
-  // neck: square to its axis a little above the base, and around the base itself
-  if (!f.has("neck_back") || !f.has("neck_front")) return;
-  const Vec3 back = f.at("neck_back"), front = f.at("neck_front");
-  const double rise = f.number("neck.girth_up") * s;
-  auto ring = [&](const Vec3& rear, const Vec3& fore) {
-    const Vec3 middle = 0.5 * (rear + fore), axis = Vec3::UnitX().cross(fore - rear);
-    double girth = 0;
-    for (const Loop& loop : cut(f.levels.skin(), cross_plane(middle, -axis)))
-      if (encloses(loop, Vec2::Zero())) girth = std::max(girth, taut_girth(loop));
-    return girth;
-  };
-  if (const double g = ring(back + Vec3(0, rise, 0.4 * rise), front + Vec3(0, rise, 0)); g > 0 && g < 0.4 * s) f.body.girths["neck"] = {g, 0.008};
-  // the base ring runs over the side neck points: two arcs of the ellipse through the four points
-  if (f.has("neck_side_l") && f.has("neck_side_r")) {
-    const Vec3 middle = 0.5 * (back + front);
-    double length = 0;
-    Vec3 last = front;
-    const Vec3 corner[5] = {front, f.at("neck_side_l"), back, f.at("neck_side_r"), front};
-    for (int k = 0; k < 4; ++k)
-      for (int i = 1; i <= 16; ++i) {
-        const double a = 1.5707963267948966 * i / 16;
-        const Vec3 p = middle + std::cos(a) * (corner[k] - middle) + std::sin(a) * (corner[k + 1] - middle);
-        length += (p - last).norm();
-        last = p;
-      }
-    f.body.girths["neck_base"] = {length, 0.012};
+  // neck rings run higher at the sides than in front: quarter ellipses through four points of the skin
+  if (!f.has("neck_back") || !f.has("neck_front") || !f.has("neck_center")) return;
+  const Vec3 back = f.at("neck_back"), front = f.at("neck_front"), center = f.at("neck_center");
+  const double rise = f.number("neck.girth_up") * s, side_rise = f.number("neck.girth_up_side") * s;
+  const auto fore = midline(f.levels, front.y() + rise, center.x(), 0.006 * s), rear = midline(f.levels, back.y() + rise, center.x(), 0.008 * s);
+  const auto sides = f.levels.trunk_at(center.y() + side_rise);
+  if (fore && rear && sides) {
+    double left = -1e300, right = 1e300;
+    for (const auto& seg : sides->segments)
+      if (std::abs(seg[0].y() - center.z() - 0.003 * s) < 0.012 * s) left = std::max(left, seg[0].x()), right = std::min(right, seg[0].x());
+    if (left > right) {
+      // the slope of the shoulders makes this breadth uncertain; the narrowest breadth of the neck is not
+      double narrowest = 1e300;
+      for (double y = 0.84 * s; y < 0.90 * s; y += 0.004 * s)
+        if (const auto loop = f.levels.trunk_at(y)) narrowest = std::min(narrowest, loop->size().x());
+      const double middle = 0.5 * (left + right), half = 0.5 * f.number("neck.breadth_to_narrowest") * narrowest;
+      const double measured = std::min(0.5 * (left - right), 1.12 * half);
+      left = middle + 0.5 * (measured + half), right = middle - 0.5 * (measured + half);
+      const double y = center.y() + side_rise, z = center.z() + 0.003 * s;
+      const double ring =
+          ring_length({Vec3(center.x(), front.y() + rise, fore->front), Vec3(left, y, z), Vec3(center.x(), back.y() + rise, rear->back), Vec3(right, y, z)});
+      f.body.girths["neck"] = {f.number("neck.ring_factor") * ring, 0.008};
+    }
   }
+  if (f.has("neck_side_l") && f.has("neck_side_r"))
+    f.body.girths["neck_base"] = {f.number("neck_base.ring_factor") * ring_length({front, f.at("neck_side_l"), back, f.at("neck_side_r")}), 0.012};
 }
 
 } // namespace sloper::body
