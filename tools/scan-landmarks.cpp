@@ -1,5 +1,6 @@
 /// scan-landmarks: a raw 3D body scan to landmarks, levels, girths, parts, frames and a skin.
 #include <body/body_json.hpp>
+#include <body/exports.hpp>
 #include <body/measure_scan.hpp>
 #include <cli/run_tool.hpp>
 #include <io/files.hpp>
@@ -12,9 +13,9 @@ using namespace sloper;
 namespace {
 
 struct Options {
-  std::string scan, output, rules, parts;
+  std::string scan, output, rules, parts, csv, skeleton;
   std::string unit = "auto", up = "auto";
-  bool explain = false;
+  bool explain = false, anonymise = false;
 };
 
 void write_parts(const std::string& path, const std::vector<body::Part>& parts) {
@@ -30,9 +31,12 @@ int run(cli::Tool& tool, const Options& o) {
   if (!o.rules.empty()) options.rules = body::Rules::read(o.rules);
   tool.reporter().progress("reading", -1);
   const io::Scan scan = io::read_scan(o.scan);
-  const body::MeasuredScan measured = body::measure_scan(scan.mesh, o.scan, scan.sha256, options, tool.reporter());
+  body::MeasuredScan measured = body::measure_scan(scan.mesh, o.scan, scan.sha256, options, tool.reporter());
+  if (o.anonymise) body::anonymise(measured.body);
   body::write_body(o.output, measured.body, tool.name());
   if (!o.parts.empty()) write_parts(o.parts, measured.vertex_part);
+  if (!o.csv.empty()) io::write_file(o.csv, body::measurements_csv(measured.body));
+  if (!o.skeleton.empty()) io::write_file(o.skeleton, body::skeleton_obj(measured.body));
   if (o.explain)
     for (const std::string& line : measured.trail) std::fprintf(stderr, "%s\n", line.c_str());
   for (const body::Finding& finding : measured.body.scan.findings)
@@ -55,6 +59,9 @@ int main(int argc, char** argv) {
   app.add_option("--rules", o.rules, "landmark rules to use in place of the built-in numbers")->check(cli::input_file());
   app.add_option("--parts", o.parts, "write one byte for each vertex of the scan: 0 head, 1 torso, 2 arm_l, 3 arm_r, 4 leg_l, 5 leg_r, 255 not body")
       ->check(cli::output_file());
+  app.add_option("--csv", o.csv, "write the measurements as a table, with ISO 8559-1 names beside ours")->check(cli::output_file());
+  app.add_option("--skeleton", o.skeleton, "write the bones as an OBJ of lines")->check(cli::output_file());
+  app.add_flag("--anonymise", o.anonymise, "drop the skin and the scan's name; keep landmarks, measurements, frames and bones");
   app.add_flag("--explain", o.explain, "print the decision path to stderr");
   app.add_option("-o,--output", o.output, "body.json; body.obj is written beside it")->required()->check(cli::output_file());
   tool.example("scan-landmarks -o body.json scan.obj", "measure a scan; unit, up axis and facing are found out");

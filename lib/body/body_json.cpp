@@ -50,7 +50,7 @@ Json document_of(const Body& body, const std::string& tool, const std::string& m
     matrix.push_back(row);
   }
   j["scan_to_body"] = matrix;
-  j["mesh"] = mesh_name;
+  if (!mesh_name.empty()) j["mesh"] = mesh_name;
   j["stance"] = {{"class", body.stance_class}, {"arm_l_deg", micron(body.arm_l_deg)}, {"arm_r_deg", micron(body.arm_r_deg)}};
   Json& landmarks = j["landmarks"] = Json::object();
   for (const auto& [name, landmark] : body.landmarks) {
@@ -218,8 +218,8 @@ void write_body(const std::string& path, const Body& body, const std::string& to
     if (static_cast<int>(obj.triangles.size()) > first) obj.groups.push_back({part_name(part), first});
   }
   const std::string mesh_path = io::mesh_path_beside(path);
-  const std::string text = io::to_text(document_of(body, tool, path == "-" ? std::string() : io::file_name(mesh_path)));
-  if (path != "-") io::write_obj(mesh_path, obj, generator_stamp(tool));
+  const std::string text = io::to_text(document_of(body, tool, path == "-" || body.skin.triangles.empty() ? std::string() : io::file_name(mesh_path)));
+  if (path != "-" && !body.skin.triangles.empty()) io::write_obj(mesh_path, obj, generator_stamp(tool));
   io::write_file(path, text);
 }
 

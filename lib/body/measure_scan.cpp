@@ -32,6 +32,27 @@ void describe_stance(Body& body, const std::array<ArmTrace, 2>& arms) {
   body.stance_class = mean > 70 ? "T" : mean > 15 ? "A" : "I";
 }
 
+/// What a user should know of this scan, good or bad.
+void add_findings(Body& body, const SortedScan& sorted, const SkinSurface& skin) {
+  char text[160];
+  auto add = [&](const char* severity, const char* place) { body.scan.findings.push_back({severity, text, place}); };
+  std::snprintf(text, sizeof text, "up is %s: score %.2f against %.2f for the next best direction", sorted.up_name.c_str(), sorted.up_score,
+                std::max(0.0, sorted.next_score));
+  add(sorted.up_score - sorted.next_score < 0.15 && sorted.next_score > 0 ? "warning" : "info", "scan");
+  std::snprintf(text, sizeof text, "roughness %.1f mm", 1000 * skin.noise_m);
+  add("info", "skin");
+  if (sorted.has_floor) {
+    std::snprintf(text, sizeof text, "a floor was left out");
+    add("info", "feet");
+  }
+  if (sorted.n_debris) {
+    std::snprintf(text, sizeof text, "%d loose pieces were left out", sorted.n_debris);
+    add("info", "scan");
+  }
+  std::snprintf(text, sizeof text, "stance %s: arms %.0f and %.0f degrees from hanging down", body.stance_class.c_str(), body.arm_l_deg, body.arm_r_deg);
+  add("info", "arms");
+}
+
 void shift(Body& body, const Vec3& by) {
   for (auto& [name, landmark] : body.landmarks) {
     landmark.p += by;
@@ -101,6 +122,7 @@ MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, con
   body.scan_to_body = turn_and_shift(0, origin) * frame.scan_to_body;
   build_frames(body);
   build_bones(body);
+  add_findings(body, sorted, skin);
   for (const char* name : ESSENTIAL)
     if (!body.has_landmark(name)) {
       result.missing.push_back(name);

@@ -2,9 +2,11 @@
 
 #include <base/error.hpp>
 #include <body/body_json.hpp>
+#include <body/exports.hpp>
 #include <gtest/gtest.h>
 #include <io/files.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <unistd.h>
 
@@ -52,6 +54,35 @@ TEST(BodyDocument, writing_twice_gives_the_same_bytes) {
   write_body(folder.file("a.json"), test::measure(test::mannequin("f-165-a").mesh).body, "scan-landmarks");
   write_body(folder.file("b.json"), test::measure(test::mannequin("f-165-a").mesh).body, "scan-landmarks");
   EXPECT_EQ(io::read_file(folder.file("a.obj")), io::read_file(folder.file("b.obj")));
+}
+
+TEST(BodyDocument, without_its_skin_is_read_too_and_names_nobody) {
+  const Folder folder;
+  Body body = test::measure(test::mannequin("f-165-a").mesh).body;
+  anonymise(body);
+  write_body(folder.file("a.json"), body, "scan-landmarks");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.obj")));
+  const Body read = read_body(folder.file("a.json"));
+  EXPECT_TRUE(read.skin.triangles.empty());
+  EXPECT_EQ(read.frames.size(), body.frames.size());
+  EXPECT_EQ(io::read_file(folder.file("a.json")).find("scan.obj"), std::string::npos);
+}
+
+TEST(Exports, the_table_has_a_row_for_every_girth_and_two_for_every_level) {
+  const Body body = test::measure(test::mannequin("f-165-a").mesh).body;
+  const std::string csv = measurements_csv(body);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), 2 + body.girths.size() + 2 * body.levels.size());
+  EXPECT_NE(csv.find("level_girth,bust,"), std::string::npos);
+  EXPECT_NE(csv.find("bust girth"), std::string::npos);
+}
+
+TEST(Exports, the_skeleton_has_a_line_for_every_bone) {
+  const Body body = test::measure(test::mannequin("f-165-a").mesh).body;
+  const std::string obj = skeleton_obj(body);
+  std::size_t lines = 0;
+  for (std::size_t at = obj.find("\nl "); at != std::string::npos; at = obj.find("\nl ", at + 1)) ++lines;
+  EXPECT_EQ(lines, body.bones.size());
+  EXPECT_GE(lines, 15u);
 }
 
 TEST(BodyDocument, of_a_newer_version_is_refused) {

@@ -1,0 +1,13 @@
+#pragma once
+/// A body for other programs and eyes: a table of measurements, a skeleton, and the body without its skin.
+#include <body/body.hpp>
+namespace sloper::body {
+
+/// CSV with a heading: kind,name,value_m,spread_m,iso_8559_1. Stature, girths, level heights and level girths.
+std::string measurements_csv(const Body& body);
+/// OBJ text of the bones as lines, in the body frame: what a viewer shows as a skeleton.
+std::string skeleton_obj(const Body& body);
+/// Keeps landmarks, levels, girths, frames and bones; drops the skin and what names the scan, so that nobody can be recognised.
+void anonymise(Body& body);
+
+} // namespace sloper::body
