@@ -4,6 +4,7 @@
 #include <cli/run_tool.hpp>
 #include <io/json.hpp>
 #include <pattern/check_pattern.hpp>
+#include <pattern/edits.hpp>
 #include <pattern/mesh_pattern.hpp>
 #include <pattern/panel_mesh_json.hpp>
 #include <pattern/place_panels.hpp>
@@ -15,8 +16,10 @@ using namespace sloper;
 
 namespace {
 
+constexpr double LEAST_ANGLE = 15; // degrees: a mesh carried over an edit is kept while it is no worse
+
 struct Options {
-  std::string pattern, output, sewing, body;
+  std::string pattern, output, sewing, body, edits;
   double edge_length = 0.015;
   bool check = false;
 };
@@ -36,11 +39,21 @@ int check(const cli::Tool& tool, const pattern::Pattern& source, const Options& 
 }
 
 int run(cli::Tool& tool, const Options& o) {
-  const pattern::Pattern source = pattern::read_pattern(o.pattern, o.sewing);
+  pattern::Pattern source = pattern::read_pattern(o.pattern, o.sewing);
   if (o.check) return check(tool, source, o);
   if (o.output.empty()) throw Error(ErrorKind::USAGE, "", "-o", "no output is named", "give -o panels.json");
   pattern::require_sewable(source, o.pattern);
   pattern::PanelMesh mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern);
+  if (!o.edits.empty()) {
+    const pattern::Pattern before = source;
+    pattern::apply_edits(source, io::read_json(o.edits), o.edits);
+    pattern::require_sewable(source, o.pattern);
+    if (!pattern::follow_edits(before, source, mesh, LEAST_ANGLE)) {
+      mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern);
+      mesh.findings.push_back("the edits ask for another mesh: vertex ids are new");
+      tool.reporter().warning(mesh.findings.back());
+    }
+  }
   if (o.body.empty()) pattern::lay_flat(source, mesh);
   else {
     const pattern::PlacementReport r = pattern::place_panels(source, body::read_body(o.body), mesh);
@@ -60,6 +73,8 @@ int main(int argc, char** argv) {
   app.add_option("PATTERN", o.pattern, "pattern JSON, GarmentCode specification, sewing-spec JSON or AAMA / ASTM DXF")->required()->check(cli::input_file());
   app.add_option("--edge-length", o.edge_length, "length of mesh edges, m (default: 0.015)")->check(cli::finite_in(0.001, 0.2, "m"));
   app.add_option("--body", o.body, "body.json from scan-landmarks: panels are placed around this body")->check(cli::input_file());
+  app.add_option("--edits", o.edits, "edits.json: changes of the outline that keep the mesh and its vertex ids where they can; \"-\" reads standard input")
+      ->check(cli::input_file());
   app.add_option("--sewing", o.sewing, "sidecar with the seams of a DXF that has none")->check(cli::input_file());
   app.add_option("-o,--output", o.output, "panels.json; panels.obj is written beside it");
   app.add_flag("--check", o.check, "validate only: findings to standard output (and as JSON to -o), exit 1 where the pattern cannot be sewn as drawn");

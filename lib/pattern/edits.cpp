@@ -1,0 +1,180 @@
+#include <pattern/edits.hpp>
+#include <pattern/outline_json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace sloper::pattern {
+namespace {
+
+constexpr double GRID = 1.0 / (1 << 30); // m: sums of multiples are exact
+
+double snapped(double x) { return std::nearbyint(x / GRID) * GRID; }
+Vec2 snapped(const Vec2& p) { return {snapped(p.x()), snapped(p.y())}; }
+
+/// Adds `by` to a path with weights that fall from w0 at its start to w1 at its end, by control point number: they do not depend on
+/// the shape, so that adding -by undoes it exactly.
+void drag(Path& path, const Vec2& by, double w0, double w1) {
+  const double n = 3.0 * static_cast<double>(path.size());
+  for (std::size_t s = 0; s < path.size(); ++s)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double t = (3.0 * static_cast<double>(s) + static_cast<double>(k)) / n;
+      path[s].p[k] += snapped(Vec2((w0 + t * (w1 - w0)) * by));
+    }
+}
+
+struct Place {
+  std::vector<PanelEdge>* loop;
+  std::size_t at;
+  PanelEdge& edge() const { return (*loop)[at]; }
+  PanelEdge& before() const { return (*loop)[(at + loop->size() - 1) % loop->size()]; }
+  PanelEdge& after() const { return (*loop)[(at + 1) % loop->size()]; }
+};
+
+Place place_of_edge(Panel& panel, int edge) {
+  std::size_t k = static_cast<std::size_t>(edge);
+  for (auto& loop : panel.loops) {
+    if (k < loop.size()) return {&loop, k};
+    k -= loop.size();
+  }
+  return {&panel.loops[0], 0};
+}
+
+/// Moves an edge's ends by two vectors; the edge follows in between, its neighbours with their near ends.
+void move_ends(const Place& place, const Vec2& start, const Vec2& end) {
+  drag(place.edge().path, start, 1, 0), drag(place.edge().path, end, 0, 1);
+  if (place.loop->size() == 1) return;
+  drag(place.before().path, start, 0, 1), drag(place.after().path, end, 1, 0);
+}
+
+/// Scales an edge about a point of itself so that its length becomes `length`.
+void set_length(Panel& panel, int edge, double length, const std::string& fixed) {
+  const Place place = place_of_edge(panel, edge);
+  Path& path = place.edge().path;
+  const double factor = length / pattern::length(path);
+  const Vec2 a = path.front().p[0], b = path.back().p[3], about = fixed == "end" ? b : fixed == "middle" ? Vec2(0.5 * (a + b)) : a;
+  for (Segment& s : path)
+    for (Vec2& p : s.p) p = snapped(Vec2(about + factor * (p - about)));
+  if (place.loop->size() == 1) return;
+  drag(place.before().path, path.front().p[0] - a, 0, 1), drag(place.after().path, path.back().p[3] - b, 1, 0);
+  // The ends must meet to the last bit.
+  place.before().path.back().p[3] = path.front().p[0], place.after().path.front().p[0] = path.back().p[3];
+}
+
+void map_panel(Panel& panel, const std::function<Vec2(const Vec2&)>& map) {
+  for (auto& loop : panel.loops)
+    for (PanelEdge& e : loop)
+      for (Segment& s : e.path)
+        for (Vec2& p : s.p) p = snapped(map(p));
+}
+
+Vec2 middle(const Panel& panel) {
+  Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+  for (const PanelEdge& e : panel.loops[0])
+    for (const Segment& s : e.path) low = low.cwiseMin(s.p[0]), high = high.cwiseMax(s.p[0]);
+  return 0.5 * (low + high);
+}
+
+double factor(const io::Node& node, const char* key) {
+  const double f = node.number(key, 1);
+  if (!(f > 0.05 && f < 20)) node.at(key).fail("a factor of " + std::to_string(f) + " is no edit", "give 0.05 to 20");
+  return f;
+}
+
+double positive_length(const io::Node& node, double unit) {
+  const double length = node.at("length").number() * unit;
+  if (!(length > 1e-4)) node.at("length").fail("a length of " + centimetres(length) + " is no length", "give more than 0.01 cm");
+  return length;
+}
+
+void apply(Pattern& pattern, const io::Node& node, double unit) {
+  const std::string what = node.at("edit").string();
+  const auto panel = [&]() -> Panel& { return pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("panel")))]; };
+  const auto edge = [&](Panel& p) { return edge_named(p, node.at("edge")); };
+  if (what == "move-point") {
+    node.allow_only({"edit", "panel", "edge", "end", "by"});
+    Panel& p = panel();
+    const std::string end = node.string("end", "start");
+    if (end != "start" && end != "end") node.at("end").fail("'" + end + "' is no end of an edge", "give start or end");
+    const Vec2 by = snapped(Vec2(node.at("by").vec2() * unit)), none(0, 0);
+    move_ends(place_of_edge(p, edge(p)), end == "start" ? by : none, end == "end" ? by : none);
+  } else if (what == "move-edge") {
+    node.allow_only({"edit", "panel", "edge", "by"});
+    Panel& p = panel();
+    const Vec2 by = snapped(Vec2(node.at("by").vec2() * unit));
+    const Place place = place_of_edge(p, edge(p));
+    drag(place.edge().path, by, 1, 1);
+    if (place.loop->size() > 1) drag(place.before().path, by, 0, 1), drag(place.after().path, by, 1, 0);
+  } else if (what == "take-in" || what == "let-out") {
+    node.allow_only({"edit", "panel", "edge", "by"});
+    Panel& p = panel();
+    const Place place = place_of_edge(p, edge(p));
+    const Vec2 chord = place.edge().path.back().p[3] - place.edge().path.front().p[0];
+    if (chord.norm() < 1e-6) node.fail("edge " + place.edge().name + " ends where it starts and has no direction to move in");
+    const Vec2 inward = Vec2(-chord.y(), chord.x()).normalized() * (what == "take-in" ? 1 : -1);
+    const Vec2 by = snapped(Vec2(inward * node.at("by").number() * unit));
+    drag(place.edge().path, by, 1, 1);
+    if (place.loop->size() > 1) drag(place.before().path, by, 0, 1), drag(place.after().path, by, 1, 0);
+  } else if (what == "set-length") {
+    node.allow_only({"edit", "panel", "edge", "seam", "length", "fixed"});
+    const double length = positive_length(node, unit);
+    const std::string fixed = node.string("fixed", "start");
+    if (fixed != "start" && fixed != "end" && fixed != "middle") node.at("fixed").fail("'" + fixed + "' cannot be fixed", "give start, end or middle");
+    if (!node.has("seam")) {
+      Panel& p = panel();
+      set_length(p, edge(p), length, fixed);
+      return;
+    }
+    const std::string name = node.at("seam").string();
+    const auto seam = std::find_if(pattern.seams.begin(), pattern.seams.end(), [&](const Seam& s) { return s.name == name; });
+    if (seam == pattern.seams.end()) node.at("seam").fail("there is no seam '" + name + "'");
+    for (const auto* side : {&seam->a, &seam->b}) {
+      const double ratio = length / side_length(pattern, *side);
+      for (const Run& run : *side) {
+        Panel& p = pattern.panels[static_cast<std::size_t>(run.panel)];
+        set_length(p, run.edge, ratio * pattern::length(p.edge(run.edge).path), fixed);
+      }
+    }
+  } else if (what == "lengthen") {
+    node.allow_only({"edit", "panel", "at", "along", "by"});
+    const Vec2 at = node.at("at").vec2() * unit, way = node.at("along").vec2();
+    if (!(way.norm() > 0)) node.at("along").fail("there is no direction");
+    const Vec2 along = way.normalized(), by = snapped(Vec2(along * node.at("by").number() * unit));
+    map_panel(panel(), [&](const Vec2& p) { return (p - at).dot(along) > 0 ? Vec2(p + by) : p; });
+  } else if (what == "scale") {
+    node.allow_only({"edit", "panel", "x", "y"});
+    const double x = factor(node, "x"), y = factor(node, "y");
+    for (Panel& p : pattern.panels) {
+      if (node.has("panel") && &p != &panel()) continue;
+      const Vec2 c = middle(p);
+      map_panel(p, [&](const Vec2& q) { return Vec2(c.x() + x * (q.x() - c.x()), c.y() + y * (q.y() - c.y())); });
+    }
+  } else if (what == "shrink") {
+    node.allow_only({"edit", "panel", "warp", "weft"});
+    Panel& p = panel();
+    const double warp = factor(node, "warp"), weft = factor(node, "weft");
+    const Vec2 c = middle(p), u = p.grain, v(-u.y(), u.x());
+    map_panel(p, [&](const Vec2& q) { return Vec2(c + warp * (q - c).dot(u) * u + weft * (q - c).dot(v) * v); });
+  } else {
+    const std::string known[] = {"move-point", "move-edge", "set-length", "take-in", "let-out", "lengthen", "scale", "shrink"};
+    const std::string near = nearest_word(what, std::begin(known), std::end(known));
+    node.at("edit").fail("unknown edit '" + what + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)"),
+                         "known are move-point, move-edge, set-length, take-in, let-out, lengthen, scale and shrink");
+  }
+}
+
+} // namespace
+
+void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file) {
+  const io::Node root(json, file);
+  root.allow_only({"format", "version", "generator", "length_unit", "edits"});
+  if (root.at("format").string() != "edits") root.at("format").fail("this is no edits document", "write \"format\": \"edits\"");
+  if (root.integer("version", 1) > 1) root.at("version").fail("the version is newer than this program knows", "update, or write version 1");
+  const double unit = unit_of(root.at("length_unit"));
+  for (Panel& p : pattern.panels) map_panel(p, [](const Vec2& q) { return q; });
+  const io::Node edits = root.at("edits");
+  for (std::size_t k = 0; k < edits.size(); ++k) apply(pattern, edits.at(k), unit);
+}
+
+} // namespace sloper::pattern
