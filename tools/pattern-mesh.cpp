@@ -2,9 +2,11 @@
 #include <base/progress.hpp>
 #include <body/body_json.hpp>
 #include <cli/run_tool.hpp>
+#include <io/files.hpp>
 #include <io/json.hpp>
 #include <pattern/check_pattern.hpp>
 #include <pattern/edits.hpp>
+#include <pattern/export_pattern.hpp>
 #include <pattern/mesh_pattern.hpp>
 #include <pattern/panel_mesh_json.hpp>
 #include <pattern/place_panels.hpp>
@@ -19,7 +21,7 @@ namespace {
 constexpr double LEAST_ANGLE = 15; // degrees: a mesh carried over an edit is kept while it is no worse
 
 struct Options {
-  std::string pattern, output, sewing, body, edits;
+  std::string pattern, output, sewing, body, edits, write_pattern;
   double edge_length = 0.015;
   bool check = false;
 };
@@ -38,9 +40,22 @@ int check(const cli::Tool& tool, const pattern::Pattern& source, const Options& 
   return bad ? 1 : 0;
 }
 
+/// The pattern as read (and edited), in the format of the file name's ending.
+void write_pattern(cli::Tool& tool, const pattern::Pattern& source, const std::string& path) {
+  const auto ends = [&](const std::string& tail) { return path.size() >= tail.size() && path.compare(path.size() - tail.size(), tail.size(), tail) == 0; };
+  if (ends(".svg")) io::write_file(path, pattern::pattern_svg(source));
+  else if (ends(".dxf")) {
+    std::vector<std::string> left_out;
+    io::write_file(path, pattern::pattern_dxf(source, left_out));
+    for (const std::string& line : left_out) tool.reporter().warning(line);
+  } else if (ends(".json")) io::write_json(path, pattern::pattern_json(source, tool.name()));
+  else throw Error(ErrorKind::USAGE, path, "", "no pattern format has this ending", "name a .json, .dxf or .svg file");
+}
+
 int run(cli::Tool& tool, const Options& o) {
   pattern::Pattern source = pattern::read_pattern(o.pattern, o.sewing);
   if (o.check) return check(tool, source, o);
+  if (o.output.empty() && !o.write_pattern.empty() && o.edits.empty()) return write_pattern(tool, source, o.write_pattern), 0;
   if (o.output.empty()) throw Error(ErrorKind::USAGE, "", "-o", "no output is named", "give -o panels.json");
   pattern::require_sewable(source, o.pattern);
   pattern::PanelMesh mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern);
@@ -54,6 +69,7 @@ int run(cli::Tool& tool, const Options& o) {
       tool.reporter().warning(mesh.findings.back());
     }
   }
+  if (!o.write_pattern.empty()) write_pattern(tool, source, o.write_pattern);
   if (o.body.empty()) pattern::lay_flat(source, mesh);
   else {
     const pattern::PlacementReport r = pattern::place_panels(source, body::read_body(o.body), mesh);
@@ -76,6 +92,8 @@ int main(int argc, char** argv) {
   app.add_option("--edits", o.edits, "edits.json: changes of the outline that keep the mesh and its vertex ids where they can; \"-\" reads standard input")
       ->check(cli::input_file());
   app.add_option("--sewing", o.sewing, "sidecar with the seams of a DXF that has none")->check(cli::input_file());
+  app.add_option("--write-pattern", o.write_pattern,
+                 "write the pattern as read and edited: FILE.json (own format), FILE.dxf (AAMA with sewing texts) or FILE.svg (to look at)");
   app.add_option("-o,--output", o.output, "panels.json; panels.obj is written beside it");
   app.add_flag("--check", o.check, "validate only: findings to standard output (and as JSON to -o), exit 1 where the pattern cannot be sewn as drawn");
   tool.example("pattern-mesh --body body.json -o panels.json shirt.pattern.json", "mesh a pattern and place it around a scanned body");

@@ -1,0 +1,19 @@
+#pragma once
+/// Patterns written out: our own JSON, DXF with sew line and notches, SVG to look at.
+#include <io/json.hpp>
+#include <pattern/pattern.hpp>
+
+namespace sloper::pattern {
+
+/// Our own pattern document, centimetres, curves as cubic Beziers; read_pattern_json() gives the same panels and seams back.
+io::Json pattern_json(const Pattern& pattern, const std::string& tool);
+
+/// AAMA DXF R12, millimetres: one block per panel, sew line on layer 14 (curves as chords of 2 mm), turn points on 2, curve points
+/// on 3, notches on 4, grain on 7, cut-outs on 11, sewing as layer-15 texts. Partial runs cannot be said there and are listed.
+/// @param left_out what the format cannot hold
+std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_out);
+
+/// Panels side by side at 1:1 (SVG user unit 1 mm), edges named, both sides of a seam in one colour, grain as an arrow.
+std::string pattern_svg(const Pattern& pattern);
+
+} // namespace sloper::pattern
