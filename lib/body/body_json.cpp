@@ -50,7 +50,10 @@ Json document_of(const Body& body, const std::string& tool, const std::string& m
     matrix.push_back(row);
   }
   j["scan_to_body"] = matrix;
-  if (!mesh_name.empty()) j["mesh"] = mesh_name;
+  if (!mesh_name.empty()) {
+    j["mesh"] = mesh_name;
+    j["mesh_faces"] = body.skin.triangles.size(); // an OBJ that was cut off is still an OBJ
+  }
   j["stance"] = {{"class", body.stance_class}, {"arm_l_deg", micron(body.arm_l_deg)}, {"arm_r_deg", micron(body.arm_r_deg)}};
   Json& landmarks = j["landmarks"] = Json::object();
   for (const auto& [name, landmark] : body.landmarks) {
@@ -201,7 +204,14 @@ Body read_body(const std::string& path) {
     if (root.at("body_class").has("why"))
       for (std::size_t i = 0; i < root.at("body_class").at("why").size(); ++i) body.body_class_why.push_back(root.at("body_class").at("why").at(i).string());
   }
-  if (root.has("mesh") && root.at("mesh").is_string()) read_skin(io::path_beside(path, root.at("mesh").string()), body); // --anonymise leaves it out
+  if (root.has("mesh") && root.at("mesh").is_string()) { // --anonymise leaves it out
+    const std::string mesh_path = io::path_beside(path, root.at("mesh").string());
+    read_skin(mesh_path, body);
+    const int faces = static_cast<int>(body.skin.triangles.size());
+    if (const int expected = root.integer("mesh_faces", faces); faces != expected)
+      throw input_error(mesh_path, "", "has " + std::to_string(faces) + " faces where " + io::file_name(path) + " says " + std::to_string(expected),
+                        "it was cut off or replaced; run scan-landmarks again");
+  }
   return body;
 }
 

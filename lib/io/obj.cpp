@@ -128,7 +128,11 @@ void append_number(std::string& out, double x) {
 
 ObjMesh parse_obj(std::string_view text, const std::string& name) { return Parser(text, name).run(); }
 
-ObjMesh read_obj(const std::string& path) { return parse_obj(read_file(path), path); }
+ObjMesh read_obj(const std::string& path) {
+  ObjMesh mesh = parse_obj(read_file(path), path);
+  if (mesh.positions.empty()) throw input_error(path, "", "has no vertices", "the file is empty or no OBJ");
+  return mesh;
+}
 
 std::string obj_text(const ObjMesh& mesh, const std::string& comment) {
   std::string out = "# " + comment + "\n";
