@@ -119,8 +119,20 @@ private:
       }
       shift = m_space.waist_height(waist) + 0.01 - top;
     }
+    shift += clear_of_feet(shift);
     for (std::size_t k = 0; k < m_roles.size(); ++k)
       if (m_roles[k].region == Region::TRUNK) m_spots[k].offset.y() += shift;
+  }
+
+  /// Trouser legs that reach the feet start above them: a hem closes around an ankle, not around a foot. Gravity brings them down.
+  double clear_of_feet(double shift) const {
+    double bottom = 1e300;
+    for (std::size_t k = 0; k < m_roles.size(); ++k)
+      if (m_roles[k].part == "leg_l" || m_roles[k].part == "leg_r")
+        bottom = std::min(bottom, laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k))[0].y() + shift);
+    if (bottom > 1e299) return 0;
+    const double ankle = m_space.body().has_landmark("ankle_l") ? m_space.body().landmark("ankle_l").y() : 0.045 * m_space.stature();
+    return std::clamp(ankle + 0.025 - bottom, 0.0, 0.15);
   }
 
   bool sewn(int vertex) {
