@@ -9,7 +9,7 @@ namespace sloper::cloth {
 /// In one step a particle comes down at most to this share of its gap, or uses this share of what it has below that.
 static constexpr double APPROACH = 0.5;
 /// Below this share of the gap the push grows as 1/d, up to a factor.
-static constexpr double BARRIER = 0.3, LARGEST_BARRIER = 100;
+static constexpr double BARRIER = 0.3, LARGEST_BARRIER = 10;
 /// Along the skin a touching particle moves at most this far in one step, m: the normal is only known here.
 static constexpr double LARGEST_SLIDE = 0.01;
 /// Clearance beyond the gap below which a particle is asked again, m.
@@ -37,12 +37,14 @@ void BodyContactEffect::begin_step(const std::vector<Vec3>& x, double) {
   parallel_for(m_state.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       State& s = m_state[i];
+      const bool was_near = s.near;
       s.near = false;
       const double clearance = s.clearance - (x[i] - s.asked_at).norm();
       if (clearance > m_gap[i] + MARGIN) continue;
       const collision::SignedDistance d = m_body.signed_distance(x[i], m_options.search_m, s.triangle);
       ++asked[begin / 256];
       s.asked_at = x[i];
+      const int last_triangle = s.triangle;
       s.triangle = d.triangle;
       if (d.triangle < 0) {
         s.clearance = m_options.search_m;
@@ -51,7 +53,9 @@ void BodyContactEffect::begin_step(const std::vector<Vec3>& x, double) {
       }
       s.near = true;
       s.distance = d.distance;
-      s.normal = d.normal;
+      // Where the nearest triangle has changed, the mean of both normals keeps a particle from flipping between two facets.
+      const bool changed = was_near && d.triangle != last_triangle && s.normal.dot(d.normal) > 0.3;
+      s.normal = changed ? Vec3((s.normal + d.normal).normalized()) : d.normal;
       s.clearance = std::abs(d.distance);
       if (d.distance < 0) s.clearance = -1;
     }
@@ -61,6 +65,7 @@ void BodyContactEffect::begin_step(const std::vector<Vec3>& x, double) {
 
 void BodyContactEffect::add(StepContext& c) {
   if (m_options.friction > 0) ++friction_calls;
+  if (!m_watched.empty()) add_face_contacts(c);
   for (int i = 0; i < m_mesh.n_particles; ++i) {
     State& s = m_state[i];
     s.normal_force = 0;
@@ -98,7 +103,31 @@ void BodyContactEffect::add(StepContext& c) {
   }
 }
 
-void BodyContactEffect::limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx) {
+void BodyContactEffect::watch_faces(const std::vector<Triangle>& triangles) {
+  m_watched = triangles;
+  m_watched_topology = collision::make_topology(m_mesh.n_particles, m_watched);
+}
+
+void BodyContactEffect::add_face_contacts(StepContext& c) {
+  for (const collision::FaceContact& contact : m_body.face_contacts(c.x, m_watched, m_watched_topology, m_options.gap_m)) {
+    const Triangle& t = m_watched[contact.triangle];
+    double area = 0;
+    for (int k = 0; k < 3; ++k) area += contact.barycentric[k] * m_mesh.area[t[k]];
+    const double depth = std::min(m_options.gap_m - contact.distance, m_options.gap_m + 0.002);
+    if (depth <= 0) continue;
+    const double k = 0.5 * m_options.stiffness_n_m3 * area * depth / m_options.gap_m;
+    ContactElement e;
+    e.n = 3;
+    e.particle = {t[0], t[1], t[2], 0};
+    e.weight = {contact.barycentric[0], contact.barycentric[1], contact.barycentric[2], 0};
+    e.normal = contact.normal;
+    e.normal_stiffness = k;
+    e.force = 0.5 * k * depth * contact.normal;
+    c.elements.push_back(e);
+  }
+}
+
+void BodyContactEffect::limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std::vector<char>& held) {
   for (std::size_t i = 0; i < m_state.size(); ++i) {
     const State& s = m_state[i];
     if (!s.near) {
@@ -109,7 +138,9 @@ void BodyContactEffect::limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx)
     double along = dx[i].dot(s.normal);
     const Vec3 slide = dx[i] - along * s.normal;
     const double slide_length = slide.norm(), slide_most = LARGEST_SLIDE + std::max(s.distance, 0.0);
+    const double wanted = along;
     along = std::max(along, -std::max({s.distance - APPROACH * m_gap[i], APPROACH * s.distance, 0.0}));
+    if (along > wanted) held[i] = 1;
     dx[i] = along * s.normal + (slide_length > slide_most ? slide_most / slide_length : 1.0) * slide;
   }
 }

@@ -27,10 +27,12 @@ public:
   const char* name() const override { return "body_contact"; }
   void begin_step(const std::vector<Vec3>& x, double h) override;
   void add(StepContext& c) override;
-  void limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx) override;
+  void limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std::vector<char>& held) override;
 
   /// Moves the body (same topology). What is known of distances shrinks by its largest motion.
   void move_body(const std::vector<Vec3>& positions);
+  /// The next level of contact, for a few faces: body vertices and edges against these (particle) triangles and their edges.
+  void watch_faces(const std::vector<Triangle>& triangles);
   void set_friction(double mu) { m_options.friction = mu; }
   /// Contact distance of one particle; raised where the audit finds a face through the body.
   double& gap(int particle) { return m_gap[particle]; }
@@ -52,12 +54,16 @@ private:
     Vec3 normal = Vec3::UnitY(), asked_at = Vec3::Zero(), anchor = Vec3::Zero();
   };
 
+  void add_face_contacts(StepContext& c);
+
   const ClothMesh& m_mesh;
   collision::BodyCollider& m_body;
   BodyContactOptions m_options;
   std::vector<State> m_state;
   std::vector<double> m_gap;
   std::vector<Vec3> m_body_positions;
+  std::vector<Triangle> m_watched;
+  collision::Topology m_watched_topology;
 };
 
 } // namespace sloper::cloth

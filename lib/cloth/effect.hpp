@@ -28,7 +28,8 @@ public:
   virtual void begin_step(const std::vector<Vec3>& /*x*/, double /*h*/) {}
   virtual void add(StepContext& context) = 0;
   /// Shortens proposed displacements that would pass through something. dx: #P by 3, m
-  virtual void limit(const std::vector<Vec3>& /*x*/, std::vector<Vec3>& /*dx*/) {}
+  /// @param held  #P, set to 1 for a particle that is held back: a constraint carries its force
+  virtual void limit(const std::vector<Vec3>& /*x*/, std::vector<Vec3>& /*dx*/, std::vector<char>& /*held*/) {}
   /// After the step: x has become x + dx.
   virtual void end_step(const std::vector<Vec3>& /*x*/) {}
 

@@ -81,15 +81,10 @@ StepResult ClothSolver::step(const StepOptions& o) {
   {
     const Stopwatch watch(assembly_s);
     add_forces(m_elements, m_force);
-    double force2 = 0, weight = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      force2 += m_force[i].squaredNorm();
-      weight += m_mesh.mass[i] * 9.80665;
       m_matrix.add_diagonal(static_cast<int>(i), m_mesh.mass[i] / (o.h * o.h) * Mat3::Identity());
       m_rhs[i] = m_force[i] + o.inertia * m_mesh.mass[i] / o.h * m_v[i];
     }
-    result.residual_force_rms = std::sqrt(force2 / static_cast<double>(n));
-    result.residual_force_ratio = result.residual_force_rms / (weight / static_cast<double>(n));
   }
   {
     const Stopwatch watch(solve_s);
@@ -108,11 +103,26 @@ StepResult ClothSolver::step(const StepOptions& o) {
   }
   {
     const Stopwatch watch(contact_s);
-    for (const auto& e : m_effects) e->limit(m_x, m_dx);
+    m_held.assign(n, 0);
+    for (const auto& e : m_effects) e->limit(m_x, m_dx, m_held);
   }
   if (!all_finite(m_dx)) {
     result.finite = false;
     return result;
+  }
+  double weight = 0;
+  m_residual.clear();
+  for (std::size_t i = 0; i < n; ++i) {
+    weight += m_mesh.mass[i] * 9.80665;
+    if (m_held[i]) ++result.held;
+    else m_residual.push_back(m_force[i].norm());
+  }
+  if (!m_residual.empty()) {
+    const double mean_weight = weight / static_cast<double>(n);
+    const auto p95 = m_residual.begin() + static_cast<long>(0.95 * static_cast<double>(m_residual.size() - 1));
+    std::nth_element(m_residual.begin(), p95, m_residual.end());
+    result.residual_force_ratio = *p95 / mean_weight;
+    result.residual_force_ratio_max = *std::max_element(p95, m_residual.end()) / mean_weight;
   }
   for (std::size_t i = 0; i < n; ++i) {
     result.largest_move_m = std::max(result.largest_move_m, m_dx[i].norm());

@@ -21,11 +21,13 @@ struct StepOptions {
 
 struct StepResult {
   CgResult cg;
-  double relaxation = 1;           ///< (0, 1]: share of the solution that is taken; below 1 where steps swing to and fro
-  double largest_move_m = 0;       ///< after limits
-  double residual_force_rms = 0;   ///< N, of f0 before the step
-  double residual_force_ratio = 0; ///< RMS over particles of |f0| over the mean weight of a particle
-  bool finite = true;              ///< false: nothing was moved
+  double relaxation = 1;     ///< (0, 1]: share of the solution that is taken; below 1 where steps swing to and fro
+  double largest_move_m = 0; ///< after limits
+  /// 95th percentile and maximum of |f0| over the particles that nothing holds back, over the mean weight of a particle. The
+  /// percentile decides: single particles may flip between two facets of the skin for ever without moving anything.
+  double residual_force_ratio = 0, residual_force_ratio_max = 0;
+  std::size_t held = 0; ///< particles that a contact limit holds back: it carries their force
+  bool finite = true;   ///< false: nothing was moved
 };
 
 /// State and effects of one cloth. Allocates at the first step only, apart from growing contact lists.
@@ -54,6 +56,8 @@ private:
   std::vector<Vec3> m_x, m_v, m_force, m_rhs, m_dx;
   std::vector<std::unique_ptr<Effect>> m_effects;
   std::vector<ContactElement> m_elements;
+  std::vector<char> m_held;
+  std::vector<double> m_residual;
   BlockMatrix m_matrix;
   bool m_pattern_stale = true;
   std::unique_ptr<Preconditioner> m_preconditioner;

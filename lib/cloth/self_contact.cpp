@@ -135,7 +135,7 @@ void SelfContactEffect::add(StepContext& c) {
   }
 }
 
-void SelfContactEffect::limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx) {
+void SelfContactEffect::limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std::vector<char>& held) {
   // First the part of a motion that runs into a plane is taken off, which leaves sliding; then what still breaks a plane or
   // the ball around the place of the search is shortened, which always helps: the present state keeps them all.
   auto over = [&](const Near& near, int k, double& along) { // by how much dx may not go towards the plane; > 0: too far
@@ -151,6 +151,7 @@ void SelfContactEffect::limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx)
       const double excess = over(near, k, along);
       if (excess <= 0) continue;
       dx[near.particle[k]] += (k < (near.is_edge ? 2 : 1) ? 1 : -1) * excess * near.normal;
+      held[near.particle[k]] = 1;
       m_stale = true;
     }
   m_share.assign(dx.size(), 1);

@@ -29,7 +29,7 @@ public:
   const char* name() const override { return "self_contact"; }
   void begin_step(const std::vector<Vec3>& x, double h) override;
   void add(StepContext& c) override;
-  void limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx) override;
+  void limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std::vector<char>& held) override;
   void set_search(double search_m);
   void set_friction(double mu) { m_options.friction = mu; }
   /// Crossing pairs of triangles at the last search; while there are any, each search looks for them anew.

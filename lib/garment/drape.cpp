@@ -20,10 +20,10 @@ constexpr double SEWN_GAP = 5e-4;   // m: a stitch this short is welded
 constexpr int SEW_STEPS = 600;      // at most
 constexpr double SEW_REACH = 0.05;  // m: the pull of a stitch does not grow beyond this gap
 constexpr double SEW_PULL = 10;     // of a stitch at reach, in weights of a particle
-constexpr double SEW_SEARCH = 0.02; // m: cloth nearer than this is watched while sewing
-constexpr double SEW_MOVE = 0.008;  // m: of any particle in one step
+constexpr double SEW_SEARCH = 0.75; // of the mesh edge: cloth nearer than this is watched while sewing
+constexpr double SEW_MOVE = 0.4;    // of the mesh edge: of any particle in one step
 constexpr double SEW_STEP_S = 0.1;
-constexpr double SEW_STRONGEST = 10;     // N at reach
+constexpr double SEW_STRONGEST = 5;      // N at reach
 constexpr double SEW_BENDING = 30;       // times that of the fabric
 constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step while the body is inflated
 constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
@@ -53,6 +53,12 @@ DrapeRun::DrapeRun(Garment& garment, const body::Body* body, const DrapeSettings
 }
 
 double DrapeRun::elapsed() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
+
+double DrapeRun::mean_edge() const {
+  double sum = 0;
+  for (const cloth::EdgeSpring& s : m_cloth->springs) sum += s.rest_length;
+  return sum / static_cast<double>(m_cloth->springs.size());
+}
 
 bool DrapeRun::active(const char* effect) const { return is_active(m_report.effects, effect); }
 
@@ -110,7 +116,7 @@ void DrapeRun::build_solver(bool open_seams) {
   }
   cloth::SelfContactOptions options;
   options.thickness_m = m_settings.self_thickness_m;
-  if (open_seams) options.search_m = SEW_SEARCH;
+  if (open_seams) options.search_m = SEW_SEARCH * mean_edge();
   m_self_contact = nullptr;
   if (active("self_contact"))
     m_self_contact = &m_solver->emplace<cloth::SelfContactEffect>(*m_cloth, options, open_seams ? seam_classes(m_garment) : std::vector<int>{});
@@ -162,13 +168,13 @@ void DrapeRun::sew() {
     m_reporter.progress("sew", 0.4 * k / SEW_STEPS);
     if (k % 20 == 0) m_reporter.info("sew step " + std::to_string(k) + ": largest gap " + millimetres(gaps.back()) + ", pull " + std::to_string(pull) + " N");
     if (gaps.back() < SEWN_GAP) break;
-    const bool slow = k >= last_change + 8 && gaps[k] > 0.97 * gaps[k - 8];
-    if (slow && pull >= SEW_STRONGEST && k >= last_change + 24) break; // it will not come closer
+    const bool slow = k >= last_change + 5 && gaps[k] > 0.96 * gaps[k - 5];
+    if (slow && pull >= SEW_STRONGEST && k >= last_change + 20) break; // it will not come closer
     if (slow && pull < SEW_STRONGEST) {
       pull = std::min(1.6 * pull, SEW_STRONGEST);
       last_change = k;
     }
-    if (!step(SEW_STEP_S, 0, SEW_MOVE)) return;
+    if (!step(SEW_STEP_S, 0, SEW_MOVE * mean_edge())) return;
   }
   const double gap = m_sewing->largest_gap(m_solver->x());
   if (gap > 5 * SEWN_GAP) m_report.repairs.push_back("seams were still open by " + millimetres(gap) + " when they were welded");
@@ -199,7 +205,7 @@ void DrapeRun::settle() {
   if (active("friction") && m_body_contact) m_body_contact->set_friction(material.friction_body);
   if (active("friction") && m_self_contact) m_self_contact->set_friction(material.friction_self);
   double h = m_settings.time_step_s, least = 1e300;
-  int calm = 0, round = 0, since_least = 0;
+  int calm = 0, since_least = 0;
   m_relaxation = 1;
   for (int k = 0; !m_stopped; ++k) {
     if (!step(h, 0)) break;
@@ -216,15 +222,16 @@ void DrapeRun::settle() {
       since_least = 0;
       m_relaxation = std::min(1.0, 1.1 * m_relaxation);
     } else if (++since_least >= 8) {
-      m_relaxation = std::max(0.3, 0.7 * m_relaxation);
+      m_relaxation = std::max(0.5, 0.7 * m_relaxation);
       least = residual;
       since_least = 0;
     }
+    if (k > 20 && k % 25 == 0 && m_last.largest_move_m < 0.002 && m_rounds < REPAIR_ROUNDS) repair_faces_through(); // early, while things still move
     const bool still = speed < m_settings.settle_speed_m_s && residual < m_settings.settle_force_ratio;
     calm = still ? calm + 1 : 0;
     if (calm < 3) continue;
     m_garment.position = m_solver->x();
-    if (round++ < REPAIR_ROUNDS && repair_faces_through()) {
+    if (m_rounds < REPAIR_ROUNDS && repair_faces_through()) {
       calm = 0;
       least = 1e300;
       h = m_settings.time_step_s;
@@ -239,19 +246,33 @@ void DrapeRun::settle() {
 bool DrapeRun::repair_faces_through() {
   if (!m_body_contact) return false;
   const std::vector<Triangle> triangles = m_garment.particle_triangles();
-  const std::vector<int> through = m_collider->faces_through(m_garment.position, triangles);
-  std::vector<char> raise(m_garment.position.size(), 0);
-  for (int f : through)
-    for (int p : triangles[f]) raise[p] = 1;
+  const std::vector<int> through = m_collider->faces_through(m_solver->x(), triangles);
+  if (through.empty()) return false;
+  std::vector<char> near(m_garment.position.size(), 0);
   bool changed = false;
-  for (std::size_t p = 0; p < raise.size(); ++p) {
-    double& gap = m_body_contact->gap(static_cast<int>(p));
-    if (!raise[p] || gap >= LARGEST_GAP) continue;
-    gap += GAP_RAISE;
-    changed = true;
+  for (int f : through)
+    for (int p : triangles[f]) {
+      near[p] = 1;
+      if (m_rounds < 4) continue; // closer contact did not do: keep the corners farther off
+      double& gap = m_body_contact->gap(p);
+      if (gap >= LARGEST_GAP) continue;
+      gap += GAP_RAISE;
+      changed = true;
+    }
+  ++m_rounds;
+  std::vector<Triangle> watched;
+  m_watched.resize(triangles.size(), 0);
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    if (!m_watched[f] && (near[triangles[f][0]] || near[triangles[f][1]] || near[triangles[f][2]])) {
+      m_watched[f] = 1;
+      changed = true;
+    }
+    if (m_watched[f]) watched.push_back(triangles[f]);
   }
-  if (changed) m_reporter.info(std::to_string(through.size()) + " faces through the skin: contact distance raised there");
-  return changed;
+  m_body_contact->watch_faces(watched);
+  m_reporter.info(std::to_string(through.size()) + " faces through the skin: contact of faces and edges on " + std::to_string(watched.size()) +
+                  " of them and around");
+  return changed || m_rounds < REPAIR_ROUNDS;
 }
 
 void DrapeRun::report_effects() {
@@ -279,6 +300,8 @@ void DrapeRun::finish() {
   auto triple = [](const double q[3]) { return io::Json{{"p50", q[0]}, {"p99", q[1]}, {"max", q[2]}}; };
   m_report.quality = {{"max_speed_m_s", m_report.simulated_s > 0 ? m_last.largest_move_m * 30 : 0},
                       {"residual_force_ratio", m_last.residual_force_ratio},
+                      {"residual_force_ratio_max", m_last.residual_force_ratio_max},
+                      {"particles_held", m_last.held},
                       {"strain", {{"warp", triple(a.strain_warp)}, {"weft", triple(a.strain_weft)}, {"bias", triple(a.strain_bias)}}},
                       {"faces_through_body", a.through.size()},
                       {"vertices_inside_body", a.inside.size()},

@@ -18,7 +18,7 @@ struct DrapeSettings {
   double contact_gap_m = 0.003;     ///< distance to the skin at which contact begins
   double self_thickness_m = 0.002;  ///< distance at which cloth feels cloth
   double settle_speed_m_s = 0.01;   ///< at rest below this speed
-  double settle_force_ratio = 0.01; ///< residual force over a particle's weight
+  double settle_force_ratio = 0.05; ///< residual force over a particle's weight
   double gravity_m_s2 = 9.80665;
   int max_steps = 1500;
   double max_seconds = 0;       ///< wall clock, 0 = no limit

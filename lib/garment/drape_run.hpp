@@ -33,6 +33,7 @@ private:
   void finish();
   void report_effects(); ///< adds the solver's counts to the report
   bool active(const char* effect) const;
+  double mean_edge() const; ///< mean rest length of the cloth's edges, m
 
   Garment& m_garment;
   const body::Body* m_body;
@@ -51,6 +52,8 @@ private:
   cloth::BodyContactEffect* m_body_contact = nullptr;
   cloth::SelfContactEffect* m_self_contact = nullptr;
   cloth::SewingSpringEffect* m_sewing = nullptr;
+  std::vector<char> m_watched; ///< triangles with face and edge contact
+  int m_rounds = 0;            ///< of repair_faces_through
   cloth::StepResult m_last;
   std::vector<int> m_cg_iterations;
   std::vector<std::string> m_rejected;

@@ -65,8 +65,9 @@ TEST(Drape, a_garment_that_starts_inside_the_body_is_repaired_and_the_repair_is_
   body::Body pillar = make_pillar();
   pillar.landmarks["hip_center"].p = Vec3(0, 0.2, 0);
   pillar.landmarks["neck_center"].p = Vec3(0, 1.2, 0);
+  Loud loud;
   Garment skirt = make_skirt(0.75, 0.4, 0.025, 1.02, 0.06);
-  const DrapeReport report = drape(skirt, &pillar, {}, silent_reporter());
+  const DrapeReport report = drape(skirt, &pillar, {}, loud);
   EXPECT_TRUE(report.converged) << report.stop_reason;
   ASSERT_FALSE(report.repairs.empty());
   const collision::BodyCollider body(pillar.skin);
