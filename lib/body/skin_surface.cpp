@@ -14,6 +14,7 @@ namespace {
 constexpr double CELL = 1.0 / 180;        ///< of stature: grid spacing of a rebuilt skin
 constexpr double SAMPLE = 1.0 / 260;      ///< of stature: spacing of the samples
 constexpr double MAX_BORDER_SHARE = 1e-3; ///< of all edges: more open edges and the skin is rebuilt
+constexpr double SMALL_HOLE = 0.035;      ///< of stature: a hole that a fan closes well enough
 constexpr double MAX_NOISE = 0.45e-3;     ///< m
 
 /// The scan's faces whose corners are all body; degenerate and duplicate ones and unused vertices are left out.
@@ -183,9 +184,9 @@ void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
   }
 }
 
-/// Closes every hole with a fan around its middle. @return false, and leaves the mesh alone, where border edges do not form simple loops
-bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
-  std::vector<std::array<int, 2>> border; // against the face's direction, so that the new face agrees with it
+/// Border edges against their face's direction, so that a new face agrees with the old one. Sorted.
+std::vector<std::array<int, 2>> border_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
+  std::vector<std::array<int, 2>> border;
   for (std::size_t i = 0; i < list.size();) {
     std::size_t j = i;
     while (j < list.size() && list[j].key == list[i].key) ++j;
@@ -199,35 +200,60 @@ bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
     i = j;
   }
   std::sort(border.begin(), border.end());
-  for (std::size_t i = 1; i < border.size(); ++i)
-    if (border[i][0] == border[i - 1][0]) return false; // two holes meet in a vertex
+  return border;
+}
+
+/// The border as simple loops. Where holes meet in a vertex a walk comes back to it: what it went around is a loop of its own.
+/// @return empty where the border does not close
+std::vector<std::vector<int>> border_loops(const std::vector<std::array<int, 2>>& border) {
+  std::vector<char> used(border.size(), 0);
   auto next_of = [&](int v) {
-    const auto it = std::lower_bound(border.begin(), border.end(), std::array<int, 2>{v, -1});
-    return it != border.end() && (*it)[0] == v ? static_cast<int>(it - border.begin()) : -1;
+    for (auto it = std::lower_bound(border.begin(), border.end(), std::array<int, 2>{v, -1}); it != border.end() && (*it)[0] == v; ++it)
+      if (!used[static_cast<std::size_t>(it - border.begin())]) return static_cast<int>(it - border.begin());
+    return -1;
   };
-  std::vector<char> done(border.size(), 0);
-  TriangleMesh filled = mesh;
+  std::vector<std::vector<int>> loops;
   for (std::size_t start = 0; start < border.size(); ++start) {
-    if (done[start]) continue;
-    std::vector<int> loop;
+    if (used[start]) continue;
+    std::vector<int> walk = {border[start][0]};
     int e = static_cast<int>(start);
-    while (e >= 0 && !done[e]) {
-      done[e] = 1;
-      loop.push_back(border[e][0]);
-      e = next_of(border[e][1]);
+    while (true) {
+      used[e] = 1;
+      const int v = border[e][1];
+      const auto before = std::find(walk.begin(), walk.end(), v);
+      if (before != walk.end()) {
+        loops.emplace_back(before, walk.end());
+        walk.erase(before + 1, walk.end());
+        if (loops.back().size() < 3) return {};
+        if (walk.size() == 1 && v == border[start][0]) break;
+      } else walk.push_back(v);
+      e = next_of(v);
+      if (e < 0) return {};
     }
-    if (e != static_cast<int>(start) || loop.size() < 3) return false;
+  }
+  return loops;
+}
+
+/// Closes every hole with a fan around its middle, unless one is wider than `widest`, m, or the border is no set of loops.
+bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double widest) {
+  const std::vector<std::vector<int>> loops = border_loops(border_of(mesh, list));
+  if (loops.empty()) return false;
+  for (const std::vector<int>& loop : loops) {
+    Box3 box;
+    for (const int v : loop) box.add(mesh.positions[v]);
+    if (box.size().norm() > widest && loop.size() > 10) return false; // few edges: a face or two of a coarse mesh
+  }
+  for (const std::vector<int>& loop : loops) {
     if (loop.size() == 3) {
-      filled.triangles.push_back({loop[0], loop[1], loop[2]});
+      mesh.triangles.push_back({loop[0], loop[1], loop[2]});
       continue;
     }
     Vec3 middle = Vec3::Zero();
-    for (const int v : loop) middle += filled.positions[v] / static_cast<double>(loop.size());
-    const int hub = static_cast<int>(filled.positions.size());
-    filled.positions.push_back(middle);
-    for (std::size_t k = 0; k < loop.size(); ++k) filled.triangles.push_back({loop[k], loop[(k + 1) % loop.size()], hub});
+    for (const int v : loop) middle += mesh.positions[v] / static_cast<double>(loop.size());
+    const int hub = static_cast<int>(mesh.positions.size());
+    mesh.positions.push_back(middle);
+    for (std::size_t k = 0; k < loop.size(); ++k) mesh.triangles.push_back({loop[k], loop[(k + 1) % loop.size()], hub});
   }
-  mesh = std::move(filled);
   return true;
 }
 
@@ -357,13 +383,16 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
     if (skin.flipped_edges)
       skin.findings.push_back({"warning", std::to_string(skin.flipped_edges) + " edges whose faces disagree about outside; turned", "faces"});
     skin.noise_m = roughness(skin.mesh);
-    if (skin.border_edges > 0 && skin.border_edges <= MAX_BORDER_SHARE * edges && skin.noise_m <= MAX_NOISE) {
-      if (fill_holes(skin.mesh, list))
-        skin.findings.push_back({"info", "small holes with " + std::to_string(skin.border_edges) + " open edges were closed", "body.obj"});
-      else why = "the scan has holes that meet";
+    if (skin.border_edges > 0 && skin.noise_m <= MAX_NOISE) {
+      // many small holes, or few of any size: the scan's own faces stay
+      const double widest = skin.border_edges <= MAX_BORDER_SHARE * edges ? 1e300 : SMALL_HOLE * stature;
+      const int open = skin.border_edges;
+      if (skin.border_edges < 0.4 * edges && fill_holes(skin.mesh, list, widest)) {
+        count_edges(half_edges(skin.mesh), skin);
+        skin.findings.push_back({"info", "holes with " + std::to_string(open) + " open edges were closed", "body.obj"});
+      }
     }
-    if (!why.empty()) {
-    } else if (skin.border_edges > MAX_BORDER_SHARE * edges) why = "the scan has holes (" + std::to_string(skin.border_edges) + " open edges)";
+    if (skin.border_edges > 0) why = "the scan has holes (" + std::to_string(skin.border_edges) + " open edges)";
     else if (skin.crowded_edges > MAX_BORDER_SHARE * edges) why = "the scan has " + std::to_string(skin.crowded_edges) + " edges with more than two faces";
     else if (skin.noise_m > MAX_NOISE) why = text_of("the scan is rough (%.1f mm)", 1000 * skin.noise_m);
   }

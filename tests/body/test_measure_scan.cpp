@@ -97,6 +97,37 @@ TEST(MeasureScan, turning_shifting_and_scaling_move_no_landmark_by_5_mm) {
   }
 }
 
+TEST(MeasureScan, dropping_faces_moves_no_landmark_by_more_than_8_mm_and_hardly_any_at_all) {
+  TriangleMesh scan = test::mannequin("f-165-a").mesh;
+  const Body before = measure(scan).body;
+  Random random(3);
+  std::erase_if(scan.triangles, [&](const Triangle&) { return random.uniform() < 0.05; });
+  const MeasuredScan measured = measure(scan);
+  EXPECT_TRUE(test::is_closed_and_oriented(measured.body.skin));
+  std::vector<double> changes;
+  for (const auto& [name, landmark] : before.landmarks) {
+    ASSERT_TRUE(measured.body.has_landmark(name)) << name;
+    changes.push_back((test::in_scan(before, name) - test::in_scan(measured.body, name)).norm());
+    EXPECT_LT(changes.back(), 0.008) << name;
+  }
+  std::sort(changes.begin(), changes.end());
+  EXPECT_LT(changes[changes.size() / 2], 0.001);
+}
+
+TEST(MeasureScan, a_coarser_mesh_of_the_same_figure_gives_nearly_the_same_landmarks) {
+  samples::Mannequin shape = samples::preset("m-178-a");
+  const Body before = measure(test::mannequin("m-178-a").mesh).body;
+  shape.cell_m *= 1.4;
+  const Body after = measure(samples::make_mannequin(shape).mesh).body;
+  std::vector<double> changes;
+  for (const auto& [name, landmark] : before.landmarks)
+    if (after.has_landmark(name)) changes.push_back((test::in_scan(before, name) - test::in_scan(after, name)).norm());
+  std::sort(changes.begin(), changes.end());
+  ASSERT_GT(changes.size(), 45u);
+  EXPECT_LT(changes[changes.size() / 2], 0.004);
+  EXPECT_LT(changes[changes.size() * 9 / 10], 0.012);
+}
+
 TEST(MeasureScan, never_swaps_left_and_right) {
   for (const double degrees : {0.0, 90.0, 200.0}) {
     const Body body = measure(test::moved(test::mannequin("m-178-a").mesh, test::turn_about_y(degrees), Vec3::Zero())).body;
