@@ -177,22 +177,8 @@ private:
     std::map<int, WrapCurve> curves;
     if (group.side == Side::RING && place_on_cone(group, hull)) return;
     if (group.side == Side::RING) {
-      double widest = 0;
-      std::vector<std::pair<double, std::size_t>> by_theta;
-      for (std::size_t k : group.panels) by_theta.push_back({m_roles[k].theta, k});
-      std::sort(by_theta.begin(), by_theta.end());
-      // Panels of one height stand side by side: what overlaps in v adds up.
-      std::vector<double> half(m_roles.size(), 0);
-      for (auto& [theta, k] : by_theta) {
-        const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
-        double sum = 0;
-        for (auto& [other_theta, o] : by_theta) {
-          const auto other = laid_bounds(m_mesh, m_roles[o], m_spots[o], static_cast<int>(o));
-          if (std::min(own[1].y(), other[1].y()) - std::max(own[0].y(), other[0].y()) > 0.02) sum += other[1].x() - other[0].x() + 0.01;
-        }
-        half[k] = 0.5 * (own[1].x() - own[0].x());
-        widest = std::max(widest, sum);
-      }
+      double widest = 0; // panels of one height stand side by side: what overlaps in v adds up
+      for (std::size_t k : group.panels) widest = std::max(widest, row_width(group, k));
       for (std::size_t k : group.panels) {
         const int depth = m_depth[k];
         if (!curves.count(depth)) curves.emplace(depth, WrapCurve::around(hull, GAP + group.extra + LAYER * depth, widest));
@@ -312,14 +298,28 @@ private:
     return x;
   }
 
+  /// Sum of the widths of the panels of a group that stand beside panel k, itself among them, with a little room between.
+  double row_width(const Group& group, std::size_t k) const {
+    const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+    double sum = 0;
+    for (std::size_t o : group.panels) {
+      const auto other = laid_bounds(m_mesh, m_roles[o], m_spots[o], static_cast<int>(o));
+      if (o == k || std::min(own[1].y(), other[1].y()) - std::max(own[0].y(), other[0].y()) > 0.02) sum += other[1].x() - other[0].x() + 0.01;
+    }
+    return sum;
+  }
+
   void place_neck(const Group& group) {
     const auto b = bounds(group);
     const Axis axis = m_space.neck();
-    std::vector<Vec2> hull = m_space.points(axis, {Part::HEAD, Part::TORSO}, b[0].y(), b[0].y() + 0.04);
+    const double top = b[1].y() - b[0].y() > 0.15 ? b[1].y() : b[0].y() + 0.04; // a hood has to clear the head, a collar the neck
+    std::vector<Vec2> hull = m_space.points(axis, {Part::HEAD, Part::TORSO}, b[0].y(), top);
     if (hull.size() < 3) hull = m_space.points(axis, {Part::HEAD}, -1, 3);
+    double widest = 0;
+    for (std::size_t k : group.panels) widest = std::max(widest, row_width(group, k));
     for (std::size_t k : group.panels) {
       const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
-      const WrapCurve curve = WrapCurve::around(hull, 0.008 + group.extra + LAYER * m_depth[k], own[1].x() - own[0].x() + 0.02);
+      const WrapCurve curve = WrapCurve::around(hull, 0.008 + group.extra + LAYER * m_depth[k], widest + 0.01);
       const double center = m_roles[k].theta / (2 * M_PI) * curve.length() - 0.5 * (own[0].x() + own[1].x());
       put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x() + center), p.y()); });
     }
