@@ -27,14 +27,15 @@ void add_options(cli::Tool& tool, Options& o) {
   app.add_option("--body", o.body, "body.json from scan-landmarks")->check(cli::input_file());
   app.add_option("--panels", o.panels, "panels.json from pattern-mesh")->check(cli::input_file());
   app.add_option("--from", o.from, "go on from a garment that drape or retarget-garment wrote")->check(cli::input_file());
-  app.add_option("--accuracy", o.accuracy, "preset: draft, standard, fine or reference (default: standard)");
-  app.add_option("--effects", o.effects, "auto, or a list joined by commas (default: auto)");
-  app.add_option("--material", o.material, "fabric of panels that name none, a preset such as cotton-poplin, denim, silk, jersey");
-  app.add_option("--set", o.set, "KNOB=VALUE, one setting by its name in the report's `settings`; may be given several times");
+  app.add_option("--accuracy", o.accuracy, "how exact, and how long it takes (default: standard)")->check(cli::one_of(garment::accuracy_names()));
+  app.add_option("--effects", o.effects, "auto, or a list joined by commas (default: auto)")->type_name("LIST");
+  app.add_option("--material", o.material, "fabric of panels that name none, a preset such as cotton-poplin, denim, silk, jersey")->type_name("NAME");
+  app.add_option("--set", o.set, "one setting by its name in the report's settings")->type_name("KNOB=VALUE");
   app.add_option("--max-seconds", o.max_seconds, "stop after this wall time, s, with the best state so far (exit 4)")->check(cli::finite_in(0, 1e6, "s"));
-  app.add_option("--report", o.report, "write report.json: convergence, effects with calls and time, quality, settings");
-  app.add_option("-o,--output", o.output, "shirt.json; shirt.obj is written beside it")->required();
+  app.add_option("--report", o.report, "write report.json: convergence, effects with calls and time, quality, settings")->check(cli::output_file());
+  app.add_option("-o,--output", o.output, "shirt.json; shirt.obj is written beside it")->required()->check(cli::output_file());
   tool.example("drape --body body.json --panels panels.json --report report.json -o shirt.json", "drape a sewn pattern on a scanned body");
+  tool.formats("scene, body, panels and garment documents (version 1)", "garment and report documents (version 1), OBJ");
   tool.example("drape --from shirt.json --body body.json --accuracy fine -o shirt-fine.json", "go on, more exactly");
 }
 

@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
   app.add_option("--sewing", o.sewing, "sidecar with the seams of a DXF that has none")->check(cli::input_file());
   app.add_option("--write-pattern", o.write_pattern,
                  "write the pattern as read and edited: FILE.json (own format), FILE.dxf (AAMA with sewing texts) or FILE.svg (to look at)");
-  app.add_option("-o,--output", o.output, "panels.json; panels.obj is written beside it");
+  app.add_option("-o,--output", o.output, "panels.json; panels.obj is written beside it")->check(cli::output_file());
   app.add_flag("--check", o.check, "validate only: findings to standard output (and as JSON to -o), exit 1 where the pattern cannot be sewn as drawn");
   tool.example("pattern-mesh --body body.json -o panels.json shirt.pattern.json", "mesh a pattern and place it around a scanned body");
   tool.example("pattern-mesh --check shirt.pattern.json", "list what is wrong with a pattern without meshing it");

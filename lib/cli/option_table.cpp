@@ -55,6 +55,10 @@ static OptionRow row_of(CLI::Option& option) {
     if (row.is_file && row.value == "TEXT") row.value = "FILE";
     if (!row.choices.empty() && row.value == "TEXT") row.value = validator_text(option, "one_of");
     if (row.value == "FLOAT" || row.value == "INT" || row.value == "UINT") row.value = "N";
+    if (row.value == "N" && !row.range.empty()) { // the unit says more: --edge-length M
+      const std::string unit = row.range.substr(row.range.rfind(' ') + 1);
+      if (unit.size() <= 3 && unit.find_first_of("0123456789") == std::string::npos) row.value = upper(unit);
+    }
     const std::string fallback = option.get_default_str();
     if (!fallback.empty() && row.description.find("default") == std::string::npos) row.description += " (default: " + fallback + ")";
   }
