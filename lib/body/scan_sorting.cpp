@@ -21,7 +21,7 @@ constexpr double FLOOR_FACTOR = 4;                           ///< ... and fills 
 class Voxels {
 public:
   Voxels(const TriangleMesh& scan, int n_cells) {
-    for (const Vec3& p : scan.positions) m_box.add(p);
+    m_box = box_without_outliers(scan.positions);
     fill_cells(scan, n_cells);
   }
   double cell_size() const { return m_cell; }
@@ -36,6 +36,25 @@ public:
   }
 
 private:
+  /// A few points far off must not make the cells as large as the body.
+  static Box3 box_without_outliers(const std::vector<Vec3>& points) {
+    const Box3 all = bounding_box(points);
+    Box3 box;
+    const std::size_t step = 1 + points.size() / 40000;
+    std::vector<double> values;
+    for (int a = 0; a < 3; ++a) {
+      values.clear();
+      for (std::size_t i = 0; i < points.size(); i += step) values.push_back(points[i][a]);
+      const auto rank = static_cast<std::ptrdiff_t>(values.size() / 500);
+      std::nth_element(values.begin(), values.begin() + rank, values.end());
+      const double low = values[static_cast<std::size_t>(rank)];
+      std::nth_element(values.begin(), values.end() - 1 - rank, values.end());
+      const double high = values[values.size() - 1 - static_cast<std::size_t>(rank)], margin = 0.3 * (high - low);
+      box.low[a] = std::max(all.low[a], low - margin);
+      box.high[a] = std::min(all.high[a], high + margin);
+    }
+    return box;
+  }
   void fill_cells(const TriangleMesh& scan, int n_cells) {
     m_cells.clear();
     m_cell = std::max(m_box.size().maxCoeff() / n_cells, 1e-12);
@@ -47,7 +66,7 @@ private:
   }
   int add(const Vec3& p) {
     std::array<int, 3> c;
-    for (int a = 0; a < 3; ++a) c[a] = std::clamp(static_cast<int>((p[a] - m_box.low[a]) / m_cell), 0, m_n[a] - 1);
+    for (int a = 0; a < 3; ++a) c[a] = static_cast<int>(std::clamp((p[a] - m_box.low[a]) / m_cell, 0.0, m_n[a] - 1.0));
     int& number = m_number[(static_cast<std::size_t>(c[0]) * m_n[1] + c[1]) * m_n[2] + c[2]];
     if (number < 0) {
       number = count();
@@ -58,7 +77,7 @@ private:
   /// Samples a triangle that is larger than a cell.
   void fill(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double longest = std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
-    if (longest <= m_cell) return;
+    if (longest <= m_cell || longest > 0.4 * m_box.size().maxCoeff()) return; // a spike to an outlier is no surface
     const int n = std::min(64, static_cast<int>(std::ceil(longest / (0.7 * m_cell))));
     for (int i = 0; i <= n; ++i)
       for (int j = 0; j <= n - i; ++j) add(a + (b - a) * i / n + (c - a) * j / n);

@@ -184,6 +184,15 @@ TEST(MeasureScan, floor_pole_and_debris_are_no_body) {
   EXPECT_LT(taken, 0.02 * static_cast<double>(scan.positions.size() - n_body));
 }
 
+TEST(MeasureScan, one_vertex_far_off_changes_nothing) {
+  TriangleMesh scan = test::mannequin("f-165-a").mesh;
+  const Body before = measure(scan).body;
+  scan.positions[scan.triangles[50][0]] = Vec3(500, 3, -20);
+  const Body after = measure(scan).body;
+  for (const char* name : {"head_tip", "crotch", "neck_center", "knee_r"})
+    EXPECT_LT((test::in_scan(before, name) - test::in_scan(after, name)).norm(), 0.005) << name;
+}
+
 TEST(MeasureScan, bare_noisy_points_give_nearly_the_same_landmarks) {
   const TriangleMesh& mesh = test::mannequin("f-165-a").mesh;
   const Body before = measure(mesh).body;

@@ -1,0 +1,242 @@
+#include <body/mesh_repair.hpp>
+
+#include <algorithm>
+#include <tuple>
+
+namespace sloper::body {
+
+namespace {
+
+/// Border edges against their face's direction, so that a new face agrees with the old one. Sorted.
+std::vector<std::array<int, 2>> border_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
+  std::vector<std::array<int, 2>> border;
+  for (std::size_t i = 0; i < list.size();) {
+    std::size_t j = i;
+    while (j < list.size() && list[j].key == list[i].key) ++j;
+    if (j - i == 1) {
+      const int low = static_cast<int>(list[i].key >> 32), high = static_cast<int>(list[i].key & 0xffffffffu);
+      const Triangle& t = mesh.triangles[list[i].face];
+      bool forward = false; // the face may have been turned since: look again
+      for (int k = 0; k < 3; ++k) forward |= t[k] == low && t[(k + 1) % 3] == high;
+      border.push_back(forward ? std::array<int, 2>{high, low} : std::array<int, 2>{low, high});
+    }
+    i = j;
+  }
+  std::sort(border.begin(), border.end());
+  return border;
+}
+
+/// The border as simple loops. Where holes meet in a vertex a walk comes back to it: what it went around is a loop of its own.
+/// @return empty where the border does not close
+std::vector<std::vector<int>> border_loops(const std::vector<std::array<int, 2>>& border) {
+  std::vector<char> used(border.size(), 0);
+  auto next_of = [&](int v) {
+    for (auto it = std::lower_bound(border.begin(), border.end(), std::array<int, 2>{v, -1}); it != border.end() && (*it)[0] == v; ++it)
+      if (!used[static_cast<std::size_t>(it - border.begin())]) return static_cast<int>(it - border.begin());
+    return -1;
+  };
+  std::vector<std::vector<int>> loops;
+  for (std::size_t start = 0; start < border.size(); ++start) {
+    if (used[start]) continue;
+    std::vector<int> walk = {border[start][0]};
+    int e = static_cast<int>(start);
+    while (true) {
+      used[e] = 1;
+      const int v = border[e][1];
+      const auto before = std::find(walk.begin(), walk.end(), v);
+      if (before != walk.end()) {
+        loops.emplace_back(before, walk.end());
+        walk.erase(before + 1, walk.end());
+        if (loops.back().size() < 3) return {};
+        if (walk.size() == 1 && v == border[start][0]) break;
+      } else walk.push_back(v);
+      e = next_of(v);
+      if (e < 0) return {};
+    }
+  }
+  return loops;
+}
+
+} // namespace
+
+TriangleMesh own_faces(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, std::vector<int>& number) {
+  TriangleMesh skin;
+  number.assign(positions.size(), -1);
+  std::vector<std::pair<std::array<int, 3>, int>> seen;
+  for (const Triangle& t : triangles) {
+    if (!is_body[t[0]] || !is_body[t[1]] || !is_body[t[2]] || t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    if (area_normal(positions[t[0]], positions[t[1]], positions[t[2]]).squaredNorm() < 1e-24) continue;
+    std::array<int, 3> key = {t[0], t[1], t[2]};
+    std::sort(key.begin(), key.end());
+    seen.emplace_back(key, static_cast<int>(skin.triangles.size()));
+    skin.triangles.push_back(t);
+  }
+  std::sort(seen.begin(), seen.end());
+  std::vector<char> keep(skin.triangles.size(), 1);
+  for (std::size_t i = 1; i < seen.size(); ++i)
+    if (seen[i].first == seen[i - 1].first) keep[seen[i].second] = 0;
+  std::vector<Triangle> kept;
+  for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
+    if (!keep[i]) continue;
+    Triangle t = skin.triangles[i];
+    for (int& v : t) {
+      int& n = number[v];
+      if (n < 0) {
+        n = static_cast<int>(skin.positions.size());
+        skin.positions.push_back(positions[v]);
+      }
+      v = n;
+    }
+    kept.push_back(t);
+  }
+  skin.triangles = std::move(kept);
+  return skin;
+}
+
+bool weld(TriangleMesh& mesh, std::vector<int>& of_scan) {
+  std::vector<int> order(mesh.positions.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+  auto less = [&](int a, int b) {
+    const Vec3 &p = mesh.positions[a], &q = mesh.positions[b];
+    return std::tie(p.x(), p.y(), p.z(), a) < std::tie(q.x(), q.y(), q.z(), b);
+  };
+  std::sort(order.begin(), order.end(), less);
+  std::vector<int> target(order.size());
+  bool any = false;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && mesh.positions[order[i]] == mesh.positions[order[i - 1]];
+    target[order[i]] = same ? target[order[i - 1]] : order[i];
+    any |= same;
+  }
+  if (!any) return false;
+  std::vector<int> number(order.size(), -1);
+  std::vector<Vec3> positions;
+  for (std::size_t v = 0; v < order.size(); ++v)
+    if (target[v] == static_cast<int>(v)) {
+      number[v] = static_cast<int>(positions.size());
+      positions.push_back(mesh.positions[v]);
+    }
+  std::vector<Triangle> triangles;
+  for (const Triangle& t : mesh.triangles) {
+    const Triangle w = {number[target[t[0]]], number[target[t[1]]], number[target[t[2]]]};
+    if (w[0] != w[1] && w[1] != w[2] && w[2] != w[0]) triangles.push_back(w);
+  }
+  mesh.positions = std::move(positions);
+  mesh.triangles = std::move(triangles);
+  for (int& v : of_scan)
+    if (v >= 0) v = number[target[v]];
+  return true;
+}
+
+int drop_small_pieces(TriangleMesh& mesh, std::vector<int>& of_scan) {
+  const std::vector<int> piece = connected_components(mesh.positions.size(), mesh.triangles);
+  std::vector<std::size_t> faces(mesh.positions.size(), 0);
+  for (const Triangle& t : mesh.triangles) ++faces[piece[t[0]]];
+  int dropped = 0;
+  for (std::size_t n : faces) dropped += n > 0 && n * 100 < mesh.triangles.size();
+  if (dropped == 0) return 0;
+  auto keep = [&](int v) { return faces[piece[v]] * 100 >= mesh.triangles.size(); };
+  std::vector<int> number(mesh.positions.size(), -1);
+  TriangleMesh kept;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    if (keep(static_cast<int>(v))) {
+      number[v] = static_cast<int>(kept.positions.size());
+      kept.positions.push_back(mesh.positions[v]);
+    }
+  for (const Triangle& t : mesh.triangles)
+    if (keep(t[0])) kept.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  for (int& v : of_scan)
+    if (v >= 0) v = number[v];
+  mesh = std::move(kept);
+  return dropped;
+}
+
+std::vector<HalfEdge> half_edges(const TriangleMesh& mesh) {
+  std::vector<HalfEdge> list;
+  list.reserve(mesh.triangles.size() * 3);
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const auto a = static_cast<std::uint64_t>(mesh.triangles[f][k]), b = static_cast<std::uint64_t>(mesh.triangles[f][(k + 1) % 3]);
+      list.push_back({std::min(a, b) << 32 | std::max(a, b), static_cast<int>(f), a < b});
+    }
+  std::sort(list.begin(), list.end(), [](const HalfEdge& a, const HalfEdge& b) { return a.key != b.key ? a.key < b.key : a.face < b.face; });
+  return list;
+}
+
+EdgeCounts count_edges(const std::vector<HalfEdge>& list) {
+  EdgeCounts counts;
+  for (std::size_t i = 0; i < list.size();) {
+    std::size_t j = i;
+    while (j < list.size() && list[j].key == list[i].key) ++j;
+    if (j - i == 1) ++counts.border;
+    else if (j - i > 2) ++counts.crowded;
+    else if (list[i].forward == list[i + 1].forward) ++counts.flipped;
+    i = j;
+  }
+  return counts;
+}
+
+void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
+  const std::size_t n = mesh.triangles.size();
+  std::vector<std::array<int, 3>> neighbour(n, {-1, -1, -1});
+  std::vector<std::array<char, 3>> agrees(n, {1, 1, 1});
+  std::vector<int> degree(n, 0);
+  for (std::size_t i = 0; i + 1 < list.size(); ++i) {
+    if (list[i].key != list[i + 1].key) continue;
+    if ((i > 0 && list[i - 1].key == list[i].key) || (i + 2 < list.size() && list[i + 2].key == list[i].key)) continue; // crowded
+    const int a = list[i].face, b = list[i + 1].face;
+    const char agree = list[i].forward != list[i + 1].forward;
+    agrees[a][degree[a]] = agree, neighbour[a][degree[a]++] = b;
+    agrees[b][degree[b]] = agree, neighbour[b][degree[b]++] = a;
+  }
+  std::vector<int> turned(n, -1), piece;
+  for (std::size_t seed = 0; seed < n; ++seed) {
+    if (turned[seed] >= 0) continue;
+    piece.assign(1, static_cast<int>(seed));
+    turned[seed] = 0;
+    for (std::size_t head = 0; head < piece.size(); ++head) {
+      const int f = piece[head];
+      for (int k = 0; k < degree[f]; ++k) {
+        const int g = neighbour[f][k];
+        if (turned[g] >= 0) continue;
+        turned[g] = agrees[f][k] ? turned[f] : 1 - turned[f];
+        piece.push_back(g);
+      }
+    }
+    Vec3 middle = Vec3::Zero();
+    for (const int f : piece) middle += mesh.positions[mesh.triangles[f][0]];
+    middle /= static_cast<double>(piece.size());
+    double volume = 0;
+    for (const int f : piece) {
+      Triangle& t = mesh.triangles[f];
+      if (turned[f]) std::swap(t[1], t[2]);
+      volume += (mesh.positions[t[0]] - middle).dot((mesh.positions[t[1]] - middle).cross(mesh.positions[t[2]] - middle));
+    }
+    if (volume < 0)
+      for (const int f : piece) std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
+  }
+}
+
+bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double widest) {
+  const std::vector<std::vector<int>> loops = border_loops(border_of(mesh, list));
+  if (loops.empty()) return false;
+  for (const std::vector<int>& loop : loops) {
+    Box3 box;
+    for (const int v : loop) box.add(mesh.positions[v]);
+    if (box.size().norm() > widest && loop.size() > 10) return false; // few edges: a face or two of a coarse mesh
+  }
+  for (const std::vector<int>& loop : loops) {
+    if (loop.size() == 3) {
+      mesh.triangles.push_back({loop[0], loop[1], loop[2]});
+      continue;
+    }
+    Vec3 middle = Vec3::Zero();
+    for (const int v : loop) middle += mesh.positions[v] / static_cast<double>(loop.size());
+    const int hub = static_cast<int>(mesh.positions.size());
+    mesh.positions.push_back(middle);
+    for (std::size_t k = 0; k < loop.size(); ++k) mesh.triangles.push_back({loop[k], loop[(k + 1) % loop.size()], hub});
+  }
+  return true;
+}
+
+} // namespace sloper::body
