@@ -1,0 +1,21 @@
+#pragma once
+/// PNG pictures: 8 bit RGBA, sRGB, rows from top to bottom.
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+namespace sloper::io {
+
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba; ///< 4 width height, not premultiplied
+  std::uint8_t* at(int x, int y) { return rgba.data() + 4 * (static_cast<std::size_t>(y) * width + x); }
+  const std::uint8_t* at(int x, int y) const { return rgba.data() + 4 * (static_cast<std::size_t>(y) * width + x); }
+};
+
+/// Bytes of a PNG with sRGB and pHYs chunks and the given text chunks (keyword, text); the same for the same input.
+std::string png_bytes(const Image& image, const std::vector<std::pair<std::string, std::string>>& texts);
+void write_png(const std::string& path, const Image& image, const std::vector<std::pair<std::string, std::string>>& texts); ///< @throws Error OUTPUT
+Image read_png(const std::string& path);                                                                                    ///< @throws Error INPUT
+
+} // namespace sloper::io
