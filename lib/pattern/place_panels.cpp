@@ -91,6 +91,21 @@ private:
     return false;
   }
 
+  /// Height for the top of what hangs on the chest without straps; 0 for skirts and trousers. Told by the pattern's own heights
+  /// (they are those of its body, of about 1.7 m), else by words.
+  double strapless_height(double top) const {
+    constexpr double USUAL_STATURE = 1.7, ABOVE_WAIST = 1.12; // m
+    bool stated = true, named = false;
+    for (std::size_t k = 0; k < m_roles.size(); ++k) {
+      stated = stated && m_roles[k].dv.has_value();
+      for (const char* word : {"bodice", "bust", "corset", "bandeau", "tubetop", "tube_top"})
+        named = named || m_pattern.panels[k].name.find(word) != std::string::npos;
+    }
+    const double chest = std::min(m_space.level("chest_axilla", 0.76), top / USUAL_STATURE * m_space.stature());
+    if (stated) return top > ABOVE_WAIST ? chest : 0;
+    return named ? m_space.level("chest_axilla", 0.76) : 0;
+  }
+
   void anchor_trunk() {
     double top = -1e300;
     for (const Group& g : m_groups)
@@ -106,6 +121,8 @@ private:
             for (int v : m_mesh.panels[k].outline)
               if (const Vec2 p = uv(k, v); p.y() > top - 0.005) x = std::max(x, std::abs(p.x()));
       shift = m_space.shoulder_height(std::clamp(x, 0.05, 0.12)) + SHOULDER_RAISE - top;
+    } else if (const double chest = strapless_height(top); chest > 0) {
+      shift = chest - top;
     } else {
       // The top edge: boundary within 6 cm of the top on the way round, as far as it is level and not sewn.
       double waist = 0;

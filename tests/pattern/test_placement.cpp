@@ -109,6 +109,19 @@ TEST(Placement, ASkirtHangsAtTheWaistThatItsLengthFits) {
   EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
 }
 
+TEST(Placement, AStraplessTopIsPutOnTheChest) {
+  std::string text = tube_text();
+  text.replace(text.find("\"front\""), 7, "\"bodice_front\"");
+  for (std::size_t at; (at = text.find("\"panel\": \"front\"")) != std::string::npos;) text.replace(at, 16, "\"panel\": \"bodice_front\"");
+  const Pattern pattern = own(text);
+  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  const PlacementReport report = place_panels(pattern, stick_body(45), mesh);
+  double top = 0;
+  for (const Vec3& p : mesh.placed) top = std::max(top, p.y());
+  EXPECT_NEAR(top, 0.76 * 1.7, 0.01);
+  EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
+}
+
 TEST(Placement, WithoutABodyPanelsLieFlatAndSaySo) {
   const Pattern pattern = box_shirt();
   PanelMesh mesh = mesh_pattern(pattern, 0.03, "t");
