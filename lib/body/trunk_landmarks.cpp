@@ -15,7 +15,9 @@ std::optional<Level> measure_level(const Finder& f, double y) {
   if (!loop) return std::nullopt;
   double limit[2] = {1e300, 1e300}; // x of the left and (negated) of the right arm pit
   for (int side = 0; side < 2; ++side)
-    if (f.arms[side].axilla && y > f.arms[side].axilla->y() - 0.002) limit[side] = std::abs(f.arms[side].axilla->x());
+    if (f.arms[side].axilla &&
+        y > (f.arms[side].pit_hidden ? 0.62 * f.s : f.arms[side].axilla->y() - 0.002)) // an arm that touches hangs on it below the pit too
+      limit[side] = std::abs(f.arms[side].axilla->x());
   std::vector<Vec2> points;
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
   for (const auto& segment : loop->segments) {
