@@ -7,6 +7,7 @@
 #include <pattern/check_pattern.hpp>
 #include <pattern/edits.hpp>
 #include <pattern/export_pattern.hpp>
+#include <pattern/infer_seams.hpp>
 #include <pattern/mesh_pattern.hpp>
 #include <pattern/panel_mesh_json.hpp>
 #include <pattern/place_panels.hpp>
@@ -23,7 +24,7 @@ constexpr double LEAST_ANGLE = 15; // degrees: a mesh carried over an edit is ke
 struct Options {
   std::string pattern, output, sewing, body, edits, write_pattern;
   double edge_length = 0.015;
-  bool check = false;
+  bool check = false, unsewn = false;
 };
 
 /// Findings to standard output, as JSON too where an output is named. 1 where the pattern cannot be sewn as drawn.
@@ -52,10 +53,27 @@ void write_pattern(cli::Tool& tool, const pattern::Pattern& source, const std::s
   else throw Error(ErrorKind::USAGE, path, "", "no pattern format has this ending", "name a .json, .dxf or .svg file");
 }
 
+/// Seams of a file that states none. True when all that could be sewn is certain; else the open questions go to standard output.
+bool guess_seams(cli::Tool& tool, pattern::Pattern& source) {
+  const std::vector<pattern::SeamGuess> guesses = pattern::infer_seams(source);
+  const io::Json document = pattern::sewing_questions(source, guesses, tool.name());
+  for (const pattern::SeamGuess& g : guesses)
+    if (g.certain) {
+      source.seams.push_back(g.seam);
+      source.findings.push_back("seam " + g.seam.name + " is guessed");
+    }
+  if (document["questions"].empty() && !source.seams.empty()) return true;
+  std::cout << io::to_text(document);
+  tool.reporter().warning("the file states no seams: " + std::to_string(source.seams.size()) + " are guessed, " + std::to_string(document["questions"].size()) +
+                          " edges are open; answer the questions on standard output and give them as --sewing, or take the pieces --unsewn");
+  return false;
+}
+
 int run(cli::Tool& tool, const Options& o) {
   pattern::Pattern source = pattern::read_pattern(o.pattern, o.sewing);
   if (o.check) return check(tool, source, o);
   if (o.output.empty() && !o.write_pattern.empty() && o.edits.empty()) return write_pattern(tool, source, o.write_pattern), 0;
+  if (source.seams.empty() && source.source_format == "dxf" && source.panels.size() > 1 && !o.unsewn && !guess_seams(tool, source)) return 1;
   if (o.output.empty()) throw Error(ErrorKind::USAGE, "", "-o", "no output is named", "give -o panels.json");
   pattern::require_sewable(source, o.pattern);
   pattern::PanelMesh mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern);
@@ -92,6 +110,7 @@ int main(int argc, char** argv) {
   app.add_option("--edits", o.edits, "edits.json: changes of the outline that keep the mesh and its vertex ids where they can; \"-\" reads standard input")
       ->check(cli::input_file());
   app.add_option("--sewing", o.sewing, "sidecar with the seams of a DXF that has none")->check(cli::input_file());
+  app.add_flag("--unsewn", o.unsewn, "mesh a DXF that states no seams without guessing any");
   app.add_option("--write-pattern", o.write_pattern,
                  "write the pattern as read and edited: FILE.json (own format), FILE.dxf (AAMA with sewing texts) or FILE.svg (to look at)");
   app.add_option("-o,--output", o.output, "panels.json; panels.obj is written beside it")->check(cli::output_file());
