@@ -9,7 +9,7 @@ test:
 	@scripts/test build
 
 demo:
-	@scripts/build release scan-landmarks pattern-mesh drape retarget-garment render-png samples
+	@scripts/build release scan-landmarks pattern-mesh drape retarget-garment render-png make-mannequin make-pattern
 	@$(MAKE) --no-print-directory -C samples/demo
 
 check:
