@@ -4,6 +4,7 @@
 #include <cloth/edge_spring.hpp>
 #include <cloth/gravity.hpp>
 #include <cloth/shear.hpp>
+#include <collision/untangle.hpp>
 #include <garment/drape_run.hpp>
 #include <garment/effects.hpp>
 #include <garment/materials.hpp>
@@ -27,6 +28,8 @@ constexpr double SEW_STRONGEST = 5;      // N at reach
 constexpr double SEW_BENDING = 30;       // times that of the fabric
 constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step while the body is inflated
 constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
+constexpr int UNTANGLE_ROUNDS = 80;
+constexpr double UNTANGLE_STEP = 0.001; // m: of an edge against its face in one round
 constexpr int REPAIR_ROUNDS = 25;
 constexpr double GAP_RAISE = 0.0007;  // m per repair round
 constexpr double LARGEST_GAP = 0.012; // m
@@ -154,9 +157,17 @@ bool DrapeRun::step(double h, double inertia, double largest_move_m) {
   return !m_stopped;
 }
 
+void DrapeRun::log_crossings(const char* when) const {
+  const std::vector<Triangle> triangles = m_garment.particle_triangles();
+  const collision::TriangleTree tree(m_garment.position, triangles);
+  m_reporter.info(std::string(when) + ": " + std::to_string(collision::self_intersections(m_garment.position, triangles, tree).size()) +
+                  " pairs of triangles cross");
+}
+
 void DrapeRun::sew() {
   const Phase phase(*this, "sew");
   build_solver(true);
+  log_crossings("start");
   double weight = 0;
   for (double m : m_cloth->mass) weight += m * units::GRAVITY / m_cloth->n_particles;
   double pull = SEW_PULL * weight;
@@ -181,7 +192,32 @@ void DrapeRun::sew() {
   m_garment.position = m_solver->x();
   std::vector<Vec3> vertex_position(m_garment.particle_of.size());
   for (std::size_t v = 0; v < vertex_position.size(); ++v) vertex_position[v] = m_garment.position[m_garment.particle_of[v]];
+  log_crossings("sewn");
   weld(m_garment, vertex_position);
+  log_crossings("welded");
+}
+
+std::size_t DrapeRun::untangle() {
+  const std::vector<Triangle> triangles = m_garment.particle_triangles();
+  const collision::Topology topology = collision::make_topology(m_garment.position.size(), triangles);
+  std::vector<Vec3> x = m_garment.position;
+  collision::TriangleTree tree(x, triangles);
+  std::size_t at_start = 0, least = std::numeric_limits<std::size_t>::max();
+  for (int k = 0; k < UNTANGLE_ROUNDS; ++k) {
+    tree.refit(x);
+    const std::size_t count = collision::self_intersections(x, triangles, tree).size();
+    if (k == 0) at_start = count;
+    if (count < least) {
+      least = count;
+      m_garment.position = x;
+    }
+    if (count == 0) break;
+    const auto pairs = collision::untangle_directions(x, triangles, topology, tree);
+    const std::vector<Vec3> move = collision::untangle_displacements(pairs, triangles, topology, x.size(), UNTANGLE_STEP);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += move[i];
+  }
+  if (at_start > 0) m_report.repairs.push_back("untangled: " + std::to_string(at_start) + " pairs of triangles crossed, " + std::to_string(least) + " remain");
+  return least;
 }
 
 void DrapeRun::inflate() {
@@ -235,6 +271,15 @@ void DrapeRun::settle() {
       calm = 0;
       least = 1e300;
       h = m_settings.time_step_s;
+      continue;
+    }
+    if (m_untanglings < 4 && m_self_contact && !m_self_contact->crossings().empty()) {
+      ++m_untanglings;
+      untangle();
+      m_solver->set_positions(m_garment.position);
+      m_self_contact->refresh();
+      calm = 0;
+      least = 1e300;
       continue;
     }
     m_report.converged = true;
@@ -329,6 +374,7 @@ DrapeReport DrapeRun::run() {
   start_outside_body();
   if (unsewn && active("sewing")) sew();
   if (!m_stopped) {
+    untangle();
     build_solver(false);
     inflate();
     settle();

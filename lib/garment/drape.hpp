@@ -15,10 +15,10 @@ struct DrapeSettings {
   double time_step_s = 1.0 / 30;
   double cg_tolerance = 1e-2; ///< relative residual at which conjugate gradients stop
   int cg_max_iterations = 400;
-  double contact_gap_m = 0.003;     ///< distance to the skin at which contact begins
-  double self_thickness_m = 0.002;  ///< distance at which cloth feels cloth
-  double settle_speed_m_s = 0.01;   ///< at rest below this speed
-  double settle_force_ratio = 0.05; ///< residual force over a particle's weight
+  double contact_gap_m = 0.003;    ///< distance to the skin at which contact begins
+  double self_thickness_m = 0.002; ///< distance at which cloth feels cloth
+  double settle_speed_m_s = 0.01;  ///< at rest below this speed
+  double settle_force_ratio = 0.2; ///< residual force over a particle's weight
   double gravity_m_s2 = 9.80665;
   int max_steps = 1500;
   double max_seconds = 0;       ///< wall clock, 0 = no limit

@@ -25,6 +25,8 @@ private:
   void start_outside_body();          ///< shrink until nothing of the garment is inside
   void build_solver(bool open_seams); ///< cloth, effects and solver for the garment as it stands
   void sew();
+  void log_crossings(const char* when) const; ///< to the log, with -v
+  std::size_t untangle();                     ///< draws crossing cloth apart; the pairs that remain
   void inflate();
   void settle();
   bool repair_faces_through();                                       ///< raises the gap where faces cross the skin; true when there was something to do
@@ -53,7 +55,8 @@ private:
   cloth::SelfContactEffect* m_self_contact = nullptr;
   cloth::SewingSpringEffect* m_sewing = nullptr;
   std::vector<char> m_watched; ///< triangles with face and edge contact
-  int m_rounds = 0;            ///< of repair_faces_through
+  int m_untanglings = 0;
+  int m_rounds = 0; ///< of repair_faces_through
   cloth::StepResult m_last;
   std::vector<int> m_cg_iterations;
   std::vector<std::string> m_rejected;

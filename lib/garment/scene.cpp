@@ -104,16 +104,16 @@ DrapeSettings preset_settings(const std::string& accuracy) {
   s.accuracy = accuracy;
   if (accuracy == "draft") {
     s.cg_tolerance = 5e-2;
-    s.settle_force_ratio = 0.05;
-    s.settle_speed_m_s = 0.005;
+    s.settle_force_ratio = 0.5;
+    s.settle_speed_m_s = 0.02;
   } else if (accuracy == "fine") {
     s.cg_tolerance = 1e-3;
-    s.settle_force_ratio = 0.003;
+    s.settle_force_ratio = 0.05;
     s.settle_speed_m_s = 0.0005;
     s.max_steps = 4000;
   } else if (accuracy == "reference") {
     s.cg_tolerance = 1e-5;
-    s.settle_force_ratio = 0.0005;
+    s.settle_force_ratio = 0.01;
     s.settle_speed_m_s = 0.0001;
     s.max_steps = 20000;
   } else if (accuracy != "standard") {
