@@ -91,6 +91,9 @@ int run(cli::Tool& tool, const Options& o) {
   if (o.body.empty()) pattern::lay_flat(source, mesh);
   else {
     const pattern::PlacementReport r = pattern::place_panels(source, body::read_body(o.body), mesh);
+    if (r.crossings + r.vertices_inside + r.faces_through > 0)
+      tool.reporter().warning("the start is not free: " + std::to_string(r.crossings) + " pairs of triangles cross, " + std::to_string(r.vertices_inside) +
+                              " vertices lie in the body, " + std::to_string(r.faces_through) + " faces go through its skin");
     tool.reporter().info("seam gap at the start: mean " + pattern::centimetres(r.seam_gap_mean) + ", largest " + pattern::centimetres(r.seam_gap_max));
   }
   for (const std::string& finding : mesh.findings) tool.reporter().info(finding);

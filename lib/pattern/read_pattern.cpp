@@ -81,7 +81,10 @@ Pattern read_pattern(const std::string& path, const std::string& sewing) {
   } else {
     pattern = read_dxf(text, path);
   }
-  if (!sewing.empty()) read_sewing_seams(pattern, io::read_json(sewing), sewing);
+  if (!sewing.empty()) {
+    pattern.seams.clear(); // the sidecar replaces what the file says
+    read_sewing_seams(pattern, io::read_json(sewing), sewing);
+  }
   if (pattern.name.empty()) pattern.name = path == "-" ? "pattern" : std::filesystem::path(path).stem().string();
   if (pattern.panels.empty()) throw input_error(path, "", "there are no panels");
   finish_pattern(pattern, path);
