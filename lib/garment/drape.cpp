@@ -31,6 +31,7 @@ constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
 constexpr int UNTANGLE_ROUNDS = 80;
 constexpr double UNTANGLE_STEP = 0.001; // m: of an edge against its face in one round
 constexpr int REPAIR_ROUNDS = 25;
+constexpr int FIRST_WATCH = 6;        // rounds in which corners are only kept farther off
 constexpr double GAP_RAISE = 0.0007;  // m per repair round
 constexpr double LARGEST_GAP = 0.012; // m
 
@@ -298,7 +299,6 @@ bool DrapeRun::repair_faces_through() {
   for (int f : through)
     for (int p : triangles[f]) {
       near[p] = 1;
-      if (m_rounds < 4) continue; // closer contact did not do: keep the corners farther off
       double& gap = m_body_contact->gap(p);
       if (gap >= LARGEST_GAP) continue;
       gap += GAP_RAISE;
@@ -308,15 +308,15 @@ bool DrapeRun::repair_faces_through() {
   std::vector<Triangle> watched;
   m_watched.resize(triangles.size(), 0);
   for (std::size_t f = 0; f < triangles.size(); ++f) {
-    if (!m_watched[f] && (near[triangles[f][0]] || near[triangles[f][1]] || near[triangles[f][2]])) {
+    if (m_rounds > FIRST_WATCH && !m_watched[f] && (near[triangles[f][0]] || near[triangles[f][1]] || near[triangles[f][2]])) {
       m_watched[f] = 1;
       changed = true;
     }
     if (m_watched[f]) watched.push_back(triangles[f]);
   }
-  m_body_contact->watch_faces(watched);
-  m_reporter.info(std::to_string(through.size()) + " faces through the skin: contact of faces and edges on " + std::to_string(watched.size()) +
-                  " of them and around");
+  if (!watched.empty()) m_body_contact->watch_faces(watched);
+  m_reporter.info(std::to_string(through.size()) + " faces through the skin: kept farther off" +
+                  (watched.empty() ? "" : ", " + std::to_string(watched.size()) + " with contact of faces and edges"));
   return changed || m_rounds < REPAIR_ROUNDS;
 }
 
