@@ -29,6 +29,7 @@ struct Group {
   Side side;
   std::vector<std::size_t> panels;
   double extra = 0; ///< m added to the gap while panels are pushed free
+  double wing = 0;  ///< m added to the distance of the wings, where sleeves of hanging arms are in their way
 };
 
 class Placer {
@@ -180,8 +181,7 @@ private:
     const double reach = std::max(std::abs(b[0].x()), std::abs(b[1].x())) + 0.03;
     for (const Vec2& p : m_space.points(axis, {Part::ARM_L, Part::ARM_R}, b[0].y() - 0.02, b[1].y() + 0.02))
       if (std::abs(p.x()) < reach) limit = std::max(limit, p.y() + WING);
-    (void)group;
-    return limit;
+    return limit + group.wing;
   }
 
   void place_trunk(const Group& group) {
@@ -374,7 +374,7 @@ private:
       bool changed = false;
       report.crossings = report.vertices_inside = report.faces_through = 0;
       std::set<int> moved_arms;
-      std::set<std::size_t> grow;
+      std::set<std::size_t> grow, widen;
       bool raise_neck = false;
       for (const auto& [pair, n] : crossings()) {
         report.crossings += n;
@@ -383,8 +383,13 @@ private:
           if (m_roles[p].region == m_roles[q].region) {
             if (p != q) ++m_depth[area(p) > area(q) ? q : p], changed = true;
           } else raise_neck = true;
-        } else if (is_arm(p) != is_arm(q)) moved_arms.insert(m_roles[is_arm(p) ? p : q].region == Region::ARM_L);
-        else if (is_arm(p)) {
+        } else if (is_arm(p) != is_arm(q)) {
+          // Out along the arm first; a hanging arm never leaves the wings of a wide skirt that way, so then they make room.
+          const bool left = m_roles[is_arm(p) ? p : q].region == Region::ARM_L;
+          Group& trunk = m_groups[m_group_of[is_arm(p) ? q : p]];
+          if (m_arm_shift[left] > -0.2 || trunk.side == Side::RING || trunk.wing > 0.2) moved_arms.insert(left);
+          else widen.insert(m_group_of[is_arm(p) ? q : p]);
+        } else if (is_arm(p)) {
           if (m_group_of[p] != m_group_of[q]) grow.insert(m_group_of[p]), grow.insert(m_group_of[q]);
           else grow.insert(m_group_of[p]);
         } else if (m_group_of[p] == m_group_of[q] && p != q) {
@@ -394,6 +399,7 @@ private:
       }
       for (int left : moved_arms)
         if (m_arm_shift[left] > -0.4) m_arm_shift[left] -= 0.01, changed = true;
+      for (std::size_t g : widen) m_groups[g].wing += 0.01, changed = true;
       if (raise_neck && m_raised < 0.15) {
         m_raised += 0.01, changed = true;
         for (std::size_t k = 0; k < m_roles.size(); ++k)
@@ -417,7 +423,10 @@ private:
       if (!changed) break;
       place_all();
     }
-    if (report.crossings) m_mesh.findings.push_back("start: " + std::to_string(report.crossings) + " pairs of triangles of panels cross");
+    if (report.crossings)
+      for (const auto& [pair, n] : crossings())
+        m_mesh.findings.push_back("start: " + m_mesh.panels[static_cast<std::size_t>(pair.first)].name + " and " +
+                                  m_mesh.panels[static_cast<std::size_t>(pair.second)].name + " cross in " + std::to_string(n) + " pairs of triangles");
     if (report.vertices_inside + report.faces_through)
       m_mesh.findings.push_back("start: " + std::to_string(report.vertices_inside) + " vertices inside the body, " + std::to_string(report.faces_through) +
                                 " faces through its skin");
