@@ -39,7 +39,7 @@ io::Json placement_json(const PlacementReport& report);
 /// @param positions #P by 3, m, in and out   @param shape #P by 3, m: the cloth at rest or nearly so
 /// @return rounds taken; at most max_rounds, what then still touches is left to the drape. About 0.1 s a round for 7k particles.
 int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, const std::vector<Triangle>& triangles, const collision::BodyCollider& body,
-                 double gap, int max_rounds = 15);
+                 double gap, int max_rounds = 40);
 
 /// Frames that some of the garment hangs on mainly and the body lacks, with the share of the garment that does: a shirt cannot
 /// do without arms, but a collar that lies on the shoulders can do without a head.

@@ -1,0 +1,111 @@
+#include <base/error.hpp>
+#include <gtest/gtest.h>
+#include <io/files.hpp>
+#include <render/draw.hpp>
+#include <render/overlay.hpp>
+
+#include <cmath>
+
+using namespace sloper;
+using namespace sloper::render;
+
+namespace {
+
+/// A ball of 0.5 m around (0, 1, 0).
+DrawMesh make_ball() {
+  DrawMesh mesh;
+  const int n = 24;
+  for (int r = 0; r <= n; ++r)
+    for (int c = 0; c < 2 * n; ++c) {
+      const double polar = M_PI * r / n, around = M_PI * c / n;
+      const Vec3 direction(std::sin(polar) * std::sin(around), std::cos(polar), std::sin(polar) * std::cos(around));
+      mesh.positions.push_back(Vec3(0, 1, 0) + 0.5 * direction);
+      mesh.normals.push_back(direction);
+      mesh.colors.emplace_back(0.5, 0.2, 0.1);
+    }
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < 2 * n; ++c) {
+      const int a = r * 2 * n + c, b = r * 2 * n + (c + 1) % (2 * n);
+      mesh.triangles.push_back({a, a + 2 * n, b});
+      mesh.triangles.push_back({b, a + 2 * n, b + 2 * n});
+    }
+  return mesh;
+}
+
+io::Image draw_ball(Background background) {
+  const std::vector<DrawMesh> meshes{make_ball()};
+  DrawOptions options;
+  options.width = 120;
+  options.height = 160;
+  options.background = background;
+  return Renderer(meshes, options).draw(frame_scene(meshes, 0, 0, 0.75));
+}
+
+} // namespace
+
+TEST(Render, the_whole_scene_is_inside_the_picture_and_fills_it) {
+  const io::Image image = draw_ball(Background::TRANSPARENT);
+  int covered = 0, border = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const bool on = image.at(x, y)[3] > 0;
+      covered += on;
+      border += on && (x == 0 || y == 0 || x == image.width - 1 || y == image.height - 1);
+    }
+  EXPECT_EQ(border, 0);
+  EXPECT_GT(covered, image.width * image.height * 45 / 100);
+  EXPECT_EQ(image.at(60, 80)[3], 255);
+}
+
+TEST(Render, the_same_scene_gives_the_same_bytes) {
+  const auto a = io::png_bytes(draw_ball(Background::WHITE), {{"Software", "test"}});
+  EXPECT_EQ(a, io::png_bytes(draw_ball(Background::WHITE), {{"Software", "test"}}));
+}
+
+TEST(Render, light_comes_from_above) {
+  const io::Image image = draw_ball(Background::WHITE);
+  EXPECT_GT(image.at(60, 40)[0], image.at(60, 125)[0] + 10);
+}
+
+TEST(Png, a_picture_survives_writing_and_reading) {
+  const io::Image image = draw_ball(Background::TRANSPARENT);
+  const std::string path = std::string(SLOPER_BINARY_DIR) + "/round-trip.png";
+  io::write_png(path, image, {});
+  EXPECT_EQ(io::read_png(path).rgba, image.rgba);
+  EXPECT_THROW(io::read_png(SLOPER_SOURCE_DIR "/CMakeLists.txt"), Error);
+}
+
+TEST(Overlay, equal_pictures_compare_equal_and_a_defect_is_seen) {
+  const io::Image a = draw_ball(Background::WHITE);
+  EXPECT_EQ(compare(a, a).ssim, 1);
+  io::Image b = a;
+  for (int y = 60; y < 70; ++y)
+    for (int x = 50; x < 60; ++x) b.at(x, y)[0] = 0;
+  const Comparison c = compare(a, b);
+  EXPECT_EQ(c.different, 100);
+  EXPECT_LT(c.ssim, 0.999);
+  io::Image other = a;
+  other.width /= 2;
+  EXPECT_THROW(compare(a, other), Error);
+}
+
+TEST(Maps, scales_run_from_dark_to_light_and_from_blue_over_white_to_red) {
+  double before = -1;
+  for (int k = 0; k <= 20; ++k) {
+    const Vec3 c = scale_color(k / 20.0, false);
+    const double lightness = 0.2126 * c.x() + 0.7152 * c.y() + 0.0722 * c.z();
+    EXPECT_GT(lightness, before);
+    before = lightness;
+  }
+  EXPECT_GT(scale_color(-1, true).z(), scale_color(-1, true).x());
+  EXPECT_GT(scale_color(1, true).x(), scale_color(1, true).z());
+}
+
+TEST(Scene, what_cannot_be_drawn_is_refused_with_a_reason) {
+  EXPECT_THROW(read_scene({"no-such-file.json"}), Error);
+  const std::string path = std::string(SLOPER_BINARY_DIR) + "/fit.json";
+  io::write_file(path, "{\"format\": \"fit\", \"version\": 1}");
+  EXPECT_THROW(read_scene({path}), Error);
+  Scene scene;
+  EXPECT_THROW(apply_map(scene, Map::STRAIN), Error);
+}
