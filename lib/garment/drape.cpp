@@ -25,6 +25,7 @@ constexpr double SEW_SEARCH = 0.75; // of the mesh edge: cloth nearer than this 
 constexpr double SEW_MOVE = 0.4;    // of the mesh edge: of any particle in one step
 constexpr double SEW_STEP_S = 0.1;
 constexpr double SEW_STRONGEST = 5;      // N at reach
+constexpr double SEW_LEG_SCALE = 0.7;    // of the body's thickness while trousers are sewn
 constexpr double SEW_BENDING = 30;       // times that of the fabric
 constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step while the body is inflated
 constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
@@ -66,7 +67,7 @@ double DrapeRun::mean_edge() const {
 
 bool DrapeRun::active(const char* effect) const { return is_active(m_report.effects, effect); }
 
-void DrapeRun::start_outside_body() {
+void DrapeRun::start_outside_body(bool unsewn) {
   if (!m_body || m_body->skin.triangles.empty()) return;
   const Phase phase(*this, "prepare body");
   m_collider.emplace(m_body->skin);
@@ -76,7 +77,15 @@ void DrapeRun::start_outside_body() {
     for (const Vec3& p : m_garment.position) count += m_collider->is_inside(p);
     return count;
   };
+  // Trousers are sewn around legs drawn in: between thighs that touch there is no room for a seam to close.
+  const auto& panels = m_garment.panels.panels;
+  const bool tight = unsewn && std::any_of(panels.begin(), panels.end(), [](const pattern::PanelInfo& p) { return p.part.rfind("leg", 0) == 0; });
   std::size_t least = trouble();
+  if (least == 0 && tight) {
+    m_shrink.emplace(*m_body);
+    m_scale = SEW_LEG_SCALE;
+    m_collider->set_positions(m_shrink->positions(m_scale));
+  }
   if (least == 0) return;
   m_shrink.emplace(*m_body);
   double best = 1;
@@ -371,7 +380,7 @@ DrapeReport DrapeRun::run() {
   const bool unsewn = m_garment.particle_of.empty();
   if (unsewn) unsew(m_garment);
   m_report.effects = choose_effects(m_garment, m_body, m_settings);
-  start_outside_body();
+  start_outside_body(unsewn);
   if (unsewn && active("sewing")) sew();
   if (!m_stopped) {
     untangle();

@@ -22,8 +22,8 @@ private:
   /// Times a phase, into the report.
   class Phase;
 
-  void start_outside_body();          ///< shrink until nothing of the garment is inside
-  void build_solver(bool open_seams); ///< cloth, effects and solver for the garment as it stands
+  void start_outside_body(bool unsewn); ///< shrink until nothing of the garment is inside
+  void build_solver(bool open_seams);   ///< cloth, effects and solver for the garment as it stands
   void sew();
   void log_crossings(const char* when) const; ///< to the log, with -v
   std::size_t untangle();                     ///< draws crossing cloth apart; the pairs that remain
