@@ -4,27 +4,15 @@
 #include <garment/audit.hpp>
 #include <garment/drape.hpp>
 #include <gtest/gtest.h>
-#include <iostream>
 
 using namespace sloper;
 using namespace sloper::garment;
 
-struct Loud : Reporter {
-  void info(const std::string& s) override {
-    if (getenv("SLOPER_LOUD")) std::cerr << s << "\n";
-  }
-};
-
 TEST(Drape, a_skirt_is_sewn_hangs_at_the_waist_and_comes_to_rest_without_crossing_anything) {
   const body::Body pillar = make_pillar();
   Garment skirt = make_skirt(0.75, 0.5, 0.02);
-  Loud loud;
-  const DrapeReport report = drape(skirt, &pillar, {}, loud);
+  const DrapeReport report = drape(skirt, &pillar, {}, silent_reporter());
   EXPECT_TRUE(report.converged) << report.stop_reason;
-  std::cerr << report.steps << " steps " << report.wall_s << " s\n" << report.quality.dump() << report.solver.dump() << "\n";
-  for (auto& e : report.effects) std::cerr << e.name << " " << e.wall_s << "\n";
-  for (auto& e : report.phases) std::cerr << e.first << " " << e.second << "\n";
-  for (auto& e : report.repairs) std::cerr << e << "\n";
   const collision::BodyCollider body(pillar.skin);
   const Audit a = audit(skirt, &body);
   EXPECT_TRUE(a.clean());
@@ -65,9 +53,8 @@ TEST(Drape, a_garment_that_starts_inside_the_body_is_repaired_and_the_repair_is_
   body::Body pillar = make_pillar();
   pillar.landmarks["hip_center"].p = Vec3(0, 0.2, 0);
   pillar.landmarks["neck_center"].p = Vec3(0, 1.2, 0);
-  Loud loud;
   Garment skirt = make_skirt(0.75, 0.4, 0.025, 1.02, 0.06);
-  const DrapeReport report = drape(skirt, &pillar, {}, loud);
+  const DrapeReport report = drape(skirt, &pillar, {}, silent_reporter());
   EXPECT_TRUE(report.converged) << report.stop_reason;
   ASSERT_FALSE(report.repairs.empty());
   const collision::BodyCollider body(pillar.skin);
@@ -79,8 +66,7 @@ TEST(Drape, going_on_from_a_garment_at_rest_changes_nothing_that_can_be_seen) {
   Garment skirt = make_skirt(0.75, 0.4, 0.03);
   drape(skirt, &pillar, {}, silent_reporter());
   const std::vector<Vec3> before = skirt.position;
-  Loud loud;
-  const DrapeReport again = drape(skirt, &pillar, {}, loud);
+  const DrapeReport again = drape(skirt, &pillar, {}, silent_reporter());
   EXPECT_TRUE(again.converged);
   double moved = 0;
   for (std::size_t i = 0; i < before.size(); ++i) moved = std::max(moved, (skirt.position[i] - before[i]).norm());
