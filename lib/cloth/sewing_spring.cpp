@@ -24,6 +24,15 @@ void SewingSpringEffect::add(StepContext& c) {
   }
 }
 
+double SewingSpringEffect::energy(const std::vector<Vec3>& x) const {
+  double sum = 0;
+  for (const auto& s : m_stitches) {
+    const double gap = (x[s[1]] - x[s[0]]).norm();
+    sum += gap < m_reach ? 0.5 * m_stiffness * gap * gap : m_stiffness * m_reach * (gap - 0.5 * m_reach);
+  }
+  return sum;
+}
+
 double SewingSpringEffect::largest_gap(const std::vector<Vec3>& x) const {
   double largest = 0;
   for (const auto& s : m_stitches) largest = std::max(largest, (x[s[1]] - x[s[0]]).norm());
