@@ -20,7 +20,7 @@ public:
   void declare(std::vector<std::array<int, 2>>& pairs) const override;
   void bind(const BlockMatrix& matrix) override { m_slots = find_hinge_slots(m_mesh, matrix); }
   /// Potential at x, J.
-  double energy(const std::vector<Vec3>& x) const { return bending_energy(m_mesh, x); }
+  double energy(const std::vector<Vec3>& x) const override { return bending_energy(m_mesh, x); }
   void add(StepContext& c) override { add_bending(m_mesh, c.x, c.h, m_slots, c.force, c.stiffness); }
 
 private:

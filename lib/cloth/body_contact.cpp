@@ -1,148 +1,365 @@
 #include <base/parallel.hpp>
 #include <cloth/body_contact.hpp>
+#include <cloth/contact_element.hpp>
+#include <cloth/contact_potential.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sloper::cloth {
 
-/// In one step a particle comes down at most to this share of its gap, or uses this share of what it has below that.
-static constexpr double APPROACH = 0.5;
-/// Below this share of the gap the push grows as 1/d, up to a factor.
-static constexpr double BARRIER = 0.3, LARGEST_BARRIER = 10;
-/// Along the skin a touching particle moves at most this far in one step, m: the normal is only known here.
-static constexpr double LARGEST_SLIDE = 0.01;
-/// Clearance beyond the gap below which a particle is asked again, m.
-static constexpr double MARGIN = 0.006;
+namespace {
+
+/// Reach of edges and faces, as a share of the gap: they matter where the skin bulges between the cloth's vertices.
+constexpr double EDGE_REACH = 0.5;
+/// In one step an element uses at most this share of its distance to the skin.
+constexpr double APPROACH = 0.7;
+/// Cloth is searched for again when a particle has used this share of what it may move unseen.
+constexpr double USED = 0.6;
+/// A crossed pair is pushed as if at most this deep, m: a deep start is pushed out, not shot out.
+constexpr double DEEPEST = 0.002;
+/// Each time that crossings are looked for and found, crossed pairs are pushed harder by this factor, up to a limit.
+constexpr double HARDER = 1.3, HARDEST = 100;
+/// A crossed pair counts only within 60 degrees of the skin's normal: beyond, its sign would be noise.
+constexpr double CONE = 0.5;
+/// Distances to the skin are not measured beyond this, m.
+constexpr double FAR = 0.04;
+
+/// Of a crossed pair, d <= 0 below the skin: a spring of constant stiffness beyond the reach.
+Push push_out_of(double d, double reach, double k) {
+  Push p;
+  if (d >= reach) return p;
+  const double depth = std::min(reach - d, reach + DEEPEST);
+  p.force = 0.5 * k * depth;
+  p.stiffness = 0.5 * k;
+  p.energy = 0.25 * k * depth * depth;
+  return p;
+}
+
+} // namespace
 
 BodyContactEffect::BodyContactEffect(const ClothMesh& mesh, collision::BodyCollider& body, const BodyContactOptions& options)
-    : m_mesh(mesh), m_body(body), m_options(options), m_state(mesh.n_particles), m_gap(mesh.n_particles, options.gap_m) {}
+    : m_mesh(mesh), m_body(body), m_options(options), m_triangles(mesh.particle_triangles()),
+      m_topology(collision::make_topology(mesh.n_particles, m_triangles)), m_clearance(mesh.n_particles), m_load(mesh.n_particles, Vec3::Zero()),
+      m_load_stiffness(mesh.n_particles), m_tangent(mesh.n_particles), m_anchor(mesh.n_particles, Vec3::Zero()), m_has_anchor(mesh.n_particles, 0) {
+  m_edge_area.assign(m_topology.edges.size(), 0);
+  for (std::size_t f = 0; f < m_triangles.size(); ++f) {
+    const auto& flat = mesh.triangles[f].flat;
+    const Vec2 a = flat[1] - flat[0], b = flat[2] - flat[0];
+    m_face_area.push_back(0.5 * std::abs(a.x() * b.y() - a.y() * b.x()));
+    m_longest_edge.push_back(std::max({a.norm(), b.norm(), (b - a).norm()}));
+    for (int e : m_topology.triangle_edges[f]) m_edge_area[e] += m_face_area.back() / 3;
+  }
+  set_gap(options.gap_m);
+}
+
+void BodyContactEffect::set_gap(double gap_m) {
+  m_options.gap_m = gap_m;
+  m_stale = true;
+  const TriangleMesh& skin = m_body.mesh();
+  const double disc = std::numbers::pi * gap_m * gap_m, edge_disc = disc * EDGE_REACH * EDGE_REACH;
+  m_body_face_weight.clear();
+  m_body_vertex_weight.assign(skin.positions.size(), 0);
+  for (const Triangle& t : skin.triangles) {
+    const Vec3 a = skin.positions[t[1]] - skin.positions[t[0]], b = skin.positions[t[2]] - skin.positions[t[0]];
+    const double area = 0.5 * a.cross(b).norm();
+    m_body_face_weight.push_back(area / (area + disc));
+    for (int v : t) m_body_vertex_weight[v] += area / 3;
+  }
+  for (double& w : m_body_vertex_weight) w /= w + edge_disc;
+}
+
+void BodyContactEffect::declare(std::vector<std::array<int, 2>>& pairs) const { pairs.insert(pairs.end(), m_topology.edges.begin(), m_topology.edges.end()); }
+
+void BodyContactEffect::bind(const BlockMatrix& matrix) {
+  m_edge_slot.clear();
+  for (const auto& e : m_topology.edges) m_edge_slot.push_back(matrix.slot(e[0], e[1]));
+  m_stale = true; // pairs hold slots
+}
+
+void BodyContactEffect::set_give_way(bool give_way) {
+  m_give_way = give_way;
+  refresh();
+}
+
+void BodyContactEffect::refresh() { m_stale = m_look_for_crossings = true; }
+
+Vec3 BodyContactEffect::crossing_place() const {
+  const auto first = std::find(m_crossing.begin(), m_crossing.end(), 1);
+  return first == m_crossing.end() ? Vec3(Vec3::Zero()) : m_searched_at[m_triangles[first - m_crossing.begin()][0]];
+}
 
 void BodyContactEffect::move_body(const std::vector<Vec3>& positions) {
-  double motion = 1e300;
-  if (m_body_positions.size() == positions.size()) {
-    motion = 0;
-    for (std::size_t i = 0; i < positions.size(); ++i) motion = std::max(motion, (positions[i] - m_body_positions[i]).norm());
-  }
-  m_body_positions = positions;
+  double motion = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) motion = std::max(motion, (positions[i] - m_body.mesh().positions[i]).squaredNorm());
+  motion = std::sqrt(motion);
+  m_body_moved += motion;
   m_body.set_positions(positions);
-  for (State& s : m_state) {
-    s.clearance -= motion;
-    s.has_anchor = false;
-  }
+  for (Clearance& c : m_clearance)
+    if (c.distance >= 0) c.distance = std::max(0.0, c.distance - motion);
+  std::fill(m_has_anchor.begin(), m_has_anchor.end(), 0);
 }
 
 void BodyContactEffect::begin_step(const std::vector<Vec3>& x, double) {
-  std::vector<long> asked((m_state.size() + 255) / 256, 0);
-  parallel_for(m_state.size(), 256, [&](std::size_t begin, std::size_t end) {
+  const double edge_radius = EDGE_REACH * m_options.gap_m + m_options.slack_m;
+  m_stale = m_stale || m_n_crossing > 0 || m_body_moved > USED * m_options.slack_m;
+  for (std::size_t i = 0; !m_stale && i < x.size(); ++i) {
+    const double moved = (x[i] - m_searched_at[i]).norm() + m_body_moved;
+    m_stale = moved > (m_reach_now[i] > edge_radius ? USED * m_reach_now[i] : USED * m_options.slack_m);
+  }
+  if (m_stale) search(x);
+}
+
+void BodyContactEffect::find_crossed(const std::vector<Vec3>& x) {
+  m_crossing.assign(m_triangles.size(), 0);
+  m_inside.assign(x.size(), 0);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const collision::SignedDistance d = m_body.signed_distance(x[i], FAR, m_clearance[i].triangle);
+    m_clearance[i].triangle = d.triangle;
+    m_inside[i] = d.triangle >= 0 ? d.distance < 0 : m_body.is_inside(x[i]);
+  }
+  if (m_give_way) m_crossing.assign(m_triangles.size(), 1);
+  else
+    for (int f : m_body.faces_through(x, m_triangles)) m_crossing[f] = 1;
+  m_n_crossing = 0;
+  for (std::size_t f = 0; f < m_triangles.size(); ++f) {
+    for (int i : m_triangles[f]) m_crossing[f] |= m_inside[i];
+    m_n_crossing += m_crossing[f];
+  }
+  m_look_for_crossings = m_n_crossing > 0;
+  m_push = m_n_crossing == 0 || m_give_way ? 1 : std::min(HARDER * m_push, HARDEST);
+}
+
+/// Fills m_asked and m_reach_now from lower bounds of the distances to the skin.
+void BodyContactEffect::measure_clearance(const std::vector<Vec3>& x) {
+  const double near = m_options.gap_m + m_options.slack_m, edge_radius = EDGE_REACH * m_options.gap_m + m_options.slack_m;
+  std::vector<double> bound(x.size());
+  parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      State& s = m_state[i];
-      const bool was_near = s.near;
-      s.near = false;
-      const double clearance = s.clearance - (x[i] - s.asked_at).norm();
-      if (clearance > m_gap[i] + MARGIN) continue;
-      const collision::SignedDistance d = m_body.signed_distance(x[i], m_options.search_m, s.triangle);
-      ++asked[begin / 256];
-      s.asked_at = x[i];
-      const int last_triangle = s.triangle;
-      s.triangle = d.triangle;
-      if (d.triangle < 0) {
-        s.clearance = m_options.search_m;
-        s.has_anchor = false;
-        continue;
+      Clearance& c = m_clearance[i];
+      const double moved = (x[i] - c.at).norm();
+      // What was near is taken for near for a while without asking; what is surely far is not asked either.
+      const bool still_near = c.distance >= 0 && c.distance <= near && moved < near;
+      const bool still_far = c.distance - moved > 0.5 * FAR;
+      if (!still_near && !still_far) {
+        const collision::SignedDistance d = m_body.signed_distance(x[i], FAR, c.triangle);
+        c = {x[i], d.triangle < 0 ? FAR : std::abs(d.distance), d.triangle};
       }
-      s.near = true;
-      s.distance = d.distance;
-      // Where the nearest triangle has changed, the mean of both normals keeps a particle from flipping between two facets.
-      const bool changed = was_near && d.triangle != last_triangle && s.normal.dot(d.normal) > 0.3;
-      s.normal = changed ? Vec3((s.normal + d.normal).normalized()) : d.normal;
-      s.clearance = std::abs(d.distance);
-      if (d.distance < 0) s.clearance = -1;
+      bound[i] = still_near ? 0 : c.distance - (x[i] - c.at).norm();
     }
   });
-  for (long n : asked) queries += n;
+  m_asked.assign(m_triangles.size(), 0);
+  m_reach_now.assign(x.size(), 1e300);
+  for (std::size_t f = 0; f < m_triangles.size(); ++f) {
+    const Triangle& t = m_triangles[f];
+    // a point of the face is at most this far from one of its corners
+    const double clear = std::min({bound[t[0]], bound[t[1]], bound[t[2]]}) - m_longest_edge[f];
+    m_asked[f] = clear <= near;
+    for (int i : t) m_reach_now[i] = std::min(m_reach_now[i], std::max(edge_radius, clear));
+  }
 }
 
-void BodyContactEffect::add(StepContext& c) {
-  if (m_options.friction > 0) ++friction_calls;
-  if (!m_watched.empty()) add_face_contacts(c);
+void BodyContactEffect::collect_pairs() {
+  m_pairs.clear();
+  const TriangleMesh& skin = m_body.mesh();
+  const double k = m_options.stiffness_n_m3;
+  const bool clean = m_n_crossing == 0;
+  for (const auto& found : m_found.vertex_face) {
+    if (!clean && m_inside[found.vertex]) continue; // pushed out along the nearest skin's normal
+    Pair p{{},
+           {found.vertex, 0, 0},
+           skin.triangles[found.body_triangle],
+           1,
+           3,
+           false,
+           m_options.gap_m,
+           k * m_mesh.area[found.vertex] * m_body_face_weight[found.body_triangle]};
+    m_pairs.push_back(p);
+  }
+  for (const auto& found : m_found.edge_edge) {
+    const auto& e = m_topology.edges[found.edge];
+    const Triangle& t = skin.triangles[found.body_triangle];
+    const int b0 = t[found.side], b1 = t[(found.side + 1) % 3];
+    const double length = (skin.positions[b1] - skin.positions[b0]).norm();
+    const double reach = EDGE_REACH * m_options.gap_m;
+    bool crossed = false;
+    if (!clean)
+      for (int f : m_topology.triangles_of_edge(found.edge)) crossed |= m_crossing[f];
+    m_pairs.push_back(
+        {{m_edge_slot[found.edge], 0, 0}, {e[0], e[1], 0}, {b0, b1, 0}, 2, 2, crossed, reach, k * m_edge_area[found.edge] * length / (length + 2 * reach)});
+  }
+  for (const auto& found : m_found.face_vertex) {
+    const auto& edges = m_topology.triangle_edges[found.triangle];
+    m_pairs.push_back({{m_edge_slot[edges[0]], m_edge_slot[edges[1]], m_edge_slot[edges[2]]},
+                       m_triangles[found.triangle],
+                       {found.body_vertex, 0, 0},
+                       3,
+                       1,
+                       !clean && m_crossing[found.triangle],
+                       EDGE_REACH * m_options.gap_m,
+                       k * m_face_area[found.triangle] * m_body_vertex_weight[found.body_vertex]});
+  }
+}
+
+void BodyContactEffect::search(const std::vector<Vec3>& x) {
+  if (m_look_for_crossings || m_n_crossing > 0) find_crossed(x);
+  measure_clearance(x);
+  m_body.near_pairs(x, m_triangles, m_topology, m_asked, m_options.gap_m + m_options.slack_m, EDGE_REACH * m_options.gap_m + m_options.slack_m, m_found);
+  collect_pairs();
+  m_searched_at = x;
+  m_body_moved = 0;
+  m_stale = false;
+  ++searches;
+}
+
+BodyContactEffect::Closest BodyContactEffect::closest(const Pair& pair, const std::vector<Vec3>& x) const {
+  const std::vector<Vec3>& skin = m_body.mesh().positions;
+  Closest c;
+  c.share = 1;
+  Vec3 away;
+  if (pair.n == 1) {
+    const auto d = collision::point_triangle(x[pair.particle[0]], skin[pair.body[0]], skin[pair.body[1]], skin[pair.body[2]]);
+    c.weight = {1, 0, 0};
+    c.body_weight = {d.barycentric[0], d.barycentric[1], d.barycentric[2]};
+    away = x[pair.particle[0]] - d.point;
+  } else if (pair.n == 2) {
+    const Vec3 &a0 = x[pair.particle[0]], &a1 = x[pair.particle[1]], &b0 = skin[pair.body[0]], &b1 = skin[pair.body[1]];
+    const auto d = collision::edge_edge(a0, a1, b0, b1);
+    c.weight = {1 - d.s, d.s, 0};
+    c.body_weight = {1 - d.t, d.t, 0};
+    c.share = crossing_share(a1 - a0, b1 - b0);
+    away = a0 + d.s * (a1 - a0) - b0 - d.t * (b1 - b0);
+  } else {
+    const Vec3& b = skin[pair.body[0]];
+    const auto d = collision::point_triangle(b, x[pair.particle[0]], x[pair.particle[1]], x[pair.particle[2]]);
+    c.weight = {d.barycentric[0], d.barycentric[1], d.barycentric[2]};
+    c.body_weight = {1, 0, 0};
+    away = d.point - b;
+  }
+  c.distance = away.norm();
+  c.valid = c.distance > 1e-12;
+  if (!pair.crossed) {
+    if (c.valid) c.normal = away / c.distance;
+    return c;
+  }
+  Vec3 skin_normal = Vec3::Zero();
+  for (int k = 0; k < pair.n_body; ++k) skin_normal += c.body_weight[k] * m_body.vertex_normals()[pair.body[k]];
+  const double height = away.dot(skin_normal.normalized());
+  c.valid = c.valid && std::abs(height) >= CONE * c.distance;
+  if (height < 0) c.distance = -c.distance;
+  if (c.valid) c.normal = away / c.distance;
+  return c;
+}
+
+void BodyContactEffect::add_pair(const Pair& pair, const Closest& c, StepContext& context) {
+  const double stiffness = c.share * pair.stiffness;
+  const Push push = pair.crossed ? push_out_of(c.distance, pair.reach, m_push * stiffness) : push_of(c.distance, pair.reach, stiffness);
+  if (push.force <= 0) return;
+  const Mat3 block = push.stiffness * c.normal * c.normal.transpose();
+  for (int k = 0; k < pair.n; ++k) {
+    const double w = c.weight[k];
+    if (w <= 0) continue;
+    const int i = pair.particle[k];
+    m_load[i] += w * push.force * c.normal;
+    m_load_stiffness[i] += w * push.stiffness;
+    context.stiffness.add_diagonal(i, w * w * block);
+    const int l = (k + 1) % pair.n;
+    if (pair.n > 1 && (pair.n > 2 || k == 0) && c.weight[l] > 0) context.stiffness.add_off_diagonal(pair.slot[k], w * c.weight[l] * block);
+  }
+}
+
+void BodyContactEffect::push_out(int i, StepContext& context) {
+  const collision::SignedDistance d = m_body.signed_distance(context.x[i], FAR, m_clearance[i].triangle);
+  if (d.triangle < 0) return;
+  const Push push = push_out_of(d.distance, m_options.gap_m, m_push * m_options.stiffness_n_m3 * m_mesh.area[i]);
+  m_load[i] += push.force * d.normal;
+  m_load_stiffness[i] += push.stiffness;
+  context.stiffness.add_diagonal(i, push.stiffness * d.normal * d.normal.transpose());
+}
+
+void BodyContactEffect::add(StepContext& context) {
+  std::fill(m_load.begin(), m_load.end(), Vec3::Zero());
+  std::fill(m_load_stiffness.begin(), m_load_stiffness.end(), 0);
+  const std::vector<Vec3>& x = context.x;
+  for (const Pair& pair : m_pairs) {
+    const Closest c = closest(pair, x);
+    if (!c.valid) continue;
+    if (c.distance < pair.reach) add_pair(pair, c, context);
+    if (pair.crossed || !context.limits) continue;
+    double body = 0;
+    for (int b = 0; b < pair.n_body; ++b) body += c.body_weight[b] * c.normal.dot(m_body.mesh().positions[pair.body[b]]);
+    context.limits->guards.push_back({pair.n,
+                                      pair.n,
+                                      {pair.particle[0], pair.particle[1], pair.particle[2], 0},
+                                      c.normal,
+                                      body + std::max((1 - APPROACH) * c.distance, std::min(c.distance, LEAST_DISTANCE * pair.reach)),
+                                      0});
+  }
+  if (m_n_crossing > 0)
+    for (int i = 0; i < m_mesh.n_particles; ++i)
+      if (m_inside[i]) push_out(i, context);
+  for (int i = 0; i < m_mesh.n_particles; ++i) context.force[i] += m_load[i];
+  if (context.limits)
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      double& most = context.limits->most[i];
+      most = std::min(most, std::max(0.0, m_reach_now[i] - m_body_moved - (x[i] - m_searched_at[i]).norm()));
+    }
+  if (m_options.friction > 0) add_friction(context);
+}
+
+void BodyContactEffect::add_friction(StepContext& context) {
+  ++friction_calls;
   for (int i = 0; i < m_mesh.n_particles; ++i) {
-    State& s = m_state[i];
-    s.normal_force = 0;
-    if (!s.near || s.distance >= m_gap[i]) {
-      s.has_anchor = false;
+    const double load = m_load[i].norm();
+    m_tangent[i] = 0;
+    if (load <= 0) {
+      m_has_anchor[i] = 0;
       continue;
     }
-    // E = k A depth^3 / (6 gap): stiffness grows from 0, so that particles that come and go do not kick the rest, and Newton
-    // comes from the deep side without overshooting. Near the skin both grow with 1/d: pinched cloth shares what room there is.
-    const double depth = std::min(m_gap[i] - s.distance, m_gap[i] + 0.002); // a deep start is pushed out, not shot out
-    const double barrier = std::clamp(BARRIER * m_gap[i] / std::max(s.distance, 1e-9), 1.0, LARGEST_BARRIER);
-    double k = m_options.stiffness_n_m3 * m_mesh.area[i] * depth / m_gap[i] * barrier;
-    s.normal_force = 0.5 * k * depth;
-    k *= barrier;
-    Vec3 force = s.normal_force * s.normal;
-    double tangent = 0;
-    if (m_options.friction > 0) {
-      if (!s.has_anchor) s.anchor = c.x[i];
-      s.has_anchor = true;
-      Vec3 u = c.x[i] - s.anchor;
-      u -= u.dot(s.normal) * s.normal;
-      tangent = m_options.tangent_ratio * k;
-      const double pull = tangent * u.norm(), most = m_options.friction * s.normal_force;
-      if (pull > most) {
-        u *= most / pull;
-        force -= tangent * u;
-        s.anchor = c.x[i] - u;
-        tangent = m_options.slide_ratio * k;
-      } else {
-        force -= tangent * u;
-      }
+    const Vec3 normal = m_load[i] / load;
+    if (!m_has_anchor[i]) m_anchor[i] = context.x[i];
+    m_has_anchor[i] = 1;
+    Vec3 u = context.x[i] - m_anchor[i];
+    u -= u.dot(normal) * normal;
+    double tangent = m_tangent[i] = m_options.tangent_ratio * m_load_stiffness[i];
+    const double pull = tangent * u.norm(), most = m_options.friction * load;
+    if (pull > most) {
+      u *= most / pull;
+      context.force[i] -= tangent * u;
+      m_anchor[i] = context.x[i] - u;
+      tangent = m_options.slide_ratio * m_load_stiffness[i];
+    } else {
+      context.force[i] -= tangent * u;
     }
-    c.force[i] += force;
-    c.stiffness.add_diagonal(i, tangent * Mat3::Identity() + (k - tangent) * s.normal * s.normal.transpose());
+    context.stiffness.add_diagonal(i, tangent * (Mat3::Identity() - normal * normal.transpose()));
   }
 }
 
-void BodyContactEffect::watch_faces(const std::vector<Triangle>& triangles) {
-  m_watched = triangles;
-  m_watched_topology = collision::make_topology(m_mesh.n_particles, m_watched);
-}
-
-void BodyContactEffect::add_face_contacts(StepContext& c) {
-  for (const collision::FaceContact& contact : m_body.face_contacts(c.x, m_watched, m_watched_topology, m_options.gap_m)) {
-    const Triangle& t = m_watched[contact.triangle];
-    double area = 0;
-    for (int k = 0; k < 3; ++k) area += contact.barycentric[k] * m_mesh.area[t[k]];
-    const double depth = std::min(m_options.gap_m - contact.distance, m_options.gap_m + 0.002);
-    if (depth <= 0) continue;
-    const double k = 0.5 * m_options.stiffness_n_m3 * area * depth / m_options.gap_m;
-    ContactElement e;
-    e.n = 3;
-    e.particle = {t[0], t[1], t[2], 0};
-    e.weight = {contact.barycentric[0], contact.barycentric[1], contact.barycentric[2], 0};
-    e.normal = contact.normal;
-    e.normal_stiffness = k;
-    e.force = 0.5 * k * depth * contact.normal;
-    c.elements.push_back(e);
+double BodyContactEffect::energy(const std::vector<Vec3>& x) const {
+  double sum = 0;
+  for (const Pair& pair : m_pairs) {
+    const Closest c = closest(pair, x);
+    if (!c.valid) continue;
+    const double k = c.share * pair.stiffness;
+    sum += pair.crossed ? push_out_of(c.distance, pair.reach, m_push * k).energy : push_of(c.distance, pair.reach, k).energy;
   }
-}
-
-void BodyContactEffect::limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std::vector<char>& held) {
-  for (std::size_t i = 0; i < m_state.size(); ++i) {
-    const State& s = m_state[i];
-    if (!s.near) {
-      const double clearance = s.clearance - (x[i] - s.asked_at).norm(), move = dx[i].norm();
-      if (move > clearance && clearance > 0) dx[i] *= clearance / move;
-      continue;
+  if (m_n_crossing > 0)
+    for (int i = 0; i < m_mesh.n_particles; ++i) {
+      if (!m_inside[i]) continue;
+      const collision::SignedDistance d = m_body.signed_distance(x[i], FAR, m_clearance[i].triangle);
+      if (d.triangle >= 0) sum += push_out_of(d.distance, m_options.gap_m, m_push * m_options.stiffness_n_m3 * m_mesh.area[i]).energy;
     }
-    double along = dx[i].dot(s.normal);
-    const Vec3 slide = dx[i] - along * s.normal;
-    const double slide_length = slide.norm(), slide_most = LARGEST_SLIDE + std::max(s.distance, 0.0);
-    const double wanted = along;
-    along = std::max(along, -std::max({s.distance - APPROACH * m_gap[i], APPROACH * s.distance, 0.0}));
-    if (along > wanted) held[i] = 1;
-    dx[i] = along * s.normal + (slide_length > slide_most ? slide_most / slide_length : 1.0) * slide;
-  }
+  if (m_options.friction > 0) // of the tangent springs, with the load of the last step: quadratic to the limit, then linear
+    for (int i = 0; i < m_mesh.n_particles; ++i) {
+      if (m_tangent[i] <= 0) continue;
+      const double load = m_load[i].norm(), most = m_options.friction * load;
+      Vec3 u = x[i] - m_anchor[i];
+      u -= u.dot(m_load[i]) / (load * load) * m_load[i];
+      const double length = u.norm(), limit = most / m_tangent[i];
+      sum += length <= limit ? 0.5 * m_tangent[i] * length * length : most * (length - 0.5 * limit);
+    }
+  return sum;
 }
 
 } // namespace sloper::cloth

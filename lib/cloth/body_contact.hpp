@@ -1,11 +1,17 @@
 #pragma once
-/// Contact of particles with a body: a one-sided spring inside the gap, static and sliding friction.
+/// Contact of cloth with a body: repulsion inside the gap, static and sliding friction, and planes that no step passes.
 ///
-/// Normal: E = k A max(0, gap - d)^3 / (6 gap) with signed distance d and the particle's rest area A. Friction is Coulomb with a
-/// memory: each touching particle is tied to an anchor on the skin by a tangent spring; where the spring would pull harder
-/// than mu N the anchor is dragged along (sliding). So a garment that hangs by friction really comes to rest.
-/// Work goes only where it is needed: a particle is not asked again before it can have come near, since the distance to
-/// a still body changes at most by as much as the particle moves.
+/// Every pair of near elements has a potential of its distance d: cloth vertex and body face (reach: the gap), cloth edge and
+/// body edge, cloth face and body vertex (reach: EDGE_REACH of the gap). Sums over pairs, and not the nearest alone, are smooth
+/// where the nearest feature changes: cloth in a groove or a pinch is pushed by both walls (Li et al. 2020, "Incremental
+/// Potential Contact", for the choice of pairs). Per area: k (g - d)^3 / (6 g), and near the skin a barrier that grows as
+/// ln(1/d). A pair weighs by how much of the reach its body element covers, so that fine skin does not push harder.
+/// Friction is Coulomb with a memory: each touching particle is tied to an anchor on the skin by a tangent spring; where the
+/// spring would pull harder than mu N the anchor is dragged along. So a garment that hangs by friction really comes to rest.
+///
+/// A cloth that is outside stays outside (MotionLimits). One that starts with faces through the skin or vertices inside is
+/// pushed out: its crossing elements are pushed along the skin's normal and not guarded until they are free.
+/// Test: tests/cloth/test_contact.cpp
 #include <cloth/cloth_mesh.hpp>
 #include <cloth/effect.hpp>
 #include <collision/body_collider.hpp>
@@ -14,56 +20,96 @@ namespace sloper::cloth {
 
 struct BodyContactOptions {
   double gap_m = 0.003;        ///< distance to the skin at which contact begins
-  double stiffness_n_m3 = 2e6; ///< k: pressure per depth
+  double stiffness_n_m3 = 6e5; ///< k: pressure per depth; skin gives way about as much
   double friction = 0.0;       ///< mu
   double tangent_ratio = 0.5;  ///< tangent over normal stiffness while sticking
   double slide_ratio = 0.05;   ///< the same while sliding: only steadies the step
-  double search_m = 0.04;      ///< farther than this from the skin a particle has no contact data
+  double slack_m = 0.003;      ///< pairs are kept up to this distance beyond the reach, so that they serve several steps
 };
 
 class BodyContactEffect : public Effect {
 public:
+  /// `mesh` and `body` outlive the effect.
   BodyContactEffect(const ClothMesh& mesh, collision::BodyCollider& body, const BodyContactOptions& options);
   const char* name() const override { return "body_contact"; }
+  void declare(std::vector<std::array<int, 2>>& pairs) const override;
+  void bind(const BlockMatrix& matrix) override;
   void begin_step(const std::vector<Vec3>& x, double h) override;
   void add(StepContext& c) override;
-  void limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std::vector<char>& held) override;
+  double energy(const std::vector<Vec3>& x) const override; ///< of the pairs of the last search and of the ties of friction
 
-  /// Moves the body (same topology). What is known of distances shrinks by its largest motion.
+  /// Moves the body (same topology).
   void move_body(const std::vector<Vec3>& positions);
-  /// The next level of contact, for a few faces: body vertices and edges against these (particle) triangles and their edges.
-  void watch_faces(const std::vector<Triangle>& triangles);
   void set_friction(double mu) { m_options.friction = mu; }
-  /// Contact distance of one particle; raised where the audit finds a face through the body.
-  double& gap(int particle) { return m_gap[particle]; }
+  void set_gap(double gap_m);
+  /// While the body moves into the cloth: nothing is guarded, all is pushed along the skin's normal.
+  void set_give_way(bool give_way);
   const BodyContactOptions& options() const { return m_options; }
-  /// Signed distances of the particles that are near, 1e30 elsewhere; valid after begin_step.
-  double distance(int particle) const { return m_state[particle].near ? m_state[particle].distance : 1e30; }
-  double normal_force(int particle) const { return m_state[particle].normal_force; }
-  long queries = 0;        ///< distance queries so far
+  /// Positions were changed from outside: look for crossings at the next search, which comes before the next step.
+  void refresh();
+  /// Cloth triangles through the skin or with a vertex inside, at the last search; none once guarded.
+  std::size_t n_crossing() const { return m_n_crossing; }
+  Vec3 crossing_place() const; ///< where the first of them was, m; only when there is one
+  /// Contact force on a particle in the last step, N.
+  double normal_force(int particle) const { return m_load[particle].norm(); }
+  long searches = 0;
   long friction_calls = 0; ///< steps in which friction was computed
 
 private:
-  struct State {
-    bool near = false; // distance and normal are of this step
-    bool has_anchor = false;
-    double distance = 0;     // signed, m
-    double clearance = -1;   // no skin within this distance of `asked_at`; negative: ask
-    double normal_force = 0; // N
-    int triangle = -1;
-    Vec3 normal = Vec3::UnitY(), asked_at = Vec3::Zero(), anchor = Vec3::Zero();
+  struct Pair {
+    std::array<int, 3> slot; // off-diagonal blocks of the particles (0,1), (1,2), (2,0)
+    std::array<int, 3> particle;
+    std::array<int, 3> body; // vertices of the body
+    int n, n_body;           // particles and body vertices in use
+    bool crossed;            // pushed along the skin's normal, not guarded
+    double reach, stiffness; // m, N/m
   };
-
-  void add_face_contacts(StepContext& c);
+  /// A pair's closest points now.
+  struct Closest {
+    Vec3 normal;     // unit, from the skin to the cloth
+    double distance; // negative only for crossed pairs
+    std::array<double, 3> weight, body_weight;
+    double share; // see crossing_share()
+    bool valid;
+  };
+  Closest closest(const Pair& pair, const std::vector<Vec3>& x) const;
+  void search(const std::vector<Vec3>& x);
+  void find_crossed(const std::vector<Vec3>& x);
+  void measure_clearance(const std::vector<Vec3>& x);
+  void collect_pairs();
+  void add_pair(const Pair& pair, const Closest& c, StepContext& context);
+  void push_out(int particle, StepContext& context);
+  void add_friction(StepContext& context);
 
   const ClothMesh& m_mesh;
   collision::BodyCollider& m_body;
   BodyContactOptions m_options;
-  std::vector<State> m_state;
-  std::vector<double> m_gap;
-  std::vector<Vec3> m_body_positions;
-  std::vector<Triangle> m_watched;
-  collision::Topology m_watched_topology;
+  std::vector<Triangle> m_triangles;
+  collision::Topology m_topology;
+  std::vector<int> m_edge_slot;                                 // by edge
+  std::vector<double> m_edge_area, m_face_area, m_longest_edge; // by edge, triangle, triangle
+  std::vector<double> m_body_face_weight, m_body_vertex_weight; // 0..1
+
+  std::vector<Pair> m_pairs;
+  collision::BodyPairs m_found;
+  std::vector<Vec3> m_searched_at;
+  std::vector<double> m_reach_now; // #P: may move this far from m_searched_at unseen
+  double m_body_moved = 0;         // m, since the search
+  bool m_stale = true, m_look_for_crossings = true, m_give_way = false;
+  std::vector<char> m_inside, m_crossing, m_asked; // by particle, triangle, triangle
+  std::size_t m_n_crossing = 0;
+  double m_push = 1; // factor on the stiffness of crossed pairs
+
+  struct Clearance {
+    Vec3 at = Vec3::Zero();
+    double distance = -1; // no skin nearer to `at`; negative: unknown
+    int triangle = -1;
+  };
+  std::vector<Clearance> m_clearance;
+  std::vector<Vec3> m_load;                        // contact force on each particle, N
+  std::vector<double> m_load_stiffness, m_tangent; // N/m; the latter of the tie to the anchor, 0 for none
+  std::vector<Vec3> m_anchor;
+  std::vector<char> m_has_anchor;
 };
 
 } // namespace sloper::cloth

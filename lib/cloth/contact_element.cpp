@@ -1,6 +1,16 @@
 #include <cloth/contact_element.hpp>
 
+#include <algorithm>
+
 namespace sloper::cloth {
+
+double crossing_share(const Vec3& u, const Vec3& v) {
+  constexpr double PARALLEL = 0.01; // squared sine: 5.7 degrees
+  const double sine2 = u.cross(v).squaredNorm() / std::max(u.squaredNorm() * v.squaredNorm(), 1e-30);
+  if (sine2 >= PARALLEL) return 1;
+  const double r = sine2 / PARALLEL;
+  return (2 - r) * r;
+}
 
 void add_forces(const std::vector<ContactElement>& elements, std::vector<Vec3>& force) {
   for (const ContactElement& e : elements)

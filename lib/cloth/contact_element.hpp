@@ -19,6 +19,10 @@ struct ContactElement {
   Mat3 stiffness() const { return tangent_stiffness * Mat3::Identity() + (normal_stiffness - tangent_stiffness) * normal * normal.transpose(); }
 };
 
+/// 1 for edges that cross at an angle, falling to 0 for parallel ones, whose closest points jump from end to end: without it
+/// the force of an edge pair would not be continuous (the mollifier of Li et al. 2020). u, v: directions of any length.
+double crossing_share(const Vec3& u, const Vec3& v);
+
 void add_forces(const std::vector<ContactElement>& elements, std::vector<Vec3>& force);
 /// y += stiffness of the elements times x
 void multiply_add(const std::vector<ContactElement>& elements, const std::vector<Vec3>& x, std::vector<Vec3>& y);

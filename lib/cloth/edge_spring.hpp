@@ -29,7 +29,7 @@ public:
   void declare(std::vector<std::array<int, 2>>& pairs) const override;
   void bind(const BlockMatrix& matrix) override;
   /// Potential at x, J.
-  double energy(const std::vector<Vec3>& x) const { return edge_springs_energy(m_mesh, x); }
+  double energy(const std::vector<Vec3>& x) const override { return edge_springs_energy(m_mesh, x); }
   void add(StepContext& c) override { add_edge_springs(m_mesh, c.x, c.h, m_slots, c.force, c.stiffness); }
 
 private:

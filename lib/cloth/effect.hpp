@@ -3,6 +3,7 @@
 /// it costs no call, no allocation, no time (DESIGN section 10).
 #include <cloth/block_matrix.hpp>
 #include <cloth/contact_element.hpp>
+#include <cloth/motion_limits.hpp>
 #include <geometry/types.hpp>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct StepContext {
   std::vector<Vec3>& force;              ///< #P by 3, N: add -dE/dx
   BlockMatrix& stiffness;                ///< add the definite part of d2E/dx2 (and damping/h)
   std::vector<ContactElement>& elements; ///< or add elements
+  MotionLimits* limits = nullptr;        ///< where not null: what this step must not pass through
 };
 
 class Effect {
@@ -27,9 +29,8 @@ public:
   /// Before assembly: find contacts for the positions x.
   virtual void begin_step(const std::vector<Vec3>& /*x*/, double /*h*/) {}
   virtual void add(StepContext& context) = 0;
-  /// Shortens proposed displacements that would pass through something. dx: #P by 3, m
-  /// @param held  #P, set to 1 for a particle that is held back: a constraint carries its force
-  virtual void limit(const std::vector<Vec3>& /*x*/, std::vector<Vec3>& /*dx*/, std::vector<char>& /*held*/) {}
+  /// Potential at x, J; 0 for what has none (damping, friction).
+  virtual double energy(const std::vector<Vec3>& /*x*/) const { return 0; }
   /// After the step: x has become x + dx.
   virtual void end_step(const std::vector<Vec3>& /*x*/) {}
 

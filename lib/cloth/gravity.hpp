@@ -11,7 +11,7 @@ public:
   GravityEffect(const ClothMesh& mesh, const Vec3& acceleration) : m_mesh(mesh), m_acceleration(acceleration) {}
   const char* name() const override { return "gravity"; }
   /// Potential at x, J; zero at the origin.
-  double energy(const std::vector<Vec3>& x) const {
+  double energy(const std::vector<Vec3>& x) const override {
     double sum = 0;
     for (std::size_t i = 0; i < m_mesh.mass.size(); ++i) sum -= m_mesh.mass[i] * m_acceleration.dot(x[i]);
     return sum;

@@ -10,6 +10,8 @@ namespace sloper::cloth {
 
 namespace {
 
+constexpr int MOST_HALVINGS = 5;
+
 /// Adds the wall seconds of its own life to a counter.
 class Stopwatch {
 public:
@@ -64,17 +66,35 @@ void ClothSolver::rebuild_pattern() {
   m_pattern_stale = false;
 }
 
+double ClothSolver::energy(const std::vector<Vec3>& x) const {
+  double sum = 0;
+  for (const auto& e : m_effects) sum += e->energy(x);
+  return sum;
+}
+
+/// Shortening keeps all limits: they are half spaces around the present positions.
+int ClothSolver::search_along(double before) {
+  const Stopwatch watch(search_s);
+  m_trial.resize(m_x.size());
+  for (int halvings = 0;; ++halvings) {
+    for (std::size_t i = 0; i < m_x.size(); ++i) m_trial[i] = m_x[i] + m_dx[i];
+    if (halvings == MOST_HALVINGS || energy(m_trial) <= before) return halvings;
+    for (Vec3& d : m_dx) d *= 0.5;
+  }
+}
+
 StepResult ClothSolver::step(const StepOptions& o) {
   if (m_pattern_stale) rebuild_pattern();
   const std::size_t n = m_x.size();
   StepResult result;
   m_matrix.set_zero();
   m_elements.clear();
+  m_limits.reset(n);
   std::fill(m_force.begin(), m_force.end(), Vec3::Zero());
   for (const auto& e : m_effects) {
     const Stopwatch watch(e->wall_s);
     e->begin_step(m_x, o.h);
-    StepContext context{m_x, o.h, m_force, m_matrix, m_elements};
+    StepContext context{m_x, o.h, m_force, m_matrix, m_elements, &m_limits};
     e->add(context);
     ++e->calls;
   }
@@ -93,8 +113,6 @@ StepResult ClothSolver::step(const StepOptions& o) {
     result.cg = conjugate_gradient(system, *m_preconditioner, m_rhs, o.cg_tolerance, o.cg_max_iterations, m_dx, m_work);
     m_preconditioner->report_iterations(result.cg.iterations);
   }
-  if (o.relaxation < 1)
-    for (Vec3& d : m_dx) d *= o.relaxation;
   double largest2 = 0;
   for (const Vec3& d : m_dx) largest2 = std::max(largest2, d.squaredNorm());
   if (largest2 > o.largest_move_m * o.largest_move_m) { // the whole step is shortened: cut one by one, neighbours would crumple
@@ -104,12 +122,13 @@ StepResult ClothSolver::step(const StepOptions& o) {
   {
     const Stopwatch watch(contact_s);
     m_held.assign(n, 0);
-    for (const auto& e : m_effects) e->limit(m_x, m_dx, m_held);
+    m_limits.apply(m_x, m_dx, m_held);
   }
   if (!all_finite(m_dx)) {
     result.finite = false;
     return result;
   }
+  if (o.line_search) result.halvings = search_along(energy(m_x));
   double weight = 0;
   m_residual.clear();
   for (std::size_t i = 0; i < n; ++i) {

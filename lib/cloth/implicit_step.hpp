@@ -15,14 +15,15 @@ struct StepOptions {
   double inertia = 0;         ///< 0..1: share of the velocity that is carried over
   double cg_tolerance = 1e-2; ///< relative residual
   int cg_max_iterations = 400;
-  double relaxation = 1;        ///< (0, 1]: share of the solution that is taken; below 1 where steps swing to and fro
+  /// Shortens the step until the potential energy falls, at most MOST_HALVINGS times.
+  bool line_search = false;
   double largest_move_m = 0.05; ///< no particle moves farther in one step
 };
 
 struct StepResult {
   CgResult cg;
-  double relaxation = 1;     ///< (0, 1]: share of the solution that is taken; below 1 where steps swing to and fro
   double largest_move_m = 0; ///< after limits
+  int halvings = 0;          ///< of the line search
   /// 95th percentile and maximum of |f0| over the particles that nothing holds back, over the mean weight of a particle. The
   /// percentile decides: single particles may flip between two facets of the skin for ever without moving anything.
   double residual_force_ratio = 0, residual_force_ratio_max = 0;
@@ -47,15 +48,18 @@ public:
   void stop() { m_v.assign(m_v.size(), Vec3::Zero()); }
   const std::vector<std::unique_ptr<Effect>>& effects() const { return m_effects; }
   const ClothMesh& mesh() const { return m_mesh; }
-  double assembly_s = 0, solve_s = 0, contact_s = 0; ///< wall seconds so far
+  double assembly_s = 0, solve_s = 0, contact_s = 0, search_s = 0; ///< wall seconds so far
 
 private:
   void rebuild_pattern();
+  double energy(const std::vector<Vec3>& x) const;
+  int search_along(double before);
 
   const ClothMesh& m_mesh;
-  std::vector<Vec3> m_x, m_v, m_force, m_rhs, m_dx;
+  std::vector<Vec3> m_x, m_v, m_force, m_rhs, m_dx, m_trial;
   std::vector<std::unique_ptr<Effect>> m_effects;
   std::vector<ContactElement> m_elements;
+  MotionLimits m_limits;
   std::vector<char> m_held;
   std::vector<double> m_residual;
   BlockMatrix m_matrix;

@@ -8,6 +8,8 @@ namespace sloper::cloth {
 
 /// A particle goes at most this share of the search radius before the next search; below 1/2 nothing unseen crosses.
 static constexpr double GAMMA = 0.45;
+/// Cloth is searched again when a particle has used this share of that.
+static constexpr double USED = 0.6;
 /// A particle stays this share of half the distance away from the separating plane.
 static constexpr double PLANE_MARGIN = 0.1;
 /// Contact thickness is at most this share of the shortest edge around, so that cloth does not push its own next row away.
@@ -62,23 +64,18 @@ void SelfContactEffect::search(const std::vector<Vec3>& x) {
   }
   if (!m_seam_class.empty()) find_closed_seams(x);
   m_pairs.clear();
-  auto take = [&](const std::array<int, 4>& p, int n_first, bool is_edge, const Vec3& first, const Vec3& second) {
+  auto take = [&](const std::array<int, 4>& p, int n_first, bool is_edge) {
     const Pair kind = kind_of(p.data(), n_first, p.data() + n_first, 4 - n_first);
-    const double distance = (first - second).norm();
-    if (kind == Pair::CLOSED_SEAM || distance < 1e-12) return;
-    const Vec3 normal = (first - second) / distance;
-    m_pairs.push_back({p, is_edge, kind == Pair::FREE, normal, 0.5 * normal.dot(first + second), distance});
+    if (kind != Pair::CLOSED_SEAM) m_pairs.push_back({p, is_edge, kind == Pair::FREE});
   };
   for (const auto& pair : m_proximity.vertex_face()) {
     const Triangle& t = m_proximity.triangles()[pair.triangle];
-    if (!pair.exempt)
-      take({pair.vertex, t[0], t[1], t[2]}, 1, false, x[pair.vertex],
-           pair.barycentric[0] * x[t[0]] + pair.barycentric[1] * x[t[1]] + pair.barycentric[2] * x[t[2]]);
+    if (!pair.exempt) take({pair.vertex, t[0], t[1], t[2]}, 1, false);
   }
   for (const auto& pair : m_proximity.edge_edge()) {
     const auto& a = m_proximity.topology().edges[pair.edge_a];
     const auto& b = m_proximity.topology().edges[pair.edge_b];
-    if (!pair.exempt) take({a[0], a[1], b[0], b[1]}, 2, true, (1 - pair.s) * x[a[0]] + pair.s * x[a[1]], (1 - pair.t) * x[b[0]] + pair.t * x[b[1]]);
+    if (!pair.exempt) take({a[0], a[1], b[0], b[1]}, 2, true);
   }
   m_searched_at = x;
   m_stale = false;
@@ -86,92 +83,85 @@ void SelfContactEffect::search(const std::vector<Vec3>& x) {
 }
 
 void SelfContactEffect::begin_step(const std::vector<Vec3>& x, double) {
+  const double used = USED * GAMMA * m_options.search_m;
+  m_stale = m_stale || !m_crossings.empty();
+  for (std::size_t i = 0; !m_stale && i < x.size(); ++i) m_stale = (x[i] - m_searched_at[i]).squaredNorm() > used * used;
   if (m_stale) search(x);
+  m_x_before = x;
 }
 
-void SelfContactEffect::add_pair(StepContext& c, const std::array<int, 4>& particle, const std::array<double, 4>& weight) {
-  // weight is +w on one side and -w on the other, so that the weighted sum is the vector from the second point to the first
-  Vec3 d = Vec3::Zero();
+SelfContactEffect::Closest SelfContactEffect::closest(const Near& near, const std::vector<Vec3>& x) const {
+  const auto& p = near.particle;
+  Closest c;
+  c.share = 1;
+  if (near.is_edge) {
+    const auto e = collision::edge_edge(x[p[0]], x[p[1]], x[p[2]], x[p[3]]);
+    c.weight = {1 - e.s, e.s, e.t - 1, -e.t};
+    c.share = crossing_share(x[p[1]] - x[p[0]], x[p[3]] - x[p[2]]);
+  } else {
+    const auto t = collision::point_triangle(x[p[0]], x[p[1]], x[p[2]], x[p[3]]);
+    c.weight = {1, -t.barycentric[0], -t.barycentric[1], -t.barycentric[2]};
+  }
+  c.n_first = near.is_edge ? 2 : 1;
+  c.first = c.second = Vec3::Zero();
+  for (int k = 0; k < c.n_first; ++k) c.first += c.weight[k] * x[p[k]];
+  for (int k = c.n_first; k < 4; ++k) c.second -= c.weight[k] * x[p[k]];
+  c.distance = (c.first - c.second).norm();
+  return c;
+}
+
+Push SelfContactEffect::push(const Near& near, const Closest& c) const {
   double thickness = 1e300, area = 0;
   for (int k = 0; k < 4; ++k) {
-    d += weight[k] * c.x[particle[k]];
-    thickness = std::min(thickness, m_thickness[particle[k]]);
-    area += std::abs(weight[k]) * m_mesh.area[particle[k]];
+    thickness = std::min(thickness, m_thickness[near.particle[k]]);
+    area += std::abs(c.weight[k]) * m_mesh.area[near.particle[k]];
   }
-  const double distance = d.norm();
-  if (distance >= thickness || distance < 1e-12) return;
-  // E = k A (t - d)^3 / (6 t), as for the body; where little distance is left both grow with 1/d, so that a gap remains.
-  const double barrier = std::max(1.0, 0.4 * thickness / distance), depth = thickness - distance;
-  const double stiff = 0.5 * m_options.stiffness_n_m3 * area * depth / thickness * barrier;
-  ContactElement e;
-  e.n = 4;
-  e.particle = particle;
-  e.weight = weight;
-  e.normal = d / distance;
-  const double push = 0.5 * stiff * depth;
-  e.normal_stiffness = stiff * barrier;
-  e.force = push * e.normal;
-  if (m_options.friction > 0) { // regularised Coulomb on the slide of the last step
-    Vec3 slide = Vec3::Zero();
-    for (int k = 0; k < 4; ++k) slide += weight[k] * m_last_dx[particle[k]];
-    slide -= slide.dot(e.normal) * e.normal;
-    e.tangent_stiffness = m_options.friction * push / std::max(slide.norm(), FULL_FRICTION_SLIDE);
-  }
-  c.elements.push_back(e);
+  return push_of(c.distance, thickness, 0.5 * c.share * m_options.stiffness_n_m3 * area);
 }
 
-void SelfContactEffect::add(StepContext& c) {
+void SelfContactEffect::add(StepContext& context) {
   for (const Near& near : m_pairs) {
-    if (!near.repels) continue;
-    const auto& p = near.particle;
-    if (near.is_edge) {
-      const auto e = collision::edge_edge(c.x[p[0]], c.x[p[1]], c.x[p[2]], c.x[p[3]]);
-      if (e.s <= 0 || e.s >= 1 || e.t <= 0 || e.t >= 1) continue; // an end point: a vertex-face pair speaks for it
-      add_pair(c, p, {1 - e.s, e.s, e.t - 1, -e.t});
-    } else {
-      const auto t = collision::point_triangle(c.x[p[0]], c.x[p[1]], c.x[p[2]], c.x[p[3]]);
-      add_pair(c, p, {1, -t.barycentric[0], -t.barycentric[1], -t.barycentric[2]});
+    const Closest c = closest(near, context.x);
+    if (c.distance < 1e-12) continue;
+    const Vec3 normal = (c.first - c.second) / c.distance;
+    if (near.repels) {
+      const Push p = push(near, c);
+      if (p.force > 0) {
+        ContactElement e;
+        e.n = 4;
+        e.particle = near.particle;
+        e.weight = c.weight;
+        e.normal = normal;
+        e.normal_stiffness = p.stiffness;
+        e.force = p.force * normal;
+        if (m_options.friction > 0) { // regularised Coulomb on the slide of the last step
+          Vec3 slide = Vec3::Zero();
+          for (int k = 0; k < 4; ++k) slide += c.weight[k] * m_last_dx[near.particle[k]];
+          slide -= slide.dot(normal) * normal;
+          e.tangent_stiffness = m_options.friction * p.force / std::max(slide.norm(), FULL_FRICTION_SLIDE);
+        }
+        context.elements.push_back(e);
+      }
     }
+    if (!context.limits) continue;
+    const double middle = 0.5 * normal.dot(c.first + c.second), margin = 0.5 * PLANE_MARGIN * c.distance;
+    context.limits->guards.push_back({4, c.n_first, near.particle, normal, middle + margin, middle - margin});
   }
+  if (!context.limits) return;
+  const double radius = GAMMA * m_options.search_m;
+  for (std::size_t i = 0; i < context.x.size(); ++i)
+    context.limits->most[i] = std::min(context.limits->most[i], std::max(0.0, radius - (context.x[i] - m_searched_at[i]).norm()));
 }
 
-void SelfContactEffect::limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std::vector<char>& held) {
-  // First the part of a motion that runs into a plane is taken off, which leaves sliding; then what still breaks a plane or
-  // the ball around the place of the search is shortened, which always helps: the present state keeps them all.
-  auto over = [&](const Near& near, int k, double& along) { // by how much dx may not go towards the plane; > 0: too far
-    const int i = near.particle[k];
-    const double side = k < (near.is_edge ? 2 : 1) ? 1 : -1;
-    const double room = std::max(0.0, side * (near.normal.dot(x[i]) - near.level) - PLANE_MARGIN * 0.5 * near.distance);
-    along = -side * near.normal.dot(dx[i]);
-    return along - room;
-  };
+double SelfContactEffect::energy(const std::vector<Vec3>& x) const {
+  double sum = 0;
   for (const Near& near : m_pairs)
-    for (int k = 0; k < 4; ++k) {
-      double along;
-      const double excess = over(near, k, along);
-      if (excess <= 0) continue;
-      dx[near.particle[k]] += (k < (near.is_edge ? 2 : 1) ? 1 : -1) * excess * near.normal;
-      held[near.particle[k]] = 1;
-      m_stale = true;
-    }
-  m_share.assign(dx.size(), 1);
-  for (const Near& near : m_pairs)
-    for (int k = 0; k < 4; ++k) {
-      double along;
-      const double excess = over(near, k, along);
-      if (excess > 1e-9 * near.distance) m_share[near.particle[k]] = std::min(m_share[near.particle[k]], std::max(0.0, (along - excess) / along));
-    }
-  const double radius = GAMMA * m_options.search_m;
-  for (std::size_t i = 0; i < dx.size(); ++i) {
-    if (m_share[i] < 1) dx[i] *= m_share[i];
-    const double move = dx[i].norm();
-    if ((x[i] + dx[i] - m_searched_at[i]).norm() > radius) {
-      const double have = std::max(0.0, radius - (x[i] - m_searched_at[i]).norm());
-      if (move > have) dx[i] *= have / move;
-      m_stale = true;
-    }
-    m_last_dx[i] = dx[i];
-  }
+    if (near.repels) sum += push(near, closest(near, x)).energy;
+  return sum;
+}
+
+void SelfContactEffect::end_step(const std::vector<Vec3>& x) {
+  for (std::size_t i = 0; i < x.size(); ++i) m_last_dx[i] = x[i] - m_x_before[i];
 }
 
 } // namespace sloper::cloth

@@ -2,12 +2,11 @@
 /// Contact of cloth with cloth: repulsion inside the thickness, friction, and limits on every particle's motion that no
 /// crossing can survive.
 ///
-/// Two elements (vertex and face, or edge and edge) are convex, so the plane half way between their closest points separates
-/// them. Until the next search every particle stays on its element's side of all its planes and within less than half the
-/// search radius; so a state free of crossings stays free of them, whatever the forces do, while sliding along and moving
-/// apart are free (conservative bounds as in Offset Geometric Contact, Chen et al. 2025, with planes for balls). Repulsion:
-/// E = k A (t - d)^3 / (6 t) for d < t, stiffened as d -> 0 so that cloth pressed together keeps a gap.
+/// Every step keeps each element of a near pair on its side of the plane half way between them, and every particle within less
+/// than half the search radius of where it was searched (MotionLimits): a state free of crossings stays free of them. Repulsion: see
+/// contact_potential.hpp; friction between layers is viscous.
 #include <cloth/cloth_mesh.hpp>
+#include <cloth/contact_potential.hpp>
 #include <cloth/effect.hpp>
 #include <collision/distance.hpp>
 #include <collision/self_proximity.hpp>
@@ -29,7 +28,8 @@ public:
   const char* name() const override { return "self_contact"; }
   void begin_step(const std::vector<Vec3>& x, double h) override;
   void add(StepContext& c) override;
-  void limit(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std::vector<char>& held) override;
+  double energy(const std::vector<Vec3>& x) const override;
+  void end_step(const std::vector<Vec3>& x) override;
   void set_search(double search_m);
   void set_friction(double mu) { m_options.friction = mu; }
   /// Crossing pairs of triangles at the last search; while there are any, each search looks for them anew.
@@ -43,7 +43,6 @@ private:
   Pair kind_of(const int* a, int n_a, const int* b, int n_b) const;
   void find_closed_seams(const std::vector<Vec3>& x);
   void search(const std::vector<Vec3>& x);
-  void add_pair(StepContext& c, const std::array<int, 4>& particle, const std::array<double, 4>& weight);
 
   const ClothMesh& m_mesh;
   SelfContactOptions m_options;
@@ -54,13 +53,18 @@ private:
   struct Near {
     std::array<int, 4> particle; // vertex and face, or edge and edge
     bool is_edge, repels;
-    Vec3 normal;     // unit, from the second element to the first
-    double level;    // of the plane half way: normal . point, m
-    double distance; // at the search, m
   };
+  /// A pair's closest points now.
+  struct Closest {
+    std::array<double, 4> weight; // + on the first element, - on the second: the weighted sum is the way from it to the first
+    int n_first;                  // particles of the first element
+    Vec3 first, second;           // m
+    double distance, share;       // see crossing_share()
+  };
+  Closest closest(const Near& near, const std::vector<Vec3>& x) const;
+  Push push(const Near& near, const Closest& c) const;
   std::vector<Near> m_pairs;
-  std::vector<Vec3> m_searched_at, m_last_dx;
-  std::vector<double> m_share; // #P: of the displacement that is allowed
+  std::vector<Vec3> m_searched_at, m_x_before, m_last_dx;
   std::vector<std::array<int, 2>> m_crossings;
   bool m_stale = true, m_look_for_crossings = true;
 };

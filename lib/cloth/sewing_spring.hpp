@@ -14,7 +14,7 @@ public:
   void declare(std::vector<std::array<int, 2>>& pairs) const override { pairs.insert(pairs.end(), m_stitches.begin(), m_stitches.end()); }
   void bind(const BlockMatrix& matrix) override;
   /// Potential at x, J: k/2 gap^2 within reach, growing linearly beyond.
-  double energy(const std::vector<Vec3>& x) const;
+  double energy(const std::vector<Vec3>& x) const override;
   void add(StepContext& c) override;
   void set_stiffness(double stiffness_n_m) { m_stiffness = stiffness_n_m; }
   /// Largest gap of a stitch at x, m.

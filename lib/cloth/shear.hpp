@@ -30,7 +30,7 @@ public:
   void declare(std::vector<std::array<int, 2>>& pairs) const override;
   void bind(const BlockMatrix& matrix) override { find_slots(m_shear, matrix); }
   /// Potential at x, J.
-  double energy(const std::vector<Vec3>& x) const { return shear_energy(m_shear, x); }
+  double energy(const std::vector<Vec3>& x) const override { return shear_energy(m_shear, x); }
   void add(StepContext& c) override { add_shear(m_shear, c.x, c.h, c.force, c.stiffness); }
 
 private:

@@ -36,6 +36,23 @@ struct FaceContact {
   double distance; ///< m, along `normal` from body point to cloth point; negative where the body shows through
 };
 
+/// Elements of a cloth and of the skin that are near each other.
+struct BodyPairs {
+  struct VertexFace {
+    int vertex, body_triangle;
+  };
+  struct EdgeEdge {
+    int edge;                ///< of the cloth's topology
+    int body_triangle, side; ///< the body's edge from corner `side` to the next
+  };
+  struct FaceVertex {
+    int triangle, body_vertex;
+  };
+  std::vector<VertexFace> vertex_face;
+  std::vector<EdgeEdge> edge_edge; ///< convex edges of the body only: in a hollow its faces are at least as near
+  std::vector<FaceVertex> face_vertex;
+};
+
 /// What was wrong with the body's mesh and how it was met.
 struct BodyFindings {
   int flipped_triangles = 0; ///< turned to agree with their neighbours, or with their whole piece
@@ -70,6 +87,12 @@ public:
   std::vector<FaceContact> face_contacts(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const Topology& topology,
                                          double radius) const;
   std::vector<FaceContact> face_contacts(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, double radius) const;
+
+  /// All pairs within the radii (m), buried skin left out, in an order that depends on neither threads nor time. Vertices and
+  /// edges of the cloth are seen by way of their first triangle.
+  /// @param asked  #F of the cloth, 0: this triangle is known to be far   @param pairs replaced
+  void near_pairs(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const Topology& topology, const std::vector<char>& asked,
+                  double vertex_radius, double edge_radius, BodyPairs& pairs) const;
 
   const TriangleMesh& mesh() const { return m_mesh; } ///< triangles turned
   const TriangleTree& tree() const { return m_tree; }

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace sloper::garment {
 
@@ -28,13 +29,10 @@ constexpr double SEW_STRONGEST = 5;      // N at reach
 constexpr double SEW_LEG_SCALE = 0.7;    // of the body's thickness while trousers are sewn
 constexpr double SEW_BENDING = 30;       // times that of the fabric
 constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step while the body is inflated
-constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
+constexpr double SHORTEST_STEP_S = 0.005;
+constexpr double LARGEST_STEP_S = 0.2; // s, while settling
 constexpr int UNTANGLE_ROUNDS = 80;
 constexpr double UNTANGLE_STEP = 0.001; // m: of an edge against its face in one round
-constexpr int REPAIR_ROUNDS = 25;
-constexpr int FIRST_WATCH = 6;        // rounds in which corners are only kept farther off
-constexpr double GAP_RAISE = 0.0007;  // m per repair round
-constexpr double LARGEST_GAP = 0.012; // m
 
 std::string millimetres(double m) { return std::to_string(std::lround(m * 1e4) / 10) + "." + std::to_string(std::lround(m * 1e4) % 10) + " mm"; }
 
@@ -138,7 +136,7 @@ void DrapeRun::build_solver(bool open_seams) {
 bool DrapeRun::step(double h, double inertia, double largest_move_m) {
   cloth::StepOptions options;
   options.largest_move_m = largest_move_m;
-  options.relaxation = m_relaxation;
+  options.line_search = m_settling;
   options.h = h;
   options.inertia = inertia;
   options.cg_tolerance = m_settings.cg_tolerance;
@@ -165,6 +163,14 @@ bool DrapeRun::step(double h, double inertia, double largest_move_m) {
     m_report.stop_reason = "step limit";
   }
   return !m_stopped;
+}
+
+std::string DrapeRun::crossing_text() const {
+  if (!m_body_contact || m_body_contact->n_crossing() == 0) return "";
+  const Vec3 p = m_body_contact->crossing_place();
+  char text[96];
+  std::snprintf(text, sizeof text, ", %zu faces through the skin, one at (%.3f, %.3f, %.3f) m", m_body_contact->n_crossing(), p.x(), p.y(), p.z());
+  return text;
 }
 
 void DrapeRun::log_crossings(const char* when) const {
@@ -234,14 +240,14 @@ void DrapeRun::inflate() {
   if (m_scale >= 1 || !m_body_contact) return;
   const Phase phase(*this, "inflate body");
   const double step_scale = INFLATE_MOTION / m_shrink->reach();
-  while (m_scale < 1) {
+  m_body_contact->set_give_way(true);
+  while (m_scale < 1 && !m_stopped) {
     m_scale = std::min(1.0, m_scale + step_scale);
     m_body_contact->move_body(m_shrink->positions(m_scale));
-    for (int k = 0; k < 2; ++k)
-      if (!step(1.0 / 30, 0)) break;
-    if (m_stopped) break;
+    step(1.0 / 30, 0);
   }
   m_body_contact->move_body(m_body->skin.positions); // the exact skin, also when stopped on the way
+  m_body_contact->set_give_way(false);
 }
 
 void DrapeRun::settle() {
@@ -250,83 +256,36 @@ void DrapeRun::settle() {
   const Material& material = material_of(m_garment, "");
   if (active("friction") && m_body_contact) m_body_contact->set_friction(material.friction_body);
   if (active("friction") && m_self_contact) m_self_contact->set_friction(material.friction_self);
-  double h = m_settings.time_step_s, least = 1e300;
-  int calm = 0, since_least = 0;
-  m_relaxation = 1;
+  double h = m_settings.time_step_s;
+  int calm = 0;
+  m_settling = true;
   for (int k = 0; !m_stopped; ++k) {
     if (!step(h, 0)) break;
     const double speed = m_last.largest_move_m / h, residual = m_last.residual_force_ratio;
     if (k % 20 == 0)
       m_reporter.info("settle step " + std::to_string(k) + ": h " + std::to_string(h) + " s, speed " + std::to_string(speed) + " m/s, residual force " +
-                      std::to_string(residual) + " of the weight, relaxation " + std::to_string(m_relaxation));
+                      std::to_string(residual) + " of the weight, at most " + std::to_string(m_last.residual_force_ratio_max) + crossing_text());
     m_reporter.progress("settle", -1);
-    if (m_last.largest_move_m < 0.003) h = std::min(h * 1.15, LARGEST_STEP_S);
+    if (m_last.halvings > 0) h = std::max(h * 0.7, SHORTEST_STEP_S);
+    else if (m_last.largest_move_m < 0.003) h = std::min(h * 1.15, LARGEST_STEP_S);
     else if (m_last.largest_move_m > 0.01) h = std::max(h * 0.8, m_settings.time_step_s);
-    // Contacts that change sides from step to step make Newton swing between two states: shorter steps meet in the middle.
-    if (residual < 0.9 * least) {
-      least = residual;
-      since_least = 0;
-      m_relaxation = std::min(1.0, 1.1 * m_relaxation);
-    } else if (++since_least >= 8) {
-      m_relaxation = std::max(0.5, 0.7 * m_relaxation);
-      least = residual;
-      since_least = 0;
-    }
-    if (k > 20 && k % 25 == 0 && m_last.largest_move_m < 0.002 && m_rounds < REPAIR_ROUNDS) repair_faces_through(); // early, while things still move
     const bool still = speed < m_settings.settle_speed_m_s && residual < m_settings.settle_force_ratio;
     calm = still ? calm + 1 : 0;
     if (calm < 3) continue;
     m_garment.position = m_solver->x();
-    if (m_rounds < REPAIR_ROUNDS && repair_faces_through()) {
-      calm = 0;
-      least = 1e300;
-      h = m_settings.time_step_s;
-      continue;
-    }
     if (m_untanglings < 4 && m_self_contact && !m_self_contact->crossings().empty()) {
       ++m_untanglings;
       untangle();
       m_solver->set_positions(m_garment.position);
       m_self_contact->refresh();
+      if (m_body_contact) m_body_contact->refresh();
       calm = 0;
-      least = 1e300;
       continue;
     }
     m_report.converged = true;
     m_report.stop_reason = "at rest";
     break;
   }
-}
-
-bool DrapeRun::repair_faces_through() {
-  if (!m_body_contact) return false;
-  const std::vector<Triangle> triangles = m_garment.particle_triangles();
-  const std::vector<int> through = m_collider->faces_through(m_solver->x(), triangles);
-  if (through.empty()) return false;
-  std::vector<char> near(m_garment.position.size(), 0);
-  bool changed = false;
-  for (int f : through)
-    for (int p : triangles[f]) {
-      near[p] = 1;
-      double& gap = m_body_contact->gap(p);
-      if (gap >= LARGEST_GAP) continue;
-      gap += GAP_RAISE;
-      changed = true;
-    }
-  ++m_rounds;
-  std::vector<Triangle> watched;
-  m_watched.resize(triangles.size(), 0);
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    if (m_rounds > FIRST_WATCH && !m_watched[f] && (near[triangles[f][0]] || near[triangles[f][1]] || near[triangles[f][2]])) {
-      m_watched[f] = 1;
-      changed = true;
-    }
-    if (m_watched[f]) watched.push_back(triangles[f]);
-  }
-  if (!watched.empty()) m_body_contact->watch_faces(watched);
-  m_reporter.info(std::to_string(through.size()) + " faces through the skin: kept farther off" +
-                  (watched.empty() ? "" : ", " + std::to_string(watched.size()) + " with contact of faces and edges"));
-  return changed || m_rounds < REPAIR_ROUNDS;
 }
 
 void DrapeRun::report_effects() {

@@ -26,10 +26,10 @@ private:
   void build_solver(bool open_seams);   ///< cloth, effects and solver for the garment as it stands
   void sew();
   void log_crossings(const char* when) const; ///< to the log, with -v
+  std::string crossing_text() const;          ///< for the log: what is through the skin, and where
   std::size_t untangle();                     ///< draws crossing cloth apart; the pairs that remain
   void inflate();
   void settle();
-  bool repair_faces_through();                                       ///< raises the gap where faces cross the skin; true when there was something to do
   bool step(double h, double inertia, double largest_move_m = 0.02); ///< one guarded step; false when the run must end
   double elapsed() const;
   void finish();
@@ -46,7 +46,7 @@ private:
 
   std::optional<collision::BodyCollider> m_collider;
   std::optional<BodyShrink> m_shrink;
-  double m_relaxation = 1; ///< of the Newton step
+  bool m_settling = false; ///< steps are shortened until the energy falls
   double m_scale = 1;      ///< of the body, see BodyShrink
 
   std::unique_ptr<cloth::ClothMesh> m_cloth;
@@ -54,9 +54,7 @@ private:
   cloth::BodyContactEffect* m_body_contact = nullptr;
   cloth::SelfContactEffect* m_self_contact = nullptr;
   cloth::SewingSpringEffect* m_sewing = nullptr;
-  std::vector<char> m_watched; ///< triangles with face and edge contact
   int m_untanglings = 0;
-  int m_rounds = 0; ///< of repair_faces_through
   cloth::StepResult m_last;
   std::vector<int> m_cg_iterations;
   std::vector<std::string> m_rejected;

@@ -1,0 +1,193 @@
+/// Contact of cloth with a body and with itself: forces against their energies, and what no step may pass.
+#include "grid.hpp"
+
+#include <base/random.hpp>
+#include <cloth/body_contact.hpp>
+#include <cloth/contact_potential.hpp>
+#include <cloth/edge_spring.hpp>
+#include <cloth/gravity.hpp>
+#include <cloth/implicit_step.hpp>
+#include <cloth/self_contact.hpp>
+#include <collision/intersections.hpp>
+#include <gtest/gtest.h>
+
+using namespace sloper;
+using namespace sloper::cloth;
+
+namespace {
+
+/// A box with its top at y = 0, the top of n by n squares.
+TriangleMesh table(int n, double size) {
+  TriangleMesh m;
+  for (int r = 0; r <= n; ++r)
+    for (int c = 0; c <= n; ++c) m.positions.emplace_back(size * c / n, 0, -size * r / n);
+  const int top = static_cast<int>(m.positions.size());
+  for (const Vec3& p : {Vec3(0, -0.2, 0), Vec3(size, -0.2, 0), Vec3(size, -0.2, -size), Vec3(0, -0.2, -size)}) m.positions.push_back(p);
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const int a = r * (n + 1) + c, b = a + 1, d = a + n + 1, e = d + 1;
+      m.triangles.push_back({a, b, e});
+      m.triangles.push_back({a, e, d});
+    }
+  auto side = [&](int low0, int low1, auto at) { // a fan from the lower edge to the row of upper vertices
+    for (int c = 0; c < n; ++c) m.triangles.push_back({at(c + 1), at(c), low0});
+    m.triangles.push_back({at(n), low0, low1});
+  };
+  side(top, top + 1, [&](int c) { return c; });
+  side(top + 1, top + 2, [&](int c) { return c * (n + 1) + n; });
+  side(top + 2, top + 3, [&](int c) { return n * (n + 1) + n - c; });
+  side(top + 3, top, [&](int c) { return (n - c) * (n + 1); });
+  m.triangles.push_back({top, top + 2, top + 1});
+  m.triangles.push_back({top, top + 3, top + 2});
+  return m;
+}
+
+struct Filled {
+  std::vector<Vec3> force;
+  std::vector<ContactElement> elements;
+  MotionLimits limits;
+};
+
+Filled fill(Effect& effect, int n, const std::vector<Vec3>& x, BlockMatrix& matrix) {
+  Filled f;
+  f.force.assign(n, Vec3::Zero());
+  f.limits.reset(n);
+  StepContext c{x, 0.1, f.force, matrix, f.elements, &f.limits};
+  effect.begin_step(x, 0.1);
+  effect.add(c);
+  add_forces(f.elements, f.force);
+  return f;
+}
+
+/// Force against central differences of the energy over the pairs of the last search, relative to the largest force.
+double gradient_error(Effect& effect, const ClothMesh& mesh, std::vector<Vec3> x) {
+  std::vector<std::array<int, 2>> pairs;
+  effect.declare(pairs);
+  BlockMatrix matrix(mesh.n_particles, pairs);
+  effect.bind(matrix);
+  const auto force = fill(effect, mesh.n_particles, x, matrix).force;
+  double largest = 0, worst = 0;
+  for (const Vec3& f : force) largest = std::max(largest, f.norm());
+  const double eps = 1e-8;
+  for (int i = 0; i < mesh.n_particles; ++i)
+    for (int k = 0; k < 3; ++k) {
+      const double at = x[i][k];
+      x[i][k] = at + eps;
+      const double above = effect.energy(x);
+      x[i][k] = at - eps;
+      const double below = effect.energy(x);
+      x[i][k] = at;
+      worst = std::max(worst, std::abs(-(above - below) / (2 * eps) - force[i][k]));
+    }
+  EXPECT_GT(largest, 0);
+  return worst / largest;
+}
+
+TEST(Contact, PotentialHasTheForceAndStiffnessOfItsEnergy) {
+  const double reach = 0.003, k = 40;
+  for (double d : {2e-5, 1e-4, 3e-4, 8e-4, 0.0012, 0.0025, 0.00299}) {
+    const double eps = 1e-3 * d;
+    const Push above = push_of(d + eps, reach, k), at = push_of(d, reach, k), below = push_of(d - eps, reach, k);
+    EXPECT_NEAR(at.force, -(above.energy - below.energy) / (2 * eps), 1e-4 * at.force + 1e-12) << d;
+    EXPECT_NEAR(at.stiffness, -(above.force - below.force) / (2 * eps), 1e-2 * at.stiffness + 1e-12) << d;
+  }
+  EXPECT_EQ(push_of(reach, reach, k).force, 0);
+}
+
+TEST(Contact, ForceOfTheBodyIsTheGradientOfItsEnergy) {
+  collision::BodyCollider body(table(9, 0.2));
+  Grid grid = make_grid(12, 0.15);
+  Random random(3);
+  for (Vec3& p : grid.x) p = Vec3(p.x() + 0.023, 0.0012 + 0.0008 * random.uniform(-1, 1), p.z() - 0.0231);
+  BodyContactEffect contact(grid.mesh, body, {});
+  EXPECT_LT(gradient_error(contact, grid.mesh, grid.x), 2e-3);
+  EXPECT_EQ(contact.n_crossing(), 0u);
+}
+
+TEST(Contact, ForceOfClothOnItselfIsTheGradientOfItsEnergy) {
+  Grid a = make_grid(8, 0.1); // folded: the second half turned over onto the first
+  Random random(4);
+  for (Vec3& p : a.x) {
+    if (p.x() > 0.05) p.x() = 0.1 - p.x() + 0.0037, p.y() = 0.0016;
+    p.z() += p.y() > 0 ? 0.003 : 0;
+    p.y() += 0.0003 * random.uniform(-1, 1);
+  }
+  SelfContactEffect contact(a.mesh, {});
+  EXPECT_LT(gradient_error(contact, a.mesh, a.x), 0.02);
+}
+
+TEST(Contact, WhateverTheForceNoStepPassesTheSkin) {
+  collision::BodyCollider body(table(7, 0.2));
+  Grid grid = make_grid(14, 0.26); // hangs over all four edges of the table
+  for (Vec3& p : grid.x) p += Vec3(-0.03, 0.004, 0.03);
+  ClothSolver solver(grid.mesh, grid.x);
+  solver.emplace<EdgeSpringEffect>(grid.mesh);
+  solver.emplace<GravityEffect>(grid.mesh, Vec3(0, -2000, 0)); // two hundred times its weight
+  auto& contact = solver.emplace<BodyContactEffect>(grid.mesh, body, BodyContactOptions{});
+  StepOptions options;
+  options.h = 0.2;
+  for (int k = 0; k < 150; ++k) {
+    const StepResult result = solver.step(options);
+    ASSERT_TRUE(result.finite);
+    ASSERT_TRUE(body.faces_through(solver.x(), grid.mesh.particle_triangles()).empty()) << "step " << k;
+  }
+  EXPECT_GT(contact.searches, 0);
+}
+
+TEST(Contact, ClothThatStartsInTheSkinComesOut) {
+  collision::BodyCollider body(table(7, 0.2));
+  Grid grid = make_grid(10, 0.15);
+  Random random(5);
+  for (Vec3& p : grid.x) p += Vec3(0.02, 0.002 * random.uniform(-1, 1), -0.02);
+  ClothSolver solver(grid.mesh, grid.x);
+  solver.emplace<EdgeSpringEffect>(grid.mesh);
+  auto& contact = solver.emplace<BodyContactEffect>(grid.mesh, body, BodyContactOptions{});
+  StepOptions options;
+  solver.step(options);
+  EXPECT_GT(contact.n_crossing(), 0u);
+  for (int k = 0; k < 40; ++k) solver.step(options);
+  EXPECT_EQ(contact.n_crossing(), 0u);
+  EXPECT_TRUE(body.faces_through(solver.x(), grid.mesh.particle_triangles()).empty());
+  for (const Vec3& p : solver.x()) EXPECT_GT(p.y(), 0);
+}
+
+TEST(Contact, LimitsKeepPlanesAndLengths) {
+  MotionLimits limits;
+  limits.reset(2);
+  limits.guards.push_back({1, 1, {0, 0, 0, 0}, Vec3::UnitY(), 0.5, 0});
+  limits.guards.push_back({1, 0, {1, 0, 0, 0}, Vec3::UnitX(), 0, 0.2});
+  limits.most[1] = 0.15;
+  const std::vector<Vec3> x = {{0, 1, 0}, {0, 0, 0}};
+  std::vector<Vec3> dx = {{0.3, -2, 0}, {1, 0, 1}};
+  std::vector<char> held(2, 0);
+  limits.apply(x, dx, held);
+  EXPECT_NEAR(dx[0].y(), -0.5, 1e-12);
+  EXPECT_NEAR(dx[0].x(), 0.3, 1e-12) << "sliding along a plane is free";
+  EXPECT_LE(dx[1].norm(), 0.15 + 1e-12);
+  EXPECT_LE(dx[1].x(), 0.2);
+  EXPECT_TRUE(held[0] && held[1]);
+}
+
+TEST(Contact, LineSearchNeverLetsTheEnergyRise) {
+  collision::BodyCollider body(table(7, 0.2));
+  Grid grid = make_grid(14, 0.26);
+  for (Vec3& p : grid.x) p += Vec3(-0.03, 0.004, 0.03);
+  ClothSolver solver(grid.mesh, grid.x);
+  auto& springs = solver.emplace<EdgeSpringEffect>(grid.mesh);
+  auto& gravity = solver.emplace<GravityEffect>(grid.mesh, Vec3(0, -9.81, 0));
+  auto& contact = solver.emplace<BodyContactEffect>(grid.mesh, body, BodyContactOptions{});
+  StepOptions options;
+  options.h = 0.2;
+  options.line_search = true;
+  const auto energy = [&] { return springs.energy(solver.x()) + gravity.energy(solver.x()) + contact.energy(solver.x()); };
+  solver.step(options);
+  int rises = 0;
+  for (int k = 0; k < 100; ++k) {
+    const double before = energy();
+    solver.step(options);
+    rises += energy() > before + 1e-12;
+  }
+  EXPECT_LE(rises, 2) << "only where pairs come into reach between searches";
+}
+
+} // namespace
