@@ -122,10 +122,11 @@ void find_arm_landmarks(const Finder& f) {
         if ((skin.positions[v] - joint).squaredNorm() > (extreme - joint).squaredNorm()) extreme = skin.positions[v];
     f.put("hand_extreme" + suffix, extreme, 1, "farthest_from_shoulder", 0.9, 0.004);
     // the elbow's point: rearmost skin of the section through the joint
+    const double point_along = elbow_along + f.number("olecranon.above_joint") * s;
     const LimbSection* section = &arm.sections.front();
     for (const LimbSection& candidate : arm.sections)
-      if (std::abs(candidate.along - elbow_along) < std::abs(section->along - elbow_along)) section = &candidate;
-    Vec3 back = elbow;
+      if (std::abs(candidate.along - point_along) < std::abs(section->along - point_along)) section = &candidate;
+    Vec3 back = section->center;
     for (const auto& seg : section->loop.segments) {
       const Vec3 p = section->plane.point(seg[0]);
       if (p.z() < back.z()) back = p;
