@@ -108,7 +108,7 @@ void find_arm_landmarks(const Finder& f) {
     const char* elbow_rule = "arm_ratio";
     if (const auto rise = elbow_by_girth(arm, s, hand)) {
       const double by_girth = *rise - f.number("elbow.before_swell") * s;
-      if (std::abs(by_girth - elbow_along) < 0.035 * s) {
+      if (std::abs(by_girth - elbow_along) < 0.024 * s) {
         elbow_along += f.number("elbow.girth_weight") * (by_girth - elbow_along);
         elbow_rule = "upper_arm_swells";
       }
