@@ -8,13 +8,15 @@ namespace sloper::body {
 namespace {
 
 // all shares of stature
-constexpr double SEED_LEVEL = 0.60; ///< trunk level from which arms are the farthest reach
-constexpr double HAND_SKIP = 0.030; ///< fingers: no single section
+constexpr double SEED_LEVEL = 0.60;                 ///< trunk level from which arms are the farthest reach
+constexpr double FINGER_END = 0.02, AS_FAR = 0.006; ///< around the point farthest over the skin: of an open hand's end, not of a fist's knuckles
+constexpr double HAND_SKIP = 0.030;                 ///< fingers: no single section
 constexpr double STEP = 0.005;
 constexpr double ARM_REACH = 0.46; ///< over the skin from finger tip to beyond the shoulder
 constexpr double MAX_ARM_GIRTH = 0.36;
 constexpr double JUMP = 1.35;    ///< of the girth, where the section runs into the trunk
 constexpr double MIN_ARM = 0.24; ///< a shorter trace is no arm
+constexpr double BLUNT = 0.0015; ///< m
 constexpr double LOWEST_PIT = 0.708;
 constexpr double TRUNK_LEAN = 0.5; ///< of the bisector between arm and trunk
 constexpr double LEAP = 0.008;     ///< the arm's underside bends away by more than this: no longer the pit
@@ -83,10 +85,33 @@ void reach_for_fingers(ArmTrace& arm, const Vec3& wrist, const std::vector<Vec3>
   if ((tip - wrist).norm() > length) arm.tip = tip;
 }
 
-void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& from_tip, const std::vector<Vec3>& scan_points, double s) {
+void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& reach, const std::vector<double>& from_tip,
+            const std::vector<Vec3>& scan_points, double s) {
   const auto start = ring_center(skin, from_tip, (HAND_SKIP - 0.008) * s, (HAND_SKIP + 0.008) * s);
   const auto ahead = ring_center(skin, from_tip, 0.11 * s, 0.13 * s);
   if (!start || !ahead) return;
+  // of the finger ends, the one farthest along the hand: over the skin a broad hand's corners are as far
+  const Vec3 distal = (*start - *ahead).normalized();
+  Vec3 tip = arm.tip;
+  double farthest = 0;
+  for (const int t : arm.triangles)
+    for (const int v : skin.triangles[t])
+      if (from_tip[v] == 0) farthest = reach[v];
+  for (const int t : arm.triangles)
+    for (const int v : skin.triangles[t])
+      if (from_tip[v] < FINGER_END * s && reach[v] > farthest - AS_FAR * s && distal.dot(skin.positions[v] - tip) > 0) tip = skin.positions[v];
+  Vec3 sum = Vec3::Zero(); // of a blunt end its middle; the knuckles of a fist reach farther than its finger ends
+  double weight = 0;
+  bool is_fist = false;
+  for (const int t : arm.triangles)
+    for (const int v : skin.triangles[t]) {
+      const double less = distal.dot(tip - skin.positions[v]);
+      if (less > BLUNT || from_tip[v] > 2 * FINGER_END * s) continue;
+      is_fist |= less < -4 * BLUNT;
+      sum += (BLUNT - less) * skin.positions[v], weight += BLUNT - less;
+    }
+  arm.tip = tip;
+  if (!is_fist && weight > 0) arm.tip = sum / weight + distal.dot(tip - sum / weight) * distal;
   reach_for_fingers(arm, *ahead, scan_points, s);
   Vec3 center = *start, axis = (*ahead - *start).normalized();
   double along = (center - arm.tip).norm();
@@ -197,9 +222,18 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels) {
     return gap_apex(loops, arm, s);
   };
   arm.axilla = std::nullopt;
-  for (const double offset : {0.0, -0.4, 0.4})
-    if (!arm.axilla)
-      if (const auto apex = apex_at(depth + offset * radius)) arm.axilla = Vec3(apex->x(), apex->y(), depth);
+  std::vector<double> xs, ys; // the middle of three planes, for a single one may run along a fold
+  for (const double offset : {0.0, -0.15, 0.15, -0.4, 0.4}) {
+    if (xs.size() == 3 || (!xs.empty() && std::abs(offset) > 0.3)) break;
+    if (const auto apex = apex_at(depth + offset * radius)) xs.push_back(apex->x()), ys.push_back(apex->y());
+  }
+  if (!xs.empty()) {
+    std::sort(xs.begin(), xs.end());
+    std::sort(ys.begin(), ys.end());
+    const std::size_t n = xs.size();
+    auto middle = [&](const std::vector<double>& v) { return n == 3 && v[2] - v[0] < 0.01 * s ? (v[0] + v[1] + v[2]) / 3 : v[n / 2]; };
+    arm.axilla = Vec3(middle(xs), middle(ys), depth);
+  }
   if (!arm.axilla) return;
   if (arm.axilla->y() < LOWEST_PIT * s) { // arm and trunk touch, or a hole was closed there
     arm.pit_hidden = true;
@@ -311,7 +345,7 @@ std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& gr
       const Triangle& t = skin.triangles[f];
       if (from_tip[t[0]] < 1e199 && from_tip[t[1]] < 1e199 && from_tip[t[2]] < 1e199) arm.triangles.push_back(static_cast<int>(f));
     }
-    follow(arm, skin, from_tip, scan_points, s);
+    follow(arm, skin, reach, from_tip, scan_points, s);
     if (arm.sections.empty() || arm.length() < MIN_ARM * s) {
       arm.sections.clear();
       continue;

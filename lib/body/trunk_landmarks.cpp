@@ -47,8 +47,8 @@ void put_level(const Finder& f, const std::string& name, double y, const std::st
 /// the belly under a chest or the chest over a belly, the foremost place inside of it is the better answer, if there is one
 /// and it stands out by no more than INSIDE less.
 std::optional<Vec3> extreme_depth(const Finder& f, double y0, double y1, double sign, double x_low, double x_high) {
-  constexpr double INSIDE = 0.006; // m
-  std::vector<Vec3> outline;       // one point per level
+  constexpr double INSIDE = 0.006, FLAT = 0.0015, UPRIGHT = 0.00008; // m
+  std::vector<Vec3> outline;                                         // one point per level
   for (double y = y0; y <= y1; y += 0.002) {
     const auto loop = f.levels.trunk_at(y);
     if (!loop) continue;
@@ -58,14 +58,37 @@ std::optional<Vec3> extreme_depth(const Finder& f, double y0, double y1, double 
       if (q.x() < x_low || q.x() > x_high) continue;
       if (!outer || sign * q.y() > sign * outer->z()) outer = Vec3(q.x(), y, q.y());
     }
-    if (outer) outline.push_back(*outer);
+    if (!outer) continue;
+    // on a flat front the middle of what is as far out as its vertices can tell
+    double sum = 0, weight = 0;
+    for (const auto& segment : loop->segments) {
+      const Vec2 middle = 0.5 * (segment[0] + segment[1]);
+      const double less = sign * (outer->z() - middle.y());
+      if (middle.x() < x_low || middle.x() > x_high || less > FLAT) continue;
+      const double w = (FLAT - less) * (segment[1] - segment[0]).norm();
+      sum += w * middle.x(), weight += w;
+    }
+    if (weight > 0) outer->x() = sum / weight;
+    outline.push_back(*outer);
   }
   if (outline.empty()) return std::nullopt;
   auto outwards = [&](const Vec3& a, const Vec3& b) { return sign * a.z() < sign * b.z(); };
   const auto most = std::max_element(outline.begin(), outline.end(), outwards);
   const std::ptrdiff_t n = static_cast<std::ptrdiff_t>(outline.size()), margin = 4;
   const std::ptrdiff_t at = most - outline.begin();
-  if (n < 4 * margin || (at >= margin && at < n - margin)) return *most;
+  if (at >= margin && at < n - margin) { // on an upright front the middle height of what is as far out
+    Vec3 sum = Vec3::Zero();
+    double weight = 0;
+    for (const std::ptrdiff_t step : {std::ptrdiff_t{-1}, std::ptrdiff_t{1}})
+      for (std::ptrdiff_t k = step < 0 ? at : at + 1; k >= 0 && k < n; k += step) {
+        const Vec3& p = outline[static_cast<std::size_t>(k)];
+        const double w = UPRIGHT - sign * (most->z() - p.z());
+        if (w <= 0) break;
+        sum += w * p, weight += w;
+      }
+    return Vec3(sum.x() / weight, sum.y() / weight, most->z());
+  }
+  if (n < 4 * margin) return *most;
   std::optional<Vec3> inner;
   for (std::ptrdiff_t k = margin; k < n - margin; ++k) { // a place that is the foremost within 16 mm to both sides
     const auto top =
@@ -250,9 +273,8 @@ void find_trunk_landmarks(const Finder& f) {
     put_level(f, "abdomen", p->y(), "abdomen_front");
   }
   // both sides of the seat are nearly level: the left one is taken unless the right one stands out clearly
-  auto rear = extreme_depth(f, crotch + 0.004, waist, -1, -0.12 * s, 0.12 * s);
-  if (rear && rear->x() < 0)
-    if (const auto left = extreme_depth(f, crotch + 0.004, waist, -1, 0, 0.12 * s); left && left->z() < rear->z() + 0.0025) rear = left;
+  auto rear = extreme_depth(f, crotch + 0.004, waist, -1, 0, 0.12 * s);
+  if (const auto right = extreme_depth(f, crotch + 0.004, waist, -1, -0.12 * s, 0); right && (!rear || right->z() < rear->z() - 0.0025)) rear = right;
   if (const auto p = rear) {
     f.put("buttock_back", *p, 2, "rearmost_below_waist", 0.9, 0.005);
     put_level(f, "hip", p->y(), "buttock_back");
