@@ -4,7 +4,7 @@
 #include <garment/bind.hpp>
 #include <garment/drape.hpp>
 #include <garment/garment_json.hpp>
-#include <garment/materials.hpp>
+#include <garment/kes.hpp>
 #include <garment/scene.hpp>
 #include <io/files.hpp>
 #include <pattern/panel_mesh_json.hpp>
@@ -28,8 +28,10 @@ void add_options(cli::Tool& tool, Options& o) {
   app.add_option("--panels", o.panels, "panels.json from pattern-mesh")->check(cli::input_file());
   app.add_option("--from", o.from, "go on from a garment that drape or retarget-garment wrote")->check(cli::input_file());
   app.add_option("--accuracy", o.accuracy, "how exact, and how long it takes (default: standard)")->check(cli::one_of(garment::accuracy_names()));
-  app.add_option("--effects", o.effects, "auto, or a list joined by commas (default: auto)")->type_name("LIST");
-  app.add_option("--material", o.material, "fabric of panels that name none, a preset such as cotton-poplin, denim, silk, jersey")->type_name("NAME");
+  app.add_option("--effects", o.effects, "auto, auto with changes (auto,membrane,-friction), or exactly those of a list (default: auto)")->type_name("LIST");
+  app.add_option("--material", o.material,
+                 "fabric of panels that name none: a preset such as cotton-poplin, denim, silk, jersey, or a CSV of KES-F or FAST values")
+      ->type_name("NAME");
   app.add_option("--set", o.set, "one setting by its name in the report's settings")->type_name("KNOB=VALUE");
   app.add_option("--max-seconds", o.max_seconds, "stop after this wall time, s, with the best state so far (exit 4)")->check(cli::finite_in(0, 1e6, "s"));
   app.add_option("--report", o.report, "write report.json: convergence, effects with calls and time, quality, settings")->check(cli::output_file());
@@ -64,8 +66,8 @@ int run(cli::Tool& tool, Options& o) {
   if (o.from.empty()) garment.panels = pattern::read_panel_mesh(o.panels);
   else garment = garment::read_garment(o.from);
   inputs.push_back(input_entry(source));
-  for (const auto& [name, material] : scene.materials) garment.materials[name] = material;
-  if (!o.material.empty()) garment.materials[""] = garment::material_preset(o.material);
+  garment::apply_scene(scene, garment);
+  if (!o.material.empty()) garment.materials[""] = garment::material_from(o.material);
 
   body::Body body;
   if (!o.body.empty()) {

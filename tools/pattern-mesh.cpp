@@ -22,7 +22,7 @@ namespace {
 constexpr double LEAST_ANGLE = 15; // degrees: a mesh carried over an edit is kept while it is no worse
 
 struct Options {
-  std::string pattern, output, sewing, body, edits, write_pattern;
+  std::string pattern, output, sewing, body, edits, write_pattern, size, grade_rules;
   double edge_length = 0.015;
   bool check = false, unsewn = false;
 };
@@ -70,7 +70,7 @@ bool guess_seams(cli::Tool& tool, pattern::Pattern& source) {
 }
 
 int run(cli::Tool& tool, const Options& o) {
-  pattern::Pattern source = pattern::read_pattern(o.pattern, o.sewing);
+  pattern::Pattern source = pattern::read_pattern(o.pattern, o.sewing, o.size, o.grade_rules);
   if (o.check) return check(tool, source, o);
   if (o.output.empty() && !o.write_pattern.empty() && o.edits.empty()) return write_pattern(tool, source, o.write_pattern), 0;
   if (source.seams.empty() && source.source_format == "dxf" && source.panels.size() > 1 && !o.unsewn && !guess_seams(tool, source)) return 1;
@@ -113,6 +113,8 @@ int main(int argc, char** argv) {
   app.add_option("--edits", o.edits, "edits.json: changes of the outline that keep the mesh and its vertex ids where they can; \"-\" reads standard input")
       ->check(cli::input_file());
   app.add_option("--sewing", o.sewing, "sidecar with the seams of a DXF that has none")->check(cli::input_file());
+  app.add_option("--size", o.size, "size to take from a graded DXF (default: its sample size)");
+  app.add_option("--grade-rules", o.grade_rules, "grade rule table (.rul) of a DXF")->check(cli::input_file());
   app.add_flag("--unsewn", o.unsewn, "mesh a DXF that states no seams without guessing any");
   app.add_option("--write-pattern", o.write_pattern,
                  "write the pattern as read and edited: FILE.json (own format), FILE.dxf (AAMA with sewing texts) or FILE.svg (to look at)");

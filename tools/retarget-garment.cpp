@@ -6,15 +6,17 @@
 #include <garment/fit.hpp>
 #include <garment/garment_json.hpp>
 #include <garment/retarget.hpp>
+#include <garment/retarget_pattern.hpp>
 #include <garment/scene.hpp>
 #include <io/files.hpp>
+#include <pattern/export_pattern.hpp>
 
 using namespace sloper;
 
 namespace {
 
 struct Options {
-  std::string garment, to, mode = "keep-fabric", accuracy = "standard", policy, fit, report, output;
+  std::string garment, to, mode = "keep-fabric", accuracy = "standard", policy, fit, fit_csv, fit_page, pattern, report, output;
   std::vector<std::string> set;
   double max_seconds = 0;
   bool no_drape = false;
@@ -27,7 +29,11 @@ void add_options(cli::Tool& tool, Options& o) {
   app.add_option("--mode", o.mode, "keep-fabric: the same sewn garment; keep-fit: the pattern is regraded so that the ease stays (default: keep-fabric)")
       ->check(cli::one_of({"keep-fabric", "keep-fit"}));
   app.add_option("--policy", o.policy, "policy.json with limits per girth; exit 1 when the garment does not fit by it")->check(cli::input_file());
-  app.add_option("--fit", o.fit, "write fit.json: body, garment, ease, strain, gap and verdict per girth")->check(cli::output_file());
+  app.add_option("--fit", o.fit, "write fit.json: body, garment, ease, strain, gap, pressure and verdict per girth")->check(cli::output_file());
+  app.add_option("--fit-csv", o.fit_csv, "write the girths of the fit report as CSV")->check(cli::output_file());
+  app.add_option("--fit-page", o.fit_page, "write the fit report as one HTML page")->check(cli::output_file());
+  app.add_option("--pattern", o.pattern, "with keep-fit: write the regraded pattern JSON; its .dxf and its .csv of changes in cm go beside it")
+      ->check(cli::output_file());
   app.add_option("--report", o.report, "write report.json: placement, convergence, effects, quality, settings")->check(cli::output_file());
   app.add_option("--accuracy", o.accuracy, "how exact the re-drape is (default: standard)")->check(cli::one_of(garment::accuracy_names()));
   app.add_option("--set", o.set, "one setting of the re-drape")->type_name("KNOB=VALUE");
@@ -41,26 +47,41 @@ void add_options(cli::Tool& tool, Options& o) {
 
 io::Json input_entry(const std::string& path) { return {{"file", io::file_name(path)}, {"sha256", io::sha256(io::read_file(path))}}; }
 
-/// A garment that cannot go on this body at all: the answer is no, and said so in fit.json.
-void refuse_missing_parts(const Options& o, const garment::Garment& garment, const body::Body& body, const std::string& tool) {
-  const std::map<std::string, double> missing = garment::missing_frames(garment, body);
-  if (missing.empty()) return;
-  const std::string reason = "hangs on " + missing.begin()->first + ", which the body lacks";
+void write_fit(const Options& o, const garment::FitReport& fit, const std::string& tool, bool converged, const io::Json& inputs) {
   if (!o.fit.empty()) {
-    garment::FitReport report;
-    report.fits = false;
-    report.verdict = garment::FitVerdict::TOO_SMALL;
-    report.reason = reason;
-    io::Json document = garment::fit_json(report, tool);
-    document["verdict"] = "impossible";
+    io::Json document = garment::fit_json(fit, tool);
+    document["converged"] = converged;
+    document["inputs"] = inputs;
     io::write_json(o.fit, document);
   }
-  throw Error(ErrorKind::FAILED, o.to, "", "the garment " + reason, "give a body with that part, or another garment");
+  if (!o.fit_csv.empty()) io::write_file(o.fit_csv, garment::fit_csv(fit));
+  if (!o.fit_page.empty()) io::write_file(o.fit_page, garment::fit_page(fit, io::file_name(o.garment), io::file_name(o.to)));
+}
+
+/// The answer is no: said on stderr, exit 1 under a policy, else 4, since what was asked for could not be made.
+int refuse(cli::Tool& tool, const Options& o, const garment::FitReport& fit) {
+  tool.reporter().warning("does not fit: the garment " + fit.reason);
+  return o.policy.empty() ? static_cast<int>(ErrorKind::FAILED) : 1;
+}
+
+/// The regraded pattern, as DXF beside it, and what changed.
+void write_pattern(cli::Tool& tool, const Options& o, const garment::Garment& regraded, const garment::Garment& source) {
+  const pattern::Pattern before = garment::pattern_of(source, source), after = garment::pattern_of(regraded, source);
+  const std::string stem = o.pattern.substr(0, o.pattern.size() - (o.pattern.ends_with(".json") ? 5 : 0));
+  std::vector<std::string> left_out = after.findings;
+  io::write_json(o.pattern, pattern::pattern_json(after, tool.name()));
+  io::write_file(stem + ".dxf", pattern::pattern_dxf(after, left_out));
+  io::write_file(stem + ".csv", garment::grade_table(before, after));
+  for (const std::string& finding : left_out) tool.reporter().warning(finding);
 }
 
 int run(cli::Tool& tool, const Options& o) {
   const garment::RetargetMode mode = garment::retarget_mode_from_name(o.mode);
   if (o.output == "-") throw Error(ErrorKind::USAGE, "", "-o", "a garment is two files and cannot go to standard output", "give a file name");
+  if (!o.pattern.empty() && mode != garment::RetargetMode::KEEP_FIT)
+    throw Error(ErrorKind::USAGE, "", "--pattern", "keep-fabric does not change the pattern", "say --mode keep-fit");
+  if (o.pattern == "-")
+    throw Error(ErrorKind::USAGE, "", "--pattern", "a regraded pattern is three files and cannot go to standard output", "give a file name");
   garment::DrapeSettings settings = garment::preset_settings(o.accuracy);
   for (const std::string& assignment : o.set) garment::set_knob(settings, assignment);
   if (o.max_seconds > 0) settings.max_seconds = o.max_seconds;
@@ -69,27 +90,30 @@ int run(cli::Tool& tool, const Options& o) {
   const garment::Garment source = garment::read_garment(o.garment);
   if (source.bind.empty()) throw input_error(o.garment, "/bind", "the garment is not bound to a body", "drape it with --body first");
   const body::Body body = body::read_body(o.to);
-  refuse_missing_parts(o, source, body, tool.name());
+  const io::Json inputs = {input_entry(o.garment), input_entry(o.to)};
+  if (const std::string reason = garment::why_impossible(source, body); !reason.empty()) {
+    const garment::FitReport fit = garment::impossible_fit(reason, policy);
+    write_fit(o, fit, tool.name(), false, inputs);
+    return refuse(tool, o, fit);
+  }
   const collision::BodyCollider skin(body.skin);
 
   garment::Retargeted placed = garment::retarget(source, body, skin, mode, tool.reporter());
   garment::Garment& garment = placed.garment;
   garment.body_sha256 = io::sha256(io::read_file(io::mesh_path_beside(o.to)));
+  if (!o.pattern.empty()) write_pattern(tool, o, garment, source);
+  garment::FitReport fit;
+  if (!o.no_drape) fit = garment::fit_before_drape(garment, source.position, body, policy);
   garment::DrapeReport report;
   report.settings = settings;
   report.stop_reason = "placed only";
-  if (!o.no_drape) report = garment::drape(garment, &body, settings, tool.reporter());
+  const bool hopeless = !fit.fits;
+  if (hopeless) report.stop_reason = "the garment " + fit.reason;
+  else if (!o.no_drape) report = garment::drape(garment, &body, settings, tool.reporter());
   garment::bind_garment(garment, body);
   garment::write_garment(o.output, garment, tool.name());
-
-  const garment::FitReport fit = garment::fit_garment(garment, body, skin, policy);
-  const io::Json inputs = {input_entry(o.garment), input_entry(o.to)};
-  if (!o.fit.empty()) {
-    io::Json document = garment::fit_json(fit, tool.name());
-    document["converged"] = report.converged;
-    document["inputs"] = inputs;
-    io::write_json(o.fit, document);
-  }
+  if (!hopeless) fit = garment::fit_garment(garment, body, skin, policy, &placed.placed);
+  write_fit(o, fit, tool.name(), report.converged, inputs);
   if (!o.report.empty()) {
     io::Json document = garment::report_json(report, tool.name());
     document["mode"] = o.mode;
@@ -98,12 +122,10 @@ int run(cli::Tool& tool, const Options& o) {
     document["hash"] = {{"strict", garment::strict_hash(garment)}, {"quantised_10um", garment::quantised_hash(garment)}};
     io::write_json(o.report, document);
   }
-  if (!fit.fits) tool.reporter().warning("the garment " + fit.reason);
-  if (!o.no_drape && !report.converged) {
+  if (!o.no_drape && !hopeless && !report.converged)
     tool.reporter().warning("not done: " + report.stop_reason + " after " + std::to_string(report.steps) + " steps; the state reached is in " + o.output);
-    return static_cast<int>(ErrorKind::FAILED);
-  }
-  return !o.policy.empty() && !fit.fits ? 1 : 0;
+  if (!fit.fits && !o.no_drape) return refuse(tool, o, fit);
+  return report.converged || o.no_drape ? 0 : static_cast<int>(ErrorKind::FAILED);
 }
 
 } // namespace

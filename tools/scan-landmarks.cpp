@@ -13,7 +13,7 @@ using namespace sloper;
 namespace {
 
 struct Options {
-  std::string scan, output, rules, parts, csv, skeleton;
+  std::string scan, output, rules, parts, csv, skeleton, vit, garmentcode;
   std::string unit = "auto", up = "auto";
   bool explain = false, anonymise = false;
 };
@@ -32,10 +32,14 @@ int run(cli::Tool& tool, const Options& o) {
   tool.reporter().progress("reading", -1);
   const io::Scan scan = io::read_scan(o.scan);
   body::MeasuredScan measured = body::measure_scan(scan.mesh, o.scan, scan.sha256, options, tool.reporter());
+  const std::string vit = o.vit.empty() ? "" : body::valentina_measurements(measured.body);
+  const std::string garmentcode = o.garmentcode.empty() ? "" : body::garmentcode_body(measured.body);
   if (o.anonymise) body::anonymise(measured.body);
   body::write_body(o.output, measured.body, tool.name());
   if (!o.parts.empty()) write_parts(o.parts, measured.vertex_part);
   if (!o.csv.empty()) io::write_file(o.csv, body::measurements_csv(measured.body));
+  if (!o.vit.empty()) io::write_file(o.vit, vit);
+  if (!o.garmentcode.empty()) io::write_file(o.garmentcode, garmentcode);
   if (!o.skeleton.empty()) io::write_file(o.skeleton, body::skeleton_obj(measured.body));
   if (o.explain)
     for (const std::string& line : measured.trail) std::fprintf(stderr, "%s\n", line.c_str());
@@ -60,6 +64,8 @@ int main(int argc, char** argv) {
   app.add_option("--parts", o.parts, "write one byte for each vertex of the scan: 0 head, 1 torso, 2 arm_l, 3 arm_r, 4 leg_l, 5 leg_r, 255 not body")
       ->check(cli::output_file());
   app.add_option("--csv", o.csv, "write the measurements as a table, with ISO 8559-1 names beside ours")->check(cli::output_file());
+  app.add_option("--vit", o.vit, "write the measurements for Valentina (.vit, cm)")->check(cli::output_file());
+  app.add_option("--garmentcode", o.garmentcode, "write the measurements as a GarmentCode body file (YAML, cm)")->check(cli::output_file());
   app.add_option("--skeleton", o.skeleton, "write the bones as an OBJ of lines")->check(cli::output_file());
   app.add_flag("--anonymise", o.anonymise, "drop the skin and the scan's name; keep landmarks, measurements, frames and bones");
   app.add_flag("--explain", o.explain, "print the decision path to stderr");

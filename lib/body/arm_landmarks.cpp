@@ -8,6 +8,8 @@ namespace sloper::body {
 
 namespace {
 
+constexpr double FLAT = 0.001; ///< m
+
 /// The skin straight above (x, z), below the head.
 std::optional<Vec3> top_of_shoulder(const TriangleMesh& skin, double stature, double x, double z) {
   std::optional<Vec3> top;
@@ -40,7 +42,12 @@ std::optional<double> wrist_by_girth(const ArmTrace& arm, double s) {
   for (std::size_t k = palm + 1; k + 1 < sections.size() && sections[k].along < sections[palm].along + 0.085 * s; ++k)
     if (sections[k].girth < 0.995 * sections[least].girth) least = k;
   if (sections[least].girth > 0.92 * sections[palm].girth) return std::nullopt;
-  return sections[least].along;
+  double sum = 0, weight = 0; // the middle of where it is as thin as makes no difference
+  for (std::size_t k = palm + 1; k + 1 < sections.size() && sections[k].along < sections[palm].along + 0.085 * s; ++k) {
+    const double w = std::max(0.0, 1.015 * sections[least].girth - sections[k].girth);
+    if (std::abs(sections[k].along - sections[least].along) < 0.02 * s) sum += w * sections[k].along, weight += w;
+  }
+  return sum / weight;
 }
 
 /// Where the upper arm starts to swell above the elbow: the steepest rise of girth past the forearm's belly.
@@ -108,7 +115,7 @@ void find_arm_landmarks(const Finder& f) {
     const char* elbow_rule = "arm_ratio";
     if (const auto rise = elbow_by_girth(arm, s, hand)) {
       const double by_girth = *rise - f.number("elbow.before_swell") * s;
-      if (std::abs(by_girth - elbow_along) < 0.035 * s) {
+      if (std::abs(by_girth - elbow_along) < 0.024 * s) {
         elbow_along += f.number("elbow.girth_weight") * (by_girth - elbow_along);
         elbow_rule = "upper_arm_swells";
       }
@@ -122,14 +129,21 @@ void find_arm_landmarks(const Finder& f) {
         if ((skin.positions[v] - joint).squaredNorm() > (extreme - joint).squaredNorm()) extreme = skin.positions[v];
     f.put("hand_extreme" + suffix, extreme, 1, "farthest_from_shoulder", 0.9, 0.004);
     // the elbow's point: rearmost skin of the section through the joint
+    const double point_along = elbow_along + f.number("olecranon.above_joint") * s;
     const LimbSection* section = &arm.sections.front();
     for (const LimbSection& candidate : arm.sections)
-      if (std::abs(candidate.along - elbow_along) < std::abs(section->along - elbow_along)) section = &candidate;
-    Vec3 back = elbow;
+      if (std::abs(candidate.along - point_along) < std::abs(section->along - point_along)) section = &candidate;
+    double rear = 1e300, weight = 0;
+    for (const auto& seg : section->loop.segments) rear = std::min(rear, section->plane.point(seg[0]).z());
+    Vec3 back = Vec3::Zero(); // the middle of what is as far back as makes no difference
     for (const auto& seg : section->loop.segments) {
-      const Vec3 p = section->plane.point(seg[0]);
-      if (p.z() < back.z()) back = p;
+      const Vec3 p = section->plane.point(0.5 * (seg[0] + seg[1]));
+      const double w = std::max(0.0, rear + FLAT - p.z()) * (seg[1] - seg[0]).norm();
+      back += w * p, weight += w;
     }
+    if (weight > 0) back /= weight;
+    else back = section->center;
+    back.z() = std::min(back.z(), rear + 0.5 * FLAT);
     f.put("olecranon" + suffix, back, 2, "rearmost_at_elbow", 0.5, 0.015);
   }
 }

@@ -8,15 +8,19 @@ namespace sloper::body {
 namespace {
 
 // all shares of stature
-constexpr double SEED_LEVEL = 0.60; ///< trunk level from which arms are the farthest reach
-constexpr double HAND_SKIP = 0.030; ///< fingers: no single section
+constexpr double SEED_LEVEL = 0.60;                 ///< trunk level from which arms are the farthest reach
+constexpr double FINGER_END = 0.02, AS_FAR = 0.006; ///< around the point farthest over the skin: of an open hand's end, not of a fist's knuckles
+constexpr double HAND_SKIP = 0.030;                 ///< fingers: no single section
 constexpr double STEP = 0.005;
 constexpr double ARM_REACH = 0.46; ///< over the skin from finger tip to beyond the shoulder
 constexpr double MAX_ARM_GIRTH = 0.36;
 constexpr double JUMP = 1.35;    ///< of the girth, where the section runs into the trunk
 constexpr double MIN_ARM = 0.24; ///< a shorter trace is no arm
-constexpr double LOWEST_PIT = 0.727;
+constexpr double BLUNT = 0.0015; ///< m
+constexpr double LOWEST_PIT = 0.708;
 constexpr double TRUNK_LEAN = 0.5; ///< of the bisector between arm and trunk
+constexpr double LEAP = 0.008;     ///< the arm's underside bends away by more than this: no longer the pit
+constexpr double ROOF = 0.005;     ///< half breadth of the pit's roof at most
 
 /// Legs below the crotch, flooded from the calves.
 std::vector<char> leg_vertices(const LevelStack& levels, const TriangleMesh& skin) {
@@ -81,10 +85,33 @@ void reach_for_fingers(ArmTrace& arm, const Vec3& wrist, const std::vector<Vec3>
   if ((tip - wrist).norm() > length) arm.tip = tip;
 }
 
-void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& from_tip, const std::vector<Vec3>& scan_points, double s) {
+void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& reach, const std::vector<double>& from_tip,
+            const std::vector<Vec3>& scan_points, double s) {
   const auto start = ring_center(skin, from_tip, (HAND_SKIP - 0.008) * s, (HAND_SKIP + 0.008) * s);
   const auto ahead = ring_center(skin, from_tip, 0.11 * s, 0.13 * s);
   if (!start || !ahead) return;
+  // of the finger ends, the one farthest along the hand: over the skin a broad hand's corners are as far
+  const Vec3 distal = (*start - *ahead).normalized();
+  Vec3 tip = arm.tip;
+  double farthest = 0;
+  for (const int t : arm.triangles)
+    for (const int v : skin.triangles[t])
+      if (from_tip[v] == 0) farthest = reach[v];
+  for (const int t : arm.triangles)
+    for (const int v : skin.triangles[t])
+      if (from_tip[v] < FINGER_END * s && reach[v] > farthest - AS_FAR * s && distal.dot(skin.positions[v] - tip) > 0) tip = skin.positions[v];
+  Vec3 sum = Vec3::Zero(); // of a blunt end its middle; the knuckles of a fist reach farther than its finger ends
+  double weight = 0;
+  bool is_fist = false;
+  for (const int t : arm.triangles)
+    for (const int v : skin.triangles[t]) {
+      const double less = distal.dot(tip - skin.positions[v]);
+      if (less > BLUNT || from_tip[v] > 2 * FINGER_END * s) continue;
+      is_fist |= less < -4 * BLUNT;
+      sum += (BLUNT - less) * skin.positions[v], weight += BLUNT - less;
+    }
+  arm.tip = tip;
+  if (!is_fist && weight > 0) arm.tip = sum / weight + distal.dot(tip - sum / weight) * distal;
   reach_for_fingers(arm, *ahead, scan_points, s);
   Vec3 center = *start, axis = (*ahead - *start).normalized();
   double along = (center - arm.tip).norm();
@@ -152,7 +179,7 @@ std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm
   Vec2 e(-bisector.y(), bisector.x()); // square to the bisector, from the arm to the trunk
   if (e.dot(Vec2(arm.left ? -1 : 1, -1)) < 0) e = -e;
   std::optional<Vec2> apex;
-  double previous = 0;
+  double last_leave = 0, last_enter = 0;
   const double end = arm.length();
   for (double along = end - 0.09 * s; along < end + 0.08 * s; along += 0.001 * s) {
     const Vec3 c = arm.at(along);
@@ -161,13 +188,16 @@ std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm
     const auto first = std::upper_bound(t.begin(), t.end(), 0.0);
     if (first == t.end() || (first - t.begin()) % 2 == 0) continue; // not inside the arm in this plane
     const double leave = *first;
-    if (first + 1 == t.end() || leave > 0.12 * s || (apex && leave > 1.25 * previous + 0.004 * s)) {
+    if (first + 1 == t.end() || leave > (apex ? 0.2 : 0.12) * s) {
       if (apex) break;
       continue;
     }
     const double enter = *(first + 1);
-    previous = leave;
-    apex = q + 0.5 * (leave + enter) * e;
+    // another gap than that of the last line, or a fold of the trunk's side below the pit
+    if (apex && (leave > last_enter || enter < last_leave || leave > last_leave + LEAP * s)) break;
+    last_leave = leave, last_enter = enter;
+    // a gap that ends while it is wide has its roof on the arm's side: below it the trunk falls away
+    apex = q + (leave + std::min(0.5 * (enter - leave), ROOF * s)) * e;
     if (enter - leave < 0.0008 * s) break;
   }
   return apex;
@@ -192,9 +222,18 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels) {
     return gap_apex(loops, arm, s);
   };
   arm.axilla = std::nullopt;
-  for (const double offset : {0.0, -0.4, 0.4})
-    if (!arm.axilla)
-      if (const auto apex = apex_at(depth + offset * radius)) arm.axilla = Vec3(apex->x(), apex->y(), depth);
+  std::vector<double> xs, ys; // the middle of three planes, for a single one may run along a fold
+  for (const double offset : {0.0, -0.15, 0.15, -0.4, 0.4}) {
+    if (xs.size() == 3 || (!xs.empty() && std::abs(offset) > 0.3)) break;
+    if (const auto apex = apex_at(depth + offset * radius)) xs.push_back(apex->x()), ys.push_back(apex->y());
+  }
+  if (!xs.empty()) {
+    std::sort(xs.begin(), xs.end());
+    std::sort(ys.begin(), ys.end());
+    const std::size_t n = xs.size();
+    auto middle = [&](const std::vector<double>& v) { return n == 3 && v[2] - v[0] < 0.01 * s ? (v[0] + v[1] + v[2]) / 3 : v[n / 2]; };
+    arm.axilla = Vec3(middle(xs), middle(ys), depth);
+  }
   if (!arm.axilla) return;
   if (arm.axilla->y() < LOWEST_PIT * s) { // arm and trunk touch, or a hole was closed there
     arm.pit_hidden = true;
@@ -204,9 +243,11 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels) {
   arm.axilla_back = *arm.axilla + Vec3(-sign * 0.0035 * s, 0.16 * radius, -1.2 * radius);
 }
 
-/// Going up, the level at which the loops of a hanging arm and of the trunk become one, by bisection to 0.2 mm.
+/// Going up, the level at which the loops of a hanging arm and of the trunk become one, by bisection to 0.02 mm: front and
+/// back fold often meet within a tenth of a millimetre of each other.
 void find_merge(ArmTrace& arm, const LevelStack& levels) {
   const double s = levels.stature();
+  double reach = 0.01 * s, from = 0; // sections this near the level, this far from the hand
   auto loops_at = [&](double y, int& trunk, int& limb) {
     std::vector<Loop> loops = levels.exact(y);
     trunk = limb = -1;
@@ -216,7 +257,7 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
       if (trunk < 0 && std::abs(loops[i].centroid.x()) < 0.06 * s) trunk = static_cast<int>(i); // the largest near the middle
       double d = 1e300;
       for (const LimbSection& section : arm.sections) {
-        if (std::abs(section.center.y() - y) > 0.01 * s) continue;
+        if (std::abs(section.center.y() - y) > reach || section.along < from) continue;
         const Vec2 c(section.center.x(), section.center.z());
         d = std::min(d, encloses(loops[i], c) ? 0.0 : (c - loops[i].centroid).norm());
       }
@@ -224,22 +265,26 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
     }
     return loops;
   };
+  auto apart = [&](double y) {
+    int trunk, limb;
+    loops_at(y, trunk, limb);
+    return trunk >= 0 && limb >= 0 && trunk != limb;
+  };
   double low = 0, high = 0;
-  for (double y = 0.80 * s; y > 0.62 * s; y -= 0.005 * s) {
-    int trunk, limb;
-    loops_at(y, trunk, limb);
-    if (trunk >= 0 && limb >= 0 && trunk != limb) {
-      low = y;
-      break;
-    }
-    high = y;
+  auto search = [&](double top, double bottom, double step) {
+    low = high = 0;
+    for (double y = top; y > bottom && low == 0; y -= step) (apart(y) ? low : high) = y;
+  };
+  if (arm.out.y() < -0.12) search(0.80 * s, 0.62 * s, 0.005 * s);
+  if (low == 0 || high == 0) { // a level through a level arm's underside is further from its middle, and the hand may hang
+    reach = 0.035 * s, from = 0.6 * arm.length();
+    const double middle = arm.at(0.85 * arm.length()).y();
+    search(middle, middle - 0.05 * s, 0.0006 * s);
   }
-  if (low == 0 || high == 0 || arm.out.y() > -0.25) return; // a level arm never stands apart in level sections
-  while (high - low > 2e-4) {
+  if (low == 0 || high == 0) return; // a level arm may never stand apart in level sections
+  while (high - low > 2e-5) {
     const double y = 0.5 * (low + high);
-    int trunk, limb;
-    loops_at(y, trunk, limb);
-    (trunk >= 0 && limb >= 0 && trunk != limb ? low : high) = y;
+    (apart(y) ? low : high) = y;
   }
   int trunk, limb;
   const std::vector<Loop> loops = loops_at(low, trunk, limb);
@@ -300,7 +345,7 @@ std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& gr
       const Triangle& t = skin.triangles[f];
       if (from_tip[t[0]] < 1e199 && from_tip[t[1]] < 1e199 && from_tip[t[2]] < 1e199) arm.triangles.push_back(static_cast<int>(f));
     }
-    follow(arm, skin, from_tip, scan_points, s);
+    follow(arm, skin, reach, from_tip, scan_points, s);
     if (arm.sections.empty() || arm.length() < MIN_ARM * s) {
       arm.sections.clear();
       continue;

@@ -68,6 +68,13 @@ FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace,
   figure.female = 1 / (1 + std::exp(-1.5 * score));
   trail.push_back(line("figure: waist to hip breadth %.3f, front rises %.4f of stature above the crotch, chest bump %.1f mm", waist_to_hip, rise, 1000 * bump));
   trail.push_back(line("figure: %.2f female proportions", figure.female));
+  for (int side = 0; side < 2; ++side)
+    if (figure.nipple[side])
+      trail.push_back(line(side == 0 ? "chest: strongest bump on the left at x %.3f, y %.3f, %.1f mm high"
+                                     : "chest: strongest bump on the right at x %.3f, y %.3f, %.1f mm high",
+                           figure.nipple[side]->p.x(), figure.nipple[side]->p.y(), 1000 * figure.nipple[side]->height));
+  if (figure.navel)
+    trail.push_back(line("belly: strongest dimple at x %.3f, y %.3f, %.1f mm deep", figure.navel->p.x(), figure.navel->p.y(), -1000 * figure.navel->height));
   return figure;
 }
 

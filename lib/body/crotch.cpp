@@ -11,7 +11,8 @@ namespace {
 constexpr double BELOW_BUTTOCKS = 0.051; ///< crotch below the level of the greatest buttock prominence, share of stature
 constexpr double TOO_LOW = 0.032;        ///< below the expected height by this share of stature: the thighs touch
 constexpr double SAG = 0.015;            ///< a closed hole hangs this much lower than the skin that was there
-constexpr double SEEN = 0.018;           ///< a point of the scan this near shows the crotch
+/// Half sizes of the box in which points of the scan show the crotch: thin, for the thighs beside a hole are near.
+const Vec3 SEEN(0.004, 0.012, 0.05);
 
 /// Height of the rearmost part of the trunk below the waist.
 std::optional<double> buttock_level(const LevelStack& levels) {
@@ -34,7 +35,7 @@ bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, std:
   const double s = levels.stature(), found = *levels.crotch();
   const Vec3 place(levels.crotch_point().x(), found, levels.crotch_point().y());
   int seen = 0;
-  for (const Vec3& p : scan_points) seen += (p - place).squaredNorm() < SEEN * SEEN * s * s;
+  for (const Vec3& p : scan_points) seen += ((p - place).cwiseAbs() - s * SEEN).maxCoeff() < 0;
   const auto buttock = buttock_level(levels);
   const double expected = buttock ? *buttock - BELOW_BUTTOCKS * s : 0.463 * s;
   const bool fused = found < expected - TOO_LOW * s;

@@ -90,22 +90,22 @@ void find_head_landmarks(const Finder& f) {
   f.put("neck_back", Vec3(x, back_y, back->back), 2, back_rule, confidence, 0.010);
   f.put("neck_front", Vec3(x, front_y, front->front), 2, front_rule, confidence, 0.010);
   const double depth = back->back + f.number("neck_side.from_back") * (front->front - back->back);
-  auto outer_at = [&](double y, int side) {
+  auto outer_at = [&](double y, int side, double near) {
     const double sign = side == 0 ? 1 : -1;
     std::optional<Vec2> outer;
     if (const auto loop = f.levels.trunk_at(y))
       for (const auto& seg : loop->segments)
-        if (std::abs(seg[0].y() - depth) < 0.01 * s && sign * (seg[0].x() - x) > 0 && (!outer || sign * seg[0].x() > sign * outer->x())) outer = seg[0];
+        if (std::abs(seg[0].y() - depth) < near * s && sign * (seg[0].x() - x) > 0 && (!outer || sign * seg[0].x() > sign * outer->x())) outer = seg[0];
     return outer;
   };
   // where the shoulders are nearly level a millimetre of height is a centimetre of breadth: too broad is too low
   const double broadest = f.number("neck_side.broadest") * s, limit = side_y + 0.012 * s;
   for (; side_y < limit; side_y += 0.001 * s) {
-    const auto l = outer_at(side_y, 0), r = outer_at(side_y, 1);
+    const auto l = outer_at(side_y, 0, 0.01), r = outer_at(side_y, 1, 0.01);
     if (l && r && 0.5 * (l->x() - r->x()) < broadest) break;
   }
   for (int side = 0; side < 2; ++side)
-    if (const auto outer = outer_at(side_y, side))
+    if (const auto close = outer_at(side_y, side, 0.01), outer = close ? close : outer_at(side_y, side, 0.03); outer)
       f.put(std::string("neck_side") + side_suffix(side), Vec3(outer->x(), side_y, depth), 2, turn ? "neck_meets_shoulders" : "above_neck_back", 0.5, 0.012);
   f.put("neck_center", Vec3(x, 0.5 * (back_y + front_y), 0.5 * (back->back + front->front)), 2, "middle_of_neck_ring", 0.6, 0.010);
 }

@@ -60,7 +60,8 @@ void LevelStack::move_crotch(double y, double z) {
   m_crotch_point.y() = z;
 }
 
-LevelStack::LevelStack(const TriangleMesh& skin, double stature, double spacing) : m_skin(&skin), m_stature(stature), m_spacing(spacing) {
+LevelStack::LevelStack(const TriangleMesh& skin, double stature, double spacing, double roughness)
+    : m_skin(&skin), m_stature(stature), m_spacing(spacing), m_roughness(roughness) {
   const int n = static_cast<int>(stature * 1.02 / spacing) + 2;
   m_triangles = triangles_by_level(skin, 0.5 * spacing, spacing, n);
   m_slices.resize(static_cast<std::size_t>(n));
@@ -171,11 +172,21 @@ void LevelStack::follow_legs() {
     if (y > low - 0.04 * m_stature && y < low + 0.04 * m_stature) near.push_back(static_cast<int>(f));
   }
   double lowest = high;
+  std::vector<Vec2> bottom;
   for (const Loop& loop : cut(*m_skin, {Vec3(middle, 0, 0), Vec3::UnitZ(), Vec3::UnitY()}, &near))
     for (const auto& segment : loop.segments)
       for (const Vec2& q : segment)
-        if (q.y() < lowest && q.y() > low - 0.006 * m_stature) lowest = q.y(), m_crotch_point.y() = q.x();
+        if (q.y() > low - 0.006 * m_stature && q.y() < high + m_roughness) {
+          bottom.push_back(q);
+          if (q.y() < lowest) lowest = q.y(), m_crotch_point.y() = q.x();
+        }
   m_crotch = std::min(low, lowest);
+  if (m_roughness <= 0) return;
+  // the skin there is nearly level from front to back: on a rough scan the lowest point is anywhere on it, its middle is not
+  double front = -1e300, back = 1e300;
+  for (const Vec2& q : bottom)
+    if (q.y() < lowest + m_roughness) front = std::max(front, q.x()), back = std::min(back, q.x());
+  if (front >= back) m_crotch_point.y() = 0.5 * (front + back);
 }
 
 void LevelStack::follow_trunk() {

@@ -16,7 +16,8 @@ struct Slice {
 class LevelStack {
 public:
   /// @param spacing m between levels
-  LevelStack(const TriangleMesh& skin, double stature, double spacing);
+  /// @param roughness m by which heights of a rebuilt skin are uncertain; 0 for a scan's own faces
+  LevelStack(const TriangleMesh& skin, double stature, double spacing, double roughness = 0);
   const std::vector<Slice>& slices() const { return m_slices; }
   const Slice& at(double y) const; ///< the nearest slice
   int index(double y) const;
@@ -39,7 +40,7 @@ private:
   void follow_legs();
   void follow_trunk();
   const TriangleMesh* m_skin;
-  double m_stature, m_spacing;
+  double m_stature, m_spacing, m_roughness;
   std::vector<Slice> m_slices;
   std::vector<std::vector<int>> m_triangles;
   std::optional<double> m_crotch;

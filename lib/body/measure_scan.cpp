@@ -85,7 +85,7 @@ MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, con
   body.scan.findings.insert(body.scan.findings.end(), skin.findings.begin(), skin.findings.end());
 
   const double s = frame.stature_m;
-  LevelStack levels(body.skin, s, 0.0025 * s);
+  LevelStack levels(body.skin, s, 0.0025 * s, skin.rebuilt ? 0.002 : 0);
   std::vector<Vec3> scan_points;
   for (std::size_t v = 0; v < positions.size(); ++v)
     if (sorted.is_body[v]) scan_points.push_back(positions[v]);

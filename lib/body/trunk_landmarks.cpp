@@ -43,19 +43,59 @@ void put_level(const Finder& f, const std::string& name, double y, const std::st
   }
 }
 
-/// Foremost (or rearmost) point of the trunk between two heights.
+/// Foremost (or rearmost) point of the trunk between two heights. Where the trunk only runs out towards an end of the range,
+/// the belly under a chest or the chest over a belly, the foremost place inside of it is the better answer, if there is one
+/// and it stands out by no more than INSIDE less.
 std::optional<Vec3> extreme_depth(const Finder& f, double y0, double y1, double sign, double x_low, double x_high) {
-  std::optional<Vec3> best;
+  constexpr double INSIDE = 0.006, FLAT = 0.0015, UPRIGHT = 0.00008; // m
+  std::vector<Vec3> outline;                                         // one point per level
   for (double y = y0; y <= y1; y += 0.002) {
     const auto loop = f.levels.trunk_at(y);
     if (!loop) continue;
+    std::optional<Vec3> outer;
     for (const auto& segment : loop->segments) {
       const Vec2& q = segment[0];
       if (q.x() < x_low || q.x() > x_high) continue;
-      if (!best || sign * q.y() > sign * best->z()) best = Vec3(q.x(), y, q.y());
+      if (!outer || sign * q.y() > sign * outer->z()) outer = Vec3(q.x(), y, q.y());
     }
+    if (!outer) continue;
+    // on a flat front the middle of what is as far out as its vertices can tell
+    double sum = 0, weight = 0;
+    for (const auto& segment : loop->segments) {
+      const Vec2 middle = 0.5 * (segment[0] + segment[1]);
+      const double less = sign * (outer->z() - middle.y());
+      if (middle.x() < x_low || middle.x() > x_high || less > FLAT) continue;
+      const double w = (FLAT - less) * (segment[1] - segment[0]).norm();
+      sum += w * middle.x(), weight += w;
+    }
+    if (weight > 0) outer->x() = sum / weight;
+    outline.push_back(*outer);
   }
-  return best;
+  if (outline.empty()) return std::nullopt;
+  auto outwards = [&](const Vec3& a, const Vec3& b) { return sign * a.z() < sign * b.z(); };
+  const auto most = std::max_element(outline.begin(), outline.end(), outwards);
+  const std::ptrdiff_t n = static_cast<std::ptrdiff_t>(outline.size()), margin = 4;
+  const std::ptrdiff_t at = most - outline.begin();
+  if (at >= margin && at < n - margin) { // on an upright front the middle height of what is as far out
+    Vec3 sum = Vec3::Zero();
+    double weight = 0;
+    for (const std::ptrdiff_t step : {std::ptrdiff_t{-1}, std::ptrdiff_t{1}})
+      for (std::ptrdiff_t k = step < 0 ? at : at + 1; k >= 0 && k < n; k += step) {
+        const Vec3& p = outline[static_cast<std::size_t>(k)];
+        const double w = UPRIGHT - sign * (most->z() - p.z());
+        if (w <= 0) break;
+        sum += w * p, weight += w;
+      }
+    return Vec3(sum.x() / weight, sum.y() / weight, most->z());
+  }
+  if (n < 4 * margin) return *most;
+  std::optional<Vec3> inner;
+  for (std::ptrdiff_t k = margin; k < n - margin; ++k) { // a place that is the foremost within 16 mm to both sides
+    const auto top =
+        std::max_element(outline.begin() + std::max<std::ptrdiff_t>(0, k - 2 * margin), outline.begin() + std::min(n, k + 2 * margin + 1), outwards);
+    if (top - outline.begin() == k && (!inner || outwards(*inner, outline[static_cast<std::size_t>(k)]))) inner = outline[static_cast<std::size_t>(k)];
+  }
+  return inner && std::abs(inner->z() - most->z()) < INSIDE ? *inner : *most;
 }
 
 } // namespace
@@ -83,6 +123,11 @@ void find_bust(const Finder& f, double pit) {
   const double expected = pit > 0 ? 0.5 * (by_trunk + by_pit) : by_trunk;
   const bool relief = is_nipple_pair(f);
   f.explain(relief ? "bust: both sides have a bump, taken as the bust points" : "bust: no clear bumps, taken by proportion and the foremost skin");
+  std::optional<double> by_bumps; // the chest muscles' lower corners
+  if (const auto& l = f.figure.nipple[0], &r = f.figure.nipple[1]; !relief && l && r && std::abs(l->p.y() - r->p.y()) < 0.012 * s) {
+    const double y = 0.5 * (l->p.y() + r->p.y()) + f.number("bust.above_muscle") * s;
+    if (std::abs(y - expected) < 0.03 * s) by_bumps = y;
+  }
   double sum = 0;
   int n = 0;
   for (int side = 0; side < 2; ++side) {
@@ -93,7 +138,7 @@ void find_bust(const Finder& f, double pit) {
       const Vec3& p = f.figure.nipple[side]->p;
       point = front_at(f, p.x(), p.y() + 0.002 * s, 0.004 * s);
     } else {
-      double y = expected;
+      double y = by_bumps ? 0.5 * (expected + *by_bumps) : expected;
       if (f.figure.female > 0.5) { // the foremost skin near the expected height
         const double a = 0.02 * s, b = 0.10 * s;
         if (const auto p = extreme_depth(f, expected - 0.035 * s, expected + 0.035 * s, 1, side == 0 ? a : -b, side == 0 ? b : -a))
@@ -102,8 +147,12 @@ void find_bust(const Finder& f, double pit) {
       point = front_at(f, sign * f.number("bust.beside") * s, y, 0.006 * s);
     }
     if (!point) continue;
-    f.put("bust_point" + suffix, *point, 2, relief ? "bump_of_chest" : "proportion", relief ? 0.85 : 0.5, relief ? 0.004 : 0.015);
-    if (const auto p = extreme_depth(f, point->y() - 0.025 * s, point->y() + 0.06 * s, 1, side == 0 ? 0.002 : -0.14 * s, side == 0 ? 0.14 * s : -0.002))
+    f.put("bust_point" + suffix, *point, 2,
+          relief     ? "bump_of_chest"
+          : by_bumps ? "above_chest_muscle"
+                     : "proportion",
+          relief ? 0.85 : 0.5, relief ? 0.004 : 0.015);
+    if (const auto p = extreme_depth(f, point->y() - 0.024 * s, point->y() + 0.06 * s, 1, side == 0 ? 0.002 : -0.14 * s, side == 0 ? 0.14 * s : -0.002))
       f.put("bust_prominent" + suffix, *p, 2, "foremost_of_chest", 0.8, 0.006);
     sum += point->y(), ++n;
   }
@@ -168,7 +217,7 @@ double find_navel(const Finder& f) {
   const double expected = crotch + f.number("omphalion.of_trunk") * trunk;
   const auto& dimple = f.figure.navel;
   const bool seen = dimple && -dimple->height > f.number("omphalion.dimple") && std::abs(dimple->p.y() - expected) < 0.06 * s;
-  const double y = seen ? dimple->p.y() : expected, x = seen ? dimple->p.x() : 0.0;
+  const double y = seen ? dimple->p.y() + f.number("omphalion.above_dimple") * s : expected, x = seen ? dimple->p.x() : 0.0;
   f.explain(seen ? "navel: a dimple near the middle" : "navel: no dimple, taken by proportion");
   // the tape and the truth lie on the belly's surface beside the dimple, not at its bottom
   if (const auto p = front_at(f, x, y, 0.006 * s)) f.put("omphalion", *p, 2, seen ? "dimple" : "trunk_ratio", seen ? 0.85 : 0.4, seen ? 0.006 : 0.02);
@@ -224,9 +273,8 @@ void find_trunk_landmarks(const Finder& f) {
     put_level(f, "abdomen", p->y(), "abdomen_front");
   }
   // both sides of the seat are nearly level: the left one is taken unless the right one stands out clearly
-  auto rear = extreme_depth(f, crotch + 0.004, waist, -1, -0.12 * s, 0.12 * s);
-  if (rear && rear->x() < 0)
-    if (const auto left = extreme_depth(f, crotch + 0.004, waist, -1, 0, 0.12 * s); left && left->z() < rear->z() + 0.0025) rear = left;
+  auto rear = extreme_depth(f, crotch + 0.004, waist, -1, 0, 0.12 * s);
+  if (const auto right = extreme_depth(f, crotch + 0.004, waist, -1, -0.12 * s, 0); right && (!rear || right->z() < rear->z() - 0.0025)) rear = right;
   if (const auto p = rear) {
     f.put("buttock_back", *p, 2, "rearmost_below_waist", 0.9, 0.005);
     put_level(f, "hip", p->y(), "buttock_back");

@@ -12,6 +12,7 @@ struct Fabric {
   double shear_n_m = 60;                                  ///< shear force per width at unit shear angle
   double bend_n_m = 1e-5;                                 ///< N m: moment per width at unit curvature
   double damping_s = 0.02;                                ///< stiffness-proportional damping time
+  double poisson = 0.25;                                  ///< 0..1: narrowing over lengthening when pulled along the stiffer axis; membrane only
 };
 
 /// One triangle of cloth at rest, flat.

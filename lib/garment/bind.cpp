@@ -57,11 +57,13 @@ std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body) 
   std::vector<Vec3> placed(bind.particles.size(), Vec3::Zero());
   for (std::size_t i = 0; i < placed.size(); ++i) {
     double there = 0; // a collar does without the head, as long as it hangs on the torso as well
-    for (const BindWeight& w : bind.particles[i]) {
+    for (const BindWeight& w : bind.particles[i])
       if (target[w.frame] >= 0) there += w.weight;
-      else if (w.weight > 0.5)
-        throw input_error("", "", "the garment hangs on " + bind.frames[w.frame] + ", which the body lacks", "give a body with that part, or another garment");
-    }
+    if (there < 0.5)
+      for (const BindWeight& w : bind.particles[i])
+        if (target[w.frame] < 0)
+          throw input_error("", "", "the garment hangs on " + bind.frames[w.frame] + ", which the body lacks",
+                            "give a body with that part, or another garment");
     for (const BindWeight& w : bind.particles[i]) {
       if (target[w.frame] < 0) continue;
       const BindFrame& to = frames.frames[target[w.frame]];

@@ -1,12 +1,16 @@
 #pragma once
-/// How a draped garment fits the body it hangs on: ease, strain, gap and pressure per girth, and a verdict.
+/// How a draped garment fits the body it hangs on: ease, strain, gap and pressure per girth, hems, coverage, balance, a verdict.
 ///
 /// Trunk levels are cut level, without what hangs on the arms, as the body's own girths are; limb girths are cut square to the
 /// limb. A garment's girth is the length of the line of cloth in the cut: `lying` as it hangs, `rest` as it would be
 /// unstretched; ease = rest - body girth, so a garment that only goes on by stretching has negative ease. Contact pressure
 /// is estimated by Laplace's law, tension / radius, with the fabric's stretch modulus and radius = body girth / 2 pi.
+/// Uncertainties: of the body's girth its spread; of the garment's the change within the error of the level's height and the
+/// chord's shortfall against its arc; of strain the change when half the band is taken; of the gap the sagitta of an edge; of
+/// pressure that of strain. A drape that did not come to rest adds `convergence_m` to lengths and gaps.
 #include <body/body.hpp>
 #include <collision/body_collider.hpp>
+#include <garment/fit_lines.hpp>
 #include <garment/fit_policy.hpp>
 #include <garment/garment.hpp>
 #include <io/json.hpp>
@@ -15,37 +19,72 @@ namespace sloper::garment {
 
 struct FitRow {
   std::string name;                    ///< "bust", "upper_arm_l", ...: as in the body document
-  std::string kind;                    ///< "level" or "limb"
+  std::string kind;                    ///< "level", "limb" or "neck"
   double height_m = 0;                 ///< of the cut's centre
   double body_m = 0;                   ///< body girth
   double lying_m = 0, rest_m = 0;      ///< garment girth as it hangs and unstretched
   double ease_m = 0;                   ///< rest_m - body_m
-  bool open = false;                   ///< the cloth does not go all the way round: the opening is bridged straight
+  double bridged_m = 0;                ///< of the girth, where there is no trunk cloth: openings, under the arms
+  bool open = false;                   ///< something is bridged
   double strain_p99 = 0;               ///< of the edges within 2 cm of the cut
   double strain_girth = 0;             ///< lying_m / rest_m - 1: how far the girth as a whole is stretched
   std::string strain_direction;        ///< "warp", "weft" or "bias": of the edges beyond the 99th percentile
   double gap_p05_m = 0, gap_p50_m = 0; ///< cloth to skin, signed
   double pressure_p95_pa = 0;
   double body_uncertainty_m = 0, garment_uncertainty_m = 0, ease_uncertainty_m = 0;
+  double strain_uncertainty = 0, gap_uncertainty_m = 0, pressure_uncertainty_pa = 0;
+  double margin_m = 0; ///< ease to the nearer limit of "ok"; negative when it is not ok
   FitVerdict verdict = FitVerdict::OK;
   std::string reason; ///< of a verdict that is not OK
 };
 
+/// Strain over one region of the garment: where it is stretched though no girth says so (across the shoulders, over a sleeve).
+struct FitRegion {
+  std::string name; ///< "shoulders", "trunk", "left sleeve", "left leg", "skirt", "hood"
+  int edges = 0;
+  double strain_p50 = 0, strain_p99 = 0, strain_max = 0;
+  std::string strain_direction;
+};
+
 struct FitReport {
+  std::string garment_class; ///< "top", "dress", "skirt", "trousers" or "whole"
+  std::string fabric;        ///< name of the material of most of it
   std::vector<FitRow> rows;
+  std::vector<FitRegion> regions;
+  FitLines lines;                                            ///< hems, coverage, balance
+  double strain_p99 = 0, strain_max = 0;                     ///< over all edges
+  double slip_m = 0;                                         ///< how far the garment as a whole sank from where it was placed
+  double margin_m = 0;                                       ///< least of the rows'
+  std::string margin_at;                                     ///< its girth
   std::vector<std::pair<std::string, std::string>> left_out; ///< girth, why
   double hem_height_m = 0, top_height_m = 0;                 ///< lowest and highest point of the garment
+  double convergence_m = 0;                                  ///< how far it may still move: 0 at rest
   bool fits = true;
-  FitVerdict verdict = FitVerdict::OK; ///< the worst row's
+  FitVerdict verdict = FitVerdict::OK; ///< the worst of all
   std::string reason;                  ///< "does not close at the bust by 4.2 cm"
   std::string policy;                  ///< its name
 };
 
 /// @param garment draped on `body` and bound to it (bind_garment)
+/// @param placed  positions before the drape, #P, or nullptr: how far the garment slid is measured from them
 /// @throws Error INPUT when it is not bound
-FitReport fit_garment(const Garment& garment, const body::Body& body, const collision::BodyCollider& skin, const FitPolicy& policy);
+FitReport fit_garment(const Garment& garment, const body::Body& body, const collision::BodyCollider& skin, const FitPolicy& policy,
+                      const std::vector<Vec3>* placed = nullptr);
+
+/// Whether a garment can go on at all, before any drape: only girths that the cloth does not reach round even when it is stretched by
+/// all that the policy bears, or as far as it was on the first body where that is further (an elastic band). Only `fits`, `verdict`,
+/// `reason` and the refused rows are told.
+/// @param placed on `body`, bound to any body   @param source_position #P: where it hung when it was at rest
+FitReport fit_before_drape(const Garment& placed, const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy);
+
+/// A report that says no for a reason that needs no measuring.
+FitReport impossible_fit(const std::string& reason, const FitPolicy& policy);
 
 /// fit.json without its envelope's inputs.
 io::Json fit_json(const FitReport& report, const std::string& tool);
+/// The rows as CSV (RFC 4180), one line per girth; first line names the columns with their units.
+std::string fit_csv(const FitReport& report);
+/// One HTML page without any other file: verdict, girths as a sortable table and as bars of ease, regions, hems.
+std::string fit_page(const FitReport& report, const std::string& garment, const std::string& body);
 
 } // namespace sloper::garment

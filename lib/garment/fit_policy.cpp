@@ -8,16 +8,52 @@ namespace sloper::garment {
 
 namespace {
 
-FitLimits read_limits(const io::Node& node, FitLimits limits) {
+constexpr double STRAIN_P99 = 0.05, STRAIN_MAX = 0.30, SLIP = 0.10; // woven cloth; m
+
+FitOverride read_override(const io::Node& node) {
   node.allow_only({"too_small_ease", "too_small_strain", "tight_ease", "loose_ease"});
-  limits.too_small_ease = node.number("too_small_ease", limits.too_small_ease);
-  limits.too_small_strain = node.number("too_small_strain", limits.too_small_strain);
-  limits.tight_ease = node.number("tight_ease", limits.tight_ease);
-  limits.loose_ease = node.number("loose_ease", limits.loose_ease);
-  if (!(limits.too_small_ease <= limits.tight_ease && limits.tight_ease <= limits.loose_ease))
-    node.fail("the limits are out of order", "too_small_ease <= tight_ease <= loose_ease");
-  if (limits.too_small_strain <= 0) node.fail("too_small_strain must be above zero");
-  return limits;
+  FitOverride o;
+  const auto read = [&](const char* key, std::optional<double>& value) {
+    if (node.has(key)) value = node.at(key).number();
+  };
+  read("too_small_ease", o.too_small_ease);
+  read("too_small_strain", o.too_small_strain);
+  read("tight_ease", o.tight_ease);
+  read("loose_ease", o.loose_ease);
+  if (o.too_small_strain && *o.too_small_strain <= 0) node.fail("too_small_strain must be above zero");
+  // Only what is said here can be out of order here; the rest is checked where it is used with the rest.
+  const double low = o.too_small_ease.value_or(-1e300), middle = o.tight_ease.value_or(low), high = o.loose_ease.value_or(1e300);
+  if (!(low <= middle && middle <= high)) node.fail("the limits are out of order", "too_small_ease <= tight_ease <= loose_ease");
+  return o;
+}
+
+FitRules read_rules(const io::Node& node) {
+  FitRules rules;
+  if (node.has("default")) rules.standard = read_override(node.at("default"));
+  if (node.has("girths"))
+    for (const std::string& name : node.at("girths").keys()) rules.girths[name] = read_override(node.at("girths").at(name));
+  const auto positive = [&](const char* key, std::optional<double>& value) {
+    if (!node.has(key)) return;
+    value = node.at(key).number();
+    if (*value <= 0) node.at(key).fail("must be above zero");
+  };
+  positive("strain_p99", rules.strain_p99);
+  positive("strain_max", rules.strain_max);
+  positive("slip_m", rules.slip_m);
+  return rules;
+}
+
+const FitRules* find(const std::map<std::string, FitRules>& rules, const std::string& name) {
+  const auto found = rules.find(name);
+  return found == rules.end() ? nullptr : &found->second;
+}
+
+/// The last of all garments', the class's and the fabric's that says something.
+double last_said(const FitPolicy& policy, std::optional<double> FitRules::*value, double fallback, const std::string& garment_class,
+                 const std::string& fabric) {
+  for (const FitRules* rules : {&policy.all, find(policy.classes, garment_class), find(policy.fabrics, fabric)})
+    if (rules && rules->*value) fallback = *(rules->*value);
+  return fallback;
 }
 
 } // namespace
@@ -26,16 +62,41 @@ const char* verdict_name(FitVerdict verdict) {
   switch (verdict) {
   case FitVerdict::LOOSE: return "loose";
   case FitVerdict::TIGHT: return "tight";
+  case FitVerdict::TOO_LARGE: return "too large";
   case FitVerdict::TOO_SMALL: return "too small";
   default: return "ok";
   }
 }
 
-const FitLimits& FitPolicy::limits(const std::string& girth) const {
-  if (const auto found = girths.find(girth); found != girths.end()) return found->second;
-  if (girth.size() > 2 && girth[girth.size() - 2] == '_')
-    if (const auto found = girths.find(girth.substr(0, girth.size() - 2)); found != girths.end()) return found->second;
-  return standard;
+void FitOverride::apply(FitLimits& limits) const {
+  limits.too_small_ease = too_small_ease.value_or(limits.too_small_ease);
+  limits.too_small_strain = too_small_strain.value_or(limits.too_small_strain);
+  limits.tight_ease = tight_ease.value_or(limits.tight_ease);
+  limits.loose_ease = loose_ease.value_or(limits.loose_ease);
+}
+
+FitLimits FitPolicy::limits(const std::string& girth, const std::string& garment_class, const std::string& fabric) const {
+  FitLimits limits;
+  const std::string both_sides = girth.size() > 2 && girth[girth.size() - 2] == '_' ? girth.substr(0, girth.size() - 2) : girth;
+  const std::array<const FitRules*, 3> layers = {&all, find(classes, garment_class), find(fabrics, fabric)};
+  for (const FitRules* rules : layers)
+    if (rules) rules->standard.apply(limits);
+  for (const FitRules* rules : layers) {
+    if (!rules) continue;
+    for (const std::string& key : {both_sides, girth})
+      if (const auto found = rules->girths.find(key); found != rules->girths.end()) found->second.apply(limits);
+  }
+  return limits;
+}
+
+double FitPolicy::strain_p99(const std::string& garment_class, const std::string& fabric) const {
+  return last_said(*this, &FitRules::strain_p99, STRAIN_P99, garment_class, fabric);
+}
+double FitPolicy::strain_max(const std::string& garment_class, const std::string& fabric) const {
+  return last_said(*this, &FitRules::strain_max, STRAIN_MAX, garment_class, fabric);
+}
+double FitPolicy::slip_m(const std::string& garment_class, const std::string& fabric) const {
+  return last_said(*this, &FitRules::slip_m, SLIP, garment_class, fabric);
 }
 
 FitPolicy standard_fit_policy() { return {}; }
@@ -43,19 +104,32 @@ FitPolicy standard_fit_policy() { return {}; }
 FitPolicy read_fit_policy(const std::string& path) {
   const io::Json document = io::read_document(path, "fit-policy", FIT_POLICY_VERSION);
   const io::Node root(document, path);
-  root.allow_only({"format", "version", "generator", "length_unit", "name", "refuse", "default", "girths"});
+  root.allow_only(
+      {"format", "version", "generator", "length_unit", "name", "refuse", "default", "girths", "strain_p99", "strain_max", "slip_m", "classes", "fabrics"});
   FitPolicy policy = standard_fit_policy();
   policy.name = root.string("name", "unnamed");
-  if (root.has("default")) policy.standard = read_limits(root.at("default"), policy.standard);
-  if (root.has("girths"))
-    for (const std::string& name : root.at("girths").keys()) policy.girths[name] = read_limits(root.at("girths").at(name), policy.standard);
+  policy.all = read_rules(root);
+  const auto layer = [&](const char* key, std::map<std::string, FitRules>& rules) {
+    if (!root.has(key)) return;
+    for (const std::string& name : root.at(key).keys()) {
+      const io::Node node = root.at(key).at(name);
+      node.allow_only({"default", "girths", "strain_p99", "strain_max", "slip_m"});
+      rules[name] = read_rules(node);
+    }
+  };
+  layer("classes", policy.classes);
+  layer("fabrics", policy.fabrics);
+  for (const auto& [name, rules] : policy.classes)
+    if (name != "top" && name != "dress" && name != "skirt" && name != "trousers" && name != "whole")
+      root.at("classes").fail("\"" + name + "\" is not a class of garments", "use top, dress, skirt, trousers or whole");
   if (root.has("refuse")) {
     const io::Node refuse = root.at("refuse");
     for (std::size_t i = 0; i < refuse.size(); ++i) {
       const std::string word = refuse.at(i).string();
       if (word == "loose") policy.refuse_loose = true;
       else if (word == "tight") policy.refuse_tight = true;
-      else if (word != "too small") refuse.at(i).fail("\"" + word + "\" is not a verdict", "use \"too small\", \"tight\" or \"loose\"");
+      else if (word != "too small" && word != "too large")
+        refuse.at(i).fail("\"" + word + "\" is not a verdict", "use \"too small\", \"too large\", \"tight\" or \"loose\"");
     }
   }
   return policy;

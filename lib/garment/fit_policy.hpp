@@ -1,14 +1,15 @@
 #pragma once
-/// What counts as fitting: thresholds per girth, from a document that people write.
+/// What counts as fitting: thresholds per girth, garment class and fabric, from a document that people write.
 #include <map>
+#include <optional>
 #include <string>
 
 namespace sloper::garment {
 
 inline constexpr int FIT_POLICY_VERSION = 1;
 
-enum class FitVerdict { OK, LOOSE, TIGHT, TOO_SMALL }; ///< from good to worst
-const char* verdict_name(FitVerdict verdict);          ///< "ok", "loose", "tight", "too small"
+enum class FitVerdict { OK, LOOSE, TIGHT, TOO_LARGE, TOO_SMALL }; ///< from good to worst
+const char* verdict_name(FitVerdict verdict);                     ///< "ok", "loose", "tight", "too large", "too small"
 
 struct FitLimits {
   double too_small_ease = -0.03;  ///< of the body girth: below, the cloth does not go round
@@ -17,14 +18,33 @@ struct FitLimits {
   double loose_ease = 0.50;       ///< of the body girth: above, it is loose
 };
 
-/// policy.json: {"format": "fit-policy", "version": 1, "name", "refuse": ["too small", ...], "default": {limits},
-/// "girths": {NAME: {limits}}}; NAME is a girth or level of the body document, without _l or _r. Unknown keys are errors.
+/// Limits of which some are said.
+struct FitOverride {
+  std::optional<double> too_small_ease, too_small_strain, tight_ease, loose_ease;
+  void apply(FitLimits& limits) const;
+};
+
+/// What a policy says for all garments, for a class of garments, or for a fabric.
+struct FitRules {
+  FitOverride standard;
+  std::map<std::string, FitOverride> girths;
+  std::optional<double> strain_p99, strain_max, slip_m;
+};
+
+/// policy.json: {"format": "fit-policy", "version": 1, "name", "refuse": ["too small", ...], RULES, "classes": {CLASS: {RULES}},
+/// "fabrics": {MATERIAL: {RULES}}}; RULES: "default": {limits}, "girths": {NAME: {limits}}, "strain_p99", "strain_max", "slip_m".
+/// NAME is a girth or level of the body document, without _l or _r; CLASS is top, dress, skirt, trousers or whole. What is said
+/// for a fabric goes before a class, a class before all garments, a girth before the default. Unknown keys are errors.
 struct FitPolicy {
   std::string name = "woven";
-  FitLimits standard;
-  std::map<std::string, FitLimits> girths;
-  bool refuse_loose = false, refuse_tight = false; ///< "too small" is always refused
-  const FitLimits& limits(const std::string& girth) const;
+  FitRules all;
+  std::map<std::string, FitRules> classes, fabrics;
+  bool refuse_loose = false, refuse_tight = false; ///< "too small" and "too large" are always refused
+
+  FitLimits limits(const std::string& girth, const std::string& garment_class = {}, const std::string& fabric = {}) const;
+  double strain_p99(const std::string& garment_class, const std::string& fabric) const; ///< of all edges: stretched further, it does not fit
+  double strain_max(const std::string& garment_class, const std::string& fabric) const; ///< of any edge
+  double slip_m(const std::string& garment_class, const std::string& fabric) const;     ///< m that it may sink before it counts as falling off
 };
 
 /// For woven cloth that gives little; skirts and sleeves may be loose.

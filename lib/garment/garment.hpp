@@ -1,5 +1,6 @@
 #pragma once
 /// A sewn garment: the panel mesh, which vertices are one particle, where the particles are, and what holds them.
+#include <garment/scene_effects.hpp>
 #include <geometry/triangle_mesh.hpp>
 #include <map>
 #include <pattern/panel_mesh.hpp>
@@ -18,7 +19,8 @@ struct Material {
   double friction_body = 0.4, friction_self = 0.3;
   double damping_s = 0.02; ///< stiffness-proportional damping time
   double thickness_m = 0.0005;
-  std::string source; ///< where the numbers come from
+  double poisson = 0.25; ///< 0..1, of the finite-element membrane
+  std::string source;    ///< where the numbers come from
 };
 
 /// How a garment hangs on a body in body-relative coordinates (DESIGN section 9); empty until bound.
@@ -41,6 +43,7 @@ struct Garment {
   std::vector<Vec3> position;                    ///< #P by 3, m
   std::map<std::string, Material> materials;     ///< by panel material name; "" is the default
   std::vector<std::array<double, 3>> rest_scale; ///< #F by 3 or empty: rest length factor of edge k -> k+1 of each triangle (edits)
+  SceneEffects scene;                            ///< pins, elastic bands, wind ...: empty for most
   Bind bind;
   double offset_m = 0.002; ///< contact gap to the skin that the drape kept
   bool converged = false;

@@ -1,4 +1,5 @@
 #include <garment/garment_json.hpp>
+#include <garment/scene_effects_json.hpp>
 
 #include <base/version.hpp>
 #include <io/files.hpp>
@@ -28,6 +29,7 @@ constexpr std::pair<const char*, double Material::*> MATERIAL_NUMBERS[] = {
     {"friction_self", &Material::friction_self},
     {"damping_s", &Material::damping_s},
     {"thickness_m", &Material::thickness_m},
+    {"poisson", &Material::poisson},
 };
 
 Json panel_json(const pattern::PanelInfo& panel) {
@@ -296,6 +298,7 @@ Garment read_garment(const std::string& path) {
     if (body.has("girths_m"))
       for (const std::string& name : body.at("girths_m").keys()) garment.body_girths_m[name] = positive(body.at("girths_m").at(name));
   }
+  if (root.has("scene")) garment.scene = read_scene_effects(root.at("scene"));
   if (root.has("bind")) garment.bind = read_bind(root.at("bind"), garment.position.size());
   return garment;
 }
@@ -337,6 +340,7 @@ void write_garment(const std::string& path, const Garment& garment, const std::s
     t.push_back(id.t);
   }
   document["vertex_ids"] = {{"s", s}, {"t", t}};
+  if (!garment.scene.empty()) document["scene"] = scene_effects_json(garment.scene);
   if (!garment.bind.empty()) document["bind"] = bind_json(garment.bind);
 
   const std::string text = io::to_text(document); // refuses what is not finite before any file is touched

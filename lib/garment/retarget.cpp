@@ -159,18 +159,27 @@ int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, c
   return max_rounds;
 }
 
-std::map<std::string, double> missing_frames(const Garment& garment, const body::Body& body) {
+std::string why_impossible(const Garment& garment, const body::Body& body) {
+  if (!body.frames.count("torso") && !(body.has_landmark("hip_center") && body.has_landmark("neck_center")))
+    return "cannot be hung on this body: neither hip_center nor neck_center make a torso";
   const BindFrames frames = make_bind_frames(body);
-  std::map<std::string, double> missing;
-  for (const auto& weights : garment.bind.particles)
-    for (const BindWeight& w : weights)
-      if (const std::string& name = garment.bind.frames[w.frame]; frames.index(name) < 0)
-        missing[name] += w.weight / static_cast<double>(garment.bind.particles.size());
-  return missing;
+  std::map<std::string, int> missing; // particles that hang mainly on a frame that is not there
+  for (const auto& weights : garment.bind.particles) {
+    double there = 0;
+    const BindWeight* most = nullptr;
+    for (const BindWeight& w : weights) {
+      if (frames.index(garment.bind.frames[w.frame]) >= 0) there += w.weight;
+      if (!most || w.weight > most->weight) most = &w;
+    }
+    if (there < 0.5 && most) ++missing[garment.bind.frames[most->frame]];
+  }
+  if (missing.empty()) return {};
+  const auto most = std::max_element(missing.begin(), missing.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return "hangs on " + most->first + ", which the body lacks";
 }
 
 Retargeted retarget(const Garment& garment, const body::Body& to, const collision::BodyCollider& skin, RetargetMode mode, Reporter& reporter) {
-  Retargeted result{garment, {}};
+  Retargeted result{garment, {}, {}};
   Garment& g = result.garment;
   g.converged = false;
   g.position = place_garment(garment, to);
@@ -189,7 +198,7 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
   measure(report.stretch_p01, report.stretch_p50, report.stretch_p99);
   report.placed = state_of(g.position, triangles, skin);
   if (mode == RetargetMode::KEEP_FIT) regrade(g, garment.position, g.position);
-  const std::vector<Vec3> placed = g.position;
+  const std::vector<Vec3>& placed = result.placed = g.position;
   // keep-fabric: the cloth wants the shape it had; keep-fit: the regraded cloth wants the shape it was placed in.
   report.clear_rounds = settle_shape(g.position, mode == RetargetMode::KEEP_FIT ? placed : garment.position, triangles, skin, g.offset_m);
   for (std::size_t i = 0; i < placed.size(); ++i) report.largest_move_m = std::max(report.largest_move_m, (g.position[i] - placed[i]).norm());

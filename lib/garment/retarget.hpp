@@ -41,12 +41,13 @@ io::Json placement_json(const PlacementReport& report);
 int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, const std::vector<Triangle>& triangles, const collision::BodyCollider& body,
                  double gap, int max_rounds = 40);
 
-/// Frames that some of the garment hangs on mainly and the body lacks, with the share of the garment that does: a shirt cannot
+/// Why a garment cannot go on a body whatever its size ("hangs on upper_arm_l, which the body lacks"), or nothing: a shirt cannot
 /// do without arms, but a collar that lies on the shoulders can do without a head.
-std::map<std::string, double> missing_frames(const Garment& garment, const body::Body& body);
+std::string why_impossible(const Garment& garment, const body::Body& body);
 
 struct Retargeted {
-  Garment garment; ///< placed on the new body, still bound to the old one; converged is false
+  Garment garment;          ///< placed on the new body and clear of its skin, still bound to the old one; converged is false
+  std::vector<Vec3> placed; ///< #P by 3, m: by coordinates alone
   PlacementReport report;
 };
 /// @throws Error INPUT when the garment is not bound or hangs on a part that `to` lacks

@@ -1,6 +1,8 @@
 #include <base/error.hpp>
+#include <garment/kes.hpp>
 #include <garment/materials.hpp>
 #include <garment/scene.hpp>
+#include <garment/scene_effects_json.hpp>
 
 #include <charconv>
 #include <cmath>
@@ -38,13 +40,14 @@ const std::vector<Knob>& knobs() {
 Material read_material(const io::Node& node) {
   if (node.is_string()) {
     try {
-      return material_preset(node.string());
+      const std::string name = node.string();
+      return material_from(name.find(".csv") == std::string::npos ? name : io::path_beside(node.file(), name));
     } catch (const Error& e) {
       node.fail(e.fact());
     }
   }
   node.allow_only({"preset", "density_kg_m2", "stretch_warp_n_m", "stretch_weft_n_m", "shear_n_m", "bend_n_m", "friction_body", "friction_self", "damping_s",
-                   "thickness_m", "source"});
+                   "thickness_m", "poisson", "source"});
   Material m = material_preset(node.string("preset", material_presets().front().name));
   auto read = [&](const char* key, double& value, double low, double high) {
     if (!node.has(key)) return;
@@ -60,6 +63,7 @@ Material read_material(const io::Node& node) {
   read("friction_self", m.friction_self, 0, 10);
   read("damping_s", m.damping_s, 0, 10);
   read("thickness_m", m.thickness_m, 0, 0.05);
+  read("poisson", m.poisson, 0, 0.95);
   m.source = node.string("source", m.source);
   return m;
 }
@@ -69,7 +73,8 @@ Material read_material(const io::Node& node) {
 Scene read_scene(const std::string& path) {
   const io::Json document = io::read_document(path, "scene", SCENE_VERSION);
   const io::Node root(document, path);
-  root.allow_only({"format", "version", "generator", "length_unit", "body", "panels", "accuracy", "effects", "materials", "settings"});
+  root.allow_only({"format", "version", "generator", "length_unit", "body", "panels", "accuracy", "effects", "materials", "settings", "membrane", "bending",
+                   "pins", "bands", "attachments", "shrink", "creases", "wind_m_s", "pressure_pa"});
   Scene scene;
   if (root.has("body")) scene.body = io::path_beside(path, root.at("body").string());
   if (root.has("panels")) scene.panels = io::path_beside(path, root.at("panels").string());
@@ -80,6 +85,7 @@ Scene read_scene(const std::string& path) {
     else
       for (std::size_t i = 0; i < effects.size(); ++i) scene.effects += (i ? "," : "") + effects.at(i).string();
   }
+  scene.extras = read_scene_effects(root);
   if (root.has("materials"))
     for (const std::string& name : root.at("materials").keys()) scene.materials[name == "default" ? "" : name] = read_material(root.at("materials").at(name));
   if (root.has("settings"))
@@ -95,6 +101,24 @@ Scene read_scene(const std::string& path) {
       scene.settings.emplace_back(name, value.number());
     }
   return scene;
+}
+
+void apply_scene(const Scene& scene, Garment& garment) {
+  for (const auto& [name, material] : scene.materials) garment.materials[name] = material;
+  const SceneEffects& from = scene.extras;
+  SceneEffects& to = garment.scene;
+  if (!from.membrane.empty()) to.membrane = from.membrane;
+  if (!from.bending.empty()) to.bending = from.bending;
+  if (!from.pins.empty()) to.pins = from.pins;
+  if (!from.bands.empty()) to.bands = from.bands;
+  if (!from.attachments.empty()) to.attachments = from.attachments;
+  if (!from.shrink.empty()) to.shrink = from.shrink;
+  if (!from.creases.empty()) to.creases = from.creases;
+  if (from.air) {
+    to.air = true;
+    to.wind_m_s = from.wind_m_s;
+  }
+  if (from.pressure_pa != 0) to.pressure_pa = from.pressure_pa;
 }
 
 std::vector<std::string> accuracy_names() { return {"draft", "standard", "fine", "reference"}; }

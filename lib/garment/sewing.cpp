@@ -99,7 +99,7 @@ cloth::ClothMesh cloth_mesh_of(const Garment& garment) {
   std::vector<cloth::Fabric> fabrics;
   for (const pattern::PanelInfo& panel : panels.panels) {
     const Material& m = material_of(garment, panel.material);
-    fabrics.push_back({m.density_kg_m2, m.stretch_warp_n_m, m.stretch_weft_n_m, m.shear_n_m, m.bend_n_m, m.damping_s});
+    fabrics.push_back({m.density_kg_m2, m.stretch_warp_n_m, m.stretch_weft_n_m, m.shear_n_m, m.bend_n_m, m.damping_s, m.poisson});
     const Vec2 warp = panel.grain.normalized(), weft(warp.y(), -warp.x());
     for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
       cloth::RestTriangle& t = triangles[f];

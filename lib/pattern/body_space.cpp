@@ -1,4 +1,5 @@
 #include <base/error.hpp>
+#include <body/section.hpp>
 #include <pattern/body_space.hpp>
 
 #include <algorithm>
@@ -12,6 +13,8 @@ BodySpace::BodySpace(const body::Body& body) : m_body(body), m_part(body.skin.po
   for (std::size_t t = 0; t < body.skin.triangles.size(); ++t)
     for (int v : body.skin.triangles[t])
       if (m_part[static_cast<std::size_t>(v)] == Part::NONE && t < body.face_part.size()) m_part[static_cast<std::size_t>(v)] = body.face_part[t];
+  for (std::size_t t = 0; t < body.face_part.size() && t < body.skin.triangles.size(); ++t)
+    if (const Part part = body.face_part[t]; part == Part::TORSO || part == Part::LEG_L || part == Part::LEG_R) m_trunk.push_back(static_cast<int>(t));
   m_stature = body.scan.stature_m > 0 ? body.scan.stature_m : bounding_box(body.skin.positions).high.y();
   if (body.skin.triangles.empty()) throw input_error("", "body", "the body has no skin", "make it with scan-landmarks");
 }
@@ -85,23 +88,52 @@ double BodySpace::level(const std::string& name, double fallback_fraction) const
   return it != m_body.levels.end() ? it->second.y : fallback_fraction * m_stature;
 }
 
-double BodySpace::waist_height(double length) const {
-  // Girths of the levels that are known, from the waist down, with straight lines between them.
-  std::vector<std::array<double, 2>> known;
-  for (const auto& [name, level] : m_body.levels)
-    if (name == "waist_girth_min" || name == "waist_semantic" || name == "omphalion" || name == "abdomen" || name == "hip")
-      known.push_back({level.y, level.girth_m});
-  const double waist = level("waist_semantic", 0.63), hip = level("hip", 0.51);
-  if (known.size() < 2) return waist;
-  std::sort(known.begin(), known.end());
-  for (double y = waist; y > hip + 0.05; y -= 0.005) {
-    double girth = known.back()[1];
-    for (std::size_t k = 0; k + 1 < known.size(); ++k)
-      if (y >= known[k][0] && y <= known[k + 1][0])
-        girth = known[k][1] + (y - known[k][0]) / std::max(known[k + 1][0] - known[k][0], 1e-6) * (known[k + 1][1] - known[k][1]);
-    if (girth >= length - 0.005) return y;
+double BodySpace::girth(double y) const {
+  constexpr double CLOTH = 0.002; // m off the skin
+  std::vector<Vec2> points;
+  for (int t : m_trunk) {
+    const Triangle& triangle = m_body.skin.triangles[static_cast<std::size_t>(t)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 &a = m_body.skin.positions[static_cast<std::size_t>(triangle[k])], &b = m_body.skin.positions[static_cast<std::size_t>(triangle[(k + 1) % 3])];
+      if ((a.y() < y) == (b.y() < y)) continue;
+      const Vec3 p = a + (y - a.y()) / (b.y() - a.y()) * (b - a);
+      points.push_back({p.x(), p.z()});
+    }
   }
-  return waist;
+  if (points.size() < 3) return 0;
+  return body::closed_length(body::convex_hull(std::move(points))) + 2 * M_PI * CLOTH;
+}
+
+double BodySpace::hang_height(const std::vector<double>& around, double limit) const {
+  constexpr double STEP = 0.005, FREE = 2e-5; // m; squared strain, added up over the rows: 0.45 % on one of them
+  const double waist = level("waist_semantic", 0.63), hip = level("hip", 0.51);
+  const double low = hip + 0.02, high = std::min(std::max(waist + 0.01, std::min(level("underbust", 0.66), waist + 0.08)), std::max(limit, low + 0.02));
+  const int n = static_cast<int>((high - low) / STEP) + 1, depth = static_cast<int>(std::lround(0.01 * static_cast<double>(around.size()) / STEP));
+  if (n < 2 || around.empty()) return waist;
+  std::vector<double> girths; // from `high` down
+  for (int k = 0; k < n + depth; ++k) girths.push_back(girth(high - STEP * k));
+  const auto tension = [&](int top) {
+    double sum = 0;
+    for (std::size_t row = 0; row < around.size(); ++row) {
+      const std::size_t at = static_cast<std::size_t>(top) + row * static_cast<std::size_t>(std::lround(0.01 / STEP));
+      if (at < girths.size() && around[row] > 0) sum += std::pow(std::max(girths[at] / around[row] - 1, 0.0), 2);
+    }
+    return sum;
+  };
+  int narrowest = 0;
+  for (int k = 0; k < n; ++k)
+    if (girths[static_cast<std::size_t>(k)] < girths[static_cast<std::size_t>(narrowest)]) narrowest = k;
+  int best = -1;
+  for (int k = 0; k < n; ++k) // the free place nearest to the narrowest
+    if (tension(k) <= FREE && (best < 0 || std::abs(k - narrowest) < std::abs(best - narrowest))) best = k;
+  if (best >= 0) {
+    while (best + 1 < n && tension(best + 1) <= FREE) ++best;
+  } else {
+    best = narrowest;
+    for (int k = 0; k < n; ++k)
+      if (tension(k) < tension(best) - 1e-12) best = k;
+  }
+  return high - STEP * best;
 }
 
 } // namespace sloper::pattern

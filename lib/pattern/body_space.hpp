@@ -29,14 +29,19 @@ public:
   Axis arm(bool left, int facing, double sleeve_length) const;
 
   double shoulder_height(double x) const; ///< of the skin at |x| from the middle, m
-  /// Height at which a waist edge of this length comes to sit: from the waist down, the first where the body is as wide; else the waist.
-  double waist_height(double length) const;
+  double girth(double y) const;           ///< taut, of the trunk (torso and, below it, both legs) with 2 mm of cloth around; 0 where there is none
+  /// Height at which the top edge of a skirt or trousers comes to sit, m: slid down from the narrowest place between bust and hip as
+  /// far as nothing is stretched; where all is too tight, where it is stretched least.
+  /// @param around m around the garment at every centimetre below its top edge
+  /// @param limit  m, no higher than this: where trousers' crotch meets the body's
+  double hang_height(const std::vector<double>& around, double limit) const;
   double level(const std::string& name, double fallback_fraction) const; ///< y of a level, or that fraction of the stature
 
 private:
   const body::Body& m_body;
   std::vector<body::Part> m_part; ///< of each skin vertex
   double m_stature;
+  std::vector<int> m_trunk; ///< triangles of torso and legs
 };
 
 } // namespace sloper::pattern

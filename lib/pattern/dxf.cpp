@@ -3,6 +3,7 @@
 /// counter-clockwise whatever its drawing order.
 #include <base/units.hpp>
 #include <pattern/dxf_blocks.hpp>
+#include <pattern/grade_rules.hpp>
 #include <pattern/outline_json.hpp>
 #include <pattern/read_pattern.hpp>
 
@@ -22,11 +23,16 @@ double ring_area(const Ring& r) {
   return a;
 }
 
-/// The value of a text "Key: value" (the blank may be missing), or empty.
+/// The value of a text "Key: value" (the blank may be missing, letters of either case), or empty.
 std::string value_of(const std::string& text, const std::string& key) {
-  if (text.compare(0, key.size(), key) != 0) return {};
+  if (text.size() <= key.size()) return {};
+  for (std::size_t k = 0; k < key.size(); ++k)
+    if (std::tolower(static_cast<unsigned char>(text[k])) != std::tolower(static_cast<unsigned char>(key[k]))) return {};
   std::size_t at = key.size();
-  while (at < text.size() && (text[at] == ':' || text[at] == ' ')) ++at;
+  while (at < text.size() && text[at] == ' ') ++at;
+  if (at == text.size() || text[at] != ':') return {};
+  ++at;
+  while (at < text.size() && text[at] == ' ') ++at;
   return text.substr(at);
 }
 
@@ -72,6 +78,24 @@ std::vector<Ring> rings_of(const DxfBlock& block, int layer, double unit, double
   rings.erase(std::remove_if(rings.begin(), rings.end(), [](const Ring& r) { return r.size() < 3; }), rings.end());
   std::sort(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) { return std::abs(ring_area(a)) > std::abs(ring_area(b)); });
   return rings;
+}
+
+double distance_to_ring(const Ring& ring, const Vec2& p) {
+  double best = 1e300;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Vec2 a = ring[k], along = ring[(k + 1) % ring.size()] - a;
+    const double t = along.squaredNorm() > 0 ? std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0.0;
+    best = std::min(best, (p - a - t * along).norm());
+  }
+  return best;
+}
+
+/// Whether a sew line runs along a cut line all the way: no allowance or hem is wider than this.
+bool follows(const Ring& sew, const Ring& cut) {
+  constexpr double WIDEST_ALLOWANCE = 0.07; // m
+  if (std::abs(ring_area(sew)) > 1.02 * std::abs(ring_area(cut)) || std::abs(ring_area(sew)) < 0.15 * std::abs(ring_area(cut))) return false;
+  return std::all_of(sew.begin(), sew.end(), [&](const Vec2& p) { return distance_to_ring(cut, p) < WIDEST_ALLOWANCE; }) &&
+         std::all_of(cut.begin(), cut.end(), [&](const Vec2& p) { return distance_to_ring(sew, p) < WIDEST_ALLOWANCE; });
 }
 
 /// Ring vertices at which edges begin: turn points of layer 2, or corners of more than 30 degrees where there are none.
@@ -135,13 +159,18 @@ struct SewText {
 
 class Reader {
 public:
-  Reader(const DxfFile& dxf, const std::string& file) : m_dxf(dxf), m_file(file) {}
+  Reader(const DxfFile& dxf, const DxfChoice& choice, const std::string& file) : m_dxf(dxf), m_choice(choice), m_file(file) {}
 
   Pattern run() {
     m_pattern.source_format = "dxf";
     m_unit = unit();
-    std::vector<DxfText> all = m_dxf.texts;
-    m_pattern.name = find_value(all, "Style Name");
+    m_pattern.name = find_value(m_dxf.texts, "Style Name");
+    if (m_choice.rules) {
+      m_size = m_choice.size.empty() ? m_choice.rules->sample : m_choice.rules->find_size(m_choice.size);
+      std::string list;
+      for (const std::string& size : m_choice.rules->sizes) list += (list.empty() ? "" : ", ") + size;
+      if (m_size < 0) throw input_error(m_file, "", "there is no size '" + m_choice.size + "'", "the grade rule table has " + list);
+    }
     for (const DxfBlock* block : chosen_blocks()) read_piece(*block);
     if (m_pattern.panels.empty()) throw input_error(m_file, "", "no block has a closed outline on layer 14 or 1", "export the pieces as AAMA or ASTM DXF");
     make_seams();
@@ -169,34 +198,85 @@ private:
     return guess;
   }
 
-  /// One block per piece: of a graded nest, the sample size, else the middle one.
+  /// What orders the pieces, whatever their order in the file: name, then size of the drawing, then its place.
+  std::vector<double> shape_of(const DxfBlock& block) const {
+    double length = 0;
+    Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+    for (const DxfLine& line : block.lines)
+      for (std::size_t k = 0; k < line.points.size(); ++k) {
+        low = low.cwiseMin(line.points[k]), high = high.cwiseMax(line.points[k]);
+        if (k > 0) length += (line.points[k] - line.points[k - 1]).norm();
+      }
+    return {-length, high.x() - low.x(), high.y() - low.y(), low.x(), low.y()};
+  }
+
+  /// One block per piece: of a graded nest the size asked for, else the sample size, else the middle one.
   std::vector<const DxfBlock*> chosen_blocks() {
     std::map<std::string, std::vector<const DxfBlock*>> by_piece;
-    std::vector<std::string> order;
     const std::string sample = find_value(m_dxf.texts, "Sample Size");
+    std::vector<std::string> known; // sizes
     for (const DxfBlock& b : m_dxf.blocks) {
       if (b.lines.empty()) continue;
       std::string piece = find_value(b.texts, "Piece Name");
       if (piece.empty()) piece = b.name;
-      if (by_piece[piece].empty()) order.push_back(piece);
       by_piece[piece].push_back(&b);
     }
     std::vector<const DxfBlock*> out;
-    for (const std::string& piece : order) {
-      const auto& blocks = by_piece[piece];
+    for (auto& [piece, blocks] : by_piece) {
       std::map<std::string, int> sizes;
       for (const DxfBlock* b : blocks) ++sizes[find_value(b->texts, "Size")];
       if (blocks.size() == 1 || sizes.size() < blocks.size()) { // the same name and size twice: two pieces
+        std::stable_sort(blocks.begin(), blocks.end(), [&](const DxfBlock* a, const DxfBlock* b) { return shape_of(*a) < shape_of(*b); });
         out.insert(out.end(), blocks.begin(), blocks.end());
         continue;
       }
-      const DxfBlock* pick = blocks[blocks.size() / 2];
-      for (const DxfBlock* b : blocks)
-        if (!sample.empty() && find_value(b->texts, "Size") == sample) pick = b;
+      for (const auto& [size, n] : sizes)
+        if (std::find(known.begin(), known.end(), size) == known.end()) known.push_back(size);
+      const DxfBlock* pick = nullptr;
+      for (const std::string& wanted : {m_choice.size, m_choice.size.empty() ? sample : std::string()})
+        for (const DxfBlock* b : blocks)
+          if (!pick && !wanted.empty() && find_value(b->texts, "Size") == wanted) pick = b;
+      if (!pick && !m_choice.size.empty() && !m_choice.rules) {
+        std::string list;
+        for (const auto& [size, n] : sizes) list += (list.empty() ? "" : ", ") + size;
+        throw input_error(m_file, piece, "there is no size '" + m_choice.size + "'", "its sizes are " + list);
+      }
+      if (!pick) pick = blocks[blocks.size() / 2];
       out.push_back(pick);
       m_pattern.findings.push_back(piece + ": " + std::to_string(blocks.size()) + " sizes; size " + find_value(pick->texts, "Size") + " is taken");
     }
+    if (!m_choice.size.empty() && known.empty() && !m_choice.rules)
+      throw input_error(m_file, "", "size '" + m_choice.size + "' is asked for, but the file holds one size", "give its grade rule table too");
     return out;
+  }
+
+  /// Moves a ring to the size asked for by the rule numbers written at its points ("# 7").
+  void grade(const DxfBlock& block, Ring& ring, const std::string& panel) {
+    if (!m_choice.rules || m_size == m_choice.rules->sample) return;
+    constexpr double AT_POINT = 1e-3, AT_CORNER = 0.07; // m: on the ring, or on the cut line beside a corner of the sew line
+    std::vector<int> rule(ring.size(), 0);
+    std::vector<double> nearest(ring.size(), 1e300);
+    int n_texts = 0;
+    for (const DxfText& t : block.texts) {
+      int number = 0;
+      if (t.text.empty() || t.text[0] != '#' || !(std::istringstream(t.text.substr(1)) >> number) || number <= 0) continue;
+      ++n_texts;
+      if (!m_choice.rules->moves.count(number))
+        throw input_error(m_file, panel, "uses grade rule " + std::to_string(number) + ", which the table lacks", "give the table that belongs to the file");
+      std::size_t best = 0;
+      for (std::size_t k = 1; k < ring.size(); ++k)
+        if ((ring[k] - t.p * m_unit).norm() < (ring[best] - t.p * m_unit).norm()) best = k;
+      if ((ring[best] - t.p * m_unit).norm() > AT_POINT) {
+        const std::vector<std::size_t> corners = corners_of(ring, {});
+        best = corners[0];
+        for (std::size_t k : corners)
+          if ((ring[k] - t.p * m_unit).norm() < (ring[best] - t.p * m_unit).norm()) best = k;
+      }
+      const double distance = (ring[best] - t.p * m_unit).norm();
+      if (distance < AT_CORNER && distance < nearest[best]) nearest[best] = distance, rule[best] = number;
+    }
+    if (n_texts == 0) m_pattern.findings.push_back(panel + ": no grade rules at its points; it is taken in the sample size");
+    grade_ring(ring, rule, *m_choice.rules, m_size);
   }
 
   void read_piece(const DxfBlock& block) {
@@ -211,7 +291,12 @@ private:
     std::vector<Ring> outer = rings_of(block, 14, m_unit, join), cut = rings_of(block, 1, m_unit, join);
     if (outer.empty()) { // Valentina writes the sew line on layer 8, where others keep internal lines
       const std::vector<Ring> inner = rings_of(block, 8, m_unit, join);
-      if (!inner.empty() && !cut.empty() && std::abs(ring_area(inner[0])) > 0.5 * std::abs(ring_area(cut[0]))) outer = inner;
+      if (!inner.empty() && !cut.empty() && follows(inner[0], cut[0])) outer = {inner[0]};
+    } else if (!cut.empty() && !follows(outer[0], cut[0])) { // some programs write broken sew lines
+      m_pattern.findings.push_back(panel.name + ": the sew line encloses " +
+                                   std::to_string(static_cast<int>(100 * std::abs(ring_area(outer[0]) / ring_area(cut[0])))) +
+                                   " % of the piece and does not follow its outline; it is left out");
+      outer.clear();
     }
     if (outer.empty() && !cut.empty()) {
       outer = cut;
@@ -226,7 +311,8 @@ private:
     std::vector<Vec2> turns;
     for (const DxfPoint& p : block.points)
       if (p.layer == 2) turns.push_back(p.p * m_unit);
-    panel.loops.push_back(edges_of(ring, corners_of(ring, turns), "edge"));
+    const std::vector<std::size_t> corners = corners_of(ring, turns);
+    panel.loops.push_back(edges_of(ring, corners, "edge"));
     for (Ring hole : rings_of(block, 11, m_unit, join)) {
       if (ring_area(hole) > 0) std::reverse(hole.begin(), hole.end());
       panel.loops.push_back(edges_of(hole, corners_of(hole, turns), "hole" + std::to_string(panel.loops.size()) + "_"));
@@ -251,17 +337,46 @@ private:
     const std::string material = find_value(block.texts, "Material");
     if (!material.empty()) panel.label = material;
     read_sewing(block, panel, index);
+    int fold = -1;
     for (const DxfLine& line : block.lines)
-      if (line.layer == 6 && line.points.size() >= 2) open_fold(panel, line);
+      if (line.layer == 6 && line.points.size() >= 2) fold = fold_edge(panel, line);
+    // Notches and seams are fractions of edges, so the outline may move under them.
+    grade(block, ring, panel.name);
+    const std::vector<PanelEdge> graded = edges_of(ring, corners, "edge");
+    for (std::size_t k = 0; k < graded.size(); ++k) panel.loops[0][k].path = graded[k].path;
+    if (fold >= 0) open_fold(panel, fold);
     m_pattern.panels.push_back(std::move(panel));
   }
 
-  void open_fold(Panel& panel, const DxfLine& line) {
+  /// The edge that a mirror line lies on, or -1.
+  int fold_edge(const Panel& panel, const DxfLine& line) {
     const Vec2 middle = 0.5 * (line.points.front() + line.points.back()) * m_unit;
     const int e = edge_near(panel, middle);
-    if (e >= static_cast<int>(panel.loops[0].size()) || distance_to(panel.edge(e).path, middle) > 1e-3 || !unfold(panel, e, "", "_mirror"))
+    if (e < static_cast<int>(panel.loops[0].size()) && distance_to(panel.edge(e).path, middle) < 1e-3) return e;
+    m_pattern.findings.push_back(panel.name + ": its mirror line lies on no straight edge; the piece is taken as whole");
+    return -1;
+  }
+
+  /// Notches of the other half are their mirror images; runs sewn on the drawn half keep their edges.
+  void open_fold(Panel& panel, int fold) {
+    std::vector<std::pair<std::string, Notch>> notches;
+    for (const Notch& n : panel.notches) notches.push_back({panel.edge(n.edge).name, n});
+    const int index = static_cast<int>(m_pattern.panels.size());
+    std::vector<std::pair<SewText*, std::string>> sewn;
+    for (auto& [name, sides] : m_sewing)
+      for (auto& side : sides)
+        for (SewText& t : side)
+          if (t.panel == index) sewn.push_back({&t, panel.edge(t.edge).name});
+    if (!unfold(panel, fold, "", "_mirror")) {
       m_pattern.findings.push_back(panel.name + ": its mirror line lies on no straight edge; the piece is taken as whole");
-    else m_pattern.findings.push_back(panel.name + ": a half piece, unfolded about its mirror line");
+      return;
+    }
+    for (auto& [text, name] : sewn) text->edge = panel.find_edge(name);
+    panel.notches.clear();
+    for (const auto& [name, notch] : notches)
+      for (const bool mirror : {false, true})
+        if (const int e = panel.find_edge(mirror ? name + "_mirror" : name); e >= 0) panel.notches.push_back({e, mirror ? 1 - notch.at : notch.at, notch.kind});
+    m_pattern.findings.push_back(panel.name + ": a half piece, unfolded about its mirror line");
   }
 
   void read_sewing(const DxfBlock& block, Panel& panel, int index) {
@@ -304,6 +419,8 @@ private:
   }
 
   const DxfFile& m_dxf;
+  const DxfChoice& m_choice;
+  int m_size = 0; ///< index into the rules' sizes
   std::string m_file;
   double m_unit = units::MM;
   Pattern m_pattern;
@@ -313,9 +430,9 @@ private:
 
 } // namespace
 
-Pattern read_dxf(const std::string& text, const std::string& file) {
+Pattern read_dxf(const std::string& text, const std::string& file, const DxfChoice& choice) {
   if (text.find('\0') != std::string::npos) throw input_error(file, "", "this is a binary file", "give a pattern JSON or a text DXF");
-  return Reader(parse_dxf(text, file), file).run();
+  return Reader(parse_dxf(text, file), choice, file).run();
 }
 
 } // namespace sloper::pattern

@@ -1,6 +1,7 @@
 #include <base/error.hpp>
 #include <collision/body_collider.hpp>
 #include <collision/intersections.hpp>
+#include <pattern/bellows.hpp>
 #include <pattern/body_space.hpp>
 #include <pattern/panel_layout.hpp>
 #include <pattern/place_panels.hpp>
@@ -21,6 +22,8 @@ constexpr double LAYER = 0.012;         // m between panels that lie over each o
 constexpr double FILLET = 0.06;         // m: radius with which the front curve turns into its wings
 constexpr double WING = 0.02;           // m between the wings and what they pass: arms, or each other
 constexpr double SHOULDER_RAISE = 0.02; // m above the shoulders, so that the shoulder seam closes downwards
+constexpr double SHORTEST_WAVE = 8;     // mesh edges, of cloth laid in waves
+constexpr double OUT_OF_SLEEVE = 0.03;  // m of the hand that look out of a sleeve longer than the arm
 constexpr int ROUNDS = 60;
 
 /// Panels that share one cylinder.
@@ -125,32 +128,83 @@ private:
     } else if (const double chest = strapless_height(top); chest > 0) {
       shift = chest - top;
     } else {
-      // The top edge: boundary within 6 cm of the top on the way round, as far as it is level and not sewn.
-      double waist = 0;
-      for (std::size_t k = 0; k < m_roles.size(); ++k) {
-        const auto& outline = m_mesh.panels[k].outline;
-        for (std::size_t i = 0; i < outline.size(); ++i) {
-          const int a = outline[i], b = outline[(i + 1) % outline.size()];
-          const Vec2 p = uv(k, a), q = uv(k, b);
-          if (std::min(p.y(), q.y()) > top - 0.06 && std::abs(p.x() - q.x()) > std::abs(p.y() - q.y()) && !(sewn(a) && sewn(b))) waist += (p - q).norm();
-        }
-      }
-      shift = m_space.waist_height(waist) + 0.01 - top;
+      const auto [around, edge] = lengths_around(top);
+      const double crotch = m_space.body().has_landmark("crotch") ? m_space.body().landmark("crotch").y() : 0.47 * m_space.stature();
+      shift = m_space.hang_height(around, crotch + edge - crotch_height(edge)) - edge;
     }
-    shift += clear_of_feet(shift);
+    fold_legs(shift);
     for (std::size_t k = 0; k < m_roles.size(); ++k)
       if (m_roles[k].region == Region::TRUNK) m_spots[k].offset.y() += shift;
   }
 
-  /// Trouser legs that reach the feet start above them: a hem closes around an ankle, not around a foot. Gravity brings them down.
-  double clear_of_feet(double shift) const {
+  /// Cloth around a skirt's or trousers' uppermost 15 cm, one length for every centimetre, m, and the mean height of its top edge.
+  std::pair<std::vector<double>, double> lengths_around(double top) {
+    // The top edge: boundary within 6 cm of the top on the way round, as far as it is level and not sewn. It may be an arc.
+    double length = 0, height = 0, dip = top;
+    for (std::size_t k = 0; k < m_roles.size(); ++k) {
+      if (m_roles[k].region != Region::TRUNK) continue;
+      const auto& outline = m_mesh.panels[k].outline;
+      for (std::size_t i = 0; i < outline.size(); ++i) {
+        const int a = outline[i], b = outline[(i + 1) % outline.size()];
+        const Vec2 p = uv(k, a), q = uv(k, b);
+        if (std::min(p.y(), q.y()) > top - 0.06 && std::abs(p.x() - q.x()) > std::abs(p.y() - q.y()) && !(sewn(a) && sewn(b)))
+          length += (p - q).norm(), height += 0.5 * (p - q).norm() * (p.y() + q.y()), dip = std::min({dip, p.y(), q.y()});
+      }
+    }
+    if (!(length > 0.1)) return {{}, top};
+    const double edge = height / length;
+    std::vector<double> around = {length};
+    for (int row = 1; row <= 15; ++row) {
+      const double line = edge - 0.01 * row;
+      double widest = 0; // rows of panels are laid a little apart: look around the gap
+      for (double off : {-0.012, -0.006, 0.0, 0.006, 0.012}) widest = std::max(widest, covered(line + off));
+      around.push_back(line > dip - 0.002 ? std::max(length, widest) : widest);
+    }
+    return {around, edge};
+  }
+
+  /// Height of a pair of trousers' crotch: the lowest stitch between the panels of two legs on one side; far below where there are none.
+  double crotch_height(double edge) const {
+    double low = edge;
+    for (std::size_t k = 0; k < m_roles.size(); ++k)
+      for (int q : m_graph.neighbours(static_cast<int>(k))) {
+        const std::size_t o = static_cast<std::size_t>(q);
+        if (!is_leg(k) || !is_leg(o) || m_roles[k].part == m_roles[o].part || m_roles[k].side != m_roles[o].side) continue;
+        for (const auto& seam : m_graph.between(static_cast<int>(k), q))
+          for (const auto& s : seam) low = std::min(low, uv(k, s[0]).y());
+      }
+    return low < edge ? low : -1e3;
+  }
+
+  /// How much of the level line v is covered by panels about the trunk, m.
+  double covered(double v) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < m_roles.size(); ++k) {
+      if (m_roles[k].region != Region::TRUNK) continue;
+      const auto& outline = m_mesh.panels[k].outline;
+      std::vector<double> at;
+      for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Vec2 p = uv(k, outline[i]), q = uv(k, outline[(i + 1) % outline.size()]);
+        if ((p.y() <= v) != (q.y() <= v)) at.push_back(p.x() + (v - p.y()) / (q.y() - p.y()) * (q.x() - p.x()));
+      }
+      std::sort(at.begin(), at.end());
+      for (std::size_t i = 0; i + 1 < at.size(); i += 2) sum += at[i + 1] - at[i];
+    }
+    return sum;
+  }
+
+  bool is_leg(std::size_t k) const { return m_roles[k].part == "leg_l" || m_roles[k].part == "leg_r"; }
+
+  /// Trouser legs that reach the feet start above them, below the knees in waves: a hem closes around an ankle, not around a foot.
+  void fold_legs(double shift) {
     double bottom = 1e300;
     for (std::size_t k = 0; k < m_roles.size(); ++k)
-      if (m_roles[k].part == "leg_l" || m_roles[k].part == "leg_r")
-        bottom = std::min(bottom, laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k))[0].y() + shift);
-    if (bottom > 1e299) return 0;
+      if (is_leg(k)) bottom = std::min(bottom, laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k))[0].y() + shift);
+    if (bottom > 1e299) return;
     const double ankle = m_space.body().has_landmark("ankle_l") ? m_space.body().landmark("ankle_l").y() : 0.045 * m_space.stature();
-    return std::clamp(ankle + 0.025 - bottom, 0.0, 0.15);
+    const double excess = ankle + 0.025 - bottom,
+                 knee = m_space.body().has_landmark("knee_l") ? m_space.body().landmark("knee_l").y() : 0.28 * m_space.stature();
+    if (excess > 0 && knee > ankle + 0.1) m_leg_fold = Bellows(knee, knee - bottom - 0.02, excess, std::max(SHORTEST_WAVE * m_mesh.edge_length, 0.12));
   }
 
   bool sewn(int vertex) {
@@ -214,7 +268,11 @@ private:
         curves.emplace(depth, WrapCurve::front_of(hull, GAP + out, wing + out, FILLET, axis.plane(Vec3(0, 0, 0)).x()));
       }
       const WrapCurve& curve = curves.at(depth);
-      put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x()), p.y()); });
+      const Bellows fold = is_leg(k) ? m_leg_fold : Bellows();
+      put(k, [&](const Vec2& p) {
+        const Vec2 down = fold.at(p.y());
+        return axis.point(curve.at(p.x()) + Vec2(0, down.y()), down.x());
+      });
     }
   }
 
@@ -301,7 +359,22 @@ private:
     for (const Vec2& p : hull) from = std::min(from, p.y()), to = std::max(to, p.y());
     const WrapCurve curve =
         WrapCurve::front_of(hull, GAP + group.extra, 0.5 * (from + to) + 0.5 * WING + group.extra, 0.04, 0.5 * (plane_low(hull) + plane_high(hull)));
-    for (std::size_t k : group.panels) put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x()), p.y() + shift); });
+    // A sleeve longer than the arm starts in waves, so that the hand comes out of its end and not to rest in a closed bag.
+    const double tip = hand_tip(axis, left), excess = tip + OUT_OF_SLEEVE - (low + shift);
+    Bellows fold;
+    if (excess > 0) fold = Bellows(0.35 * tip, 0.35 * tip - (low + shift) - 0.02, excess, std::max(SHORTEST_WAVE * m_mesh.edge_length, 0.12));
+    for (std::size_t k : group.panels)
+      put(k, [&](const Vec2& p) {
+        const Vec2 down = fold.at(p.y() + shift);
+        return axis.point(curve.at(p.x()) + Vec2(0, down.y()), down.x());
+      });
+  }
+
+  /// Height of the end of the arm along its axis.
+  double hand_tip(const Axis& axis, bool left) const {
+    const std::string name = left ? "hand_tip_l" : "hand_tip_r";
+    if (m_space.body().has_landmark(name)) return axis.height(m_space.body().landmark(name));
+    return -0.4 * m_space.stature();
   }
 
   static double plane_low(const std::vector<Vec2>& hull) {
@@ -461,6 +534,7 @@ private:
   std::vector<char> m_sewn;
   double m_arm_shift[2] = {0.0, 0.0}; ///< m along the arm; right, left
   double m_raised = 0;
+  Bellows m_leg_fold;
 };
 
 } // namespace

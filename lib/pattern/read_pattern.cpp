@@ -64,7 +64,7 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
     throw input_error(file, "", "the largest panel measures " + centimetres(largest) + ", so the unit is wrong", "check the unit that the file states");
 }
 
-Pattern read_pattern(const std::string& path, const std::string& sewing) {
+Pattern read_pattern(const std::string& path, const std::string& sewing, const std::string& size, const std::string& rules_path) {
   const std::string text = io::read_file(path);
   Pattern pattern;
   const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
@@ -78,8 +78,12 @@ Pattern read_pattern(const std::string& path, const std::string& sewing) {
     else
       throw input_error(path, "/format", "'" + format + "' is no pattern format that is known",
                         "give a pattern JSON, a GarmentCode specification, a sewing-spec JSON or a DXF");
+    if (!size.empty() || !rules_path.empty()) throw input_error(path, "", "this format holds one size", "leave out --size and --grade-rules");
+  } else if (rules_path.empty()) {
+    pattern = read_dxf(text, path, {size, nullptr});
   } else {
-    pattern = read_dxf(text, path);
+    const GradeRules rules = parse_grade_rules(io::read_file(rules_path), rules_path);
+    pattern = read_dxf(text, path, {size, &rules});
   }
   if (!sewing.empty()) {
     pattern.seams.clear(); // the sidecar replaces what the file says

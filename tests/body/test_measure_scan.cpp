@@ -125,7 +125,7 @@ TEST(MeasureScan, a_coarser_mesh_of_the_same_figure_gives_nearly_the_same_landma
   std::sort(changes.begin(), changes.end());
   ASSERT_GT(changes.size(), 45u);
   EXPECT_LT(changes[changes.size() / 2], 0.004);
-  EXPECT_LT(changes[changes.size() * 9 / 10], 0.012);
+  EXPECT_LT(changes[changes.size() * 9 / 10], 0.013);
 }
 
 TEST(MeasureScan, never_swaps_left_and_right) {

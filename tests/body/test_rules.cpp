@@ -40,5 +40,6 @@ TEST(Rules, an_unknown_name_is_refused_with_a_suggestion) {
 }
 
 TEST(Rules, every_built_in_number_is_finite) {
-  for (const auto& [name, value] : Rules::standard().numbers()) EXPECT_TRUE(std::isfinite(value)) << name;
+  const Rules rules = Rules::standard();
+  for (const auto& [name, value] : rules.numbers()) EXPECT_TRUE(std::isfinite(value)) << name;
 }

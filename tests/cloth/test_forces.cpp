@@ -1,99 +1,14 @@
 /// Every force against finite differences of its energy, every stiffness against finite differences of its force.
-#include "grid.hpp"
+#include "force_checks.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <base/random.hpp>
 #include <cloth/bending.hpp>
 #include <cloth/edge_spring.hpp>
 #include <cloth/gravity.hpp>
 #include <cloth/sewing_spring.hpp>
 #include <cloth/shear.hpp>
-#include <gtest/gtest.h>
 
 using namespace sloper;
 using namespace sloper::cloth;
-
-namespace {
-
-std::vector<Vec3> jittered(std::vector<Vec3> x, double by, std::uint64_t seed) {
-  Random random(seed);
-  for (Vec3& p : x)
-    for (int k = 0; k < 3; ++k) p[k] += random.uniform(-by, by);
-  return x;
-}
-
-/// Force of one effect at x.
-std::vector<Vec3> force_of(Effect& effect, int n, const std::vector<Vec3>& x, BlockMatrix& matrix) {
-  std::vector<Vec3> force(n, Vec3::Zero());
-  std::vector<ContactElement> elements;
-  StepContext c{x, 1e30, force, matrix, elements}; // an endless step has no damping
-  effect.add(c);
-  return force;
-}
-
-/// -dE/dx of the effect's own energy() against the force that it adds.
-template<class SomeEffect> void expect_gradient(SomeEffect& effect, const ClothMesh& mesh, const std::vector<Vec3>& x, bool keeps_momentum = true) {
-  std::vector<std::array<int, 2>> pairs;
-  effect.declare(pairs);
-  BlockMatrix matrix(mesh.n_particles, pairs);
-  effect.bind(matrix);
-  const auto force = force_of(effect, mesh.n_particles, x, matrix);
-  const double step = 1e-6;
-  double scale = 0;
-  for (const Vec3& f : force) scale = std::max(scale, f.norm());
-  Vec3 total = Vec3::Zero();
-  for (int i = 0; i < mesh.n_particles; ++i) {
-    total += force[i];
-    for (int k = 0; k < 3; ++k) {
-      auto plus = x, minus = x;
-      plus[i][k] += step;
-      minus[i][k] -= step;
-      EXPECT_NEAR(force[i][k], -(effect.energy(plus) - effect.energy(minus)) / (2 * step), 1e-5 * scale);
-    }
-  }
-  if (keeps_momentum) {
-    EXPECT_LT(total.norm(), 1e-10 * scale) << "momentum is not kept";
-  }
-}
-
-/// -df/dx along a random direction against the assembled matrix, for states in which nothing is clamped.
-void expect_jacobian(Effect& effect, const ClothMesh& mesh, const std::vector<Vec3>& x, double tolerance) {
-  std::vector<std::array<int, 2>> pairs;
-  effect.declare(pairs);
-  BlockMatrix matrix(mesh.n_particles, pairs), unused(mesh.n_particles, pairs);
-  effect.bind(matrix);
-  force_of(effect, mesh.n_particles, x, matrix);
-  const auto direction = jittered(std::vector<Vec3>(x.size(), Vec3::Zero()), 1, 5);
-  const double step = 1e-7;
-  auto plus = x, minus = x;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    plus[i] += step * direction[i];
-    minus[i] -= step * direction[i];
-  }
-  const auto fp = force_of(effect, mesh.n_particles, plus, unused), fm = force_of(effect, mesh.n_particles, minus, unused);
-  std::vector<Vec3> product(x.size());
-  matrix.multiply(direction, product);
-  double error = 0, scale = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    error = std::max(error, (product[i] + (fp[i] - fm[i]) / (2 * step)).norm());
-    scale = std::max(scale, product[i].norm());
-  }
-  EXPECT_LT(error, tolerance * scale);
-}
-
-Eigen::MatrixXd dense(const BlockMatrix& m) {
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(3 * m.size(), 3 * m.size());
-  for (int i = 0; i < m.size(); ++i) {
-    a.block<3, 3>(3 * i, 3 * i) = m.diagonal(i);
-    for (int k = m.row_start()[i]; k < m.row_start()[i + 1]; ++k) {
-      a.block<3, 3>(3 * i, 3 * m.column()[k]) = m.value()[k];
-      a.block<3, 3>(3 * m.column()[k], 3 * i) = m.value()[k].transpose();
-    }
-  }
-  return a;
-}
-
-} // namespace
 
 TEST(EdgeSpring, force_is_minus_energy_gradient) {
   const Grid g = make_grid(5, 0.1);

@@ -1,0 +1,26 @@
+#pragma once
+/// Where girths are measured on a body, and which cloth takes part there.
+#include <body/body.hpp>
+#include <garment/garment.hpp>
+
+namespace sloper::garment {
+
+/// A plane, the axis that its girth goes round, and the body's own figure there.
+struct FitPlace {
+  std::string name, kind; ///< as in the body document; "level", "limb" or "neck"
+  Vec3 center, normal;
+  double body_m = 0, body_spread_m = 0, height_error_m = 0;
+  std::vector<std::string> frames; ///< cloth whose weight is mostly on these; empty: all that is not mostly on the arms
+  std::vector<Vec3> outside;       ///< axes that the line must not go round
+};
+
+/// Trunk levels are cut level, limbs square to the limb, legs level, the neck base through its four landmarks.
+std::vector<FitPlace> fit_places(const body::Body& body);
+
+/// #F: triangles of the garment that belong to a place. @param garment bound
+std::vector<char> cloth_of(const Garment& garment, const FitPlace& place);
+
+/// "left thigh" for "thigh_l".
+std::string spoken_girth(const std::string& girth);
+
+} // namespace sloper::garment

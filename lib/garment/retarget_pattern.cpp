@@ -1,0 +1,176 @@
+#include <garment/retarget_pattern.hpp>
+
+#include <base/units.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace sloper::garment {
+
+namespace {
+
+constexpr double CORNER = 25 * units::PI / 180; // rad, of the outline at one mesh point
+
+/// Outline of one panel with the points at which its edges end.
+struct Outline {
+  std::vector<int> vertices;    ///< counter-clockwise
+  std::map<int, int> position;  ///< of a vertex in `vertices`
+  std::vector<char> ends;       ///< by position: an edge ends here
+  std::vector<int> edge_starts; ///< positions, ascending, first one may be > 0
+  int n() const { return static_cast<int>(vertices.size()); }
+  int next(int i, int step) const { return (i + step + n()) % n(); }
+  /// +1 or -1 where b follows a on the outline, else 0.
+  int step(int a, int b) const {
+    const auto at = position.find(a), to = position.find(b);
+    if (at == position.end() || to == position.end()) return 0;
+    if (next(at->second, 1) == to->second) return 1;
+    return next(at->second, -1) == to->second ? -1 : 0;
+  }
+};
+
+/// A stretch of a seam side that follows one panel's outline.
+struct Stretch {
+  int panel, first, last, step; ///< vertices at its ends, direction
+};
+
+int panel_at(const Garment& garment, int vertex) {
+  for (std::size_t k = 0; k < garment.panels.panels.size(); ++k) {
+    const pattern::PanelInfo& p = garment.panels.panels[k];
+    if (vertex >= p.first_vertex && vertex < p.first_vertex + p.n_vertices) return static_cast<int>(k);
+  }
+  return -1;
+}
+
+/// The stretches of a seam side; empty when part of it lies inside a panel.
+std::vector<Stretch> stretches_of(const Garment& garment, const std::vector<Outline>& outlines, const std::vector<int>& run) {
+  std::vector<Stretch> stretches;
+  for (std::size_t i = 0; i + 1 < run.size(); ++i) {
+    if (run[i] == run[i + 1]) continue;
+    const int panel = panel_at(garment, run[i]);
+    if (panel != panel_at(garment, run[i + 1])) continue; // over to the next panel: the particle is the same
+    const int step = outlines[panel].step(run[i], run[i + 1]);
+    if (step == 0) return {};
+    if (!stretches.empty() && stretches.back().panel == panel && stretches.back().last == run[i] && stretches.back().step == step)
+      stretches.back().last = run[i + 1];
+    else stretches.push_back({panel, run[i], run[i + 1], step});
+  }
+  return stretches;
+}
+
+/// Whole edges along a stretch, in its direction.
+void add_runs(const Outline& outline, const Stretch& stretch, std::vector<pattern::Run>& runs) {
+  const int from = outline.position.at(stretch.first), to = outline.position.at(stretch.last);
+  const auto edge_from = [&](int start) {
+    return static_cast<int>(std::lower_bound(outline.edge_starts.begin(), outline.edge_starts.end(), start) - outline.edge_starts.begin());
+  };
+  int at = from;
+  do {
+    int end = outline.next(at, stretch.step);
+    while (!outline.ends[end]) end = outline.next(end, stretch.step);
+    if (stretch.step > 0) runs.push_back({stretch.panel, edge_from(at), 0, 1});
+    else runs.push_back({stretch.panel, edge_from(end), 1, 0});
+    at = end;
+  } while (at != to);
+}
+
+void mark_corners(const Garment& shape, Outline& outline) {
+  for (int i = 0; i < outline.n(); ++i) {
+    const Vec2 &p = shape.panels.pattern[outline.vertices[i]], &before = shape.panels.pattern[outline.vertices[outline.next(i, -1)]],
+               &after = shape.panels.pattern[outline.vertices[outline.next(i, 1)]];
+    const Vec2 u = p - before, v = after - p;
+    if (std::abs(std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v))) > CORNER) outline.ends[i] = 1;
+  }
+}
+
+} // namespace
+
+pattern::Pattern pattern_of(const Garment& garment, const Garment& shape) {
+  pattern::Pattern result;
+  result.name = garment.panels.name;
+  result.source_format = "pattern";
+  std::vector<Outline> outlines;
+  for (const pattern::PanelInfo& info : garment.panels.panels) {
+    Outline outline;
+    outline.vertices = info.outline;
+    for (int i = 0; i < outline.n(); ++i) outline.position[outline.vertices[i]] = i;
+    outline.ends.assign(outline.vertices.size(), 0);
+    mark_corners(shape, outline);
+    outlines.push_back(std::move(outline));
+  }
+  std::vector<std::array<std::vector<Stretch>, 2>> sides;
+  for (const pattern::MeshSeam& seam : garment.panels.seams) {
+    sides.push_back({stretches_of(garment, outlines, seam.a), stretches_of(garment, outlines, seam.b)});
+    for (const auto& side : sides.back())
+      for (const Stretch& s : side)
+        outlines[s.panel].ends[outlines[s.panel].position.at(s.first)] = outlines[s.panel].ends[outlines[s.panel].position.at(s.last)] = 1;
+  }
+  for (std::size_t k = 0; k < outlines.size(); ++k) {
+    Outline& outline = outlines[k];
+    const pattern::PanelInfo& info = garment.panels.panels[k];
+    pattern::Panel panel;
+    panel.name = info.name, panel.grain = info.grain, panel.material = info.material, panel.layer = info.layer, panel.label = info.part;
+    panel.hint.part = info.part;
+    if (outline.n() > 0 && std::find(outline.ends.begin(), outline.ends.end(), 1) == outline.ends.end()) outline.ends[0] = 1; // a round panel
+    for (int i = 0; i < outline.n(); ++i)
+      if (outline.ends[i]) outline.edge_starts.push_back(i);
+    panel.loops.emplace_back();
+    for (std::size_t e = 0; e < outline.edge_starts.size(); ++e) {
+      pattern::PanelEdge edge;
+      edge.name = "e" + std::to_string(e);
+      int at = outline.edge_starts[e];
+      do {
+        const int to = outline.next(at, 1);
+        edge.path.push_back(pattern::Segment::straight(garment.panels.pattern[outline.vertices[at]], garment.panels.pattern[outline.vertices[to]]));
+        at = to;
+      } while (!outline.ends[at]);
+      panel.loops[0].push_back(std::move(edge));
+    }
+    result.panels.push_back(std::move(panel));
+  }
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const pattern::MeshSeam& from = garment.panels.seams[s];
+    if (sides[s][0].empty() || sides[s][1].empty()) {
+      result.findings.push_back("seam " + from.name + " lies inside a panel and is left out");
+      continue;
+    }
+    pattern::Seam seam;
+    seam.name = from.name, seam.kind = from.kind;
+    for (const Stretch& stretch : sides[s][0]) add_runs(outlines[stretch.panel], stretch, seam.a);
+    for (const Stretch& stretch : sides[s][1]) add_runs(outlines[stretch.panel], stretch, seam.b);
+    result.seams.push_back(std::move(seam));
+  }
+  return result;
+}
+
+std::string grade_table(const pattern::Pattern& before, const pattern::Pattern& after) {
+  std::string csv = "kind,panel,edge,before_cm,after_cm,delta_cm\r\n";
+  const auto line = [&](const char* kind, const std::string& panel, const std::string& edge, double a, double b) {
+    char text[256];
+    std::snprintf(text, sizeof text, "%s,%s,%s,%.2f,%.2f,%+.2f\r\n", kind, panel.c_str(), edge.c_str(), 100 * a, 100 * b, 100 * (b - a));
+    csv += text;
+  };
+  const auto extent = [](const pattern::Panel& panel, const Vec2& direction) {
+    double low = 1e300, high = -1e300;
+    for (const auto& loop : panel.loops)
+      for (const pattern::PanelEdge& e : loop)
+        for (const pattern::Segment& s : e.path) low = std::min(low, s.p[0].dot(direction)), high = std::max(high, s.p[0].dot(direction));
+    return high - low;
+  };
+  for (std::size_t k = 0; k < before.panels.size() && k < after.panels.size(); ++k) {
+    const pattern::Panel &a = before.panels[k], &b = after.panels[k];
+    const Vec2 across(a.grain.y(), -a.grain.x());
+    line("width", a.name, "", extent(a, across), extent(b, across));
+    line("height", a.name, "", extent(a, a.grain), extent(b, a.grain));
+    for (int e = 0; e < a.n_edges(); ++e) line("edge", a.name, a.edge(e).name, pattern::length(a.edge(e).path), pattern::length(b.edge(e).path));
+  }
+  for (std::size_t s = 0; s < before.seams.size() && s < after.seams.size(); ++s) {
+    const pattern::Seam &a = before.seams[s], &b = after.seams[s];
+    const double a_length = pattern::side_length(before, a.a), b_length = pattern::side_length(after, b.a);
+    line("seam", a.name, "", a_length, b_length);
+    line("mismatch", a.name, "", a_length - pattern::side_length(before, a.b), b_length - pattern::side_length(after, b.b));
+  }
+  return csv;
+}
+
+} // namespace sloper::garment

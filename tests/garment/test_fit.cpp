@@ -1,0 +1,223 @@
+#include "skin_garment.hpp"
+
+#include <base/error.hpp>
+#include <garment/bind.hpp>
+#include <garment/fit.hpp>
+#include <garment/fit_section.hpp>
+#include <garment/materials.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+
+namespace sloper::garment {
+
+namespace {
+
+struct Dressed {
+  body::Body body;
+  Garment garment;
+  FitReport report;
+};
+
+Dressed dressed(body::Body body, Garment garment, const FitPolicy& policy = standard_fit_policy()) {
+  bind_garment(garment, body);
+  const collision::BodyCollider skin(body.skin);
+  FitReport report = fit_garment(garment, body, skin, policy);
+  return {std::move(body), std::move(garment), std::move(report)};
+}
+
+const FitRow* row(const FitReport& report, const std::string& name) {
+  for (const FitRow& r : report.rows)
+    if (r.name == name) return &r;
+  return nullptr;
+}
+
+std::string policy_file(const std::string& text) {
+  const std::string path = testing::TempDir() + "policy.json";
+  std::ofstream(path) << R"({"format": "fit-policy", "version": 1, )" << text << "}";
+  return path;
+}
+
+/// An open half tube of radius 1 about y, from angle a to b.
+SectionChain arc(double a, double b, double radius, bool backwards = false) {
+  SectionChain chain;
+  const int n = 100;
+  for (int i = 0; i < n; ++i) {
+    const double u = a + (b - a) * i / n, v = a + (b - a) * (i + 1) / n;
+    const Vec3 p(radius * std::sin(u), 0, radius * std::cos(u)), q(radius * std::sin(v), 0, radius * std::cos(v));
+    chain.segments.push_back({0, p, q, (q - p).norm(), 0});
+    chain.length += (q - p).norm(), chain.rest_length += (q - p).norm();
+  }
+  if (backwards) chain.reverse();
+  return chain;
+}
+
+} // namespace
+
+TEST(fit, ease_is_the_gap_times_two_pi_on_a_garment_made_from_the_skin) {
+  const Dressed d = dressed(measured("f-165-a"), skin_shirt(measured("f-165-a"), 0.01));
+  for (const char* name : {"waist_semantic", "bust", "upper_arm_l"}) {
+    const FitRow* r = row(d.report, name);
+    ASSERT_TRUE(r) << name;
+    // A line at constant distance from a convex one is longer by 2 pi times it; the skin itself is not quite convex.
+    EXPECT_NEAR(r->ease_m, 2 * M_PI * 0.01, 0.02) << name;
+    EXPECT_NEAR(r->gap_p50_m, 0.01, 0.002) << name;
+    EXPECT_NEAR(r->strain_p99, 0, 1e-6) << name;
+    EXPECT_NEAR(r->pressure_p95_pa, 0, 1) << name;
+    EXPECT_GE(r->ease_uncertainty_m, 0);
+    EXPECT_LT(r->ease_uncertainty_m, 0.03) << name;
+  }
+  EXPECT_EQ(d.report.garment_class, "top");
+  EXPECT_TRUE(d.report.fits) << d.report.reason;
+}
+
+TEST(fit, cloth_stretched_by_a_tenth_is_too_small_and_presses) {
+  const body::Body body = measured("f-165-a");
+  const Dressed d = dressed(body, skin_shirt(body, 0.002, 0.1));
+  const FitRow* r = row(d.report, "waist_semantic");
+  ASSERT_TRUE(r);
+  EXPECT_NEAR(r->strain_girth, 1 / 0.9 - 1, 0.002);
+  EXPECT_NEAR(r->strain_p99, 1 / 0.9 - 1, 0.002);
+  EXPECT_LT(r->ease_m, -0.03);
+  // Laplace: tension = least modulus of the default fabric times strain, over girth / 2 pi.
+  const Material& fabric = material_of(d.garment, "");
+  const double expected = std::min(fabric.stretch_warp_n_m, fabric.stretch_weft_n_m) * (1 / 0.9 - 1) / (r->body_m / (2 * M_PI));
+  EXPECT_NEAR(r->pressure_p95_pa, expected, 0.25 * expected);
+  EXPECT_FALSE(d.report.fits);
+  EXPECT_EQ(d.report.verdict, FitVerdict::TOO_SMALL);
+  EXPECT_NE(d.report.reason.find("does not close at the"), std::string::npos) << d.report.reason;
+}
+
+TEST(fit, strain_that_no_girth_shows_is_told_by_its_region) {
+  const body::Body body = measured("f-165-a");
+  Garment g = skin_shirt(body, 0.02);
+  const double shoulder = body.landmark("acromion_l").y();
+  for (std::size_t f = 0; f < g.panels.triangles.size(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 &a = g.position[g.panels.triangles[f][k]], &b = g.position[g.panels.triangles[f][(k + 1) % 3]];
+      if (std::abs(a.x()) > 0.13 && std::abs(b.x()) > 0.13 && std::abs(a.x()) < 0.2 && a.y() > shoulder - 0.08 && b.y() > shoulder - 0.08)
+        g.rest_scale[f][k] *= 0.8;
+    }
+  const Dressed d = dressed(body, g);
+  EXPECT_FALSE(d.report.fits);
+  EXPECT_NE(d.report.reason.find("; the cloth bears 5 %"), std::string::npos) << d.report.reason;
+  double most = 0;
+  for (const FitRegion& r : d.report.regions) {
+    most = std::max(most, r.strain_p99);
+    if (r.name == "trunk") EXPECT_LT(r.strain_p99, 0.01);
+  }
+  EXPECT_GT(most, 0.1);
+}
+
+TEST(fit, a_level_at_the_arm_pits_is_measured_with_its_arms_left_out) {
+  const body::Body body = measured("f-165-a");
+  const Dressed d = dressed(body, skin_shirt(body, 0.01));
+  const FitRow* r = row(d.report, "chest_axilla");
+  ASSERT_TRUE(r);
+  EXPECT_TRUE(r->open);
+  EXPECT_GT(r->bridged_m, 0.05);
+  EXPECT_NEAR(r->rest_m, r->body_m, 0.12);
+}
+
+TEST(fit, sleeves_and_legs_are_covered_to_where_they_end) {
+  const body::Body body = measured("f-165-a");
+  const Dressed shirt = dressed(body, skin_shirt(body)), trousers = dressed(body, skin_trousers(body));
+  ASSERT_TRUE(shirt.report.lines.coverage.count("sleeve_l") && shirt.report.lines.coverage.count("sleeve_r"));
+  EXPECT_NEAR(shirt.report.lines.coverage.at("sleeve_l"), 1, 0.05);
+  EXPECT_EQ(trousers.report.garment_class, "trousers");
+  ASSERT_TRUE(trousers.report.lines.coverage.count("inseam_l"));
+  const double crotch = body.landmark("crotch").y(), ankle = body.landmark("ankle_l").y();
+  EXPECT_NEAR(trousers.report.lines.coverage.at("inseam_l"), (crotch - ankle - 0.03) / (crotch - ankle), 0.03);
+}
+
+TEST(fit, a_skirt_that_hangs_askew_is_out_of_balance) {
+  const body::Body body = measured("f-165-a");
+  Garment g = tube_skirt(body);
+  for (Vec3& p : g.position) p.y() += 0.1 * p.z(); // front higher
+  const Dressed d = dressed(body, g);
+  EXPECT_EQ(d.report.garment_class, "skirt");
+  const auto& hems = d.report.lines.hems;
+  const auto hem = std::find_if(hems.begin(), hems.end(), [](const FitHem& h) { return h.name == "hem"; });
+  ASSERT_NE(hem, hems.end());
+  EXPECT_GT(hem->front_minus_back_m, 0.01);
+  EXPECT_NEAR(hem->left_minus_right_m, 0, 0.002);
+  EXPECT_NEAR(hem->height_m, body.landmark("knee_l").y(), 0.03);
+}
+
+TEST(fit, a_garment_that_sank_has_slipped_down) {
+  const body::Body body = measured("f-165-a");
+  Garment g = tube_skirt(body);
+  bind_garment(g, body);
+  std::vector<Vec3> placed = g.position;
+  for (Vec3& p : placed) p.y() += 0.15;
+  const collision::BodyCollider skin(body.skin);
+  const FitReport report = fit_garment(g, body, skin, standard_fit_policy(), &placed);
+  EXPECT_NEAR(report.slip_m, 0.15, 1e-9);
+  EXPECT_FALSE(report.fits);
+  EXPECT_EQ(report.verdict, FitVerdict::TOO_LARGE);
+  EXPECT_NE(report.reason.find("slides down by 15.0 cm"), std::string::npos) << report.reason;
+}
+
+TEST(fit, every_figure_is_in_the_document_the_csv_and_the_page) {
+  const body::Body body = measured("f-165-a");
+  const Dressed d = dressed(body, skin_shirt(body));
+  const io::Json document = fit_json(d.report, "test");
+  EXPECT_NO_THROW(io::to_text(document)); // no figure is infinite
+  EXPECT_EQ(document["girths"].size(), d.report.rows.size());
+  const std::string csv = fit_csv(d.report), page = fit_page(d.report, "a <shirt>", "body & soul");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), d.report.rows.size() + 1);
+  const std::string head = csv.substr(0, csv.find('\r')), second = csv.substr(csv.find('\n') + 1, csv.find('\r', csv.find('\n')) - csv.find('\n') - 1);
+  EXPECT_EQ(std::count(head.begin(), head.end(), ','), std::count(second.begin(), second.end(), ','));
+  EXPECT_NE(page.find("a &lt;shirt&gt; on body &amp; soul"), std::string::npos);
+  EXPECT_EQ(page.find("http"), std::string::npos); // nothing from a network
+  EXPECT_EQ(page.find("nan"), std::string::npos);
+  for (const char* tag : {"table", "tr", "svg", "div", "script"}) {
+    std::size_t opened = 0, closed = 0;
+    for (std::size_t at = 0; (at = page.find(std::string("<") + tag, at)) != std::string::npos; ++at) ++opened;
+    for (std::size_t at = 0; (at = page.find(std::string("</") + tag, at)) != std::string::npos; ++at) ++closed;
+    EXPECT_GE(opened, closed) << tag;
+  }
+}
+
+TEST(fit_section, front_and_back_are_bridged_under_the_arms) {
+  const double h = M_PI / 2;
+  const auto line = assemble_line({arc(-0.8 * h, 0.8 * h, 0.15), arc(M_PI - 0.8 * h, M_PI + 0.8 * h, 0.15, true)}, Vec3::Zero(), Vec3::UnitY(), 0.4);
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->chains.size(), 2u);
+  EXPECT_NEAR(line->bridged, 2 * 2 * 0.15 * std::sin(0.2 * h), 1e-6);
+  EXPECT_NEAR(line->rest, 0.15 * 2 * M_PI * 0.8 + line->bridged, 1e-3);
+}
+
+TEST(fit_section, a_facing_over_a_front_counts_once) {
+  const auto line = assemble_line({arc(-1.5, 1.5, 0.15), arc(1.7, 4.5, 0.15), arc(-0.5, 0.5, 0.152)}, Vec3::Zero(), Vec3::UnitY(), 0.4);
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->chains.size(), 2u);
+}
+
+TEST(fit_section, a_scarf_does_not_go_round) { EXPECT_FALSE(assemble_line({arc(-1, 1, 0.15)}, Vec3::Zero(), Vec3::UnitY(), 0.4)); }
+
+TEST(fit_policy, a_girth_goes_before_the_default_and_a_fabric_before_a_class) {
+  const FitPolicy p = read_fit_policy(policy_file(R"("name": "shop", "refuse": ["tight"], "default": {"tight_ease": 0.02},
+    "girths": {"wrist": {"loose_ease": 1.0}}, "classes": {"skirt": {"default": {"loose_ease": 2.0}}},
+    "fabrics": {"jersey": {"default": {"too_small_ease": -0.2, "tight_ease": -0.1}, "strain_p99": 0.25}})"));
+  EXPECT_TRUE(p.refuse_tight);
+  EXPECT_DOUBLE_EQ(p.limits("bust").tight_ease, 0.02);
+  EXPECT_DOUBLE_EQ(p.limits("bust").loose_ease, 0.5);
+  EXPECT_DOUBLE_EQ(p.limits("wrist_l").loose_ease, 1.0);
+  EXPECT_DOUBLE_EQ(p.limits("hip", "skirt").loose_ease, 2.0);
+  EXPECT_DOUBLE_EQ(p.limits("hip", "skirt", "jersey").tight_ease, -0.1);
+  EXPECT_DOUBLE_EQ(p.strain_p99("skirt", "jersey"), 0.25);
+  EXPECT_DOUBLE_EQ(p.strain_p99("skirt", "poplin"), 0.05);
+}
+
+TEST(fit_policy, what_it_does_not_know_is_refused) {
+  EXPECT_THROW(read_fit_policy(policy_file(R"("defualt": {})")), Error);
+  EXPECT_THROW(read_fit_policy(policy_file(R"("default": {"tight": 1})")), Error);
+  EXPECT_THROW(read_fit_policy(policy_file(R"("default": {"tight_ease": 0.5, "loose_ease": 0.1})")), Error);
+  EXPECT_THROW(read_fit_policy(policy_file(R"("refuse": ["ugly"])")), Error);
+  EXPECT_THROW(read_fit_policy(policy_file(R"("classes": {"hat": {}})")), Error);
+}
+
+} // namespace sloper::garment

@@ -1,0 +1,205 @@
+#include "skin_garment.hpp"
+
+#include <base/error.hpp>
+#include <garment/bind.hpp>
+#include <garment/fit.hpp>
+#include <garment/retarget.hpp>
+#include <garment/retarget_grade.hpp>
+#include <garment/retarget_pattern.hpp>
+
+#include <gtest/gtest.h>
+
+namespace sloper::garment {
+
+namespace {
+
+Garment bound(Garment g, const body::Body& body) {
+  bind_garment(g, body);
+  return g;
+}
+
+FitReport before_drape(const Garment& garment, const body::Body& to) {
+  const collision::BodyCollider skin(to.skin);
+  const Retargeted r = retarget(garment, to, skin, RetargetMode::KEEP_FABRIC, silent_reporter());
+  return fit_before_drape(r.garment, garment.position, to, standard_fit_policy());
+}
+
+/// A tube of two panels around a vertical axis, sewn at both sides: pattern coordinates are true lengths.
+Garment sewn_tube(double radius, double length, double y) {
+  Garment g;
+  const int n = 24, rows = 12;
+  for (int r = 0; r <= rows; ++r)
+    for (int c = 0; c < 2 * n; ++c) g.position.emplace_back(radius * std::sin(M_PI * c / n), y + length * r / rows, radius * std::cos(M_PI * c / n));
+  for (int side = 0; side < 2; ++side) {
+    pattern::PanelInfo p;
+    p.name = side ? "back" : "front";
+    p.first_vertex = static_cast<int>(g.panels.pattern.size()), p.first_triangle = static_cast<int>(g.panels.triangles.size());
+    const auto id = [&](int r, int c) { return p.first_vertex + r * (n + 1) + c; };
+    for (int r = 0; r <= rows; ++r)
+      for (int c = 0; c <= n; ++c) {
+        g.panels.pattern.emplace_back(M_PI * radius * c / n, length * r / rows);
+        g.panels.ids.push_back({side, static_cast<double>(c) / n, static_cast<double>(r) / rows});
+        g.particle_of.push_back(r * 2 * n + (side * n + c) % (2 * n));
+      }
+    for (int r = 0; r < rows; ++r)
+      for (int c = 0; c < n; ++c) {
+        g.panels.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c + 1)});
+        g.panels.triangles.push_back({id(r, c), id(r + 1, c + 1), id(r + 1, c)});
+      }
+    for (int c = 0; c < n; ++c) p.outline.push_back(id(0, c));
+    for (int r = 0; r < rows; ++r) p.outline.push_back(id(r, n));
+    for (int c = n; c > 0; --c) p.outline.push_back(id(rows, c));
+    for (int r = rows; r > 0; --r) p.outline.push_back(id(r, 0));
+    p.n_vertices = static_cast<int>(g.panels.pattern.size()) - p.first_vertex, p.n_triangles = static_cast<int>(g.panels.triangles.size()) - p.first_triangle;
+    g.panels.panels.push_back(p);
+  }
+  for (int side = 0; side < 2; ++side) {
+    pattern::MeshSeam seam;
+    seam.name = side ? "left" : "right", seam.kind = "seam";
+    for (int r = 0; r <= rows; ++r) {
+      seam.a.push_back(g.panels.panels[0].first_vertex + r * (n + 1) + (side ? 0 : n));
+      seam.b.push_back(g.panels.panels[1].first_vertex + r * (n + 1) + (side ? n : 0));
+    }
+    g.panels.seams.push_back(seam);
+  }
+  for (std::size_t v = 0; v < g.particle_of.size(); ++v) g.panels.placed.push_back(g.position[g.particle_of[v]]);
+  return g;
+}
+
+} // namespace
+
+TEST(retarget, a_placed_garment_is_cleared_of_the_skin) {
+  const body::Body from = measured("f-165-a"), to = measured("m-178-a");
+  const Garment g = bound(skin_shirt(from, 0.012), from);
+  const collision::BodyCollider skin(to.skin);
+  const Retargeted r = retarget(g, to, skin, RetargetMode::KEEP_FABRIC, silent_reporter());
+  EXPECT_EQ(r.report.cleared.vertices_inside, 0);
+  EXPECT_LT(r.report.cleared.faces_through, 20);
+  EXPECT_LT(r.report.largest_move_m, 0.15);
+  EXPECT_FALSE(r.garment.converged);
+}
+
+TEST(retarget, on_its_own_body_nothing_moves_but_out_of_the_contact_gap) {
+  const body::Body body = measured("f-165-a");
+  const Garment g = bound(skin_shirt(body, 0.012), body);
+  const collision::BodyCollider skin(body.skin);
+  const Retargeted r = retarget(g, body, skin, RetargetMode::KEEP_FABRIC, silent_reporter());
+  EXPECT_EQ(r.report.placed.vertices_inside, r.report.cleared.vertices_inside);
+  EXPECT_LT(r.report.largest_move_m, 0.01);
+}
+
+TEST(retarget, a_childs_shirt_on_a_large_man_does_not_close) {
+  samples::Mannequin child, man;
+  child.sex = "m", child.stature_m = 1.3, child.bmi = 17;
+  man.sex = "m", man.stature_m = 1.9, man.bmi = 33;
+  const body::Body from = measured(child), to = measured(man);
+  const FitReport report = before_drape(bound(skin_shirt(from, 0.012), from), to);
+  EXPECT_FALSE(report.fits);
+  EXPECT_EQ(report.verdict, FitVerdict::TOO_SMALL);
+  EXPECT_EQ(report.reason.rfind("does not close at the ", 0), 0u) << report.reason;
+  EXPECT_LT(report.margin_m, -0.1);
+}
+
+TEST(retarget, a_shirt_of_the_right_size_is_not_refused_before_it_is_tried) {
+  const body::Body from = measured("f-165-a"), to = measured("m-168-slim");
+  EXPECT_TRUE(before_drape(bound(skin_shirt(from, 0.015), from), to).fits);
+}
+
+TEST(retarget, cloth_that_was_stretched_on_its_first_body_may_be_stretched_as_far_again) {
+  const body::Body body = measured("f-165-a");
+  const Garment g = bound(skin_shirt(body, 0.003, 0.2), body); // an elastic top: a fifth shorter at rest
+  EXPECT_TRUE(before_drape(g, body).fits);
+}
+
+TEST(retarget, what_a_body_lacks_is_named) {
+  const body::Body whole = measured("f-165-a"), armless = without_arms(whole);
+  const Garment shirt = bound(skin_shirt(whole), whole), skirt = bound(tube_skirt(whole), whole);
+  EXPECT_EQ(why_impossible(shirt, whole), "");
+  EXPECT_NE(why_impossible(shirt, armless).find("arm"), std::string::npos);
+  EXPECT_EQ(why_impossible(skirt, armless), "");
+}
+
+TEST(retarget, trousers_on_a_torso_are_impossible) {
+  const body::Body whole = measured("f-165-a");
+  body::Body torso = without_arms(whole);
+  std::vector<Triangle> faces;
+  std::vector<body::Part> parts;
+  for (std::size_t f = 0; f < torso.skin.triangles.size(); ++f)
+    if (torso.face_part[f] == body::Part::TORSO) faces.push_back(torso.skin.triangles[f]), parts.push_back(torso.face_part[f]);
+  torso.skin.triangles = faces, torso.face_part = parts;
+  for (const char* name : {"leg_l", "leg_r", "lower_body", "head"}) torso.frames.erase(name);
+  for (const char* name : {"ankle_l", "ankle_r", "knee_l", "knee_r", "head_tip"}) torso.landmarks.erase(name);
+  EXPECT_NE(why_impossible(bound(skin_trousers(whole), whole), torso).find("leg_"), std::string::npos);
+  const Garment top = bound(skin_garment(whole, {body::Part::TORSO}, whole.levels.at("hip").y, whole.landmark("axilla_l").y() - 0.02, 0.01), whole);
+  EXPECT_EQ(why_impossible(top, torso), "");
+  torso.frames.clear();
+  torso.landmarks.erase("hip_center");
+  EXPECT_NE(why_impossible(top, torso), "");
+}
+
+TEST(regrade, cloth_that_keeps_its_shape_keeps_its_pattern) {
+  const Garment g = sewn_tube(0.15, 0.4, 0.6);
+  Garment graded = g;
+  regrade(graded, g.position, g.position);
+  for (std::size_t v = 0; v < g.panels.pattern.size(); ++v) EXPECT_LT((graded.panels.pattern[v] - g.panels.pattern[v]).norm(), 1e-6);
+}
+
+TEST(regrade, a_tube_around_a_wider_body_is_made_wider_and_not_longer) {
+  const Garment g = sewn_tube(0.15, 0.4, 0.6);
+  Garment graded = g;
+  std::vector<Vec3> after = g.position;
+  for (Vec3& p : after) p.x() *= 1.2, p.z() *= 1.2;
+  regrade(graded, g.position, after);
+  const pattern::Pattern before_pattern = pattern_of(g, g), after_pattern = pattern_of(graded, g);
+  ASSERT_EQ(before_pattern.panels.size(), 2u);
+  ASSERT_EQ(before_pattern.panels[0].n_edges(), 4);
+  for (int e = 0; e < 4; ++e) {
+    const double a = pattern::length(before_pattern.panels[0].edge(e).path), b = pattern::length(after_pattern.panels[0].edge(e).path);
+    EXPECT_NEAR(b / a, e % 2 == 0 ? 1.2 : 1.0, 0.002) << e;
+  }
+}
+
+TEST(regrade, seams_stay_as_long_on_both_sides) {
+  const Garment g = sewn_tube(0.15, 0.4, 0.6);
+  Garment graded = g;
+  std::vector<Vec3> after = g.position;
+  for (Vec3& p : after) p.x() *= 1 + 0.5 * (p.y() - 0.6); // a flare
+  regrade(graded, g.position, after);
+  for (const pattern::MeshSeam& seam : graded.panels.seams) EXPECT_NEAR(seam.length_a, seam.length_b, 0.001);
+}
+
+TEST(retarget_pattern, outlines_and_seams_come_back_from_the_mesh) {
+  const Garment g = sewn_tube(0.15, 0.4, 0.6);
+  const pattern::Pattern p = pattern_of(g, g);
+  ASSERT_EQ(p.seams.size(), 2u);
+  for (const pattern::Seam& seam : p.seams) {
+    ASSERT_EQ(seam.a.size(), 1u);
+    EXPECT_NE(seam.a[0].panel, seam.b[0].panel);
+    EXPECT_NEAR(pattern::side_length(p, seam.a), 0.4, 1e-9);
+    EXPECT_NEAR(pattern::side_length(p, seam.b), 0.4, 1e-9);
+  }
+  std::vector<pattern::Path> loop;
+  for (const pattern::PanelEdge& e : p.panels[0].loops[0]) loop.push_back(e.path);
+  EXPECT_NEAR(pattern::signed_area(loop), M_PI * 0.15 * 0.4, 1e-9);
+  EXPECT_TRUE(p.findings.empty());
+}
+
+TEST(retarget_pattern, a_seam_inside_a_panel_is_told_and_left_out) {
+  Garment g = sewn_tube(0.15, 0.4, 0.6);
+  g.panels.seams[0].a = {30, 31, 32};
+  g.panels.seams[0].b = {60, 61, 62};
+  const pattern::Pattern p = pattern_of(g, g);
+  EXPECT_EQ(p.seams.size(), 1u);
+  EXPECT_EQ(p.findings.size(), 1u);
+}
+
+TEST(retarget_pattern, the_table_tells_what_grew) {
+  const Garment g = sewn_tube(0.15, 0.4, 0.6);
+  Garment wide = g;
+  for (Vec2& p : wide.panels.pattern) p.x() *= 1.1;
+  const std::string table = grade_table(pattern_of(g, g), pattern_of(wide, g));
+  EXPECT_NE(table.find("width,front,,47.12,51.84,+4.71\r\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("height,front,,40.00,40.00,+0.00\r\n"), std::string::npos) << table;
+}
+
+} // namespace sloper::garment
