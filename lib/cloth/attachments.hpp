@@ -18,7 +18,7 @@ public:
   const char* name() const override { return "attachments"; }
   void add(StepContext& c) override;
   /// Potential at x, J.
-  double energy(const std::vector<Vec3>& x) const;
+  double energy(const std::vector<Vec3>& x) const override;
 
 private:
   std::vector<Attachment> m_attachments;

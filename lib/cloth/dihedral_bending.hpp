@@ -20,7 +20,7 @@ public:
   void bind(const BlockMatrix& matrix) override { m_slots = find_hinge_slots(m_mesh, matrix); }
   void add(StepContext& c) override;
   /// Potential at x, J.
-  double energy(const std::vector<Vec3>& x) const;
+  double energy(const std::vector<Vec3>& x) const override;
 
 private:
   const ClothMesh& m_mesh;

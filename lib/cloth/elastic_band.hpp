@@ -19,7 +19,7 @@ public:
   void bind(const BlockMatrix& matrix) override;
   void add(StepContext& c) override;
   /// Potential at x, J.
-  double energy(const std::vector<Vec3>& x) const;
+  double energy(const std::vector<Vec3>& x) const override;
   /// Tension of link k at x, N.
   double tension(std::size_t k, const std::vector<Vec3>& x) const;
   const std::vector<BandLink>& links() const { return m_links; }

@@ -18,7 +18,7 @@ public:
   void bind(const BlockMatrix& matrix) override { find_slots(m_maps, matrix); }
   void add(StepContext& c) override;
   /// Potential at x, J.
-  double energy(const std::vector<Vec3>& x) const;
+  double energy(const std::vector<Vec3>& x) const override;
   /// Adds the exact second derivative instead of its definite part: for tests, and to show what clamping is for.
   void set_exact(bool exact) { m_exact = exact; }
 

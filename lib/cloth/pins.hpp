@@ -20,7 +20,7 @@ public:
   const char* name() const override { return "pins"; }
   void add(StepContext& c) override;
   /// Potential at x, J.
-  double energy(const std::vector<Vec3>& x) const;
+  double energy(const std::vector<Vec3>& x) const override;
   /// Force that pin k puts on its particle at x, N.
   Vec3 force(std::size_t k, const std::vector<Vec3>& x) const;
   /// For a moving pin.

@@ -14,7 +14,7 @@ public:
   void add(StepContext& c) override;
   /// -p V, V = 1/6 sum x0 . (x1 x x2), the potential of a closed cloth; an open one has none, and its rim adds the work that makes
   /// the gradient minus the force where add() was called last. J
-  double energy(const std::vector<Vec3>& x) const;
+  double energy(const std::vector<Vec3>& x) const override;
 
 private:
   std::vector<Triangle> m_triangles;

@@ -24,7 +24,7 @@ public:
   void add(StepContext& c) override;
   /// The air's force has no potential. This is minus its work as it was when last added, whose gradient is minus that force: what
   /// a line search needs. J
-  double energy(const std::vector<Vec3>& x) const;
+  double energy(const std::vector<Vec3>& x) const override;
 
 private:
   std::vector<Triangle> m_triangles;

