@@ -1,5 +1,5 @@
 # Thin: every target is one command that can be typed by hand. `make` builds the five programs into build/tools/.
-.PHONY: all test demo check sanitize install format man bench clean
+.PHONY: all test demo check sanitize install format man bench validation figure4 clean
 
 all:
 	@scripts/build release
@@ -32,6 +32,16 @@ man:
 bench:
 	@scripts/build release
 	@scripts/bench build
+
+# Every physical validation, the slow ones too, with what each measured beside its reference.
+validation:
+	@scripts/build release test_validation
+	@SLOPER_VALIDATION=1 SLOPER_FIGURES=1 build/tests/validation/test_validation
+
+# The paper's Figure 4: ten drapes of the four-panel skirt, a sheet of pictures, and checks.
+figure4:
+	@scripts/build release scan-landmarks pattern-mesh drape render-png make-mannequin make-pattern measure-hem
+	@$(MAKE) --no-print-directory -C samples/figure4
 
 clean:
 	@cmake -E rm -rf build build-dev build-sanitize
