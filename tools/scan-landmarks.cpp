@@ -13,8 +13,9 @@ using namespace sloper;
 namespace {
 
 struct Options {
-  std::string scan, output, rules, parts, csv, skeleton, vit, garmentcode;
+  std::string scan, output, rules, parts, csv, skeleton, vit, garmentcode, pose;
   std::string unit = "auto", up = "auto";
+  double pose_fps = 30;
   bool explain = false, anonymise = false;
 };
 
@@ -22,6 +23,16 @@ void write_parts(const std::string& path, const std::vector<body::Part>& parts) 
   std::string bytes(parts.size(), '\0');
   for (std::size_t v = 0; v < parts.size(); ++v) bytes[v] = static_cast<char>(parts[v]);
   io::write_file(path, bytes);
+}
+
+/// A pose changes the body; a motion writes a sequence of skins beside it.
+void strike_pose(cli::Tool& tool, const Options& o, body::Body& body) {
+  const body::SkinWeights weights = body::skin_weights(body);
+  if (o.pose.size() > 4 && o.pose.substr(o.pose.size() - 4) == ".bvh") {
+    const body::Motion motion = body::read_bvh(o.pose, body, o.pose_fps > 0 ? 1 / o.pose_fps : 0);
+    body::write_motion(o.output, body, weights, motion, tool.name(), tool.reporter());
+    tool.reporter().info(std::to_string(motion.poses.size()) + " poses, " + std::to_string(motion.frame_s) + " s apart");
+  } else body = body::posed_body(body, weights, body::read_pose(o.pose, body));
 }
 
 int run(cli::Tool& tool, const Options& o) {
@@ -34,6 +45,7 @@ int run(cli::Tool& tool, const Options& o) {
   body::MeasuredScan measured = body::measure_scan(scan.mesh, o.scan, scan.sha256, options, tool.reporter());
   const std::string vit = o.vit.empty() ? "" : body::valentina_measurements(measured.body);
   const std::string garmentcode = o.garmentcode.empty() ? "" : body::garmentcode_body(measured.body);
+  if (!o.pose.empty()) strike_pose(tool, o, measured.body);
   if (o.anonymise) body::anonymise(measured.body);
   body::write_body(o.output, measured.body, tool.name());
   if (!o.parts.empty()) write_parts(o.parts, measured.vertex_part);
@@ -67,11 +79,15 @@ int main(int argc, char** argv) {
   app.add_option("--vit", o.vit, "write the measurements for Valentina (.vit, cm)")->check(cli::output_file());
   app.add_option("--garmentcode", o.garmentcode, "write the measurements as a GarmentCode body file (YAML, cm)")->check(cli::output_file());
   app.add_option("--skeleton", o.skeleton, "write the bones as an OBJ of lines")->check(cli::output_file());
+  app.add_option("--pose", o.pose, "joint angles (JSON): the body is written in that pose; or BVH motion: body.0001.obj, ... are written beside it")
+      ->check(cli::input_file());
+  app.add_option("--pose-fps", o.pose_fps, "poses per second kept of a BVH motion; 0 keeps all (default: 30)")->check(cli::finite_in(0, 1000, "1/s"));
   app.add_flag("--anonymise", o.anonymise, "drop the skin and the scan's name; keep landmarks, measurements, frames and bones");
   app.add_flag("--explain", o.explain, "print the decision path to stderr");
   app.add_option("-o,--output", o.output, "body.json; body.obj is written beside it")->required()->check(cli::output_file());
   tool.example("scan-landmarks -o body.json scan.obj", "measure a scan; unit, up axis and facing are found out");
   tool.example("scan-landmarks --unit mm --parts parts.u8 -o body.json scan.ply", "measure a scan in millimetres and label its vertices");
+  tool.example("scan-landmarks --pose walk.bvh -o body.json scan.obj", "also write the body walking: body.0001.obj, body.0002.obj, ...");
   tool.formats("OBJ, PLY, STL, 3DS, XYZ", "body.json (version 1), OBJ");
   return tool.run(argc, argv, [&] { return run(tool, o); });
 }

@@ -6,6 +6,7 @@
 #include <io/obj.hpp>
 
 #include <cmath>
+#include <cstdio>
 
 namespace sloper::body {
 
@@ -215,8 +216,10 @@ Body read_body(const std::string& path) {
   return body;
 }
 
-void write_body(const std::string& path, const Body& body, const std::string& tool) {
-  // faces in order of part, so that every part is one group
+namespace {
+
+/// Faces in order of part, so that every part is one group.
+io::ObjMesh in_groups(const Body& body) {
   io::ObjMesh obj;
   obj.positions = body.skin.positions;
   obj.triangles.reserve(body.skin.triangles.size());
@@ -227,10 +230,29 @@ void write_body(const std::string& path, const Body& body, const std::string& to
       if (body.face_part[t] == part) obj.triangles.push_back(body.skin.triangles[t]);
     if (static_cast<int>(obj.triangles.size()) > first) obj.groups.push_back({part_name(part), first});
   }
+  return obj;
+}
+
+} // namespace
+
+void write_body(const std::string& path, const Body& body, const std::string& tool) {
   const std::string mesh_path = io::mesh_path_beside(path);
   const std::string text = io::to_text(document_of(body, tool, path == "-" || body.skin.triangles.empty() ? std::string() : io::file_name(mesh_path)));
-  if (path != "-" && !body.skin.triangles.empty()) io::write_obj(mesh_path, obj, generator_stamp(tool));
+  if (path != "-" && !body.skin.triangles.empty()) io::write_obj(mesh_path, in_groups(body), generator_stamp(tool));
   io::write_file(path, text);
+}
+
+void write_motion(const std::string& path, const Body& body, const SkinWeights& weights, const Motion& motion, const std::string& tool, Reporter& reporter) {
+  io::ObjMesh obj = in_groups(body);
+  std::string base = io::mesh_path_beside(path);
+  base.resize(base.size() - 4);
+  for (std::size_t k = 0; k < motion.poses.size() && !reporter.stop_requested(); ++k) {
+    reporter.progress("posing", static_cast<double>(k) / static_cast<double>(motion.poses.size()));
+    obj.positions = posed_skin(body, weights, motion.poses[k]);
+    char number[40];
+    std::snprintf(number, sizeof number, ".%04zu.obj", k + 1);
+    io::write_obj(base + number, obj, generator_stamp(tool));
+  }
 }
 
 } // namespace sloper::body
