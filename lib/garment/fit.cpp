@@ -141,13 +141,14 @@ std::string centimetres(double m) {
 
 std::string percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
 
-void judge(const FitLimits& limits, FitRow& row) {
+/// @param at_rest  strain is a fact only of cloth at rest
+void judge(const FitLimits& limits, bool at_rest, FitRow& row) {
   const double share = row.ease_m / row.body_m;
   row.margin_m = std::min(row.ease_m - limits.tight_ease * row.body_m, limits.loose_ease * row.body_m - row.ease_m);
   if (share < limits.too_small_ease) {
     row.verdict = FitVerdict::TOO_SMALL;
     row.reason = "does not close at the " + spoken_girth(row.name) + " by " + centimetres(row.ease_m);
-  } else if (row.strain_girth > limits.too_small_strain) {
+  } else if (at_rest && row.strain_girth > limits.too_small_strain) {
     row.verdict = FitVerdict::TOO_SMALL;
     row.reason = "is stretched by " + percent(row.strain_girth) + " at the " + spoken_girth(row.name);
   } else if (share < limits.tight_ease) {
@@ -278,8 +279,9 @@ void conclude(const FitPolicy& policy, FitReport& report) {
   }
   report.verdict = worst->verdict;
   report.reason = worst->reason;
-  judge_strain(policy, report);
-  if (report.verdict < FitVerdict::TOO_LARGE && report.slip_m > policy.slip_m(report.garment_class, report.fabric)) {
+  const bool at_rest = report.convergence_m == 0;
+  if (at_rest) judge_strain(policy, report);
+  if (at_rest && report.verdict < FitVerdict::TOO_LARGE && report.slip_m > policy.slip_m(report.garment_class, report.fabric)) {
     report.verdict = FitVerdict::TOO_LARGE;
     report.reason = "slides down by " + centimetres(report.slip_m);
   }
@@ -324,7 +326,7 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
       report.left_out.emplace_back(place.name, why);
       continue;
     }
-    judge(policy.limits(row->name, report.garment_class, report.fabric), *row);
+    judge(policy.limits(row->name, report.garment_class, report.fabric), garment.converged, *row);
     report.rows.push_back(std::move(*row));
   }
   for (const auto& [name, girth] : body.girths)

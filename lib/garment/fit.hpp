@@ -7,7 +7,8 @@
 /// is estimated by Laplace's law, tension / radius, with the fabric's stretch modulus and radius = body girth / 2 pi.
 /// Uncertainties: of the body's girth its spread; of the garment's the change within the error of the level's height and the
 /// chord's shortfall against its arc; of strain the change when half the band is taken; of the gap the sagitta of an edge; of
-/// pressure that of strain. A drape that did not come to rest adds `convergence_m` to lengths and gaps.
+/// pressure that of strain. A drape that did not come to rest adds `convergence_m` to lengths and gaps, and its strain and slip
+/// decide nothing: only the ease of its girths does.
 #include <body/body.hpp>
 #include <collision/body_collider.hpp>
 #include <garment/fit_lines.hpp>

@@ -36,8 +36,8 @@ def put_in_place(folder, target):
 
 
 def run(command, timeout_s, folder):
-    """Exit code (or "time out", "signal 9"), last line of stderr, seconds, peak MB."""
-    start = time.monotonic()
+    """Exit code (or "time out", "signal 9"), last line of stderr, and {wall_s, cpu_s, peak_mb}."""
+    start, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
     environment = dict(os.environ, LC_ALL="C.UTF-8")
     try:
         done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=timeout_s, cwd=folder, env=environment)
@@ -45,8 +45,10 @@ def run(command, timeout_s, folder):
         lines = done.stderr.decode(errors="replace").strip().splitlines()
     except subprocess.TimeoutExpired:
         code, lines = "time out", []
-    peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
-    return code, (lines[-1] if lines else "").replace(folder + "/", ""), time.monotonic() - start, peak
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    cost = {"wall_s": round(time.monotonic() - start, 3), "cpu_s": round(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, 3),
+            "peak_mb": round(after.ru_maxrss / 1024, 1)}
+    return code, (lines[-1] if lines else "").replace(folder + "/", ""), cost
 
 
 def make_body(out, plan, key):
@@ -66,7 +68,7 @@ def make_body(out, plan, key):
         planning.write_json(os.path.join(folder, "body.json"), document)
     else:
         command = [plan["programs"]["scan-landmarks"]["path"], "--threads", "1", "--unit", plan["settings"]["unit"], "--up", plan["settings"]["up"], "-o", "body.json", body["scan"]]
-        code, message, _, _ = run(command, plan["settings"]["timeout_s"], folder)
+        code, message, _ = run(command, plan["settings"]["timeout_s"], folder)
     planning.write_json(os.path.join(folder, "status.json"), {"exit": code, "message": message, "usable": os.path.exists(os.path.join(folder, "body.json"))})
     put_in_place(folder, target)
 
@@ -146,7 +148,7 @@ def make_cell(out, plan, key):
         options += ["--set", assignment]
     command = [tools["retarget-garment"]["path"], "--threads", "1", "--garment", cell["garment_file"], "--to", os.path.join(body_folder, "body.json"), *options,
                *(["--policy", settings["policy"]] if settings["policy"] else []), "--fit", "fit.json", "--fit-page", "fit.html", "--report", "report.json", "-o", "garment.json"]
-    code, message, seconds, peak = run(command, settings["timeout_s"], folder)
+    code, message, cost = run(command, settings["timeout_s"], folder)
     fit, report = optional_json(os.path.join(folder, "fit.json")), optional_json(os.path.join(folder, "report.json"))
     cause = cause_of(code, fit, report)
     status.update(exit=code, cause=cause, message=message, dressed=cause == "dressed")
@@ -165,15 +167,13 @@ def make_cell(out, plan, key):
             files["policy.json"] = settings["policy"]
             replay += ["--policy", "policy.json"]
         write_bundle(os.path.join(folder, "failure.repro.tgz"), files, [*replay, "--report", "report.json", "-o", "out.json"], code, message, versions)
-    picture = 0.0
     if settings["pictures"] and os.path.exists(os.path.join(folder, "garment.json")):
-        _, _, picture, _ = run([tools["render-png"]["path"], "--threads", "1", "--size", "240x360", "-o", "thumbnail.png", os.path.join(body_folder, "body.json"), "garment.json"], 60, folder)
+        run([tools["render-png"]["path"], "--threads", "1", "--size", "240x360", "-o", "thumbnail.png", os.path.join(body_folder, "body.json"), "garment.json"], 60, folder)
     # What differs from run to run stands apart from the results.
     times = os.path.join(out, "timings", key)
     os.makedirs(times, exist_ok=True)
     if report:
         os.replace(os.path.join(folder, "report.json"), os.path.join(times, "report.json"))
-    planning.write_json(os.path.join(times, "timing.json"), {"name": cell["name"], "retarget_s": round(seconds, 3), "picture_s": round(picture, 3), "peak_mb": round(peak, 1),
-                                                             "cause": cause, "host": os.uname().nodename})
+    planning.write_json(os.path.join(times, "timing.json"), {"name": cell["name"], "cause": cause, "host": os.uname().nodename, "steps": (report or {}).get("steps"), **cost})
     planning.write_json(os.path.join(folder, "status.json"), status)
     put_in_place(folder, target)

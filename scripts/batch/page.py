@@ -126,7 +126,7 @@ def write_page(out, plan, statuses):
     if missing:
         page += f'<p class=bad>{missing} cells are missing; start the batch again to make them.</p>\n'
     listed.sort(key=badness)
-    page += "<h2>All cells, worst first</h2><div class=wide><table class=sorts><thead><tr><th>garment<th>size<th>scan<th>outcome<th>margin cm<th>strain p99 %<th>s<th>why</tr></thead><tbody>\n"
+    page += "<h2>All cells, worst first</h2><div class=wide><table class=sorts><thead><tr><th>garment<th>size<th>scan<th>outcome<th>margin cm<th>strain p99 %<th>CPU s<th>why</tr></thead><tbody>\n"
     for s in listed:
         margin = f'<td class=n data-v="{s["margin_cm"]:.3f}">{s["margin_cm"]:.1f}</td>' if s.get("margin_cm") is not None else '<td data-v="-999"></td>'
         strain = f'<td class=n data-v="{s["strain_p99"]:.4f}">{100 * s["strain_p99"]:.1f}</td>' if s.get("strain_p99") is not None else "<td></td>"
@@ -168,14 +168,14 @@ def write_page(out, plan, statuses):
 
 def write_timings(out, plan):
     """timings.csv and timings.js, which differ from run to run, and the seconds of the cells by key."""
-    seconds, lines = {}, ["cell,cause,retarget_s,picture_s,peak_mb,host"]
+    seconds, lines = {}, ["cell,cause,cpu_s,wall_s,peak_mb,steps,host"]
     for key in plan["cells"]:
         try:
             t = planning.read_json(os.path.join(out, "timings", key, "timing.json"))
         except (OSError, ValueError):
             continue
-        seconds[key] = t["retarget_s"]
-        lines.append(f'"{t["name"]}",{t["cause"]},{t["retarget_s"]},{t["picture_s"]},{t["peak_mb"]},{t["host"]}')
+        seconds[key] = t["cpu_s"]
+        lines.append(f'"{t["name"]}",{t["cause"]},{t["cpu_s"]},{t["wall_s"]},{t["peak_mb"]},{t["steps"] or ""},{t["host"]}')
     for name, text in (("timings.csv", "\n".join(lines) + "\n"), ("timings.js", "window.TIMINGS=" + json.dumps(seconds) + ";\n")):
         temporary = os.path.join(out, f"{name}.{os.getpid()}.tmp")
         with open(temporary, "w") as file:

@@ -106,7 +106,9 @@ TEST(fit, strain_that_no_girth_shows_is_told_by_its_region) {
   double most = 0;
   for (const FitRegion& r : d.report.regions) {
     most = std::max(most, r.strain_p99);
-    if (r.name == "trunk") EXPECT_LT(r.strain_p99, 0.01);
+    if (r.name == "trunk") {
+      EXPECT_LT(r.strain_p99, 0.01);
+    }
   }
   EXPECT_GT(most, 0.1);
 }
