@@ -113,7 +113,7 @@ def heat_map(garment, statuses):
 
 
 def write_page(out, plan, statuses):
-    """population.html in `out`; statuses by key, in the plan's order."""
+    """population.html in `out`; statuses by key."""
     listed = [dict(statuses[key], key=key) for key in plan["cells"] if key in statuses]
     figures = summary(listed)
     page = HEAD + f"<h1>{figures['cells']} cells: {len({s['garment'] + s['size'] for s in listed})} garments on {len({s['scan'] for s in listed})} bodies</h1>\n<div class=figures>"
@@ -169,7 +169,7 @@ def write_page(out, plan, statuses):
 def write_timings(out, plan):
     """timings.csv and timings.js, which differ from run to run, and the seconds of the cells by key."""
     seconds, lines = {}, ["cell,cause,cpu_s,wall_s,peak_mb,steps,host"]
-    for key in plan["cells"]:
+    for key in sorted(plan["cells"], key=lambda k: plan["cells"][k]["name"]):
         try:
             t = planning.read_json(os.path.join(out, "timings", key, "timing.json"))
         except (OSError, ValueError):

@@ -110,7 +110,7 @@ def programs(folder):
 
 def make_plan(garments, scans, settings, tools):
     """settings: mode, accuracy, set, policy (path or None), timeout_s, pictures, unit, up.
-    Returns {"bodies": {key: ...}, "cells": {key: ...}} in the order garment, size, scan."""
+    Returns {"bodies": {key: ...}, "cells": {key: ...}}."""
     bodies, cells = {}, {}
     body_of = {}
     for scan in scans:
@@ -157,5 +157,5 @@ def manifest(plan, settings, tools, statuses):
         "bodies": {key: {"name": b["name"], "file": os.path.basename(b["scan"]), "sha256": b["sha256"]} for key, b in plan["bodies"].items()},
         "cells": [{"name": c["name"], "garment": c["garment"], "size": c["size"], "scan": c["scan"], "key": key, "body": c["body"],
                    "garment_sha256": c["garment_sha256"], "status": statuses[key]["cause"] if key in statuses else "missing"}
-                  for key, c in plan["cells"].items()],
+                  for key, c in sorted(plan["cells"].items(), key=lambda item: item[1]["name"])],
     }
