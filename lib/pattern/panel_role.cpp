@@ -256,6 +256,19 @@ private:
     return false;
   }
 
+  /// A seam between the two panels that rises more than it goes across.
+  bool upright_seam(std::size_t k, std::size_t q) const {
+    for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(q))) {
+      Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+      for (const auto& s : seam) {
+        const Vec2 p = m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(s[0])];
+        low = low.cwiseMin(p), high = high.cwiseMax(p);
+      }
+      if (high.y() - low.y() > high.x() - low.x()) return true;
+    }
+    return false;
+  }
+
   /// Trouser legs: two front-back tubes that are sewn to each other. Only PanelInfo::part and the layout's order depend on it.
   void legs() {
     std::vector<std::size_t> tubes;
@@ -281,6 +294,12 @@ private:
       if (tube || name.find("pant") != std::string::npos || name.find("trouser") != std::string::npos || name.find("leg") != std::string::npos)
         tubes.push_back(k);
     }
+    // A waistband over a skirt is two tubes as well, one above the other: legs stand side by side, joined by upright seams.
+    std::vector<std::size_t> beside;
+    for (std::size_t k : tubes)
+      if (std::any_of(tubes.begin(), tubes.end(), [&](std::size_t q) { return q != k && m_roles[q].side == m_roles[k].side && upright_seam(k, q); }))
+        beside.push_back(k);
+    tubes = std::move(beside);
     if (tubes.size() < 4) return;
     for (std::size_t k : tubes) {
       // The crotch is where the other leg's panel of the same side is sewn on; the left leg has it on its inner side.
