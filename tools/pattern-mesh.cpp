@@ -22,7 +22,7 @@ namespace {
 constexpr double LEAST_ANGLE = 15; // degrees: a mesh carried over an edit is kept while it is no worse
 
 struct Options {
-  std::string pattern, output, sewing, body, edits, write_pattern, size, grade_rules;
+  std::string pattern, output, sewing, body, edits, write_pattern, size, grade_rules, undo;
   double edge_length = 0.015;
   bool check = false, unsewn = false;
 };
@@ -72,14 +72,24 @@ bool guess_seams(cli::Tool& tool, pattern::Pattern& source) {
 int run(cli::Tool& tool, const Options& o) {
   pattern::Pattern source = pattern::read_pattern(o.pattern, o.sewing, o.size, o.grade_rules);
   if (o.check) return check(tool, source, o);
-  if (o.output.empty() && !o.write_pattern.empty() && o.edits.empty()) return write_pattern(tool, source, o.write_pattern), 0;
+  io::Json edits;
+  if (!o.edits.empty()) edits = io::read_json(o.edits);
+  if (!o.undo.empty()) {
+    if (o.edits.empty()) throw Error(ErrorKind::USAGE, o.undo, "", "there are no edits to take back", "give --edits too");
+    io::write_json(o.undo, pattern::inverse_edits(source, edits, o.edits, tool.name()));
+  }
+  if (o.output.empty() && (!o.write_pattern.empty() || !o.undo.empty())) { // nothing to mesh
+    if (!o.edits.empty()) pattern::apply_edits(source, edits, o.edits);
+    if (!o.write_pattern.empty()) write_pattern(tool, source, o.write_pattern);
+    return 0;
+  }
   if (source.seams.empty() && source.source_format == "dxf" && source.panels.size() > 1 && !o.unsewn && !guess_seams(tool, source)) return 1;
   if (o.output.empty()) throw Error(ErrorKind::USAGE, "", "-o", "no output is named", "give -o panels.json");
   pattern::require_sewable(source, o.pattern);
   pattern::PanelMesh mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern);
   if (!o.edits.empty()) {
     const pattern::Pattern before = source;
-    pattern::apply_edits(source, io::read_json(o.edits), o.edits);
+    pattern::apply_edits(source, edits, o.edits);
     pattern::require_sewable(source, o.pattern);
     if (!pattern::follow_edits(before, source, mesh, LEAST_ANGLE)) {
       mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern);
@@ -112,6 +122,7 @@ int main(int argc, char** argv) {
   app.add_option("--body", o.body, "body.json from scan-landmarks: panels are placed around this body")->check(cli::input_file());
   app.add_option("--edits", o.edits, "edits.json: changes of the outline that keep the mesh and its vertex ids where they can; \"-\" reads standard input")
       ->check(cli::input_file());
+  app.add_option("--undo", o.undo, "write the edits that take --edits back, to the last bit")->check(cli::output_file());
   app.add_option("--sewing", o.sewing, "sidecar with the seams of a DXF that has none")->check(cli::input_file());
   app.add_option("--size", o.size, "size to take from a graded DXF (default: its sample size)");
   app.add_option("--grade-rules", o.grade_rules, "grade rule table (.rul) of a DXF")->check(cli::input_file());

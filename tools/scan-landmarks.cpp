@@ -16,6 +16,7 @@ struct Options {
   std::string scan, output, rules, parts, csv, skeleton, vit, garmentcode, pose;
   std::string unit = "auto", up = "auto";
   double pose_fps = 30;
+  int jitter = -1;
   bool explain = false, anonymise = false;
 };
 
@@ -39,6 +40,7 @@ int run(cli::Tool& tool, const Options& o) {
   body::ScanOptions options;
   options.unit = o.unit;
   options.up = o.up;
+  options.jitter = o.jitter;
   if (!o.rules.empty()) options.rules = body::Rules::read(o.rules);
   tool.reporter().progress("reading", -1);
   const io::Scan scan = io::read_scan(o.scan);
@@ -72,6 +74,10 @@ int main(int argc, char** argv) {
   app.add_option("SCAN", o.scan, "scan of one standing person: OBJ, PLY, STL, 3DS or XYZ, mesh or bare points")->required()->check(cli::input_file());
   app.add_option("--unit", o.unit, "unit of the scan's coordinates (default: auto, from the stature)")->check(cli::one_of({"auto", "m", "cm", "mm"}));
   app.add_option("--up", o.up, "axis along which the body stands (default: auto, from the legs and the head)")->check(cli::one_of({"auto", "x", "y", "z"}));
+  app.add_option(
+         "--jitter", o.jitter,
+         "runs of the rules on a slightly turned, lifted and roughened skin, which measure each landmark's spread (default: 3, none beyond 80,000 faces)")
+      ->check(cli::finite_in(0, 100, ""));
   app.add_option("--rules", o.rules, "landmark rules to use in place of the built-in numbers")->check(cli::input_file());
   app.add_option("--parts", o.parts, "write one byte for each vertex of the scan: 0 head, 1 torso, 2 arm_l, 3 arm_r, 4 leg_l, 5 leg_r, 255 not body")
       ->check(cli::output_file());

@@ -80,6 +80,7 @@ void find_arm_landmarks(const Finder& f) {
     // shoulder
     Vec3 joint = arm.at(arm.length() + 0.02 * s);
     joint.z() += f.number("shoulder_joint.before_axis") * s;
+    const Vec3 joint_by_axis = joint;
     const char* joint_rule = "end_of_arm_axis";
     if (arm.axilla) {
       f.put("axilla" + suffix, *arm.axilla, 1, arm.pit_hidden ? "proportion" : "gap_closes", arm.pit_hidden ? 0.2 : 0.7, arm.pit_hidden ? 0.03 : 0.008);
@@ -97,6 +98,7 @@ void find_arm_landmarks(const Finder& f) {
       }
     }
     f.put("shoulder_joint" + suffix, joint, 2, joint_rule, 0.6, 0.012);
+    f.also("shoulder_joint" + suffix, joint_by_axis);
     const double lateral = f.number("acromion.outward") - f.number("acromion.outward_per_degree") * raised;
     if (const auto top = top_of_shoulder(skin, s, joint.x() + outward * lateral * s, joint.z() - f.number("acromion.behind_joint") * s))
       f.put("acromion" + suffix, *top, 2, "above_shoulder_joint", 0.5, 0.012);
@@ -110,11 +112,14 @@ void find_arm_landmarks(const Finder& f) {
     }
     const Vec3 wrist = arm.at(hand);
     f.put("wrist" + suffix, wrist, 2, wrist_rule, 0.7, 0.008);
+    f.also("wrist" + suffix, arm.at(hand_ratio));
     const double to_elbow = (joint - wrist).norm() * (1 - f.number("elbow.of_arm"));
     double elbow_along = hand + to_elbow;
     const char* elbow_rule = "arm_ratio";
+    std::optional<double> elbow_by_swell;
     if (const auto rise = elbow_by_girth(arm, s, hand)) {
       const double by_girth = *rise - f.number("elbow.before_swell") * s;
+      elbow_by_swell = by_girth;
       if (std::abs(by_girth - elbow_along) < 0.024 * s) {
         elbow_along += f.number("elbow.girth_weight") * (by_girth - elbow_along);
         elbow_rule = "upper_arm_swells";
@@ -122,6 +127,9 @@ void find_arm_landmarks(const Finder& f) {
     }
     const Vec3 elbow = arm.at(elbow_along) - Vec3(0, 0, f.number("elbow.behind_axis") * s);
     f.put("elbow" + suffix, elbow, 2, elbow_rule, 0.6, 0.012);
+    const Vec3 behind(0, 0, f.number("elbow.behind_axis") * s);
+    f.also("elbow" + suffix, arm.at(hand + to_elbow) - behind);
+    if (elbow_by_swell) f.also("elbow" + suffix, arm.at(*elbow_by_swell) - behind);
     // a fist's farthest point is not the finger tip
     Vec3 extreme = arm.tip;
     for (const int t : arm.triangles)

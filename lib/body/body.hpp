@@ -28,6 +28,7 @@ struct Landmark {
 struct Level {
   double y = 0, girth_m = 0, width_m = 0, depth_m = 0; ///< taut girth, x extent, z extent of the trunk section
   std::string rule;
+  double y_spread_m = 0, girth_spread_m = 0; ///< over slice offset, noise and rotation jitter
 };
 
 struct Girth {

@@ -42,11 +42,11 @@ void row(std::string& out, const std::string& kind, const std::string& name, dou
 
 std::string measurements_csv(const Body& body) {
   std::string out = "kind,name,value_m,spread_m,iso_8559_1\n";
-  row(out, "height", "stature", body.scan.stature_m, 0.002, "stature");
+  row(out, "height", "stature", body.scan.stature_m, body.has_landmark("head_tip") ? body.landmarks.at("head_tip").spread_m : 0, "stature");
   for (const auto& [name, girth] : body.girths) row(out, "girth", name, girth.value_m, girth.spread_m, iso_name(name));
   for (const auto& [name, level] : body.levels) {
-    row(out, "level_height", name, level.y, 0.008, name == "crotch" ? iso_name(name) : std::string());
-    row(out, "level_girth", name, level.girth_m, 0.008, name == "crotch" ? std::string() : iso_name(name));
+    row(out, "level_height", name, level.y, level.y_spread_m, name == "crotch" ? iso_name(name) : std::string());
+    row(out, "level_girth", name, level.girth_m, level.girth_spread_m, name == "crotch" ? std::string() : iso_name(name));
   }
   return out;
 }

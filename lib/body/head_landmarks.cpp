@@ -89,6 +89,14 @@ void find_head_landmarks(const Finder& f) {
   const double confidence = 0.4 + 0.1 * n_cues;
   f.put("neck_back", Vec3(x, back_y, back->back), 2, back_rule, confidence, 0.010);
   f.put("neck_front", Vec3(x, front_y, front->front), 2, front_rule, confidence, 0.010);
+  auto also = [&](const char* name, double y, bool in_front) {
+    if (const auto m = midline(f.levels, y, x, 0.008 * s)) f.also(name, Vec3(x, y, in_front ? m->front : m->back));
+  };
+  also("neck_front", f.number("neck_front.height") * s, true);
+  if (hollow) also("neck_front", *hollow - f.number("neck_front.below_hollow") * s, true);
+  also("neck_back", f.number("neck_back.height") * s, false);
+  if (hollow) also("neck_back", front_y + f.number("neck_back.above_front") * s, false);
+  if (turn) also("neck_back", *turn - f.number("neck_side.above_back") * s, false);
   const double depth = back->back + f.number("neck_side.from_back") * (front->front - back->back);
   auto outer_at = [&](double y, int side, double near) {
     const double sign = side == 0 ? 1 : -1;

@@ -30,6 +30,8 @@ struct Finder {
   double s;                        ///< stature, m
 
   void put(const std::string& name, const Vec3& p, int step, const std::string& rule, double confidence, double spread_m) const;
+  /// What another rule gives for a landmark that was put: kept as an alternative when it is more than a millimetre away.
+  void also(const std::string& name, const Vec3& p) const;
   bool has(const std::string& name) const { return body.landmarks.count(name) != 0; }
   const Vec3& at(const std::string& name) const { return body.landmarks.at(name).p; }
   /// A rule's number; where it differs with the figure (name.female, name.male), the two are mixed.

@@ -59,6 +59,8 @@ void find_leg_landmarks(const Finder& f) {
     const double hip_x = 0.5 * (top->centroid.x() + sign * (f.number("hip_joint.from_leg_top") + f.number("hip_joint.aside")) * s);
     const Vec3 hip(hip_x, crotch_y + f.number("hip_joint.above_crotch") * s, top->centroid.y() - f.number("hip_joint.behind_leg_top") * s);
     f.put("hip_joint" + suffix, hip, 2, "above_leg_top", 0.6, 0.012);
+    f.also("hip_joint" + suffix, Vec3(top->centroid.x() + sign * f.number("hip_joint.from_leg_top") * s, hip.y(), hip.z()));
+    f.also("hip_joint" + suffix, Vec3(sign * f.number("hip_joint.aside") * s, hip.y(), hip.z()));
     if (const auto ankle = f.levels.leg_at(ankle_y, side)) {
       // the section at this height holds the heel's upper rim: its middle in x, the joint lies nearer to the heel
       const Vec3 joint(ankle->center().x() - sign * 0.0015 * s, ankle_y, ankle->low.y() + f.number("ankle.from_behind") * ankle->size().y());
@@ -69,9 +71,12 @@ void find_leg_landmarks(const Finder& f) {
         if (sign * seg[0].x() > best) best = sign * seg[0].x(), outer = seg[0];
       f.put("malleolus" + suffix, Vec3(outer.x(), ankle_y, outer.y()), 2, "outermost_at_ankle", 0.6, 0.006);
       double knee_y = ankle_y + f.number("knee.of_leg") * (hip.y() - ankle_y);
+      const double knee_by_ratio = knee_y;
+      std::optional<double> knee_by_hollow;
       const char* knee_rule = "leg_ratio";
       if (const auto hollow = hollow_of_knee(f, side, knee_y)) {
-        knee_y = 0.5 * (knee_y + *hollow - f.number("knee.below_hollow") * s);
+        knee_by_hollow = *hollow - f.number("knee.below_hollow") * s;
+        knee_y = 0.5 * (knee_y + *knee_by_hollow);
         knee_rule = "leg_ratio_and_hollow";
       }
       if (const auto knee = f.levels.leg_at(knee_y, side)) {
@@ -79,7 +84,10 @@ void find_leg_landmarks(const Finder& f) {
         for (const auto& seg : knee->segments)
           if (seg[0].y() > cap.y()) cap = seg[0];
         f.put("patella" + suffix, Vec3(cap.x(), knee_y, cap.y()), 2, "foremost_at_knee", 0.7, 0.01);
-        f.put("knee" + suffix, Vec3(knee->center().x(), knee_y, cap.y() - f.number("knee.behind_patella") * s), 2, knee_rule, 0.6, 0.012);
+        const Vec3 joint_of_knee(knee->center().x(), knee_y, cap.y() - f.number("knee.behind_patella") * s);
+        f.put("knee" + suffix, joint_of_knee, 2, knee_rule, 0.6, 0.012);
+        f.also("knee" + suffix, Vec3(joint_of_knee.x(), knee_by_ratio, joint_of_knee.z()));
+        if (knee_by_hollow) f.also("knee" + suffix, Vec3(joint_of_knee.x(), *knee_by_hollow, joint_of_knee.z()));
       }
     }
   }

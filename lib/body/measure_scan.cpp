@@ -1,3 +1,5 @@
+#include <Eigen/Geometry>
+#include <base/random.hpp>
 #include <base/units.hpp>
 #include <body/canonical_frame.hpp>
 #include <body/crotch.hpp>
@@ -18,6 +20,10 @@ namespace {
 constexpr const char* ESSENTIAL[] = {"head_tip",         "crotch",           "hip_center", "neck_center", "neck_back",  "neck_front",
                                      "shoulder_joint_l", "shoulder_joint_r", "hand_tip_l", "hand_tip_r",  "acromion_l", "acromion_r",
                                      "hip_joint_l",      "hip_joint_r",      "ankle_l",    "ankle_r"};
+
+constexpr int STANDARD_JITTER = 3;
+constexpr std::size_t MOST_FACES_TO_JITTER = 80'000; ///< beyond, three more runs of the rules would cost a second
+constexpr double UNSURE = 0.012;                     ///< of stature: a landmark that moves as much by a little jitter
 
 void describe_stance(Body& body, const std::array<ArmTrace, 2>& arms) {
   double sum = 0;
@@ -61,6 +67,94 @@ void shift(Body& body, const Vec3& by) {
   for (Vec3& p : body.skin.positions) p += by;
 }
 
+struct RuleInput {
+  const std::vector<Vec3>& scan_points; ///< the scan's own points of the body, body frame
+  bool rebuilt;
+  double s; ///< stature, m
+  const Rules& rules;
+};
+
+/// All rules on body.skin; fills landmarks, levels, girths, stance and class. @return part per vertex of the skin
+std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::string>& trail) {
+  LevelStack levels(body.skin, in.s, 0.0025 * in.s, in.rebuilt ? 0.002 : 0);
+  const bool crotch_moved = doubt_crotch(levels, in.scan_points, body.scan.findings, trail);
+  const EdgeGraph graph(body.skin);
+  const std::array<ArmTrace, 2> arms = trace_arms(levels, graph, in.rebuilt ? in.scan_points : std::vector<Vec3>{});
+  describe_stance(body, arms);
+  for (const ArmTrace& arm : arms) {
+    if (arm.sections.empty()) {
+      trail.push_back(std::string("arm ") + (arm.left ? "left" : "right") + ": cannot be told from the trunk");
+      continue;
+    }
+    char line[200];
+    std::snprintf(line, sizeof line, "arm %s: %zu sections, %.3f m from the hand to the trunk, last girth %.3f m, pit %s", arm.left ? "left" : "right",
+                  arm.sections.size(), arm.length(), arm.sections.back().girth, arm.axilla ? "found" : "not found");
+    trail.push_back(line);
+  }
+  const std::vector<Vec3> normals = vertex_normals(body.skin);
+  const FigureClass figure = classify_figure(levels, arms, normals, in.rules, trail);
+  const Finder finder{levels, arms, normals, in.scan_points, in.rebuilt, crotch_moved, in.rules, figure, body, trail, in.s};
+  find_leg_landmarks(finder);
+  find_head_landmarks(finder);
+  find_arm_landmarks(finder);
+  find_trunk_landmarks(finder);
+  find_girths(finder);
+  name_body_class(finder);
+  return label_skin(finder);
+}
+
+/// Runs the rules again on the skin turned, tilted and lifted a little and made rough: the spread of a landmark is the root
+/// mean square of how far it moves, and one that is lost in some of the runs loses confidence by their share.
+void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, Reporter& reporter) {
+  struct Sum {
+    double squares = 0;
+    int n = 0;
+    double rms() const { return n ? std::sqrt(squares / n) : 0; }
+  };
+  std::map<std::string, Sum> landmarks, girths, heights, level_girths;
+  const std::vector<Vec3> normals = vertex_normals(body.skin);
+  const double sigma = std::clamp(noise_m, 0.0004, 0.001);
+  for (int run = 0; run < runs && !reporter.stop_requested(); ++run) {
+    Random random(static_cast<std::uint64_t>(run) + 1);
+    auto angle = [&](double degrees) { return units::radians(random.uniform(-degrees, degrees)); };
+    const Eigen::Matrix3d turn =
+        (Eigen::AngleAxisd(angle(1.5), Vec3::UnitY()) * Eigen::AngleAxisd(angle(0.5), Vec3::UnitX()) * Eigen::AngleAxisd(angle(0.5), Vec3::UnitZ()))
+            .toRotationMatrix();
+    const Vec3 lift(0, random.uniform(0, 0.0025) * in.s, 0); // where the slices lie
+    Body trial;
+    trial.scan.stature_m = body.scan.stature_m;
+    trial.skin.triangles = body.skin.triangles;
+    trial.skin.positions.reserve(body.skin.positions.size());
+    for (std::size_t v = 0; v < body.skin.positions.size(); ++v) {
+      double bump = -2;
+      for (int k = 0; k < 4; ++k) bump += random.uniform();
+      trial.skin.positions.push_back(turn * (body.skin.positions[v] + 1.7 * sigma * bump * normals[v]) + lift);
+    }
+    std::vector<Vec3> points;
+    points.reserve(in.scan_points.size());
+    for (const Vec3& p : in.scan_points) points.push_back(turn * p + lift);
+    std::vector<std::string> unheard;
+    apply_rules({points, in.rebuilt, in.s, in.rules}, trial, unheard);
+    auto add = [](Sum& sum, double miss) { sum.squares += miss * miss, ++sum.n; };
+    for (const auto& [name, landmark] : trial.landmarks)
+      if (body.has_landmark(name)) add(landmarks[name], (turn.transpose() * (landmark.p - lift) - body.landmark(name)).norm());
+    for (const auto& [name, girth] : trial.girths)
+      if (const auto it = body.girths.find(name); it != body.girths.end()) add(girths[name], girth.value_m - it->second.value_m);
+    for (const auto& [name, level] : trial.levels)
+      if (const auto it = body.levels.find(name); it != body.levels.end()) {
+        add(heights[name], level.y - lift.y() - it->second.y);
+        add(level_girths[name], level.girth_m - it->second.girth_m);
+      }
+  }
+  for (auto& [name, landmark] : body.landmarks) {
+    landmark.spread_m = std::max(landmarks[name].rms(), 1e-4);
+    landmark.confidence *= 0.5 + 0.5 * landmarks[name].n / runs;
+    if (landmark.spread_m > UNSURE * in.s) landmark.confidence *= 0.7;
+  }
+  for (auto& [name, girth] : body.girths) girth.spread_m = girths[name].rms();
+  for (auto& [name, level] : body.levels) level.y_spread_m = heights[name].rms(), level.girth_spread_m = level_girths[name].rms();
+}
+
 } // namespace
 
 MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, const std::string& sha256, const ScanOptions& options, Reporter& reporter) {
@@ -85,34 +179,15 @@ MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, con
   body.scan.findings.insert(body.scan.findings.end(), skin.findings.begin(), skin.findings.end());
 
   const double s = frame.stature_m;
-  LevelStack levels(body.skin, s, 0.0025 * s, skin.rebuilt ? 0.002 : 0);
   std::vector<Vec3> scan_points;
   for (std::size_t v = 0; v < positions.size(); ++v)
     if (sorted.is_body[v]) scan_points.push_back(positions[v]);
-  const bool crotch_moved = doubt_crotch(levels, scan_points, body.scan.findings, result.trail);
-  const EdgeGraph graph(body.skin);
-  const std::array<ArmTrace, 2> arms = trace_arms(levels, graph, skin.rebuilt ? scan_points : std::vector<Vec3>{});
-  describe_stance(body, arms);
-  for (const ArmTrace& arm : arms) {
-    if (arm.sections.empty()) {
-      result.trail.push_back(std::string("arm ") + (arm.left ? "left" : "right") + ": cannot be told from the trunk");
-      continue;
-    }
-    char line[200];
-    std::snprintf(line, sizeof line, "arm %s: %zu sections, %.3f m from the hand to the trunk, last girth %.3f m, pit %s", arm.left ? "left" : "right",
-                  arm.sections.size(), arm.length(), arm.sections.back().girth, arm.axilla ? "found" : "not found");
-    result.trail.push_back(line);
-  }
-  const std::vector<Vec3> normals = vertex_normals(body.skin);
-  const FigureClass figure = classify_figure(levels, arms, normals, options.rules, result.trail);
-  const Finder finder{levels, arms, normals, scan_points, skin.rebuilt, crotch_moved, options.rules, figure, body, result.trail, s};
-  find_leg_landmarks(finder);
-  find_head_landmarks(finder);
-  find_arm_landmarks(finder);
-  find_trunk_landmarks(finder);
-  find_girths(finder);
-  name_body_class(finder);
-  const std::vector<Part> skin_part = label_skin(finder);
+  const RuleInput input{scan_points, skin.rebuilt, s, options.rules};
+  reporter.progress("rules", -1);
+  const std::vector<Part> skin_part = apply_rules(input, body, result.trail);
+  const int jitter = options.jitter >= 0 ? options.jitter : body.skin.triangles.size() < MOST_FACES_TO_JITTER ? STANDARD_JITTER : 0;
+  if (jitter > 0) measure_spread(input, jitter, skin.noise_m, body, reporter);
+  else result.trail.push_back("spread: not measured, the usual one of each rule is given");
   body.face_part = label_faces(body.skin.triangles, skin_part);
   result.vertex_part = label_scan(positions, sorted.is_body, skin.of_scan, body.skin, skin_part, 0.03 * s);
   // the origin goes below the middle of the hip joints

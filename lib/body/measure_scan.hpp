@@ -9,6 +9,7 @@ struct ScanOptions {
   std::string unit = "auto"; ///< auto, m, cm, mm
   std::string up = "auto";   ///< auto, x, y, z
   Rules rules = Rules::standard();
+  int jitter = -1; ///< runs of the rules on a jittered skin that measure the spread; -1: 3 up to 80,000 faces, else none
 };
 
 struct MeasuredScan {

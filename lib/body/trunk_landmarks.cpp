@@ -154,6 +154,7 @@ void find_bust(const Finder& f, double pit) {
           relief ? 0.85 : 0.5, relief ? 0.004 : 0.015);
     if (const auto p = extreme_depth(f, point->y() - 0.024 * s, point->y() + 0.06 * s, 1, side == 0 ? 0.002 : -0.14 * s, side == 0 ? 0.14 * s : -0.002))
       f.put("bust_prominent" + suffix, *p, 2, "foremost_of_chest", 0.8, 0.006);
+    if (const auto p = front_at(f, sign * f.number("bust.beside") * s, expected, 0.006 * s)) f.also("bust_point" + suffix, *p);
     sum += point->y(), ++n;
   }
   if (n == 2) put_level(f, "bust", sum / 2, relief ? "bump_of_chest" : "proportion");
@@ -221,6 +222,7 @@ double find_navel(const Finder& f) {
   f.explain(seen ? "navel: a dimple near the middle" : "navel: no dimple, taken by proportion");
   // the tape and the truth lie on the belly's surface beside the dimple, not at its bottom
   if (const auto p = front_at(f, x, y, 0.006 * s)) f.put("omphalion", *p, 2, seen ? "dimple" : "trunk_ratio", seen ? 0.85 : 0.4, seen ? 0.006 : 0.02);
+  if (const auto p = front_at(f, 0, expected, 0.006 * s)) f.also("omphalion", *p);
   put_level(f, "omphalion", y, seen ? "dimple" : "trunk_ratio");
   return y;
 }

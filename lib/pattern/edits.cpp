@@ -1,3 +1,4 @@
+#include <pattern/edit_tools.hpp>
 #include <pattern/edits.hpp>
 #include <pattern/outline_json.hpp>
 
@@ -9,9 +10,6 @@ namespace sloper::pattern {
 namespace {
 
 constexpr double GRID = 1.0 / (1 << 30); // m: sums of multiples are exact
-
-double snapped(double x) { return std::nearbyint(x / GRID) * GRID; }
-Vec2 snapped(const Vec2& p) { return {snapped(p.x()), snapped(p.y())}; }
 
 /// Adds `by` to a path with weights that fall from w0 at its start to w1 at its end, by control point number: they do not depend on
 /// the shape, so that adding -by undoes it exactly.
@@ -69,11 +67,36 @@ void map_panel(Panel& panel, const std::function<Vec2(const Vec2&)>& map) {
         for (Vec2& p : s.p) p = snapped(map(p));
 }
 
-Vec2 middle(const Panel& panel) {
+std::array<Vec2, 2> extent(const Panel& panel) {
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
   for (const PanelEdge& e : panel.loops[0])
     for (const Segment& s : e.path) low = low.cwiseMin(s.p[0]), high = high.cwiseMax(s.p[0]);
+  return {low, high};
+}
+
+Vec2 middle(const Panel& panel) {
+  const auto [low, high] = extent(panel);
   return 0.5 * (low + high);
+}
+
+/// Moves an edge inwards, square to its chord.
+void move_inward(const io::Node& node, Panel& panel, int edge, double by) {
+  const Place place = place_of_edge(panel, edge);
+  const Vec2 chord = place.edge().path.back().p[3] - place.edge().path.front().p[0];
+  if (chord.norm() < 1e-6) node.fail("edge " + place.edge().name + " ends where it starts and has no direction to move in");
+  const Vec2 move = snapped(Vec2(Vec2(-chord.y(), chord.x()).normalized() * by));
+  drag(place.edge().path, move, 1, 1);
+  if (place.loop->size() > 1) drag(place.before().path, move, 0, 1), drag(place.after().path, move, 1, 0);
+}
+
+const Seam& seam_named(const Pattern& pattern, const io::Node& node) {
+  const std::string name = node.string();
+  const auto seam = std::find_if(pattern.seams.begin(), pattern.seams.end(), [&](const Seam& s) { return s.name == name; });
+  if (seam != pattern.seams.end()) return *seam;
+  std::vector<std::string> names;
+  for (const Seam& s : pattern.seams) names.push_back(s.name);
+  const std::string near = nearest_word(name, names.data(), names.data() + names.size());
+  node.fail("there is no seam '" + name + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)"));
 }
 
 double factor(const io::Node& node, const char* key) {
@@ -92,6 +115,11 @@ void apply(Pattern& pattern, const io::Node& node, double unit) {
   const std::string what = node.at("edit").string();
   const auto panel = [&]() -> Panel& { return pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("panel")))]; };
   const auto edge = [&](Panel& p) { return edge_named(p, node.at("edge")); };
+  if (what == "split" || what == "cut") return split_panel(pattern, node, unit);
+  if (what == "join") return join_panels(pattern, node);
+  if (what == "add-dart") return add_dart(pattern, node, unit);
+  if (what == "rotate-dart") return rotate_dart(pattern, node);
+  if (what == "restore") return restore(pattern, node);
   if (what == "move-point") {
     node.allow_only({"edit", "panel", "edge", "end", "by"});
     Panel& p = panel();
@@ -107,15 +135,16 @@ void apply(Pattern& pattern, const io::Node& node, double unit) {
     drag(place.edge().path, by, 1, 1);
     if (place.loop->size() > 1) drag(place.before().path, by, 0, 1), drag(place.after().path, by, 1, 0);
   } else if (what == "take-in" || what == "let-out") {
-    node.allow_only({"edit", "panel", "edge", "by"});
-    Panel& p = panel();
-    const Place place = place_of_edge(p, edge(p));
-    const Vec2 chord = place.edge().path.back().p[3] - place.edge().path.front().p[0];
-    if (chord.norm() < 1e-6) node.fail("edge " + place.edge().name + " ends where it starts and has no direction to move in");
-    const Vec2 inward = Vec2(-chord.y(), chord.x()).normalized() * (what == "take-in" ? 1 : -1);
-    const Vec2 by = snapped(Vec2(inward * node.at("by").number() * unit));
-    drag(place.edge().path, by, 1, 1);
-    if (place.loop->size() > 1) drag(place.before().path, by, 0, 1), drag(place.after().path, by, 1, 0);
+    node.allow_only({"edit", "panel", "edge", "seam", "by"});
+    const double by = (what == "take-in" ? 1 : -1) * node.at("by").number() * unit;
+    if (!node.has("seam")) {
+      Panel& p = panel();
+      move_inward(node, p, edge(p), by);
+      return;
+    }
+    const Seam& seam = seam_named(pattern, node.at("seam"));
+    for (const auto* side : {&seam.a, &seam.b})
+      for (const Run& run : *side) move_inward(node, pattern.panels[static_cast<std::size_t>(run.panel)], run.edge, 0.5 * by);
   } else if (what == "set-length") {
     node.allow_only({"edit", "panel", "edge", "seam", "length", "fixed"});
     const double length = positive_length(node, unit);
@@ -126,21 +155,19 @@ void apply(Pattern& pattern, const io::Node& node, double unit) {
       set_length(p, edge(p), length, fixed);
       return;
     }
-    const std::string name = node.at("seam").string();
-    const auto seam = std::find_if(pattern.seams.begin(), pattern.seams.end(), [&](const Seam& s) { return s.name == name; });
-    if (seam == pattern.seams.end()) node.at("seam").fail("there is no seam '" + name + "'");
-    for (const auto* side : {&seam->a, &seam->b}) {
+    const Seam& seam = seam_named(pattern, node.at("seam"));
+    for (const auto* side : {&seam.a, &seam.b}) {
       const double ratio = length / side_length(pattern, *side);
       for (const Run& run : *side) {
         Panel& p = pattern.panels[static_cast<std::size_t>(run.panel)];
         set_length(p, run.edge, ratio * pattern::length(p.edge(run.edge).path), fixed);
       }
     }
-  } else if (what == "lengthen") {
+  } else if (what == "lengthen" || what == "shorten") {
     node.allow_only({"edit", "panel", "at", "along", "by"});
     const Vec2 at = node.at("at").vec2() * unit, way = node.at("along").vec2();
     if (!(way.norm() > 0)) node.at("along").fail("there is no direction");
-    const Vec2 along = way.normalized(), by = snapped(Vec2(along * node.at("by").number() * unit));
+    const Vec2 along = way.normalized(), by = snapped(Vec2(along * node.at("by").number() * unit * (what == "shorten" ? -1 : 1)));
     map_panel(panel(), [&](const Vec2& p) { return (p - at).dot(along) > 0 ? Vec2(p + by) : p; });
   } else if (what == "scale") {
     node.allow_only({"edit", "panel", "x", "y"});
@@ -150,21 +177,54 @@ void apply(Pattern& pattern, const io::Node& node, double unit) {
       const Vec2 c = middle(p);
       map_panel(p, [&](const Vec2& q) { return Vec2(c.x() + x * (q.x() - c.x()), c.y() + y * (q.y() - c.y())); });
     }
+  } else if (what == "grade") {
+    node.allow_only({"edit", "panel", "width", "height"});
+    const double width = node.number("width", 0) * unit, height = node.number("height", 0) * unit;
+    for (Panel& p : pattern.panels) {
+      if (node.has("panel") && &p != &panel()) continue;
+      const auto [low, high] = extent(p);
+      const Vec2 c = 0.5 * (low + high), size = high - low, factor((size.x() + width) / size.x(), (size.y() + height) / size.y());
+      if (!(factor.minCoeff() > 0.2))
+        node.fail("panel " + p.name + " is " + centimetres(size.x()) + " by " + centimetres(size.y()) + ": too small to grade by that much");
+      map_panel(p, [&](const Vec2& q) { return Vec2(c + factor.cwiseProduct(q - c)); });
+    }
   } else if (what == "shrink") {
-    node.allow_only({"edit", "panel", "warp", "weft"});
+    node.allow_only({"edit", "panel", "warp", "weft", "edge", "factor", "strip"});
     Panel& p = panel();
+    if (node.has("edge")) { // elastic tape along an edge
+      const int e = edge(p);
+      set_length(p, e, factor(node, "factor") * pattern::length(p.edge(e).path), "middle");
+      return;
+    }
+    if (node.has("strip")) { // between two parallel lines, across them
+      const io::Node strip = node.at("strip");
+      strip.allow_only({"from", "to"});
+      const Vec2 from = strip.at("from").vec2() * unit, way = strip.at("to").vec2() * unit - from;
+      const double width = way.norm(), f = factor(node, "factor");
+      if (!(width > 1e-4)) strip.fail("a strip of " + centimetres(width) + " is none");
+      const Vec2 along = way / width, c = from + 0.5 * way;
+      map_panel(p, [&](const Vec2& q) {
+        const double s = (q - c).dot(along), inside = std::clamp(s, -0.5 * width, 0.5 * width);
+        return Vec2(q + (f - 1) * inside * along);
+      });
+      return;
+    }
     const double warp = factor(node, "warp"), weft = factor(node, "weft");
     const Vec2 c = middle(p), u = p.grain, v(-u.y(), u.x());
     map_panel(p, [&](const Vec2& q) { return Vec2(c + warp * (q - c).dot(u) * u + weft * (q - c).dot(v) * v); });
   } else {
-    const std::string known[] = {"move-point", "move-edge", "set-length", "take-in", "let-out", "lengthen", "scale", "shrink"};
+    const std::string known[] = {"move-point", "move-edge", "set-length", "take-in", "let-out", "lengthen", "shorten",     "scale",
+                                 "grade",      "shrink",    "split",      "cut",     "join",    "add-dart", "rotate-dart", "restore"};
     const std::string near = nearest_word(what, std::begin(known), std::end(known));
     node.at("edit").fail("unknown edit '" + what + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)"),
-                         "known are move-point, move-edge, set-length, take-in, let-out, lengthen, scale and shrink");
+                         "known are move-point, move-edge, set-length, take-in, let-out, lengthen, shorten, scale, grade, shrink, split, cut, join, add-dart, "
+                         "rotate-dart and restore");
   }
 }
 
 } // namespace
+
+Vec2 snapped(const Vec2& p) { return {std::nearbyint(p.x() / GRID) * GRID, std::nearbyint(p.y() / GRID) * GRID}; }
 
 void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file) {
   const io::Node root(json, file);
@@ -172,9 +232,12 @@ void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file
   if (root.at("format").string() != "edits") root.at("format").fail("this is no edits document", "write \"format\": \"edits\"");
   if (root.integer("version", 1) > 1) root.at("version").fail("the version is newer than this program knows", "update, or write version 1");
   const double unit = unit_of(root.at("length_unit"));
-  for (Panel& p : pattern.panels) map_panel(p, [](const Vec2& q) { return q; });
+  const auto onto_grid = [&] { // after each edit, so that a log in one piece and in many gives the same
+    for (Panel& p : pattern.panels) map_panel(p, [](const Vec2& q) { return q; });
+  };
+  onto_grid();
   const io::Node edits = root.at("edits");
-  for (std::size_t k = 0; k < edits.size(); ++k) apply(pattern, edits.at(k), unit);
+  for (std::size_t k = 0; k < edits.size(); ++k) apply(pattern, edits.at(k), unit), onto_grid();
 }
 
 } // namespace sloper::pattern

@@ -12,7 +12,9 @@ constexpr double DXF_CHORD = 0.002; // m
 
 io::Json path_json(const Path& path, double unit) {
   io::Json out = io::Json::array();
-  const auto point = [&](io::Json& item, const Vec2& p) { item.push_back(p.x() / unit), item.push_back(p.y() / unit); };
+  // Edits keep coordinates on a grid of a nanometre: ten of them are rounded away, so that 20 cm are written as 20.
+  const auto rounded = [&](double x) { return std::nearbyint(x / unit * 1e6) / 1e6 + 0.0; };
+  const auto point = [&](io::Json& item, const Vec2& p) { item.push_back(rounded(p.x())), item.push_back(rounded(p.y())); };
   io::Json start = io::Json::array({"M"});
   point(start, path.front().p[0]);
   out.push_back(start);

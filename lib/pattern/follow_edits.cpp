@@ -46,7 +46,31 @@ OnEdge locate(const Panel& panel, const std::vector<ArcLength>& arcs, const Vec2
 
 } // namespace
 
+/// Whether two patterns have the same panels, edges and seams, only elsewhere.
+static bool same_edges(const Pattern& a, const Pattern& b) {
+  if (a.panels.size() != b.panels.size() || a.seams.size() != b.seams.size()) return false;
+  for (std::size_t p = 0; p < a.panels.size(); ++p) {
+    if (a.panels[p].name != b.panels[p].name || a.panels[p].loops.size() != b.panels[p].loops.size()) return false;
+    for (std::size_t l = 0; l < a.panels[p].loops.size(); ++l) {
+      if (a.panels[p].loops[l].size() != b.panels[p].loops[l].size()) return false;
+      for (std::size_t e = 0; e < a.panels[p].loops[l].size(); ++e)
+        if (a.panels[p].loops[l][e].name != b.panels[p].loops[l][e].name) return false;
+    }
+  }
+  for (std::size_t s = 0; s < a.seams.size(); ++s) {
+    if (a.seams[s].name != b.seams[s].name) return false;
+    for (const auto& [one, two] : {std::pair(&a.seams[s].a, &b.seams[s].a), std::pair(&a.seams[s].b, &b.seams[s].b)}) {
+      if (one->size() != two->size()) return false;
+      for (std::size_t k = 0; k < one->size(); ++k)
+        if ((*one)[k].panel != (*two)[k].panel || (*one)[k].edge != (*two)[k].edge || (*one)[k].from != (*two)[k].from || (*one)[k].to != (*two)[k].to)
+          return false;
+    }
+  }
+  return true;
+}
+
 bool follow_edits(const Pattern& before, const Pattern& after, PanelMesh& mesh, double least_angle_deg) {
+  if (!same_edges(before, after)) return false;
   std::vector<Vec2> moved = mesh.pattern;
   for (std::size_t p = 0; p < mesh.panels.size(); ++p) {
     const PanelInfo& info = mesh.panels[p];

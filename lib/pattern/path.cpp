@@ -114,6 +114,37 @@ Vec2 ArcLength::tangent(double s) const {
   return d.norm() > 0 ? Vec2(d.normalized()) : Vec2(1, 0);
 }
 
+namespace {
+
+/// The part of a segment from parameter t0 to t1, by de Casteljau.
+Segment part_of(const Segment& s, double t0, double t1) {
+  const auto blossom = [&](double a, double b, double c) {
+    const auto mix = [](const Vec2& p, const Vec2& q, double t) { return Vec2(p + t * (q - p)); };
+    const Vec2 p01 = mix(s.p[0], s.p[1], a), p12 = mix(s.p[1], s.p[2], a), p23 = mix(s.p[2], s.p[3], a);
+    return mix(mix(p01, p12, b), mix(p12, p23, b), c);
+  };
+  if (s.line) return Segment::straight(s.at(t0), s.at(t1));
+  return Segment::cubic(blossom(t0, t0, t0), blossom(t0, t0, t1), blossom(t0, t1, t1), blossom(t1, t1, t1));
+}
+
+} // namespace
+
+Path ArcLength::between(double s0, double s1) const {
+  const bool from_start = s0 <= 0, to_end = s1 >= length();
+  const auto [k0, t0] = from_start ? std::pair<int, double>{0, 0.0} : locate(s0);
+  const auto [k1, t1] = to_end ? std::pair<int, double>{static_cast<int>(m_path->size()) - 1, 1.0} : locate(s1);
+  Path out;
+  for (int k = k0; k <= k1; ++k) {
+    const double a = k == k0 ? t0 : 0.0, b = k == k1 ? t1 : 1.0;
+    if (b - a < 1e-12) continue;
+    const Segment& segment = (*m_path)[static_cast<std::size_t>(k)];
+    out.push_back(a == 0 && b == 1 ? segment : part_of(segment, a, b));
+  }
+  if (out.empty()) out.push_back(Segment::straight(at(s0), at(s1)));
+  out.front().p[0] = at(s0), out.back().p[3] = at(s1);
+  return out;
+}
+
 double length(const Path& path) {
   double sum = 0;
   for (const Segment& s : path)

@@ -37,6 +37,7 @@ public:
   double length() const { return m_knots.back().s; }
   Vec2 at(double s) const; ///< s in m, clamped to [0, length]; both ends are returned exactly
   Vec2 tangent(double s) const;
+  Path between(double s0, double s1) const; ///< the stretch from s0 to s1 > s0, m; both ends as at() gives them
 
 private:
   struct Knot {
