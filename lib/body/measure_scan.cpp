@@ -7,6 +7,7 @@
 #include <body/part_labels.hpp>
 #include <body/skin_profile.hpp>
 #include <body/skin_surface.hpp>
+#include <body/touching_skin.hpp>
 #include <io/json.hpp>
 
 #include <algorithm>
@@ -17,6 +18,25 @@ namespace sloper::body {
 
 namespace {
 
+/// 1 for the skin that cloth lies on and between: all but head, hands and feet, whose folds are no concern of cloth.
+std::vector<char> dressed_skin(const Body& body, const std::vector<Part>& part) {
+  std::vector<char> dressed(part.size(), 1);
+  const double ankle = body.has_landmark("ankle_l") && body.has_landmark("ankle_r") ? std::max(body.landmark("ankle_l").y(), body.landmark("ankle_r").y())
+                                                                                    : 0.06 * body.scan.stature_m;
+  for (std::size_t v = 0; v < part.size(); ++v) {
+    const Vec3& p = body.skin.positions[v];
+    if (part[v] == Part::HEAD || part[v] == Part::NONE || p.y() < ankle) dressed[v] = 0;
+    if (part[v] != Part::ARM_L && part[v] != Part::ARM_R) continue;
+    const std::string side = part[v] == Part::ARM_L ? "_l" : "_r";
+    if (!body.has_landmark("wrist" + side) || !body.has_landmark("hand_tip" + side)) continue;
+    const Vec3 wrist = body.landmark("wrist" + side);
+    if ((p - wrist).dot(body.landmark("hand_tip" + side) - wrist) > 0) dressed[v] = 0;
+  }
+  return dressed;
+}
+
+/// m between parts that touch: two layers of cloth and their contact.
+constexpr double CLOTH_BETWEEN = 0.004;
 constexpr const char* ESSENTIAL[] = {"head_tip",         "crotch",           "hip_center", "neck_center", "neck_back",  "neck_front",
                                      "shoulder_joint_l", "shoulder_joint_r", "hand_tip_l", "hand_tip_r",  "acromion_l", "acromion_r",
                                      "hip_joint_l",      "hip_joint_r",      "ankle_l",    "ankle_r"};
@@ -190,6 +210,15 @@ MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, con
   else result.trail.push_back("spread: not measured, the usual one of each rule is given");
   body.face_part = label_faces(body.skin.triangles, skin_part);
   result.vertex_part = label_scan(positions, sorted.is_body, skin.of_scan, body.skin, skin_part, 0.03 * s);
+  const OpenedSkin opened = open_touching_skin(body.skin, dressed_skin(body, skin_part), CLOTH_BETWEEN);
+  if (opened.vertices > 0) {
+    char text[200];
+    std::snprintf(text, sizeof text, "parts touch: %d vertices of the skin drawn back by up to %.1f mm, so that cloth finds a way between", opened.vertices,
+                  1000 * opened.largest_m);
+    char place[80];
+    std::snprintf(place, sizeof place, "(%.3f, %.3f, %.3f)", opened.place.x(), opened.place.y(), opened.place.z());
+    body.scan.findings.push_back({"info", text, place});
+  }
   // the origin goes below the middle of the hip joints
   Vec3 origin = Vec3::Zero();
   if (body.has_landmark("hip_center")) origin = Vec3(-body.landmark("hip_center").x(), 0, -body.landmark("hip_center").z());

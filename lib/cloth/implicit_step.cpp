@@ -11,6 +11,8 @@ namespace sloper::cloth {
 namespace {
 
 constexpr int MOST_HALVINGS = 5;
+constexpr int LONGEST_FREEZE = 16; // steps
+constexpr double FROZEN = 1e4;     // times a particle's own stiffness
 
 /// Adds the wall seconds of its own life to a counter.
 class Stopwatch {
@@ -35,6 +37,8 @@ ClothSolver::ClothSolver(const ClothMesh& mesh, std::vector<Vec3> x) : m_mesh(me
   if (static_cast<int>(m_x.size()) != mesh.n_particles) throw Error(ErrorKind::INTERNAL, "", "", "positions and particles differ in number");
   m_v.assign(m_x.size(), Vec3::Zero());
   m_force = m_rhs = m_dx = m_v;
+  m_freeze.assign(m_x.size(), 0);
+  m_frozen_for = m_freeze;
 }
 
 Effect& ClothSolver::add(std::unique_ptr<Effect> effect) {
@@ -83,6 +87,22 @@ int ClothSolver::search_along(double before) {
   }
 }
 
+/// A particle stuck in a pinch bends the step away from where the energy falls, and the line search then stops all the cloth for its
+/// sake. It is kept in place for a while, longer each time, while the rest goes on.
+void ClothSolver::freeze_held(bool search_failed) {
+  for (std::size_t i = 0; i < m_held.size(); ++i) {
+    if (m_frozen_for[i] > 0) {
+      --m_frozen_for[i];
+      m_held[i] = 1;
+    } else if (m_held[i] && search_failed) {
+      m_freeze[i] = std::clamp(2 * m_freeze[i], 1, LONGEST_FREEZE);
+      m_frozen_for[i] = m_freeze[i];
+    } else {
+      m_freeze[i] /= 2;
+    }
+  }
+}
+
 StepResult ClothSolver::step(const StepOptions& o) {
   if (m_pattern_stale) rebuild_pattern();
   const std::size_t n = m_x.size();
@@ -102,7 +122,9 @@ StepResult ClothSolver::step(const StepOptions& o) {
     const Stopwatch watch(assembly_s);
     add_forces(m_elements, m_force);
     for (std::size_t i = 0; i < n; ++i) {
-      m_matrix.add_diagonal(static_cast<int>(i), m_mesh.mass[i] / (o.h * o.h) * Mat3::Identity());
+      double inertia = m_mesh.mass[i] / (o.h * o.h);
+      if (m_frozen_for[i] > 0) inertia += FROZEN * m_matrix.diagonal(static_cast<int>(i)).trace();
+      m_matrix.add_diagonal(static_cast<int>(i), inertia * Mat3::Identity());
       m_rhs[i] = m_force[i] + o.inertia * m_mesh.mass[i] / o.h * m_v[i];
     }
   }
@@ -128,7 +150,10 @@ StepResult ClothSolver::step(const StepOptions& o) {
     result.finite = false;
     return result;
   }
-  if (o.line_search) result.halvings = search_along(energy(m_x));
+  if (o.line_search) {
+    result.halvings = search_along(energy(m_x));
+    freeze_held(result.halvings > 0);
+  }
   double weight = 0;
   m_residual.clear();
   for (std::size_t i = 0; i < n; ++i) {

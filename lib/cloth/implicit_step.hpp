@@ -54,6 +54,7 @@ private:
   void rebuild_pattern();
   double energy(const std::vector<Vec3>& x) const;
   int search_along(double before);
+  void freeze_held(bool search_failed);
 
   const ClothMesh& m_mesh;
   std::vector<Vec3> m_x, m_v, m_force, m_rhs, m_dx, m_trial;
@@ -61,6 +62,7 @@ private:
   std::vector<ContactElement> m_elements;
   MotionLimits m_limits;
   std::vector<char> m_held;
+  std::vector<int> m_freeze, m_frozen_for; // #P, steps: of the last freeze; still to go
   std::vector<double> m_residual;
   BlockMatrix m_matrix;
   bool m_pattern_stale = true;

@@ -1,0 +1,130 @@
+#include <body/touching_skin.hpp>
+#include <collision/triangle_tree.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace sloper::body {
+
+namespace {
+
+constexpr int ROUNDS = 6, SMOOTHINGS = 3;
+constexpr double OPPOSED = -0.5;      ///< cosine of the two normals
+constexpr double DEEPEST = 0.006;     ///< m: skin that passes farther into other skin is left alone
+constexpr double LARGEST_WAY = 0.003; ///< m
+
+/// Vertices with skin that looks the other way somewhere within about a cell: by a grid of the directions that skin faces.
+std::vector<char> facing_candidates(const TriangleMesh& skin, const std::vector<char>& may_move) {
+  constexpr double CELL = 0.008; // m
+  const std::vector<Vec3> normals = vertex_normals(skin);
+  const auto key = [](long x, long y, long z) { return ((x + 100000) << 40) + ((y + 100000) << 20) + (z + 100000); };
+  const auto cell = [](const Vec3& p) { return std::array<long, 3>{std::lround(p.x() / CELL), std::lround(p.y() / CELL), std::lround(p.z() / CELL)}; };
+  std::vector<std::pair<long, int>> faced; // cell, six bits: which way its skin faces
+  for (std::size_t v = 0; v < skin.positions.size(); ++v) {
+    if (!may_move[v]) continue;
+    int bits = 0;
+    for (int a = 0; a < 3; ++a) bits |= normals[v][a] > 0.5 ? 1 << a : normals[v][a] < -0.5 ? 8 << a : 0;
+    const auto c = cell(skin.positions[v]);
+    faced.emplace_back(key(c[0], c[1], c[2]), bits);
+  }
+  std::sort(faced.begin(), faced.end());
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < faced.size(); ++i)
+    if (n > 0 && faced[n - 1].first == faced[i].first) faced[n - 1].second |= faced[i].second;
+    else faced[n++] = faced[i];
+  faced.resize(n);
+  std::vector<int> around(n, 0); // the same over the neighbour cells
+  for (std::size_t i = 0; i < n; ++i)
+    for (long x = -1; x <= 1; ++x)
+      for (long y = -1; y <= 1; ++y) {
+        const long low = faced[i].first + (x << 40) + (y << 20) - 1;
+        for (auto at = std::lower_bound(faced.begin(), faced.end(), std::pair<long, int>(low, 0)); at != faced.end() && at->first <= low + 2; ++at)
+          around[i] |= at->second;
+      }
+  std::vector<char> candidate(skin.positions.size(), 0);
+  for (std::size_t v = 0; v < skin.positions.size(); ++v) {
+    if (!may_move[v]) continue;
+    const auto c = cell(skin.positions[v]);
+    const auto at = std::lower_bound(faced.begin(), faced.end(), std::pair<long, int>(key(c[0], c[1], c[2]), 0));
+    int against = 0;
+    for (int a = 0; a < 3; ++a) against |= normals[v][a] > 0.25 ? 8 << a : normals[v][a] < -0.25 ? 1 << a : 0;
+    candidate[v] = (around[at - faced.begin()] & against) != 0;
+  }
+  return candidate;
+}
+
+/// Ways that part the skin by what is missing; `wants` marks the vertices that have one.
+std::vector<Vec3> wanted_ways(const TriangleMesh& skin, const std::vector<char>& candidate, double gap_m, std::vector<char>& wants) {
+  const std::vector<Vec3> normals = vertex_normals(skin);
+  std::vector<Triangle> near;
+  for (const Triangle& t : skin.triangles)
+    if (candidate[t[0]] || candidate[t[1]] || candidate[t[2]]) near.push_back(t);
+  const collision::TriangleTree tree(skin.positions, near);
+  const double reach = std::max(gap_m, DEEPEST);
+  std::vector<Vec3> way(skin.positions.size(), Vec3::Zero());
+  wants.assign(skin.positions.size(), 0);
+  for (std::size_t v = 0; v < skin.positions.size(); ++v) {
+    if (!candidate[v]) continue;
+    const Vec3& p = skin.positions[v];
+    double least = gap_m;
+    tree.visit_overlaps({p.array() - reach, p.array() + reach}, [&](int f) {
+      const Triangle& t = near[f];
+      const Vec3 &a = skin.positions[t[0]], &b = skin.positions[t[1]], &c = skin.positions[t[2]];
+      const Vec3 facing = area_normal(a, b, c).normalized();
+      if (!(facing.dot(normals[v]) < OPPOSED)) return;
+      const Vec3 away = p - collision::point_triangle(p, a, b, c).point;
+      const double gap = away.dot(facing);
+      if (gap >= least || gap < -DEEPEST || (away - gap * facing).norm() > 0.5 * gap_m) return;
+      least = gap;
+      way[v] = 0.5 * (gap_m - gap) * facing;
+      wants[v] = 1;
+    });
+  }
+  return way;
+}
+
+} // namespace
+
+OpenedSkin open_touching_skin(TriangleMesh& skin, const std::vector<char>& may_move, double gap_m) {
+  const std::vector<Vec3> before = skin.positions;
+  const std::vector<char> candidate = facing_candidates(skin, may_move);
+  if (std::find(candidate.begin(), candidate.end(), 1) == candidate.end()) return {};
+  std::vector<char> wants;
+  std::vector<std::array<int, 2>> edges;
+  for (int round = 0; round < ROUNDS; ++round) {
+    std::vector<Vec3> way = wanted_ways(skin, candidate, gap_m, wants);
+    if (std::find(wants.begin(), wants.end(), 1) == wants.end()) break;
+    if (edges.empty()) edges = edges_of(skin.triangles);
+    for (int k = 0; k < SMOOTHINGS; ++k) { // the rim takes part; what must move keeps its own way
+      std::vector<Vec3> sum(way.size(), Vec3::Zero());
+      std::vector<int> count(way.size(), 0);
+      for (const auto& [a, b] : edges) {
+        sum[a] += way[b];
+        sum[b] += way[a];
+        ++count[a];
+        ++count[b];
+      }
+      for (std::size_t v = 0; v < way.size(); ++v)
+        if (!wants[v] && may_move[v] && count[v] > 0) way[v] = 0.5 * way[v] + 0.5 * sum[v] / count[v];
+    }
+    for (std::size_t v = 0; v < way.size(); ++v) {
+      Vec3 whole = skin.positions[v] + way[v] - before[v];
+      const double length = whole.norm();
+      if (length > LARGEST_WAY) whole *= LARGEST_WAY / length;
+      skin.positions[v] = before[v] + whole;
+    }
+  }
+  OpenedSkin opened;
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    const double way = (skin.positions[v] - before[v]).norm();
+    opened.vertices += way > 1e-4;
+    if (way <= opened.largest_m) continue;
+    opened.largest_m = way;
+    opened.place = skin.positions[v];
+  }
+  return opened;
+}
+
+} // namespace sloper::body
