@@ -1,12 +1,19 @@
 /// render-png: pictures of bodies, panels and garments without a display.
 #include <base/units.hpp>
+#include <base/version.hpp>
 #include <cli/run_tool.hpp>
+#include <io/files.hpp>
 #include <io/json.hpp>
 #include <render/draw.hpp>
+#include <render/export.hpp>
 #include <render/overlay.hpp>
+#include <render/pattern_view.hpp>
+#include <render/show.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <sstream>
 
 using namespace sloper;
@@ -15,28 +22,46 @@ namespace {
 
 struct Options {
   std::vector<std::string> documents;
-  std::string view = "front", map = "none", size = "800x1000", background = "white", labels, output;
+  std::string view = "front", camera, map = "none", show, fabric = "auto", colors, size = "800x1000", background = "white", context = "osmesa";
+  std::string labels, mask, values, output;
   bool sheet = false, compare = false;
   int columns = 0;
-  double tolerance = 0.98;
+  double tolerance = 0.98, range = 0, print_size = 0.1, field_height = 0;
 };
 
 void add_options(cli::Tool& tool, Options& o) {
   CLI::App& app = tool.app();
-  app.add_option("DOC", o.documents, "body.json, shirt.json, panels.json or OBJ files; PNG files with --sheet and --compare")->required();
-  app.add_option("--view", o.view, "front, back, left, right, iso or turntable:N (N views on one sheet)")->capture_default_str();
-  app.add_option("--map", o.map, "colours: strain, gap, parts or none")->capture_default_str();
+  app.add_option("DOC", o.documents, "body.json, shirt.json, panels.json, a pattern, OBJ, PLY or STL meshes; PNG files with --sheet and --compare")->required();
+  app.add_option("--view", o.view, "front, back, left, right, iso, pattern (laid flat) or turntable:N; several joined by commas make a sheet")
+      ->capture_default_str();
+  app.add_option("--camera", o.camera, "camera.json instead of --view")->check(cli::input_file());
+  app.add_option("--field-height", o.field_height, "metres that a picture is high; 0 frames the scene")->check(cli::finite_in(0, 1000, "m"));
+  app.add_option("--map", o.map, "numbers as colours")->check(cli::one_of(render::map_names()))->capture_default_str();
+  app.add_option("--range", o.range, "top of the colour scale in the map's unit; 0 picks one")->check(cli::finite_in(0, 1e9, ""));
+  app.add_option("--values", o.values, "write the numbers behind the map, CSV")->check(cli::output_file());
+  app.add_option("--show", o.show, "landmarks, bones, frames, slices, seams, names; joined by commas");
+  app.add_option("--fabric", o.fabric, "auto, panels (a colour each), plain, woven, twill, stripes, checks, or a PNG to print on the cloth")
+      ->capture_default_str();
+  app.add_option("--print-size", o.print_size, "width of one repeat of a printed PNG")->check(cli::finite_in(0.001, 10, "m"))->capture_default_str();
+  app.add_option("--color", o.colors, "cloth colours as RRGGBB, one for each garment, joined by commas");
   app.add_option("--size", o.size, "WIDTHxHEIGHT of one view, pixels")->capture_default_str();
-  app.add_option("--background", o.background, "white, grey or transparent")->capture_default_str();
+  app.add_option("--background", o.background, "of the picture")->check(cli::one_of({"white", "grey", "transparent"}))->capture_default_str();
+  app.add_option("--context", o.context, "what draws: osmesa, or egl (surfaceless)")->check(cli::one_of({"osmesa", "egl"}))->capture_default_str();
   app.add_flag("--sheet", o.sheet, "put PNG files side by side");
   app.add_option("--columns", o.columns, "of a sheet; 0 is one row")->check(CLI::Range(0, 64));
   app.add_option("--labels", o.labels, "captions of a sheet, joined by commas");
   app.add_flag("--compare", o.compare, "compare two PNG files: figures to standard output, exit 1 when they differ");
   app.add_option("--tolerance", o.tolerance, "with --compare: least structural similarity")->check(cli::finite_in(0, 1, ""))->capture_default_str();
-  app.add_option("-o,--output", o.output, "the PNG; with --compare the difference picture");
+  app.add_option("--mask", o.mask, "with --compare: a PNG, bright where pixels count")->check(cli::input_file());
+  app.add_option("-o,--output", o.output, "the PNG, or a .glb, .obj or .ply of the scene; with --compare the difference picture")->check(cli::output_file());
   tool.example("render-png -o shirt.png body.json shirt.json", "a dressed body from the front");
+  tool.example("render-png --view front,back,left,right -o views.png body.json shirt.json", "four views on one sheet");
   tool.example("render-png --map strain --view iso -o strain.png body.json shirt.json", "where the cloth is stretched");
+  tool.example("render-png --view pattern -o pattern.png panels.json", "the pattern, laid flat, seams in colours");
+  tool.example("render-png --show landmarks,slices -o landmarks.png body.json", "what was measured on a scan");
+  tool.example("render-png -o shirt.glb body.json shirt.json", "a model for a browser");
   tool.example("render-png --sheet --labels before,after -o pair.png a.png b.png", "two pictures side by side");
+  tool.formats("body, garment and panels documents (version 1), pattern files, OBJ, PLY, STL, PNG", "PNG, GLB, OBJ, PLY, CSV");
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -54,18 +79,69 @@ std::array<int, 2> parse_size(const std::string& text) {
   return {w, h};
 }
 
-template<class T> T choose(const std::string& option, const std::string& value, std::initializer_list<std::pair<const char*, T>> choices) {
-  std::string names;
-  for (const auto& [name, choice] : choices) {
-    if (value == name) return choice;
-    names += (names.empty() ? "" : ", ") + std::string(name);
+std::vector<int> parse_colors(const std::string& text) {
+  std::vector<int> colors;
+  for (const std::string& word : split(text)) {
+    if (word.size() != 6 || word.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
+      throw Error(ErrorKind::USAGE, "", "--color " + word, "is not a colour", "write six hexadecimal digits, for example --color 4f7396");
+    colors.push_back(std::stoi(word, nullptr, 16));
   }
-  throw Error(ErrorKind::USAGE, "", option + " " + value, "is not known", "known are " + names);
+  return colors;
+}
+
+/// What --fabric says; sets how the cloth is coloured.
+render::ClothColors choose_fabric(const Options& o, const render::Scene& scene, render::DrawOptions& options) {
+  using render::Fabric;
+  const std::pair<const char*, Fabric> known[] = {
+      {"plain", Fabric::PLAIN}, {"woven", Fabric::WOVEN}, {"twill", Fabric::TWILL}, {"stripes", Fabric::STRIPES}, {"checks", Fabric::CHECKS}};
+  const bool panels = o.fabric == "panels" || (o.fabric == "auto" && !scene.draped && o.colors.empty());
+  options.fabric = panels ? Fabric::PLAIN : Fabric::WOVEN;
+  if (panels) return render::ClothColors::PANELS;
+  for (const auto& [name, fabric] : known)
+    if (o.fabric == name) {
+      options.fabric = fabric;
+      return render::ClothColors::GARMENTS;
+    }
+  if (o.fabric == "auto") return render::ClothColors::GARMENTS;
+  if (o.fabric.size() < 4 || o.fabric.compare(o.fabric.size() - 4, 4, ".png") != 0)
+    throw Error(ErrorKind::USAGE, "", "--fabric " + o.fabric, "is not known",
+                "known are auto, panels, plain, woven, twill, stripes, checks and files ending in .png");
+  options.fabric = Fabric::PRINT;
+  options.print = io::read_png(o.fabric);
+  options.print_size = o.print_size;
+  return render::ClothColors::GARMENTS;
+}
+
+/// The views asked for; "pattern" has no camera.
+std::vector<std::optional<render::CameraOptions>> parse_views(const Options& o) {
+  std::vector<std::optional<render::CameraOptions>> views;
+  if (!o.camera.empty()) return {render::read_camera(o.camera)};
+  for (const std::string& word : split(o.view)) {
+    int turns = 0;
+    char end = 0;
+    if (word == "pattern") {
+      views.emplace_back();
+    } else if (std::sscanf(word.c_str(), "turntable:%d%c", &turns, &end) == 1) {
+      if (turns < 1 || turns > 360) throw Error(ErrorKind::USAGE, "", "--view " + word, "needs 1 to 360 views");
+      for (int k = 0; k < turns; ++k) {
+        views.emplace_back(render::named_view("front"));
+        views.back()->azimuth = 2 * units::PI * k / turns;
+      }
+    } else {
+      views.emplace_back(render::named_view(word));
+    }
+  }
+  if (views.empty()) throw Error(ErrorKind::USAGE, "", "--view", "names no view");
+  for (auto& v : views)
+    if (v && o.field_height > 0) v->field_height = o.field_height;
+  return views;
 }
 
 int run_compare(const Options& o) {
   if (o.documents.size() != 2) throw Error(ErrorKind::USAGE, "", "--compare", "needs two PNG files");
-  const render::Comparison c = render::compare(io::read_png(o.documents[0]), io::read_png(o.documents[1]));
+  io::Image mask;
+  if (!o.mask.empty()) mask = io::read_png(o.mask);
+  const render::Comparison c = render::compare(io::read_png(o.documents[0]), io::read_png(o.documents[1]), o.mask.empty() ? nullptr : &mask);
   io::write_json("-", {{"ssim", c.ssim}, {"largest_difference", c.largest}, {"different_pixels", c.different}, {"equal", c.ssim >= o.tolerance}});
   if (!o.output.empty()) io::write_png(o.output, c.picture, {{"Software", "render-png"}});
   return c.ssim >= o.tolerance ? 0 : 1;
@@ -79,42 +155,66 @@ int run_sheet(const Options& o) {
   return 0;
 }
 
+/// Names that promise something else than what would be written are refused.
+void check_output(const std::string& path) {
+  const std::string name = io::file_name(path);
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string::npos || path.rfind("/dev/", 0) == 0 || render::is_export(path)) return;
+  std::string ending = name.substr(dot);
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending != ".png") throw Error(ErrorKind::USAGE, "", "-o " + path, "is no kind of file that can be written", "end it in .png, .glb, .obj or .ply");
+}
+
 int run_render(cli::Tool& tool, const Options& o) {
+  check_output(o.output);
   render::DrawOptions options;
   const auto size = parse_size(o.size);
   options.width = size[0];
   options.height = size[1];
-  using render::Background;
-  options.background =
-      choose<Background>("--background", o.background, {{"white", Background::WHITE}, {"grey", Background::GREY}, {"transparent", Background::TRANSPARENT}});
-  using render::Map;
-  const Map map = choose<Map>("--map", o.map, {{"none", Map::NONE}, {"strain", Map::STRAIN}, {"gap", Map::GAP}, {"parts", Map::PARTS}});
-  std::vector<std::array<double, 2>> views;
-  int turns = 0;
-  if (std::sscanf(o.view.c_str(), "turntable:%d", &turns) == 1) {
-    if (turns < 1 || turns > 36) throw Error(ErrorKind::USAGE, "", "--view " + o.view, "needs 1 to 36 views");
-    for (int k = 0; k < turns; ++k) views.push_back({2 * units::PI * k / turns, units::radians(8)});
-  } else {
-    views.push_back(render::view_angles(o.view));
-  }
+  options.background = o.background == "grey"    ? render::Background::GREY
+                       : o.background == "white" ? render::Background::WHITE
+                                                 : render::Background::TRANSPARENT;
+  options.context = o.context == "egl" ? render::ContextKind::EGL : render::ContextKind::OSMESA;
+  const auto views = parse_views(o);
+  const render::Show show = render::parse_show(o.show);
+  const std::vector<int> colors = parse_colors(o.colors);
+  const auto& maps = render::map_names();
   render::Scene scene = render::read_scene(o.documents);
-  const render::Legend legend = render::apply_map(scene, map);
-  std::size_t triangles = 0;
-  for (const render::DrawMesh& m : scene.meshes) triangles += m.triangles.size();
-  if (triangles > 150000) options.occlusion_directions = 12; // a large scan: a second is all that there is
-  const render::Renderer renderer(scene.meshes, options);
+  const render::Legend legend = render::apply_map(scene, static_cast<render::Map>(std::find(maps.begin(), maps.end(), o.map) - maps.begin()), o.range);
+  render::color_cloth(scene, choose_fabric(o, scene, options), colors);
+  options.map_colors = legend.steps;
+  options.map_low = legend.low;
+  options.map_high = legend.high;
+  options.ground = scene.body_mesh >= 0;
+  if (!o.values.empty()) io::write_file(o.values, render::values_csv(scene, legend));
+  std::vector<render::DrawMesh> meshes = scene.meshes; // the scene keeps its panels' own vertices
+  for (render::DrawMesh& mesh : meshes) render::smooth_cloth(mesh);
+  if (render::is_export(o.output)) {
+    render::export_scene(o.output, meshes, legend);
+    return 0;
+  }
+  std::optional<render::Renderer> renderer;
   std::vector<io::Image> images;
-  for (const auto& v : views) {
+  for (const auto& view : views) {
     tool.reporter().progress("draw", static_cast<double>(images.size()) / static_cast<double>(views.size()));
-    images.push_back(renderer.draw(render::frame_scene(scene.meshes, v[0], v[1], static_cast<double>(options.width) / options.height)));
-    if (map == Map::STRAIN || map == Map::GAP) render::draw_legend(images.back(), legend);
+    if (!view) {
+      images.push_back(render::draw_pattern(scene, options));
+    } else {
+      if (!renderer) {
+        renderer.emplace(meshes, options);
+        renderer->keep_depth(show.any());
+      }
+      const render::Camera camera = render::frame_scene(meshes, *view, static_cast<double>(options.width) / options.height);
+      images.push_back(renderer->draw(camera));
+      if (show.any()) render::draw_show(images.back(), scene, camera, *renderer, show);
+    }
+    render::draw_legend(images.back(), legend);
   }
   std::string source;
   for (const std::string& name : scene.names) source += (source.empty() ? "" : ", ") + name;
-  io::write_png(o.output,
-                images.size() == 1 ? images[0]
-                                   : render::contact_sheet(images, {}, o.columns > 0 ? o.columns : std::min<int>(4, static_cast<int>(images.size()))),
-                {{"Software", "render-png"}, {"Source", source}});
+  const int columns = o.columns > 0 ? o.columns : std::min<int>(images.size() > 8 ? 6 : 4, static_cast<int>(images.size()));
+  io::write_png(o.output, images.size() == 1 ? images[0] : render::contact_sheet(images, split(o.labels), columns),
+                {{"Software", generator_stamp("render-png")}, {"Source", source}});
   return 0;
 }
 

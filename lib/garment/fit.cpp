@@ -373,7 +373,7 @@ FitReport impossible_fit(const std::string& reason, const FitPolicy& policy) {
   FitReport report;
   report.policy = policy.name;
   report.fits = false;
-  report.verdict = FitVerdict::TOO_SMALL;
+  report.verdict = FitVerdict::IMPOSSIBLE;
   report.reason = reason;
   return report;
 }

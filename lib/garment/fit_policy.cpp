@@ -64,6 +64,7 @@ const char* verdict_name(FitVerdict verdict) {
   case FitVerdict::TIGHT: return "tight";
   case FitVerdict::TOO_LARGE: return "too large";
   case FitVerdict::TOO_SMALL: return "too small";
+  case FitVerdict::IMPOSSIBLE: return "impossible";
   default: return "ok";
   }
 }

@@ -8,8 +8,8 @@ namespace sloper::garment {
 
 inline constexpr int FIT_POLICY_VERSION = 1;
 
-enum class FitVerdict { OK, LOOSE, TIGHT, TOO_LARGE, TOO_SMALL }; ///< from good to worst
-const char* verdict_name(FitVerdict verdict);                     ///< "ok", "loose", "tight", "too large", "too small"
+enum class FitVerdict { OK, LOOSE, TIGHT, TOO_LARGE, TOO_SMALL, IMPOSSIBLE }; ///< from good to worst
+const char* verdict_name(FitVerdict verdict);                                 ///< "ok", "loose", "tight", "too large", "too small", "impossible"
 
 struct FitLimits {
   double too_small_ease = -0.03;  ///< of the body girth: below, the cloth does not go round

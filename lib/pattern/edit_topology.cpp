@@ -246,6 +246,20 @@ void split_panel(Pattern& pattern, const io::Node& node, double unit) {
     pattern.seams.push_back({names[0] + "-" + names[1], "seam", {{index, edge_one, 0, 1}}, {{other, edge_two, 1, 0}}, ""});
 }
 
+void add_point(Pattern& pattern, const io::Node& node) {
+  node.allow_only({"edit", "panel", "edge", "at", "names"});
+  const int index = panel_named(pattern, node.at("panel"));
+  const Panel panel = pattern.panels[static_cast<std::size_t>(index)];
+  const std::size_t k = static_cast<std::size_t>(outer_edge(panel, node, "edge"));
+  const double at = fraction(node, "at"), total = length(panel.edge(static_cast<int>(k)).path);
+  if (std::min(at, 1 - at) * total < AT_CORNER) node.at("at").fail("there is a corner already");
+  std::vector<Piece> pieces = pieces_of(panel);
+  corner_at(pieces, k, at);
+  if (node.has("names"))
+    for (std::size_t i = 0; i < 2; ++i) pieces[k + i].edge.name = node.at("names").at(i).string();
+  replace_panel(pattern, index, {rebuilt(panel, pieces, all_holes(panel))}, node);
+}
+
 void join_panels(Pattern& pattern, const io::Node& node) {
   node.allow_only({"edit", "seam", "name"});
   const std::string name = node.at("seam").string();

@@ -116,6 +116,7 @@ void apply(Pattern& pattern, const io::Node& node, double unit) {
   const auto panel = [&]() -> Panel& { return pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("panel")))]; };
   const auto edge = [&](Panel& p) { return edge_named(p, node.at("edge")); };
   if (what == "split" || what == "cut") return split_panel(pattern, node, unit);
+  if (what == "add-point") return add_point(pattern, node);
   if (what == "join") return join_panels(pattern, node);
   if (what == "add-dart") return add_dart(pattern, node, unit);
   if (what == "rotate-dart") return rotate_dart(pattern, node);
@@ -145,6 +146,22 @@ void apply(Pattern& pattern, const io::Node& node, double unit) {
     const Seam& seam = seam_named(pattern, node.at("seam"));
     for (const auto* side : {&seam.a, &seam.b})
       for (const Run& run : *side) move_inward(node, pattern.panels[static_cast<std::size_t>(run.panel)], run.edge, 0.5 * by);
+  } else if (what == "bend") {
+    node.allow_only({"edit", "panel", "edge", "by"});
+    Panel& p = panel();
+    // The middle of a cubic lies three quarters of the way from its chord to its two handles.
+    const Vec2 by = node.at("by").vec2() * (unit * 4 / 3);
+    Path& path = place_of_edge(p, edge(p)).edge().path;
+    const double n = static_cast<double>(path.size());
+    if (path.size() == 1) {
+      if (path[0].line) path[0] = Segment::cubic(path[0].p[0], path[0].at(1.0 / 3), path[0].at(2.0 / 3), path[0].p[3]);
+      path[0].p[1] += by, path[0].p[2] += by;
+    } else
+      for (std::size_t s = 0; s < path.size(); ++s) // along a chain the middle moves by `by`, the ends not at all
+        for (std::size_t k = 0; k < 4; ++k) {
+          const double t = (static_cast<double>(s) + static_cast<double>(k) / 3) / n;
+          path[s].p[k] += 3 * t * (1 - t) * by;
+        }
   } else if (what == "set-length") {
     node.allow_only({"edit", "panel", "edge", "seam", "length", "fixed"});
     const double length = positive_length(node, unit);
@@ -213,12 +230,13 @@ void apply(Pattern& pattern, const io::Node& node, double unit) {
     const Vec2 c = middle(p), u = p.grain, v(-u.y(), u.x());
     map_panel(p, [&](const Vec2& q) { return Vec2(c + warp * (q - c).dot(u) * u + weft * (q - c).dot(v) * v); });
   } else {
-    const std::string known[] = {"move-point", "move-edge", "set-length", "take-in", "let-out", "lengthen", "shorten",     "scale",
-                                 "grade",      "shrink",    "split",      "cut",     "join",    "add-dart", "rotate-dart", "restore"};
+    const std::string known[] = {"move-point", "move-edge", "bend",   "add-point", "set-length", "take-in", "let-out",  "lengthen",    "shorten",
+                                 "scale",      "grade",     "shrink", "split",     "cut",        "join",    "add-dart", "rotate-dart", "restore"};
     const std::string near = nearest_word(what, std::begin(known), std::end(known));
-    node.at("edit").fail("unknown edit '" + what + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)"),
-                         "known are move-point, move-edge, set-length, take-in, let-out, lengthen, shorten, scale, grade, shrink, split, cut, join, add-dart, "
-                         "rotate-dart and restore");
+    node.at("edit").fail(
+        "unknown edit '" + what + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)"),
+        "known are move-point, move-edge, bend, add-point, set-length, take-in, let-out, lengthen, shorten, scale, grade, shrink, split, cut, join, add-dart, "
+        "rotate-dart and restore");
   }
 }
 

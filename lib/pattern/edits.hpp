@@ -10,6 +10,8 @@ namespace sloper::pattern {
 /// Applies the edits of a document {"format": "edits", "version": 1, "length_unit", "edits": [...]}, in order:
 ///   move-point  {panel, edge, end: "start"|"end", by: [x, y]}     a corner; both edges that meet there follow
 ///   move-edge   {panel, edge, by: [x, y]}                         an edge as it is; its neighbours follow
+///   bend        {panel, edge, by: [x, y]}                         the middle of an edge moves, its ends stay: a line becomes a curve
+///   add-point   {panel, edge, at, names?: [first, second]}        a corner on an edge, at a fraction of its length
 ///   set-length  {panel, edge, length, fixed: "start"|"end"|"middle"}   or {seam, length}: both its sides in proportion
 ///   take-in     {panel, edge, by}                                 the edge moves inwards square to its chord; let-out: outwards;
 ///               {seam, by}                                        both sides, half of it each
@@ -27,7 +29,7 @@ namespace sloper::pattern {
 ///               {panel, center: [x, y], length, width, along?, name?}   a fisheye
 ///   rotate-dart {dart, edge, at}                                  closes a dart and opens it at another place of the outline
 ///   restore     {order, panels, seams?}                           panels to the last bit, as inverse_edits() writes them
-/// Split, cut, join, darts and restore change what edges there are, so the mesh has to be made anew; the others keep it.
+/// Add-point, split, cut, join, darts and restore change what edges there are, so the mesh has to be made anew; the others keep it.
 /// Coordinates are kept on a grid of 2^-30 m, so that move-point, move-edge, take-in and let-out are undone exactly by their opposite.
 /// @throws Error INPUT naming the edit and what it names wrongly
 void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file);

@@ -1,17 +1,37 @@
 #pragma once
-/// Where the scene is seen from: an orthographic camera that frames everything.
+/// Where the scene is seen from.
 #include <geometry/triangle_mesh.hpp>
+#include <optional>
 #include <render/scene.hpp>
 namespace sloper::render {
+
+/// What a camera is asked for; the rest follows from the scene.
+struct CameraOptions {
+  double azimuth = 0, elevation = 0; ///< rad; 0, 0 looks at the front, azimuth turns the viewer to the body's left
+  double field_of_view = 0.30;       ///< rad, vertical; 0 is orthographic
+  double field_height = 0;           ///< m that the picture is high at the target's distance; 0 frames the scene
+  std::optional<Vec3> target;        ///< m, the middle of the picture; without it the scene's middle
+};
+
+/// camera.json: {"azimuth_deg", "elevation_deg", "field_of_view_deg", "orthographic", "field_height_m", "target"}, all optional.
+/// @throws Error INPUT
+CameraOptions read_camera(const std::string& path);
+
 struct Camera {
   Mat3 turn = Mat3::Identity();                           ///< rows: right, up, towards the viewer
-  Vec3 center = Vec3::Zero();                             ///< m
-  double half_height = 1, half_width = 1, half_depth = 1; ///< m
-  /// World to clip space, -1..1 in each axis.
+  Vec3 center = Vec3::Zero();                             ///< m, in the middle of the picture
+  double half_height = 1, half_width = 1, half_depth = 1; ///< m, at the centre
+  double distance = 0;                                    ///< m from the centre to the viewer; 0 is orthographic
+  double azimuth = 0, elevation = 0;                      ///< rad
+  /// World to clip space, -1..1 in each axis after division by w.
   Mat4 matrix() const;
+  /// Pixel (from the upper left) and depth (0 near, 1 far) of a point.
+  Vec3 pixel(const Vec3& p, int width, int height) const;
 };
-/// @param azimuth, elevation  rad; 0, 0 looks at the front, azimuth turns the viewer to the body's left
-Camera frame_scene(const std::vector<DrawMesh>& meshes, double azimuth, double elevation, double width_over_height);
+
+/// Frames everything, or what the options ask for.
+Camera frame_scene(const std::vector<DrawMesh>& meshes, const CameraOptions& options, double width_over_height);
 /// Azimuth and elevation of "front", "back", "left", "right", "iso". @throws Error USAGE
-std::array<double, 2> view_angles(const std::string& view);
+CameraOptions named_view(const std::string& view);
+
 } // namespace sloper::render

@@ -1,26 +1,28 @@
 #pragma once
-/// An off-screen OpenGL context. OSMesa today; another back end only has to provide this class.
-#include <cstdint>
+/// An off-screen OpenGL 3.3 core context. Everything else in this module reaches OpenGL through it alone, so that another
+/// back end is one more class behind make_context().
 #include <memory>
+#include <string>
 #include <vector>
 namespace sloper::render {
+
+/// OSMESA draws on the processor alone. EGL asks for a surfaceless display: a graphics card where there is one, else the processor.
+enum class ContextKind { OSMESA, EGL };
+
 class Context {
 public:
-  /// @param width, height pixels, 1..16384 @throws Error INTERNAL when there is no OpenGL
-  Context(int width, int height);
-  ~Context();
-  Context(const Context&) = delete;
-  Context& operator=(const Context&) = delete;
-  int width() const { return m_width; }
-  int height() const { return m_height; }
-  /// What was drawn, RGBA rows from bottom to top; valid after glFinish.
-  const std::vector<std::uint8_t>& pixels() const { return m_pixels; }
-  /// Address of an OpenGL function. @throws Error INTERNAL
-  static void* function(const char* name);
-
-private:
-  int m_width, m_height;
-  std::vector<std::uint8_t> m_pixels;
-  void* m_context;
+  virtual ~Context() = default;
+  /// Address of an OpenGL function; null when there is none.
+  virtual void* function(const char* name) const = 0;
+  virtual void make_current() = 0;
 };
+
+/// A current context. Drawing goes to framebuffer objects. Threads of a processor back end: thread_count(); the picture is the
+/// same for any number of them.
+/// @throws Error USAGE when the kind was not built in, INTERNAL when there is no OpenGL 3.3
+std::unique_ptr<Context> make_context(ContextKind kind);
+
+/// The kinds that were built in, OSMESA first.
+std::vector<ContextKind> built_contexts();
+
 } // namespace sloper::render

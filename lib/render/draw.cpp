@@ -1,188 +1,335 @@
 #include <base/error.hpp>
 #include <base/units.hpp>
-#include <render/context.hpp>
 #include <render/draw.hpp>
+#include <render/gl.hpp>
+#include <render/occlusion.hpp>
 
-#define GL_GLEXT_PROTOTYPES 0
-#include <GL/gl.h>
-#include <GL/glext.h>
-
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace sloper::render {
 
 namespace {
 
-constexpr int OCCLUSION_SIZE = 640;      // pixels of one depth picture
-constexpr double OCCLUSION_BIAS = 0.004; // m
-
-/// OpenGL 2 functions, found at run time.
-struct Functions {
-  PFNGLCREATESHADERPROC create_shader = get<PFNGLCREATESHADERPROC>("glCreateShader");
-  PFNGLSHADERSOURCEPROC shader_source = get<PFNGLSHADERSOURCEPROC>("glShaderSource");
-  PFNGLCOMPILESHADERPROC compile_shader = get<PFNGLCOMPILESHADERPROC>("glCompileShader");
-  PFNGLGETSHADERIVPROC get_shader = get<PFNGLGETSHADERIVPROC>("glGetShaderiv");
-  PFNGLCREATEPROGRAMPROC create_program = get<PFNGLCREATEPROGRAMPROC>("glCreateProgram");
-  PFNGLATTACHSHADERPROC attach_shader = get<PFNGLATTACHSHADERPROC>("glAttachShader");
-  PFNGLLINKPROGRAMPROC link_program = get<PFNGLLINKPROGRAMPROC>("glLinkProgram");
-  PFNGLUSEPROGRAMPROC use_program = get<PFNGLUSEPROGRAMPROC>("glUseProgram");
-  template<class F> static F get(const char* name) { return reinterpret_cast<F>(Context::function(name)); }
+struct SurfaceVertex {
+  float position[3], normal[3], color[4], cloth[4], value[2];
 };
+struct LineVertex {
+  float position[3], other[3], color[4];
+};
+constexpr int GROUND_RINGS = 28, GROUND_SPOKES = 56;
+enum Kind { BODY = 0, CLOTH = 1, FLAT = 2, GROUND = 3 };
 
-const char* VERTEX_SHADER = R"(#version 120
-varying vec3 normal, color; varying float light;
-void main() {
-  gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
-  normal = gl_NormalMatrix * gl_Normal; color = gl_Color.rgb; light = gl_Color.a;
-})";
-
-// Two-sided. Sky from above, warm key from the upper left, cool fill from the right, a rim that parts cloth from ground.
-const char* FRAGMENT_SHADER = R"(#version 120
-varying vec3 normal, color; varying float light;
-void main() {
-  vec3 n = normalize(normal);
-  bool back = n.z < 0.0;
-  if (back) n = -n;
-  vec3 base = back ? color * 0.72 : color;
-  float sky = 0.5 + 0.5 * n.y;
-  vec3 key = vec3(1.0, 0.97, 0.92) * max(dot(n, normalize(vec3(-0.5, 0.55, 0.75))), 0.0);
-  vec3 fill = vec3(0.80, 0.90, 1.0) * max(dot(n, normalize(vec3(0.8, 0.1, 0.6))), 0.0);
-  float rim = pow(1.0 - n.z, 3.0);
-  vec3 lit = base * (light * (0.42 + 0.25 * sky) + (0.25 + 0.75 * light) * (0.52 * key + 0.16 * fill)) + 0.05 * rim * light;
-  vec3 srgb = mix(lit * 12.92, 1.055 * pow(max(lit, vec3(0.0)), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, lit));
-  gl_FragColor = vec4(clamp(srgb, 0.0, 1.0), 1.0);
-})";
-
-void use_shaders() {
-  const Functions gl;
-  const GLuint program = gl.create_program();
-  for (const auto& [kind, source] : {std::pair{GL_VERTEX_SHADER, VERTEX_SHADER}, std::pair{GL_FRAGMENT_SHADER, FRAGMENT_SHADER}}) {
-    const GLuint shader = gl.create_shader(kind);
-    gl.shader_source(shader, 1, &source, nullptr);
-    gl.compile_shader(shader);
-    GLint ok = 0;
-    gl.get_shader(shader, GL_COMPILE_STATUS, &ok);
-    if (!ok) throw Error(ErrorKind::INTERNAL, "", "", "a shader does not compile");
-    gl.attach_shader(program, shader);
-  }
-  gl.link_program(program);
-  gl.use_program(program);
+void put(float* to, const Vec3& v) {
+  for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(v[k]);
 }
 
-void load_camera(const Camera& camera) {
-  const Mat4 clip = camera.matrix();
-  Mat4 turn = Mat4::Identity();
-  turn.block<3, 3>(0, 0) = camera.turn;
-  glMatrixMode(GL_PROJECTION); // normals are turned by the model view part alone
-  glLoadMatrixd(Mat4(clip * turn.transpose()).data());
-  glMatrixMode(GL_MODELVIEW);
-  glLoadMatrixd(turn.data());
-}
-
-void draw_triangles(const DrawMesh& mesh) {
-  glEnableClientState(GL_VERTEX_ARRAY);
-  glVertexPointer(3, GL_DOUBLE, 0, mesh.positions.data());
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.triangles.size() * 3), GL_UNSIGNED_INT, mesh.triangles.data());
-}
-
-/// Directions spread evenly over the sphere, thinned towards the ground: light comes mostly from above.
-Vec3 sky_direction(int k, int n) {
-  const double y = 1 - 1.6 * (k + 0.5) / n, around = k * 2.399963229728653; // golden angle
-  const double r = std::sqrt(std::max(0.0, 1 - y * y));
-  return {r * std::cos(around), y, r * std::sin(around)};
+/// A disc of floor below everything; its uv run over the unit disc.
+DrawMesh make_ground(const std::vector<DrawMesh>& meshes) {
+  Box3 box;
+  for (const DrawMesh& mesh : meshes)
+    for (const Vec3& p : mesh.positions) box.add(p);
+  DrawMesh ground;
+  const double reach = 0.35 * box.size().norm();
+  const Vec3 center(box.center().x(), box.low.y() - 0.001, box.center().z());
+  for (int r = 0; r <= GROUND_RINGS; ++r)
+    for (int s = 0; s < GROUND_SPOKES; ++s) {
+      const double a = 2 * units::PI * s / GROUND_SPOKES;
+      const Vec2 uv = static_cast<double>(r) / GROUND_RINGS * Vec2(std::cos(a), std::sin(a));
+      ground.uv.push_back(uv);
+      ground.positions.push_back(center + reach * Vec3(uv.x(), 0, uv.y()));
+      ground.normals.push_back(Vec3(0, 1, 0));
+      ground.colors.push_back(Vec3::Zero());
+      if (r == 0) continue;
+      const int a0 = (r - 1) * GROUND_SPOKES + s, a1 = (r - 1) * GROUND_SPOKES + (s + 1) % GROUND_SPOKES, b0 = a0 + GROUND_SPOKES, b1 = a1 + GROUND_SPOKES;
+      ground.triangles.push_back({a0, a1, b1});
+      ground.triangles.push_back({a0, b1, b0});
+    }
+  return ground;
 }
 
 } // namespace
 
-Renderer::Renderer(const std::vector<DrawMesh>& meshes, const DrawOptions& options) : m_meshes(meshes), m_options(options) {
-  for (const DrawMesh& mesh : meshes) m_light.emplace_back(mesh.positions.size(), options.occlusion_directions > 0 ? 0.f : 1.f);
-  if (options.occlusion_directions <= 0) return;
-  Context context(OCCLUSION_SIZE, OCCLUSION_SIZE);
-  glEnable(GL_DEPTH_TEST);
-  glViewport(0, 0, OCCLUSION_SIZE, OCCLUSION_SIZE);
-  std::vector<float> depth(OCCLUSION_SIZE * OCCLUSION_SIZE);
-  std::vector<std::vector<float>> weight;
-  for (const DrawMesh& mesh : meshes) weight.emplace_back(mesh.positions.size(), 0.f);
-  for (int k = 0; k < options.occlusion_directions; ++k) {
-    const Vec3 from = sky_direction(k, options.occlusion_directions);
-    const Camera camera = frame_scene(meshes, std::atan2(from.x(), from.z()), std::asin(std::clamp(from.y(), -1.0, 1.0)), 1);
-    load_camera(camera);
-    glClear(GL_DEPTH_BUFFER_BIT | GL_COLOR_BUFFER_BIT);
-    for (const DrawMesh& mesh : meshes) draw_triangles(mesh);
-    glReadPixels(0, 0, OCCLUSION_SIZE, OCCLUSION_SIZE, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
-    const Mat4 clip = camera.matrix();
-    const double bias = 0.5 * OCCLUSION_BIAS / camera.half_depth;
-    for (std::size_t m = 0; m < meshes.size(); ++m)
-      for (std::size_t v = 0; v < meshes[m].positions.size(); ++v) {
-        double facing = meshes[m].normals[v].dot(from);
-        if (meshes[m].is_cloth) facing = std::abs(facing); // both sides are seen
-        if (facing <= 0.05) continue;
-        const Vec3 p = (clip * meshes[m].positions[v].homogeneous()).head<3>();
-        const int x = std::clamp(static_cast<int>((0.5 * p.x() + 0.5) * OCCLUSION_SIZE), 0, OCCLUSION_SIZE - 1);
-        const int y = std::clamp(static_cast<int>((0.5 * p.y() + 0.5) * OCCLUSION_SIZE), 0, OCCLUSION_SIZE - 1);
-        weight[m][v] += static_cast<float>(facing);
-        if (0.5 * p.z() + 0.5 <= depth[static_cast<std::size_t>(y) * OCCLUSION_SIZE + x] + bias / facing) m_light[m][v] += static_cast<float>(facing);
-      }
-  }
-  for (std::size_t m = 0; m < meshes.size(); ++m)
-    for (std::size_t v = 0; v < m_light[m].size(); ++v) m_light[m][v] = weight[m][v] > 0 ? 0.25f + 0.75f * m_light[m][v] / weight[m][v] : 0.6f;
-}
+struct Renderer::Impl {
+  const std::vector<DrawMesh>& meshes;
+  DrawOptions options;
+  std::unique_ptr<Context> context;
+  Gl gl;
+  GLuint surface_program = 0, line_program = 0, surface_array = 0, line_array = 0, surface_buffer = 0, line_buffer = 0, framebuffer = 0;
+  DrawMesh ground;
+  std::unique_ptr<Occlusion> occlusion;
+  std::vector<SurfaceVertex> vertices; ///< of all meshes, then the ground
+  struct Part {
+    int kind, first_index, n_indices, first_vertex, first_line, n_lines;
+  };
+  std::vector<Part> parts; ///< cloth first: it hides most of the body
+  std::vector<Vec3> points, normals;
+  double lit_azimuth = 1e9;
+  bool wants_depth = false;
+  std::vector<float> depth;
 
-io::Image Renderer::draw(const Camera& camera) const {
-  const int s = m_options.supersample;
-  Context context(m_options.width * s, m_options.height * s);
-  glViewport(0, 0, context.width(), context.height());
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
-  const float ground = m_options.background == Background::GREY ? 0.86f : 1.f;
-  glClearColor(ground, ground, ground, m_options.background == Background::TRANSPARENT ? 0.f : 1.f);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  use_shaders();
-  load_camera(camera);
-  for (std::size_t m = 0; m < m_meshes.size(); ++m) {
-    const DrawMesh& mesh = m_meshes[m];
-    std::vector<float> color;
-    color.reserve(mesh.colors.size() * 4);
-    for (std::size_t v = 0; v < mesh.colors.size(); ++v) {
-      for (int k = 0; k < 3; ++k) color.push_back(static_cast<float>(mesh.colors[v][k]));
-      color.push_back(m_light[m][v]);
-    }
-    glEnableClientState(GL_NORMAL_ARRAY);
-    glEnableClientState(GL_COLOR_ARRAY);
-    glNormalPointer(GL_DOUBLE, 0, mesh.normals.data());
-    glColorPointer(4, GL_FLOAT, 0, color.data());
-    glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(1, 1);
-    draw_triangles(mesh);
-    glDisable(GL_POLYGON_OFFSET_FILL);
-    if (mesh.lines.empty()) continue;
-    for (std::size_t i = 0; i < color.size(); ++i)
-      if (i % 4 != 3) color[i] *= 0.35f;
-    glLineWidth(1.4f * static_cast<float>(s));
-    glDrawElements(GL_LINES, static_cast<GLsizei>(mesh.lines.size() * 2), GL_UNSIGNED_INT, mesh.lines.data());
+  Impl(const std::vector<DrawMesh>& m, const DrawOptions& o) : meshes(m), options(o), context(make_context(o.context)), gl(*context) {
+    make_framebuffer();
+    surface_program = gl.program(SURFACE_VERTEX_SHADER, SURFACE_FRAGMENT_SHADER);
+    line_program = gl.program(LINE_VERTEX_SHADER, LINE_FRAGMENT_SHADER);
+    if (options.ground) ground = make_ground(meshes);
+    gather_vertices();
+    load_print();
   }
-  glFinish();
-  io::Image image;
-  image.width = m_options.width;
-  image.height = m_options.height;
-  image.rgba.resize(4 * static_cast<std::size_t>(image.width) * image.height);
-  const std::size_t row = 4 * static_cast<std::size_t>(context.width());
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      unsigned sum[4] = {};
-      for (int dy = 0; dy < s; ++dy)
-        for (int dx = 0; dx < s; ++dx) {
-          const std::uint8_t* p =
-              context.pixels().data() + row * static_cast<std::size_t>((image.height - 1 - y) * s + dy) + 4 * static_cast<std::size_t>(x * s + dx);
-          for (int k = 0; k < 3; ++k) sum[k] += p[k] * (p[3] ? 1u : 0u); // uncovered samples carry no colour
-          sum[3] += p[3] ? 1 : 0;
-        }
-      std::uint8_t* out = image.at(x, y);
-      const unsigned n = static_cast<unsigned>(s * s);
-      for (int k = 0; k < 3; ++k) out[k] = sum[3] ? static_cast<std::uint8_t>((sum[k] + sum[3] / 2) / sum[3]) : 255;
-      out[3] = static_cast<std::uint8_t>((255 * sum[3] + n / 2) / n);
+
+  void make_framebuffer() {
+    const int width = options.width * options.supersample, height = options.height * options.supersample;
+    GLint largest = 0;
+    gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    if (width > largest || height > largest)
+      throw Error(ErrorKind::USAGE, "", "--size", "OpenGL draws at most " + std::to_string(largest / options.supersample) + " pixels a side here");
+    GLuint buffers[2];
+    gl.GenFramebuffers(1, &framebuffer);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.GenRenderbuffers(2, buffers);
+    const GLenum formats[] = {GL_RGBA8, GL_DEPTH_COMPONENT24}, slots[] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
+    for (int k = 0; k < 2; ++k) {
+      gl.BindRenderbuffer(GL_RENDERBUFFER, buffers[k]);
+      gl.RenderbufferStorage(GL_RENDERBUFFER, formats[k], width, height);
+      gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, slots[k], GL_RENDERBUFFER, buffers[k]);
     }
-  return image;
+    if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+      throw Error(ErrorKind::INTERNAL, "", "", "OpenGL gives no picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
+                  "ask for a smaller --size");
+  }
+
+  void append(const DrawMesh& mesh, int kind, std::vector<GLuint>& indices, std::vector<LineVertex>& lines, std::vector<GLuint>& line_indices) {
+    const int base = static_cast<int>(vertices.size());
+    const bool mapped = !options.map_colors.empty() && !mesh.values.empty();
+    Part part{kind, static_cast<int>(indices.size()), static_cast<int>(mesh.triangles.size() * 3), base, static_cast<int>(line_indices.size()), 0};
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      SurfaceVertex out{};
+      put(out.position, mesh.positions[v]);
+      put(out.normal, mesh.normals[v]);
+      put(out.color, mesh.colors[v]);
+      out.color[3] = 1;
+      out.cloth[2] = out.cloth[3] = static_cast<float>(BORDER_REACH);
+      if (!mesh.uv.empty()) {
+        out.cloth[0] = static_cast<float>(mesh.uv[v].x());
+        out.cloth[1] = static_cast<float>(mesh.uv[v].y());
+      }
+      if (!mesh.seam.empty()) {
+        out.cloth[2] = static_cast<float>(mesh.seam[v]);
+        out.cloth[3] = static_cast<float>(mesh.hem[v]);
+      }
+      out.value[0] =
+          mapped && mesh.values[v] != NO_VALUE ? static_cast<float>((mesh.values[v] - options.map_low) / (options.map_high - options.map_low)) : -10.f;
+      if (out.value[0] > -9.f) out.value[0] = std::clamp(out.value[0], 0.f, 1.f);
+      out.value[1] = 1;
+      vertices.push_back(out);
+      points.push_back(mesh.positions[v]);
+      normals.push_back(mesh.normals[v]);
+    }
+    for (const Triangle& t : mesh.triangles)
+      for (int v : t) indices.push_back(static_cast<GLuint>(base + v));
+    if (options.border_lines)
+      for (const auto& [a, b] : mesh.lines) {
+        const auto at = static_cast<GLuint>(lines.size());
+        for (int end = 0; end < 2; ++end)
+          for (float side : {-1.f, 1.f}) {
+            LineVertex out{};
+            put(out.position, mesh.positions[end ? b : a]);
+            put(out.other, mesh.positions[end ? a : b]);
+            put(out.color, mesh.is_flat || mapped ? Vec3(0.12, 0.12, 0.13) : Vec3(0.62 * mesh.colors[a].array().pow(1 / 2.2)));
+            out.color[3] = side;
+            lines.push_back(out);
+          }
+        for (GLuint k : {0u, 1u, 2u, 2u, 3u, 0u}) line_indices.push_back(at + k);
+      }
+    part.n_lines = static_cast<int>(line_indices.size()) - part.first_line;
+    parts.push_back(part);
+  }
+
+  void gather_vertices() {
+    std::vector<GLuint> indices, line_indices;
+    std::vector<LineVertex> lines;
+    for (bool cloth : {true, false})
+      for (const DrawMesh& mesh : meshes)
+        if (mesh.is_cloth == cloth) append(mesh, mesh.is_flat ? FLAT : cloth ? CLOTH : BODY, indices, lines, line_indices);
+    if (!ground.positions.empty()) append(ground, GROUND, indices, lines, line_indices);
+    if (options.occlusion_directions > 0) {
+      occlusion = std::make_unique<Occlusion>(meshes);
+      const std::vector<float> sky = occlusion->sky(points, normals, options.occlusion_directions);
+      for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v].color[3] = sky[v];
+      if (!ground.positions.empty()) soften_ground();
+    }
+    auto upload = [&](GLuint& array, GLuint& buffer, const auto& data, const std::vector<GLuint>& elements, std::initializer_list<int> sizes) {
+      GLuint element_buffer = 0;
+      gl.GenVertexArrays(1, &array);
+      gl.BindVertexArray(array);
+      gl.GenBuffers(1, &buffer);
+      gl.GenBuffers(1, &element_buffer);
+      gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
+      gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data.size() * sizeof data[0]), data.data(), GL_STATIC_DRAW);
+      gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, element_buffer);
+      gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(elements.size() * sizeof(GLuint)), elements.data(), GL_STATIC_DRAW);
+      GLuint slot = 0;
+      std::size_t offset = 0;
+      for (int size : sizes) {
+        gl.EnableVertexAttribArray(slot);
+        gl.VertexAttribPointer(slot++, size, GL_FLOAT, GL_FALSE, sizeof data[0], reinterpret_cast<const void*>(offset));
+        offset += static_cast<std::size_t>(size) * sizeof(float);
+      }
+    };
+    if (!lines.empty()) upload(line_array, line_buffer, lines, line_indices, {3, 3, 4});
+    upload(surface_array, surface_buffer, vertices, indices, {3, 3, 4, 4, 2});
+  }
+
+  /// The few directions of the sky would show as rays on the floor.
+  void soften_ground() {
+    const std::size_t first = vertices.size() - ground.positions.size();
+    std::vector<float> light(ground.positions.size());
+    for (std::size_t v = 0; v < light.size(); ++v) light[v] = vertices[first + v].color[3];
+    for (int round = 0; round < 6; ++round) {
+      const std::vector<float> before = light;
+      for (int r = 0; r <= GROUND_RINGS; ++r)
+        for (int s = 0; s < GROUND_SPOKES; ++s) {
+          float sum = 0, weight = 0;
+          for (int dr = -1; dr <= 1; ++dr)
+            for (int ds = -2; ds <= 2; ++ds) {
+              const int q = std::clamp(r + dr, 0, GROUND_RINGS);
+              sum += before[static_cast<std::size_t>(q * GROUND_SPOKES + (s + ds + GROUND_SPOKES) % GROUND_SPOKES)];
+              ++weight;
+            }
+          light[static_cast<std::size_t>(r * GROUND_SPOKES + s)] = sum / weight;
+        }
+    }
+    for (std::size_t v = 0; v < light.size(); ++v) vertices[first + v].color[3] = light[v];
+  }
+
+  void load_print() {
+    if (options.print.rgba.empty()) return;
+    GLuint texture = 0;
+    gl.GenTextures(1, &texture);
+    gl.BindTexture(GL_TEXTURE_2D, texture);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, options.print.width, options.print.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, options.print.rgba.data());
+    gl.GenerateMipmap(GL_TEXTURE_2D);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  }
+
+  /// The key light goes round with the viewer, so that every view is lit alike.
+  void light_from(double azimuth) {
+    if (!occlusion || azimuth == lit_azimuth) return;
+    lit_azimuth = azimuth;
+    const Vec3 right(std::cos(azimuth), 0, -std::sin(azimuth)), front(std::sin(azimuth), 0, std::cos(azimuth));
+    const Vec3 towards = (-0.62 * right + Vec3(0, 0.60, 0) + 0.50 * front).normalized();
+    const std::vector<float> key = occlusion->key(points, normals, towards, 0.16);
+    for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v].value[1] = key[v];
+    gl.BindBuffer(GL_ARRAY_BUFFER, surface_buffer);
+    gl.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(vertices.size() * sizeof vertices[0]), vertices.data());
+  }
+
+  void draw_parts(const Camera& camera) {
+    const Eigen::Matrix4f clip = camera.matrix().cast<float>();
+    const Eigen::Matrix3f turn = camera.turn.cast<float>();
+    auto uniform = [&](GLuint program, const char* name) { return gl.GetUniformLocation(program, name); };
+    gl.UseProgram(surface_program);
+    gl.UniformMatrix4fv(uniform(surface_program, "clip"), 1, GL_FALSE, clip.data());
+    gl.UniformMatrix3fv(uniform(surface_program, "turn"), 1, GL_FALSE, turn.data());
+    gl.Uniform3f(uniform(surface_program, "center"), static_cast<float>(camera.center.x()), static_cast<float>(camera.center.y()),
+                 static_cast<float>(camera.center.z()));
+    gl.Uniform1f(uniform(surface_program, "eye"), static_cast<float>(camera.distance));
+    gl.Uniform1i(uniform(surface_program, "fabric"), static_cast<int>(options.fabric));
+    gl.Uniform1i(uniform(surface_program, "steps"), static_cast<int>(options.map_colors.size()));
+    gl.Uniform1f(uniform(surface_program, "print_size"), static_cast<float>(options.print_size));
+    gl.Uniform3f(uniform(surface_program, "accent"), 0.78f, 0.76f, 0.70f);
+    if (options.map_colors.size() == 8) {
+      float scale[24];
+      for (int k = 0; k < 8; ++k) put(scale + 3 * k, options.map_colors[k]);
+      gl.Uniform3fv(uniform(surface_program, "scale"), 8, scale);
+    }
+    gl.UseProgram(line_program);
+    gl.UniformMatrix4fv(uniform(line_program, "clip"), 1, GL_FALSE, clip.data());
+    gl.Uniform2f(uniform(line_program, "half_size"), 0.5f * static_cast<float>(options.width), 0.5f * static_cast<float>(options.height));
+    gl.Uniform1f(uniform(line_program, "width"), 0.9f * std::max(1.f, static_cast<float>(std::min(options.width, options.height)) / 1200.f));
+    gl.Uniform1f(uniform(line_program, "nearer"), static_cast<float>(0.0025 / (2 * camera.half_depth)));
+    for (const Part& part : parts) {
+      const bool ground_seen = part.kind == GROUND && camera.elevation > units::radians(2);
+      if (part.kind == GROUND && !ground_seen) continue;
+      gl.UseProgram(surface_program);
+      gl.Uniform1i(uniform(surface_program, "kind"), part.kind);
+      gl.BindVertexArray(surface_array);
+      if (part.kind == GROUND) {
+        gl.Enable(GL_BLEND);
+        gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+      }
+      gl.DrawElements(GL_TRIANGLES, part.n_indices, GL_UNSIGNED_INT,
+                      reinterpret_cast<const void*>(static_cast<std::size_t>(part.first_index) * sizeof(GLuint)));
+      gl.Disable(GL_BLEND);
+      if (part.n_lines == 0) continue;
+      gl.UseProgram(line_program);
+      gl.BindVertexArray(line_array);
+      gl.DrawElements(GL_TRIANGLES, part.n_lines, GL_UNSIGNED_INT, reinterpret_cast<const void*>(static_cast<std::size_t>(part.first_line) * sizeof(GLuint)));
+    }
+  }
+
+  /// Means of squares, laid over the ground colour, rows from the top.
+  io::Image resolve(const std::vector<std::uint8_t>& pixels) const {
+    io::Image image;
+    image.width = options.width;
+    image.height = options.height;
+    image.rgba.resize(4 * static_cast<std::size_t>(image.width) * image.height);
+    const int s = options.supersample;
+    const unsigned n = static_cast<unsigned>(s * s);
+    const std::size_t row = 4 * static_cast<std::size_t>(image.width) * s;
+    const unsigned ground_grey = options.background == Background::GREY ? 219 : 255;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        unsigned sum[4] = {};
+        const std::uint8_t* corner = pixels.data() + row * static_cast<std::size_t>((image.height - 1 - y) * s) + 4 * static_cast<std::size_t>(x * s);
+        for (int dy = 0; dy < s; ++dy)
+          for (int dx = 0; dx < s; ++dx)
+            for (int k = 0; k < 4; ++k) sum[k] += corner[row * static_cast<std::size_t>(dy) + 4 * static_cast<std::size_t>(dx) + k];
+        std::uint8_t* out = image.at(x, y);
+        if (options.background == Background::TRANSPARENT) { // colours are multiplied by coverage: undo that
+          for (int k = 0; k < 3; ++k) out[k] = sum[3] ? static_cast<std::uint8_t>(std::min(255u, (255 * sum[k] + sum[3] / 2) / sum[3])) : 0;
+          out[3] = static_cast<std::uint8_t>((sum[3] + n / 2) / n);
+        } else {
+          const unsigned rest = 255 * n - sum[3];
+          for (int k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>((255 * sum[k] + rest * ground_grey + 255 * n / 2) / (255 * n));
+          out[3] = 255;
+        }
+      }
+    return image;
+  }
+
+  io::Image draw(const Camera& camera) {
+    context->make_current();
+    light_from(camera.azimuth);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    const int width = options.width * options.supersample, height = options.height * options.supersample;
+    gl.Viewport(0, 0, width, height);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LEQUAL);
+    gl.ClearColor(0, 0, 0, 0);
+    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    draw_parts(camera);
+    std::vector<std::uint8_t> pixels(4 * static_cast<std::size_t>(width) * height);
+    gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+    if (wants_depth) {
+      depth.resize(static_cast<std::size_t>(width) * height);
+      gl.ReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+    }
+    return resolve(pixels);
+  }
+};
+
+Renderer::Renderer(const std::vector<DrawMesh>& meshes, const DrawOptions& options) : m_impl(std::make_unique<Impl>(meshes, options)) {}
+Renderer::~Renderer() = default;
+io::Image Renderer::draw(const Camera& camera) { return m_impl->draw(camera); }
+void Renderer::keep_depth(bool yes) { m_impl->wants_depth = yes; }
+
+bool Renderer::is_visible(const Vec3& pixel, double slack) const {
+  const Impl& impl = *m_impl;
+  const int s = impl.options.supersample, x = static_cast<int>(pixel.x() * s), y = static_cast<int>((impl.options.height - pixel.y()) * s);
+  if (impl.depth.empty() || x < 0 || y < 0 || x >= impl.options.width * s || y >= impl.options.height * s) return true;
+  return pixel.z() - slack <= impl.depth[static_cast<std::size_t>(y) * impl.options.width * s + x];
 }
 
 } // namespace sloper::render

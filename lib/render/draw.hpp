@@ -1,24 +1,46 @@
 #pragma once
 /// Drawing a scene into a picture.
 #include <io/png.hpp>
+#include <memory>
 #include <render/camera.hpp>
+#include <render/context.hpp>
 namespace sloper::render {
+
 enum class Background { WHITE, GREY, TRANSPARENT };
+/// What cloth looks like that has pattern coordinates; PRINT shows DrawOptions::print.
+enum class Fabric { PLAIN, WOVEN, TWILL, STRIPES, CHECKS, PRINT };
+
 struct DrawOptions {
   int width = 800, height = 1000;
   int supersample = 2;           ///< each pixel is the mean of its square
-  int occlusion_directions = 48; ///< of the ambient light; 0 leaves it unshadowed
+  int occlusion_directions = 32; ///< of the ambient light; 0 leaves everything unshadowed
   Background background = Background::WHITE;
+  bool ground = true;       ///< a soft shadow on the floor, seen from above the horizon
+  bool border_lines = true; ///< seams and hems
+  Fabric fabric = Fabric::WOVEN;
+  io::Image print;              ///< repeats along warp and weft
+  double print_size = 0.1;      ///< m, width and height of one repeat
+  std::vector<Vec3> map_colors; ///< eight steps, linear; empty: no map
+  double map_low = 0, map_high = 1;
+  ContextKind context = ContextKind::OSMESA;
 };
-/// Per-vertex ambient occlusion and shading baked once; any number of views drawn from it.
+
+/// Light is baked and everything handed to OpenGL once; any number of views are then drawn from it.
 class Renderer {
 public:
+  /// @param meshes kept by reference @throws Error INTERNAL without OpenGL, USAGE when the picture is larger than it can draw
   Renderer(const std::vector<DrawMesh>& meshes, const DrawOptions& options);
-  io::Image draw(const Camera& camera) const;
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+  io::Image draw(const Camera& camera);
+  /// True where nothing of the picture drawn last is nearer than a point at this pixel and depth, less `slack` (depth).
+  bool is_visible(const Vec3& pixel, double slack) const;
+  /// Reads depths back with each picture, for is_visible().
+  void keep_depth(bool yes);
 
 private:
-  const std::vector<DrawMesh>& m_meshes;
-  DrawOptions m_options;
-  std::vector<std::vector<float>> m_light; ///< by mesh: share of the sky that each vertex sees, 0..1
+  struct Impl;
+  std::unique_ptr<Impl> m_impl;
 };
 } // namespace sloper::render

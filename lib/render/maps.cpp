@@ -1,55 +1,206 @@
 #include <base/error.hpp>
-#include <collision/body_collider.hpp>
-#include <render/scene.hpp>
+#include <garment/fit.hpp>
+#include <render/maps.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace sloper::render {
 
 namespace {
 
-void summarise(std::vector<double> values, Legend& legend) {
-  if (values.empty()) return;
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  legend.p50 = values[static_cast<std::size_t>(0.5 * last)];
-  legend.p99 = values[static_cast<std::size_t>(0.99 * last)];
-  legend.largest = values.back();
+using garment::Garment;
+using Flat = Eigen::Matrix2d;
+using Deformation = Eigen::Matrix<double, 3, 2>;
+
+constexpr double TOUCHING = 0.003; // m beyond the drape's contact gap at which cloth still presses
+constexpr double FAR = 0.3;        // m: gaps are measured up to here
+
+const garment::Material& material_of(const Garment& g, int panel) {
+  static const garment::Material standard;
+  auto found = g.materials.find(g.panels.panels[panel].material);
+  if (found == g.materials.end()) found = g.materials.find("");
+  return found == g.materials.end() ? standard : found->second;
 }
 
-/// Length-weighted mean strain of the edges around each panel vertex.
-std::vector<double> vertex_strain(const garment::Garment& g) {
-  const pattern::PanelMesh& panels = g.panels;
-  std::vector<double> sum(panels.pattern.size(), 0), weight(panels.pattern.size(), 0);
-  for (const Triangle& t : panels.triangles)
-    for (int k = 0; k < 3; ++k) {
-      const int a = t[k], b = t[(k + 1) % 3];
-      const double rest = (panels.pattern[b] - panels.pattern[a]).norm();
-      if (rest <= 0) continue;
-      const double stretched = (g.position[g.particle_of[b]] - g.position[g.particle_of[a]]).norm() - rest;
-      for (int v : {a, b}) {
-        sum[v] += stretched;
-        weight[v] += rest;
+/// A triangle's sides as columns, relaxed lengths taken into account: where they lie in the plane spanned by weft and warp.
+Flat rest_to_fabric(const Flat& sides, const std::array<double, 3>* scale) {
+  if (!scale) return Flat::Identity();
+  const double a = sides.col(0).norm() * (*scale)[0], b = (sides.col(1) - sides.col(0)).norm() * (*scale)[1], c = sides.col(1).norm() * (*scale)[2];
+  if (!(a > 0 && c > 0)) return Flat::Identity();
+  const double x = (a * a + c * c - b * b) / (2 * a);
+  Flat scaled;
+  scaled << a, x, 0, std::sqrt(std::max(1e-18, c * c - x * x));
+  return scaled * sides.inverse(); // its turn does not matter: only lengths are asked
+}
+
+/// Calls visit(triangle, panel, deformation, relaxed shape, area) for each triangle that has an area in the pattern.
+template<class F> void for_triangles(const Garment& g, F&& visit) {
+  for (std::size_t p = 0; p < g.panels.panels.size(); ++p) {
+    const pattern::PanelInfo& panel = g.panels.panels[p];
+    const Vec2 warp = panel.grain.normalized(), weft(warp.y(), -warp.x());
+    for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
+      const Triangle& t = g.panels.triangles[f];
+      Flat sides;
+      Deformation moved;
+      for (int k = 0; k < 2; ++k) {
+        const Vec2 e = g.panels.pattern[t[k + 1]] - g.panels.pattern[t[0]];
+        sides.col(k) << e.dot(weft), e.dot(warp);
+        moved.col(k) = g.position[g.particle_of[t[k + 1]]] - g.position[g.particle_of[t[0]]];
       }
+      const double area = 0.5 * std::abs(sides.determinant());
+      if (area < 1e-12) continue;
+      visit(f, static_cast<int>(p), Deformation(moved * sides.inverse()), rest_to_fabric(sides, g.rest_scale.empty() ? nullptr : &g.rest_scale[f]),
+            Flat(sides.inverse()), area);
     }
-  for (std::size_t v = 0; v < sum.size(); ++v) sum[v] /= std::max(weight[v], 1e-12);
-  return sum;
-}
-
-void color_cloth(Scene& scene, const std::vector<std::vector<double>>& values, const Legend& legend) {
-  std::size_t at = 0;
-  for (DrawMesh& mesh : scene.meshes) {
-    if (!mesh.is_cloth || at >= values.size()) continue;
-    for (std::size_t v = 0; v < values[at].size(); ++v) {
-      const double span = legend.diverging ? legend.high : legend.high - legend.low;
-      mesh.colors[v] = scale_color((values[at][v] - (legend.diverging ? 0 : legend.low)) / std::max(span, 1e-12), legend.diverging);
-    }
-    ++at;
   }
 }
 
+/// Area-weighted means at panel vertices.
+struct VertexMean {
+  std::vector<double> sum, weight;
+  explicit VertexMean(std::size_t n) : sum(n, 0), weight(n, 0) {}
+  void add(const Triangle& t, double value, double w) {
+    for (int v : t) {
+      sum[v] += w * value;
+      weight[v] += w;
+    }
+  }
+  std::vector<double> result() {
+    for (std::size_t v = 0; v < sum.size(); ++v) sum[v] = weight[v] > 0 ? sum[v] / weight[v] : NO_VALUE;
+    return std::move(sum);
+  }
+};
+
+double strain_along(const Deformation& f, const Flat& rest, const Vec2& d) { return (f * d).norm() / std::max((rest * d).norm(), 1e-12) - 1; }
+double larger(double a, double b) { return std::abs(a) >= std::abs(b) ? a : b; }
+
+std::vector<double> strain_values(const Garment& g, Map map) {
+  VertexMean mean(g.panels.pattern.size());
+  const double r = std::sqrt(0.5);
+  for_triangles(g, [&](int f, int, const Deformation& d, const Flat& rest, const Flat&, double area) {
+    const double weft = strain_along(d, rest, {1, 0}), warp = strain_along(d, rest, {0, 1});
+    const double value = map == Map::WARP   ? warp
+                         : map == Map::WEFT ? weft
+                         : map == Map::BIAS ? larger(strain_along(d, rest, {r, r}), strain_along(d, rest, {r, -r}))
+                                            : larger(warp, weft);
+    mean.add(g.panels.triangles[f], 100 * value, area);
+  });
+  return mean.result();
+}
+
+/// Signed distances of panel vertices to the skin, m.
+std::vector<double> gaps(const Garment& g, const collision::BodyCollider& body) {
+  std::vector<double> by_particle(g.position.size());
+  for (std::size_t i = 0; i < by_particle.size(); ++i) {
+    const auto d = body.signed_distance(g.position[i], FAR);
+    by_particle[i] = d.triangle < 0 ? FAR : d.distance;
+  }
+  std::vector<double> by_vertex;
+  for (int p : g.particle_of) by_vertex.push_back(by_particle[p]);
+  return by_vertex;
+}
+
+std::vector<double> pressure_values(const Garment& g, const collision::BodyCollider& body) {
+  const std::vector<Vec3> normals = vertex_normals({g.position, g.particle_triangles()});
+  VertexMean mean(g.panels.pattern.size());
+  for_triangles(g, [&](int f, int panel, const Deformation& d, const Flat& rest, const Flat& inverse, double area) {
+    const garment::Material& m = material_of(g, panel);
+    const Triangle& t = g.panels.triangles[f];
+    Deformation turned;
+    for (int k = 0; k < 2; ++k) turned.col(k) = normals[g.particle_of[t[k + 1]]] - normals[g.particle_of[t[0]]];
+    turned = turned * inverse;
+    double pressure = 0;
+    const double stiffness[] = {m.stretch_weft_n_m, m.stretch_warp_n_m};
+    for (int k = 0; k < 2; ++k) {
+      const Vec2 e = k == 0 ? Vec2(1, 0) : Vec2(0, 1);
+      const double curvature = (turned * e).dot(d * e) / std::max((d * e).squaredNorm(), 1e-12);
+      pressure += stiffness[k] * std::max(strain_along(d, rest, e), 0.0) * std::max(curvature, 0.0);
+    }
+    mean.add(t, pressure, area);
+  });
+  std::vector<double> values = mean.result();
+  const std::vector<double> gap = gaps(g, body);
+  for (std::size_t v = 0; v < values.size(); ++v)
+    if (gap[v] > g.offset_m + TOUCHING && values[v] != NO_VALUE) values[v] = 0;
+  return values;
+}
+
+std::vector<double> ease_values(const Garment& g, const body::Body& body, const collision::BodyCollider& skin) {
+  if (g.bind.empty())
+    throw Error(ErrorKind::USAGE, "", "--map ease", "needs a garment that hangs on a body", "give the shirt.json that drape or retarget-garment wrote");
+  std::map<double, double> ease; // by height
+  for (const garment::FitRow& row : garment::fit_garment(g, body, skin, garment::standard_fit_policy()).rows)
+    if (row.kind == "level") ease[row.height_m] = 100 * row.ease_m;
+  if (ease.empty()) throw Error(ErrorKind::USAGE, "", "--map ease", "no trunk level goes through this garment");
+  std::vector<double> values;
+  for (int particle : g.particle_of) {
+    double arm = 0;
+    for (const garment::BindWeight& w : g.bind.particles[particle])
+      if (g.bind.frames[w.frame].find("arm") != std::string::npos) arm += w.weight;
+    const double y = g.position[particle].y();
+    const auto above = ease.lower_bound(y);
+    if (arm > 0.5) values.push_back(NO_VALUE);
+    else if (above == ease.end()) values.push_back(ease.rbegin()->second);
+    else if (above == ease.begin()) values.push_back(above->second);
+    else {
+      const auto below = std::prev(above);
+      values.push_back(below->second + (above->second - below->second) * (y - below->first) / (above->first - below->first));
+    }
+  }
+  return values;
+}
+
+void summarise(const std::vector<std::vector<double>>& lists, Legend& legend) {
+  std::vector<double> sizes;
+  for (const auto& list : lists)
+    for (double v : list)
+      if (v != NO_VALUE) sizes.push_back(std::abs(v));
+  if (sizes.empty()) return;
+  std::sort(sizes.begin(), sizes.end());
+  const auto last = static_cast<double>(sizes.size() - 1);
+  legend.p50 = sizes[static_cast<std::size_t>(0.5 * last)];
+  legend.p99 = sizes[static_cast<std::size_t>(0.99 * last)];
+  legend.largest = sizes.back();
+}
+
+/// The first of the ranges that holds 99 of 100 values, or the last.
+double choose_range(double p99, std::initializer_list<double> ranges) {
+  for (double r : ranges)
+    if (p99 <= r) return r;
+  return *(ranges.end() - 1);
+}
+
+void color_parts(Scene& scene) {
+  if (!scene.body) throw Error(ErrorKind::USAGE, "", "--map parts", "needs a body", "give body.json as a document");
+  static const int colors[] = {0xc4a484, 0x7fa3c7, 0xd9b45b, 0xc98a9c, 0x7fb69a, 0x9a8fc0};
+  DrawMesh& mesh = scene.meshes[scene.body_mesh];
+  DrawMesh split = mesh; // corners of their own, so that parts have sharp borders
+  split.positions.clear();
+  split.normals.clear();
+  split.colors.clear();
+  std::map<std::array<int, 2>, int> vertex;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+    for (int& v : split.triangles[f]) {
+      const int part = static_cast<int>(scene.body->face_part[f]);
+      const auto [found, is_new] = vertex.try_emplace({part, v}, static_cast<int>(split.positions.size()));
+      if (is_new) {
+        split.positions.push_back(mesh.positions[v]);
+        split.normals.push_back(mesh.normals[v]);
+        split.colors.push_back(linear_color(part < body::N_PARTS ? colors[part] : 0x909090));
+      }
+      v = found->second;
+    }
+  mesh = std::move(split);
+}
+
 } // namespace
+
+const std::vector<std::string>& map_names() {
+  static const std::vector<std::string> names = {"none", "strain", "warp", "weft", "bias", "gap", "pressure", "ease", "penetration", "difference", "parts"};
+  return names;
+}
 
 Vec3 scale_color(double t, bool diverging) {
   // Anchors in linear light. Sequential: dark blue - teal - yellow, rising evenly in lightness. Diverging: blue - white - red.
@@ -61,51 +212,82 @@ Vec3 scale_color(double t, bool diverging) {
   return anchors[k] + (s - k) * (anchors[k + 1] - anchors[k]);
 }
 
-Legend apply_map(Scene& scene, Map map) {
+Legend apply_map(Scene& scene, Map map, double limit) {
   Legend legend;
   if (map == Map::NONE) return legend;
   if (map == Map::PARTS) {
-    if (!scene.body) throw Error(ErrorKind::USAGE, "", "--map parts", "needs a body", "give body.json as a document");
-    static const Vec3 colors[] = {{0.55, 0.30, 0.10}, {0.10, 0.25, 0.50}, {0.65, 0.45, 0.05}, {0.60, 0.10, 0.20}, {0.05, 0.35, 0.20}, {0.30, 0.15, 0.45}};
-    for (DrawMesh& mesh : scene.meshes) {
-      if (mesh.is_cloth || mesh.triangles.size() != scene.body->face_part.size()) continue;
-      for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-        for (int v : mesh.triangles[f]) mesh.colors[v] = colors[std::min<int>(static_cast<int>(scene.body->face_part[f]), 5)];
-    }
+    color_parts(scene);
     return legend;
   }
-  if (scene.garments.empty()) throw Error(ErrorKind::USAGE, "", "--map", "needs a garment with pattern coordinates", "give shirt.json as a document");
+  const std::string option = "--map " + map_names()[static_cast<int>(map)];
+  if (scene.garments.empty()) throw Error(ErrorKind::USAGE, "", option, "needs a garment with pattern coordinates", "give shirt.json as a document");
   std::vector<std::vector<double>> values;
-  std::vector<double> all;
-  if (map == Map::STRAIN) {
-    for (const garment::Garment& g : scene.garments) values.push_back(vertex_strain(g));
-    legend = {"strain", "%", 0, 0, 0, 0, 0, true};
+  if (map == Map::DIFFERENCE) {
+    if (scene.garments.size() != 2)
+      throw Error(ErrorKind::USAGE, "", option, "compares two garments, not " + std::to_string(scene.garments.size()), "give two shirt.json of one pattern");
+    values.push_back(drape_difference(scene.garments[0], scene.garments[1]));
+    for (double& v : values[0]) v = v == NO_VALUE ? v : 1000 * v;
+    const int hidden = scene.garment_mesh[1];
+    scene.meshes.erase(scene.meshes.begin() + hidden);
+    scene.garments.pop_back();
+    scene.garment_mesh.pop_back();
+    for (int* mesh : {&scene.garment_mesh[0], &scene.body_mesh})
+      if (*mesh > hidden) --*mesh;
+  } else if (map == Map::STRAIN || map == Map::WARP || map == Map::WEFT || map == Map::BIAS) {
+    for (const Garment& g : scene.garments) values.push_back(strain_values(g, map));
   } else {
-    if (!scene.body) throw Error(ErrorKind::USAGE, "", "--map gap", "needs the body too", "give body.json as a document");
+    if (!scene.body) throw Error(ErrorKind::USAGE, "", option, "needs the body too", "give body.json as a document");
     const collision::BodyCollider body(scene.body->skin);
-    for (const garment::Garment& g : scene.garments) {
-      std::vector<double> gap(g.position.size());
-      for (std::size_t i = 0; i < gap.size(); ++i) {
-        const auto d = body.signed_distance(g.position[i], 0.3);
-        gap[i] = d.triangle < 0 ? 0.3 : d.distance;
-      }
-      values.emplace_back();
-      for (int p : g.particle_of) values.back().push_back(gap[p]);
+    for (const Garment& g : scene.garments) {
+      if (map == Map::PRESSURE) values.push_back(pressure_values(g, body));
+      if (map == Map::EASE) values.push_back(ease_values(g, *scene.body, body));
+      if (map != Map::GAP && map != Map::PENETRATION) continue;
+      values.push_back(gaps(g, body));
+      for (double& v : values.back()) v = 1000 * (map == Map::GAP ? v : std::max(0.0, -v));
     }
-    legend = {"gap to the skin", "mm", 0, 0, 0, 0, 0, false};
   }
-  const double unit = map == Map::STRAIN ? 100 : 1000;
-  for (auto& list : values)
-    for (double& v : list) all.push_back(v *= unit);
-  summarise(all, legend);
-  if (map == Map::STRAIN) {
-    legend.high = legend.p99 > 5 ? 20 : 5; // fixed ranges, so that pictures can be compared
-    legend.low = -legend.high;
-  } else {
-    legend.high = legend.p99 > 50 ? 150 : 50;
+  summarise(values, legend);
+  switch (map) {
+  case Map::GAP: legend.title = "gap to the skin", legend.unit = "mm", legend.high = choose_range(legend.p99, {40, 80, 160, 320}); break;
+  case Map::PENETRATION: legend.title = "depth in the skin", legend.unit = "mm", legend.high = choose_range(legend.largest, {4, 16, 80}); break;
+  case Map::PRESSURE: legend.title = "contact pressure", legend.unit = "Pa", legend.high = choose_range(legend.p99, {400, 1600, 8000, 40000}); break;
+  case Map::EASE:
+    legend.title = "ease at the level", legend.unit = "cm", legend.high = choose_range(legend.p99, {8, 16, 32, 80}), legend.diverging = true;
+    break;
+  case Map::DIFFERENCE: legend.title = "difference", legend.unit = "mm", legend.high = choose_range(legend.p99, {0.8, 4, 8, 40, 160, 800}); break;
+  default:
+    legend.title = map == Map::STRAIN ? "strain" : "strain, " + map_names()[static_cast<int>(map)];
+    legend.unit = "%", legend.high = choose_range(legend.p99, {4, 8, 20, 40}), legend.diverging = true;
   }
-  color_cloth(scene, values, legend);
+  if (limit > 0) legend.high = limit;
+  legend.low = legend.diverging ? -legend.high : 0;
+  for (int k = 0; k < 8; ++k) legend.steps.push_back(scale_color(legend.diverging ? (k - 3.5) / 3.5 : k / 7.0, legend.diverging));
+  for (std::size_t g = 0; g < values.size(); ++g) scene.meshes[scene.garment_mesh[g]].values = values[g];
   return legend;
+}
+
+std::string values_csv(const Scene& scene, const Legend& legend) {
+  std::string text = "document,panel,s,t,x_m,y_m,z_m," + (legend.title.empty() ? "value" : legend.title.substr(0, legend.title.find(','))) + "_" +
+                     (legend.unit == "%" ? "percent" : legend.unit) + "\n";
+  std::replace(text.begin(), text.end(), ' ', '_');
+  char buffer[32];
+  auto number = [&](double x) { return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, x).ptr); };
+  for (std::size_t g = 0; g < scene.garments.size(); ++g) {
+    const Garment& garment = scene.garments[g];
+    const std::vector<double>& values = scene.meshes[scene.garment_mesh[g]].values;
+    for (std::size_t v = 0; v < garment.particle_of.size(); ++v) {
+      const pattern::StableId& id = garment.panels.ids[v];
+      const Vec3& p = garment.position[garment.particle_of[v]];
+      std::string panel = garment.panels.panels[id.panel].name;
+      if (panel.find_first_of(",\"\n") != std::string::npos) {
+        for (std::size_t at = 0; (at = panel.find('"', at)) != std::string::npos; at += 2) panel.insert(at, "\"");
+        panel = "\"" + panel + "\"";
+      }
+      text += std::to_string(g + 1) + "," + panel + "," + number(id.s) + "," + number(id.t) + "," + number(p.x()) + "," + number(p.y()) + "," + number(p.z()) +
+              "," + (values.empty() || values[v] == NO_VALUE ? "" : number(values[v])) + "\n";
+    }
+  }
+  return text;
 }
 
 } // namespace sloper::render

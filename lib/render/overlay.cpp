@@ -25,16 +25,33 @@ FT_Face face() {
   return opened;
 }
 
-void blend(std::uint8_t* pixel, int grey, int alpha) {
-  for (int k = 0; k < 3; ++k) pixel[k] = static_cast<std::uint8_t>((pixel[k] * (255 - alpha) + grey * alpha + 127) / 255);
-  pixel[3] = static_cast<std::uint8_t>(std::max<int>(pixel[3], alpha));
+void blend(std::uint8_t* pixel, int color, double alpha) {
+  const double under = pixel[3] / 255.0 * (1 - alpha), all = alpha + under;
+  if (all <= 0) return;
+  for (int k = 0; k < 3; ++k) pixel[k] = static_cast<std::uint8_t>(std::lround(((color >> (16 - 8 * k) & 255) * alpha + pixel[k] * under) / all));
+  pixel[3] = static_cast<std::uint8_t>(std::lround(255 * all));
 }
 
-int text_width(const std::string& text) {
-  int width = 0;
-  for (unsigned char c : text)
-    if (!FT_Load_Char(face(), c, FT_LOAD_DEFAULT)) width += static_cast<int>(face()->glyph->advance.x >> 6);
-  return width;
+/// Calls visit(code point) for UTF-8; bytes that are none become U+FFFD.
+template<class F> void for_code_points(const std::string& text, F&& visit) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto c = static_cast<unsigned char>(text[i++]);
+    unsigned long code = c;
+    int more = c < 0x80 ? 0 : c >= 0xf0 ? 3 : c >= 0xe0 ? 2 : c >= 0xc0 ? 1 : -1;
+    if (more > 0) code = c & (0x3f >> more);
+    for (; more > 0 && i < text.size() && (text[i] & 0xc0) == 0x80; --more) code = code << 6 | (text[i++] & 0x3f);
+    visit(more == 0 ? code : 0xfffdUL);
+  }
+}
+
+/// Blends over all pixels of a box by coverage(x, y) of their middles.
+template<class F> void cover(io::Image& image, double x0, double y0, double x1, double y1, int color, F&& coverage) {
+  if (!(x1 >= 0 && y1 >= 0 && x0 <= image.width && y0 <= image.height)) return;
+  for (int y = std::max(0, static_cast<int>(y0)); y <= std::min<double>(image.height - 1, y1); ++y)
+    for (int x = std::max(0, static_cast<int>(x0)); x <= std::min<double>(image.width - 1, x1); ++x) {
+      const double alpha = std::clamp(coverage(x + 0.5, y + 0.5), 0.0, 1.0);
+      if (alpha > 0) blend(image.at(x, y), color, alpha);
+    }
 }
 
 std::uint8_t to_srgb(double linear) {
@@ -50,41 +67,74 @@ std::string number(double x) {
 
 } // namespace
 
-void draw_text(io::Image& image, const std::string& text, int x, int y, int size, bool centered) {
+int text_width(const std::string& text, int size) {
   FT_Set_Pixel_Sizes(face(), 0, static_cast<FT_UInt>(size));
-  if (centered) x -= text_width(text) / 2;
-  for (unsigned char c : text) {
-    if (FT_Load_Char(face(), c, FT_LOAD_RENDER)) continue;
+  int width = 0;
+  for_code_points(text, [&](unsigned long code) {
+    if (!FT_Load_Char(face(), code, FT_LOAD_DEFAULT)) width += static_cast<int>(face()->glyph->advance.x >> 6);
+  });
+  return width;
+}
+
+void draw_text(io::Image& image, const std::string& text, int x, int y, int size, Align align, int color) {
+  if (align != Align::LEFT) x -= text_width(text, size) / (align == Align::CENTER ? 2 : 1);
+  FT_Set_Pixel_Sizes(face(), 0, static_cast<FT_UInt>(size));
+  for_code_points(text, [&](unsigned long code) {
+    if (FT_Load_Char(face(), code, FT_LOAD_RENDER)) return;
     const FT_GlyphSlot glyph = face()->glyph;
     for (unsigned r = 0; r < glyph->bitmap.rows; ++r)
       for (unsigned q = 0; q < glyph->bitmap.width; ++q) {
         const int px = x + glyph->bitmap_left + static_cast<int>(q), py = y - glyph->bitmap_top + static_cast<int>(r);
-        if (px >= 0 && py >= 0 && px < image.width && py < image.height) blend(image.at(px, py), 40, glyph->bitmap.buffer[r * glyph->bitmap.pitch + q]);
+        if (px >= 0 && py >= 0 && px < image.width && py < image.height)
+          blend(image.at(px, py), color, glyph->bitmap.buffer[static_cast<int>(r) * glyph->bitmap.pitch + static_cast<int>(q)] / 255.0);
       }
     x += static_cast<int>(glyph->advance.x >> 6);
-  }
+  });
+}
+
+void draw_text_halo(io::Image& image, const std::string& text, int x, int y, int size, Align align, int color) {
+  for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, 1}, {-1, 1}, {1, -1}})
+    draw_text(image, text, x + dx, y + dy, size, align, 0xffffff);
+  draw_text(image, text, x, y, size, align, color);
+}
+
+void draw_line(io::Image& image, double x0, double y0, double x1, double y1, double width, int color, double opacity) {
+  const double dx = x1 - x0, dy = y1 - y0, length2 = dx * dx + dy * dy, r = 0.5 * width + 1;
+  if (!std::isfinite(length2) || length2 > 1e10) return;
+  cover(image, std::min(x0, x1) - r, std::min(y0, y1) - r, std::max(x0, x1) + r, std::max(y0, y1) + r, color, [&](double x, double y) {
+    const double t = length2 > 0 ? std::clamp(((x - x0) * dx + (y - y0) * dy) / length2, 0.0, 1.0) : 0;
+    return opacity * std::min(1.0, 0.5 * width + 0.5 - std::hypot(x - x0 - t * dx, y - y0 - t * dy));
+  });
+}
+
+void draw_disc(io::Image& image, double cx, double cy, double radius, int color, double ring, double opacity) {
+  const double r = radius + 1;
+  cover(image, cx - r, cy - r, cx + r, cy + r, color, [&](double x, double y) {
+    const double d = std::hypot(x - cx, y - cy);
+    return opacity * (ring > 0 ? std::min(1.0, 0.5 * ring + 0.5 - std::abs(d - radius)) : std::min(1.0, radius + 0.5 - d));
+  });
 }
 
 void draw_legend(io::Image& image, const Legend& legend) {
-  const int font = std::max(10, image.height / 55), bar_height = image.height / 2, bar_width = font;
-  const int left = image.width - 5 * font, top = image.height / 6;
-  for (int y = 0; y < bar_height; ++y) {
-    const double t = 1 - (y + 0.5) / bar_height;
-    const Vec3 color = scale_color(legend.diverging ? 2 * t - 1 : t, legend.diverging);
-    for (int x = left; x < left + bar_width && x < image.width; ++x) {
-      std::uint8_t* pixel = image.at(x, top + y);
-      for (int k = 0; k < 3; ++k) pixel[k] = to_srgb(color[k]);
+  if (legend.steps.empty()) return;
+  const int n = static_cast<int>(legend.steps.size());
+  const int font = std::max(10, std::min(image.height / 55, image.width / 36)), step = std::max(2, image.height / 22), bar_width = 2 * font;
+  const int left = image.width - 6 * font, top = image.height / 8 + 2 * font;
+  for (int y = 0; y < n * step; ++y)
+    for (int x = left; x < std::min(left + bar_width, image.width); ++x) {
+      std::uint8_t* pixel = image.at(x, std::min(top + y, image.height - 1));
+      for (int k = 0; k < 3; ++k) pixel[k] = to_srgb(legend.steps[n - 1 - y / step][k]);
       pixel[3] = 255;
     }
-  }
-  for (int k = 0; k <= 4; ++k)
-    draw_text(image, number(legend.high - k * (legend.high - legend.low) / 4) + (k == 0 ? " " + legend.unit : ""), left + bar_width + font / 2,
-              top + bar_height * k / 4 + font / 3, font);
-  draw_text(image, legend.title, image.width - 9 * font, top - font, font);
-  const char* names[] = {"p50 ", "p99 ", "max "};
+  for (int k = 0; k <= n; k += 2)
+    draw_text(image, number(legend.high - k * (legend.high - legend.low) / n), left + bar_width + font / 2, top + step * k + font * 3 / 8, font);
+  const int right = image.width - font;
+  draw_text(image, legend.title, right, top - font * 11 / 4, font, Align::RIGHT);
+  draw_text(image, legend.unit, right, top - font * 11 / 8, font, Align::RIGHT);
+  const char* names[] = {"p50  ", "p99  ", "max  "};
   const double values[] = {legend.p50, legend.p99, legend.largest};
   for (int k = 0; k < 3; ++k)
-    draw_text(image, names[k] + number(values[k]) + " " + legend.unit, image.width - 9 * font, top + bar_height + (2 + k) * font * 3 / 2, font);
+    draw_text(image, names[k] + number(values[k]) + " " + legend.unit, right, top + n * step + (4 + 3 * k) * font / 2 + font / 2, font, Align::RIGHT);
 }
 
 io::Image contact_sheet(const std::vector<io::Image>& images, const std::vector<std::string>& captions, int columns) {
@@ -105,23 +155,25 @@ io::Image contact_sheet(const std::vector<io::Image>& images, const std::vector<
     const int column = static_cast<int>(k) % columns, row = static_cast<int>(k) / columns;
     const int x0 = column * cell_w + (cell_w - images[k].width) / 2, y0 = row * (cell_h + strip);
     for (int y = 0; y < images[k].height; ++y) std::copy_n(images[k].at(0, y), 4 * images[k].width, sheet.at(x0, y0 + y));
-    if (captioned && k < captions.size()) draw_text(sheet, captions[k], column * cell_w + cell_w / 2, y0 + cell_h + font, font, true);
+    if (captioned && k < captions.size()) draw_text(sheet, captions[k], column * cell_w + cell_w / 2, y0 + cell_h + font, font, Align::CENTER);
   }
   return sheet;
 }
 
-Comparison compare(const io::Image& a, const io::Image& b) {
+Comparison compare(const io::Image& a, const io::Image& b, const io::Image* mask) {
   if (a.width != b.width || a.height != b.height)
     throw input_error("", "",
                       "the pictures differ in size: " + std::to_string(a.width) + " x " + std::to_string(a.height) + " and " + std::to_string(b.width) + " x " +
                           std::to_string(b.height));
+  if (mask && (mask->width != a.width || mask->height != a.height)) throw input_error("", "", "the mask's size is not that of the pictures");
+  auto counts = [&](int x, int y) { return !mask || (mask->at(x, y)[0] >= 128 && mask->at(x, y)[3] >= 128); };
   Comparison result;
   result.picture = a;
   auto luminance = [](const std::uint8_t* p) { return (0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]) * p[3] / 255.0; };
   for (int y = 0; y < a.height; ++y)
     for (int x = 0; x < a.width; ++x) {
       int d = 0;
-      for (int k = 0; k < 4; ++k) d = std::max(d, std::abs(a.at(x, y)[k] - b.at(x, y)[k]));
+      for (int k = 0; k < 4 && counts(x, y); ++k) d = std::max(d, std::abs(a.at(x, y)[k] - b.at(x, y)[k]));
       result.largest = std::max(result.largest, d);
       result.different += d > 2;
       std::uint8_t* out = result.picture.at(x, y);
@@ -135,6 +187,9 @@ Comparison compare(const io::Image& a, const io::Image& b) {
   for (int y = 0; y + 8 <= a.height; y += 8)
     for (int x = 0; x + 8 <= a.width; x += 8) {
       double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
+      bool whole = true;
+      for (int k = 0; k < 64; ++k) whole &= counts(x + k % 8, y + k / 8);
+      if (!whole) continue;
       for (int k = 0; k < 64; ++k) {
         const double la = luminance(a.at(x + k % 8, y + k / 8)), lb = luminance(b.at(x + k % 8, y + k / 8));
         sa += la, sb += lb, saa += la * la, sbb += lb * lb, sab += la * lb;

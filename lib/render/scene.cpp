@@ -4,7 +4,10 @@
 #include <geometry/triangle_mesh.hpp>
 #include <io/json.hpp>
 #include <io/obj.hpp>
+#include <io/scan_reader.hpp>
+#include <pattern/mesh_pattern.hpp>
 #include <pattern/panel_mesh_json.hpp>
+#include <pattern/read_pattern.hpp>
 #include <render/scene.hpp>
 
 #include <cmath>
@@ -14,50 +17,11 @@ namespace sloper::render {
 
 namespace {
 
-Vec3 linear(int hex) {
-  auto channel = [](int c) {
-    const double s = c / 255.0;
-    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-  };
-  return {channel(hex >> 16 & 255), channel(hex >> 8 & 255), channel(hex & 255)};
-}
-
-/// Muted panel colours that differ for colour-blind eyes too (after Okabe and Ito 2008, softened).
-Vec3 panel_color(int k) {
-  static const int palette[] = {0x5b8db8, 0xe3a55b, 0x7fb69a, 0xc98aa8, 0xd9c867, 0x8f86bd, 0xc97b5f, 0x79b7d0};
-  return linear(palette[k % 8]);
-}
-
-const Vec3 SKIN = linear(0xcdbfb2);
+constexpr double PATTERN_EDGE = 0.02; // m: a flat pattern needs no fine mesh
+constexpr int SKIN = 0xcfc3b8;
 
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-/// Cloth: one drawn vertex per panel vertex, normals from the welded particles.
-DrawMesh cloth_mesh(const pattern::PanelMesh& panels, const std::vector<int>& particle_of, const std::vector<Vec3>& position) {
-  DrawMesh mesh;
-  mesh.is_cloth = true;
-  TriangleMesh welded;
-  welded.positions = position;
-  std::map<std::array<int, 2>, int> uses;
-  for (const Triangle& t : panels.triangles) {
-    welded.triangles.push_back({particle_of[t[0]], particle_of[t[1]], particle_of[t[2]]});
-    for (int k = 0; k < 3; ++k) ++uses[{std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])}];
-  }
-  const std::vector<Vec3> normals = vertex_normals(welded);
-  mesh.triangles = panels.triangles;
-  for (std::size_t v = 0; v < particle_of.size(); ++v) {
-    mesh.positions.push_back(position[particle_of[v]]);
-    mesh.normals.push_back(normals[particle_of[v]]);
-  }
-  mesh.colors.resize(particle_of.size());
-  for (std::size_t p = 0; p < panels.panels.size(); ++p)
-    for (int v = panels.panels[p].first_vertex; v < panels.panels[p].first_vertex + panels.panels[p].n_vertices; ++v)
-      mesh.colors[v] = panel_color(static_cast<int>(p));
-  for (const auto& [edge, count] : uses)
-    if (count == 1) mesh.lines.push_back(edge); // a panel's border: a seam or a hem
-  return mesh;
 }
 
 DrawMesh plain_mesh(const TriangleMesh& source, const Vec3& color) {
@@ -71,7 +35,7 @@ DrawMesh plain_mesh(const TriangleMesh& source, const Vec3& color) {
 
 DrawMesh obj_mesh(const io::ObjMesh& obj) {
   TriangleMesh plain{obj.positions, obj.triangles};
-  DrawMesh mesh = plain_mesh(plain, SKIN);
+  DrawMesh mesh = plain_mesh(plain, linear_color(SKIN));
   if (obj.texture_triangles.empty()) return mesh;
   mesh.is_cloth = true;
   for (std::size_t g = 0; g < obj.groups.size(); ++g) {
@@ -82,40 +46,127 @@ DrawMesh obj_mesh(const io::ObjMesh& obj) {
   return mesh;
 }
 
+/// A document's "format"; files of pattern programs, which have none, count as "pattern".
+std::string format_of(const io::Json& document, const std::string& path) {
+  const std::string format = io::Node(document, path).string("format", "");
+  return format == "sewing-spec" || (format.empty() && document.is_object() && (document.contains("pattern") || document.contains("panels"))) ? "pattern"
+                                                                                                                                              : format;
+}
+
+void read_one(Scene& scene, const std::string& path) {
+  if (ends_with(path, ".obj")) {
+    scene.meshes.push_back(obj_mesh(io::read_obj(path)));
+    return;
+  }
+  if (ends_with(path, ".ply") || ends_with(path, ".stl")) {
+    scene.meshes.push_back(plain_mesh(io::read_scan(path).mesh, linear_color(SKIN)));
+    return;
+  }
+  const bool drawing = ends_with(path, ".dxf") || ends_with(path, ".DXF");
+  const io::Json document = drawing ? io::Json::object() : io::read_json(path);
+  const std::string format = drawing ? "pattern" : format_of(document, path);
+  if (format == "body") {
+    scene.body = body::read_body(path);
+    scene.body_mesh = static_cast<int>(scene.meshes.size());
+    scene.meshes.push_back(plain_mesh(scene.body->skin, linear_color(SKIN)));
+  } else if (format == "garment") {
+    scene.garments.push_back(garment::read_garment(path));
+    const garment::Garment& g = scene.garments.back();
+    scene.garment_mesh.push_back(static_cast<int>(scene.meshes.size()));
+    scene.meshes.push_back(cloth_mesh(g));
+    scene.draped = true;
+  } else if (format == "panels") {
+    garment::Garment g;
+    g.panels = pattern::read_panel_mesh(path);
+    g.position = g.panels.placed;
+    for (std::size_t v = 0; v < g.position.size(); ++v) g.particle_of.push_back(static_cast<int>(v));
+    scene.garment_mesh.push_back(static_cast<int>(scene.meshes.size()));
+    scene.meshes.push_back(cloth_mesh(g));
+    scene.garments.push_back(std::move(g));
+  } else if (format == "pattern") {
+    garment::Garment g;
+    g.panels = pattern::mesh_pattern(pattern::read_pattern(path, ""), PATTERN_EDGE, path);
+    g.position = g.panels.placed;
+    for (std::size_t v = 0; v < g.position.size(); ++v) g.particle_of.push_back(static_cast<int>(v));
+    scene.garment_mesh.push_back(static_cast<int>(scene.meshes.size()));
+    scene.meshes.push_back(cloth_mesh(g));
+    scene.garments.push_back(std::move(g));
+  } else {
+    throw input_error(path, "/format", format.empty() ? "is not a Sloper document" : "a \"" + format + "\" document cannot be drawn",
+                      "give body.json, shirt.json, panels.json, a pattern, or an OBJ, PLY or STL mesh");
+  }
+}
+
 } // namespace
+
+DrawMesh cloth_mesh(const garment::Garment& g) {
+  const pattern::PanelMesh& panels = g.panels;
+  DrawMesh mesh;
+  mesh.is_cloth = true;
+  const std::vector<Vec3> normals = vertex_normals({g.position, g.particle_triangles()});
+  mesh.triangles = panels.triangles;
+  for (int particle : g.particle_of) {
+    mesh.positions.push_back(g.position[particle]);
+    mesh.normals.push_back(normals[particle]);
+  }
+  mesh.colors.resize(g.particle_of.size());
+  mesh.uv.resize(g.particle_of.size());
+  for (const pattern::PanelInfo& panel : panels.panels) {
+    mesh.panel_of.insert(mesh.panel_of.end(), panel.n_vertices, static_cast<int>(mesh.panels.size()));
+    mesh.panels.push_back(panel.name);
+    const Vec2 warp = panel.grain.normalized(), weft(warp.y(), -warp.x());
+    for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) mesh.uv[v] = {panels.pattern[v].dot(weft), panels.pattern[v].dot(warp)};
+  }
+  std::map<std::array<int, 2>, int> uses, welded_uses;
+  auto sorted = [](int a, int b) { return std::array<int, 2>{std::min(a, b), std::max(a, b)}; };
+  for (const Triangle& t : panels.triangles)
+    for (int k = 0; k < 3; ++k) {
+      ++uses[sorted(t[k], t[(k + 1) % 3])];
+      ++welded_uses[sorted(g.particle_of[t[k]], g.particle_of[t[(k + 1) % 3]])];
+    }
+  for (const auto& [edge, count] : uses)
+    if (count == 1) mesh.lines.push_back(edge); // a panel's border: a seam or a hem
+  for (const auto& edge : mesh.lines) mesh.is_hem.push_back(welded_uses[sorted(g.particle_of[edge[0]], g.particle_of[edge[1]])] == 1);
+  const auto material = g.materials.find("");
+  mesh.thickness = material != g.materials.end() ? material->second.thickness_m : 0.0005;
+  return mesh;
+}
+
+Vec3 linear_color(int hex) {
+  auto channel = [](int c) {
+    const double s = c / 255.0;
+    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+  };
+  return {channel(hex >> 16 & 255), channel(hex >> 8 & 255), channel(hex & 255)};
+}
+
+Vec3 panel_color(int k) {
+  static const int palette[] = {0x5b8db8, 0xe3a55b, 0x7fb69a, 0xc98aa8, 0xd9c867, 0x8f86bd, 0xc97b5f, 0x79b7d0};
+  return linear_color(palette[k % 8]);
+}
+
+void color_cloth(Scene& scene, ClothColors how, const std::vector<int>& colors) {
+  static const int garment_palette[] = {0x4f7396, 0xb5654a, 0x6f8f72, 0x8a6f9e};
+  int k = 0;
+  for (DrawMesh& mesh : scene.meshes) {
+    if (!mesh.is_cloth || mesh.panel_of.empty()) continue;
+    const Vec3 one = linear_color(k < static_cast<int>(colors.size()) ? colors[k] : garment_palette[k % 4]);
+    for (std::size_t v = 0; v < mesh.colors.size(); ++v) mesh.colors[v] = how == ClothColors::PANELS ? panel_color(mesh.panel_of[v]) : one;
+    ++k;
+  }
+}
 
 Scene read_scene(const std::vector<std::string>& paths) {
   Scene scene;
   for (const std::string& path : paths) {
+    const std::size_t before = scene.meshes.size();
+    read_one(scene, path);
     scene.names.push_back(io::file_name(path));
-    if (ends_with(path, ".obj")) {
-      scene.meshes.push_back(obj_mesh(io::read_obj(path)));
-      continue;
-    }
-    const io::Json document = io::read_json(path);
-    const std::string format = io::Node(document, path).string("format", "");
-    if (format == "body") {
-      scene.body = body::read_body(path);
-      scene.meshes.push_back(plain_mesh(scene.body->skin, SKIN));
-    } else if (format == "garment") {
-      scene.garments.push_back(garment::read_garment(path));
-      const garment::Garment& g = scene.garments.back();
-      scene.meshes.push_back(cloth_mesh(g.panels, g.particle_of, g.position));
-    } else if (format == "panels") {
-      garment::Garment g;
-      g.panels = pattern::read_panel_mesh(path);
-      g.position = g.panels.placed;
-      for (std::size_t v = 0; v < g.position.size(); ++v) g.particle_of.push_back(static_cast<int>(v));
-      scene.meshes.push_back(cloth_mesh(g.panels, g.particle_of, g.position));
-      scene.garments.push_back(std::move(g));
-    } else {
-      throw input_error(path, "/format", format.empty() ? "is not a Sloper document" : "a \"" + format + "\" document cannot be drawn",
-                        "give body.json, shirt.json, panels.json or an OBJ file");
-    }
+    for (std::size_t m = before; m < scene.meshes.size(); ++m) scene.meshes[m].name = scene.names.back().substr(0, scene.names.back().find('.'));
   }
   std::size_t triangles = 0;
   for (const DrawMesh& m : scene.meshes) triangles += m.triangles.size();
-  if (triangles == 0) throw input_error(paths.front(), "", "there is no triangle to draw");
+  if (triangles == 0) throw input_error(paths.front(), "", "there is no triangle to draw", "points are made a body by scan-landmarks: draw its body.json");
   return scene;
 }
 

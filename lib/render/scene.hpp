@@ -7,40 +7,59 @@
 
 namespace sloper::render {
 
-/// A linear-light colour per vertex; vertices of different panels are not shared, so that panels keep sharp colours.
+/// How far inside a panel a vertex is counted as near a border; distances are clamped to it.
+inline constexpr double BORDER_REACH = 0.02; // m
+/// A map value where the map says nothing.
+inline constexpr double NO_VALUE = -1e9;
+
+/// Surfaces to be drawn; vertices of different panels are not shared, so that panels keep sharp colours.
 struct DrawMesh {
+  std::string name;            ///< of its file, without folder and ending
   std::vector<Vec3> positions; ///< m
   std::vector<Vec3> normals;   ///< unit; smooth over welded seams
   std::vector<Vec3> colors;    ///< linear RGB, 0..1
   std::vector<Triangle> triangles;
-  std::vector<std::array<int, 2>> lines; ///< seams and hems, drawn darker
-  bool is_cloth = false;
+  std::vector<std::array<int, 2>> lines;  ///< borders of panels, drawn darker
+  std::vector<char> is_hem;               ///< by line: a free border, not a seam
+  bool is_cloth = false, is_flat = false; ///< flat: drawn unlit
+  // Cloth only; empty elsewhere.
+  std::vector<Vec2> uv;            ///< m, across and along the warp: the fabric's pattern lies on it
+  std::vector<double> seam, hem;   ///< m, pattern distance to the nearest sewn and free border, at most BORDER_REACH
+  std::vector<double> values;      ///< of the map, in its unit; NO_VALUE or empty: none
+  std::vector<int> panel_of;       ///< by vertex
+  std::vector<std::string> panels; ///< their names
+  double thickness = 0;            ///< m
 };
 
 struct Scene {
   std::optional<body::Body> body;
   std::vector<garment::Garment> garments;
+  std::vector<int> garment_mesh;  ///< by garment: its mesh
+  int body_mesh = -1;             ///< of `body`
+  bool draped = false;            ///< there is a garment, not only panels
   std::vector<DrawMesh> meshes;   ///< in the order of the documents
   std::vector<std::string> names; ///< file names, for the PNG's text chunk
 };
 
-enum class Map { NONE, STRAIN, GAP, PARTS };
-
-/// The range and name of a map, for its colour bar.
-struct Legend {
-  std::string title, unit;
-  double low = 0, high = 0;
-  double p50 = 0, p99 = 0, largest = 0;
-  bool diverging = false;
-};
-
-/// Reads body.json, shirt.json, panels.json (by their "format") and bare OBJ files. @throws Error INPUT
+/// Reads body.json, shirt.json, panels.json (by their "format") and bare OBJ, PLY or STL files (in metres). @throws Error INPUT
 Scene read_scene(const std::vector<std::string>& paths);
 
-/// Colours the scene by a map and says its legend. @throws Error USAGE when the scene lacks what the map needs
-Legend apply_map(Scene& scene, Map map);
+/// A garment as it is drawn: one vertex per panel vertex, normals over welded seams.
+DrawMesh cloth_mesh(const garment::Garment& garment);
 
-/// Colour of a value scaled to 0..1 (or -1..1 for diverging), linear RGB; scales that colour-blind people can read.
-Vec3 scale_color(double t, bool diverging);
+/// Cloth made smooth for drawing: triangles are cut in four along curved patches (Phong tessellation, Boubekeur and Alexa 2008)
+/// until edges are finer than about 6 mm or the mesh has 200,000 triangles; free borders get a rim as thick as the fabric.
+/// What the mesh holds per vertex is carried along linearly, border distances are taken anew.
+void smooth_cloth(DrawMesh& mesh);
+
+/// How cloth is coloured: each panel its own colour, or each garment one.
+enum class ClothColors { PANELS, GARMENTS };
+/// @param colors  0xRRGGBB by garment; those that are missing come from a palette
+void color_cloth(Scene& scene, ClothColors how, const std::vector<int>& colors = {});
+
+/// 0xRRGGBB to linear light.
+Vec3 linear_color(int hex);
+/// Muted panel colours that differ for colour-blind eyes too (after Okabe and Ito 2008, softened).
+Vec3 panel_color(int k);
 
 } // namespace sloper::render

@@ -18,7 +18,9 @@ inline const samples::MadeMannequin& mannequin(const std::string& name) {
   return it->second;
 }
 
+/// Without the runs that measure the spread, unless asked for.
 inline body::MeasuredScan measure(const TriangleMesh& scan, body::ScanOptions options = {}) {
+  options.jitter = std::max(0, options.jitter);
   return body::measure_scan(scan, "scan.obj", "", options, silent_reporter());
 }
 

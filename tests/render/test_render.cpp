@@ -1,10 +1,12 @@
 #include <base/error.hpp>
+#include <base/parallel.hpp>
 #include <gtest/gtest.h>
 #include <io/files.hpp>
 #include <render/draw.hpp>
 #include <render/overlay.hpp>
 
 #include <cmath>
+#include <cstdlib>
 
 using namespace sloper;
 using namespace sloper::render;
@@ -32,13 +34,15 @@ DrawMesh make_ball() {
   return mesh;
 }
 
-io::Image draw_ball(Background background) {
+io::Image draw_ball(Background background, ContextKind context = ContextKind::OSMESA, const CameraOptions& view = {}) {
   const std::vector<DrawMesh> meshes{make_ball()};
   DrawOptions options;
   options.width = 120;
   options.height = 160;
   options.background = background;
-  return Renderer(meshes, options).draw(frame_scene(meshes, 0, 0, 0.75));
+  options.context = context;
+  options.ground = false;
+  return Renderer(meshes, options).draw(frame_scene(meshes, view, 0.75));
 }
 
 } // namespace
@@ -60,6 +64,69 @@ TEST(Render, the_whole_scene_is_inside_the_picture_and_fills_it) {
 TEST(Render, the_same_scene_gives_the_same_bytes) {
   const auto a = io::png_bytes(draw_ball(Background::WHITE), {{"Software", "test"}});
   EXPECT_EQ(a, io::png_bytes(draw_ball(Background::WHITE), {{"Software", "test"}}));
+}
+
+TEST(Render, the_number_of_threads_changes_no_byte) {
+  const io::Image one = draw_ball(Background::WHITE);
+  set_thread_count(3);
+  unsetenv("LP_NUM_THREADS");
+  const io::Image three = draw_ball(Background::WHITE);
+  set_thread_count(1);
+  unsetenv("LP_NUM_THREADS");
+  EXPECT_EQ(one.rgba, three.rgba);
+}
+
+TEST(Render, every_built_in_context_draws_the_same_picture) {
+  if (built_contexts().size() < 2) GTEST_SKIP() << "only one context was built in";
+  const io::Image osmesa = draw_ball(Background::WHITE);
+  io::Image egl;
+  try {
+    egl = draw_ball(Background::WHITE, ContextKind::EGL);
+  } catch (const Error& error) {
+    GTEST_SKIP() << error.what();
+  }
+  const Comparison c = compare(osmesa, egl);
+  EXPECT_GT(c.ssim, 0.995);
+  EXPECT_LT(c.different, osmesa.width * osmesa.height / 100);
+}
+
+TEST(Camera, a_point_goes_where_the_picture_shows_it) {
+  CameraOptions options;
+  options.target = Vec3(0, 1, 0);
+  options.field_height = 2;
+  for (double field_of_view : {0.0, 0.3}) {
+    options.field_of_view = field_of_view;
+    const Camera camera = frame_scene({make_ball()}, options, 0.75);
+    EXPECT_LT((camera.pixel(Vec3(0, 1, 0), 300, 400).head<2>() - Vec2(150, 200)).norm(), 1e-9);
+    EXPECT_LT((camera.pixel(Vec3(0.5, 1.5, 0), 300, 400).head<2>() - Vec2(250, 100)).norm(), 1e-9);
+    const double near = camera.pixel(Vec3(0, 1, 0.5), 300, 400).z(), far = camera.pixel(Vec3(0, 1, -0.5), 300, 400).z();
+    EXPECT_GT(near, 0);
+    EXPECT_LT(near, far);
+    EXPECT_LT(far, 1);
+  }
+}
+
+TEST(Camera, a_document_with_an_unknown_key_or_an_absurd_angle_is_refused) {
+  const std::string path = std::string(SLOPER_BINARY_DIR) + "/camera.json";
+  io::write_file(path, R"({"azimuth_deg": 90, "orthographic": true})");
+  EXPECT_NEAR(read_camera(path).azimuth, M_PI / 2, 1e-12);
+  EXPECT_EQ(read_camera(path).field_of_view, 0);
+  for (const char* bad : {R"({"azimut_deg": 90})", R"({"elevation_deg": 90})", R"({"field_of_view_deg": 0})", "[]"}) {
+    io::write_file(path, bad);
+    EXPECT_THROW(read_camera(path), Error) << bad;
+  }
+}
+
+TEST(Render, a_ball_throws_its_shadow_on_the_floor) {
+  const std::vector<DrawMesh> meshes{make_ball()};
+  DrawOptions options;
+  options.width = 120;
+  options.height = 160;
+  CameraOptions view = named_view("iso");
+  view.field_height = 1.6;
+  const io::Image image = Renderer(meshes, options).draw(frame_scene(meshes, view, 0.75));
+  EXPECT_LT(image.at(60, 136)[0], 225);
+  EXPECT_EQ(image.at(3, 3)[0], 255);
 }
 
 TEST(Render, light_comes_from_above) {

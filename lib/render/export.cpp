@@ -1,0 +1,216 @@
+#include <base/error.hpp>
+#include <base/version.hpp>
+#include <io/files.hpp>
+#include <io/json.hpp>
+#include <render/export.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace sloper::render {
+
+namespace {
+
+std::string extension(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string::npos || path.find('/', dot) != std::string::npos ? "" : path.substr(dot + 1);
+}
+
+Vec3 shown_color(const DrawMesh& mesh, std::size_t v, const Legend& legend) {
+  if (mesh.values.empty() || legend.steps.empty()) return mesh.colors[v];
+  if (mesh.values[v] == NO_VALUE) return Vec3::Constant(0.55);
+  const double t = std::clamp((mesh.values[v] - legend.low) / (legend.high - legend.low), 0.0, 0.9999);
+  return legend.steps[static_cast<std::size_t>(t * static_cast<double>(legend.steps.size()))];
+}
+
+double to_srgb(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055; }
+
+template<class T> void append(std::string& bytes, const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
+
+void append_number(std::string& text, double x) {
+  char buffer[32];
+  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, static_cast<float>(x)).ptr);
+}
+
+/// The binary chunk of a GLB and its description, filled array by array.
+class GlbBuffer {
+public:
+  std::string bytes;
+  io::Json views = io::Json::array(), accessors = io::Json::array();
+  /// @param target 34962 vertices, 34963 indices
+  int add(const void* data, std::size_t n_bytes, std::size_t count, int component, const char* type, int target) {
+    views.push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", n_bytes}, {"target", target}});
+    bytes.append(static_cast<const char*>(data), n_bytes);
+    bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
+    accessors.push_back({{"bufferView", views.size() - 1}, {"componentType", component}, {"count", count}, {"type", type}});
+    return static_cast<int>(accessors.size()) - 1;
+  }
+  int add_floats(const std::vector<float>& data, int width, const char* type) {
+    return add(data.data(), data.size() * sizeof(float), data.size() / width, 5126, type, 34962);
+  }
+};
+
+io::Json add_mesh(GlbBuffer& buffer, const DrawMesh& mesh, const Legend& legend) {
+  std::vector<float> positions, normals, colors, uv;
+  Eigen::Vector3f low = Eigen::Vector3f::Constant(std::numeric_limits<float>::max()), high = -low;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Eigen::Vector3f p = mesh.positions[v].cast<float>();
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+    const Vec3 c = shown_color(mesh, v, legend);
+    const Vec3 n = mesh.normals[v].norm() > 0.5 ? mesh.normals[v] : Vec3(0, 1, 0); // glTF wants unit normals
+    for (int k = 0; k < 3; ++k) {
+      positions.push_back(p[k]);
+      normals.push_back(static_cast<float>(n[k]));
+      colors.push_back(static_cast<float>(c[k]));
+    }
+    if (mesh.uv.empty()) continue;
+    uv.push_back(static_cast<float>(mesh.uv[v].x()));
+    uv.push_back(static_cast<float>(-mesh.uv[v].y()));
+  }
+  std::vector<std::uint32_t> indices;
+  for (const Triangle& t : mesh.triangles) indices.insert(indices.end(), t.begin(), t.end());
+  io::Json attributes;
+  attributes["POSITION"] = buffer.add_floats(positions, 3, "VEC3");
+  buffer.accessors.back()["min"] = {low.x(), low.y(), low.z()};
+  buffer.accessors.back()["max"] = {high.x(), high.y(), high.z()};
+  attributes["NORMAL"] = buffer.add_floats(normals, 3, "VEC3");
+  attributes["COLOR_0"] = buffer.add_floats(colors, 3, "VEC3");
+  if (!uv.empty()) attributes["TEXCOORD_0"] = buffer.add_floats(uv, 2, "VEC2");
+  const int elements = buffer.add(indices.data(), indices.size() * sizeof(std::uint32_t), indices.size(), 5125, "SCALAR", 34963);
+  return {{"name", mesh.name}, {"primitives", {{{"attributes", attributes}, {"indices", elements}, {"material", mesh.is_cloth ? 1 : 0}}}}};
+}
+
+std::string obj_text(const std::vector<DrawMesh>& meshes, const std::string& material_file) {
+  std::string text = "# " + generator_stamp("render-png") + ", m, y up\nmtllib " + material_file + "\n";
+  auto line = [&](const char* key, std::initializer_list<double> numbers) {
+    text += key;
+    for (double x : numbers) {
+      text += ' ';
+      append_number(text, x);
+    }
+    text += '\n';
+  };
+  std::size_t v0 = 1, t0 = 1;
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const DrawMesh& mesh = meshes[m];
+    text += "o " + mesh.name + "\nusemtl mesh" + std::to_string(m + 1) + "\n";
+    for (const Vec3& p : mesh.positions) line("v", {p.x(), p.y(), p.z()});
+    for (const Vec2& p : mesh.uv) line("vt", {p.x(), p.y()});
+    for (const Vec3& n : mesh.normals) line("vn", {n.x(), n.y(), n.z()});
+    for (const Triangle& t : mesh.triangles) {
+      text += 'f';
+      for (int v : t) {
+        const std::string at = std::to_string(v0 + static_cast<std::size_t>(v));
+        text += " " + at + "/" + (mesh.uv.empty() ? "" : std::to_string(t0 + static_cast<std::size_t>(v))) + "/" + at;
+      }
+      text += '\n';
+    }
+    v0 += mesh.positions.size();
+    t0 += mesh.uv.size();
+  }
+  return text;
+}
+
+std::string mtl_text(const std::vector<DrawMesh>& meshes) {
+  std::string text;
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    text += "newmtl mesh" + std::to_string(m + 1) + "\nKd";
+    for (int k = 0; k < 3; ++k) {
+      text += ' ';
+      append_number(text, meshes[m].colors.empty() ? 0.8 : to_srgb(meshes[m].colors[0][k]));
+    }
+    text += "\nKs 0 0 0\nillum 1\n";
+  }
+  return text;
+}
+
+std::string ply_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend) {
+  std::size_t n_vertices = 0, n_faces = 0;
+  for (const DrawMesh& mesh : meshes) {
+    n_vertices += mesh.positions.size();
+    n_faces += mesh.triangles.size();
+  }
+  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment " + generator_stamp("render-png") + ", m, y up" +
+                      (legend.title.empty() ? "" : "; value is " + legend.title + ", " + legend.unit) + "\nelement vertex " + std::to_string(n_vertices) +
+                      "\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+                      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float value\nelement face " +
+                      std::to_string(n_faces) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const DrawMesh& mesh : meshes)
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      for (const Vec3& p : {mesh.positions[v], mesh.normals[v]})
+        for (int k = 0; k < 3; ++k) append(bytes, static_cast<float>(p[k]));
+      const Vec3 c = shown_color(mesh, v, legend);
+      for (int k = 0; k < 3; ++k) append(bytes, static_cast<std::uint8_t>(std::lround(255 * std::clamp(to_srgb(c[k]), 0.0, 1.0))));
+      append(bytes, mesh.values.empty() || mesh.values[v] == NO_VALUE ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(mesh.values[v]));
+    }
+  int base = 0;
+  for (const DrawMesh& mesh : meshes) {
+    for (const Triangle& t : mesh.triangles) {
+      append(bytes, static_cast<std::uint8_t>(3));
+      for (int v : t) append(bytes, static_cast<std::int32_t>(base + v));
+    }
+    base += static_cast<int>(mesh.positions.size());
+  }
+  return bytes;
+}
+
+} // namespace
+
+bool is_export(const std::string& path) {
+  const std::string e = extension(path);
+  return e == "glb" || e == "obj" || e == "ply";
+}
+
+std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend) {
+  GlbBuffer buffer;
+  io::Json document = {{"asset", {{"version", "2.0"}, {"generator", generator_stamp("render-png")}}}, {"scene", 0}};
+  io::Json nodes = io::Json::array(), drawn = io::Json::array(), roots = io::Json::array();
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    if (meshes[m].triangles.empty()) continue;
+    nodes.push_back({{"name", meshes[m].name}, {"mesh", drawn.size()}});
+    roots.push_back(drawn.size());
+    drawn.push_back(add_mesh(buffer, meshes[m], legend));
+  }
+  document["scenes"] = {{{"nodes", roots}}};
+  document["nodes"] = nodes;
+  document["meshes"] = drawn;
+  auto material = [](const char* name, double roughness, bool two_sided) {
+    return io::Json{{"name", name}, {"doubleSided", two_sided}, {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", roughness}}}};
+  };
+  document["materials"] = {material("skin", 0.7, false), material("cloth", 0.9, true)};
+  document["accessors"] = buffer.accessors;
+  document["bufferViews"] = buffer.views;
+  document["buffers"] = {{{"byteLength", buffer.bytes.size()}}};
+  std::string text = document.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  std::string bytes = "glTF";
+  append(bytes, std::uint32_t{2});
+  append(bytes, static_cast<std::uint32_t>(12 + 8 + text.size() + 8 + buffer.bytes.size()));
+  append(bytes, static_cast<std::uint32_t>(text.size()));
+  bytes += "JSON" + text;
+  append(bytes, static_cast<std::uint32_t>(buffer.bytes.size()));
+  bytes += std::string("BIN\0", 4) + buffer.bytes;
+  return bytes;
+}
+
+void export_scene(const std::string& path, const std::vector<DrawMesh>& meshes, const Legend& legend) {
+  const std::string e = extension(path);
+  if (e == "glb") {
+    io::write_file(path, glb_bytes(meshes, legend));
+  } else if (e == "ply") {
+    io::write_file(path, ply_bytes(meshes, legend));
+  } else if (e == "obj") {
+    const std::string materials = path.substr(0, path.size() - 3) + "mtl";
+    io::write_file(materials, mtl_text(meshes));
+    io::write_file(path, obj_text(meshes, io::file_name(materials)));
+  } else {
+    throw Error(ErrorKind::USAGE, "", "-o " + path, "is no kind of file that can be written", "end it in .png, .glb, .obj or .ply");
+  }
+}
+
+} // namespace sloper::render

@@ -1,0 +1,41 @@
+#pragma once
+/// Maps: numbers on cloth, with a colour scale that colour-blind people can read.
+#include <render/scene.hpp>
+namespace sloper::render {
+
+/// Strains are l/l0 - 1 with edited rest lengths, from the deformation of each triangle, area-weighted at vertices:
+/// STRAIN the larger in size of warp and weft; WARP, WEFT along the threads; BIAS the larger in size of the two diagonals.
+/// GAP: distance to the skin, mm. PENETRATION: depth inside the skin, mm. PRESSURE: contact pressure by Laplace's law
+/// p = T_warp k_warp + T_weft k_weft where cloth touches, T tension per width, k curvature along the thread, Pa.
+/// EASE: garment girth - body girth, cm, of the trunk levels, linear in height between them; none on sleeves.
+/// DIFFERENCE: distance of two drapes of one pattern at equal stable ids, mm; shown on the first one.
+/// PARTS: the body's parts.
+enum class Map { NONE, STRAIN, WARP, WEFT, BIAS, GAP, PRESSURE, EASE, PENETRATION, DIFFERENCE, PARTS };
+/// "none", "strain", "warp" ... in the order of Map.
+const std::vector<std::string>& map_names();
+
+/// The range and name of a map, for its colour bar.
+struct Legend {
+  std::string title, unit;
+  double low = 0, high = 0;
+  double p50 = 0, p99 = 0, largest = 0; ///< of the sizes of the values
+  bool diverging = false;
+  std::vector<Vec3> steps; ///< eight colours, linear, low to high; empty: no colour bar
+};
+
+/// Fills the values of the scene's cloth (for PARTS the body's colours) and says their legend.
+/// @param limit top of the scale in the map's unit; 0 picks one of a few fixed ranges, so that pictures can be compared
+/// @throws Error USAGE when the scene lacks what the map needs
+Legend apply_map(Scene& scene, Map map, double limit = 0);
+
+/// Colour of a value scaled to 0..1 (or -1..1 for diverging), linear RGB; scales that colour-blind people can read.
+Vec3 scale_color(double t, bool diverging);
+
+/// Distance of each panel vertex of `a` to its like in `b`, m; NO_VALUE where `b` has no such place.
+/// Panels go by name; places of another mesh are found in the triangles of b's panel by (s, t).
+std::vector<double> drape_difference(const garment::Garment& a, const garment::Garment& b);
+
+/// The numbers behind a map, one row per panel vertex: document, panel, s, t, x, y, z (m), value. CSV with a header line.
+std::string values_csv(const Scene& scene, const Legend& legend);
+
+} // namespace sloper::render

@@ -1,0 +1,166 @@
+#include <base/parallel.hpp>
+#include <render/occlusion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <unordered_map>
+
+namespace sloper::render {
+
+namespace {
+
+constexpr int MAP_SIZE = 320;         // pixels of a depth picture; about 6 mm each for a person
+constexpr double CELLS = 160;         // of the thinning grid along the scene's height
+constexpr float BIAS = 0.006f;        // m: what is nearer than this throws no shadow
+constexpr float SOFT = 0.006f;        // m beyond it over which the shadow grows
+constexpr float LEAST_FACING = 0.05f; // cosine below which a direction does not count
+
+Vec3 any_square(const Vec3& a) {
+  const Vec3 other = std::abs(a.y()) < 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0);
+  return other.cross(a).normalized();
+}
+
+} // namespace
+
+/// Heights above a plane square to `direction`, as seen from there.
+struct Occlusion::DepthMap {
+  Eigen::Vector3f right, up, towards, center;
+  float scale; ///< pixels per m
+  std::vector<float> height;
+};
+
+Occlusion::Occlusion(const std::vector<DrawMesh>& meshes) {
+  Box3 box;
+  for (const DrawMesh& mesh : meshes)
+    for (const Vec3& p : mesh.positions) box.add(p);
+  if (box.empty()) return;
+  m_center = box.center();
+  m_radius = std::max(1e-6, 0.5 * box.size().norm());
+  const double cell = std::max(box.size().maxCoeff(), 1e-6) / CELLS;
+  for (const DrawMesh& mesh : meshes) {
+    // Points of one cell become one at their mean; each mesh apart, so that cloth stays off the skin.
+    std::unordered_map<std::uint64_t, int> cell_of;
+    std::vector<int> cluster(mesh.positions.size());
+    std::vector<Vec3> sum;
+    std::vector<int> count;
+    cell_of.reserve(mesh.positions.size() / 2);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      const Vec3 at = (mesh.positions[v] - box.low) / cell;
+      const std::uint64_t key = static_cast<std::uint64_t>(at.x()) << 40 | static_cast<std::uint64_t>(at.y()) << 20 | static_cast<std::uint64_t>(at.z());
+      const auto [found, is_new] = cell_of.try_emplace(key, static_cast<int>(sum.size()));
+      if (is_new) {
+        sum.emplace_back(Vec3::Zero());
+        count.push_back(0);
+      }
+      cluster[v] = found->second;
+      sum[found->second] += mesh.positions[v];
+      ++count[found->second];
+    }
+    const int base = static_cast<int>(m_positions.size());
+    for (std::size_t k = 0; k < sum.size(); ++k) m_positions.push_back((sum[k] / count[k] - m_center).cast<float>());
+    for (const Triangle& t : mesh.triangles) {
+      const int a = cluster[t[0]], b = cluster[t[1]], c = cluster[t[2]];
+      if (a == b || b == c || c == a) continue;
+      m_triangles.push_back({base + a, base + b, base + c});
+      m_is_solid.push_back(!mesh.is_cloth);
+    }
+  }
+}
+
+Occlusion::DepthMap Occlusion::depth_from(const Vec3& direction) const {
+  DepthMap map;
+  const Vec3 right = any_square(direction);
+  map.right = right.cast<float>();
+  map.up = direction.cross(right).cast<float>();
+  map.towards = direction.cast<float>();
+  map.center = m_center.cast<float>();
+  map.scale = static_cast<float>(0.5 * (MAP_SIZE - 4) / m_radius);
+  map.height.assign(static_cast<std::size_t>(MAP_SIZE) * MAP_SIZE, -1e9f);
+  std::vector<Eigen::Vector3f> at(m_positions.size());
+  for (std::size_t v = 0; v < at.size(); ++v)
+    at[v] = {m_positions[v].dot(map.right) * map.scale + 0.5f * MAP_SIZE, m_positions[v].dot(map.up) * map.scale + 0.5f * MAP_SIZE,
+             m_positions[v].dot(map.towards)};
+  for (const Triangle& t : m_triangles) {
+    const Eigen::Vector3f &a = at[t[0]], &b = at[t[1]], &c = at[t[2]];
+    const int x0 = std::max(0, static_cast<int>(std::min({a.x(), b.x(), c.x()}))),
+              x1 = std::min(MAP_SIZE - 1, static_cast<int>(std::max({a.x(), b.x(), c.x()})));
+    const int y0 = std::max(0, static_cast<int>(std::min({a.y(), b.y(), c.y()}))),
+              y1 = std::min(MAP_SIZE - 1, static_cast<int>(std::max({a.y(), b.y(), c.y()})));
+    const float area = (b.x() - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (b.y() - a.y());
+    if (std::abs(area) < 1e-6f) continue;
+    if (area < 0 && m_is_solid[&t - m_triangles.data()]) continue; // a body's far side lies below its near side
+    const float inverse = 1 / area;
+    const float ux = (c.y() - a.y()) * inverse, uy = (a.x() - c.x()) * inverse, vx = (a.y() - b.y()) * inverse, vy = (b.x() - a.x()) * inverse;
+    const float slope_x = ux * (b.z() - a.z()) + vx * (c.z() - a.z());
+    for (int y = y0; y <= y1; ++y) {
+      const float dx = static_cast<float>(x0) + 0.5f - a.x(), dy = static_cast<float>(y) + 0.5f - a.y();
+      float u = ux * dx + uy * dy, v = vx * dx + vy * dy, z = a.z() + u * (b.z() - a.z()) + v * (c.z() - a.z());
+      float* row = map.height.data() + static_cast<std::size_t>(y) * MAP_SIZE;
+      for (int x = x0; x <= x1; ++x, u += ux, v += vx, z += slope_x)
+        if (u >= 0 && v >= 0 && u + v <= 1 && z > row[x]) row[x] = z;
+    }
+  }
+  return map;
+}
+
+void Occlusion::receive(const DepthMap& map, const std::vector<Vec3>& points, const std::vector<Vec3>& normals, std::vector<float>& lit,
+                        std::vector<float>& all, std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const float facing = normals[i].cast<float>().dot(map.towards);
+    if (facing <= LEAST_FACING) continue;
+    const Eigen::Vector3f p = points[i].cast<float>() - map.center;
+    const float x = p.dot(map.right) * map.scale + 0.5f * MAP_SIZE - 0.5f, y = p.dot(map.up) * map.scale + 0.5f * MAP_SIZE - 0.5f;
+    all[i] += facing;
+    if (!(x >= 0 && y >= 0 && x < MAP_SIZE - 2 && y < MAP_SIZE - 2)) {
+      lit[i] += facing;
+      continue;
+    }
+    const int ix = static_cast<int>(x), iy = static_cast<int>(y);
+    const float fx = x - static_cast<float>(ix), fy = y - static_cast<float>(iy);
+    // A surface seen askew rises within a pixel: the bias grows with its slope.
+    const float limit = p.dot(map.towards) + BIAS + std::min(0.02f, 0.7f * std::sqrt(1 - std::min(1.f, facing * facing)) / facing / map.scale);
+    const float* row = map.height.data() + static_cast<std::size_t>(iy) * MAP_SIZE + ix;
+    auto open = [&](float height) { return 1 - std::clamp((height - limit) / SOFT, 0.f, 1.f); };
+    const float share = (1 - fy) * ((1 - fx) * open(row[0]) + fx * open(row[1])) + fy * ((1 - fx) * open(row[MAP_SIZE]) + fx * open(row[MAP_SIZE + 1]));
+    lit[i] += facing * share;
+  }
+}
+
+std::vector<float> Occlusion::gather(const std::vector<Vec3>& directions, const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
+                                     float unlit) const {
+  std::vector<DepthMap> maps(directions.size());
+  parallel_for(directions.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) maps[k] = depth_from(directions[k]);
+  });
+  std::vector<float> lit(points.size(), 0.f), all(points.size(), 0.f);
+  parallel_for(points.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (const DepthMap& map : maps) receive(map, points, normals, lit, all, begin, end);
+    for (std::size_t i = begin; i < end; ++i) lit[i] = all[i] > 0 ? lit[i] / all[i] : unlit;
+  });
+  return lit;
+}
+
+std::vector<float> Occlusion::sky(const std::vector<Vec3>& points, const std::vector<Vec3>& normals, int directions) const {
+  std::vector<Vec3> from;
+  for (int k = 0; k < directions; ++k) { // spread evenly, from the zenith to somewhat below the horizon: the ground gives light back
+    const double y = 1 - 1.6 * (k + 0.5) / directions, around = k * 2.399963229728653, r = std::sqrt(std::max(0.0, 1 - y * y)); // golden angle
+    from.emplace_back(r * std::cos(around), y, r * std::sin(around));
+  }
+  std::vector<float> light = gather(from, points, normals, 0.5f);
+  for (float& l : light) l = 0.15f + 0.85f * l;
+  return light;
+}
+
+std::vector<float> Occlusion::key(const std::vector<Vec3>& points, const std::vector<Vec3>& normals, const Vec3& towards, double spread) const {
+  const Vec3 a = any_square(towards), b = towards.cross(a);
+  std::vector<Vec3> from;
+  for (int k = 0; k < 7; ++k) {
+    const double angle = k * 2.399963229728653, r = spread * std::sqrt((k + 0.5) / 7);
+    from.push_back((towards + r * (std::cos(angle) * a + std::sin(angle) * b)).normalized());
+  }
+  return gather(from, points, normals, 0.f);
+}
+
+} // namespace sloper::render

@@ -1,0 +1,13 @@
+#pragma once
+/// What the fuzzers call: a reader on any bytes must read or refuse (sloper::Error), nothing else.
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+namespace sloper::fuzz {
+/// The first byte picks the format: o OBJ, p PLY, s STL, x XYZ, 3 3DS (through assimp); the rest is the file.
+void read_scan_bytes(std::string_view bytes);
+/// A JSON document, then each of our readers of documents that people or tools write.
+void read_json_bytes(std::string_view bytes);
+/// BVH motion for a body with all bones.
+void read_bvh_bytes(std::string_view bytes);
+} // namespace sloper::fuzz

@@ -1,0 +1,188 @@
+#include <base/error.hpp>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <render/export.hpp>
+#include <render/maps.hpp>
+#include <render/pattern_view.hpp>
+#include <render/show.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <sstream>
+
+using namespace sloper;
+using namespace sloper::render;
+
+namespace {
+
+/// One rectangular panel of n x n squares, 0.3 m wide, warp along y; `place` says where a pattern point is.
+template<class F> garment::Garment make_sheet(int n, F&& place) {
+  garment::Garment g;
+  pattern::PanelInfo panel;
+  panel.name = "sheet";
+  panel.n_vertices = (n + 1) * (n + 1);
+  panel.n_triangles = 2 * n * n;
+  g.panels.panels.push_back(panel);
+  for (int r = 0; r <= n; ++r)
+    for (int c = 0; c <= n; ++c) {
+      const double s = static_cast<double>(c) / n, t = static_cast<double>(r) / n;
+      g.panels.pattern.emplace_back(0.3 * s, 0.3 * t);
+      g.panels.ids.push_back({0, s, t});
+      g.particle_of.push_back(static_cast<int>(g.particle_of.size()));
+      g.position.push_back(place(g.panels.pattern.back()));
+    }
+  g.panels.placed = g.position;
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const int a = r * (n + 1) + c, b = a + 1, d = a + n + 1, e = d + 1;
+      g.panels.triangles.push_back({a, b, e});
+      g.panels.triangles.push_back({a, e, d});
+    }
+  return g;
+}
+
+Vec3 flat(const Vec2& p) { return {p.x(), 1 + p.y(), 0}; }
+
+Scene scene_of(std::vector<garment::Garment> garments) {
+  Scene scene;
+  for (garment::Garment& g : garments) {
+    scene.garment_mesh.push_back(static_cast<int>(scene.meshes.size()));
+    scene.meshes.push_back(cloth_mesh(g));
+    scene.garments.push_back(std::move(g));
+  }
+  return scene;
+}
+
+} // namespace
+
+TEST(Maps, strain_along_warp_weft_and_bias_is_that_of_a_homogeneous_stretch) {
+  const auto stretched = [](const Vec2& p) { return Vec3(1.10 * p.x(), 1.04 * p.y(), 0); };
+  const double bias = std::sqrt(0.5 * (1.10 * 1.10 + 1.04 * 1.04)) - 1;
+  for (const auto& [map, expected] : {std::pair{Map::WARP, 4.0}, {Map::WEFT, 10.0}, {Map::BIAS, 100 * bias}, {Map::STRAIN, 10.0}}) {
+    Scene scene = scene_of({make_sheet(4, stretched)});
+    const Legend legend = apply_map(scene, map);
+    EXPECT_TRUE(legend.diverging);
+    EXPECT_EQ(legend.steps.size(), 8u);
+    for (double v : scene.meshes[0].values) EXPECT_NEAR(v, expected, 1e-9);
+  }
+}
+
+TEST(Maps, edited_rest_lengths_count_in_strain) {
+  garment::Garment g = make_sheet(3, flat);
+  g.rest_scale.assign(g.panels.triangles.size(), {2, 2, 2});
+  Scene scene = scene_of({g});
+  apply_map(scene, Map::WARP);
+  for (double v : scene.meshes[0].values) EXPECT_NEAR(v, -50, 1e-9);
+}
+
+TEST(Maps, two_drapes_of_different_meshes_differ_by_how_far_one_was_moved) {
+  const auto moved = [](const Vec2& p) { return Vec3(flat(p) + Vec3(0, 0, 0.007)); };
+  for (double d : drape_difference(make_sheet(5, flat), make_sheet(5, moved))) EXPECT_NEAR(d, 0.007, 1e-12);
+  for (double d : drape_difference(make_sheet(7, flat), make_sheet(4, moved))) EXPECT_NEAR(d, 0.007, 1e-12);
+  garment::Garment other = make_sheet(4, flat);
+  other.panels.panels[0].name = "sleeve";
+  EXPECT_THROW(drape_difference(make_sheet(4, flat), other), Error);
+}
+
+TEST(Maps, gap_and_penetration_are_signed_distances_to_the_skin) {
+  Scene scene = scene_of({make_sheet(4, [](const Vec2& p) { return Vec3(p.x() - 0.15, p.y() - 0.15, 0.02); })});
+  body::Body body; // a large box whose front face is z = 0
+  for (int k = 0; k < 8; ++k) body.skin.positions.emplace_back(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 0 : -1);
+  body.skin.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  body.face_part.assign(12, body::Part::TORSO);
+  scene.body = body;
+  apply_map(scene, Map::GAP);
+  for (double v : scene.meshes[0].values) EXPECT_NEAR(v, 20, 1e-9);
+  for (Vec3& p : scene.garments[0].position) p.z() = -0.003;
+  const Legend legend = apply_map(scene, Map::PENETRATION);
+  for (double v : scene.meshes[0].values) EXPECT_NEAR(v, 3, 1e-9);
+  EXPECT_EQ(legend.high, 4);
+}
+
+TEST(Maps, what_a_map_needs_is_named) {
+  Scene scene = scene_of({make_sheet(2, flat)});
+  EXPECT_THROW(apply_map(scene, Map::GAP), Error);
+  EXPECT_THROW(apply_map(scene, Map::PARTS), Error);
+  EXPECT_THROW(apply_map(scene, Map::DIFFERENCE), Error);
+  Scene empty;
+  EXPECT_THROW(apply_map(empty, Map::STRAIN), Error);
+}
+
+TEST(Maps, the_values_table_has_a_row_for_each_vertex_and_no_number_is_lost) {
+  Scene scene = scene_of({make_sheet(2, [](const Vec2& p) { return Vec3(1.05 * p.x(), p.y(), 0); })});
+  scene.garments[0].panels.panels[0].name = "a,b";
+  const Legend legend = apply_map(scene, Map::WEFT);
+  std::istringstream text(values_csv(scene, legend));
+  std::string line;
+  std::getline(text, line);
+  EXPECT_EQ(line, "document,panel,s,t,x_m,y_m,z_m,strain_percent");
+  int rows = 0;
+  while (std::getline(text, line)) {
+    EXPECT_EQ(line.rfind("1,\"a,b\",", 0), 0u) << line;
+    EXPECT_NEAR(std::stod(line.substr(line.rfind(',') + 1)), 5, 1e-9);
+    ++rows;
+  }
+  EXPECT_EQ(rows, 9);
+}
+
+TEST(Cloth, smoothing_keeps_flat_cloth_flat_and_hems_at_its_border) {
+  garment::Garment g = make_sheet(6, flat);
+  DrawMesh mesh = cloth_mesh(g);
+  const std::size_t before = mesh.triangles.size();
+  smooth_cloth(mesh);
+  EXPECT_GT(mesh.triangles.size(), 16 * before);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    EXPECT_LE(std::abs(mesh.positions[v].z()), 0.0013); // the rim is as thick as cloth
+    const Vec2 p = mesh.uv[v];
+    const double border = std::min({p.x(), p.y(), 0.3 - p.x(), 0.3 - p.y()});
+    EXPECT_NEAR(mesh.hem[v], std::min(border, BORDER_REACH), 1e-9);
+    EXPECT_EQ(mesh.seam[v], BORDER_REACH);
+  }
+}
+
+TEST(Cloth, smoothing_brings_a_coarse_cylinder_nearer_to_round) {
+  garment::Garment g = make_sheet(8, [](const Vec2& p) { return Vec3(0.1 * std::sin(p.x() / 0.1), p.y(), 0.1 * std::cos(p.x() / 0.1)); });
+  DrawMesh mesh = cloth_mesh(g);
+  smooth_cloth(mesh);
+  double worst = 0;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    if (mesh.hem[v] > 0.015) worst = std::max(worst, std::abs(std::hypot(mesh.positions[v].x(), mesh.positions[v].z()) - 0.1));
+  EXPECT_LT(worst, 0.0009); // chords alone miss by 1.8 mm
+}
+
+TEST(PatternView, panels_do_not_overlap_and_none_is_turned) {
+  const std::vector<Vec2> sizes{{0.3, 0.7}, {0.3, 0.7}, {0.5, 0.2}, {0.1, 0.1}, {0.9, 0.05}};
+  const auto corners = pack_panels(sizes, 0.03, 0.8);
+  for (std::size_t a = 0; a < sizes.size(); ++a)
+    for (std::size_t b = a + 1; b < sizes.size(); ++b) {
+      const Vec2 apart = (corners[a] - corners[b] - sizes[b]).cwiseMax(corners[b] - corners[a] - sizes[a]);
+      EXPECT_GE(apart.maxCoeff(), 0.03 - 1e-12) << a << " and " << b;
+    }
+}
+
+TEST(Export, a_glb_is_whole_and_describes_what_it_holds) {
+  Scene scene = scene_of({make_sheet(3, flat)});
+  scene.meshes[0].name = "sheet";
+  color_cloth(scene, ClothColors::PANELS);
+  const std::string bytes = glb_bytes(scene.meshes, {});
+  ASSERT_EQ(bytes.compare(0, 4, "glTF"), 0);
+  std::uint32_t total = 0, json = 0;
+  std::memcpy(&total, bytes.data() + 8, 4);
+  std::memcpy(&json, bytes.data() + 12, 4);
+  EXPECT_EQ(total, bytes.size());
+  const auto document = nlohmann::json::parse(bytes.substr(20, json));
+  EXPECT_EQ(document["meshes"].size(), 1u);
+  EXPECT_EQ(document["accessors"][0]["count"], 16);
+  EXPECT_EQ(document["buffers"][0]["byteLength"].get<std::size_t>() + 28 + json, bytes.size());
+  EXPECT_EQ(bytes, glb_bytes(scene.meshes, {}));
+}
+
+TEST(Show, a_level_cut_of_a_box_is_as_long_as_its_girth) {
+  TriangleMesh box;
+  for (int k = 0; k < 8; ++k) box.positions.emplace_back(k & 1 ? 0.2 : 0, k & 2 ? 1 : 0, k & 4 ? 0.1 : 0);
+  box.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  double length = 0;
+  for (const auto& [a, b] : cut_level(box, 0.37, {})) length += (b - a).norm();
+  EXPECT_NEAR(length, 0.6, 1e-12);
+  EXPECT_THROW(parse_show("landmark"), Error);
+}
