@@ -1,5 +1,5 @@
 # Thin: every target is one command that can be typed by hand. `make` builds the five programs into build/tools/.
-.PHONY: all test demo check sanitize install format man bench validation figure4 clean
+.PHONY: all pictures package test demo population check sanitize install format man bench validation figure4 clean
 
 all:
 	@scripts/build release
@@ -11,6 +11,10 @@ test:
 demo:
 	@scripts/build release scan-landmarks pattern-mesh drape retarget-garment render-png make-mannequin make-pattern
 	@$(MAKE) --no-print-directory -C samples/demo
+
+population:
+	@scripts/build release scan-landmarks pattern-mesh drape retarget-garment render-png make-mannequin make-pattern
+	@$(MAKE) --no-print-directory -C samples/population
 
 check:
 	@scripts/setup
@@ -46,3 +50,9 @@ figure4:
 clean:
 	@cmake -E rm -rf build build-dev build-sanitize
 	@$(MAKE) --no-print-directory -C samples/demo clean
+
+pictures: all
+	@scripts/make-pictures build
+
+package: all
+	@scripts/package-test build

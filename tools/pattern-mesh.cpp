@@ -7,6 +7,7 @@
 #include <pattern/check_pattern.hpp>
 #include <pattern/edits.hpp>
 #include <pattern/export_pattern.hpp>
+#include <pattern/finished_measures.hpp>
 #include <pattern/infer_seams.hpp>
 #include <pattern/mesh_pattern.hpp>
 #include <pattern/panel_mesh_json.hpp>
@@ -32,12 +33,23 @@ int check(const cli::Tool& tool, const pattern::Pattern& source, const Options& 
   io::Json document = io::new_document("pattern-findings", 1, tool.name());
   document["findings"] = io::Json::array();
   bool bad = false;
-  for (const pattern::PatternFinding& f : pattern::check_pattern(source)) {
+  const std::vector<pattern::PatternFinding> findings = pattern::check_pattern(source);
+  for (const pattern::PatternFinding& f : findings) {
     std::cout << f.severity << ": " << f.rule << ": " << f.place << ": " << f.fact << '\n';
     document["findings"].push_back({{"severity", f.severity}, {"rule", f.rule}, {"place", f.place}, {"fact", f.fact}});
     bad = bad || f.severity == "error";
   }
-  if (!o.output.empty()) io::write_json(o.output, document);
+  if (!bad) { // what the finished garment measures
+    const pattern::FinishedMeasures measures = pattern::finished_measures(source, o.pattern);
+    for (const pattern::Opening& opening : measures.openings) {
+      std::string edges;
+      for (const std::string& edge : opening.edges) edges += (edges.empty() ? "" : ", ") + edge;
+      std::cout << "measure: opening of " << pattern::centimetres(opening.length) << ": " << edges << '\n';
+    }
+    document["measures"] = pattern::measures_json(measures);
+  }
+  const bool sarif = o.output.size() > 6 && o.output.compare(o.output.size() - 6, 6, ".sarif") == 0;
+  if (!o.output.empty()) io::write_json(o.output, sarif ? pattern::findings_sarif(findings, o.pattern, tool.name()) : document);
   return bad ? 1 : 0;
 }
 
@@ -130,7 +142,9 @@ int main(int argc, char** argv) {
   app.add_option("--write-pattern", o.write_pattern,
                  "write the pattern as read and edited: FILE.json (own format), FILE.dxf (AAMA with sewing texts) or FILE.svg (to look at)");
   app.add_option("-o,--output", o.output, "panels.json; panels.obj is written beside it")->check(cli::output_file());
-  app.add_flag("--check", o.check, "validate only: findings to standard output (and as JSON to -o), exit 1 where the pattern cannot be sewn as drawn");
+  app.add_flag("--check", o.check,
+               "validate only: findings and finished measures to standard output (as JSON or SARIF to -o FILE.json or FILE.sarif), exit 1 where the pattern "
+               "cannot be sewn as drawn");
   tool.example("pattern-mesh --body body.json -o panels.json shirt.pattern.json", "mesh a pattern and place it around a scanned body");
   tool.example("pattern-mesh --check shirt.pattern.json", "list what is wrong with a pattern without meshing it");
   return tool.run(argc, argv, [&] { return run(tool, o); });

@@ -33,23 +33,25 @@ void add_options(cli::Tool& tool, Options& o) {
   CLI::App& app = tool.app();
   app.add_option("DOC", o.documents, "body.json, shirt.json, panels.json, a pattern, OBJ, PLY or STL meshes; PNG files with --sheet and --compare")->required();
   app.add_option("--view", o.view, "front, back, left, right, iso, pattern (laid flat) or turntable:N; several joined by commas make a sheet")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("LIST");
   app.add_option("--camera", o.camera, "camera.json instead of --view")->check(cli::input_file());
   app.add_option("--field-height", o.field_height, "metres that a picture is high; 0 frames the scene")->check(cli::finite_in(0, 1000, "m"));
   app.add_option("--map", o.map, "numbers as colours")->check(cli::one_of(render::map_names()))->capture_default_str();
   app.add_option("--range", o.range, "top of the colour scale in the map's unit; 0 picks one")->check(cli::finite_in(0, 1e9, ""));
   app.add_option("--values", o.values, "write the numbers behind the map, CSV")->check(cli::output_file());
-  app.add_option("--show", o.show, "landmarks, bones, frames, slices, seams, names; joined by commas");
+  app.add_option("--show", o.show, "landmarks, bones, frames, slices, seams, names; joined by commas")->type_name("LIST");
   app.add_option("--fabric", o.fabric, "auto, panels (a colour each), plain, woven, twill, stripes, checks, or a PNG to print on the cloth")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("NAME");
   app.add_option("--print-size", o.print_size, "width of one repeat of a printed PNG")->check(cli::finite_in(0.001, 10, "m"))->capture_default_str();
-  app.add_option("--color", o.colors, "cloth colours as RRGGBB, one for each garment, joined by commas");
-  app.add_option("--size", o.size, "WIDTHxHEIGHT of one view, pixels")->capture_default_str();
+  app.add_option("--color", o.colors, "cloth colours as RRGGBB, one for each garment, joined by commas")->type_name("LIST");
+  app.add_option("--size", o.size, "WIDTHxHEIGHT of one view, pixels")->capture_default_str()->type_name("WxH");
   app.add_option("--background", o.background, "of the picture")->check(cli::one_of({"white", "grey", "transparent"}))->capture_default_str();
   app.add_option("--context", o.context, "what draws: osmesa, or egl (surfaceless)")->check(cli::one_of({"osmesa", "egl"}))->capture_default_str();
   app.add_flag("--sheet", o.sheet, "put PNG files side by side");
   app.add_option("--columns", o.columns, "of a sheet; 0 is one row")->check(CLI::Range(0, 64));
-  app.add_option("--labels", o.labels, "captions of a sheet, joined by commas");
+  app.add_option("--labels", o.labels, "captions of a sheet, joined by commas")->type_name("LIST");
   app.add_flag("--compare", o.compare, "compare two PNG files: figures to standard output, exit 1 when they differ");
   app.add_option("--tolerance", o.tolerance, "with --compare: least structural similarity")->check(cli::finite_in(0, 1, ""))->capture_default_str();
   app.add_option("--mask", o.mask, "with --compare: a PNG, bright where pixels count")->check(cli::input_file());

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double SAMPLE = 0.004; // m between points on curves
 constexpr double SPIKE = 10;     // degrees
+constexpr double TINY = 0.002;   // m
 
 struct Sampled {
   std::vector<Vec2> points;
@@ -90,6 +91,10 @@ private:
         add("error", "crossing-outline", panel.name + ": " + first,
             (edges.first == edges.second ? "crosses itself " : "crosses or touches " + second + " ") + at_point(s.points[a]));
       }
+    check_holes(panel, s);
+    for (int e = 0; e < panel.n_edges(); ++e)
+      if (const double l = length(panel.edge(e).path); l < TINY)
+        add("warning", "tiny-edge", panel.name + ": " + panel.edge(e).name, "is " + centimetres(l) + " long");
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t b = s.next[k], c = s.next[b];
       const Vec2 in = s.points[k] - s.points[b], out = s.points[c] - s.points[b];
@@ -102,6 +107,46 @@ private:
         add("warning", "sharp-spike", panel.name + ": " + panel.edge(s.edge[b]).name, text);
       }
     }
+  }
+
+  /// A hole that crosses nothing lies in the panel with its first point, or not at all.
+  void check_holes(const Panel& panel, const Sampled& s) {
+    for (std::size_t h = 0; h < s.points.size(); ++h) {
+      if (s.loop[h] == 0 || (h > 0 && s.loop[h] == s.loop[h - 1])) continue;
+      bool inside = false;
+      double nearest = 1e300;
+      for (std::size_t k = 0; k < s.points.size() && s.loop[k] == 0; ++k) {
+        const Vec2 a = s.points[k], b = s.points[s.next[k]], p = s.points[h];
+        if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+        nearest = std::min(nearest, (a - p).norm());
+      }
+      if (!inside)
+        add("error", "hole-outside", panel.name + ": " + panel.edge(s.edge[h]).name,
+            "this hole starts outside of the outline, " + centimetres(nearest) + " from its nearest corner");
+    }
+  }
+
+  /// Notches of two whole edges sewn to each other should meet: those of the longer list that have no partner within 1 cm are told.
+  void check_notches(const Seam& seam) {
+    if (seam.a.size() != 1 || seam.b.size() != 1 || seam.kind == "gather" || !seam.ease.empty()) return;
+    std::vector<double> at[2];
+    double sewn[2];
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Run& run = side ? seam.b[0] : seam.a[0];
+      sewn[side] = run_length(m_pattern, run);
+      for (const Notch& n : m_pattern.panels[static_cast<std::size_t>(run.panel)].notches)
+        if (n.edge == run.edge && n.at >= std::min(run.from, run.to) && n.at <= std::max(run.from, run.to))
+          at[side].push_back((n.at - run.from) / (run.to - run.from) * sewn[side]);
+    }
+    if (at[0].empty() || at[1].empty()) return;
+    for (std::size_t side = 0; side < 2; ++side)
+      for (double x : at[side]) {
+        double nearest = 1e300;
+        for (double y : at[1 - side]) nearest = std::min(nearest, std::abs(x - y));
+        if (nearest > 0.01)
+          add("warning", "notch-mismatch", "seam " + seam.name,
+              "the notch of " + place_of(m_pattern, side ? seam.b[0] : seam.a[0]) + " at " + centimetres(x) + " misses its partner by " + centimetres(nearest));
+      }
   }
 
   void check_runs() {
@@ -135,6 +180,10 @@ private:
       const bool can_tell = m_pattern.source_format == "pattern" || m_pattern.source_format == "sewing-spec";
       add(can_tell ? "error" : "warning", "length-mismatch", "seam " + seam.name, text);
     }
+    if (ratio > 3 && (seam.kind == "gather" || !seam.ease.empty()))
+      add("warning", "many-gathers", "seam " + seam.name,
+          place_of(m_pattern, seam.a[0]) + " is " + centimetres(a) + ", " + place_of(m_pattern, seam.b[0]) + " is " + centimetres(b) + ": more than 4 to 1");
+    check_notches(seam);
     // Loops are counter-clockwise from outside: a seam that keeps the face outside runs along one and against the other.
     if ((seam.a[0].from < seam.a[0].to) == (seam.b[0].from < seam.b[0].to))
       add("warning", "face-to-back", "seam " + seam.name, "joins the outside of one panel to the inside of the other");
@@ -156,6 +205,24 @@ private:
 } // namespace
 
 std::vector<PatternFinding> check_pattern(const Pattern& pattern) { return Check(pattern).run(); }
+
+io::Json findings_sarif(const std::vector<PatternFinding>& findings, const std::string& file, const std::string& tool) {
+  io::Json rules = io::Json::array(), results = io::Json::array();
+  std::vector<std::string> known;
+  for (const PatternFinding& f : findings) {
+    if (std::find(known.begin(), known.end(), f.rule) == known.end()) known.push_back(f.rule), rules.push_back({{"id", f.rule}});
+    const io::Json location = {{"physicalLocation", {{"artifactLocation", {{"uri", io::file_name(file)}}}}},
+                               {"logicalLocations", io::Json::array({io::Json{{"fullyQualifiedName", f.place}}})}};
+    results.push_back({{"ruleId", f.rule},
+                       {"level", f.severity == "info" ? "note" : f.severity},
+                       {"message", {{"text", f.place + ": " + f.fact}}},
+                       {"locations", io::Json::array({location})}});
+  }
+  const io::Json driver = {{"name", tool}, {"rules", rules}};
+  return {{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
+          {"version", "2.1.0"},
+          {"runs", io::Json::array({io::Json{{"tool", {{"driver", driver}}}, {"results", results}}})}};
+}
 
 void require_sewable(const Pattern& pattern, const std::string& file) {
   for (const PatternFinding& f : check_pattern(pattern)) {

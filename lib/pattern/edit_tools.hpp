@@ -31,7 +31,7 @@ std::string free_edge_name(const Panel& panel, const std::string& wanted);
 
 /// The edits that change what edges and panels there are; `unit` is m per unit of the document.
 void split_panel(Pattern& pattern, const io::Node& node, double unit); ///< split, cut
-void add_point(Pattern& pattern, const io::Node& node);                 ///< add-point
+void add_point(Pattern& pattern, const io::Node& node);                ///< add-point
 void join_panels(Pattern& pattern, const io::Node& node);              ///< join
 void add_dart(Pattern& pattern, const io::Node& node, double unit);    ///< add-dart
 void rotate_dart(Pattern& pattern, const io::Node& node);              ///< rotate-dart

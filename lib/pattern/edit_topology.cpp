@@ -423,13 +423,20 @@ void rotate_dart(Pattern& pattern, const io::Node& node) {
   const std::size_t first = find(leg), last = (first + 1) % pieces.size(), after = (last + 1) % pieces.size();
   if (opening == first || opening == after) node.at("at").fail("the dart opens there already");
   std::vector<Piece> turned = walk(pieces, after, opening), still = walk(pieces, opening, first);
-  // From the dart to the opening the outline turns about the tip until the legs meet.
-  const double angle = std::atan2((a - tip).y(), (a - tip).x()) - std::atan2((b - tip).y(), (b - tip).x());
-  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
-  for (Piece& piece : turned)
+  // The shorter part of the outline between dart and opening turns about the tip until the legs meet.
+  const auto total = [](const std::vector<Piece>& list) {
+    double sum = 0;
+    for (const Piece& piece : list) sum += length(piece.edge.path);
+    return sum;
+  };
+  const double between = std::atan2((a - tip).y(), (a - tip).x()) - std::atan2((b - tip).y(), (b - tip).x());
+  const bool all_but = total(still) < total(turned);
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(all_but ? -between : between).toRotationMatrix();
+  for (Piece& piece : all_but ? still : turned)
     for (Segment& s : piece.edge.path)
       for (Vec2& p : s.p) p = snapped(Vec2(tip + turn * (p - tip)));
-  turned.front().edge.path.front().p[0] = a;
+  if (all_but) still.back().edge.path.back().p[3] = b;
+  else turned.front().edge.path.front().p[0] = a;
   Piece new_one = straight(one.edge.name, end_of(turned.back()), tip), new_two = straight(two.edge.name, tip, start_of(still.front()));
   new_one.origin = one.origin, new_two.origin = two.origin;
   std::vector<Piece> outer = still;

@@ -235,6 +235,19 @@ std::array<Vec2, 2> laid_bounds(const PanelMesh& mesh, const PanelRole& role, co
   return b;
 }
 
+double covered(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot, int panel, double v) {
+  const auto& outline = mesh.panels[static_cast<std::size_t>(panel)].outline;
+  std::vector<double> at;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 p = laid(mesh, role, spot, outline[i]), q = laid(mesh, role, spot, outline[(i + 1) % outline.size()]);
+    if ((p.y() <= v) != (q.y() <= v)) at.push_back(p.x() + (v - p.y()) / (q.y() - p.y()) * (q.x() - p.x()));
+  }
+  std::sort(at.begin(), at.end());
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < at.size(); i += 2) sum += at[i + 1] - at[i];
+  return sum;
+}
+
 std::vector<PanelSpot> lay_out(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph, std::vector<PanelRole>& roles) {
   return Layout(pattern, mesh, graph, roles).run();
 }

@@ -18,4 +18,7 @@ Vec2 laid(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot, i
 /// Bounds of a panel's outline in (u, v): low and high.
 std::array<Vec2, 2> laid_bounds(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot, int panel);
 
+/// How much of the level line at height v a panel covers, m.
+double covered(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot, int panel, double v);
+
 } // namespace sloper::pattern

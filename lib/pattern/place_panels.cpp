@@ -179,17 +179,8 @@ private:
   /// How much of the level line v is covered by panels about the trunk, m.
   double covered(double v) const {
     double sum = 0;
-    for (std::size_t k = 0; k < m_roles.size(); ++k) {
-      if (m_roles[k].region != Region::TRUNK) continue;
-      const auto& outline = m_mesh.panels[k].outline;
-      std::vector<double> at;
-      for (std::size_t i = 0; i < outline.size(); ++i) {
-        const Vec2 p = uv(k, outline[i]), q = uv(k, outline[(i + 1) % outline.size()]);
-        if ((p.y() <= v) != (q.y() <= v)) at.push_back(p.x() + (v - p.y()) / (q.y() - p.y()) * (q.x() - p.x()));
-      }
-      std::sort(at.begin(), at.end());
-      for (std::size_t i = 0; i + 1 < at.size(); i += 2) sum += at[i + 1] - at[i];
-    }
+    for (std::size_t k = 0; k < m_roles.size(); ++k)
+      if (m_roles[k].region == Region::TRUNK) sum += pattern::covered(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k), v);
     return sum;
   }
 

@@ -31,7 +31,7 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
         paths.push_back(e.path);
         for (const Segment& s : e.path) low = low.cwiseMin(s.p[0]), high = high.cwiseMax(s.p[0]);
         if (!(length(e.path) > 1e-6))
-          throw input_error(file, panel.name + ": " + e.name, "the edge has no length (duplicate points)", "take it out of the outline");
+          throw input_error(file, panel.name + ": " + e.name, "the edge is 0.00 cm long (duplicate points)", "take it out of the outline");
       }
       largest = std::max(largest, (high - low).maxCoeff());
       const double area = signed_area(paths);

@@ -5,6 +5,7 @@
 #include <render/occlusion.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -56,7 +57,8 @@ struct Renderer::Impl {
   DrawOptions options;
   std::unique_ptr<Context> context;
   Gl gl;
-  GLuint surface_program = 0, line_program = 0, surface_array = 0, line_array = 0, surface_buffer = 0, line_buffer = 0, framebuffer = 0;
+  std::array<GLuint, 4> surface_programs{}; ///< by kind
+  GLuint line_program = 0, surface_array = 0, line_array = 0, surface_buffer = 0, line_buffer = 0, framebuffer = 0;
   DrawMesh ground;
   std::unique_ptr<Occlusion> occlusion;
   std::vector<SurfaceVertex> vertices; ///< of all meshes, then the ground
@@ -71,7 +73,6 @@ struct Renderer::Impl {
 
   Impl(const std::vector<DrawMesh>& m, const DrawOptions& o) : meshes(m), options(o), context(make_context(o.context)), gl(*context) {
     make_framebuffer();
-    surface_program = gl.program(SURFACE_VERTEX_SHADER, SURFACE_FRAGMENT_SHADER);
     line_program = gl.program(LINE_VERTEX_SHADER, LINE_FRAGMENT_SHADER);
     if (options.ground) ground = make_ground(meshes);
     gather_vertices();
@@ -225,25 +226,34 @@ struct Renderer::Impl {
     gl.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(vertices.size() * sizeof vertices[0]), vertices.data());
   }
 
-  void draw_parts(const Camera& camera) {
+  /// The program of one kind of surface, made when first asked for; its uniforms are set for this camera.
+  void use_surface(int kind, const Camera& camera) {
+    GLuint& program = surface_programs[static_cast<std::size_t>(kind)];
+    if (!program) {
+      const std::string source = "#version 330\nconst int kind = " + std::to_string(kind) + ", fabric = " + std::to_string(static_cast<int>(options.fabric)) +
+                                 ", steps = " + std::to_string(options.map_colors.size()) + ";\n" + SURFACE_FRAGMENT_SHADER;
+      program = gl.program(SURFACE_VERTEX_SHADER, source.c_str());
+    }
     const Eigen::Matrix4f clip = camera.matrix().cast<float>();
     const Eigen::Matrix3f turn = camera.turn.cast<float>();
-    auto uniform = [&](GLuint program, const char* name) { return gl.GetUniformLocation(program, name); };
-    gl.UseProgram(surface_program);
-    gl.UniformMatrix4fv(uniform(surface_program, "clip"), 1, GL_FALSE, clip.data());
-    gl.UniformMatrix3fv(uniform(surface_program, "turn"), 1, GL_FALSE, turn.data());
-    gl.Uniform3f(uniform(surface_program, "center"), static_cast<float>(camera.center.x()), static_cast<float>(camera.center.y()),
-                 static_cast<float>(camera.center.z()));
-    gl.Uniform1f(uniform(surface_program, "eye"), static_cast<float>(camera.distance));
-    gl.Uniform1i(uniform(surface_program, "fabric"), static_cast<int>(options.fabric));
-    gl.Uniform1i(uniform(surface_program, "steps"), static_cast<int>(options.map_colors.size()));
-    gl.Uniform1f(uniform(surface_program, "print_size"), static_cast<float>(options.print_size));
-    gl.Uniform3f(uniform(surface_program, "accent"), 0.78f, 0.76f, 0.70f);
+    auto at = [&](const char* name) { return gl.GetUniformLocation(program, name); };
+    gl.UseProgram(program);
+    gl.UniformMatrix4fv(at("clip"), 1, GL_FALSE, clip.data());
+    gl.UniformMatrix3fv(at("turn"), 1, GL_FALSE, turn.data());
+    gl.Uniform3f(at("center"), static_cast<float>(camera.center.x()), static_cast<float>(camera.center.y()), static_cast<float>(camera.center.z()));
+    gl.Uniform1f(at("eye"), static_cast<float>(camera.distance));
+    gl.Uniform1f(at("print_size"), static_cast<float>(options.print_size));
+    gl.Uniform3f(at("accent"), 0.78f, 0.76f, 0.70f);
     if (options.map_colors.size() == 8) {
       float scale[24];
       for (int k = 0; k < 8; ++k) put(scale + 3 * k, options.map_colors[k]);
-      gl.Uniform3fv(uniform(surface_program, "scale"), 8, scale);
+      gl.Uniform3fv(at("scale"), 8, scale);
     }
+  }
+
+  void draw_parts(const Camera& camera) {
+    const Eigen::Matrix4f clip = camera.matrix().cast<float>();
+    auto uniform = [&](GLuint program, const char* name) { return gl.GetUniformLocation(program, name); };
     gl.UseProgram(line_program);
     gl.UniformMatrix4fv(uniform(line_program, "clip"), 1, GL_FALSE, clip.data());
     gl.Uniform2f(uniform(line_program, "half_size"), 0.5f * static_cast<float>(options.width), 0.5f * static_cast<float>(options.height));
@@ -252,8 +262,7 @@ struct Renderer::Impl {
     for (const Part& part : parts) {
       const bool ground_seen = part.kind == GROUND && camera.elevation > units::radians(2);
       if (part.kind == GROUND && !ground_seen) continue;
-      gl.UseProgram(surface_program);
-      gl.Uniform1i(uniform(surface_program, "kind"), part.kind);
+      use_surface(part.kind, camera);
       gl.BindVertexArray(surface_array);
       if (part.kind == GROUND) {
         gl.Enable(GL_BLEND);

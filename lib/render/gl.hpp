@@ -66,7 +66,7 @@ struct Gl {
 
 /// GLSL 330. Attributes of the surface: 0 position, 1 normal, 2 colour and light, 3 warp-aligned uv, seam and hem distance, 4 map value, key light.
 extern const char* const SURFACE_VERTEX_SHADER;
-extern const char* const SURFACE_FRAGMENT_SHADER;
+extern const char* const SURFACE_FRAGMENT_SHADER; ///< without its version and constants: see there
 /// Attributes of lines: 0 position, 1 the other end, 2 colour and side.
 extern const char* const LINE_VERTEX_SHADER;
 extern const char* const LINE_FRAGMENT_SHADER;

@@ -25,15 +25,14 @@ void main() {
 
 // Two-sided. Sky from above, a warm key light from the upper left that throws soft shadows, a cool fill from the right, a rim
 // that parts cloth from ground. Map values become eight steps. Cloth is woven: slubs along warp and weft from afar, threads
-// near by; each fades before it is finer than a pixel.
-const char* const SURFACE_FRAGMENT_SHADER = R"(#version 330
+// near by; each fades before it is finer than a pixel. Constants come before it: kind (0 body, 1 cloth, 2 flat, 3 ground shadow),
+// fabric (0 plain, 1 woven, 2 twill, 3 stripes, 4 checks, 5 print), steps (of a map, 0: none). A processor would compute every
+// branch of a uniform for every pixel.
+const char* const SURFACE_FRAGMENT_SHADER = R"(
 in vec3 view, normal, color;
 in vec4 cloth;
 in vec3 light;
-uniform int kind;     // 0 body, 1 cloth, 2 flat, 3 ground shadow
-uniform int fabric;   // 0 plain, 1 woven, 2 twill, 3 stripes, 4 checks, 5 print
 uniform float eye;    // distance of the viewer from the centre, 0: infinite
-uniform int steps;    // of a map, 0: none
 uniform vec3 scale[8];
 uniform vec3 accent;
 uniform float print_size; // m

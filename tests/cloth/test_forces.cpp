@@ -88,6 +88,19 @@ TEST(Bending, flat_cloth_in_any_pose_has_no_bending_force) {
   EXPECT_LT(bending_energy(g.mesh, x), 1e-18);
 }
 
+TEST(Forces, of_cloth_turned_and_moved_turn_with_it) {
+  const Grid g = make_grid(5, 0.1);
+  const auto x = jittered(g.x, 0.004, 10);
+  EdgeSpringEffect springs(g.mesh);
+  ShearEffect shear(g.mesh);
+  BendingEffect bending(g.mesh);
+  SewingSpringEffect sewing({{0, 7}, {3, 20}}, 50, 0.02);
+  expect_rigid_motion_invariance(springs, g.mesh, x);
+  expect_rigid_motion_invariance(shear, g.mesh, x);
+  expect_rigid_motion_invariance(bending, g.mesh, x);
+  expect_rigid_motion_invariance(sewing, g.mesh, x);
+}
+
 TEST(Gravity, force_is_minus_energy_gradient) {
   const Grid g = make_grid(4, 0.1);
   GravityEffect effect(g.mesh, Vec3(0.3, -9.80665, 0.1));

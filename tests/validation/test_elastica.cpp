@@ -5,6 +5,7 @@
 #include "at_rest.hpp"
 #include "figures.hpp"
 
+#include <Eigen/LU>
 #include <cloth/bending.hpp>
 #include <cloth/dihedral_bending.hpp>
 #include <cloth/edge_spring.hpp>
@@ -13,7 +14,9 @@
 #include <cloth/pins.hpp>
 #include <cloth/shear.hpp>
 #include <cloth/triangle_stretch.hpp>
+#include <cstdlib>
 #include <gtest/gtest.h>
+#include <io/json.hpp>
 
 using namespace sloper;
 using namespace sloper::cloth;
@@ -49,6 +52,59 @@ double reference(double gamma) {
   }
   shoot(high);
   return h / w;
+}
+
+/// A beam clamped at s = 0 and hinged on its own line at s = 1, shortened by eps: theta'' = -N sin(theta) + T cos(theta) (B = L = 1),
+/// theta(0) = 0, theta'(1) = 0, no lateral distance between the ends.
+struct Buckled {
+  double friction, thrust; ///< |T| / N, N L^2 / B
+};
+Buckled buckled(double eps) {
+  double shortening = 0;
+  auto shoot = [&](double slope, double n, double t) { // returns theta'(1) and the lateral distance
+    const int steps = 500;
+    const double ds = 1.0 / steps;
+    double theta = 0, d = slope, lateral = 0, axial = 0;
+    auto f = [&](double angle) { return -n * std::sin(angle) + t * std::cos(angle); };
+    for (int i = 0; i < steps; ++i) {
+      const double k1 = d, l1 = f(theta), k2 = d + 0.5 * ds * l1, l2 = f(theta + 0.5 * ds * k1), k3 = d + 0.5 * ds * l2, l3 = f(theta + 0.5 * ds * k2),
+                   k4 = d + ds * l3, l4 = f(theta + ds * k3);
+      const double next = theta + ds / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+      lateral += 0.5 * ds * (std::sin(theta) + std::sin(next));
+      axial += 0.5 * ds * (std::cos(theta) + std::cos(next));
+      theta = next;
+      d += ds / 6 * (l1 + 2 * l2 + 2 * l3 + l4);
+    }
+    shortening = 1 - axial;
+    return Vec2(d, lateral);
+  };
+  double n = 20.1907, t = 0; // tan(beta) = beta, N = beta^2: the load at which it buckles; there T = -theta'(0)
+  auto solve = [&](double slope) {
+    for (int k = 0; k < 20; ++k) {
+      const Vec2 r = shoot(slope, n, t);
+      const double h = 1e-6;
+      Eigen::Matrix2d jacobian;
+      jacobian.col(0) = (shoot(slope, n + h, t) - r) / h;
+      jacobian.col(1) = (shoot(slope, n, t + h) - r) / h;
+      const Vec2 step = jacobian.fullPivLu().solve(r);
+      n -= step[0];
+      t -= step[1];
+      if (step.norm() < 1e-10) break;
+    }
+    shoot(slope, n, t);
+    return shortening;
+  };
+  double slope = 0.1, before = 0;
+  t = -slope;
+  while (solve(slope) < eps) { // follow the branch
+    before = slope;
+    slope += 0.2;
+  }
+  for (int k = 0; k < 25; ++k) {
+    const double mid = 0.5 * (before + slope);
+    (solve(mid) < eps ? before : slope) = mid;
+  }
+  return {std::abs(t) / n, n};
 }
 
 enum class Model { SPRINGS, TRIANGLES, FEM, FEM_DIHEDRAL };
@@ -101,11 +157,65 @@ constexpr double STRIP = 1 - 1.0 / 9;
 
 } // namespace
 
-TEST(Elastica, the_reference_is_the_published_curve) {
-  // The master curve of Romero et al. 2021, figure 5, as tabulated from the same boundary-value problem by an independent solver.
-  EXPECT_NEAR(reference(1), 0.12456, 2e-5);
-  EXPECT_NEAR(reference(10), 1.0668, 1e-4);
-  EXPECT_NEAR(reference(100), 5.88809, 1e-3);
+TEST(Elastica, the_references_agree_with_an_independent_solver) {
+  EXPECT_NEAR(reference(0.01), 0.01 / 8, 1e-7); // a beam under its own weight: w L^4 / 8 B
+  const char* shared = std::getenv("SLOPER_SHARED");
+  if (!shared) GTEST_SKIP() << "SLOPER_SHARED is not set";
+  const std::string path = std::string(shared) + "/check/elastica.json";
+  const io::Json json = io::read_json(path);
+  for (const auto& row : json.at("cantilever"))
+    if (row.at(0) == 1 || row.at(0) == 10 || row.at(0) == 100)
+      EXPECT_NEAR(reference(row.at(0)), row.at(1), 3e-4 * row.at(1).get<double>()) << "Gamma " << row.at(0);
+  for (const auto& row : json.at("stick"))
+    if (row.at(0) == 0.05 || row.at(0) == 0.3) {
+      const Buckled b = buckled(row.at(0));
+      EXPECT_NEAR(b.friction, row.at(1), 1e-3) << "eps " << row.at(0);
+      EXPECT_NEAR(b.thrust, row.at(2), 0.02) << "eps " << row.at(0);
+    }
+}
+
+TEST(StickSlip, the_friction_that_holds_a_buckled_sheet_s_end_is_within_5_percent) {
+  // Romero et al. 2021, section 6: an upright sheet, clamped above, stands with its lower edge on the floor and is pushed down by eps of
+  // its length; it buckles, and the edge slips when the ratio of its lateral to its normal force passes mu. Here the edge is hinged, and
+  // the ratio of its forces is the friction that would hold it.
+  const double length = 0.1;
+  const int n = 16;
+  const double dx = length / (n + 0.5);
+  Fabric fabric;
+  fabric.stretch_warp_n_m = fabric.stretch_weft_n_m = 5000;
+  fabric.shear_n_m = 1500;
+  fabric.poisson = 0;
+  fabric.bend_n_m = 1e-5;
+  fabric.damping_s = 0;
+  const HexSheet s = make_hex_sheet(n + 1, dx, 42, fabric);
+  std::vector<Vec3> x = s.x;
+  const double width = 42 * dx / std::sqrt(0.75);
+  for (Vec3& p : x) p.y() = 0.002 * std::sin(M_PI * std::max(0.0, p.x() - 0.5 * dx) / length);
+  ClothSolver solver(s.mesh, x);
+  solver.emplace<MembraneEffect>(s.mesh);
+  solver.emplace<BendingEffect>(s.mesh);
+  std::vector<Pin> pins;
+  for (int p : s.columns.back()) pins.push_back({p, s.x[p], 1e4, Vec3::Zero()}); // first: the hinged edge
+  for (int c = 0; c < 2; ++c)
+    for (int p : s.columns[c]) pins.push_back({p, s.x[p], 1e4, Vec3::Zero()});
+  const std::size_t n_edge = s.columns.back().size();
+  auto& held = solver.emplace<PinsEffect>(pins);
+  for (double eps : {0.05, 0.1, 0.2, 0.3}) {
+    for (std::size_t k = 0; k < n_edge; ++k) held.set_target(k, s.x[s.columns.back()[k]] - Vec3(eps * length, 0, 0));
+    EXPECT_GT(go_to_rest(solver), 0);
+    Vec3 force = Vec3::Zero();
+    double end = 0;
+    for (std::size_t k = 0; k < n_edge; ++k) {
+      force += held.force(k, solver.x());
+      end += solver.x()[s.columns.back()[k]].x() / static_cast<double>(n_edge);
+    }
+    const Buckled exact = buckled(1 - (end - 0.5 * dx) / length);
+    const double thrust = -force.x() / width * length * length / fabric.bend_n_m, friction = std::abs(force.y() / force.x());
+    print_figure("friction at eps " + std::to_string(eps), friction, exact.friction);
+    print_figure("thrust N L^2 / B at eps " + std::to_string(eps), thrust, exact.thrust);
+    EXPECT_NEAR(friction / exact.friction, 1, 0.05) << "eps " << eps;
+    EXPECT_NEAR(thrust / exact.thrust, 1, 0.05) << "eps " << eps;
+  }
 }
 
 TEST(Elastica, a_wide_sheet_with_springs_is_within_3_percent) { expect_curve(Model::SPRINGS, 16, 42, 1, ALL); }
