@@ -1,5 +1,5 @@
 # Thin: every target is one command that can be typed by hand. `make` builds the five programs into build/tools/.
-.PHONY: all pictures package test demo population check sanitize install format man bench validation figure4 clean
+.PHONY: all pictures package test demo population check sanitize install format man bench validation figure4 accuracy clean
 
 all:
 	@scripts/build release
@@ -32,6 +32,10 @@ format:
 
 man:
 	@scripts/build release man
+
+accuracy:
+	@scripts/build release
+	@scripts/accuracy --build build --write
 
 bench:
 	@scripts/build release

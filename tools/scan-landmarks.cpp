@@ -6,6 +6,7 @@
 #include <io/files.hpp>
 #include <io/scan_reader.hpp>
 
+#include <chrono>
 #include <cstdio>
 
 using namespace sloper;
@@ -43,7 +44,11 @@ int run(cli::Tool& tool, const Options& o) {
   options.jitter = o.jitter;
   if (!o.rules.empty()) options.rules = body::Rules::read(o.rules);
   tool.reporter().progress("reading", -1);
+  const auto start = std::chrono::steady_clock::now();
   const io::Scan scan = io::read_scan(o.scan);
+  char took[60];
+  std::snprintf(took, sizeof took, "reading: %.3f s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  tool.reporter().info(took);
   body::MeasuredScan measured = body::measure_scan(scan.mesh, o.scan, scan.sha256, options, tool.reporter());
   const std::string vit = o.vit.empty() ? "" : body::valentina_measurements(measured.body);
   const std::string garmentcode = o.garmentcode.empty() ? "" : body::garmentcode_body(measured.body);

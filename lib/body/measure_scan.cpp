@@ -11,6 +11,7 @@
 #include <io/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -87,6 +88,23 @@ void shift(Body& body, const Vec3& by) {
   for (Vec3& p : body.skin.positions) p += by;
 }
 
+/// Says after each phase how long it took; with -v only, and nothing depends on it.
+class Phases {
+public:
+  explicit Phases(Reporter& reporter) : m_reporter(reporter) {}
+  void done(const char* phase) {
+    const auto now = std::chrono::steady_clock::now();
+    char text[80];
+    std::snprintf(text, sizeof text, "%s: %.3f s", phase, std::chrono::duration<double>(now - m_last).count());
+    m_reporter.info(text);
+    m_last = now;
+  }
+
+private:
+  Reporter& m_reporter;
+  std::chrono::steady_clock::time_point m_last = std::chrono::steady_clock::now();
+};
+
 struct RuleInput {
   const std::vector<Vec3>& scan_points; ///< the scan's own points of the body, body frame
   bool rebuilt;
@@ -95,8 +113,9 @@ struct RuleInput {
 };
 
 /// All rules on body.skin; fills landmarks, levels, girths, stance and class. @return part per vertex of the skin
-std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::string>& trail) {
+std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::string>& trail, Phases* phases) {
   LevelStack levels(body.skin, in.s, 0.0025 * in.s, in.rebuilt ? 0.002 : 0);
+  if (phases) phases->done("slicing");
   const bool crotch_moved = doubt_crotch(levels, in.scan_points, body.scan.findings, trail);
   const EdgeGraph graph(body.skin);
   const std::array<ArmTrace, 2> arms = trace_arms(levels, graph, in.rebuilt ? in.scan_points : std::vector<Vec3>{});
@@ -154,7 +173,7 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
     points.reserve(in.scan_points.size());
     for (const Vec3& p : in.scan_points) points.push_back(turn * p + lift);
     std::vector<std::string> unheard;
-    apply_rules({points, in.rebuilt, in.s, in.rules}, trial, unheard);
+    apply_rules({points, in.rebuilt, in.s, in.rules}, trial, unheard, nullptr);
     auto add = [](Sum& sum, double miss) { sum.squares += miss * miss, ++sum.n; };
     for (const auto& [name, landmark] : trial.landmarks)
       if (body.has_landmark(name)) add(landmarks[name], (turn.transpose() * (landmark.p - lift) - body.landmark(name)).norm());
@@ -180,6 +199,7 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
 MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, const std::string& sha256, const ScanOptions& options, Reporter& reporter) {
   MeasuredScan result;
   Body& body = result.body;
+  Phases phases(reporter);
   const SortedScan sorted = sort_scan(scan, options.up);
   const CanonicalFrame frame = guess_frame(scan, sorted, options.unit, file);
   body.scan = {io::file_name(file),
@@ -196,6 +216,7 @@ MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, con
   reporter.info("unit " + frame.unit + ", up " + sorted.up_name + ", stature " + std::to_string(frame.stature_m) + " m");
   SkinSurface skin = make_skin(positions, scan.triangles, sorted.is_body, frame.stature_m);
   body.skin = std::move(skin.mesh);
+  phases.done("frame and skin");
   body.scan.findings.insert(body.scan.findings.end(), skin.findings.begin(), skin.findings.end());
 
   const double s = frame.stature_m;
@@ -204,9 +225,11 @@ MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, con
     if (sorted.is_body[v]) scan_points.push_back(positions[v]);
   const RuleInput input{scan_points, skin.rebuilt, s, options.rules};
   reporter.progress("rules", -1);
-  const std::vector<Part> skin_part = apply_rules(input, body, result.trail);
+  const std::vector<Part> skin_part = apply_rules(input, body, result.trail, &phases);
+  phases.done("rules");
   const int jitter = options.jitter >= 0 ? options.jitter : body.skin.triangles.size() < MOST_FACES_TO_JITTER ? STANDARD_JITTER : 0;
   if (jitter > 0) measure_spread(input, jitter, skin.noise_m, body, reporter);
+  if (jitter > 0) phases.done("spread");
   else result.trail.push_back("spread: not measured, the usual one of each rule is given");
   body.face_part = label_faces(body.skin.triangles, skin_part);
   result.vertex_part = label_scan(positions, sorted.is_body, skin.of_scan, body.skin, skin_part, 0.03 * s);
@@ -226,6 +249,7 @@ MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, con
   body.scan_to_body = turn_and_shift(0, origin) * frame.scan_to_body;
   build_frames(body);
   build_bones(body);
+  phases.done("parts and frames");
   add_findings(body, sorted, skin);
   for (const char* name : ESSENTIAL)
     if (!body.has_landmark(name)) {

@@ -206,6 +206,40 @@ TEST(SceneEffects, an_elastic_waistband_draws_the_skirt_in_to_the_balance_of_ban
   EXPECT_GT(girth(), 0.39);
 }
 
+TEST(SceneEffects, a_drape_runs_what_the_scene_asks_for_and_reports_it) {
+  auto hem = [&](const char* text, DrapeReport& report) {
+    Garment g = skirt(true); // sewn, held along its upper edge, no body
+    g.scene = parsed(text);
+    g.scene.pins.push_back({{"front", Vec2(0, 1), Vec2(1, 1)}});
+    g.scene.pins.push_back({{"back", Vec2(0, 1), Vec2(1, 1)}});
+    report = drape(g, nullptr, {}, silent_reporter());
+    Vec3 sum = Vec3::Zero();
+    int n = 0;
+    for (std::size_t v = 0; v < g.panels.ids.size(); ++v)
+      if (g.panels.ids[v].t == 0) {
+        sum += g.position[g.particle_of[v]];
+        ++n;
+      }
+    return Vec3(sum / n);
+  };
+  DrapeReport still, blown;
+  const Vec3 before = hem(R"({})", still);
+  const Vec3 after = hem(R"({"membrane": "fem", "wind_m_s": [0, 0, 6], "bands": [{"panel": "front", "from": [0, 1], "to": [1, 1]}]})", blown);
+  EXPECT_GT(after.z(), before.z() + 0.02) << "the wind blows the hem along +z";
+  auto calls = [](const DrapeReport& report, const std::string& name) {
+    for (const EffectReport& e : report.effects)
+      if (e.name == name) return e.calls;
+    return -1L;
+  };
+  for (const char* name : {"membrane", "wind", "elastic_bands"}) {
+    EXPECT_EQ(calls(still, name), 0) << name;
+    EXPECT_GT(calls(blown, name), 0) << name;
+  }
+  EXPECT_EQ(calls(blown, "edge_springs"), 0);
+  EXPECT_GT(calls(still, "edge_springs"), 0);
+  EXPECT_GT(calls(still, "pins"), 0);
+}
+
 TEST(Kes, one_property_per_row_in_kes_units) {
   const test::ScratchFolder folder;
   io::write_file((folder / "poplin.csv"), "property,unit,warp,weft\nW,mg/cm2,12.1,12.1\nB,gf.cm2/cm,0.1,0.06\n2HB,gf.cm/cm,0.05,0.04\n"
