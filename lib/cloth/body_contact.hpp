@@ -20,7 +20,7 @@ namespace sloper::cloth {
 
 struct BodyContactOptions {
   double gap_m = 0.003;        ///< distance to the skin at which contact begins
-  double stiffness_n_m3 = 6e5; ///< k: pressure per depth; skin gives way about as much
+  double stiffness_n_m3 = 3e5; ///< k: pressure per depth; skin gives way about as much
   double friction = 0.0;       ///< mu
   double tangent_ratio = 0.5;  ///< tangent over normal stiffness while sticking
   double slide_ratio = 0.05;   ///< the same while sliding: only steadies the step

@@ -30,6 +30,7 @@ constexpr double SEW_STRONGEST = 5;      // N at reach
 constexpr double SEW_LEG_SCALE = 0.7;    // of the body's thickness while trousers are sewn
 constexpr double SEW_BENDING = 30;       // times that of the fabric
 constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step while the body is inflated
+constexpr int GLIDE_STEPS = 40;          // cloth glides over the skin while it finds its place: friction would keep the strain of sewing
 constexpr double SHORTEST_STEP_S = 0.005;
 constexpr double LARGEST_STEP_S = 0.2; // s, while settling
 constexpr int UNTANGLE_ROUNDS = 80;
@@ -256,7 +257,6 @@ void DrapeRun::settle() {
   const Phase phase(*this, "settle");
   if (active("gravity")) m_solver->emplace<cloth::GravityEffect>(*m_cloth, Vec3(0, -m_settings.gravity_m_s2, 0));
   const Material& material = material_of(m_garment, "");
-  if (active("friction") && m_body_contact) m_body_contact->set_friction(material.friction_body);
   if (active("friction") && m_self_contact) m_self_contact->set_friction(material.friction_self);
   double h = m_settings.time_step_s;
   int calm = 0;
@@ -271,8 +271,9 @@ void DrapeRun::settle() {
     if (m_last.halvings > 0) h = std::max(h * 0.7, SHORTEST_STEP_S);
     else if (m_last.largest_move_m < 0.003) h = std::min(h * 1.15, LARGEST_STEP_S);
     else if (m_last.largest_move_m > 0.01) h = std::max(h * 0.8, m_settings.time_step_s);
+    if (k == GLIDE_STEPS && active("friction") && m_body_contact) m_body_contact->set_friction(material.friction_body);
     const bool still = speed < m_settings.settle_speed_m_s && residual < m_settings.settle_force_ratio;
-    calm = still ? calm + 1 : 0;
+    calm = still && k > GLIDE_STEPS ? calm + 1 : 0;
     if (calm < 3) continue;
     m_garment.position = m_solver->x();
     if (m_untanglings < 4 && m_self_contact && !m_self_contact->crossings().empty()) {
