@@ -48,7 +48,10 @@ def run(command, timeout_s, folder):
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     cost = {"wall_s": round(time.monotonic() - start, 3), "cpu_s": round(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, 3),
             "peak_mb": round(after.ru_maxrss / 1024, 1)}
-    return code, (lines[-1] if lines else "").replace(folder + "/", ""), cost
+    message = lines[-1] if lines else ""
+    for path in [folder, *(os.path.dirname(word) for word in command[1:] if word.startswith("/"))]:
+        message = message.replace(path + "/", "")
+    return code, message, cost
 
 
 def make_body(out, plan, key):

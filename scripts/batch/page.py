@@ -77,6 +77,10 @@ def best_sizes(statuses):
     return best
 
 
+def counted(n, word):
+    return f"{n} {word}" + ("" if n == 1 else "s")
+
+
 def css_class(cause):
     return "ok" if cause in GOOD else "no" if cause in REFUSED else "bad"
 
@@ -116,7 +120,7 @@ def write_page(out, plan, statuses):
     """population.html in `out`; statuses by key."""
     listed = [dict(statuses[key], key=key) for key in plan["cells"] if key in statuses]
     figures = summary(listed)
-    page = HEAD + f"<h1>{figures['cells']} cells: {len({s['garment'] + s['size'] for s in listed})} garments on {len({s['scan'] for s in listed})} bodies</h1>\n<div class=figures>"
+    page = HEAD + f"<h1>{counted(figures['cells'], 'cell')}: {counted(len({s['garment'] + s['size'] for s in listed}), 'garment')} on {counted(len({s['scan'] for s in listed}), 'scan')}</h1>\n<div class=figures>"
     if figures["rate"] is not None:
         page += f"<div><b class=ok>{100 * figures['rate']:.1f} %</b>dressed of {figures['tried']} that may fit<br><span class=pale>95 %: {100 * figures['low']:.1f} to {100 * figures['high']:.1f} %</span></div>"
     for cause, n in sorted(figures["causes"].items(), key=lambda item: (-item[1], item[0])):

@@ -67,5 +67,5 @@ void expect_accuracy(const std::string& folder, double median_bound, double p95_
 
 } // namespace
 
-TEST(SharedAccuracy, of_plain_bodies) { expect_accuracy("plain", 0.006, 0.021, 4); }
-TEST(SharedAccuracy, of_corrupted_scans) { expect_accuracy("corrupted", 0.0075, 0.035, 8); }
+TEST(SharedAccuracy, of_plain_bodies) { expect_accuracy("plain", 0.005, 0.018, 2); }
+TEST(SharedAccuracy, of_corrupted_scans) { expect_accuracy("corrupted", 0.0065, 0.024, 5); }
