@@ -255,13 +255,18 @@ void DrapeRun::inflate() {
 
 void DrapeRun::settle() {
   const Phase phase(*this, "settle");
-  if (active("gravity")) m_solver->emplace<cloth::GravityEffect>(*m_cloth, Vec3(0, -m_settings.gravity_m_s2, 0));
-  const Material& material = material_of(m_garment, "");
-  if (active("friction") && m_self_contact) m_self_contact->set_friction(material.friction_self);
   double h = m_settings.time_step_s;
   int calm = 0;
   m_settling = true;
+  const int glide = m_disturbed ? GLIDE_STEPS : 0;
   for (int k = 0; !m_stopped; ++k) {
+    if (k == glide) {
+      if (active("gravity")) m_solver->emplace<cloth::GravityEffect>(*m_cloth, Vec3(0, -m_settings.gravity_m_s2, 0));
+      const Material& material = material_of(m_garment, "");
+      if (active("friction") && m_body_contact) m_body_contact->set_friction(material.friction_body);
+      if (active("friction") && m_self_contact) m_self_contact->set_friction(material.friction_self);
+      h = m_settings.time_step_s;
+    }
     if (!step(h, 0)) break;
     const double speed = m_last.largest_move_m / h, residual = m_last.residual_force_ratio;
     if (k % 20 == 0)
@@ -271,9 +276,8 @@ void DrapeRun::settle() {
     if (m_last.halvings > 0) h = std::max(h * 0.7, SHORTEST_STEP_S);
     else if (m_last.largest_move_m < 0.003) h = std::min(h * 1.15, LARGEST_STEP_S);
     else if (m_last.largest_move_m > 0.01) h = std::max(h * 0.8, m_settings.time_step_s);
-    if (k == GLIDE_STEPS && active("friction") && m_body_contact) m_body_contact->set_friction(material.friction_body);
     const bool still = speed < m_settings.settle_speed_m_s && residual < m_settings.settle_force_ratio;
-    calm = still && k > GLIDE_STEPS ? calm + 1 : 0;
+    calm = still && k >= glide ? calm + 1 : 0;
     if (calm < 3) continue;
     m_garment.position = m_solver->x();
     if (m_untanglings < 4 && m_self_contact && !m_self_contact->crossings().empty()) {
@@ -343,6 +347,7 @@ DrapeReport DrapeRun::run() {
   if (unsewn) unsew(m_garment);
   m_report.effects = choose_effects(m_garment, m_body, m_settings);
   start_outside_body(unsewn);
+  m_disturbed = unsewn || m_scale < 1;
   if (unsewn && active("sewing")) sew();
   if (!m_stopped) {
     untangle();

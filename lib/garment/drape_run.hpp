@@ -46,8 +46,9 @@ private:
 
   std::optional<collision::BodyCollider> m_collider;
   std::optional<BodyShrink> m_shrink;
-  bool m_settling = false; ///< steps are shortened until the energy falls
-  double m_scale = 1;      ///< of the body, see BodyShrink
+  bool m_disturbed = false; ///< by sewing, or by a body that was drawn in
+  bool m_settling = false;  ///< steps are shortened until the energy falls
+  double m_scale = 1;       ///< of the body, see BodyShrink
 
   std::unique_ptr<cloth::ClothMesh> m_cloth;
   std::unique_ptr<cloth::ClothSolver> m_solver;

@@ -70,7 +70,7 @@ bool comes_to_rest(double angle, double mu, double& moved) {
   material.friction_body = mu;
   garment.materials[""] = material;
   DrapeSettings settings;
-  settings.max_steps = 400;
+  settings.max_steps = 1200;
   settings.settle_force_ratio = 1e-3; // a patch that slides slowly is not at rest
   settings.settle_speed_m_s = 1e-4;
   settings.effects = "auto,-self_contact";
