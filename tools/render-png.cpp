@@ -173,6 +173,7 @@ int run_render(cli::Tool& tool, const Options& o) {
   const auto size = parse_size(o.size);
   options.width = size[0];
   options.height = size[1];
+  if (std::max(size[0], size[1]) > 4096) options.supersample = 1; // four samples a pixel would need gigabytes
   options.background = o.background == "grey"    ? render::Background::GREY
                        : o.background == "white" ? render::Background::WHITE
                                                  : render::Background::TRANSPARENT;

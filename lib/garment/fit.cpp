@@ -16,11 +16,12 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double AROUND = 0.75;      // turns about the axis from which a line of cloth counts as going round
-constexpr double LARGEST_OPEN = 0.4; // turns that arms and openings may leave bare of a trunk level
-constexpr double BAND = 0.02;        // m on both sides of the cut in which strain is taken
-constexpr double TOUCHING = 0.003;   // m beyond the contact gap at which cloth still presses
-constexpr double NOT_AT_REST = 0.01; // m that a drape which did not come to rest may still move
+constexpr double AROUND = 0.75;       // turns about the axis from which a line of cloth counts as going round
+constexpr double LARGEST_OPEN = 0.4;  // turns that arms and openings may leave bare of a trunk level
+constexpr double BAND = 0.02;         // m on both sides of the cut in which strain is taken
+constexpr double TOUCHING = 0.003;    // m beyond the contact gap at which cloth still presses
+constexpr double REACH_BEYOND = 0.03; // m above and below a level that cloth must reach, or it may slide to where it is wide enough
+constexpr double NOT_AT_REST = 0.01;  // m that a drape which did not come to rest may still move
 
 /// The innermost line of cloth that goes round the place, or nothing and why.
 std::optional<SectionLine> line_around(const Garment& garment, const std::vector<char>& use, const FitPlace& place, double shift, std::string& why,
@@ -219,7 +220,7 @@ std::string region_of(const Garment& garment, std::size_t particle, double axill
   if (frame.find("arm_") != std::string::npos) return side + "sleeve";
   if (frame.rfind("leg_", 0) == 0) return side + "leg";
   if (frame == "lower_body") return "skirt";
-  if (frame == "head") return "hood";
+  if (frame == "head") return "collar"; // or a hood
   return garment.position[particle].y() > axilla_y ? "shoulders" : "trunk";
 }
 
@@ -346,12 +347,18 @@ FitReport fit_before_drape(const Garment& placed, const std::vector<Vec3>& sourc
   double worst = 0;
   for (const FitPlace& place : fit_places(body)) {
     if (place.kind == "neck") continue; // a collar slides to where it is wide enough
-    std::string why;
-    const auto line = line_around(placed, cloth_of(placed, place), place, 0, why, &source_position);
-    if (!line) continue;
+    const std::vector<char> use = cloth_of(placed, place);
     const double limit = policy.limits(place.name, report.garment_class, report.fabric).too_small_strain;
-    const double reach = std::max((line->rest - line->bridged) * (1 + limit), line->elsewhere - line->bridged) + line->bridged;
-    const double missing = place.body_m - place.body_spread_m - reach;
+    std::optional<SectionLine> line;
+    double missing = 1e300;
+    for (const double shift : {-REACH_BEYOND, REACH_BEYOND, 0.0}) {
+      std::string why;
+      line = line_around(placed, use, place, shift, why, &source_position);
+      if (!line) break;
+      const double reach = std::max((line->rest - line->bridged) * (1 + limit), line->elsewhere - line->bridged) + line->bridged;
+      missing = std::min(missing, place.body_m - place.body_spread_m - reach);
+    }
+    if (!line) continue;
     if (missing <= 0) continue;
     FitRow row;
     row.name = place.name, row.kind = place.kind, row.height_m = place.center.y(), row.body_m = place.body_m;

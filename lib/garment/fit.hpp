@@ -5,10 +5,9 @@
 /// limb. A garment's girth is the length of the line of cloth in the cut: `lying` as it hangs, `rest` as it would be
 /// unstretched; ease = rest - body girth, so a garment that only goes on by stretching has negative ease. Contact pressure
 /// is estimated by Laplace's law, tension / radius, with the fabric's stretch modulus and radius = body girth / 2 pi.
-/// Uncertainties: of the body's girth its spread; of the garment's the change within the error of the level's height and the
-/// chord's shortfall against its arc; of strain the change when half the band is taken; of the gap the sagitta of an edge; of
-/// pressure that of strain. A drape that did not come to rest adds `convergence_m` to lengths and gaps, and its strain and slip
-/// decide nothing: only the ease of its girths does.
+/// Uncertainties: of the body's girth its spread, or what the next level tells of its slope; of the garment's the change within the error of the level's height
+/// and the chord's shortfall against its arc; of strain the change when half the band is taken; of the gap the sagitta of an edge; of pressure that of strain.
+/// A drape that did not come to rest adds `convergence_m` to lengths and gaps, and its strain and slip decide nothing: only the ease of its girths does.
 #include <body/body.hpp>
 #include <collision/body_collider.hpp>
 #include <garment/fit_lines.hpp>
@@ -41,7 +40,7 @@ struct FitRow {
 
 /// Strain over one region of the garment: where it is stretched though no girth says so (across the shoulders, over a sleeve).
 struct FitRegion {
-  std::string name; ///< "shoulders", "trunk", "left sleeve", "left leg", "skirt", "hood"
+  std::string name; ///< "shoulders", "trunk", "left sleeve", "left leg", "skirt", "collar" (or a hood)
   int edges = 0;
   double strain_p50 = 0, strain_p99 = 0, strain_max = 0;
   std::string strain_direction;

@@ -1,6 +1,7 @@
 #include <garment/fit_places.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace sloper::garment {
@@ -8,6 +9,7 @@ namespace sloper::garment {
 namespace {
 
 constexpr double HEIGHT_ERROR = 0.005; // m, least uncertainty of a level's height
+constexpr double LEAST_SPREAD = 0.002; // m of a trunk girth: the mesh of the scan
 
 bool is_arm(const std::string& frame) { return frame.find("arm") != std::string::npos; }
 
@@ -21,11 +23,24 @@ double level_spread(const body::Body& body, const std::string& level) {
   return spread(level);
 }
 
+/// A level's girth has no spread of its own: what it changes within the error of its height, by the slope to the next level.
+double level_girth_spread(const body::Body& body, const std::string& name, double height_error) {
+  const body::Level& level = body.levels.at(name);
+  double nearest = 1e300, slope = 0;
+  for (const auto& [other_name, other] : body.levels) {
+    const double distance = std::abs(other.y - level.y);
+    if (other_name == name || !(other.girth_m > 0) || distance < 0.02 || distance > nearest) continue;
+    nearest = distance, slope = std::abs(other.girth_m - level.girth_m) / distance;
+  }
+  return std::hypot(LEAST_SPREAD, slope * height_error);
+}
+
 void add_levels(const body::Body& body, std::vector<FitPlace>& places) {
   const auto torso = body.frames.find("torso");
   for (const auto& [name, level] : body.levels) {
     if (!(level.girth_m > 0)) continue;
-    FitPlace place{name, "level", Vec3(0, level.y, 0), Vec3::UnitY(), level.girth_m, 0.0, std::max(HEIGHT_ERROR, level_spread(body, name)), {}, {}};
+    const double height_error = std::max(HEIGHT_ERROR, level_spread(body, name));
+    FitPlace place{name, "level", Vec3(0, level.y, 0), Vec3::UnitY(), level.girth_m, level_girth_spread(body, name, height_error), height_error, {}, {}};
     if (torso != body.frames.end()) {
       const PartFrame& f = torso->second.frame;
       place.center = f.lower + (f.upper - f.lower) * std::max(0.0, (level.y - f.lower.y()) / (f.upper.y() - f.lower.y()));

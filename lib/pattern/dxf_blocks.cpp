@@ -102,7 +102,11 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
   DxfLine polyline;
   bool in_polyline = false;
 
+  constexpr double FARTHEST = 1e9; // file units: a thousand kilometres of millimetres
   const auto finish = [&] {
+    for (const auto* list : {&entity.x, &entity.y})
+      for (double x : *list)
+        if (block && std::abs(x) > FARTHEST) tags.fail("a coordinate is out of all bounds");
     const auto point = [&](std::size_t k) { return Vec2(entity.x[k], k < entity.y.size() ? entity.y[k] : 0.0); };
     if (entity.kind == "VERTEX" && in_polyline && !entity.x.empty()) polyline.points.push_back(point(0));
     else if (entity.kind == "POLYLINE") polyline = {entity.layer, (entity.flags & 1) != 0, {}}, in_polyline = true;

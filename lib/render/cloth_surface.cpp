@@ -11,17 +11,21 @@ namespace {
 
 constexpr double FINE = 0.006; // m: edges shorter than this look smooth
 constexpr std::size_t MOST_TRIANGLES = 200000;
-constexpr double CURVE = 0.75;       // how far patches leave their triangles; 1 reaches the tangent planes
-constexpr double LEAST_RIM = 0.0012; // m: thinner rims cannot be seen
+constexpr double CURVE = 0.75;                       // how far patches leave their triangles; 1 reaches the tangent planes
+constexpr double MOST_IN = 0.0002, MOST_OUT = 0.003; // m, in each round
+constexpr double LEAST_RIM = 0.0012;                 // m: thinner rims cannot be seen
 
 int mid_vertex(DrawMesh& mesh, int a, int b) {
   const int m = static_cast<int>(mesh.positions.size());
   const Vec3 p = mesh.positions[a], q = mesh.positions[b], np = mesh.normals[a], nq = mesh.normals[b], flat = 0.5 * (p + q);
   const Vec3 on_p = flat - (flat - p).dot(np) * np, on_q = flat - (flat - q).dot(nq) * nq;
-  mesh.positions.push_back((1 - CURVE) * flat + 0.5 * CURVE * (on_p + on_q));
-  const Vec3 n = np + nq;
-  const double length = n.norm();
-  mesh.normals.push_back(length > 1e-9 ? Vec3(n / length) : np);
+  const Vec3 sum = np + nq, n = sum.norm() > 1e-9 ? Vec3(sum.normalized()) : np;
+  // Inwards no further than the cloth lies off the skin, outwards no further than folds lie off each other.
+  Vec3 curved = CURVE * (0.5 * (on_p + on_q) - flat);
+  const double most = curved.dot(n) < 0 ? MOST_IN : MOST_OUT, length = curved.norm();
+  if (length > most) curved *= most / length;
+  mesh.positions.push_back(flat + curved);
+  mesh.normals.push_back(n);
   mesh.colors.push_back(Vec3(0.5 * (mesh.colors[a] + mesh.colors[b])));
   mesh.uv.push_back(Vec2(0.5 * (mesh.uv[a] + mesh.uv[b])));
   mesh.panel_of.push_back(mesh.panel_of[a]);

@@ -127,14 +127,14 @@ void draw_legend(io::Image& image, const Legend& legend) {
       pixel[3] = 255;
     }
   for (int k = 0; k <= n; k += 2)
-    draw_text(image, number(legend.high - k * (legend.high - legend.low) / n), left + bar_width + font / 2, top + step * k + font * 3 / 8, font);
+    draw_text_halo(image, number(legend.high - k * (legend.high - legend.low) / n), left + bar_width + font / 2, top + step * k + font * 3 / 8, font);
   const int right = image.width - font;
-  draw_text(image, legend.title, right, top - font * 11 / 4, font, Align::RIGHT);
-  draw_text(image, legend.unit, right, top - font * 11 / 8, font, Align::RIGHT);
+  draw_text_halo(image, legend.title, right, top - font * 11 / 4, font, Align::RIGHT);
+  draw_text_halo(image, legend.unit, right, top - font * 11 / 8, font, Align::RIGHT);
   const char* names[] = {"p50  ", "p99  ", "max  "};
   const double values[] = {legend.p50, legend.p99, legend.largest};
   for (int k = 0; k < 3; ++k)
-    draw_text(image, names[k] + number(values[k]) + " " + legend.unit, right, top + n * step + (4 + 3 * k) * font / 2 + font / 2, font, Align::RIGHT);
+    draw_text_halo(image, names[k] + number(values[k]) + " " + legend.unit, right, top + n * step + (4 + 3 * k) * font / 2 + font / 2, font, Align::RIGHT);
 }
 
 io::Image contact_sheet(const std::vector<io::Image>& images, const std::vector<std::string>& captions, int columns) {

@@ -69,7 +69,7 @@ void draw_labels(Pen& pen, std::vector<Label> labels) {
       const int width = text_width(column[k].text, font), margin = font / 2;
       const double edge = right ? image.width - margin - width - 4 : margin + width + 4;
       draw_line(image, edge, y[k], column[k].at.x(), column[k].at.y(), 0.8 * pen.unit, column[k].color, 0.55);
-      draw_text(image, column[k].text, right ? image.width - margin - width : margin, static_cast<int>(y[k] + 0.36 * font), font, Align::LEFT, INK);
+      draw_text_halo(image, column[k].text, right ? image.width - margin - width : margin, static_cast<int>(y[k] + 0.36 * font), font, Align::LEFT, INK);
     }
   }
 }
@@ -106,7 +106,7 @@ void show_frames(Pen& pen, const body::Body& body) {
     pen.disc(f.lower, 3, AXES[1], true);
     pen.disc(f.upper, 3, AXES[1], true);
     const Vec3 middle = pen.at(0.5 * (f.lower + f.upper));
-    draw_text(pen.image(), name, static_cast<int>(middle.x() + 6 * pen.unit), static_cast<int>(middle.y()), pen.font(), Align::LEFT, INK);
+    draw_text_halo(pen.image(), name, static_cast<int>(middle.x() + 6 * pen.unit), static_cast<int>(middle.y()), pen.font(), Align::LEFT, INK);
   }
 }
 

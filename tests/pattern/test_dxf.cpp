@@ -125,6 +125,11 @@ TEST(Dxf, AHalfPieceIsUnfoldedWithItsNotchesAndSeams) {
   EXPECT_NEAR(run_length(p, p.seams[0].a[0]), 0.3, 1e-12);
 }
 
+TEST(Dxf, CoordinatesBeyondAllBoundsAreRefused) { // found by fuzzing: no edge was near the text
+  const std::string text = file(block("a", polyline("14", box(400, 300)) + "0\nTEXT\n8\n15\n10\n0.0\n20\n1e300\n1\nRUN hem\n"));
+  EXPECT_THROW(read_dxf(text, "p.dxf"), Error);
+}
+
 TEST(Dxf, ASewLineOnLayerEightIsToldFromAnInternalLine) {
   const std::string cut = polyline("1", {{-10, -10}, {410, -10}, {410, 310}, {-10, 310}});
   EXPECT_NEAR(outline_area(read_dxf(file(block("a", cut + polyline("8", box(400, 300)))), "p.dxf").panels[0]), 0.12, 1e-9);

@@ -1,7 +1,7 @@
 #include "pattern_texts.hpp"
 
 #include <base/parallel.hpp>
-#include <chrono>
+#include <ctime>
 #include <gtest/gtest.h>
 #include <pattern/panel_mesh_json.hpp>
 #include <pattern/triangulate.hpp>
@@ -81,12 +81,12 @@ TEST(Mesh, SameBytesOnEveryRunAndForAnyThreadCount) {
   EXPECT_EQ(one.triangles, four.triangles);
 }
 
-TEST(Mesh, TenThousandVerticesInLessThanASecond) {
-  const auto start = std::chrono::steady_clock::now();
+TEST(Mesh, TenThousandVerticesTakeATenthOfASecondOfCpu) {
+  const std::clock_t start = std::clock(); // of CPU, so that a busy machine does not matter
   const PanelMesh mesh = mesh_pattern(own(tube_text()), 0.0074, "test.json");
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   EXPECT_GT(mesh.pattern.size(), 9000u);
-  EXPECT_LT(seconds, 1.0); // 0.15 s alone on one core; the bound leaves room for a busy machine
+  EXPECT_LT(seconds, 0.5); // 0.12 s; the bound leaves room for slower ones
 }
 
 TEST(Mesh, DocumentReadsBackAsItWasWritten) {
