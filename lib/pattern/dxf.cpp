@@ -336,6 +336,15 @@ private:
     const int index = static_cast<int>(m_pattern.panels.size());
     const std::string material = find_value(block.texts, "Material");
     if (!material.empty()) panel.label = material;
+    for (const DxfText& t : block.texts) { // "Quantity: 2", or in free text "Fabric, Cut 2"
+      const std::size_t cut_at = t.text.find("Cut ");
+      const std::string n = !value_of(t.text, "Quantity").empty() ? value_of(t.text, "Quantity") : cut_at != std::string::npos ? t.text.substr(cut_at + 4) : "";
+      int times = 0;
+      if (std::istringstream(n) >> times && times > 1) {
+        m_pattern.findings.push_back(panel.name + ": to be cut " + std::to_string(times) + " times; one is taken");
+        break;
+      }
+    }
     read_sewing(block, panel, index);
     int fold = -1;
     for (const DxfLine& line : block.lines)

@@ -125,6 +125,15 @@ TEST(Dxf, AHalfPieceIsUnfoldedWithItsNotchesAndSeams) {
   EXPECT_NEAR(run_length(p, p.seams[0].a[0]), 0.3, 1e-12);
 }
 
+TEST(Dxf, PiecesToBeCutTwiceAreSaid) {
+  for (const char* words : {"Quantity: 2", "Fabric, Cut 2"}) {
+    const Pattern p = read_dxf(file(block("a", polyline("14", box(400, 300)) + text_entity("1", 0, 0, words))), "p.dxf");
+    EXPECT_TRUE(std::any_of(p.findings.begin(), p.findings.end(), [](const std::string& f) { return f == "a: to be cut 2 times; one is taken"; })) << words;
+  }
+  EXPECT_EQ(read_dxf(file(block("a", polyline("14", box(400, 300)) + text_entity("1", 0, 0, "Quantity: 1"))), "p.dxf").findings.size(), 1u)
+      << "only the sew line";
+}
+
 TEST(Dxf, CoordinatesBeyondAllBoundsAreRefused) { // found by fuzzing: no edge was near the text
   const std::string text = file(block("a", polyline("14", box(400, 300)) + "0\nTEXT\n8\n15\n10\n0.0\n20\n1e300\n1\nRUN hem\n"));
   EXPECT_THROW(read_dxf(text, "p.dxf"), Error);
