@@ -80,6 +80,27 @@ void add_findings(Body& body, const SortedScan& sorted, const SkinSurface& skin)
   add("info", "arms");
 }
 
+/// Which unit was taken and how sure that is: the statures that other units would give.
+void add_unit_finding(Body& body, bool given) {
+  const std::pair<const char*, double> units[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"inch", 0.0254}};
+  double own = 1;
+  for (const auto& [name, metres] : units)
+    if (body.scan.unit == name) own = metres;
+  char text[160];
+  std::snprintf(text, sizeof text, "unit %s, %s: %.2f m tall", body.scan.unit.c_str(), given ? "as given" : "guessed", body.scan.stature_m);
+  std::string what = text;
+  bool doubt = false;
+  for (const auto& [name, metres] : units) {
+    const double other = body.scan.stature_m / own * metres;
+    if (body.scan.unit == name || other < 0.5 || other > 2.5) continue;
+    std::snprintf(text, sizeof text, "%s %.2f m in %s", doubt ? "," : "; it would be", other, name);
+    what += text;
+    doubt = true;
+  }
+  if (!doubt) what += "; no other unit gives a person";
+  body.scan.findings.push_back({doubt && !given && (body.scan.stature_m < 1.3 || body.scan.stature_m > 2.2) ? "warning" : "info", what, "scan"});
+}
+
 void shift(Body& body, const Vec3& by) {
   for (auto& [name, landmark] : body.landmarks) {
     landmark.p += by;
@@ -250,6 +271,7 @@ MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, con
   build_frames(body);
   build_bones(body);
   phases.done("parts and frames");
+  add_unit_finding(body, options.unit != "auto");
   add_findings(body, sorted, skin);
   for (const char* name : ESSENTIAL)
     if (!body.has_landmark(name)) {
