@@ -5,9 +5,8 @@
 /// `g PANEL`; which panel vertices are one particle is told by the faces alone. The document holds everything else:
 /// `panels` (name, grain, material, layer, part, outline), `vertex_ids` (s and t, the panel being the one that owns the vertex),
 /// `seams`, `materials` (units in the key names), `rest_scale` (only triangles with a factor other than 1: [triangle, k0, k1, k2]),
-/// `scene` (pins, elastic bands, wind ... as in scene.json, see scene_effects_json.hpp), `bind`, `offset_m`, `converged`, `sewn`, and `body` (sha256 and girths of the body it hangs on).
-/// PanelMesh::placed is not kept: after reading it is the particle's position.
-/// Unknown keys are ignored: tools write these files.
+/// `scene` (pins, elastic bands, wind ... as in scene.json, see scene_effects_json.hpp), `bind`, `offset_m`, `converged`, `sewn`, and `body` (sha256 and girths
+/// of the body it hangs on). PanelMesh::placed is not kept: after reading it is the particle's position. Unknown keys are ignored: tools write these files.
 #include <garment/garment.hpp>
 namespace sloper::garment {
 inline constexpr int GARMENT_VERSION = 1;
