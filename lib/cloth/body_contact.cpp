@@ -21,7 +21,7 @@ constexpr double USED = 0.6;
 constexpr double DEEPEST = 0.002;
 /// Each time that crossings are looked for and found, crossed pairs are pushed harder by this factor, up to a limit.
 constexpr double HARDER = 1.3, HARDEST = 100;
-/// A crossed pair counts only within 60 degrees of the skin's normal: beyond, its sign would be noise.
+/// The way between a crossed pair is its normal only within 60 degrees of the skin's: beyond, its sign would be noise.
 constexpr double CONE = 0.5;
 /// Distances to the skin are not measured beyond this, m.
 constexpr double FAR = 0.04;
@@ -245,10 +245,16 @@ BodyContactEffect::Closest BodyContactEffect::closest(const Pair& pair, const st
   }
   Vec3 skin_normal = Vec3::Zero();
   for (int k = 0; k < pair.n_body; ++k) skin_normal += c.body_weight[k] * m_body.vertex_normals()[pair.body[k]];
-  const double height = away.dot(skin_normal.normalized());
-  c.valid = c.valid && std::abs(height) >= CONE * c.distance;
-  if (height < 0) c.distance = -c.distance;
-  if (c.valid) c.normal = away / c.distance;
+  skin_normal.normalize();
+  const double height = away.dot(skin_normal);
+  if (c.valid && std::abs(height) >= CONE * c.distance) {
+    if (height < 0) c.distance = -c.distance;
+    c.normal = away / c.distance;
+  } else { // the way between the two tells no side: the skin's normal does
+    c.normal = skin_normal;
+    c.distance = height;
+    c.valid = skin_normal.squaredNorm() > 0.5;
+  }
   return c;
 }
 

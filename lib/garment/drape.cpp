@@ -31,6 +31,7 @@ constexpr double SEW_LEG_SCALE = 0.7;    // of the body's thickness while trouse
 constexpr double SEW_BENDING = 30;       // times that of the fabric
 constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step while the body is inflated
 constexpr int GLIDE_STEPS = 40;          // cloth glides over the skin while it finds its place: friction would keep the strain of sewing
+constexpr int PUSH_STEPS = 120;          // for cloth at rest that is still through the skin
 constexpr double SHORTEST_STEP_S = 0.005;
 constexpr double LARGEST_STEP_S = 0.2; // s, while settling
 constexpr int UNTANGLE_ROUNDS = 80;
@@ -70,7 +71,10 @@ bool DrapeRun::active(const char* effect) const { return is_active(m_report.effe
 void DrapeRun::start_outside_body(bool unsewn) {
   if (!m_body || m_body->skin.triangles.empty()) return;
   const Phase phase(*this, "prepare body");
-  m_collider.emplace(m_body->skin);
+  m_mitten.emplace(*m_body);
+  if (!m_mitten->has_shells() || !m_mitten->concerns(m_garment.position)) m_mitten.reset();
+  m_collider.emplace(m_mitten ? m_mitten->mesh() : m_body->skin);
+  if (m_mitten) m_reporter.info("hands as mittens: cloth is near them");
   const std::vector<Triangle> triangles = m_garment.particle_triangles();
   auto trouble = [&] {
     std::size_t count = m_collider->faces_through(m_garment.position, triangles).size();
@@ -84,14 +88,14 @@ void DrapeRun::start_outside_body(bool unsewn) {
   if (least == 0 && tight) {
     m_shrink.emplace(*m_body);
     m_scale = SEW_LEG_SCALE;
-    m_collider->set_positions(m_shrink->positions(m_scale));
+    m_collider->set_positions(skin_at(m_scale));
   }
   if (least == 0) return;
   m_shrink.emplace(*m_body);
   double best = 1;
   const std::size_t at_start = least;
   for (double s : {0.9, 0.8, 0.65, 0.5, 0.35, 0.2}) {
-    m_collider->set_positions(m_shrink->positions(s));
+    m_collider->set_positions(skin_at(s));
     const std::size_t count = trouble();
     if (count < least) {
       least = count;
@@ -100,10 +104,15 @@ void DrapeRun::start_outside_body(bool unsewn) {
     if (count == 0) break;
   }
   m_scale = best;
-  m_collider->set_positions(m_shrink->positions(best));
+  m_collider->set_positions(skin_at(best));
   m_report.repairs.push_back("start: " + std::to_string(at_start) + " vertices or faces in the body; body drawn in to " +
                              std::to_string(std::lround(best * 100)) + " % of its thickness and inflated again" +
                              (least ? ", " + std::to_string(least) + " remained" : ""));
+}
+
+std::vector<Vec3> DrapeRun::skin_at(double scale) const {
+  const std::vector<Vec3> skin = scale < 1 ? m_shrink->positions(scale) : m_body->skin.positions;
+  return m_mitten ? m_mitten->positions(skin) : skin;
 }
 
 void DrapeRun::build_solver(bool open_seams) {
@@ -246,17 +255,17 @@ void DrapeRun::inflate() {
   m_body_contact->set_give_way(true);
   while (m_scale < 1 && !m_stopped) {
     m_scale = std::min(1.0, m_scale + step_scale);
-    m_body_contact->move_body(m_shrink->positions(m_scale));
+    m_body_contact->move_body(skin_at(m_scale));
     step(1.0 / 30, 0);
   }
-  m_body_contact->move_body(m_body->skin.positions); // the exact skin, also when stopped on the way
+  m_body_contact->move_body(skin_at(1)); // the exact skin, also when stopped on the way
   m_body_contact->set_give_way(false);
 }
 
 void DrapeRun::settle() {
   const Phase phase(*this, "settle");
   double h = m_settings.time_step_s;
-  int calm = 0;
+  int calm = 0, pushed = 0;
   m_settling = true;
   const int glide = m_disturbed ? GLIDE_STEPS : 0;
   for (int k = 0; !m_stopped; ++k) {
@@ -279,6 +288,7 @@ void DrapeRun::settle() {
     const bool still = speed < m_settings.settle_speed_m_s && residual < m_settings.settle_force_ratio;
     calm = still && k >= glide ? calm + 1 : 0;
     if (calm < 3) continue;
+    if (m_body_contact && m_body_contact->n_crossing() > 0 && ++pushed < PUSH_STEPS) continue; // what is through the skin is pushed harder each step
     m_garment.position = m_solver->x();
     if (m_untanglings < 4 && m_self_contact && !m_self_contact->crossings().empty()) {
       ++m_untanglings;
@@ -311,6 +321,7 @@ void DrapeRun::finish() {
   m_garment.position = m_solver->x();
   report_effects();
   const Phase phase(*this, "audit");
+  if (m_mitten) m_collider.emplace(m_body->skin); // the mittens were only a means
   const Audit a = audit(m_garment, m_collider ? &*m_collider : nullptr);
   if (!a.clean() && m_report.converged) {
     m_report.converged = false;

@@ -7,6 +7,7 @@
 #include <garment/audit.hpp>
 #include <garment/body_shrink.hpp>
 #include <garment/drape.hpp>
+#include <garment/mitten.hpp>
 
 #include <chrono>
 #include <optional>
@@ -22,8 +23,9 @@ private:
   /// Times a phase, into the report.
   class Phase;
 
-  void start_outside_body(bool unsewn); ///< shrink until nothing of the garment is inside
-  void build_solver(bool open_seams);   ///< cloth, effects and solver for the garment as it stands
+  void start_outside_body(bool unsewn);          ///< shrink until nothing of the garment is inside
+  std::vector<Vec3> skin_at(double scale) const; ///< as the collider has it
+  void build_solver(bool open_seams);            ///< cloth, effects and solver for the garment as it stands
   void sew();
   void log_crossings(const char* when) const; ///< to the log, with -v
   std::string crossing_text() const;          ///< for the log: what is through the skin, and where
@@ -45,6 +47,7 @@ private:
   std::chrono::steady_clock::time_point m_start;
 
   std::optional<collision::BodyCollider> m_collider;
+  std::optional<MittenSkin> m_mitten; ///< only where cloth is near a hand
   std::optional<BodyShrink> m_shrink;
   bool m_disturbed = false; ///< by sewing, or by a body that was drawn in
   bool m_settling = false;  ///< steps are shortened until the energy falls
