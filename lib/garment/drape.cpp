@@ -71,8 +71,12 @@ bool DrapeRun::active(const char* effect) const { return is_active(m_report.effe
 void DrapeRun::start_outside_body(bool unsewn) {
   if (!m_body || m_body->skin.triangles.empty()) return;
   const Phase phase(*this, "prepare body");
-  m_mitten.emplace(*m_body);
-  if (!m_mitten->has_shells() || !m_mitten->concerns(m_garment.position)) m_mitten.reset();
+  const auto has_part = [&](const char* begins) { // of the garment's panels
+    const auto& panels = m_garment.panels.panels;
+    return std::any_of(panels.begin(), panels.end(), [&](const pattern::PanelInfo& p) { return p.part.rfind(begins, 0) == 0; });
+  };
+  if (has_part("arm")) m_mitten.emplace(*m_body);
+  if (m_mitten && !(m_mitten->has_shells() && m_mitten->concerns(m_garment.position))) m_mitten.reset();
   m_collider.emplace(m_mitten ? m_mitten->mesh() : m_body->skin);
   if (m_mitten) m_reporter.info("hands as mittens: cloth is near them");
   const std::vector<Triangle> triangles = m_garment.particle_triangles();
@@ -82,8 +86,7 @@ void DrapeRun::start_outside_body(bool unsewn) {
     return count;
   };
   // Trousers are sewn around legs drawn in: between thighs that touch there is no room for a seam to close.
-  const auto& panels = m_garment.panels.panels;
-  const bool tight = unsewn && std::any_of(panels.begin(), panels.end(), [](const pattern::PanelInfo& p) { return p.part.rfind("leg", 0) == 0; });
+  const bool tight = unsewn && has_part("leg");
   std::size_t least = trouble();
   if (least == 0 && tight) {
     m_shrink.emplace(*m_body);
