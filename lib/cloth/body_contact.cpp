@@ -51,15 +51,13 @@ BodyContactEffect::BodyContactEffect(const ClothMesh& mesh, collision::BodyColli
     m_longest_edge.push_back(std::max({a.norm(), b.norm(), (b - a).norm()}));
     for (int e : m_topology.triangle_edges[f]) m_edge_area[e] += m_face_area.back() / 3;
   }
-  set_gap(options.gap_m);
+  weigh_skin();
 }
 
-void BodyContactEffect::set_gap(double gap_m) {
-  m_options.gap_m = gap_m;
-  m_stale = true;
+/// Which share of the reach each face and vertex of the skin covers.
+void BodyContactEffect::weigh_skin() {
   const TriangleMesh& skin = m_body.mesh();
-  const double disc = std::numbers::pi * gap_m * gap_m, edge_disc = disc * EDGE_REACH * EDGE_REACH;
-  m_body_face_weight.clear();
+  const double disc = std::numbers::pi * m_options.gap_m * m_options.gap_m, edge_disc = disc * EDGE_REACH * EDGE_REACH;
   m_body_vertex_weight.assign(skin.positions.size(), 0);
   for (const Triangle& t : skin.triangles) {
     const Vec3 a = skin.positions[t[1]] - skin.positions[t[0]], b = skin.positions[t[2]] - skin.positions[t[0]];

@@ -41,19 +41,15 @@ public:
   /// Moves the body (same topology).
   void move_body(const std::vector<Vec3>& positions);
   void set_friction(double mu) { m_options.friction = mu; }
-  void set_gap(double gap_m);
   /// While the body moves into the cloth: nothing is guarded, all is pushed along the skin's normal.
   void set_give_way(bool give_way);
-  const BodyContactOptions& options() const { return m_options; }
   /// Positions were changed from outside: look for crossings at the next search, which comes before the next step.
   void refresh();
   /// Cloth triangles through the skin or with a vertex inside, at the last search; none once guarded.
   std::size_t n_crossing() const { return m_n_crossing; }
   Vec3 crossing_place() const; ///< where the first of them was, m; only when there is one
-  /// Contact force on a particle in the last step, N.
-  double normal_force(int particle) const { return m_load[particle].norm(); }
-  long searches = 0;
-  long friction_calls = 0; ///< steps in which friction was computed
+  long searches = 0;           ///< for near pairs, so far
+  long friction_calls = 0;     ///< steps in which friction was computed
 
 private:
   struct Pair {
@@ -73,6 +69,7 @@ private:
     bool valid;
   };
   Closest closest(const Pair& pair, const std::vector<Vec3>& x) const;
+  void weigh_skin();
   void search(const std::vector<Vec3>& x);
   void find_crossed(const std::vector<Vec3>& x);
   void measure_clearance(const std::vector<Vec3>& x);

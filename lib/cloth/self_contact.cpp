@@ -50,11 +50,6 @@ void SelfContactEffect::find_closed_seams(const std::vector<Vec3>& x) {
   }
 }
 
-void SelfContactEffect::set_search(double search_m) {
-  m_options.search_m = search_m;
-  m_stale = true;
-}
-
 void SelfContactEffect::search(const std::vector<Vec3>& x) {
   m_proximity.update(x, m_options.search_m, m_crossings);
   if (m_look_for_crossings) {

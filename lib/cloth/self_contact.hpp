@@ -30,7 +30,6 @@ public:
   void add(StepContext& c) override;
   double energy(const std::vector<Vec3>& x) const override;
   void end_step(const std::vector<Vec3>& x) override;
-  void set_search(double search_m);
   void set_friction(double mu) { m_options.friction = mu; }
   /// Crossing pairs of triangles at the last search; while there are any, each search looks for them anew.
   const std::vector<std::array<int, 2>>& crossings() const { return m_crossings; }

@@ -30,7 +30,7 @@ constexpr double SEW_STRONGEST = 5;      // N at reach
 constexpr double SEW_LEG_SCALE = 0.7;    // of the body's thickness while trousers are sewn
 constexpr double SEW_BENDING = 30;       // times that of the fabric
 constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step while the body is inflated
-constexpr int GLIDE_STEPS = 40;          // cloth glides over the skin while it finds its place: friction would keep the strain of sewing
+constexpr int GLIDE_STEPS = 40;          // after sewing, free of weight and friction, which would keep the strain that sewing left
 constexpr int PUSH_STEPS = 120;          // for cloth at rest that is still through the skin
 constexpr double SHORTEST_STEP_S = 0.005;
 constexpr double LARGEST_STEP_S = 0.2; // s, while settling
@@ -160,6 +160,7 @@ bool DrapeRun::step(double h, double inertia, double largest_move_m) {
   m_cg_iterations.push_back(m_last.cg.iterations);
   ++m_report.steps;
   m_report.simulated_s += h;
+  m_last_h = h;
   if (!m_last.finite) {
     m_rejected.push_back("step " + std::to_string(m_report.steps) + ": not finite, undone");
     m_solver->stop();
@@ -332,7 +333,7 @@ void DrapeRun::finish() {
                            " vertices inside it, " + std::to_string(a.self.size()) + " self intersections";
   }
   auto triple = [](const double q[3]) { return io::Json{{"p50", q[0]}, {"p99", q[1]}, {"max", q[2]}}; };
-  m_report.quality = {{"max_speed_m_s", m_report.simulated_s > 0 ? m_last.largest_move_m * 30 : 0},
+  m_report.quality = {{"max_speed_m_s", m_last_h > 0 ? m_last.largest_move_m / m_last_h : 0},
                       {"residual_force_ratio", m_last.residual_force_ratio},
                       {"residual_force_ratio_max", m_last.residual_force_ratio_max},
                       {"particles_held", m_last.held},

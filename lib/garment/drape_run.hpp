@@ -60,6 +60,7 @@ private:
   cloth::SewingSpringEffect* m_sewing = nullptr;
   int m_untanglings = 0;
   cloth::StepResult m_last;
+  double m_last_h = 0; ///< s, of that step
   std::vector<int> m_cg_iterations;
   std::vector<std::string> m_rejected;
   bool m_stopped = false; ///< by time limit, by the user or by the guard
