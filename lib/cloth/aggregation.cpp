@@ -11,93 +11,6 @@ constexpr double STRONG = 0.08;      // |A_ij|^2 > STRONG^2 |A_ii| |A_jj|
 constexpr int COARSEST = 64;         // block rows that are factorised
 constexpr double LAMBDA_LIMIT = 4.0; // an element has at most four particles, which bounds the eigenvalues of D^-1 A
 
-BlockRows expand(const BlockMatrix& m) {
-  BlockRows out;
-  out.rows = out.columns = m.size();
-  out.start.assign(m.size() + 1, 0);
-  for (int i = 0; i < m.size(); ++i) {
-    ++out.start[i + 1];
-    for (int k = m.row_start()[i]; k < m.row_start()[i + 1]; ++k) {
-      ++out.start[i + 1];
-      ++out.start[m.column()[k] + 1];
-    }
-  }
-  for (int i = 0; i < m.size(); ++i) out.start[i + 1] += out.start[i];
-  out.column.resize(out.start.back());
-  out.value.resize(out.start.back());
-  std::vector<int> at(out.start.begin(), out.start.end() - 1);
-  auto put = [&](int i, int j, const Mat3& value) {
-    out.column[at[i]] = j;
-    out.value[at[i]++] = value;
-  };
-  for (int i = 0; i < m.size(); ++i) { // rows come out sorted: lower part from earlier rows, diagonal, upper part
-    put(i, i, m.diagonal(i));
-    for (int k = m.row_start()[i]; k < m.row_start()[i + 1]; ++k) {
-      put(i, m.column()[k], m.value()[k]);
-      put(m.column()[k], i, m.value()[k].transpose());
-    }
-  }
-  return out;
-}
-
-BlockRows transpose(const BlockRows& a) {
-  BlockRows t;
-  t.rows = a.columns;
-  t.columns = a.rows;
-  t.start.assign(t.rows + 1, 0);
-  for (int c : a.column) ++t.start[c + 1];
-  for (int i = 0; i < t.rows; ++i) t.start[i + 1] += t.start[i];
-  t.column.resize(a.column.size());
-  t.value.resize(a.value.size());
-  std::vector<int> at(t.start.begin(), t.start.end() - 1);
-  for (int i = 0; i < a.rows; ++i)
-    for (int k = a.start[i]; k < a.start[i + 1]; ++k) {
-      const int slot = at[a.column[k]]++;
-      t.column[slot] = i;
-      t.value[slot] = a.value[k].transpose();
-    }
-  return t;
-}
-
-BlockRows product(const BlockRows& a, const BlockRows& b) {
-  BlockRows c;
-  c.rows = a.rows;
-  c.columns = b.columns;
-  c.start.assign(1, 0);
-  std::vector<int> where(b.columns, -1);
-  for (int i = 0; i < a.rows; ++i) {
-    const int begin = static_cast<int>(c.column.size());
-    for (int k = a.start[i]; k < a.start[i + 1]; ++k)
-      for (int l = b.start[a.column[k]]; l < b.start[a.column[k] + 1]; ++l) {
-        const int j = b.column[l];
-        if (where[j] < begin) {
-          where[j] = static_cast<int>(c.column.size());
-          c.column.push_back(j);
-          c.value.push_back(Mat3::Zero());
-        }
-        c.value[where[j]].noalias() += a.value[k] * b.value[l];
-      }
-    c.start.push_back(static_cast<int>(c.column.size()));
-  }
-  return c;
-}
-
-void multiply_rows(const BlockRows& a, const std::vector<Vec3>& x, std::vector<Vec3>& y) {
-  for (int i = 0; i < a.rows; ++i) {
-    Vec3 sum = Vec3::Zero();
-    for (int k = a.start[i]; k < a.start[i + 1]; ++k) sum.noalias() += a.value[k] * x[a.column[k]];
-    y[i] = sum;
-  }
-}
-
-std::vector<Mat3> block_diagonal(const BlockRows& a) {
-  std::vector<Mat3> d(a.rows, Mat3::Zero());
-  for (int i = 0; i < a.rows; ++i)
-    for (int k = a.start[i]; k < a.start[i + 1]; ++k)
-      if (a.column[k] == i) d[i] += a.value[k];
-  return d;
-}
-
 /// Aggregate of every row; greedy: whole free neighbourhoods first, then leftovers join their strongest neighbour.
 std::vector<int> aggregates(const BlockRows& a, const std::vector<Mat3>& diagonal, int& count) {
   std::vector<double> size(a.rows);
@@ -137,9 +50,43 @@ std::vector<int> aggregates(const BlockRows& a, const std::vector<Mat3>& diagona
 
 } // namespace
 
-void Aggregation::multiply(std::size_t level, const std::vector<Vec3>& x, std::vector<Vec3>& y) const {
-  if (level == 0) m_system->multiply(x, y);
-  else multiply_rows(m_levels[level].a, x, y);
+void Aggregation::multiply(std::size_t l, const std::vector<Float4>& x, std::vector<Float4>& y) const {
+  m_levels[l].a.multiply(x, y);
+  if (l > 0) return;
+  for (const FloatContact& c : m_contacts) {
+    Float4 s = Float4::all(0);
+    for (int k = 0; k < 4; ++k) s = s + Float4::all(c.weight[k]) * x[c.particle[k]];
+    const Float4 along = c.normal * s;
+    const Float4 dot = lane<0>(along) + lane<1>(along) + lane<2>(along);
+    const Float4 a = Float4::all(c.tangent_stiffness) * s + Float4::all(c.normal_stiffness - c.tangent_stiffness) * dot * c.normal;
+    for (int k = 0; k < 4; ++k) y[c.particle[k]] = y[c.particle[k]] + Float4::all(c.weight[k]) * a;
+  }
+}
+
+/// The finest level's matrix, contacts and smoother as they are now.
+void Aggregation::copy_finest(const LinearSystem& system) {
+  Level& finest = m_levels[0];
+  refill(system.matrix, finest.a);
+  m_contacts.clear();
+  for (const ContactElement& e : system.elements) {
+    FloatContact c{{e.particle[0], e.particle[0], e.particle[0], e.particle[0]},
+                   {},
+                   to_float(e.normal),
+                   static_cast<float>(e.normal_stiffness),
+                   static_cast<float>(e.tangent_stiffness)};
+    for (int k = 0; k < e.n; ++k) {
+      c.particle[k] = e.particle[k];
+      c.weight[k] = static_cast<float>(e.weight[k]);
+    }
+    m_contacts.push_back(c);
+  }
+  for (std::size_t i = 0; i < finest.d_inverse.size(); ++i) finest.d_inverse[i] = to_float(m_jacobi.inverse()[i]);
+}
+
+static double squared_norm(const std::vector<Float4>& v) {
+  double sum = 0;
+  for (const Float4& q : v) sum += to_double(q).squaredNorm();
+  return sum;
 }
 
 void Aggregation::estimate_lambda(std::size_t l, int iterations) {
@@ -147,23 +94,17 @@ void Aggregation::estimate_lambda(std::size_t l, int iterations) {
   auto& e = level.eigenvector;
   if (e.empty()) {
     e.resize(level.d_inverse.size());
-    for (std::size_t i = 0; i < e.size(); ++i) e[i] = Vec3((i * 7919) % 13 - 6.0, (i * 104729) % 11 - 5.0, (i * 1299709) % 17 - 8.0);
+    for (std::size_t i = 0; i < e.size(); ++i) e[i] = to_float(Vec3((i * 7919) % 13 - 6.0, (i * 104729) % 11 - 5.0, (i * 1299709) % 17 - 8.0));
   }
   double lambda = 1;
   for (int it = 0; it < iterations; ++it) {
-    double norm2 = 0;
-    for (const Vec3& v : e) norm2 += v.squaredNorm();
-    const double scale = 1 / std::sqrt(std::max(norm2, 1e-300));
-    for (Vec3& v : e) v *= scale;
+    const Float4 scale = Float4::all(static_cast<float>(1 / std::sqrt(std::max(squared_norm(e), 1e-30))));
+    for (Float4& v : e) v = scale * v;
     multiply(l, e, level.t);
-    double next2 = 0;
-    for (std::size_t i = 0; i < e.size(); ++i) {
-      e[i] = level.d_inverse[i] * level.t[i];
-      next2 += e[i].squaredNorm();
-    }
-    lambda = std::sqrt(next2);
+    for (std::size_t i = 0; i < e.size(); ++i) e[i] = level.d_inverse[i] * level.t[i];
+    lambda = std::sqrt(squared_norm(e));
   }
-  level.lambda = std::min(1.15 * lambda, LAMBDA_LIMIT);
+  level.lambda = static_cast<float>(std::min(1.15 * lambda, LAMBDA_LIMIT));
 }
 
 void Aggregation::build(const LinearSystem& system) {
@@ -180,10 +121,15 @@ void Aggregation::build(const LinearSystem& system) {
   for (;;) {
     Level& fine = m_levels.back();
     const std::vector<Mat3> diagonal = block_diagonal(a);
+    std::vector<Mat3> d_inverse(a.rows);
     fine.d_inverse.resize(a.rows);
-    for (int i = 0; i < a.rows; ++i) fine.d_inverse[i] = diagonal[i].inverse();
-    for (auto* v : {&fine.r, &fine.z, &fine.t, &fine.d}) v->assign(a.rows, Vec3::Zero());
-    if (m_levels.size() > 1) fine.a = a;
+    for (int i = 0; i < a.rows; ++i) {
+      d_inverse[i] = diagonal[i].inverse();
+      fine.d_inverse[i] = to_float(d_inverse[i]);
+    }
+    for (auto* v : {&fine.r, &fine.z, &fine.t, &fine.d}) v->assign(a.rows, Float4::all(0));
+    fine.a = to_float(a);
+    if (m_levels.size() == 1) copy_finest(system); // which has the contacts apart
     if (a.rows <= COARSEST || m_levels.size() > 8) break;
     estimate_lambda(m_levels.size() - 1, 8);
     int count = 0;
@@ -201,12 +147,13 @@ void Aggregation::build(const LinearSystem& system) {
     BlockRows smoother = a;
     for (int i = 0; i < a.rows; ++i)
       for (int k = a.start[i]; k < a.start[i + 1]; ++k) {
-        smoother.value[k] = -omega * fine.d_inverse[i] * a.value[k];
+        smoother.value[k] = -omega * d_inverse[i] * a.value[k];
         if (a.column[k] == i) smoother.value[k] += Mat3::Identity();
       }
-    fine.p = product(smoother, p0);
-    fine.pt = transpose(fine.p);
-    a = product(fine.pt, product(a, fine.p));
+    const BlockRows p = product(smoother, p0), pt = transpose(p);
+    fine.p = to_float(p);
+    fine.pt = to_float(pt);
+    a = product(pt, product(a, p));
     m_levels.emplace_back();
   }
   const int n = a.rows;
@@ -222,12 +169,11 @@ void Aggregation::build(const LinearSystem& system) {
 }
 
 void Aggregation::update(const LinearSystem& system) {
-  m_system = &system;
   m_jacobi.update(system);
   const bool tired = m_iterations_when_fresh > 0 && m_last_iterations > m_iterations_when_fresh + m_iterations_when_fresh / 3 + 3;
   if (m_levels.empty() || static_cast<int>(m_levels[0].d_inverse.size()) != system.matrix.size() || tired) build(system);
+  else copy_finest(system);
   if (m_levels.empty()) return;
-  m_levels[0].d_inverse = m_jacobi.inverse();
   if (m_age++ > 0) estimate_lambda(0, 2);
 }
 
@@ -236,58 +182,59 @@ void Aggregation::report_iterations(int iterations) {
   if (m_iterations_when_fresh == 0) m_iterations_when_fresh = std::max(iterations, 8);
 }
 
-void Aggregation::smooth(std::size_t l, const std::vector<Vec3>& r, std::vector<Vec3>& z, bool zero_start) {
-  // Chebyshev of degree 2 for D^-1 A on [lambda / 4, lambda].
+/// Chebyshev of degree 2 for D^-1 A on [lambda / 4, lambda].
+void Aggregation::smooth(std::size_t l, bool zero_start) {
   Level& level = m_levels[l];
+  const std::vector<Float4>& r = level.r;
+  std::vector<Float4>&z = level.z, &t = level.t, &d = level.d;
   const std::size_t n = r.size();
-  const double high = level.lambda, low = high / 4, center = 0.5 * (high + low), half = 0.5 * (high - low);
-  std::vector<Vec3>& t = level.t;
-  std::vector<Vec3>& d = level.d;
+  const float high = level.lambda, low = high / 4, center = 0.5F * (high + low), half = 0.5F * (high - low);
+  const Float4 first = Float4::all(1 / center);
   if (zero_start) {
-    for (std::size_t i = 0; i < n; ++i) d[i].noalias() = level.d_inverse[i] * r[i] / center;
-    z = d;
+    for (std::size_t i = 0; i < n; ++i) z[i] = d[i] = first * (level.d_inverse[i] * r[i]);
   } else {
     multiply(l, z, t);
     for (std::size_t i = 0; i < n; ++i) {
-      d[i].noalias() = level.d_inverse[i] * (r[i] - t[i]) / center;
-      z[i] += d[i];
+      d[i] = first * (level.d_inverse[i] * (r[i] - t[i]));
+      z[i] = z[i] + d[i];
     }
   }
-  const double sigma = center / half, rho = 1 / sigma, rho_next = 1 / (2 * sigma - rho);
+  const float sigma = center / half, rho = 1 / sigma, rho_next = 1 / (2 * sigma - rho);
+  const Float4 keep = Float4::all(rho_next * rho), add = Float4::all(2 * rho_next / half);
   multiply(l, z, t);
-  for (std::size_t i = 0; i < n; ++i) {
-    d[i] = rho_next * rho * d[i] + 2 * rho_next / half * (level.d_inverse[i] * (r[i] - t[i]));
-    z[i] += d[i];
-  }
+  for (std::size_t i = 0; i < n; ++i) z[i] = z[i] + keep * d[i] + add * (level.d_inverse[i] * (r[i] - t[i]));
 }
 
 void Aggregation::cycle(std::size_t l) {
   Level& level = m_levels[l];
   if (l + 1 == m_levels.size()) {
-    for (std::size_t i = 0; i < level.r.size(); ++i) m_coarse_vector.segment<3>(3 * static_cast<long>(i)) = level.r[i];
+    for (std::size_t i = 0; i < level.r.size(); ++i) m_coarse_vector.segment<3>(3 * static_cast<long>(i)) = to_double(level.r[i]);
     m_coarsest.solveInPlace(m_coarse_vector);
-    for (std::size_t i = 0; i < level.r.size(); ++i) level.z[i] = m_coarse_vector.segment<3>(3 * static_cast<long>(i));
+    for (std::size_t i = 0; i < level.r.size(); ++i) level.z[i] = to_float(Vec3(m_coarse_vector.segment<3>(3 * static_cast<long>(i))));
     return;
   }
-  smooth(l, level.r, level.z, true);
+  smooth(l, true);
   multiply(l, level.z, level.t);
   for (std::size_t i = 0; i < level.r.size(); ++i) level.t[i] = level.r[i] - level.t[i];
   Level& coarse = m_levels[l + 1];
-  multiply_rows(level.pt, level.t, coarse.r);
+  level.pt.multiply(level.t, coarse.r);
   cycle(l + 1);
-  for (int i = 0; i < level.p.rows; ++i)
-    for (int k = level.p.start[i]; k < level.p.start[i + 1]; ++k) level.z[i].noalias() += level.p.value[k] * coarse.z[level.p.column[k]];
-  smooth(l, level.r, level.z, false);
+  level.p.multiply_add(coarse.z, level.z);
+  smooth(l, false);
 }
 
+/// Scaled to unit size on the way in: single precision has its range around 1.
 void Aggregation::apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) {
   if (m_levels.size() < 2) {
     m_jacobi.apply(r, z);
     return;
   }
-  m_levels[0].r = r;
+  double largest = 0;
+  for (const Vec3& v : r) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  if (largest == 0) largest = 1;
+  for (std::size_t i = 0; i < r.size(); ++i) m_levels[0].r[i] = to_float(Vec3(r[i] / largest));
   cycle(0);
-  z = m_levels[0].z;
+  for (std::size_t i = 0; i < r.size(); ++i) z[i] = largest * to_double(m_levels[0].z[i]);
 }
 
 } // namespace sloper::cloth

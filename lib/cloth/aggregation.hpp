@@ -4,18 +4,13 @@
 /// Near-null space: the three translations. Greedy aggregation over strong couplings, prolongator smoothed by one step of
 /// block Jacobi, Chebyshev smoother of degree 2, coarsest level factorised. There is no geometric coarsening, so narrow
 /// straps are no special case. The hierarchy lags: it is rebuilt only where the iterations that it costs have grown; the
-/// finest level always sees the current matrix.
+/// finest level always sees the current matrix. It is built in double and applied in single precision: the conjugate gradients
+/// around it, in double, have the last word.
 #include <Eigen/Dense>
 #include <cloth/conjugate_gradient.hpp>
+#include <cloth/float_rows.hpp>
 
 namespace sloper::cloth {
-
-/// Compressed rows of 3x3 blocks, both halves.
-struct BlockRows {
-  int rows = 0, columns = 0;
-  std::vector<int> start, column;
-  std::vector<Mat3> value;
-};
 
 class Aggregation : public Preconditioner {
 public:
@@ -27,19 +22,27 @@ public:
 
 private:
   struct Level {
-    BlockRows a, p, pt; // matrix (empty on level 0), prolongator to this level from the next, its transpose
-    std::vector<Mat3> d_inverse;
-    double lambda = 2; // largest eigenvalue of D^-1 A, bounded from above
-    std::vector<Vec3> r, z, t, d, eigenvector;
+    FloatRows a, p, pt; // matrix, prolongator to this level from the next, its transpose
+    std::vector<FloatBlock> d_inverse;
+    float lambda = 2; // largest eigenvalue of D^-1 A, bounded from above
+    std::vector<Float4> r, z, t, d, eigenvector;
+  };
+  /// A contact as the finest level sees it.
+  struct FloatContact {
+    std::array<int, 4> particle;
+    std::array<float, 4> weight; // 0 for those not in use
+    Float4 normal;
+    float normal_stiffness, tangent_stiffness;
   };
   void build(const LinearSystem& system);
-  void multiply(std::size_t level, const std::vector<Vec3>& x, std::vector<Vec3>& y) const;
+  void copy_finest(const LinearSystem& system);
+  void multiply(std::size_t level, const std::vector<Float4>& x, std::vector<Float4>& y) const;
   void estimate_lambda(std::size_t level, int iterations);
-  void smooth(std::size_t level, const std::vector<Vec3>& r, std::vector<Vec3>& z, bool zero_start);
+  void smooth(std::size_t level, bool zero_start);
   void cycle(std::size_t level);
 
-  const LinearSystem* m_system = nullptr;
   BlockJacobi m_jacobi;
+  std::vector<FloatContact> m_contacts;
   std::vector<Level> m_levels;
   Eigen::LLT<Eigen::MatrixXd> m_coarsest;
   Eigen::VectorXd m_coarse_vector;

@@ -5,7 +5,7 @@
 /// more pairs and cost more each. Queries are const and may run on several threads.
 /// Test: tests/collision/test_triangle_tree.cpp
 #include <collision/distance.hpp>
-#include <collision/simd4.hpp>
+#include <base/simd4.hpp>
 #include <geometry/triangle_mesh.hpp>
 
 #include <bit>

@@ -1,9 +1,10 @@
 #pragma once
-/// Four floats at once: one lane for each child of a tree node. SSE2 where there is, plain C++ elsewhere, same results.
+/// Four floats at once: the children of a tree node, or a column of a 3x3 block and one lane unused. SSE2 where there is, plain C++
+/// elsewhere, same results.
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #endif
-namespace sloper::collision {
+namespace sloper {
 
 #if defined(__SSE2__)
 struct Float4 {
@@ -18,6 +19,8 @@ inline Float4 operator*(Float4 a, Float4 b) { return {_mm_mul_ps(a.v, b.v)}; }
 inline Float4 operator/(Float4 a, Float4 b) { return {_mm_div_ps(a.v, b.v)}; }
 inline Float4 max(Float4 a, Float4 b) { return {_mm_max_ps(a.v, b.v)}; }
 inline Float4 min(Float4 a, Float4 b) { return {_mm_min_ps(a.v, b.v)}; }
+/// Lane I in all four lanes.
+template<int I> Float4 lane(Float4 a) { return {_mm_shuffle_ps(a.v, a.v, _MM_SHUFFLE(I, I, I, I))}; }
 /// a where b < c, else 0.
 inline Float4 where_less(Float4 a, Float4 b, Float4 c) { return {_mm_and_ps(a.v, _mm_cmplt_ps(b.v, c.v))}; }
 inline Float4 absolute(Float4 a) { return max(a, {_mm_sub_ps(_mm_setzero_ps(), a.v)}); }
@@ -40,6 +43,7 @@ inline Float4 operator+(Float4 a, Float4 b) { return {{a.v[0] + b.v[0], a.v[1] +
 inline Float4 operator-(Float4 a, Float4 b) { return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]}}; }
 inline Float4 operator*(Float4 a, Float4 b) { return {{a.v[0] * b.v[0], a.v[1] * b.v[1], a.v[2] * b.v[2], a.v[3] * b.v[3]}}; }
 inline Float4 operator/(Float4 a, Float4 b) { return {{a.v[0] / b.v[0], a.v[1] / b.v[1], a.v[2] / b.v[2], a.v[3] / b.v[3]}}; }
+template<int I> Float4 lane(Float4 a) { return Float4::all(a.v[I]); }
 inline Float4 min(Float4 a, Float4 b) {
   Float4 r;
   for (int i = 0; i < 4; ++i) r.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i];
@@ -77,4 +81,4 @@ inline int less_equal(Float4 a, Float4 b) {
 }
 #endif
 
-} // namespace sloper::collision
+} // namespace sloper

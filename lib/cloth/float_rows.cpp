@@ -1,0 +1,124 @@
+#include <cloth/float_rows.hpp>
+
+namespace sloper::cloth {
+
+void FloatRows::multiply(const std::vector<Float4>& x, std::vector<Float4>& y) const {
+  for (int i = 0; i < rows; ++i) {
+    Float4 sum = Float4::all(0);
+    for (int k = start[i]; k < start[i + 1]; ++k) sum = sum + value[k] * x[column[k]];
+    y[i] = sum;
+  }
+}
+
+void FloatRows::multiply_add(const std::vector<Float4>& x, std::vector<Float4>& y) const {
+  for (int i = 0; i < rows; ++i) {
+    Float4 sum = y[i];
+    for (int k = start[i]; k < start[i + 1]; ++k) sum = sum + value[k] * x[column[k]];
+    y[i] = sum;
+  }
+}
+
+Float4 to_float(const Vec3& v) {
+  alignas(16) const float lanes[4] = {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0};
+  return Float4::load(lanes);
+}
+
+FloatBlock to_float(const Mat3& m) { return {{to_float(Vec3(m.col(0))), to_float(Vec3(m.col(1))), to_float(Vec3(m.col(2)))}}; }
+
+Vec3 to_double(Float4 v) {
+  alignas(16) float lanes[4];
+  v.store(lanes);
+  return {lanes[0], lanes[1], lanes[2]};
+}
+
+FloatRows to_float(const BlockRows& rows) {
+  FloatRows out{rows.rows, rows.columns, rows.start, rows.column, {}};
+  out.value.reserve(rows.value.size());
+  for (const Mat3& m : rows.value) out.value.push_back(to_float(m));
+  return out;
+}
+
+/// Calls put(row, column, block) for all blocks of the whole matrix, each row in rising order of columns: the lower part comes from
+/// earlier rows, then the diagonal, then the upper part.
+template<class Put> static void visit_blocks(const BlockMatrix& m, const Put& put) {
+  for (int i = 0; i < m.size(); ++i) {
+    put(i, i, m.diagonal(i));
+    for (int k = m.row_start()[i]; k < m.row_start()[i + 1]; ++k) {
+      put(i, m.column()[k], m.value()[k]);
+      put(m.column()[k], i, Mat3(m.value()[k].transpose()));
+    }
+  }
+}
+
+BlockRows expand(const BlockMatrix& m) {
+  BlockRows out;
+  out.rows = out.columns = m.size();
+  out.start.assign(m.size() + 1, 0);
+  visit_blocks(m, [&](int i, int, const Mat3&) { ++out.start[i + 1]; });
+  for (int i = 0; i < m.size(); ++i) out.start[i + 1] += out.start[i];
+  out.column.resize(out.start.back());
+  out.value.resize(out.start.back());
+  std::vector<int> at(out.start.begin(), out.start.end() - 1);
+  visit_blocks(m, [&](int i, int j, const Mat3& value) {
+    out.column[at[i]] = j;
+    out.value[at[i]++] = value;
+  });
+  return out;
+}
+
+void refill(const BlockMatrix& m, FloatRows& rows) {
+  std::vector<int> at(rows.start.begin(), rows.start.end() - 1);
+  visit_blocks(m, [&](int i, int, const Mat3& value) { rows.value[at[i]++] = to_float(value); });
+}
+
+BlockRows transpose(const BlockRows& a) {
+  BlockRows t;
+  t.rows = a.columns;
+  t.columns = a.rows;
+  t.start.assign(t.rows + 1, 0);
+  for (int c : a.column) ++t.start[c + 1];
+  for (int i = 0; i < t.rows; ++i) t.start[i + 1] += t.start[i];
+  t.column.resize(a.column.size());
+  t.value.resize(a.value.size());
+  std::vector<int> at(t.start.begin(), t.start.end() - 1);
+  for (int i = 0; i < a.rows; ++i)
+    for (int k = a.start[i]; k < a.start[i + 1]; ++k) {
+      const int slot = at[a.column[k]]++;
+      t.column[slot] = i;
+      t.value[slot] = a.value[k].transpose();
+    }
+  return t;
+}
+
+BlockRows product(const BlockRows& a, const BlockRows& b) {
+  BlockRows c;
+  c.rows = a.rows;
+  c.columns = b.columns;
+  c.start.assign(1, 0);
+  std::vector<int> where(b.columns, -1);
+  for (int i = 0; i < a.rows; ++i) {
+    const int begin = static_cast<int>(c.column.size());
+    for (int k = a.start[i]; k < a.start[i + 1]; ++k)
+      for (int l = b.start[a.column[k]]; l < b.start[a.column[k] + 1]; ++l) {
+        const int j = b.column[l];
+        if (where[j] < begin) {
+          where[j] = static_cast<int>(c.column.size());
+          c.column.push_back(j);
+          c.value.push_back(Mat3::Zero());
+        }
+        c.value[where[j]].noalias() += a.value[k] * b.value[l];
+      }
+    c.start.push_back(static_cast<int>(c.column.size()));
+  }
+  return c;
+}
+
+std::vector<Mat3> block_diagonal(const BlockRows& a) {
+  std::vector<Mat3> d(a.rows, Mat3::Zero());
+  for (int i = 0; i < a.rows; ++i)
+    for (int k = a.start[i]; k < a.start[i + 1]; ++k)
+      if (a.column[k] == i) d[i] += a.value[k];
+  return d;
+}
+
+} // namespace sloper::cloth

@@ -1,0 +1,44 @@
+#pragma once
+/// Sparse matrices of 3x3 blocks, in double to build a preconditioner and in single precision to apply it.
+#include <base/simd4.hpp>
+#include <cloth/block_matrix.hpp>
+
+namespace sloper::cloth {
+
+/// Compressed rows of 3x3 blocks, both halves.
+struct BlockRows {
+  int rows = 0, columns = 0;
+  std::vector<int> start, column;
+  std::vector<Mat3> value;
+};
+
+/// A block by columns; the fourth lane of each is 0. Vectors are one Float4 a particle, the fourth lane unused.
+struct FloatBlock {
+  Float4 column[3];
+};
+inline Float4 operator*(const FloatBlock& a, Float4 x) { return a.column[0] * lane<0>(x) + a.column[1] * lane<1>(x) + a.column[2] * lane<2>(x); }
+
+struct FloatRows {
+  int rows = 0, columns = 0;
+  std::vector<int> start, column;
+  std::vector<FloatBlock> value;
+  /// y = A x
+  void multiply(const std::vector<Float4>& x, std::vector<Float4>& y) const;
+  /// y += A x
+  void multiply_add(const std::vector<Float4>& x, std::vector<Float4>& y) const;
+};
+
+Float4 to_float(const Vec3& v);
+FloatBlock to_float(const Mat3& m);
+Vec3 to_double(Float4 v);
+FloatRows to_float(const BlockRows& rows);
+
+/// The whole matrix of a symmetric one that keeps its upper triangle; rows come out sorted.
+BlockRows expand(const BlockMatrix& m);
+/// Writes the numbers of m into rows that expand() made of the same pattern.
+void refill(const BlockMatrix& m, FloatRows& rows);
+BlockRows transpose(const BlockRows& a);
+BlockRows product(const BlockRows& a, const BlockRows& b);
+std::vector<Mat3> block_diagonal(const BlockRows& a);
+
+} // namespace sloper::cloth
