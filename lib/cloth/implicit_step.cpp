@@ -76,14 +76,45 @@ double ClothSolver::energy(const std::vector<Vec3>& x) const {
   return sum;
 }
 
-/// Shortening keeps all limits: they are half spaces around the present positions.
-int ClothSolver::search_along(double before) {
-  const Stopwatch watch(search_s);
+double ClothSolver::energy_after(const std::vector<Vec3>& dx) {
   m_trial.resize(m_x.size());
-  for (int halvings = 0;; ++halvings) {
-    for (std::size_t i = 0; i < m_x.size(); ++i) m_trial[i] = m_x[i] + m_dx[i];
-    if (halvings == MOST_HALVINGS || energy(m_trial) <= before) return halvings;
+  for (std::size_t i = 0; i < m_x.size(); ++i) m_trial[i] = m_x[i] + dx[i];
+  return energy(m_trial);
+}
+
+/// Shortening keeps all limits: they are half spaces around the present positions.
+int ClothSolver::search_along(double largest_move_m) {
+  const Stopwatch watch(search_s);
+  const double before = energy(m_x);
+  for (int halvings = 0; halvings < MOST_HALVINGS; ++halvings) {
+    const double after = energy_after(m_dx);
+    if (after <= before) {
+      if (halvings == 0) lengthen(after, largest_move_m);
+      return halvings;
+    }
     for (Vec3& d : m_dx) d *= 0.5;
+  }
+  return MOST_HALVINGS;
+}
+
+/// Doubles the step while the energy keeps falling. Where cloth buckles the definite part is far stiffer than the cloth, and whole
+/// steps are much too short; a look ahead costs a fraction of a solve.
+void ClothSolver::lengthen(double energy, double largest_move_m) {
+  for (;;) {
+    m_longer = m_dx;
+    m_longer_held = m_held;
+    double largest2 = 0;
+    for (Vec3& d : m_longer) {
+      d *= 2;
+      largest2 = std::max(largest2, d.squaredNorm());
+    }
+    if (largest2 > largest_move_m * largest_move_m) return;
+    m_limits.apply(m_x, m_longer, m_longer_held);
+    const double after = energy_after(m_longer);
+    if (!(after < energy)) return;
+    energy = after;
+    std::swap(m_dx, m_longer);
+    std::swap(m_held, m_longer_held);
   }
 }
 
@@ -151,7 +182,7 @@ StepResult ClothSolver::step(const StepOptions& o) {
     return result;
   }
   if (o.line_search) {
-    result.halvings = search_along(energy(m_x));
+    result.halvings = search_along(o.largest_move_m);
     freeze_held(result.halvings > 0);
   }
   double weight = 0;

@@ -135,6 +135,9 @@ void run(const std::string& folder, const std::string& name, bool self, bool to_
     for (; steps < 3000; ++steps) {
       last = solver.step(options);
       iterations += last.cg.iterations;
+      if (std::getenv("SLOPER_BENCH_TRACE")) // one line a step
+        std::printf("%5ld h %8.4f CG %3d halvings %d move %9.3g mm, residual %9.4f %9.4f held %zu\n", steps, options.h, last.cg.iterations, last.halvings,
+                    1e3 * last.largest_move_m, last.residual_force_ratio, last.residual_force_ratio_max, last.held);
       if (last.residual_force_ratio_max < target) break;
       options.h = last.halvings > 0 ? std::max(0.7 * options.h, 0.01) : std::min(1.3 * options.h, 1e3);
     }
