@@ -17,7 +17,8 @@ class BodySpace {
 public:
   explicit BodySpace(const body::Body& body);
   const body::Body& body() const { return m_body; }
-  double stature() const { return m_stature; } ///< m
+  double stature() const { return m_stature; }                    ///< m
+  const std::vector<body::Part>& parts() const { return m_part; } ///< of each skin vertex
 
   /// Skin points of some parts with axis heights in [low, high], in the axis's plane; thinned to the points that matter for a hull.
   std::vector<Vec2> points(const Axis& axis, const std::vector<body::Part>& parts, double low, double high) const;

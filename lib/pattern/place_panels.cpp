@@ -3,6 +3,7 @@
 #include <collision/intersections.hpp>
 #include <pattern/bellows.hpp>
 #include <pattern/body_space.hpp>
+#include <pattern/leg_layout.hpp>
 #include <pattern/panel_layout.hpp>
 #include <pattern/place_panels.hpp>
 #include <pattern/wrap_curve.hpp>
@@ -24,6 +25,9 @@ constexpr double WING = 0.02;           // m between the wings and what they pas
 constexpr double SHOULDER_RAISE = 0.02; // m above the shoulders, so that the shoulder seam closes downwards
 constexpr double SHORTEST_WAVE = 8;     // mesh edges, of cloth laid in waves
 constexpr double OUT_OF_SLEEVE = 0.03;  // m of the hand that look out of a sleeve longer than the arm
+constexpr double BELOW_CROTCH = 0.03;   // m: where trousers' crotch starts below the body's
+constexpr double MOST_RISE = 1.25;      // stretch of the way from waist to crotch for that, at most
+constexpr double LEG_ROW = 0.01;        // m between the rows of cloth that a leg is laid out by
 constexpr int ROUNDS = 60;
 
 /// Panels that share one cylinder.
@@ -33,6 +37,7 @@ struct Group {
   std::vector<std::size_t> panels;
   double extra = 0; ///< m added to the gap while panels are pushed free
   double wing = 0;  ///< m added to the distance of the wings, where sleeves of hanging arms are in their way
+  std::string leg;  ///< of trousers: leg_l or leg_r, all around
 };
 
 class Placer {
@@ -46,6 +51,7 @@ public:
 
   PlacementReport run() {
     make_groups();
+    if (std::any_of(m_roles.begin(), m_roles.end(), [](const PanelRole& r) { return is_leg(r); })) level_trunk(m_mesh, m_graph, m_roles, m_spots);
     anchor_trunk();
     anchor_neck();
     place_all();
@@ -63,8 +69,10 @@ private:
   void make_groups() {
     for (std::size_t k = 0; k < m_roles.size(); ++k) {
       std::size_t g = 0;
-      while (g < m_groups.size() && (m_groups[g].region != m_roles[k].region || m_groups[g].side != m_roles[k].side)) ++g;
-      if (g == m_groups.size()) m_groups.push_back({m_roles[k].region, m_roles[k].side, {}});
+      const std::string leg = is_leg(m_roles[k]) ? m_roles[k].part : "";
+      while (g < m_groups.size() && (m_groups[g].region != m_roles[k].region || m_groups[g].leg != leg || (leg.empty() && m_groups[g].side != m_roles[k].side)))
+        ++g;
+      if (g == m_groups.size()) m_groups.push_back({m_roles[k].region, m_roles[k].side, {}, 0, 0, leg});
       m_groups[g].panels.push_back(k);
       m_group_of.push_back(g);
     }
@@ -130,9 +138,8 @@ private:
     } else {
       const auto [around, edge] = lengths_around(top);
       const double crotch = m_space.body().has_landmark("crotch") ? m_space.body().landmark("crotch").y() : 0.47 * m_space.stature();
-      shift = m_space.hang_height(around, crotch + edge - crotch_height(edge)) - edge;
+      shift = m_space.hang_height(around, crotch + edge - legs_part(m_mesh, m_graph, m_roles, m_spots).value_or(-1e3)) - edge;
     }
-    fold_legs(shift);
     for (std::size_t k = 0; k < m_roles.size(); ++k)
       if (m_roles[k].region == Region::TRUNK) m_spots[k].offset.y() += shift;
   }
@@ -163,19 +170,6 @@ private:
     return {around, edge};
   }
 
-  /// Height of a pair of trousers' crotch: the lowest stitch between the panels of two legs on one side; far below where there are none.
-  double crotch_height(double edge) const {
-    double low = edge;
-    for (std::size_t k = 0; k < m_roles.size(); ++k)
-      for (int q : m_graph.neighbours(static_cast<int>(k))) {
-        const std::size_t o = static_cast<std::size_t>(q);
-        if (!is_leg(k) || !is_leg(o) || m_roles[k].part == m_roles[o].part || m_roles[k].side != m_roles[o].side) continue;
-        for (const auto& seam : m_graph.between(static_cast<int>(k), q))
-          for (const auto& s : seam) low = std::min(low, uv(k, s[0]).y());
-      }
-    return low < edge ? low : -1e3;
-  }
-
   /// How much of the level line v is covered by panels about the trunk, m.
   double covered(double v) const {
     double sum = 0;
@@ -184,18 +178,31 @@ private:
     return sum;
   }
 
-  bool is_leg(std::size_t k) const { return m_roles[k].part == "leg_l" || m_roles[k].part == "leg_r"; }
-
-  /// Trouser legs that reach the feet start above them, below the knees in waves: a hem closes around an ankle, not around a foot.
-  void fold_legs(double shift) {
-    double bottom = 1e300;
-    for (std::size_t k = 0; k < m_roles.size(); ++k)
-      if (is_leg(k)) bottom = std::min(bottom, laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k))[0].y() + shift);
-    if (bottom > 1e299) return;
-    const double ankle = m_space.body().has_landmark("ankle_l") ? m_space.body().landmark("ankle_l").y() : 0.045 * m_space.stature();
-    const double excess = ankle + 0.025 - bottom,
-                 knee = m_space.body().has_landmark("knee_l") ? m_space.body().landmark("knee_l").y() : 0.28 * m_space.stature();
-    if (excess > 0 && knee > ankle + 0.1) m_leg_fold = Bellows(knee, knee - bottom - 0.02, excess, std::max(SHORTEST_WAVE * m_mesh.edge_length, 0.12));
+  /// Legs start as smooth tubes around the legs. Longer than to the ankles they start shortened: a hem closes around an ankle, not
+  /// around a foot.
+  void place_leg(const Group& group) {
+    const bool left = group.leg == "leg_l";
+    const auto b = bounds(group);
+    const std::size_t n = static_cast<std::size_t>(std::ceil((b[1].y() - b[0].y()) / LEG_ROW)) + 2;
+    const std::string ankle_name = left ? "ankle_l" : "ankle_r";
+    const double end = (m_space.body().has_landmark(ankle_name) ? m_space.body().landmark(ankle_name).y() : 0.045 * m_space.stature()) + 0.025;
+    std::optional<LegTube>& tube = m_tubes[left];
+    if (!tube) tube.emplace(m_space, left);
+    // The crotch starts a little below the body's, so that there is way between the legs for it.
+    const double top = b[1].y(), from = std::min(legs_part(m_mesh, m_graph, m_roles, m_spots).value_or(top - 0.25), top - 0.05);
+    const double crotch = std::min(from, std::max(tube->crotch() - BELOW_CROTCH, top - MOST_RISE * (top - from)));
+    const double rise = (top - crotch) / (top - from), leg = std::clamp((crotch - end) / std::max(from - b[0].y(), 1e-6), 0.2, 1.0);
+    std::vector<double> heights;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double v = top - LEG_ROW * static_cast<double>(k);
+      heights.push_back(v > from ? top - rise * (top - v) : crotch - leg * (from - v));
+    }
+    tube->shape(heights, leg_rows(m_mesh, m_roles, m_spots, group.panels, left, b[1].y(), LEG_ROW, n), GAP + group.extra);
+    for (std::size_t k : group.panels) {
+      const Side side = m_roles[k].side;
+      const double sign = (left ? 1 : -1) * (side == Side::BACK ? -1 : 1);
+      put(k, [&](const Vec2& p) { return tube->at(side, sign * p.x(), (b[1].y() - p.y()) / LEG_ROW, LAYER * m_depth[k]); });
+    }
   }
 
   bool sewn(int vertex) {
@@ -259,11 +266,7 @@ private:
         curves.emplace(depth, WrapCurve::front_of(hull, GAP + out, wing + out, FILLET, axis.plane(Vec3(0, 0, 0)).x()));
       }
       const WrapCurve& curve = curves.at(depth);
-      const Bellows fold = is_leg(k) ? m_leg_fold : Bellows();
-      put(k, [&](const Vec2& p) {
-        const Vec2 down = fold.at(p.y());
-        return axis.point(curve.at(p.x()) + Vec2(0, down.y()), down.x());
-      });
+      put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x()), p.y()); });
     }
   }
 
@@ -412,7 +415,8 @@ private:
   }
 
   void place_group(const Group& g) {
-    if (g.region == Region::TRUNK) place_trunk(g);
+    if (!g.leg.empty()) place_leg(g);
+    else if (g.region == Region::TRUNK) place_trunk(g);
     else if (g.region == Region::NECK) place_neck(g);
     else place_arm(g);
   }
@@ -456,7 +460,7 @@ private:
         } else if (is_arm(p)) {
           if (m_group_of[p] != m_group_of[q]) grow.insert(m_group_of[p]), grow.insert(m_group_of[q]);
           else grow.insert(m_group_of[p]);
-        } else if (m_group_of[p] == m_group_of[q] && p != q) {
+        } else if (m_group_of[p] == m_group_of[q] && p != q && m_roles[p].side == m_roles[q].side) {
           if (m_depth[p] == m_depth[q]) ++m_depth[area(p) > area(q) ? q : p], changed = true;
           else ++m_depth[m_depth[p] > m_depth[q] ? p : q], changed = true;
         } else grow.insert(m_group_of[p]), grow.insert(m_group_of[q]);
@@ -525,7 +529,7 @@ private:
   std::vector<char> m_sewn;
   double m_arm_shift[2] = {0.0, 0.0}; ///< m along the arm; right, left
   double m_raised = 0;
-  Bellows m_leg_fold;
+  std::optional<LegTube> m_tubes[2]; ///< right, left
 };
 
 } // namespace
