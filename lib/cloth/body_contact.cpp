@@ -76,16 +76,22 @@ void BodyContactEffect::bind(const BlockMatrix& matrix) {
   m_stale = true; // pairs hold slots
 }
 
-void BodyContactEffect::set_give_way(bool give_way) {
-  m_give_way = give_way;
-  refresh();
-}
-
 void BodyContactEffect::refresh() { m_stale = m_look_for_crossings = true; }
 
 Vec3 BodyContactEffect::crossing_place() const {
   const auto first = std::find(m_crossing.begin(), m_crossing.end(), 1);
   return first == m_crossing.end() ? Vec3(Vec3::Zero()) : m_searched_at[m_triangles[first - m_crossing.begin()][0]];
+}
+
+std::vector<double> BodyContactEffect::skin_room(const std::vector<Vec3>& x) {
+  search(x);
+  std::vector<double> room(m_body.mesh().positions.size(), 0.5 * (EDGE_REACH * m_options.gap_m + m_options.slack_m));
+  for (const Pair& pair : m_pairs) {
+    if (pair.crossed) continue;
+    const double half = 0.5 * closest(pair, x).distance;
+    for (int k = 0; k < pair.n_body; ++k) room[pair.body[k]] = std::min(room[pair.body[k]], half);
+  }
+  return room;
 }
 
 void BodyContactEffect::move_body(const std::vector<Vec3>& positions) {
@@ -117,16 +123,14 @@ void BodyContactEffect::find_crossed(const std::vector<Vec3>& x) {
     m_clearance[i].triangle = d.triangle;
     m_inside[i] = d.triangle >= 0 ? d.distance < 0 : m_body.is_inside(x[i]);
   }
-  if (m_give_way) m_crossing.assign(m_triangles.size(), 1);
-  else
-    for (int f : m_body.faces_through(x, m_triangles)) m_crossing[f] = 1;
+  for (int f : m_body.faces_through(x, m_triangles)) m_crossing[f] = 1;
   m_n_crossing = 0;
   for (std::size_t f = 0; f < m_triangles.size(); ++f) {
     for (int i : m_triangles[f]) m_crossing[f] |= m_inside[i];
     m_n_crossing += m_crossing[f];
   }
   m_look_for_crossings = m_n_crossing > 0;
-  m_push = m_n_crossing == 0 || m_give_way ? 1 : std::min(HARDER * m_push, HARDEST);
+  m_push = m_n_crossing == 0 ? 1 : std::min(HARDER * m_push, HARDEST);
 }
 
 /// Fills m_asked and m_reach_now from lower bounds of the distances to the skin.

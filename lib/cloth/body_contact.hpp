@@ -38,11 +38,12 @@ public:
   void add(StepContext& c) override;
   double energy(const std::vector<Vec3>& x) const override; ///< of the pairs of the last search and of the ties of friction
 
+  /// How far each vertex of the skin may move at once so that it passes none of the cloth at x, m: half of its distance to the cloth,
+  /// and no more than what is seen. Cloth that crosses the skin already does not count. Searches. After a first step only.
+  std::vector<double> skin_room(const std::vector<Vec3>& x);
   /// Moves the body (same topology).
   void move_body(const std::vector<Vec3>& positions);
   void set_friction(double mu) { m_options.friction = mu; }
-  /// While the body moves into the cloth: nothing is guarded, all is pushed along the skin's normal.
-  void set_give_way(bool give_way);
   /// Positions were changed from outside: look for crossings at the next search, which comes before the next step.
   void refresh();
   /// Cloth triangles through the skin or with a vertex inside, at the last search; none once guarded.
@@ -92,7 +93,7 @@ private:
   std::vector<Vec3> m_searched_at;
   std::vector<double> m_reach_now; // #P: may move this far from m_searched_at unseen
   double m_body_moved = 0;         // m, since the search
-  bool m_stale = true, m_look_for_crossings = true, m_give_way = false;
+  bool m_stale = true, m_look_for_crossings = true;
   std::vector<char> m_inside, m_crossing, m_asked; // by particle, triangle, triangle
   std::size_t m_n_crossing = 0;
   double m_push = 1; // factor on the stiffness of crossed pairs

@@ -30,6 +30,8 @@ constexpr double SEW_STRONGEST = 5;      // N at reach
 constexpr double SEW_LEG_SCALE = 0.7;    // of the body's thickness while trousers are sewn
 constexpr double SEW_BENDING = 30;       // times that of the fabric
 constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step while the body is inflated
+constexpr double LATEST = 0.01;          // m: how far skin may stay back where cloth is in its way
+constexpr int LATE_STEPS = 40;           // in which what stayed back comes home
 constexpr int GLIDE_STEPS = 40;          // after sewing, free of weight and friction, which would keep the strain that sewing left
 constexpr int PUSH_STEPS = 120;          // for cloth at rest that is still through the skin
 constexpr double SHORTEST_STEP_S = 0.005;
@@ -252,18 +254,38 @@ std::size_t DrapeRun::untangle() {
   return least;
 }
 
+/// The skin comes back to its place, if it can at no time through cloth that is clear of it: each vertex goes at most half of its way
+/// to the cloth, then the cloth makes room. Where the cloth is slow to do so the skin waits, but not farther back than LATEST, and less
+/// and less far once the rest of the body is back; then it goes through, and pushes.
 void DrapeRun::inflate() {
   if (m_scale >= 1 || !m_body_contact) return;
   const Phase phase(*this, "inflate body");
   const double step_scale = INFLATE_MOTION / m_shrink->reach();
-  m_body_contact->set_give_way(true);
-  while (m_scale < 1 && !m_stopped) {
-    m_scale = std::min(1.0, m_scale + step_scale);
-    m_body_contact->move_body(skin_at(m_scale));
+  std::vector<Vec3> skin = m_collider->mesh().positions;
+  step(1.0 / 30, 0);
+  double farthest = 0;
+  for (double latest = LATEST; !m_stopped && (m_scale < 1 || farthest > 0);) {
+    if (m_scale < 1) m_scale = std::min(1.0, m_scale + step_scale);
+    else latest = std::max(0.0, latest - LATEST / LATE_STEPS);
+    const std::vector<Vec3> target = skin_at(m_scale);
+    const std::vector<double> room = m_body_contact->skin_room(m_solver->x());
+    farthest = 0;
+    for (std::size_t v = 0; v < skin.size(); ++v) {
+      const Vec3 way = target[v] - skin[v];
+      const double length = way.norm(), late = std::min(length - room[v], latest);
+      if (late > 0) {
+        skin[v] = target[v] - late / length * way;
+        farthest = std::max(farthest, late);
+      } else {
+        skin[v] = target[v];
+      }
+    }
+    m_body_contact->move_body(skin);
+    if (farthest >= latest) m_body_contact->refresh();
     step(1.0 / 30, 0);
   }
-  m_body_contact->move_body(skin_at(1)); // the exact skin, also when stopped on the way
-  m_body_contact->set_give_way(false);
+  m_body_contact->move_body(skin_at(1)); // also when stopped on the way
+  m_body_contact->refresh();
 }
 
 void DrapeRun::settle() {
