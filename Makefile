@@ -1,5 +1,5 @@
 # Thin: every target is one command that can be typed by hand. `make` builds the five programs into build/tools/.
-.PHONY: all pictures package test demo population check sanitize install format man bench validation figure4 accuracy clean
+.PHONY: all pictures package test demo population check sanitize install format man bench validation figure4 accuracy hard soak accuracy-cost presets clean
 
 all:
 	@scripts/build release
@@ -45,6 +45,11 @@ bench:
 validation:
 	@scripts/build release test_validation
 	@SLOPER_VALIDATION=1 SLOPER_FIGURES=1 build/tests/validation/test_validation
+
+# Every hard case over its sweep and 20 seeds; the table goes to docs/hard-cases.md.
+hard:
+	@scripts/build release run-hard
+	@build/tests/hard/run-hard --jobs $(shell nproc) --table docs/hard-cases.md
 
 # The paper's Figure 4: ten drapes of the four-panel skirt, a sheet of pictures, and checks.
 figure4:
