@@ -86,7 +86,6 @@ Outcome contact_scene(const Parameters& p, std::uint64_t seed) {
 
   const Motion motion{p.text("motion", "none"), p.number("body_speed_m_s", 1), p.number("body_way_m", 0.5)};
   const int substeps = p.whole("substeps", 1);
-  const bool give_way = p.flag("give_way", false);
   cloth::StepOptions o;
   o.h = p.number("h", 1.0 / 30) / substeps;
   o.inertia = p.number("inertia", 0);
@@ -102,9 +101,7 @@ Outcome contact_scene(const Parameters& p, std::uint64_t seed) {
   int k = 0;
   for (double t = o.h; t < duration + 0.5 * o.h; t += o.h, ++k) {
     if (motion.moves()) {
-      if (give_way) touch.set_give_way(true);
       touch.move_body(motion.at(skin.positions, t));
-      if (give_way) touch.set_give_way(false);
     }
     const std::vector<Vec3> before = solver.x();
     if (!watch.step(o)) break;
