@@ -5,8 +5,8 @@
 /// curve is long enough; where the cloth is wider the curve is grown.
 #include <pattern/body_space.hpp>
 #include <pattern/panel_role.hpp>
+#include <pattern/section_ring.hpp>
 
-#include <array>
 #include <vector>
 
 namespace sloper::pattern {
@@ -37,10 +37,7 @@ public:
 
   double crotch() const { return m_crotch; } ///< height of the body's, m
 
-  static constexpr int ANGLES = 180; ///< directions around, from the front over the outer side
-
 private:
-  using Ring = std::array<double, ANGLES>;
   struct Curve {
     double y = 0, outer_gap = 0, inner_gap = 0, scale = 1, from = 0, to = 0, seam = 0;
     Vec2 center = Vec2::Zero();

@@ -1,7 +1,7 @@
 #include <base/error.hpp>
 #include <collision/body_collider.hpp>
 #include <collision/intersections.hpp>
-#include <pattern/bellows.hpp>
+#include <pattern/arm_tube.hpp>
 #include <pattern/body_space.hpp>
 #include <pattern/leg_layout.hpp>
 #include <pattern/panel_layout.hpp>
@@ -23,8 +23,8 @@ constexpr double LAYER = 0.012;         // m between panels that lie over each o
 constexpr double FILLET = 0.06;         // m: radius with which the front curve turns into its wings
 constexpr double WING = 0.02;           // m between the wings and what they pass: arms, or each other
 constexpr double SHOULDER_RAISE = 0.02; // m above the shoulders, so that the shoulder seam closes downwards
-constexpr double SHORTEST_WAVE = 8;     // mesh edges, of cloth laid in waves
-constexpr double OUT_OF_SLEEVE = 0.03;  // m of the hand that look out of a sleeve longer than the arm
+constexpr double BEYOND_WRIST = 0.03;   // m: how far over the hand a sleeve longer than the arm starts
+constexpr double SLEEVE_KEEPS = 0.4;    // of the arm's length, from the shoulder: where such a sleeve is not shortened
 constexpr double BELOW_CROTCH = 0.03;   // m: where trousers' crotch starts below the body's
 constexpr double MOST_RISE = 1.25;      // stretch of the way from waist to crotch for that, at most
 constexpr double LEG_ROW = 0.01;        // m between the rows of cloth that a leg is laid out by
@@ -340,35 +340,39 @@ private:
     if (hull.size() < 3)
       throw input_error("", "body", std::string("the ") + (left ? "left" : "right") + " arm has no skin", "scan the arms, or leave the sleeves out");
     const auto b = bounds(group);
+    // A sleeve longer than the arm starts shortened: its end closes around the wrist, not around a hand.
+    const double end = arm_end(axis, left), from = SLEEVE_KEEPS * end, bottom = low + shift;
+    const double share = bottom < end ? (end - from) / (bottom - from) : 1;
+    const auto along = [&](double v) { return v + shift < from ? from + share * (v + shift - from) : v + shift; };
     if (group.side == Side::RING) {
-      const WrapCurve curve = WrapCurve::around(hull, GAP + group.extra, b[1].x() - b[0].x() + 0.01);
+      ArmTube tube(m_space, axis, left, along(b[0].y()), along(b[1].y()));
+      std::vector<double> widths(tube.n_rows(), 0);
+      for (std::size_t row = 0; row < widths.size(); ++row) {
+        const double v = tube.height(row) < from ? from + (tube.height(row) - from) / share : tube.height(row);
+        for (std::size_t k : group.panels)
+          widths[row] = std::max(widths[row], pattern::covered(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k), v - shift));
+      }
+      tube.shape(widths, GAP + group.extra);
       for (std::size_t k : group.panels) {
         const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
         const double center = -0.5 * (own[0].x() + own[1].x());
-        put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x() + center), p.y() + shift); });
+        put(k, [&](const Vec2& p) { return axis.point(tube.at(p.x() + center, along(p.y())), along(p.y())); });
       }
       return;
     }
-    double from = 1e300, to = -1e300;
-    for (const Vec2& p : hull) from = std::min(from, p.y()), to = std::max(to, p.y());
+    double back = 1e300, front = -1e300;
+    for (const Vec2& p : hull) back = std::min(back, p.y()), front = std::max(front, p.y());
     const WrapCurve curve =
-        WrapCurve::front_of(hull, GAP + group.extra, 0.5 * (from + to) + 0.5 * WING + group.extra, 0.04, 0.5 * (plane_low(hull) + plane_high(hull)));
-    // A sleeve longer than the arm starts in waves, so that the hand comes out of its end and not to rest in a closed bag.
-    const double tip = hand_tip(axis, left), excess = tip + OUT_OF_SLEEVE - (low + shift);
-    Bellows fold;
-    if (excess > 0) fold = Bellows(0.35 * tip, 0.35 * tip - (low + shift) - 0.02, excess, std::max(SHORTEST_WAVE * m_mesh.edge_length, 0.12));
-    for (std::size_t k : group.panels)
-      put(k, [&](const Vec2& p) {
-        const Vec2 down = fold.at(p.y() + shift);
-        return axis.point(curve.at(p.x()) + Vec2(0, down.y()), down.x());
-      });
+        WrapCurve::front_of(hull, GAP + group.extra, 0.5 * (back + front) + 0.5 * WING + group.extra, 0.04, 0.5 * (plane_low(hull) + plane_high(hull)));
+    for (std::size_t k : group.panels) put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x()), along(p.y())); });
   }
 
-  /// Height of the end of the arm along its axis.
-  double hand_tip(const Axis& axis, bool left) const {
-    const std::string name = left ? "hand_tip_l" : "hand_tip_r";
-    if (m_space.body().has_landmark(name)) return axis.height(m_space.body().landmark(name));
-    return -0.4 * m_space.stature();
+  /// Height along the arm's axis at which a long sleeve may end: a little beyond the wrist.
+  double arm_end(const Axis& axis, bool left) const {
+    const std::string side = left ? "_l" : "_r";
+    if (m_space.body().has_landmark("wrist" + side)) return axis.height(m_space.body().landmark("wrist" + side)) - BEYOND_WRIST;
+    if (m_space.body().has_landmark("hand_tip" + side)) return 0.8 * axis.height(m_space.body().landmark("hand_tip" + side));
+    return -0.32 * m_space.stature();
   }
 
   static double plane_low(const std::vector<Vec2>& hull) {

@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <gtest/gtest.h>
-#include <pattern/bellows.hpp>
 #include <pattern/place_panels.hpp>
 
 namespace sloper::pattern::test {
@@ -17,10 +16,11 @@ std::string rectangle(const std::string& name, double w, double h) {
 }
 
 /// A shirt of rectangles, without a word about placement: bodies with shoulder seams, one-piece sleeves.
-Pattern box_shirt() {
+Pattern box_shirt(double sleeve_length = 30) {
   const std::string sleeve_seam = R"(, "b": [{"panel": "SLEEVE", "edge": "top", "from": 0.5, "to": 0}]})";
   std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "box shirt", "panels": [)" + rectangle("front", 52, 62) + "," +
-                     rectangle("back", 52, 62) + "," + rectangle("sleeve_l", 44, 30) + "," + rectangle("sleeve_r", 44, 30) + R"(], "seams": [
+                     rectangle("back", 52, 62) + "," + rectangle("sleeve_l", 44, sleeve_length) + "," + rectangle("sleeve_r", 44, sleeve_length) +
+                     R"(], "seams": [
     {"name": "side_l", "a": [{"panel": "front", "edge": "l", "from": 0, "to": 0.645}], "b": [{"panel": "back", "edge": "r", "from": 1, "to": 0.355}]},
     {"name": "side_r", "a": [{"panel": "back", "edge": "l", "from": 0, "to": 0.645}], "b": [{"panel": "front", "edge": "r", "from": 1, "to": 0.355}]},
     {"name": "shoulder_l", "a": [{"panel": "front", "edge": "top", "from": 0, "to": 0.3}], "b": [{"panel": "back", "edge": "top", "from": 1, "to": 0.7}]},
@@ -65,6 +65,32 @@ TEST(Placement, AShirtWithoutHintsStandsFreeAroundBodiesOfAnyStanceAndSize) {
       EXPECT_EQ(mesh.panels[2].part, "arm_l");
       EXPECT_EQ(mesh.panels[3].part, "arm_r");
     }
+}
+
+TEST(Placement, LongSleevesEndAtTheWristAndTheirEdgesMeetBeyondTheArm) {
+  for (double arm : {25.0, 60.0}) {
+    SCOPED_TRACE(arm);
+    PanelMesh mesh = mesh_pattern(box_shirt(90), 0.02, "t");
+    const body::Body body = stick_body(arm, 1.0);
+    const PlacementReport report = place_panels(box_shirt(90), body, mesh);
+    EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
+    const Vec3 shoulder = body.landmark("shoulder_joint_l"), wrist = body.landmark("wrist_l");
+    const Vec3 along = (wrist - shoulder).normalized();
+    const PanelInfo& sleeve = mesh.panels[2];
+    double farthest = 0;
+    for (int v = sleeve.first_vertex; v < sleeve.first_vertex + sleeve.n_vertices; ++v)
+      farthest = std::max(farthest, (mesh.placed[static_cast<std::size_t>(v)] - shoulder).dot(along));
+    EXPECT_NEAR(farthest, (wrist - shoulder).norm() + 0.03, 0.005);
+    for (const MeshSeam& seam : mesh.seams) {
+      if (seam.name != "under_l") continue;
+      for (std::size_t k = 0; k < seam.a.size(); ++k) { // the line between both edges passes below the arm's axis
+        const Vec3 &a = mesh.placed[static_cast<std::size_t>(seam.a[k])], &b = mesh.placed[static_cast<std::size_t>(seam.b[k])];
+        const Vec3 axis = shoulder + (a - shoulder).dot(along) * along;
+        const Vec3 outwards = Vec3(1, 1, 0) - Vec3(1, 1, 0).dot(along) * along; // where the middle of the sleeve is
+        EXPECT_GT((axis - 0.5 * (a + b)).dot(outwards), 0);
+      }
+    }
+  }
 }
 
 TEST(Placement, WrappingKeepsLengths) {
@@ -206,18 +232,6 @@ TEST(Placement, LongTrousersStartAsSmoothTubesAboveTheFeetWithTheirWaistInPlace)
       EXPECT_LT((at(k - 1) - 2 * at(k) + at(k + 1)).norm(), 0.008) << "the side seam bends at " << at(k).y();
     }
   }
-}
-
-TEST(Bellows, TakeUpWhatTheyAreAskedAndKeepLengths) {
-  const Bellows bellows(0.5, 0.4, 0.1, 0.1);
-  EXPECT_NEAR(bellows.excess(), 0.1, 1e-4);
-  EXPECT_NEAR(bellows.at(0.6).x(), 0.6, 1e-12);
-  EXPECT_NEAR(bellows.at(0.0).x(), 0.1, 1e-4);
-  EXPECT_NEAR(bellows.at(0.1001).y(), 0, 1e-4);
-  double length = 0;
-  for (int k = 0; k < 400; ++k) length += (bellows.at(0.1 + 0.001 * k) - bellows.at(0.1 + 0.001 * (k + 1))).norm();
-  EXPECT_NEAR(length, 0.4, 1e-3);
-  EXPECT_NEAR(Bellows().at(0.3).x(), 0.3, 0);
 }
 
 TEST(Placement, AStraplessTopIsPutOnTheChest) {
