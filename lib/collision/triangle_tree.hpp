@@ -4,8 +4,8 @@
 /// rounded outward, so that no double-precision contact is lost. k = 6 is the axis-aligned box; more directions reject
 /// more pairs and cost more each. Queries are const and may run on several threads.
 /// Test: tests/collision/test_triangle_tree.cpp
-#include <collision/distance.hpp>
 #include <base/simd4.hpp>
+#include <collision/distance.hpp>
 #include <geometry/triangle_mesh.hpp>
 
 #include <bit>
