@@ -11,22 +11,24 @@ constexpr double STRONG = 0.08;      // |A_ij|^2 > STRONG^2 |A_ii| |A_jj|
 constexpr int COARSEST = 64;         // block rows that are factorised
 constexpr double LAMBDA_LIMIT = 4.0; // an element has at most four particles, which bounds the eigenvalues of D^-1 A
 
-/// Aggregate of every row; greedy: whole free neighbourhoods first, then leftovers join their strongest neighbour.
+/// Aggregate of every row; greedy: whole free neighbourhoods first, then leftovers join their strongest neighbour. Rows without a strong
+/// neighbour, such as particles that a contact all but pins, get none (-1): smoothing solves them, and on coarser levels each of them
+/// would couple with all around.
 std::vector<int> aggregates(const BlockRows& a, const std::vector<Mat3>& diagonal, int& count) {
   std::vector<double> size(a.rows);
   for (int i = 0; i < a.rows; ++i) size[i] = diagonal[i].norm();
   auto strong = [&](int i, int k) { return a.column[k] != i && a.value[k].squaredNorm() > STRONG * STRONG * size[i] * size[a.column[k]]; };
   std::vector<int> of(a.rows, -1);
+  std::vector<char> alone(a.rows, 1);
   count = 0;
   for (int i = 0; i < a.rows; ++i) {
-    if (of[i] >= 0) continue;
-    bool is_free = true, has_any = false;
-    for (int k = a.start[i]; k < a.start[i + 1] && is_free; ++k)
+    bool is_free = of[i] < 0;
+    for (int k = a.start[i]; k < a.start[i + 1]; ++k)
       if (strong(i, k)) {
-        has_any = true;
-        is_free = of[a.column[k]] < 0;
+        alone[i] = 0;
+        is_free = is_free && of[a.column[k]] < 0;
       }
-    if (!is_free || !has_any) continue;
+    if (!is_free || alone[i]) continue;
     of[i] = count;
     for (int k = a.start[i]; k < a.start[i + 1]; ++k)
       if (strong(i, k)) of[a.column[k]] = count;
@@ -34,7 +36,7 @@ std::vector<int> aggregates(const BlockRows& a, const std::vector<Mat3>& diagona
   }
   const std::vector<int> roots = of;
   for (int i = 0; i < a.rows; ++i) {
-    if (of[i] >= 0) continue;
+    if (of[i] >= 0 || alone[i]) continue;
     double best = 0;
     for (int k = a.start[i]; k < a.start[i + 1]; ++k) {
       const double s = a.value[k].squaredNorm();
@@ -140,10 +142,12 @@ void Aggregation::build(const LinearSystem& system) {
     BlockRows p0;
     p0.rows = a.rows;
     p0.columns = count;
-    p0.start.resize(a.rows + 1);
-    for (int i = 0; i <= a.rows; ++i) p0.start[i] = i;
-    p0.column = of;
-    p0.value.assign(a.rows, Mat3::Identity());
+    p0.start.assign(1, 0);
+    for (int i = 0; i < a.rows; ++i) {
+      if (of[i] >= 0) p0.column.push_back(of[i]);
+      p0.start.push_back(static_cast<int>(p0.column.size()));
+    }
+    p0.value.assign(p0.column.size(), Mat3::Identity());
     BlockRows smoother = a;
     for (int i = 0; i < a.rows; ++i)
       for (int k = a.start[i]; k < a.start[i + 1]; ++k) {

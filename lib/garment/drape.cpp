@@ -34,6 +34,7 @@ constexpr double LATEST = 0.01;          // m: how far skin may stay back where 
 constexpr int LATE_STEPS = 40;           // in which what stayed back comes home
 constexpr int GLIDE_STEPS = 40;          // after sewing, free of weight and friction, which would keep the strain that sewing left
 constexpr int PUSH_STEPS = 120;          // for cloth at rest that is still through the skin
+constexpr int STALLED_STEPS = 400;       // without a residual that is a tenth less, and more than the weight: it will not come to rest
 constexpr double SHORTEST_STEP_S = 0.005;
 constexpr double LARGEST_STEP_S = 0.2; // s, while settling
 constexpr int UNTANGLE_ROUNDS = 80;
@@ -291,7 +292,8 @@ void DrapeRun::inflate() {
 void DrapeRun::settle() {
   const Phase phase(*this, "settle");
   double h = m_settings.time_step_s;
-  int calm = 0, pushed = 0;
+  int calm = 0, pushed = 0, best_at = 0;
+  double best = std::numeric_limits<double>::infinity();
   m_settling = true;
   const int glide = m_disturbed ? GLIDE_STEPS : 0;
   for (int k = 0; !m_stopped; ++k) {
@@ -311,6 +313,14 @@ void DrapeRun::settle() {
     if (m_last.halvings > 0) h = std::max(h * 0.7, SHORTEST_STEP_S);
     else if (m_last.largest_move_m < 0.003) h = std::min(h * 1.15, LARGEST_STEP_S);
     else if (m_last.largest_move_m > 0.01) h = std::max(h * 0.8, m_settings.time_step_s);
+    if (k <= glide || residual < 0.9 * best) {
+      best = residual;
+      best_at = k;
+    } else if (best > 1 && k > best_at + STALLED_STEPS) {
+      m_stopped = true;
+      m_report.stop_reason = "no nearer to rest in " + std::to_string(STALLED_STEPS) + " steps";
+      break;
+    }
     const bool still = speed < m_settings.settle_speed_m_s && residual < m_settings.settle_force_ratio;
     calm = still && k >= glide ? calm + 1 : 0;
     if (calm < 3) continue;
