@@ -1,20 +1,29 @@
 /// drape: placed panels or a kept garment to cloth at rest on a body.
+#include <base/version.hpp>
 #include <body/body_json.hpp>
 #include <cli/run_tool.hpp>
 #include <garment/bind.hpp>
 #include <garment/drape.hpp>
+#include <garment/follow.hpp>
 #include <garment/garment_json.hpp>
 #include <garment/kes.hpp>
 #include <garment/scene.hpp>
 #include <io/files.hpp>
+#include <io/line_follower.hpp>
+#include <io/obj.hpp>
 #include <pattern/panel_mesh_json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
 
 using namespace sloper;
 
 namespace {
 
 struct Options {
-  std::string scene, body, panels, from, accuracy, effects, material, report, output;
+  std::string scene, body, panels, from, accuracy, effects, material, report, output, follow, frames, edit_log;
   std::vector<std::string> set;
   double max_seconds = 0;
 };
@@ -35,9 +44,16 @@ void add_options(cli::Tool& tool, Options& o) {
   app.add_option("--set", o.set, "one setting by its name in the report's settings")->type_name("KNOB=VALUE");
   app.add_option("--max-seconds", o.max_seconds, "stop after this wall time, s, with the best state so far (exit 4)")->check(cli::finite_in(0, 1e6, "s"));
   app.add_option("--report", o.report, "write report.json: convergence, effects with calls and time, quality, settings")->check(cli::output_file());
+  app.add_option("--follow", o.follow,
+                 "with --from: edits of the pattern, one JSON object a line, taken as they come from a file that grows or from standard input (\"-\")")
+      ->type_name("FILE");
+  app.add_option("--frames", o.frames, "with --follow: every step as an OBJ in this folder with frames.jsonl, or as JSON lines to standard output (\"-\")")
+      ->type_name("DIR");
+  app.add_option("--edit-log", o.edit_log, "with --follow: the edits taken, as pattern-mesh --edits replays them")->check(cli::output_file());
   app.add_option("-o,--output", o.output, "shirt.json; shirt.obj is written beside it")->required()->check(cli::output_file());
   tool.example("drape --body body.json --panels panels.json --report report.json -o shirt.json", "drape a sewn pattern on a scanned body");
   tool.formats("scene, body, panels and garment documents (version 1)", "garment and report documents (version 1), OBJ");
+  tool.example("drape --from shirt.json --body body.json --follow edits.jsonl --frames - -o edited.json", "change the pattern and watch the cloth follow");
   tool.example("drape --from shirt.json --body body.json --accuracy fine -o shirt-fine.json", "go on, more exactly");
 }
 
@@ -51,7 +67,67 @@ garment::DrapeSettings resolve(const Options& o, const garment::Scene& scene) {
   return settings;
 }
 
+/// Frames as they come: an OBJ each with an index beside them, or JSON lines.
+class FrameWriter {
+public:
+  FrameWriter(std::string where, std::string stamp) : m_where(std::move(where)), m_stamp(std::move(stamp)) {
+    if (m_where.empty() || m_where == "-") return;
+    std::error_code failed;
+    std::filesystem::create_directories(m_where, failed);
+    m_index.open(m_where + "/frames.jsonl");
+    if (failed || !m_index) throw Error(ErrorKind::OUTPUT, m_where, "", "no frames can be written there", "name a folder");
+  }
+  void operator()(const garment::FollowFrame& f, const garment::Garment& garment) {
+    if (m_where.empty()) return;
+    io::Json line = {{"frame", f.number}, {"edits", f.edits}};
+    if (f.latency_ms >= 0) line["latency_ms"] = std::round(1000 * f.latency_ms) / 1000, line["cpu_ms"] = f.cpu_ms;
+    line["remeshed"] = f.remeshed, line["speed_m_s"] = f.speed_m_s, line["at_rest"] = f.at_rest;
+    if (m_where == "-") {
+      line["x"] = io::Json::array();
+      for (const Vec3& p : garment.position)
+        for (int k = 0; k < 3; ++k) line["x"].push_back(std::round(1e6 * p[k]) / 1e6); // to a thousandth of a millimetre
+      std::cout << line.dump() << std::endl;
+      return;
+    }
+    char name[32];
+    std::snprintf(name, sizeof name, "frame-%06d.obj", f.number);
+    io::ObjMesh obj;
+    obj.positions = garment.position, obj.texture = garment.panels.pattern;
+    obj.triangles = garment.particle_triangles(), obj.texture_triangles = garment.panels.triangles;
+    for (const pattern::PanelInfo& panel : garment.panels.panels) obj.groups.push_back({panel.name, panel.first_triangle});
+    io::write_obj(m_where + "/" + name, obj, m_stamp);
+    line["mesh"] = name;
+    m_index << line.dump() << std::endl;
+  }
+
+private:
+  std::string m_where, m_stamp;
+  std::ofstream m_index;
+};
+
+/// Drapes, or goes on with a draped garment while edits come. Lines that were refused are counted in `refused`.
+garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment::Garment& garment, const body::Body* body,
+                                     const garment::DrapeSettings& settings, io::Json& document, std::size_t& refused) {
+  if (o.follow.empty()) {
+    garment::DrapeReport report = garment::drape(garment, body, settings, tool.reporter());
+    document = garment::report_json(report, tool.name());
+    return report;
+  }
+  io::LineFollower lines(o.follow);
+  FrameWriter write(o.frames, "frame of " + generator_stamp(tool.name()));
+  const garment::FollowSession session{[&](int wait_ms) { return lines.next(wait_ms); }, [&] { return lines.ended(); },
+                                       [&](const garment::FollowFrame& f, const garment::Garment& g) { write(f, g); }};
+  garment::FollowReport report = garment::follow(garment, body, settings, session, tool.reporter());
+  if (!o.edit_log.empty()) io::write_json(o.edit_log, report.log);
+  document = garment::follow_report_json(report, tool.name());
+  refused = report.refused.size();
+  return std::move(report.drape);
+}
+
 int run(cli::Tool& tool, Options& o) {
+  if (!o.follow.empty() && o.from.empty()) throw Error(ErrorKind::USAGE, "", "--follow", "there is no garment to go on from", "give --from shirt.json");
+  if (o.follow.empty() && !(o.frames.empty() && o.edit_log.empty()))
+    throw Error(ErrorKind::USAGE, "", o.frames.empty() ? "--edit-log" : "--frames", "no edits are followed", "give --follow too");
   const garment::Scene scene = o.scene.empty() ? garment::Scene{} : garment::read_scene(o.scene);
   if (o.body.empty()) o.body = scene.body;
   if (o.panels.empty()) o.panels = scene.panels;
@@ -76,17 +152,19 @@ int run(cli::Tool& tool, Options& o) {
     const std::string mesh = io::mesh_path_beside(o.body);
     garment.body_sha256 = io::sha256(io::read_file(mesh));
   }
-  const garment::DrapeReport report = garment::drape(garment, o.body.empty() ? nullptr : &body, settings, tool.reporter());
+  io::Json document;
+  std::size_t refused = 0;
+  const garment::DrapeReport report = drape_or_follow(tool, o, garment, o.body.empty() ? nullptr : &body, settings, document, refused);
   if (!o.body.empty()) garment::bind_garment(garment, body);
 
   garment::write_garment(o.output, garment, tool.name());
   if (!o.report.empty()) {
-    io::Json document = garment::report_json(report, tool.name());
     document["inputs"] = inputs;
     document["hash"] = {{"strict", garment::strict_hash(garment)}, {"quantised_10um", garment::quantised_hash(garment)}};
     io::write_json(o.report, document);
   }
-  if (report.converged) return 0;
+  if (refused > 0) tool.reporter().warning(std::to_string(refused) + " lines were no edits of this pattern and changed nothing");
+  if (report.converged) return refused > 0 ? static_cast<int>(ErrorKind::FAILED) : 0;
   tool.reporter().warning("not done: " + report.stop_reason + " after " + std::to_string(report.steps) + " steps; the state reached is in " + o.output);
   return static_cast<int>(ErrorKind::FAILED);
 }

@@ -24,7 +24,7 @@ constexpr double LEAST_ANGLE = 15; // degrees: a mesh carried over an edit is ke
 
 struct Options {
   std::string pattern, output, sewing, body, edits, write_pattern, size, grade_rules, undo;
-  double edge_length = 0.015;
+  double edge_length = 0.015, seam_length = 0;
   bool check = false, unsewn = false;
 };
 
@@ -98,13 +98,13 @@ int run(cli::Tool& tool, const Options& o) {
   if (source.seams.empty() && source.source_format == "dxf" && source.panels.size() > 1 && !o.unsewn && !guess_seams(tool, source)) return 1;
   if (o.output.empty()) throw Error(ErrorKind::USAGE, "", "-o", "no output is named", "give -o panels.json");
   pattern::require_sewable(source, o.pattern);
-  pattern::PanelMesh mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern);
+  pattern::PanelMesh mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern, o.seam_length);
   if (!o.edits.empty()) {
     const pattern::Pattern before = source;
     pattern::apply_edits(source, edits, o.edits);
     pattern::require_sewable(source, o.pattern);
     if (!pattern::follow_edits(before, source, mesh, LEAST_ANGLE)) {
-      mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern);
+      mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern, o.seam_length);
       mesh.findings.push_back("the edits ask for another mesh: vertex ids are new");
       tool.reporter().warning(mesh.findings.back());
     }
@@ -131,6 +131,8 @@ int main(int argc, char** argv) {
   CLI::App& app = tool.app();
   app.add_option("PATTERN", o.pattern, "pattern JSON, GarmentCode specification, sewing-spec JSON or AAMA / ASTM DXF")->required()->check(cli::input_file());
   app.add_option("--edge-length", o.edge_length, "length of mesh edges, m (default: 0.015)")->check(cli::finite_in(0.001, 0.2, "m"));
+  app.add_option("--seam-edge-length", o.seam_length, "length of mesh edges along seams and darts, m, growing away from them (default: as elsewhere)")
+      ->check(cli::finite_in(0.001, 0.2, "m"));
   app.add_option("--body", o.body, "body.json from scan-landmarks: panels are placed around this body")->check(cli::input_file());
   app.add_option("--edits", o.edits, "edits.json: changes of the outline that keep the mesh and its vertex ids where they can; \"-\" reads standard input")
       ->check(cli::input_file());

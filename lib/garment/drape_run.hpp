@@ -14,12 +14,15 @@
 
 namespace sloper::garment {
 
+class FollowRun;
+
 class DrapeRun {
 public:
   DrapeRun(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter);
   DrapeReport run();
 
 private:
+  friend class FollowRun; ///< goes on with the same cloth while edits come, see follow.hpp
   /// Times a phase, into the report.
   class Phase;
 

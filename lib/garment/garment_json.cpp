@@ -5,6 +5,8 @@
 #include <io/files.hpp>
 #include <io/json.hpp>
 #include <io/obj.hpp>
+#include <pattern/export_pattern.hpp>
+#include <pattern/read_pattern.hpp>
 
 #include <cmath>
 #include <utility>
@@ -280,13 +282,14 @@ Garment read_garment(const std::string& path) {
   const Node root(document, path);
   Garment garment;
   garment.panels.name = root.string("name", "");
-  garment.panels.edge_length = root.number("edge_length_m", 0);
+  garment.panels.edge_length = root.number("edge_length_m", 0), garment.panels.seam_length = root.number("seam_edge_length_m", 0);
   read_mesh(io::path_beside(path, root.at("mesh").string()), root.boolean("sewn", true), garment);
   read_panels(root.at("panels"), garment.panels);
   read_ids(root.at("vertex_ids"), garment.panels);
   read_seams(root.at("seams"), garment.panels);
   if (root.has("findings"))
     for (std::size_t i = 0; i < root.at("findings").size(); ++i) garment.panels.findings.push_back(root.at("findings").at(i).string());
+  if (root.has("pattern")) garment.panels.source = std::make_shared<pattern::Pattern>(pattern::read_pattern_json(root.at("pattern").json(), path));
   if (root.has("materials")) garment.materials = read_materials(root.at("materials"));
   if (root.has("rest_scale")) garment.rest_scale = read_rest_scale(root.at("rest_scale"), garment.panels.triangles.size());
   garment.offset_m = root.number("offset_m", garment.offset_m);
@@ -320,6 +323,7 @@ void write_garment(const std::string& path, const Garment& garment, const std::s
   document["sewn"] = sewn;
   document["offset_m"] = garment.offset_m;
   document["edge_length_m"] = garment.panels.edge_length;
+  if (garment.panels.seam_length > 0) document["seam_edge_length_m"] = garment.panels.seam_length;
   Json girths = Json::object();
   for (const auto& [name, value] : garment.body_girths_m) girths[name] = value;
   document["body"] = {{"sha256", garment.body_sha256}, {"girths_m", girths}};
@@ -333,6 +337,7 @@ void write_garment(const std::string& path, const Garment& garment, const std::s
   document["seams"] = Json::array();
   for (const pattern::MeshSeam& seam : garment.panels.seams) document["seams"].push_back(seam_json(seam));
   document["findings"] = garment.panels.findings;
+  if (garment.panels.source) document["pattern"] = pattern::pattern_json(*garment.panels.source, tool);
   document["rest_scale"] = rest_scale_json(garment);
   Json s = Json::array(), t = Json::array();
   for (const pattern::StableId& id : garment.panels.ids) {

@@ -1,5 +1,6 @@
 #include <base/error.hpp>
 #include <pattern/boundary.hpp>
+#include <pattern/size_field.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,8 @@ struct Piece {
   int panel, edge;
   double from, to; ///< from < to, along the outline
   int n = 0;       ///< segments; 0 when merged away
+  bool sewn = false;
+  std::vector<double> inner; ///< fractions of the piece where it is cut, where they are not even
 };
 
 /// A stretch of seam: side a's piece and side b's, and whether each is walked against its outline.
@@ -96,7 +99,7 @@ struct EdgeVertices {
 
 class Sampler {
 public:
-  Sampler(const Pattern& pattern, double h, const std::string& file) : m_pattern(pattern), m_h(h), m_file(file) {}
+  Sampler(const Pattern& pattern, double h, double seam_h, const std::string& file) : m_pattern(pattern), m_h(h), m_seam_h(seam_h), m_file(file) {}
 
   Boundary run() {
     m_pieces.resize(m_pattern.panels.size());
@@ -141,14 +144,14 @@ private:
     return static_cast<int>(std::ceil((s1 - s0) / limit));
   }
 
-  int segments_for(double length_a, double length_b) const {
-    if (std::max(length_a, length_b) < 0.2 * m_h) return 0;
-    return std::max(1, static_cast<int>(std::lround(std::sqrt(length_a * length_b) / m_h)));
+  static int segments_for(double length_a, double length_b, double h) {
+    if (std::max(length_a, length_b) < 0.2 * h) return 0;
+    return std::max(1, static_cast<int>(std::lround(std::sqrt(length_a * length_b) / h)));
   }
 
   void add_piece(const Run& run, int n) {
     auto& pieces = m_pieces[static_cast<std::size_t>(run.panel)][static_cast<std::size_t>(run.edge)];
-    const Piece piece{run.panel, run.edge, std::min(run.from, run.to), std::max(run.from, run.to), n};
+    const Piece piece{run.panel, run.edge, std::min(run.from, run.to), std::max(run.from, run.to), n, true, {}};
     for (const Piece& other : pieces)
       if (piece.from < other.to - 1e-7 && other.from < piece.to - 1e-7)
         throw input_error(m_file, place_of(m_pattern, run),
@@ -166,11 +169,11 @@ private:
     const auto breaks = matched_breaks(a, b, std::max(0.5 * m_h / shorter, 0.01));
     for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
       Pair pair{a.stretch(breaks[k][0], breaks[k + 1][0]), b.stretch(breaks[k][1], breaks[k + 1][1])};
-      pair.n = segments_for(piece_length(pair.a), piece_length(pair.b));
+      pair.n = segments_for(piece_length(pair.a), piece_length(pair.b), m_seam_h);
       if (pair.n > 0) pair.n = std::max({pair.n, segments_for_bends(pair.a), segments_for_bends(pair.b)});
       if (pair.n == 0)
         m_out.findings.push_back(place_of(m_pattern, pair.a) + " and " + place_of(m_pattern, pair.b) + ": a stretch of " + centimetres(piece_length(pair.a)) +
-                                 " is merged into its neighbours (edge length " + centimetres(m_h) + ")");
+                                 " is merged into its neighbours (edge length " + centimetres(m_seam_h) + ")");
       add_piece(pair.a, pair.n), add_piece(pair.b, pair.n);
       m_pairs[s].push_back(pair);
     }
@@ -186,8 +189,9 @@ private:
       double at = 0;
       const auto free_to = [&](double to) {
         if (to - at < 1e-7) return;
-        Piece piece{p, static_cast<int>(e), at, to, segments_for((to - at) * total, (to - at) * total)};
+        Piece piece{p, static_cast<int>(e), at, to, segments_for((to - at) * total, (to - at) * total, m_h), false, {}};
         if (piece.n > 0) piece.n = std::max(piece.n, segments_for_bends({p, static_cast<int>(e), at, to}));
+        if (piece.n > 0 && m_seam_h < m_h) grade(piece, (to - at) * total);
         if (piece.n == 0)
           m_out.findings.push_back(place_of(m_pattern, {p, static_cast<int>(e)}) + ": a free stretch of " + centimetres((to - at) * total) +
                                    " is merged into its neighbours");
@@ -201,6 +205,32 @@ private:
       free_to(1);
       pieces = all;
     }
+  }
+
+  /// Whether a seam ends where this piece begins (or begins where it ends).
+  bool meets_seam(const Piece& piece, bool at_start) const {
+    const Panel& panel = m_pattern.panels[static_cast<std::size_t>(piece.panel)];
+    int edge = piece.edge, first = 0;
+    if (at_start ? piece.from > 1e-7 : piece.to < 1 - 1e-7) return true; // free stretches end within an edge only where a seam begins
+    for (const auto& loop : panel.loops) {
+      const int n = static_cast<int>(loop.size());
+      if (edge < first + n) {
+        edge = first + (edge - first + (at_start ? n - 1 : 1)) % n;
+        break;
+      }
+      first += n;
+    }
+    const auto& pieces = m_pieces[static_cast<std::size_t>(piece.panel)][static_cast<std::size_t>(edge)];
+    return std::any_of(pieces.begin(), pieces.end(), [&](const Piece& o) { return o.sewn && (at_start ? o.to > 1 - 1e-7 : o.from < 1e-7); });
+  }
+
+  /// Edges of a free piece grow away from the seams at its ends, if that makes more of them than its bends ask for.
+  void grade(Piece& piece, double piece_length) const {
+    const bool start = meets_seam(piece, true), end = meets_seam(piece, false);
+    if (!start && !end) return;
+    std::vector<double> inner = graded_fractions(piece_length, m_h, m_seam_h, start, end);
+    if (static_cast<int>(inner.size()) + 1 < piece.n) return;
+    piece.n = static_cast<int>(inner.size()) + 1, piece.inner = std::move(inner);
   }
 
   void sample_panel(int p) {
@@ -227,7 +257,8 @@ private:
           if (ev.at.empty() || !merged) put(piece.from);
           else ev.at.push_back(piece.from), ev.vertex.push_back(ev.vertex.back());
           merged = piece.n == 0;
-          for (int k = 1; k < piece.n; ++k) put(piece.from + (piece.to - piece.from) * k / piece.n);
+          for (int k = 1; k < piece.n; ++k)
+            put(piece.from + (piece.to - piece.from) * (piece.inner.empty() ? static_cast<double>(k) / piece.n : piece.inner[static_cast<std::size_t>(k - 1)]));
         }
         ++e;
       }
@@ -278,7 +309,7 @@ private:
   }
 
   const Pattern& m_pattern;
-  double m_h;
+  double m_h, m_seam_h;
   std::string m_file;
   std::vector<std::vector<std::vector<Piece>>> m_pieces; ///< by panel, edge
   std::vector<std::vector<Pair>> m_pairs;                ///< by seam
@@ -289,6 +320,8 @@ private:
 
 } // namespace
 
-Boundary sample_boundary(const Pattern& pattern, double h, const std::string& file) { return Sampler(pattern, h, file).run(); }
+Boundary sample_boundary(const Pattern& pattern, double h, const std::string& file, double seam_h) {
+  return Sampler(pattern, h, seam_h > 0 ? std::min(seam_h, h) : h, file).run();
+}
 
 } // namespace sloper::pattern

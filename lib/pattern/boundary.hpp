@@ -19,8 +19,9 @@ struct Boundary {
   std::vector<std::string> findings;
 };
 
-/// @param h edge length aimed at, m
+/// @param h      edge length aimed at, m
+/// @param seam_h the same along seams and darts, from where it grows along free edges; 0 for h
 /// @throws Error INPUT where an outline is too small for its edge length to leave three vertices, or a run is sewn twice
-Boundary sample_boundary(const Pattern& pattern, double h, const std::string& file);
+Boundary sample_boundary(const Pattern& pattern, double h, const std::string& file, double seam_h = 0);
 
 } // namespace sloper::pattern

@@ -255,7 +255,16 @@ void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file
   };
   onto_grid();
   const io::Node edits = root.at("edits");
-  for (std::size_t k = 0; k < edits.size(); ++k) apply(pattern, edits.at(k), unit), onto_grid();
+  for (std::size_t k = 0; k < edits.size(); ++k) {
+    apply(pattern, edits.at(k), unit), onto_grid();
+    for (const Panel& p : pattern.panels) {
+      std::vector<Path> loop;
+      for (const PanelEdge& e : p.loops[0]) loop.push_back(e.path);
+      if (const double area = signed_area(loop); !(area > 0))
+        edits.at(k).fail("panel " + p.name + " is turned inside out: its outline now goes clockwise around " + std::to_string(std::lround(-1e4 * area)) +
+                         " cm2");
+    }
+  }
 }
 
 } // namespace sloper::pattern

@@ -5,6 +5,8 @@
 #include <pattern/panel_mesh.hpp>
 #include <pattern/pattern.hpp>
 
+#include <memory>
+
 namespace sloper::pattern {
 
 /// Applies the edits of a document {"format": "edits", "version": 1, "length_unit", "edits": [...]}, in order:
@@ -38,9 +40,27 @@ void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file
 /// edits' grid). Opposite edits where these are exact, else restore edits with the panels that changed.
 io::Json inverse_edits(const Pattern& before, const io::Json& json, const std::string& file, const std::string& tool);
 
-/// Carries a mesh made from `before` over to `after` (the same pattern, edited): boundary vertices keep their fraction of their edge,
-/// interior ones follow harmonically. @return false, with nothing changed, where panels or edges differ, or where a triangle
-/// would be worse than `least_angle_deg`: then the edited pattern has to be meshed anew
+/// Carries a mesh made from a pattern over to edits of it: boundary vertices keep their fraction of their edge, interior ones follow
+/// harmonically. What does not depend on the edit is done once, so that an edit of a garment of 3000 vertices costs a millisecond.
+class MeshFollower {
+public:
+  /// @param before  the pattern as `mesh` has it
+  MeshFollower(const Pattern& before, const PanelMesh& mesh);
+  ~MeshFollower();
+  MeshFollower(MeshFollower&&) noexcept;
+  /// Distance of the furthest boundary vertex from the outlines, m: a mesh of this pattern has next to none.
+  double off_outline() const;
+  /// Moves mesh.pattern to `after`, whatever was followed in between: the mesh depends on the first pattern and on this one only.
+  /// @return false, with nothing changed, where panels, edges or seams differ, or where a triangle would be worse than
+  /// `least_angle_deg` and worse than it was: then the edited pattern has to be meshed anew
+  bool follow(const Pattern& after, PanelMesh& mesh, double least_angle_deg) const;
+
+private:
+  struct State;
+  std::unique_ptr<State> m_state;
+};
+
+/// MeshFollower, once.
 bool follow_edits(const Pattern& before, const Pattern& after, PanelMesh& mesh, double least_angle_deg);
 
 } // namespace sloper::pattern

@@ -1,6 +1,7 @@
 #pragma once
 /// A triangulation of a polygon under change: points inserted, edges flipped, interior points moved. Used by triangulate().
 #include <geometry/types.hpp>
+#include <pattern/size_field.hpp>
 
 #include <string>
 #include <vector>
@@ -15,9 +16,9 @@ public:
   bool insert(const Vec2& p, bool pinned = false); ///< false when p is not inside; a pinned point stays where it is
   /// Splits interior edges whose ends are both on the boundary; ears of corners under 50 degrees stay unless must_split.
   void split_chords(const std::vector<char>& must_split);
-  void smooth();                         ///< one round: interior points to the area-weighted mean of their circumcentres, then flips
-  void fix_density(double h);            ///< points too close to others are taken out, edges too long are halved
-  bool improve_worst(double good_angle); ///< one round of local search where an angle is below; false when there is nothing (more) to gain
+  void smooth();                           ///< one round: interior points to the area-weighted mean of their circumcentres, then flips
+  void fix_density(const SizeField& size); ///< points too close to others are taken out, edges too long are halved
+  bool improve_worst(double good_angle);   ///< one round of local search where an angle is below; false when there is nothing (more) to gain
   void take(std::vector<Vec2>& points, std::vector<Triangle>& triangles);
 
 private:

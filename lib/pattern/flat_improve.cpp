@@ -121,7 +121,7 @@ bool FlatDelaunay::remove(int vertex) {
   return true;
 }
 
-void FlatDelaunay::fix_density(double h) {
+void FlatDelaunay::fix_density(const SizeField& size) {
   std::vector<int> faces;
   for (int v = m_n_boundary; v < static_cast<int>(m_points.size()); ++v) {
     if (m_dead[static_cast<std::size_t>(v)] || m_pinned[static_cast<std::size_t>(v)]) continue;
@@ -139,7 +139,7 @@ void FlatDelaunay::fix_density(double h) {
       const Face& face = m_faces[static_cast<std::size_t>(f)];
       if (!face.alive || face.next[k] < 0) continue;
       const Vec2 &a = m_points[static_cast<std::size_t>(face.v[(k + 1) % 3])], &b = m_points[static_cast<std::size_t>(face.v[(k + 2) % 3])];
-      if ((a - b).norm() > 1.75 * h) split_edge(f, k, add_point(0.5 * (a + b)));
+      if ((a - b).norm() > 1.75 * size.at(0.5 * (a + b))) split_edge(f, k, add_point(0.5 * (a + b)));
     }
   legalize_all();
 }

@@ -1,3 +1,4 @@
+#include <base/error.hpp>
 #include <base/units.hpp>
 #include <pattern/edits.hpp>
 #include <pattern/triangulate.hpp>
@@ -14,11 +15,12 @@ namespace {
 struct OnEdge {
   int edge;
   double fraction;
+  double off = 0; ///< m, of the point from there
 };
 
 /// Projects a boundary vertex to the nearest edge. Vertices lie on their edges exactly, so the nearest is theirs; at corners either does.
 OnEdge locate(const Panel& panel, const std::vector<ArcLength>& arcs, const Vec2& p) {
-  OnEdge best{0, 0};
+  OnEdge best{0, 0, 0};
   double least = 1e300;
   for (int e = 0; e < panel.n_edges(); ++e) {
     const ArcLength& arc = arcs[static_cast<std::size_t>(e)];
@@ -38,16 +40,14 @@ OnEdge locate(const Panel& panel, const std::vector<ArcLength>& arcs, const Vec2
     }
     for (double s : {0.5 * (low + high), 0.0, arc.length()}) {
       const double d = (arc.at(s) - p).squaredNorm();
-      if (d < least - 1e-16) least = d, best = {e, s / arc.length()};
+      if (d < least - 1e-16) least = d, best = {e, s / arc.length(), std::sqrt(d)};
     }
   }
   return best;
 }
 
-} // namespace
-
 /// Whether two patterns have the same panels, edges and seams, only elsewhere.
-static bool same_edges(const Pattern& a, const Pattern& b) {
+bool same_edges(const Pattern& a, const Pattern& b) {
   if (a.panels.size() != b.panels.size() || a.seams.size() != b.seams.size()) return false;
   for (std::size_t p = 0; p < a.panels.size(); ++p) {
     if (a.panels[p].name != b.panels[p].name || a.panels[p].loops.size() != b.panels[p].loops.size()) return false;
@@ -69,75 +69,136 @@ static bool same_edges(const Pattern& a, const Pattern& b) {
   return true;
 }
 
-bool follow_edits(const Pattern& before, const Pattern& after, PanelMesh& mesh, double least_angle_deg) {
-  if (!same_edges(before, after)) return false;
-  std::vector<Vec2> moved = mesh.pattern;
+bool same_paths(const Panel& a, const Panel& b) {
+  for (int e = 0; e < a.n_edges(); ++e) {
+    const Path &p = a.edge(e).path, &q = b.edge(e).path;
+    if (p.size() != q.size()) return false;
+    for (std::size_t s = 0; s < p.size(); ++s)
+      if (p[s].p != q[s].p || p[s].line != q[s].line) return false;
+  }
+  return true;
+}
+
+/// One panel of a mesh, ready to follow its outline.
+struct PanelState {
+  std::vector<std::array<int, 2>> edges; ///< of the mesh, global vertices
+  std::vector<int> row;                  ///< by local vertex: of the system, -1 on the boundary
+  std::vector<OnEdge> on;                ///< by local vertex: boundary only
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
+  int n_free = 0;
+};
+
+/// Interior displacements are each the mean of their neighbours' (uniform weights on a quality mesh).
+void prepare(PanelState& state, const Panel& panel, const PanelInfo& info, const PanelMesh& mesh) {
+  std::vector<ArcLength> arcs;
+  for (int e = 0; e < panel.n_edges(); ++e) arcs.emplace_back(panel.edge(e).path);
+  auto& edges = state.edges;
+  for (int t = info.first_triangle; t < info.first_triangle + info.n_triangles; ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int a = mesh.triangles[static_cast<std::size_t>(t)][k], b = mesh.triangles[static_cast<std::size_t>(t)][(k + 1) % 3];
+      edges.push_back({std::min(a, b), std::max(a, b)});
+    }
+  std::sort(edges.begin(), edges.end());
+  std::vector<char> boundary(static_cast<std::size_t>(info.n_vertices), 0); // on an edge with one triangle
+  for (std::size_t k = 0; k < edges.size();) {
+    std::size_t next = k + 1;
+    while (next < edges.size() && edges[next] == edges[k]) ++next;
+    if (next - k == 1)
+      for (int v : edges[k]) boundary[static_cast<std::size_t>(v - info.first_vertex)] = 1;
+    k = next;
+  }
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  state.row.assign(boundary.size(), -1);
+  state.on.assign(boundary.size(), OnEdge{0, 0, 0});
+  for (std::size_t v = 0; v < boundary.size(); ++v)
+    if (boundary[v]) state.on[v] = locate(panel, arcs, mesh.pattern[static_cast<std::size_t>(info.first_vertex) + v]);
+    else state.row[v] = state.n_free++;
+  if (state.n_free == 0) return;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& e : edges)
+    for (int turn = 0; turn < 2; ++turn) {
+      const int a = state.row[static_cast<std::size_t>(e[turn ? 1 : 0] - info.first_vertex)],
+                b = state.row[static_cast<std::size_t>(e[turn ? 0 : 1] - info.first_vertex)];
+      if (a < 0) continue;
+      entries.emplace_back(a, a, 1.0);
+      if (b >= 0) entries.emplace_back(a, b, -1.0);
+    }
+  Eigen::SparseMatrix<double> matrix(state.n_free, state.n_free);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  state.solver.compute(matrix);
+}
+
+} // namespace
+
+struct MeshFollower::State {
+  Pattern before;
+  std::vector<Vec2> original;
+  std::vector<PanelState> panels;
+};
+
+MeshFollower::MeshFollower(const Pattern& before, const PanelMesh& mesh) : m_state(std::make_unique<State>()) {
+  m_state->before = before, m_state->original = mesh.pattern;
+  m_state->panels = std::vector<PanelState>(mesh.panels.size());
+  if (before.panels.size() != mesh.panels.size()) throw input_error("", "pattern", "the mesh is of another pattern", "mesh the pattern again");
+  for (std::size_t p = 0; p < mesh.panels.size(); ++p) prepare(m_state->panels[p], before.panels[p], mesh.panels[p], mesh);
+}
+MeshFollower::~MeshFollower() = default;
+MeshFollower::MeshFollower(MeshFollower&&) noexcept = default;
+
+double MeshFollower::off_outline() const {
+  double most = 0;
+  for (const PanelState& s : m_state->panels)
+    for (const OnEdge& on : s.on) most = std::max(most, on.off);
+  return most;
+}
+
+bool MeshFollower::follow(const Pattern& after, PanelMesh& mesh, double least_angle_deg) const {
+  if (!same_edges(m_state->before, after)) return false;
+  const std::vector<Vec2>& original = m_state->original;
+  std::vector<Vec2> moved = original;
   for (std::size_t p = 0; p < mesh.panels.size(); ++p) {
     const PanelInfo& info = mesh.panels[p];
-    const Panel &old_panel = before.panels[p], &new_panel = after.panels[p];
-    std::vector<ArcLength> old_arcs, new_arcs;
-    for (int e = 0; e < old_panel.n_edges(); ++e) old_arcs.emplace_back(old_panel.edge(e).path), new_arcs.emplace_back(new_panel.edge(e).path);
-    // Boundary vertices are those of an edge with one triangle.
-    std::vector<std::array<int, 2>> edges;
-    for (int t = info.first_triangle; t < info.first_triangle + info.n_triangles; ++t)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const int a = mesh.triangles[static_cast<std::size_t>(t)][k], b = mesh.triangles[static_cast<std::size_t>(t)][(k + 1) % 3];
-        edges.push_back({std::min(a, b), std::max(a, b)});
+    const PanelState& state = m_state->panels[p];
+    const Panel& panel = after.panels[p];
+    if (same_paths(m_state->before.panels[p], panel)) continue;
+    std::vector<ArcLength> arcs;
+    for (int e = 0; e < panel.n_edges(); ++e) arcs.emplace_back(panel.edge(e).path);
+    const std::size_t first = static_cast<std::size_t>(info.first_vertex);
+    for (std::size_t v = 0; v < state.row.size(); ++v)
+      if (state.row[v] < 0) {
+        const ArcLength& arc = arcs[static_cast<std::size_t>(state.on[v].edge)];
+        moved[first + v] = arc.at(state.on[v].fraction * arc.length());
       }
-    std::sort(edges.begin(), edges.end());
-    std::vector<char> boundary(static_cast<std::size_t>(info.n_vertices), 0);
-    for (std::size_t k = 0; k < edges.size();) {
-      std::size_t next = k + 1;
-      while (next < edges.size() && edges[next] == edges[k]) ++next;
-      if (next - k == 1)
-        for (int v : edges[k]) boundary[static_cast<std::size_t>(v - info.first_vertex)] = 1;
-      k = next;
-    }
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    // Interior displacements: each the mean of its neighbours' (uniform weights on a quality mesh).
-    std::vector<int> row(boundary.size(), -1);
-    int n_free = 0;
-    for (std::size_t v = 0; v < boundary.size(); ++v) {
-      const std::size_t g = static_cast<std::size_t>(info.first_vertex) + v;
-      if (!boundary[v]) {
-        row[v] = n_free++;
-        continue;
-      }
-      const OnEdge on = locate(old_panel, old_arcs, mesh.pattern[g]);
-      const ArcLength& arc = new_arcs[static_cast<std::size_t>(on.edge)];
-      moved[g] = arc.at(on.fraction * arc.length());
-    }
-    if (n_free > 0) {
-      std::vector<Eigen::Triplet<double>> entries;
-      Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n_free, 2);
-      for (const auto& e : edges)
+    if (state.n_free > 0) {
+      Eigen::MatrixXd right = Eigen::MatrixXd::Zero(state.n_free, 2);
+      for (const auto& e : state.edges)
         for (int turn = 0; turn < 2; ++turn) {
-          const std::size_t a = static_cast<std::size_t>(e[turn ? 1 : 0] - info.first_vertex),
-                            b = static_cast<std::size_t>(e[turn ? 0 : 1] - info.first_vertex);
-          if (row[a] < 0) continue;
-          entries.emplace_back(row[a], row[a], 1.0);
-          const std::size_t g = static_cast<std::size_t>(info.first_vertex) + b;
-          if (row[b] >= 0) entries.emplace_back(row[a], row[b], -1.0);
-          else right.row(row[a]) += (moved[g] - mesh.pattern[g]).transpose();
+          const std::size_t a = static_cast<std::size_t>(e[turn ? 1 : 0]) - first, b = static_cast<std::size_t>(e[turn ? 0 : 1]) - first;
+          if (state.row[a] >= 0 && state.row[b] < 0) right.row(state.row[a]) += (moved[first + b] - original[first + b]).transpose();
         }
-      Eigen::SparseMatrix<double> matrix(n_free, n_free);
-      matrix.setFromTriplets(entries.begin(), entries.end());
-      const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-      const Eigen::MatrixXd shift = solver.solve(right);
-      for (std::size_t v = 0; v < row.size(); ++v)
-        if (row[v] >= 0) moved[static_cast<std::size_t>(info.first_vertex) + v] += shift.row(row[v]).transpose();
+      const Eigen::MatrixXd shift = state.solver.solve(right);
+      for (std::size_t v = 0; v < state.row.size(); ++v)
+        if (state.row[v] >= 0) moved[first + v] += shift.row(state.row[v]).transpose();
+    }
+    for (int t = info.first_triangle; t < info.first_triangle + info.n_triangles; ++t) {
+      const Triangle& k = mesh.triangles[static_cast<std::size_t>(t)];
+      const auto angle = [&](const std::vector<Vec2>& at) {
+        return smallest_angle(at[static_cast<std::size_t>(k[0])], at[static_cast<std::size_t>(k[1])], at[static_cast<std::size_t>(k[2])]);
+      };
+      if (const double now = angle(moved); now < units::radians(least_angle_deg) && now < angle(original) - 1e-9) return false;
     }
   }
-  for (const Triangle& t : mesh.triangles)
-    if (smallest_angle(moved[static_cast<std::size_t>(t[0])], moved[static_cast<std::size_t>(t[1])], moved[static_cast<std::size_t>(t[2])]) <
-        units::radians(least_angle_deg))
-      return false;
   mesh.pattern = std::move(moved); // ids stay: they are those of the panel before the edits
   for (MeshSeam& s : mesh.seams)
     for (const Seam& seam : after.seams)
       if (seam.name == s.name) s.length_a = side_length(after, seam.a), s.length_b = side_length(after, seam.b);
   for (std::size_t p = 0; p < mesh.panels.size(); ++p) mesh.panels[p].grain = after.panels[p].grain;
   return true;
+}
+
+bool follow_edits(const Pattern& before, const Pattern& after, PanelMesh& mesh, double least_angle_deg) {
+  if (!same_edges(before, after)) return false;
+  return MeshFollower(before, mesh).follow(after, mesh, least_angle_deg);
 }
 
 } // namespace sloper::pattern

@@ -31,14 +31,32 @@ void list_small_angles(PanelMesh& mesh, const PanelInfo& panel) {
   mesh.findings.push_back(text);
 }
 
+/// Fine along the seams of a panel where that is asked for.
+SizeField size_field(const Pattern& pattern, std::size_t p, const Boundary::PanelBoundary& boundary, const PanelMesh& mesh) {
+  if (mesh.seam_length <= 0) return SizeField(mesh.edge_length);
+  std::vector<char> sewn(static_cast<std::size_t>(pattern.panels[p].n_edges()), 0);
+  for (const Seam& s : pattern.seams)
+    for (const auto* side : {&s.a, &s.b})
+      for (const Run& r : *side)
+        if (r.panel == static_cast<int>(p)) sewn[static_cast<std::size_t>(r.edge)] = 1;
+  std::vector<std::array<Vec2, 2>> lines;
+  std::size_t v = 0;
+  for (const auto& loop : boundary.loops)
+    for (std::size_t k = 0; k < loop.size(); ++k, ++v)
+      if (sewn[static_cast<std::size_t>(boundary.edge_of[v])]) lines.push_back({loop[k], loop[(k + 1) % loop.size()]});
+  return SizeField(mesh.edge_length, mesh.seam_length, std::move(lines));
+}
+
 } // namespace
 
-PanelMesh mesh_pattern(const Pattern& pattern, double edge_length, const std::string& file) {
+PanelMesh mesh_pattern(const Pattern& pattern, double edge_length, const std::string& file, double seam_length) {
   PanelMesh mesh;
   mesh.name = pattern.name;
   mesh.edge_length = edge_length;
+  mesh.seam_length = seam_length > 0 && seam_length < edge_length ? seam_length : 0;
+  mesh.source = std::make_shared<Pattern>(pattern);
   mesh.findings = pattern.findings;
-  const Boundary boundary = sample_boundary(pattern, edge_length, file);
+  const Boundary boundary = sample_boundary(pattern, edge_length, file, mesh.seam_length);
   mesh.findings.insert(mesh.findings.end(), boundary.findings.begin(), boundary.findings.end());
 
   std::vector<FlatMesh> flat(pattern.panels.size());
@@ -46,7 +64,8 @@ PanelMesh mesh_pattern(const Pattern& pattern, double edge_length, const std::st
   parallel_for(pattern.panels.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       try {
-        flat[p] = triangulate(boundary.panels[p].loops, edge_length, boundary.panels[p].must_split, pattern.panels[p].name);
+        flat[p] =
+            triangulate(boundary.panels[p].loops, size_field(pattern, p, boundary.panels[p], mesh), boundary.panels[p].must_split, pattern.panels[p].name);
       } catch (const Error& e) {
         failed[p] = e.fact();
       }

@@ -8,8 +8,9 @@ namespace sloper::pattern {
 
 /// @param edge_length aimed at, m
 /// @param file        for messages
+/// @param seam_length aimed at along seams and darts, m, growing to edge_length away from them; 0 for edge_length everywhere
 /// @throws Error INPUT where a panel cannot be meshed
-PanelMesh mesh_pattern(const Pattern& pattern, double edge_length, const std::string& file);
+PanelMesh mesh_pattern(const Pattern& pattern, double edge_length, const std::string& file, double seam_length = 0);
 
 /// Smallest angle over all triangles of a panel (all panels when negative), degrees, in the pattern.
 double smallest_angle_deg(const PanelMesh& mesh, int panel = -1);

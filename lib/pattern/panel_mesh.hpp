@@ -4,10 +4,13 @@
 /// All panels share flat vertex arrays; panel k owns vertices [first_vertex, first_vertex + n_vertices) and triangles
 /// likewise. Triangles are counter-clockwise in pattern coordinates and seen from the garment's outside.
 #include <geometry/types.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace sloper::pattern {
+
+struct Pattern;
 
 /// Name of a mesh vertex that survives remeshing and edits: the panel's index and normalised panel coordinates
 /// s, t in [0, 1] over the panel's bounding box in pattern coordinates before edits.
@@ -37,13 +40,15 @@ struct MeshSeam {
 struct PanelMesh {
   std::string name;       ///< of the pattern
   double edge_length = 0; ///< m, asked for
+  double seam_length = 0; ///< m, asked for along seams and darts; 0 where the same
   std::vector<PanelInfo> panels;
-  std::vector<Vec2> pattern;         ///< #V by 2, m: vt
-  std::vector<Vec3> placed;          ///< #V by 3, m, start position in the world (body frame)
-  std::vector<StableId> ids;         ///< #V
-  std::vector<Triangle> triangles;   ///< #F by 3, global
-  std::vector<MeshSeam> seams;       ///< stitches are the pairs (a[i], b[i])
-  std::vector<std::string> findings; ///< what a user should know: merged edges, small angles, length mismatches
+  std::vector<Vec2> pattern;             ///< #V by 2, m: vt
+  std::vector<Vec3> placed;              ///< #V by 3, m, start position in the world (body frame)
+  std::vector<StableId> ids;             ///< #V
+  std::vector<Triangle> triangles;       ///< #F by 3, global
+  std::vector<MeshSeam> seams;           ///< stitches are the pairs (a[i], b[i])
+  std::vector<std::string> findings;     ///< what a user should know: merged edges, small angles, length mismatches
+  std::shared_ptr<const Pattern> source; ///< what it was made from, so that edits can be followed; null where unknown
 };
 
 } // namespace sloper::pattern

@@ -1,7 +1,9 @@
 #include <base/version.hpp>
 #include <io/json.hpp>
 #include <io/obj.hpp>
+#include <pattern/export_pattern.hpp>
 #include <pattern/panel_mesh_json.hpp>
+#include <pattern/read_pattern.hpp>
 
 #include <cmath>
 
@@ -36,6 +38,7 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
   doc["name"] = mesh.name;
   doc["mesh"] = io::file_name(mesh_path);
   doc["edge_length"] = mesh.edge_length;
+  if (mesh.seam_length > 0) doc["seam_edge_length"] = mesh.seam_length;
   io::Json panels = io::Json::array();
   for (std::size_t k = 0; k < mesh.panels.size(); ++k) {
     const PanelInfo& p = mesh.panels[k];
@@ -66,6 +69,7 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
                      {"b", numbers(s.b)}});
   doc["seams"] = seams;
   doc["findings"] = mesh.findings;
+  if (mesh.source) doc["pattern"] = pattern_json(*mesh.source, tool);
   const std::string text = io::to_text(doc); // before anything is written
   io::write_obj(mesh_path, obj, generator_stamp(tool));
   io::write_json(path, doc);
@@ -77,7 +81,7 @@ PanelMesh read_panel_mesh(const std::string& path) {
   const io::ObjMesh obj = io::read_obj(io::path_beside(path, doc.at("mesh").string()));
   PanelMesh mesh;
   mesh.name = doc.string("name", "");
-  mesh.edge_length = doc.number("edge_length", 0);
+  mesh.edge_length = doc.number("edge_length", 0), mesh.seam_length = doc.number("seam_edge_length", 0);
   mesh.placed = obj.positions, mesh.pattern = obj.texture, mesh.triangles = obj.triangles;
   const std::size_t n = mesh.placed.size();
   if (mesh.pattern.size() != n)
@@ -118,6 +122,7 @@ PanelMesh read_panel_mesh(const std::string& path) {
   }
   if (doc.has("findings"))
     for (std::size_t k = 0; k < doc.at("findings").size(); ++k) mesh.findings.push_back(doc.at("findings").at(k).string());
+  if (doc.has("pattern")) mesh.source = std::make_shared<Pattern>(read_pattern_json(doc.at("pattern").json(), path));
   return mesh;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace sloper::pattern {
 namespace {
@@ -83,6 +84,29 @@ std::vector<Vec2> lattice(const std::vector<std::vector<Vec2>>& loops, double h,
   return points;
 }
 
+/// The same for edge lengths that vary: points of the finest lattice, each taken where those taken before leave it room.
+std::vector<Vec2> graded_lattice(const std::vector<std::vector<Vec2>>& loops, const SizeField& size) {
+  constexpr double ROOM = 0.8, CLEARANCE = 0.62; // of the local length; the former gives a lattice's density
+  const double cell = size.usual();
+  const SegmentGrid grid(loops, cell);
+  Vec2 low = loops[0][0];
+  for (const Vec2& p : loops[0]) low = low.cwiseMin(p);
+  std::map<std::pair<long, long>, std::vector<Vec2>> taken;
+  std::vector<Vec2> points;
+  for (const Vec2& p : lattice(loops, size.fine(), CLEARANCE * size.fine())) {
+    const double h = size.at(p);
+    if (grid.nearer(p, CLEARANCE * h)) continue;
+    const long x = static_cast<long>((p.x() - low.x()) / cell), y = static_cast<long>((p.y() - low.y()) / cell);
+    bool room = true;
+    for (long i = x - 1; i <= x + 1 && room; ++i)
+      for (long j = y - 1; j <= y + 1 && room; ++j)
+        if (const auto near = taken.find({i, j}); near != taken.end())
+          room = std::none_of(near->second.begin(), near->second.end(), [&](const Vec2& q) { return (p - q).norm() < ROOM * h; });
+    if (room) taken[{x, y}].push_back(p), points.push_back(p);
+  }
+  return points;
+}
+
 /// Where two edges that meet in a corner are sewn to each other, the corner needs three faces or more: two would be welded onto one
 /// another. Points on a circle about the corner, nearer than all others, are its Delaunay neighbours.
 std::vector<Vec2> fan_points(const std::vector<std::vector<Vec2>>& loops, const std::vector<char>& must_split) {
@@ -109,16 +133,17 @@ std::vector<Vec2> fan_points(const std::vector<std::vector<Vec2>>& loops, const 
 
 } // namespace
 
-FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, double h, const std::vector<char>& must_split, const std::string& panel) {
+FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, const SizeField& size, const std::vector<char>& must_split, const std::string& panel) {
   FlatDelaunay mesh(loops, panel);
   const std::vector<Vec2> fans = fan_points(loops, must_split);
   for (const Vec2& p : fans) mesh.insert(p, true);
-  for (const Vec2& p : lattice(loops, h, 0.62 * h))
-    if (std::none_of(fans.begin(), fans.end(), [&](const Vec2& q) { return (p - q).norm() < 0.7 * h; })) mesh.insert(p);
+  const double h = size.usual();
+  for (const Vec2& p : size.uniform() ? lattice(loops, h, 0.62 * h) : graded_lattice(loops, size))
+    if (std::none_of(fans.begin(), fans.end(), [&](const Vec2& q) { return (p - q).norm() < 0.7 * size.at(q); })) mesh.insert(p);
   mesh.split_chords(must_split);
   for (int round = 0; round < 8; ++round) mesh.smooth();
   mesh.split_chords(must_split);
-  mesh.fix_density(h);
+  mesh.fix_density(size);
   for (int round = 0; round < 6; ++round) mesh.smooth();
   mesh.split_chords(must_split);
   for (int round = 0; round < 12 && mesh.improve_worst(32 * 3.14159265358979 / 180); ++round) {}

@@ -1,6 +1,6 @@
 #pragma once
 /// Quality triangulation of a polygon whose boundary points are given and stay all there is on the boundary.
-#include <geometry/types.hpp>
+#include <pattern/size_field.hpp>
 
 #include <string>
 #include <vector>
@@ -18,10 +18,10 @@ struct FlatMesh {
 /// a triangle with no free corner cannot bend), then smoothing and local search for the smallest angle.
 /// Corners below 50 degrees keep their ear: splitting it would make angles below 25.
 /// @param loops      [0] outer, counter-clockwise; the rest holes, clockwise; no repeated points
-/// @param h          edge length aimed at, m
+/// @param size       edge length aimed at
 /// @param must_split boundary points whose ear must go whatever the angle (their two edges are sewn together)
 /// @throws Error INPUT when the polygon crosses itself; deterministic. About 25 us per point.
-FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, double h, const std::vector<char>& must_split, const std::string& panel);
+FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, const SizeField& size, const std::vector<char>& must_split, const std::string& panel);
 
 /// Smallest angle of a triangle, rad; 0 for one that has no area or is clockwise.
 double smallest_angle(const Vec2& a, const Vec2& b, const Vec2& c);

@@ -42,13 +42,34 @@ TEST(Mesh, AnglesStayAboveTwentyFiveDegreesOverSizesAndShapes) {
       const double a = -2 * 3.14159265358979 * i / 20;
       hole.push_back(0.05 * Vec2(std::cos(a), std::sin(a)));
     }
-    const FlatMesh mesh = triangulate({outer, hole}, 0.018, std::vector<char>(outer.size() + hole.size(), 0), "disc");
+    const FlatMesh mesh = triangulate({outer, hole}, SizeField(0.018), std::vector<char>(outer.size() + hole.size(), 0), "disc");
     double worst = 10;
     for (const Triangle& t : mesh.triangles)
       worst = std::min(worst, smallest_angle(mesh.points[static_cast<std::size_t>(t[0])], mesh.points[static_cast<std::size_t>(t[1])],
                                              mesh.points[static_cast<std::size_t>(t[2])]));
     EXPECT_GT(worst * 180 / 3.14159265358979, 25) << k;
   }
+}
+
+TEST(Mesh, FinerAlongSeamsOnRequestWithGoodAnglesAndMatchingSeams) {
+  const Pattern pattern = own(tube_text());
+  const PanelMesh usual = mesh_pattern(pattern, 0.03, "test.json"), fine = mesh_pattern(pattern, 0.03, "test.json", 0.008);
+  EXPECT_GT(smallest_angle_deg(fine), 25);
+  EXPECT_GT(fine.seams[0].a.size(), 3 * usual.seams[0].a.size());
+  EXPECT_LT(fine.pattern.size(), mesh_pattern(pattern, 0.008, "test.json").pattern.size() / 3);
+  double near = 0, far = 0; // longest edge within 1 cm of the side seams, shortest further than 12 cm from them
+  far = 1;
+  for (const Triangle& t : fine.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 &a = fine.pattern[static_cast<std::size_t>(t[k])], &b = fine.pattern[static_cast<std::size_t>(t[(k + 1) % 3])];
+      const double off = 0.2 - 0.5 * std::abs(a.x() + b.x());
+      if (off < 0.01) near = std::max(near, (a - b).norm());
+      if (off > 0.12) far = std::min(far, (a - b).norm());
+    }
+  EXPECT_LT(near, 0.018);
+  EXPECT_GT(far, 0.015);
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p)
+    EXPECT_NEAR(mesh_area(fine, fine.panels[p]), outline_area(pattern.panels[p]), 1e-3 * outline_area(pattern.panels[p]));
 }
 
 TEST(Mesh, ASharpCornerIsListedAndTheRestIsGood) {

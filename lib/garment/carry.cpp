@@ -1,0 +1,114 @@
+#include <garment/carry.hpp>
+#include <garment/sewing.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::garment {
+namespace {
+
+/// A panel of the old mesh, and how its drawing lies in the new panel's.
+struct Source {
+  const pattern::PanelInfo* panel;
+  Eigen::Matrix2d turn = Eigen::Matrix2d::Identity();
+  Vec2 shift = Vec2::Zero();
+};
+
+const pattern::PanelInfo* panel_named(const pattern::PanelMesh& mesh, const std::string& name) {
+  for (const pattern::PanelInfo& p : mesh.panels)
+    if (p.name == name) return &p;
+  return nullptr;
+}
+
+bool owns(const pattern::PanelInfo& p, int vertex) { return vertex >= p.first_vertex && vertex < p.first_vertex + p.n_vertices; }
+
+/// The rigid motion that lays panel b beside panel a along a seam between them.
+bool beside(const pattern::PanelMesh& mesh, const pattern::PanelInfo& a, const pattern::PanelInfo& b, Source& out) {
+  std::vector<std::array<int, 2>> pairs;
+  for (const pattern::MeshSeam& s : mesh.seams)
+    for (std::size_t k = 0; k < s.a.size(); ++k)
+      if (owns(a, s.a[k]) && owns(b, s.b[k])) pairs.push_back({s.a[k], s.b[k]});
+      else if (owns(a, s.b[k]) && owns(b, s.a[k])) pairs.push_back({s.b[k], s.a[k]});
+  if (pairs.size() < 2) return false;
+  Vec2 mean_a = Vec2::Zero(), mean_b = Vec2::Zero();
+  for (const auto& [v, w] : pairs) mean_a += mesh.pattern[static_cast<std::size_t>(v)], mean_b += mesh.pattern[static_cast<std::size_t>(w)];
+  mean_a /= static_cast<double>(pairs.size()), mean_b /= static_cast<double>(pairs.size());
+  double along = 0, across = 0;
+  for (const auto& [v, w] : pairs) {
+    const Vec2 p = mesh.pattern[static_cast<std::size_t>(w)] - mean_b, q = mesh.pattern[static_cast<std::size_t>(v)] - mean_a;
+    along += p.dot(q), across += p.x() * q.y() - p.y() * q.x();
+  }
+  out.turn = Eigen::Rotation2Dd(std::atan2(across, along)).toRotationMatrix();
+  out.shift = mean_a - out.turn * mean_b;
+  return true;
+}
+
+/// Weights of the point of a triangle nearest to p.
+Vec3 nearest_weights(const std::array<Vec2, 3>& t, const Vec2& p, double& squared_distance) {
+  const Vec2 e = t[1] - t[0], f = t[2] - t[0], d = p - t[0];
+  const double area = e.x() * f.y() - e.y() * f.x();
+  if (std::abs(area) > 1e-18) {
+    const double v = (d.x() * f.y() - d.y() * f.x()) / area, w = (e.x() * d.y() - e.y() * d.x()) / area;
+    if (v >= 0 && w >= 0 && v + w <= 1) {
+      squared_distance = 0;
+      return {1 - v - w, v, w};
+    }
+  }
+  Vec3 best(1, 0, 0);
+  squared_distance = 1e300;
+  for (int k = 0; k < 3; ++k) {
+    const Vec2 &a = t[static_cast<std::size_t>(k)], &b = t[static_cast<std::size_t>((k + 1) % 3)];
+    const double length = (b - a).squaredNorm(), s = length > 0 ? std::clamp((p - a).dot(b - a) / length, 0.0, 1.0) : 0.0;
+    const double off = (a + s * (b - a) - p).squaredNorm();
+    if (off < squared_distance) squared_distance = off, best = Vec3::Zero(), best[k] = 1 - s, best[(k + 1) % 3] = s;
+  }
+  return best;
+}
+
+} // namespace
+
+void carry_to(Garment& garment, pattern::PanelMesh mesh) {
+  const pattern::PanelMesh& old = garment.panels;
+  std::vector<Vec3> position(mesh.pattern.size());
+  for (pattern::PanelInfo& panel : mesh.panels) {
+    std::vector<Source> sources;
+    const pattern::PanelInfo* same = panel_named(old, panel.name);
+    if (same) sources.push_back({same});
+    for (const pattern::PanelInfo& p : old.panels) {
+      if (panel_named(mesh, p.name)) continue;
+      Source gone{&p};
+      if (!same || beside(old, *same, p, gone)) sources.push_back(gone);
+    }
+    if (sources.empty())
+      for (const pattern::PanelInfo& p : old.panels) sources.push_back({&p});
+    std::vector<double> votes(sources.size(), 0);
+    for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
+      double least = 1e300;
+      std::size_t voted = 0;
+      for (std::size_t s = 0; s < sources.size() && least > 0; ++s) {
+        const Vec2 p = sources[s].turn.transpose() * (mesh.pattern[static_cast<std::size_t>(v)] - sources[s].shift);
+        for (int f = sources[s].panel->first_triangle; f < sources[s].panel->first_triangle + sources[s].panel->n_triangles && least > 0; ++f) {
+          const Triangle& t = old.triangles[static_cast<std::size_t>(f)];
+          double off = 0;
+          const Vec3 w = nearest_weights(
+              {old.pattern[static_cast<std::size_t>(t[0])], old.pattern[static_cast<std::size_t>(t[1])], old.pattern[static_cast<std::size_t>(t[2])]}, p, off);
+          if (off >= least) continue;
+          least = off, voted = s;
+          Vec3 at = Vec3::Zero();
+          for (int k = 0; k < 3; ++k)
+            at += w[k] * garment.position[static_cast<std::size_t>(garment.particle_of[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])])];
+          position[static_cast<std::size_t>(v)] = at;
+        }
+      }
+      ++votes[voted];
+    }
+    panel.part = sources[static_cast<std::size_t>(std::max_element(votes.begin(), votes.end()) - votes.begin())].panel->part;
+  }
+  mesh.placed = position;
+  garment.panels = std::move(mesh);
+  garment.rest_scale.clear();
+  garment.bind = {};
+  weld(garment, position);
+}
+
+} // namespace sloper::garment

@@ -1,0 +1,13 @@
+#pragma once
+/// A draped state on another mesh of the same garment: where an edit asks for new vertices, they start where the cloth hangs.
+#include <garment/garment.hpp>
+
+namespace sloper::garment {
+
+/// Gives a sewn garment another mesh. Each new vertex gets the position of its place in the pattern, by panel: that of the same name
+/// (with what was sewn to it and is now part of it, as joining does), else those that are gone (as splitting does). Body parts and
+/// materials of panels are kept; rest_scale and bind, which count old vertices, are emptied.
+/// Cost: new vertices times triangles of their panel.
+void carry_to(Garment& garment, pattern::PanelMesh mesh);
+
+} // namespace sloper::garment

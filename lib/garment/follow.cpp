@@ -1,0 +1,217 @@
+#include <base/error.hpp>
+#include <cloth/gravity.hpp>
+#include <cloth/shear.hpp>
+#include <garment/carry.hpp>
+#include <garment/drape_run.hpp>
+#include <garment/effects.hpp>
+#include <garment/follow.hpp>
+#include <garment/materials.hpp>
+#include <garment/sewing.hpp>
+#include <pattern/check_pattern.hpp>
+#include <pattern/edits.hpp>
+#include <pattern/mesh_pattern.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+
+namespace sloper::garment {
+namespace {
+
+constexpr double LEAST_ANGLE = 15;   // degrees: a mesh that follows an edit is kept while it is no worse
+constexpr double OFF_OUTLINE = 1e-4; // m: vertices further off are not of this pattern
+constexpr int IDLE_MS = 20;          // between looks for a line, while at rest
+constexpr int CALM_STEPS = 3;
+constexpr double LARGEST_MOVE = 0.02; // m, of a particle in one frame
+
+using Clock = std::chrono::steady_clock;
+
+} // namespace
+
+/// A DrapeRun that goes on for as long as edits come.
+class FollowRun {
+public:
+  FollowRun(Garment& garment, const body::Body* body, const DrapeSettings& settings, const FollowSession& session, Reporter& reporter)
+      : m_garment(garment), m_session(session), m_reporter(reporter), m_run(garment, body, settings, reporter) {
+    if (garment.particle_of.empty()) throw input_error("", "", "the garment is not sewn yet", "drape it first, then let it follow edits");
+    if (!garment.panels.source) throw input_error("", "", "the garment does not know the pattern it was made from", "mesh and drape the pattern again");
+    m_pattern = *garment.panels.source;
+    m_follower.emplace(m_pattern, garment.panels);
+    if (m_follower->off_outline() > OFF_OUTLINE)
+      throw input_error("", "",
+                        "the panels are no longer those of the garment's pattern: a vertex lies " + pattern::centimetres(m_follower->off_outline()) +
+                            " off its outline",
+                        "edits can follow a garment that drape made, not one that was regraded");
+    m_log = {{"format", "edits"}, {"version", 1}, {"length_unit", "m"}, {"edits", io::Json::array()}};
+  }
+
+  FollowReport run() {
+    m_run.m_report.effects = choose_effects(m_garment, m_run.m_body, m_run.m_settings);
+    m_run.start_outside_body(false);
+    m_run.build_solver(false);
+    m_run.inflate();
+    go_live();
+    while (!m_run.m_stopped && !m_end) {
+      const auto line = m_session.next_line(m_at_rest ? IDLE_MS : 0);
+      if (line) take(*line);
+      else if (m_session.ended()) break;
+      else if (!m_at_rest) frame(-1);
+      m_run.m_stopped = m_run.m_stopped || m_reporter.stop_requested();
+    }
+    settle();
+    m_report.log = m_log;
+    m_report.drape = std::move(m_run.m_report);
+    return std::move(m_report);
+  }
+
+private:
+  /// Weight and friction from the first frame on.
+  void go_live() {
+    if (m_run.active("gravity")) m_run.m_solver->emplace<cloth::GravityEffect>(*m_run.m_cloth, Vec3(0, -m_run.m_settings.gravity_m_s2, 0));
+    const Material& material = material_of(m_garment, "");
+    if (m_run.active("friction") && m_run.m_body_contact) m_run.m_body_contact->set_friction(material.friction_body);
+    if (m_run.active("friction") && m_run.m_self_contact) m_run.m_self_contact->set_friction(material.friction_self);
+    m_run.m_settling = true;
+  }
+
+  void settle() {
+    if (m_run.m_stopped) {
+      m_run.finish();
+      m_run.m_report.wall_s = m_run.elapsed();
+      return;
+    }
+    m_garment.position = m_run.m_solver->x();
+    m_run.build_solver(false);
+    m_run.m_report.steps = 0;  // the limit is for the way to rest
+    m_run.m_disturbed = false; // it hangs: without weight it would ride up
+    m_run.settle();
+    m_run.finish();
+    m_run.m_report.wall_s = m_run.elapsed();
+  }
+
+  void take(const std::string& line) {
+    const auto arrived = Clock::now();
+    const std::clock_t cpu = std::clock();
+    ++m_line;
+    if (line.find_first_not_of(" \t") == std::string::npos) return;
+    try {
+      const std::string place = "line " + std::to_string(m_line);
+      io::Json json = io::parse_json(line, place);
+      const io::Node node(json, place);
+      if (!node.is_object()) node.fail("a line is a head or an edit");
+      io::Json document = m_head;
+      if (node.has("format")) {
+        m_head = json, m_head["edits"] = io::Json::array();
+        document = json;
+        if (!node.has("edits")) document["edits"] = io::Json::array();
+      } else {
+        if (node.at("edit").string() == "end") {
+          m_end = true;
+          return;
+        }
+        if (m_head.is_null()) node.fail("there is no head line before the first edit", R"(begin with {"format": "edits", "version": 1, "length_unit": "cm"})");
+        document["edits"].push_back(json);
+      }
+      const std::size_t count = document["edits"].size();
+      pattern::Pattern next = m_pattern;
+      pattern::apply_edits(next, document, place);
+      if (count == 0) return;
+      pattern::require_sewable(next, place);
+      change(std::move(next));
+      for (const io::Json& edit : document["edits"]) m_log["edits"].push_back(edit);
+      m_log["length_unit"] = document["length_unit"];
+      m_report.edits += static_cast<int>(count);
+    } catch (const Error& e) {
+      m_report.refused.push_back(e.what());
+      m_reporter.warning(m_report.refused.back());
+      return;
+    }
+    frame(std::chrono::duration<double, std::milli>(Clock::now() - arrived).count(), true, cpu);
+  }
+
+  /// The garment has this pattern from now on.
+  void change(pattern::Pattern next) {
+    m_garment.position = m_run.m_solver->x();
+    if (m_follower->follow(next, m_garment.panels, LEAST_ANGLE)) {
+      rest_changed();
+    } else {
+      carry_to(m_garment, pattern::mesh_pattern(next, m_garment.panels.edge_length, "edits", m_garment.panels.seam_length));
+      m_follower.emplace(next, m_garment.panels);
+      m_run.build_solver(false);
+      go_live();
+      m_remeshed = true, ++m_report.remeshed;
+      m_reporter.info("the edit asks for another mesh: vertex ids are new, the draped state is carried across");
+    }
+    m_pattern = std::move(next);
+    m_garment.panels.source = std::make_shared<pattern::Pattern>(m_pattern);
+  }
+
+  /// New rest lengths, areas and masses under the same particles. Terms that keep a copy of the rest state are made anew.
+  void rest_changed() {
+    for (const auto& effect : m_run.m_solver->effects())
+      for (const char* keeps : {"membrane", "triangle_stretch", "dihedral_bending"})
+        if (effect->name() == std::string(keeps)) { // made with settings of the scene
+          m_run.build_solver(false);
+          go_live();
+          return;
+        }
+    *m_run.m_cloth = cloth_mesh_of(m_garment);
+    if (!m_run.active("damping")) {
+      for (cloth::EdgeSpring& s : m_run.m_cloth->springs) s.damping_s = 0;
+      for (cloth::Fabric& f : m_run.m_cloth->fabrics) f.damping_s = 0;
+    }
+    for (const auto& effect : m_run.m_solver->effects())
+      if (effect->name() == std::string("shear")) static_cast<cloth::ShearEffect&>(*effect).set_rest(*m_run.m_cloth);
+  }
+
+  void frame(double since_edit_ms, bool edited = false, std::clock_t cpu = 0) {
+    const auto began = Clock::now();
+    const double h = m_run.m_settings.time_step_s;
+    m_run.m_report.steps = 0;   // a session has no step limit
+    m_run.m_settling = !edited; // the answer to an edit is one step, however long; the way to rest is searched
+    if (!m_run.step(h, 0, LARGEST_MOVE)) return;
+    FollowFrame f;
+    f.number = ++m_report.frames, f.edits = m_report.edits, f.remeshed = m_remeshed;
+    f.speed_m_s = m_run.m_last.largest_move_m / h;
+    const bool still = f.speed_m_s < m_run.m_settings.settle_speed_m_s && m_run.m_last.residual_force_ratio < m_run.m_settings.settle_force_ratio;
+    m_calm = still ? m_calm + 1 : 0;
+    f.at_rest = m_at_rest = m_calm >= CALM_STEPS;
+    m_garment.position = m_run.m_solver->x();
+    if (edited) {
+      f.latency_ms = since_edit_ms + std::chrono::duration<double, std::milli>(Clock::now() - began).count();
+      f.cpu_ms = 1e3 * static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+      m_report.latency_ms.push_back(f.latency_ms), m_report.cpu_ms.push_back(f.cpu_ms);
+    }
+    m_remeshed = false;
+    if (m_session.on_frame) m_session.on_frame(f, m_garment);
+  }
+
+  Garment& m_garment;
+  const FollowSession& m_session;
+  Reporter& m_reporter;
+  DrapeRun m_run;
+  pattern::Pattern m_pattern;
+  std::optional<pattern::MeshFollower> m_follower;
+  io::Json m_head, m_log;
+  FollowReport m_report;
+  int m_line = 0, m_calm = 0;
+  bool m_end = false, m_at_rest = false, m_remeshed = false;
+};
+
+FollowReport follow(Garment& garment, const body::Body* body, const DrapeSettings& settings, const FollowSession& session, Reporter& reporter) {
+  return FollowRun(garment, body, settings, session, reporter).run();
+}
+
+io::Json follow_report_json(const FollowReport& report, const std::string& tool) {
+  io::Json out = report_json(report.drape, tool);
+  const auto spread = [](std::vector<double> sorted) {
+    std::sort(sorted.begin(), sorted.end());
+    const auto at = [&](double q) { return sorted.empty() ? 0.0 : sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))]; };
+    return io::Json{{"p50", at(0.5)}, {"p95", at(0.95)}, {"max", at(1)}};
+  };
+  out["follow"] = {{"edits", report.edits},           {"remeshed", report.remeshed}, {"frames", report.frames}, {"latency_ms", spread(report.latency_ms)},
+                   {"cpu_ms", spread(report.cpu_ms)}, {"refused", report.refused}};
+  return out;
+}
+
+} // namespace sloper::garment

@@ -1,0 +1,191 @@
+#include "drape_scene.hpp"
+
+#include <garment/audit.hpp>
+#include <garment/carry.hpp>
+#include <garment/follow.hpp>
+#include <garment/garment_json.hpp>
+#include <gtest/gtest.h>
+#include <io/line_follower.hpp>
+#include <pattern/edits.hpp>
+#include <pattern/mesh_pattern.hpp>
+#include <pattern/read_pattern.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+using namespace sloper;
+using namespace sloper::garment;
+
+namespace {
+
+const char* const HEAD = R"({"format": "edits", "version": 1, "length_unit": "cm"})";
+
+/// A skirt of two rectangles with its pattern, draped on the pillar.
+Garment draped_skirt(const body::Body& pillar, double edge_length = 0.03, const io::Json& edits = {}, double friction = 0.3) {
+  const std::string outline = R"("outline": [{"edge": "hem", "path": [["M", -19, 0], ["L", 19, 0]]}, {"edge": "left", "path": [["L", 19, 40]]},
+      {"edge": "top", "path": [["L", -19, 40]]}, {"edge": "right", "path": [["L", -19, 0]]}])";
+  const std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "skirt", "panels": [{"name": "front", )" + outline +
+                           R"(}, {"name": "back", )" + outline + R"(}], "seams": [
+      {"name": "left", "a": [{"panel": "front", "edge": "left"}], "b": [{"panel": "back", "edge": "right"}]},
+      {"name": "right", "a": [{"panel": "back", "edge": "left"}], "b": [{"panel": "front", "edge": "right"}]}]})";
+  const pattern::Pattern source = pattern::read_pattern_json(io::parse_json(text, "skirt"), "skirt");
+  Garment skirt;
+  skirt.panels = pattern::mesh_pattern(source, edge_length, "skirt");
+  if (!edits.is_null()) {
+    pattern::Pattern edited = source;
+    pattern::apply_edits(edited, edits, "edits");
+    EXPECT_TRUE(pattern::follow_edits(source, edited, skirt.panels, 15));
+    skirt.panels.source = std::make_shared<pattern::Pattern>(edited);
+  }
+  for (const pattern::PanelInfo& p : skirt.panels.panels) {
+    const double side = p.name == "back" ? -1 : 1;
+    for (int v = p.first_vertex; v < p.first_vertex + p.n_vertices; ++v) {
+      const Vec2 uv = skirt.panels.pattern[static_cast<std::size_t>(v)];
+      skirt.panels.placed[static_cast<std::size_t>(v)] = Vec3(side * uv.x(), 0.65 + uv.y(), side * 0.2);
+    }
+  }
+  skirt.materials[""].friction_body = friction;
+  const DrapeReport report = drape(skirt, &pillar, {}, silent_reporter());
+  EXPECT_TRUE(report.converged) << report.stop_reason;
+  return skirt;
+}
+
+FollowReport play(Garment& garment, const body::Body& body, std::vector<std::string> lines, std::vector<FollowFrame>* frames = nullptr, int max_steps = 1500) {
+  std::size_t at = 0;
+  const FollowSession session{[&](int) { return at < lines.size() ? std::optional<std::string>(lines[at++]) : std::nullopt; },
+                              [&] { return at == lines.size(); },
+                              [&](const FollowFrame& f, const Garment&) {
+                                if (frames) frames->push_back(f);
+                              }};
+  DrapeSettings settings;
+  settings.max_steps = max_steps;
+  return follow(garment, &body, settings, session, silent_reporter());
+}
+
+double lowest(const Garment& g) {
+  double y = 1e300;
+  for (const Vec3& p : g.position) y = std::min(y, p.y());
+  return y;
+}
+
+} // namespace
+
+TEST(Follow, edits_change_rest_lengths_in_place_and_the_cloth_comes_to_the_rest_of_a_cold_drape) {
+  const body::Body pillar = make_pillar();
+  Garment live = draped_skirt(pillar, 0.03, {}, 0);
+  const double before = lowest(live);
+  const std::vector<Triangle> triangles = live.panels.triangles;
+  std::vector<FollowFrame> frames;
+  const FollowReport report = play(live, pillar,
+                                   {HEAD, R"({"edit": "move-edge", "panel": "front", "edge": "hem", "by": [0, -2]})", "",
+                                    R"({"edit": "move-edge", "panel": "back", "edge": "hem", "by": [0, -2]})"},
+                                   &frames);
+  EXPECT_TRUE(report.drape.converged) << report.drape.stop_reason;
+  EXPECT_EQ(report.edits, 2);
+  EXPECT_EQ(report.remeshed, 0);
+  EXPECT_TRUE(report.refused.empty());
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[1].edits, 2);
+  EXPECT_GE(frames[1].latency_ms, 0);
+  EXPECT_EQ(live.panels.triangles, triangles);
+  EXPECT_NEAR(lowest(live), before - 0.02, 0.006);
+  const Garment cold = draped_skirt(pillar, 0.03, report.log, 0);
+  ASSERT_EQ(cold.position.size(), live.position.size());
+  for (std::size_t v = 0; v < cold.panels.pattern.size(); ++v) EXPECT_EQ(cold.panels.pattern[v], live.panels.pattern[v]) << "the log replays the same panels";
+  // The pillar lets the skirt turn about it and sit a little higher or lower: its own shape is compared, by distances from the middle.
+  const auto middle = [](const Garment& g) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& p : g.position) sum += p;
+    return Vec3(sum / static_cast<double>(g.position.size()));
+  };
+  double sum = 0;
+  for (std::size_t i = 0; i < cold.position.size(); ++i)
+    sum += std::pow((cold.position[i] - middle(cold)).norm() - (live.position[i] - middle(live)).norm(), 2);
+  EXPECT_LT(std::sqrt(sum / static_cast<double>(cold.position.size())), 0.004);
+}
+
+TEST(Follow, the_same_lines_give_the_same_bytes_and_no_edit_leaves_the_drape_where_it_is) {
+  const body::Body pillar = make_pillar();
+  const Garment start = draped_skirt(pillar);
+  Garment none = start, one = start, two = start;
+  play(none, pillar, {HEAD});
+  double most = 0;
+  for (std::size_t i = 0; i < none.position.size(); ++i) most = std::max(most, (none.position[i] - start.position[i]).norm());
+  EXPECT_LT(most, 0.003);
+  const std::vector<std::string> lines = {HEAD, R"({"edit": "take-in", "seam": "left", "by": 0.5})"};
+  play(one, pillar, lines), play(two, pillar, lines);
+  EXPECT_EQ(strict_hash(one), strict_hash(two));
+}
+
+TEST(Follow, an_edit_that_asks_for_another_mesh_carries_the_draped_state_across) {
+  const body::Body pillar = make_pillar();
+  Garment skirt = draped_skirt(pillar);
+  const double before = lowest(skirt);
+  std::vector<FollowFrame> frames;
+  const FollowReport report = play(skirt, pillar,
+                                   {HEAD, R"({"edit": "split", "panel": "front", "from": [0, -1], "to": [0, 41], "names": ["west", "east"], "sew": true})",
+                                    R"({"edit": "move-edge", "panel": "back", "edge": "hem", "by": [0, -1]})"},
+                                   &frames, 150);
+  EXPECT_EQ(report.remeshed, 1);
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_TRUE(frames[0].remeshed);
+  EXPECT_LT(frames[0].speed_m_s, 0.3) << "the cloth starts where it hung";
+  EXPECT_FALSE(frames[1].remeshed);
+  EXPECT_EQ(skirt.panels.panels.size(), 3u);
+  EXPECT_EQ(report.drape.quality["faces_through_body"], 0);
+  EXPECT_EQ(report.drape.quality["self_intersections"], 0);
+  EXPECT_NEAR(lowest(skirt), before - 0.005, 0.02);
+  // Joined again, it is one panel that hangs where it hung.
+  const FollowReport joined = play(skirt, pillar, {HEAD, R"({"edit": "join", "seam": ")" + skirt.panels.seams.back().name + R"("})"}, nullptr, 150);
+  EXPECT_EQ(joined.remeshed, 1) << (joined.refused.empty() ? "" : joined.refused[0]);
+  EXPECT_EQ(skirt.panels.panels.size(), 2u);
+  EXPECT_EQ(joined.drape.quality["faces_through_body"], 0);
+}
+
+TEST(Follow, lines_that_are_no_edits_are_refused_with_their_number_and_change_nothing) {
+  const body::Body pillar = make_pillar();
+  Garment skirt = draped_skirt(pillar);
+  const std::vector<Vec2> pattern = skirt.panels.pattern;
+  const FollowReport report = play(skirt, pillar,
+                                   {R"({"edit": "move-edge", "panel": "front", "edge": "hem", "by": [0, -2]})", HEAD, "{",
+                                    R"({"edit": "move-edge", "panel": "frnt", "edge": "hem", "by": [0, -2]})",
+                                    R"({"edit": "move-edge", "panel": "front", "edge": "hem", "by": [0, 60]})", R"({"edit": "end"})", "never read"});
+  ASSERT_EQ(report.refused.size(), 4u);
+  EXPECT_NE(report.refused[0].find("line 1"), std::string::npos) << report.refused[0];
+  EXPECT_NE(report.refused[0].find("head"), std::string::npos) << report.refused[0];
+  EXPECT_NE(report.refused[1].find("line 3"), std::string::npos) << report.refused[1];
+  EXPECT_NE(report.refused[2].find("did you mean"), std::string::npos) << report.refused[2];
+  EXPECT_EQ(report.edits, 0);
+  EXPECT_EQ(skirt.panels.pattern, pattern);
+}
+
+TEST(Follow, a_garment_keeps_its_pattern_in_its_document_and_one_without_is_refused) {
+  const body::Body pillar = make_pillar();
+  Garment skirt = draped_skirt(pillar);
+  const auto folder = std::filesystem::temp_directory_path() / ("sloper_follow_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  write_garment((folder / "skirt.json").string(), skirt, "test");
+  Garment back = read_garment((folder / "skirt.json").string());
+  std::filesystem::remove_all(folder);
+  EXPECT_EQ(play(back, pillar, {HEAD, R"({"edit": "let-out", "seam": "left", "by": 0.2})"}).edits, 1);
+  skirt.panels.source.reset();
+  EXPECT_THROW(play(skirt, pillar, {HEAD}), Error);
+}
+
+TEST(Follow, a_growing_file_gives_whole_lines_as_they_come) {
+  const auto path = std::filesystem::temp_directory_path() / ("sloper_lines_" + std::to_string(::getpid()));
+  std::ofstream file(path);
+  io::LineFollower lines(path.string());
+  EXPECT_FALSE(lines.next(0));
+  file << "one\r\ntw" << std::flush;
+  EXPECT_EQ(lines.next(0).value_or("none"), "one");
+  EXPECT_FALSE(lines.next(10)) << "half a line is none";
+  file << "o\n\nthree\n" << std::flush;
+  EXPECT_EQ(lines.next(0).value_or("none"), "two");
+  EXPECT_EQ(lines.next(0).value_or("none"), "");
+  EXPECT_EQ(lines.next(0).value_or("none"), "three");
+  EXPECT_EQ(lines.line(), 4);
+  EXPECT_FALSE(lines.ended());
+  std::filesystem::remove(path);
+}
