@@ -1,5 +1,5 @@
 # Thin: every target is one command that can be typed by hand. `make` builds the five programs into build/tools/.
-.PHONY: all pictures package test demo population check sanitize install format man bench validation figure4 accuracy hard soak accuracy-cost presets clean
+.PHONY: all pictures package test demo population check sanitize install format man bench bench-rivals validation figure4 accuracy hard soak accuracy-cost presets clean
 
 all:
 	@scripts/build release
@@ -40,6 +40,11 @@ accuracy:
 bench:
 	@scripts/build release
 	@scripts/bench build
+
+# Our cloth beside other programs on the scenes of a folder: make bench-rivals SCENES=FOLDER
+bench-rivals:
+	@scripts/build release bench_rivals
+	@scripts/bench-rivals $(SCENES)
 
 # Every physical validation, the slow ones too, with what each measured beside its reference.
 validation:

@@ -175,9 +175,7 @@ int main(int argc, char** argv) {
   set_thread_count(1);
   const std::string folder = argv[1];
   std::vector<std::string> wanted(argv + 2, argv + argc);
-  if (wanted.empty())
-    wanted = {"hang_3k",      "skirt_3k+self",      "skirt_10k+self",      "sheet_30k+self",
-              "hang_3k+rest", "skirt_3k+self+rest", "skirt_10k+self+rest", "sheet_30k+self+rest"};
+  if (wanted.empty()) wanted = {"hang_3k", "skirt_3k+self", "skirt_10k+self", "sheet_30k+self", "hang_3k+rest", "skirt_3k+self+rest", "skirt_10k+self+rest"};
   const io::Json scenes = io::read_json(folder + "/scenes.json");
   std::printf("%-20s %8s %-12s %7s %7s %6s %6s %8s %8s %6s %6s %7s %6s %9s %9s\n", "scene", "time", "", "ms/f", "worst", "steps", "CG", "p99 %", "max %",
               "inside", "thru", "deep mm", "self", "res p95", "res max");
