@@ -172,6 +172,12 @@ void Aggregation::build(const LinearSystem& system) {
   m_age = 0;
 }
 
+double Aggregation::complexity() const {
+  double blocks = 0;
+  for (const Level& level : m_levels) blocks += static_cast<double>(level.a.value.size());
+  return m_levels.empty() ? 1 : blocks / static_cast<double>(m_levels[0].a.value.size());
+}
+
 void Aggregation::update(const LinearSystem& system) {
   m_jacobi.update(system);
   const bool tired = m_iterations_when_fresh > 0 && m_last_iterations > m_iterations_when_fresh + m_iterations_when_fresh / 3 + 3;

@@ -19,6 +19,8 @@ public:
   void report_iterations(int iterations) override;
   void reset() override { m_levels.clear(); }
   long rebuilds = 0;
+  /// Blocks of all levels' matrices over those of the finest: what a cycle costs in multiplications by the matrix. 1 without levels.
+  double complexity() const;
 
 private:
   struct Level {

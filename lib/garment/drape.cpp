@@ -282,7 +282,7 @@ void DrapeRun::inflate() {
       }
     }
     m_body_contact->move_body(skin);
-    if (farthest >= latest) m_body_contact->refresh();
+    if (farthest >= latest) m_body_contact->refresh(); // some of it had to go through
     step(1.0 / 30, 0);
   }
   m_body_contact->move_body(skin_at(1)); // also when stopped on the way

@@ -196,3 +196,29 @@ TEST(Contact, WithLineSearchClothComesToRestOnTheTable) {
 }
 
 } // namespace
+
+TEST(BodyContact, skin_that_keeps_to_its_room_never_passes_the_cloth) {
+  Grid cloth = make_grid(8, 0.2);
+  Random random(11);
+  for (Vec3& p : cloth.x) p += Vec3(0.1, 0.004 + random.uniform(-0.002, 0.002), -0.1) - Vec3(p.x() * 0.5, 0, p.z() * 0.5);
+  const TriangleMesh skin = table(12, 0.3);
+  collision::BodyCollider body(skin);
+  ClothSolver solver(cloth.mesh, cloth.x);
+  solver.emplace<EdgeSpringEffect>(cloth.mesh);
+  auto& contact = solver.emplace<BodyContactEffect>(cloth.mesh, body, BodyContactOptions{});
+  StepOptions step;
+  step.largest_move_m = 1e-9; // the cloth stays: only the skin's own care counts
+  solver.step(step);
+  std::vector<Vec3> moved = skin.positions;
+  const std::vector<Triangle> triangles = cloth.mesh.particle_triangles();
+  for (int k = 0; k < 30; ++k) {
+    const std::vector<double> room = contact.skin_room(solver.x());
+    for (std::size_t v = 0; v < moved.size(); ++v) moved[v].y() += room[v]; // up, into the cloth
+    contact.move_body(moved);
+    EXPECT_TRUE(body.faces_through(solver.x(), triangles).empty());
+    for (const Vec3& p : solver.x()) EXPECT_FALSE(body.is_inside(p));
+  }
+  double highest = 0;
+  for (const Vec3& p : moved) highest = std::max(highest, p.y());
+  EXPECT_GT(highest, 0.001); // and it does come near
+}

@@ -88,6 +88,20 @@ TEST(Aggregation, solves_the_same_system_as_block_jacobi_in_far_fewer_iterations
   EXPECT_LT(difference, 1e-5 * scale);
 }
 
+TEST(Aggregation, particles_that_contacts_all_but_pin_do_not_fill_the_coarse_levels) {
+  System s = make_system(40, 1.0 / 30);
+  Random random(5);
+  for (int i = 0; i < s.matrix.size(); ++i)
+    if (random.uniform(0, 1) < 0.5) s.matrix.add_diagonal(i, 1e7 * Mat3::Identity()); // trousers drawn over far too wide hips
+  const LinearSystem system{s.matrix, s.elements};
+  Aggregation aggregation;
+  aggregation.update(system);
+  EXPECT_LT(aggregation.complexity(), 1.6);
+  std::vector<Vec3> x;
+  CgWork work;
+  EXPECT_TRUE(conjugate_gradient(system, aggregation, s.rhs, 1e-6, 300, x, work).converged);
+}
+
 TEST(Aggregation, iterations_hardly_grow_with_the_mesh) {
   int iterations[2];
   int at = 0;
