@@ -269,8 +269,32 @@ private:
     return false;
   }
 
+  /// Leggings: a leg in one piece, sewn to itself along the inside, to its like above. The back's middle seam is the longer one, for
+  /// it goes over the seat; of a left leg, seen from outside, it is on the right.
+  bool one_piece_legs() {
+    std::vector<std::size_t> tubes;
+    for (std::size_t k = 0; k < m_roles.size(); ++k)
+      if (m_roles[k].region == Region::TRUNK && m_roles[k].side == Side::RING && upright_seam(k, k)) tubes.push_back(k);
+    if (tubes.size() != 2 || !upright_seam(tubes[0], tubes[1])) return false;
+    double back[2];
+    for (std::size_t i : {0, 1}) {
+      const std::size_t k = tubes[i];
+      back[i] = 0;
+      for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(tubes[1 - i])))
+        for (std::size_t s = 0; s + 1 < seam.size(); ++s) {
+          const Vec2 a = m_mesh.pattern[static_cast<std::size_t>(seam[s][0])], b = m_mesh.pattern[static_cast<std::size_t>(seam[s + 1][0])];
+          back[i] += (0.5 * (a.x() + b.x()) > middle(k).x() ? 1 : -1) * (a - b).norm();
+        }
+      back[i] += (left_word(k) ? 1e3 : 0) - (right_word(k) ? 1e3 : 0);
+    }
+    const bool first_left = back[0] >= back[1];
+    m_roles[tubes[0]].part = first_left ? "leg_l" : "leg_r", m_roles[tubes[1]].part = first_left ? "leg_r" : "leg_l";
+    return true;
+  }
+
   /// Trouser legs: two front-back tubes that are sewn to each other. Only PanelInfo::part and the layout's order depend on it.
   void legs() {
+    if (one_piece_legs()) return;
     std::vector<std::size_t> tubes;
     for (std::size_t k = 0; k < m_roles.size(); ++k) {
       if (m_roles[k].region != Region::TRUNK || m_roles[k].side == Side::RING) continue;

@@ -131,14 +131,25 @@ std::vector<Vec2> fan_points(const std::vector<std::vector<Vec2>>& loops, const 
   return out;
 }
 
-} // namespace
+/// Triangles below 25 degrees that are not a sharp corner's own.
+int n_small(const FlatMesh& mesh) {
+  int n = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const bool ear = t[0] < mesh.n_boundary && t[1] < mesh.n_boundary && t[2] < mesh.n_boundary;
+    n += !ear && smallest_angle(mesh.points[static_cast<std::size_t>(t[0])], mesh.points[static_cast<std::size_t>(t[1])],
+                                mesh.points[static_cast<std::size_t>(t[2])]) < 25 * 3.14159265358979 / 180;
+  }
+  return n;
+}
 
-FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, const SizeField& size, const std::vector<char>& must_split, const std::string& panel) {
+/// @param spacing of the lattice of interior points, in edge lengths
+FlatMesh attempt(const std::vector<std::vector<Vec2>>& loops, const SizeField& size, double spacing, const std::vector<char>& must_split,
+                 const std::string& panel) {
   FlatDelaunay mesh(loops, panel);
   const std::vector<Vec2> fans = fan_points(loops, must_split);
   for (const Vec2& p : fans) mesh.insert(p, true);
   const double h = size.usual();
-  for (const Vec2& p : size.uniform() ? lattice(loops, h, 0.62 * h) : graded_lattice(loops, size))
+  for (const Vec2& p : size.uniform() ? lattice(loops, spacing * h, 0.62 * spacing * h) : graded_lattice(loops, size))
     if (std::none_of(fans.begin(), fans.end(), [&](const Vec2& q) { return (p - q).norm() < 0.7 * size.at(q); })) mesh.insert(p);
   mesh.split_chords(must_split);
   for (int round = 0; round < 8; ++round) mesh.smooth();
@@ -151,6 +162,20 @@ FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, const SizeFiel
   out.n_boundary = mesh.n_boundary();
   mesh.take(out.points, out.triangles);
   return out;
+}
+
+} // namespace
+
+FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, const SizeField& size, const std::vector<char>& must_split, const std::string& panel) {
+  FlatMesh best = attempt(loops, size, 1, must_split, panel);
+  int least = n_small(best);
+  // Strips a row or two wide may not go with the lattice: another spacing often does.
+  for (double spacing : {0.9, 0.8, 1.1, 0.7}) {
+    if (least == 0 || !size.uniform()) break;
+    FlatMesh other = attempt(loops, size, spacing, must_split, panel);
+    if (const int n = n_small(other); n < least) best = std::move(other), least = n;
+  }
+  return best;
 }
 
 } // namespace sloper::pattern

@@ -51,6 +51,17 @@ TEST(Mesh, AnglesStayAboveTwentyFiveDegreesOverSizesAndShapes) {
   }
 }
 
+TEST(Mesh, StripsOfAnyWidthHaveGoodAngles) {
+  for (int k = 0; k < 12; ++k) {
+    const double width = 2 + 0.5 * k, bow = 0.3 * (k % 4);
+    const std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "band", "panels": [
+      {"name": "band", "outline": [{"edge": "low", "path": [["M", -20, 0], ["Q", 0, -)" +
+                             std::to_string(bow) + R"(, 20, 0]]}, {"edge": "b", "path": [["L", 20, )" + std::to_string(width) +
+                             R"(]]}, {"edge": "top", "path": [["L", -20, )" + std::to_string(width) + R"(]]}, {"edge": "d", "path": [["L", -20, 0]]}]}]})";
+    EXPECT_GT(smallest_angle_deg(mesh_pattern(own(text), 0.02, "test.json")), 25) << width << " cm, bow " << bow;
+  }
+}
+
 TEST(Mesh, FinerAlongSeamsOnRequestWithGoodAnglesAndMatchingSeams) {
   const Pattern pattern = own(tube_text());
   const PanelMesh usual = mesh_pattern(pattern, 0.03, "test.json"), fine = mesh_pattern(pattern, 0.03, "test.json", 0.008);

@@ -170,6 +170,35 @@ TEST(Placement, ATightWaistbandStartsAtTheNarrowestPlace) {
   EXPECT_NEAR(top_of(mesh), 1.05 + 0.06, 0.015) << "12 cm of cloth lie half above and half below the waist";
 }
 
+TEST(Placement, LeggingsInOnePieceGoAroundTheirLegs) {
+  // Seen from outside a left leg has the front's middle seam on the left and the back's, which is longer, on the right.
+  std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "leggings", "panels": [
+    {"name": "one", "outline": [{"edge": "hem", "path": [["M", -18, 0], ["L", 18, 0]]}, {"edge": "in_back", "path": [["L", 32, 70]]},
+      {"edge": "seat", "path": [["L", 24, 102]]}, {"edge": "waist", "path": [["L", -24, 98]]}, {"edge": "front", "path": [["L", -30, 70]]},
+      {"edge": "in_front", "path": [["L", -18, 0]]}]},
+    {"name": "two", "mirror_of": "one"}], "seams": [
+    {"name": "in one", "a": [{"panel": "one", "edge": "in_back"}], "b": [{"panel": "one", "edge": "in_front"}]},
+    {"name": "in two", "a": [{"panel": "two", "edge": "in_back"}], "b": [{"panel": "two", "edge": "in_front"}]},
+    {"name": "seat", "a": [{"panel": "one", "edge": "seat"}], "b": [{"panel": "two", "edge": "seat"}]},
+    {"name": "front", "a": [{"panel": "one", "edge": "front"}], "b": [{"panel": "two", "edge": "front"}]}]})";
+  const Pattern pattern = own(text);
+  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  body::Body body = waisted_body();
+  body.landmarks["crotch"].p = Vec3(0, 0.8, 0);
+  const PlacementReport report = place_panels(pattern, body, mesh);
+  EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
+  EXPECT_EQ(mesh.panels[0].part, "leg_l");
+  EXPECT_EQ(mesh.panels[1].part, "leg_r");
+  for (const PanelInfo& info : mesh.panels)
+    for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v)
+      EXPECT_GT(mesh.placed[static_cast<std::size_t>(v)].x() * (info.part == "leg_l" ? 1 : -1), 0.004) << info.name;
+  const Vec2 seat(24, 102);
+  for (std::size_t v = 0; v < mesh.pattern.size(); ++v)
+    if ((mesh.pattern[v] - 0.01 * seat).norm() < 1e-6 || (mesh.pattern[v] - 0.01 * Vec2(-24, 102)).norm() < 1e-6) {
+      EXPECT_LT(mesh.placed[v].z(), 0) << "the seat is behind";
+    }
+}
+
 TEST(Placement, LongTrousersStartAsSmoothTubesAboveTheFeetWithTheirWaistInPlace) {
   std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "trousers", "panels": [)";
   for (const char* name : {"front_l", "front_r", "back_l", "back_r"}) {
