@@ -92,11 +92,11 @@ TEST(Aggregation, particles_that_contacts_all_but_pin_do_not_fill_the_coarse_lev
   System s = make_system(40, 1.0 / 30);
   Random random(5);
   for (int i = 0; i < s.matrix.size(); ++i)
-    if (random.uniform(0, 1) < 0.5) s.matrix.add_diagonal(i, 1e7 * Mat3::Identity()); // trousers drawn over far too wide hips
+    if (random.uniform(0, 1) < 0.8) s.matrix.add_diagonal(i, 1e5 * Mat3::Identity()); // trousers drawn over far too wide hips
   const LinearSystem system{s.matrix, s.elements};
   Aggregation aggregation;
   aggregation.update(system);
-  EXPECT_LT(aggregation.complexity(), 1.6);
+  EXPECT_LT(aggregation.complexity(), 2); // 3.2 when each of them is an aggregate
   std::vector<Vec3> x;
   CgWork work;
   EXPECT_TRUE(conjugate_gradient(system, aggregation, s.rhs, 1e-6, 300, x, work).converged);
