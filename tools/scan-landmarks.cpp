@@ -18,7 +18,7 @@ struct Options {
   std::string unit = "auto", up = "auto";
   double pose_fps = 30;
   int jitter = -1;
-  bool explain = false, anonymise = false;
+  bool explain = false, anonymise = false, torso_only = false;
 };
 
 void write_parts(const std::string& path, const std::vector<body::Part>& parts) {
@@ -42,6 +42,7 @@ int run(cli::Tool& tool, const Options& o) {
   options.unit = o.unit;
   options.up = o.up;
   options.jitter = o.jitter;
+  options.torso_only = o.torso_only;
   if (!o.rules.empty()) options.rules = body::Rules::read(o.rules);
   tool.reporter().progress("reading", -1);
   const auto start = std::chrono::steady_clock::now();
@@ -79,6 +80,7 @@ int main(int argc, char** argv) {
   app.add_option("SCAN", o.scan, "scan of one standing person: OBJ, PLY, STL, 3DS or XYZ, mesh or bare points")->required()->check(cli::input_file());
   app.add_option("--unit", o.unit, "unit of the scan's coordinates (default: auto, from the stature)")->check(cli::one_of({"auto", "m", "cm", "mm"}));
   app.add_option("--up", o.up, "axis along which the body stands (default: auto, from the legs and the head)")->check(cli::one_of({"auto", "x", "y", "z"}));
+  app.add_flag("--torso-only", o.torso_only, "take a scan without legs too: what it shows is found, stature and floor are estimated from the head");
   app.add_option(
          "--jitter", o.jitter,
          "runs of the rules on a slightly turned, lifted and roughened skin, which measure each landmark's spread (default: 3, none beyond 80,000 faces)")

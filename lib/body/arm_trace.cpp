@@ -115,11 +115,12 @@ void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& 
   reach_for_fingers(arm, *ahead, scan_points, s);
   Vec3 center = *start, axis = (*ahead - *start).normalized();
   double along = (center - arm.tip).norm();
+  TriangleSpheres spheres(skin, arm.triangles);
   for (int step = 0; step < 120; ++step) {
     LimbSection section;
     section.plane = cross_plane(center, axis);
     section.axis = axis;
-    std::vector<Loop> loops = cut(skin, section.plane, &arm.triangles);
+    std::vector<Loop> loops = cut(skin, section.plane, &spheres.near(section.plane));
     int best = -1;
     double nearest = 0.06 * s;
     for (std::size_t i = 0; i < loops.size(); ++i) {

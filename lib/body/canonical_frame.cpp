@@ -209,7 +209,8 @@ CanonicalFrame guess_frame(const TriangleMesh& scan, const SortedScan& sorted, c
     throw input_error(file, "",
                       sorted.head_share >= sorted.leg_share ? "no standing person: no two legs in any axis direction"
                                                             : "no standing person: no head above the shoulders",
-                      "a scan must show a whole standing body with its legs apart; check --up, or cut away what is not the body");
+                      "a scan must show a whole standing body with its legs apart; check --up, cut away what is not the body, or, for a torso without "
+                      "legs, give --torso-only");
   if (sorted.second_share > 0.5) throw input_error(file, "", "two bodies stand in this scan", "cut the scan so that one person is left");
   const Unit chosen = guess_unit(height, unit, file);
   frame.unit = chosen.name;

@@ -9,22 +9,25 @@ namespace sloper::body {
 namespace {
 
 constexpr double BELOW_BUTTOCKS = 0.051; ///< crotch below the level of the greatest buttock prominence, share of stature
+constexpr double OF_STATURE = 0.463;     ///< crotch height, share of stature (0.46-0.48 in Drillis and Contini 1966)
+constexpr double BUTTOCK_WEIGHT = 0.8;   ///< of the buttocks against the stature: they vary half as much
 constexpr double TOO_LOW = 0.032;        ///< below the expected height by this share of stature: the thighs touch
 constexpr double SAG = 0.015;            ///< a closed hole hangs this much lower than the skin that was there
 /// Half sizes of the box in which points of the scan show the crotch: thin, for the thighs beside a hole are near.
 const Vec3 SEEN(0.004, 0.012, 0.05);
 
-/// Height of the rearmost part of the trunk below the waist.
+/// Height of the rearmost part of the trunk below the waist; none where it only runs out upwards, as of a back that leans.
 std::optional<double> buttock_level(const LevelStack& levels) {
-  const double s = levels.stature();
+  const double s = levels.stature(), top = 0.60 * s;
   std::optional<double> best;
   double rearmost = 1e300;
-  for (double y = 0.46 * s; y < 0.60 * s; y += levels.spacing()) {
+  for (double y = 0.46 * s; y < top; y += levels.spacing()) {
     const Slice& slice = levels.at(y);
     if (slice.trunk < 0) continue;
     const double z = slice.loops[slice.trunk].low.y();
     if (z < rearmost) rearmost = z, best = slice.y;
   }
+  if (best && *best > top - 0.025 * s) return std::nullopt;
   return best;
 }
 
@@ -37,7 +40,8 @@ bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, std:
   int seen = 0;
   for (const Vec3& p : scan_points) seen += ((p - place).cwiseAbs() - s * SEEN).maxCoeff() < 0;
   const auto buttock = buttock_level(levels);
-  const double expected = buttock ? *buttock - BELOW_BUTTOCKS * s : 0.463 * s;
+  const double by_stature = OF_STATURE * s;
+  const double expected = buttock ? by_stature + BUTTOCK_WEIGHT * (*buttock - BELOW_BUTTOCKS * s - by_stature) : by_stature;
   const bool fused = found < expected - TOO_LOW * s;
   if (seen >= 3 && !fused) return false;
   const double y = fused ? expected : 0.5 * (expected + found + SAG * s);

@@ -81,10 +81,13 @@ std::vector<Loop> LevelStack::exact(double y) const { return cut(*m_skin, level_
 std::optional<Loop> LevelStack::trunk_at(double y) const {
   const Slice& slice = at(y);
   if (slice.trunk < 0) return std::nullopt;
+  const auto known = m_trunk_at.find(y);
+  if (known != m_trunk_at.end()) return known->second;
   std::vector<Loop> loops = exact(y);
   const int i = best_overlap(loops, slice.loops[slice.trunk]);
-  if (i < 0) return std::nullopt;
-  return loops[i];
+  std::optional<Loop> trunk;
+  if (i >= 0) trunk = std::move(loops[i]);
+  return m_trunk_at.emplace(y, std::move(trunk)).first->second;
 }
 
 std::optional<Loop> LevelStack::leg_at(double y, int side) const {

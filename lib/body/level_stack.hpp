@@ -1,6 +1,7 @@
 #pragma once
 /// The skin in level slices: the legs followed up to the crotch, the trunk from there to the neck, the head above it.
 #include <body/section.hpp>
+#include <map>
 #include <optional>
 namespace sloper::body {
 
@@ -12,7 +13,7 @@ struct Slice {
   int trunk = -1;        ///< loop of the trunk, neck or head; arms may hang on it
 };
 
-/// All level slices of a closed skin that stands in (about) the body frame.
+/// All level slices of a closed skin that stands in (about) the body frame. For one thread: it remembers cuts.
 class LevelStack {
 public:
   /// @param spacing m between levels
@@ -43,6 +44,7 @@ private:
   double m_stature, m_spacing, m_roughness;
   std::vector<Slice> m_slices;
   std::vector<std::vector<int>> m_triangles;
+  mutable std::map<double, std::optional<Loop>> m_trunk_at; ///< cuts made before: several rules ask for the same heights
   std::optional<double> m_crotch;
   Vec2 m_crotch_point = Vec2::Zero();
 };

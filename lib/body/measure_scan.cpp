@@ -7,6 +7,7 @@
 #include <body/part_labels.hpp>
 #include <body/skin_profile.hpp>
 #include <body/skin_surface.hpp>
+#include <body/torso_only.hpp>
 #include <body/touching_skin.hpp>
 #include <io/json.hpp>
 
@@ -41,6 +42,12 @@ constexpr double CLOTH_BETWEEN = 0.004;
 constexpr const char* ESSENTIAL[] = {"head_tip",         "crotch",           "hip_center", "neck_center", "neck_back",  "neck_front",
                                      "shoulder_joint_l", "shoulder_joint_r", "hand_tip_l", "hand_tip_r",  "acromion_l", "acromion_r",
                                      "hip_joint_l",      "hip_joint_r",      "ankle_l",    "ankle_r"};
+
+/// What a torso without legs, or without arms, need not show.
+bool may_lack(const std::string& name) {
+  return name == "crotch" || name.starts_with("hip") || name.starts_with("ankle") || name.starts_with("hand_tip") || name.starts_with("shoulder") ||
+         name.starts_with("acromion");
+}
 
 constexpr int STANDARD_JITTER = 3;
 constexpr std::size_t MOST_FACES_TO_JITTER = 80'000; ///< beyond, three more runs of the rules would cost a second
@@ -217,25 +224,35 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
 
 } // namespace
 
-MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, const std::string& sha256, const ScanOptions& options, Reporter& reporter) {
+MeasuredScan measure_scan(const TriangleMesh& given, const std::string& file, const std::string& sha256, const ScanOptions& options, Reporter& reporter) {
   MeasuredScan result;
   Body& body = result.body;
   Phases phases(reporter);
-  const SortedScan sorted = sort_scan(scan, options.up);
+  SortedScan sorted = sort_scan(given, options.up);
+  CompletedTorso torso; // a scan of the torso alone stands on plain legs until the rules are done
+  const bool is_torso = options.torso_only && !(shows_a_person(sorted) && sorted.up_score > 0.8); // hanging arms look a little like legs
+  if (is_torso) {
+    torso = complete_torso(given, options.up, file);
+    sorted = sort_scan(torso.scan, {"xyz"[torso.up.cwiseAbs().maxCoeff() == std::abs(torso.up.x()) ? 0 : torso.up.y() != 0 ? 1 : 2]});
+  }
+  const std::vector<char> labelled = sorted.is_body; // the rim of a torso is body, but no skin
+  for (std::size_t v = 0; v < torso.is_cut.size(); ++v)
+    if (torso.is_cut[v]) sorted.is_body[v] = 0;
+  const TriangleMesh& scan = is_torso ? torso.scan : given;
   const CanonicalFrame frame = guess_frame(scan, sorted, options.unit, file);
   body.scan = {io::file_name(file),
                sha256,
                frame.unit,
                sorted.up_name,
                frame.front,
-               static_cast<int>(scan.positions.size()),
-               static_cast<int>(scan.triangles.size()),
+               static_cast<int>(given.positions.size()),
+               static_cast<int>(given.triangles.size()),
                frame.stature_m,
                frame.findings};
   std::vector<Vec3> positions(scan.positions.size());
   for (std::size_t v = 0; v < positions.size(); ++v) positions[v] = transform(frame.scan_to_body, scan.positions[v]);
   reporter.info("unit " + frame.unit + ", up " + sorted.up_name + ", stature " + std::to_string(frame.stature_m) + " m");
-  SkinSurface skin = make_skin(positions, scan.triangles, sorted.is_body, frame.stature_m);
+  SkinSurface skin = make_skin(positions, scan.triangles, sorted.is_body, frame.stature_m, is_torso ? "it has no legs" : "");
   body.skin = std::move(skin.mesh);
   phases.done("frame and skin");
   body.scan.findings.insert(body.scan.findings.end(), skin.findings.begin(), skin.findings.end());
@@ -253,7 +270,8 @@ MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, con
   if (jitter > 0) phases.done("spread");
   else result.trail.push_back("spread: not measured, the usual one of each rule is given");
   body.face_part = label_faces(body.skin.triangles, skin_part);
-  result.vertex_part = label_scan(positions, sorted.is_body, skin.of_scan, body.skin, skin_part, 0.03 * s);
+  result.vertex_part = label_scan(positions, labelled, skin.of_scan, body.skin, skin_part, 0.03 * s);
+  result.vertex_part.resize(given.positions.size());
   const OpenedSkin opened = open_touching_skin(body.skin, dressed_skin(body, skin_part), CLOTH_BETWEEN);
   if (opened.vertices > 0) {
     char text[200];
@@ -267,6 +285,7 @@ MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, con
   Vec3 origin = Vec3::Zero();
   if (body.has_landmark("hip_center")) origin = Vec3(-body.landmark("hip_center").x(), 0, -body.landmark("hip_center").z());
   shift(body, origin);
+  if (is_torso) forget_unseen(body, transform(frame.scan_to_body, torso.seen_from * torso.up).y());
   body.scan_to_body = turn_and_shift(0, origin) * frame.scan_to_body;
   build_frames(body);
   build_bones(body);
@@ -274,7 +293,7 @@ MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, con
   add_unit_finding(body, options.unit != "auto");
   add_findings(body, sorted, skin);
   for (const char* name : ESSENTIAL)
-    if (!body.has_landmark(name)) {
+    if (!body.has_landmark(name) && !(is_torso && may_lack(name))) {
       result.missing.push_back(name);
       body.scan.findings.push_back({"error", "landmark not found", name});
     }

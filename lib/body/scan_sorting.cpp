@@ -8,14 +8,16 @@ namespace sloper::body {
 
 namespace {
 
-constexpr int N_CELLS = 200;                                 ///< along the longest side of the scan
-constexpr double LEG_LOW = 0.05, LEG_HIGH = 0.36;            ///< where two legs are looked for, share of the height
-constexpr double MIN_LEG_SHARE = 0.15, MIN_HEAD_SHARE = 0.4; ///< below these there is no person
-constexpr double MAX_LOST_SHARE = 0.04;                      ///< more cells than this in pieces over or under the body: it fell apart
-constexpr double TOP_LOW = 0.92;                             ///< above it there is only the head
-constexpr double TOP_WIDTH = 0.22;                           ///< a head is narrower than this share of the height
-constexpr double FLOOR_BAND = 0.08;                          ///< a floor lies in this share of the height from below
-constexpr double FLOOR_FACTOR = 4;                           ///< ... and fills this many times the cells of an ordinary layer
+constexpr int N_CELLS = 200;                                   ///< along the longest side of the scan
+constexpr double LEG_LOW = 0.05, LEG_HIGH = 0.36;              ///< where two legs are looked for, share of the height
+constexpr double MIN_LEG_SHARE = 0.15, MIN_HEAD_SHARE = 0.4;   ///< below these there is no person
+constexpr double DOUBTFUL_SCORE = 0.6, DOUBTFUL_MARGIN = 0.15; ///< a lower score that another direction comes near is no person
+constexpr double CLEAR_SCORE = 0.8;                            ///< of a reading that leaves no doubt
+constexpr double MAX_LOST_SHARE = 0.04;                        ///< more cells than this in pieces over or under the body: it fell apart
+constexpr double TOP_LOW = 0.92;                               ///< above it there is only the head
+constexpr double TOP_WIDTH = 0.22;                             ///< a head is narrower than this share of the height
+constexpr double FLOOR_BAND = 0.08;                            ///< a floor lies in this share of the height from below
+constexpr double FLOOR_FACTOR = 4;                             ///< ... and fills this many times the cells of an ordinary layer
 
 /// Occupied cells of a grid over the scan.
 class Voxels {
@@ -348,16 +350,23 @@ SortedScan sort_in_cells(const TriangleMesh& scan, const std::string& up_axis, i
 } // namespace
 
 SortedScan sort_scan(const TriangleMesh& scan, const std::string& up_axis) {
-  // a thin cloud of points falls apart in small cells: larger ones are tried when no person stands in the small ones
-  SortedScan first;
+  // a thin cloud of points falls apart in small cells: larger ones are tried when the small ones show no person clearly
+  SortedScan best;
+  double most = -1e300;
   for (const int n_cells : {N_CELLS, N_CELLS * 5 / 8, N_CELLS * 2 / 5}) {
     SortedScan sorted = sort_in_cells(scan, up_axis, n_cells, n_cells == N_CELLS ? 1 : 2);
-    if (shows_a_person(sorted) && !sorted.falls_apart) return sorted;
-    if (n_cells == N_CELLS || (!shows_a_person(first) && shows_a_person(sorted))) first = std::move(sorted);
+    const bool whole = shows_a_person(sorted) && !sorted.falls_apart;
+    if (whole && sorted.up_score > CLEAR_SCORE) return sorted;
+    const double worth = sorted.up_score + (whole ? 2 : shows_a_person(sorted) ? 1 : 0);
+    if (worth > most + 0.1) most = worth, best = std::move(sorted); // the finer cells unless the larger ones are clearly better
   }
-  return first;
+  return best;
 }
 
-bool shows_a_person(const SortedScan& sorted) { return sorted.high > sorted.low && sorted.leg_share >= MIN_LEG_SHARE && sorted.head_share >= MIN_HEAD_SHARE; }
+bool shows_a_person(const SortedScan& sorted) {
+  // of a torso alone its arms are a little like legs, in one direction as in another
+  const bool is_guess = sorted.up_score < DOUBTFUL_SCORE && sorted.up_score - sorted.next_score < DOUBTFUL_MARGIN;
+  return sorted.high > sorted.low && sorted.leg_share >= MIN_LEG_SHARE && sorted.head_share >= MIN_HEAD_SHARE && !is_guess;
+}
 
 } // namespace sloper::body

@@ -129,6 +129,25 @@ std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane, const std::v
   return loops;
 }
 
+TriangleSpheres::TriangleSpheres(const TriangleMesh& mesh, const std::vector<int>& subset) {
+  m_spheres.reserve(subset.size());
+  for (const int t : subset) {
+    const Vec3 &a = mesh.positions[mesh.triangles[t][0]], &b = mesh.positions[mesh.triangles[t][1]], &c = mesh.positions[mesh.triangles[t][2]];
+    const Vec3 center = (a + b + c) / 3;
+    const double squared = std::max({(a - center).squaredNorm(), (b - center).squaredNorm(), (c - center).squaredNorm()});
+    m_spheres.push_back({center, 1.000001 * std::sqrt(squared) + 1e-9, t});
+  }
+}
+
+const std::vector<int>& TriangleSpheres::near(const Plane& plane) {
+  const Vec3 n = plane.normal();
+  const double offset = n.dot(plane.origin);
+  m_near.clear();
+  for (const Sphere& s : m_spheres)
+    if (std::abs(n.dot(s.center) - offset) <= s.radius) m_near.push_back(s.triangle);
+  return m_near;
+}
+
 std::vector<std::vector<int>> triangles_by_level(const TriangleMesh& mesh, double y0, double dy, int count) {
   std::vector<std::vector<int>> at(static_cast<std::size_t>(count));
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {

@@ -37,6 +37,23 @@ void measure_loop(Loop& loop);
 /// @param subset triangle numbers to look at; all when null
 std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane, const std::vector<int>* subset = nullptr);
 
+/// Spheres around triangles: many planes through the same few of them are cut without looking at each corner.
+class TriangleSpheres {
+public:
+  TriangleSpheres(const TriangleMesh& mesh, const std::vector<int>& subset);
+  /// The triangles of the subset that the plane may meet, in its order; valid until the next call.
+  const std::vector<int>& near(const Plane& plane);
+
+private:
+  struct Sphere {
+    Vec3 center;
+    double radius;
+    int triangle;
+  };
+  std::vector<Sphere> m_spheres;
+  std::vector<int> m_near;
+};
+
 /// Which triangles each of `count` level planes y0, y0 + dy, ... meets.
 std::vector<std::vector<int>> triangles_by_level(const TriangleMesh& mesh, double y0, double dy, int count);
 

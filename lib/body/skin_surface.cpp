@@ -2,6 +2,7 @@
 #include <body/point_grid.hpp>
 #include <body/skin_surface.hpp>
 #include <body/surface_nets.hpp>
+#include <body/thin_cloud.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,18 +21,20 @@ constexpr double MAX_NOISE = 0.45e-3;     ///< m
 
 /// Roughness at the scale of the mesh: the part of the umbrella vector along the normal that neighbours do not share.
 double roughness(const TriangleMesh& mesh) {
-  const std::vector<Vec3> normals = vertex_normals(mesh);
   const std::size_t n = mesh.positions.size();
-  std::vector<Vec3> sum(n, Vec3::Zero());
+  std::vector<Vec3> sum(n, Vec3::Zero()), normal(n, Vec3::Zero()); // normals by area: good enough for a median
   std::vector<int> degree(n, 0);
-  for (const Triangle& t : mesh.triangles)
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 facing = area_normal(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
     for (int k = 0; k < 3; ++k) {
       sum[t[k]] += mesh.positions[t[(k + 1) % 3]];
+      normal[t[k]] += facing;
       ++degree[t[k]];
     }
+  }
   std::vector<double> bump(n, 0), shared(n, 0);
   for (std::size_t v = 0; v < n; ++v)
-    if (degree[v]) bump[v] = (sum[v] / degree[v] - mesh.positions[v]).dot(normals[v]);
+    if (const double length = normal[v].norm(); degree[v] && length > 0) bump[v] = (sum[v] / degree[v] - mesh.positions[v]).dot(normal[v]) / length;
   for (const Triangle& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) shared[t[k]] += bump[t[(k + 1) % 3]];
   std::vector<double> rest;
@@ -103,33 +106,41 @@ std::string text_of(const char* format, double x) {
 
 TriangleMesh rebuild_surface(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature,
                              double& noise_m) {
-  // a thin cloud needs wider samples
   constexpr double MAX_LONELY = 0.03;
   double spacing = SAMPLE * stature;
+  std::vector<Vec3> points;
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    if (is_body[v]) points.push_back(positions[v]);
   OrientedPoints samples = sample_surface(positions, triangles, is_body, spacing, MAX_LONELY);
-  while (samples.lonely_share > MAX_LONELY) {
+  const bool thin = samples.lonely_share > MAX_LONELY;
+  if (thin && triangles.empty()) {
+    points = fill_thin_cloud(points, spacing);
+    samples = sample_surface(points, {}, std::vector<char>(points.size(), 1), spacing, MAX_LONELY);
+  }
+  while (samples.lonely_share > MAX_LONELY) { // still thin: wider samples
     spacing *= 1.35;
-    samples = sample_surface(positions, triangles, is_body, spacing, spacing < 0.02 * stature ? MAX_LONELY : 1.0);
+    const double most = spacing < 0.02 * stature ? MAX_LONELY : 1.0;
+    samples = thin && triangles.empty() ? sample_surface(points, {}, std::vector<char>(points.size(), 1), spacing, most)
+                                        : sample_surface(positions, triangles, is_body, spacing, most);
     if (spacing >= 0.02 * stature) break;
   }
   noise_m = samples.noise_m;
   const double cell = std::max(CELL * stature, 1.2 * spacing);
   TriangleMesh mesh = zero_surface(indicator(samples, cell));
   fair(mesh, 2);
-  std::vector<Vec3> points;
-  for (std::size_t v = 0; v < positions.size(); ++v)
-    if (is_body[v]) points.push_back(positions[v]);
   settle_on_points(mesh, points, samples, 1.3 * cell);
   fair(mesh, 1);
   return mesh;
 }
 
-SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature) {
+SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature,
+                      const std::string& rebuild_why) {
   SkinSurface skin;
   skin.mesh = own_faces(positions, triangles, is_body, skin.of_scan);
   auto keep = [&](const EdgeCounts& counts) { skin.border_edges = counts.border, skin.crowded_edges = counts.crowded, skin.flipped_edges = counts.flipped; };
-  std::string why;
-  if (skin.mesh.triangles.size() < 1000) why = triangles.empty() ? "the scan has points and no faces" : "the scan has hardly any faces";
+  std::string why = rebuild_why;
+  if (!why.empty()) skin.mesh = {};
+  else if (skin.mesh.triangles.size() < 1000) why = triangles.empty() ? "the scan has points and no faces" : "the scan has hardly any faces";
   else {
     if (skin.mesh.positions.size() > 0.9 * static_cast<double>(skin.mesh.triangles.size())) weld(skin.mesh, skin.of_scan); // STL: three vertices a face
     if (const int dropped = drop_small_pieces(skin.mesh, skin.of_scan))

@@ -14,7 +14,9 @@ struct SkinSurface {
 
 /// @param positions #V by 3, body frame, m
 /// @param stature   m
-SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature);
+/// @param rebuild_why not empty: the scan's own faces are not enough, for this reason
+SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature,
+                      const std::string& rebuild_why = "");
 
 /// A closed surface near the samples of any scan, about 60k triangles.
 TriangleMesh rebuild_surface(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, double stature,

@@ -15,10 +15,38 @@ constexpr double OPPOSED = -0.5;      ///< cosine of the two normals
 constexpr double DEEPEST = 0.006;     ///< m: skin that passes farther into other skin is left alone
 constexpr double LARGEST_WAY = 0.003; ///< m
 
+/// Unit normals of the vertices, weighted by area: all that is asked of them is which way the skin faces.
+std::vector<Vec3> rough_normals(const TriangleMesh& skin, const std::vector<Triangle>& triangles) {
+  std::vector<Vec3> normals(skin.positions.size(), Vec3::Zero());
+  for (const Triangle& t : triangles) {
+    const Vec3 n = area_normal(skin.positions[t[0]], skin.positions[t[1]], skin.positions[t[2]]);
+    for (const int v : t) normals[v] += n;
+  }
+  for (Vec3& n : normals)
+    if (const double length = n.norm(); length > 1e-300) n /= length;
+  return normals;
+}
+
+/// The triangles within so many rings of the marked vertices: `mark` grows with them.
+std::vector<Triangle> triangles_around(const TriangleMesh& skin, std::vector<char> mark, int rings) {
+  std::vector<Triangle> around;
+  for (int ring = 0; ring <= rings; ++ring) {
+    around.clear();
+    std::vector<char> next = mark;
+    for (const Triangle& t : skin.triangles)
+      if (mark[t[0]] || mark[t[1]] || mark[t[2]]) {
+        around.push_back(t);
+        next[t[0]] = next[t[1]] = next[t[2]] = 1;
+      }
+    mark = std::move(next);
+  }
+  return around;
+}
+
 /// Vertices with skin that looks the other way somewhere within about a cell: by a grid of the directions that skin faces.
 std::vector<char> facing_candidates(const TriangleMesh& skin, const std::vector<char>& may_move) {
   constexpr double CELL = 0.008; // m
-  const std::vector<Vec3> normals = vertex_normals(skin);
+  const std::vector<Vec3> normals = rough_normals(skin, skin.triangles);
   const auto key = [](long x, long y, long z) { return ((x + 100000) << 40) + ((y + 100000) << 20) + (z + 100000); };
   const auto cell = [](const Vec3& p) { return std::array<long, 3>{std::lround(p.x() / CELL), std::lround(p.y() / CELL), std::lround(p.z() / CELL)}; };
   std::vector<std::pair<long, int>> faced; // cell, six bits: which way its skin faces
@@ -56,11 +84,9 @@ std::vector<char> facing_candidates(const TriangleMesh& skin, const std::vector<
 }
 
 /// Ways that part the skin by what is missing; `wants` marks the vertices that have one.
-std::vector<Vec3> wanted_ways(const TriangleMesh& skin, const std::vector<char>& candidate, double gap_m, std::vector<char>& wants) {
-  const std::vector<Vec3> normals = vertex_normals(skin);
-  std::vector<Triangle> near;
-  for (const Triangle& t : skin.triangles)
-    if (candidate[t[0]] || candidate[t[1]] || candidate[t[2]]) near.push_back(t);
+std::vector<Vec3> wanted_ways(const TriangleMesh& skin, const std::vector<char>& candidate, const std::vector<Triangle>& near, double gap_m,
+                              std::vector<char>& wants) {
+  const std::vector<Vec3> normals = rough_normals(skin, near);
   const collision::TriangleTree tree(skin.positions, near);
   const double reach = std::max(gap_m, DEEPEST);
   std::vector<Vec3> way(skin.positions.size(), Vec3::Zero());
@@ -92,11 +118,12 @@ OpenedSkin open_touching_skin(TriangleMesh& skin, const std::vector<char>& may_m
   const std::vector<char> candidate = facing_candidates(skin, may_move);
   if (std::find(candidate.begin(), candidate.end(), 1) == candidate.end()) return {};
   std::vector<char> wants;
-  std::vector<std::array<int, 2>> edges;
+  const std::vector<Triangle> near = triangles_around(skin, candidate, 0);
+  std::vector<std::array<int, 2>> edges; // of what a way can spread to
   for (int round = 0; round < ROUNDS; ++round) {
-    std::vector<Vec3> way = wanted_ways(skin, candidate, gap_m, wants);
+    std::vector<Vec3> way = wanted_ways(skin, candidate, near, gap_m, wants);
     if (std::find(wants.begin(), wants.end(), 1) == wants.end()) break;
-    if (edges.empty()) edges = edges_of(skin.triangles);
+    if (edges.empty()) edges = edges_of(triangles_around(skin, candidate, SMOOTHINGS));
     for (int k = 0; k < SMOOTHINGS; ++k) { // the rim takes part; what must move keeps its own way
       std::vector<Vec3> sum(way.size(), Vec3::Zero());
       std::vector<int> count(way.size(), 0);

@@ -48,7 +48,7 @@ std::vector<EdgeFaceIntersection> edge_face_intersections(const std::vector<Vec3
                                                           const TriangleTree& tree) {
   return gather<EdgeFaceIntersection>(topology.edges.size(), [&](std::size_t begin, std::size_t end, auto& out) {
     for (std::size_t e = begin; e < end; ++e) {
-      const auto [i, j] = topology.edges[e];
+      const int i = topology.edges[e][0], j = topology.edges[e][1]; // clang 14 captures no structured binding
       const Vec3 &p = x[i], &q = x[j];
       Box3 box;
       box.add(p);

@@ -117,7 +117,7 @@ void SelfProximity::search_edges(std::size_t begin, std::size_t end, std::vector
   std::vector<int> near; // slots
   for (auto slot = static_cast<int>(begin); slot < static_cast<int>(end); ++slot) {
     const int ea = m_edge_tree.triangle_of_slot(slot);
-    const auto [a0, a1] = m_topology.edges[ea];
+    const int a0 = m_topology.edges[ea][0], a1 = m_topology.edges[ea][1]; // clang 14 captures no structured binding
     near.clear();
     m_edge_tree.visit_slots(m_edge_tree.dop_of_slot(slot, m_candidates_radius), slot + 1, [&](int other) {
       const auto& [b0, b1] = m_slot_edges[other];

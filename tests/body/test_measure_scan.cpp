@@ -209,6 +209,30 @@ TEST(MeasureScan, bare_noisy_points_give_nearly_the_same_landmarks) {
   EXPECT_EQ(measured.vertex_part.size(), cloud.positions.size());
 }
 
+TEST(MeasureScan, a_thin_cloud_strewn_at_random_is_one_person_with_fingers) {
+  const TriangleMesh& mesh = test::mannequin("f-165-a").mesh;
+  const Body exact = test::measure(mesh).body;
+  std::vector<double> area = {0};
+  for (const Triangle& t : mesh.triangles) area.push_back(area.back() + area_normal(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]).norm());
+  for (const int n : {10000, 60000}) {
+    TriangleMesh cloud;
+    Random random(7);
+    for (int i = 0; i < n; ++i) {
+      const auto at = std::upper_bound(area.begin(), area.end() - 1, random.uniform() * area.back()) - area.begin() - 1;
+      const Triangle& t = mesh.triangles[static_cast<std::size_t>(at)];
+      double u = random.uniform(), v = random.uniform();
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      cloud.positions.push_back(mesh.positions[t[0]] + u * (mesh.positions[t[1]] - mesh.positions[t[0]]) + v * (mesh.positions[t[2]] - mesh.positions[t[0]]));
+    }
+    const MeasuredScan measured = test::measure(cloud);
+    EXPECT_TRUE(measured.missing.empty()) << n << " points: " << ::testing::PrintToString(measured.missing);
+    for (const char* name : {"head_tip", "hand_tip_l", "hand_tip_r", "foot_tip_l", "wrist_r", "knee_l", "neck_front", "axilla_l"}) {
+      ASSERT_TRUE(measured.body.has_landmark(name)) << n << " points: " << name;
+      EXPECT_LT((measured.body.landmark(name) - exact.landmark(name)).norm(), 0.035) << n << " points: " << name;
+    }
+  }
+}
+
 TEST(MeasureScan, what_is_no_standing_person_is_refused) {
   TriangleMesh cube;
   add_box(cube, Vec3(0, 0, 0), Vec3(1, 1, 1));
