@@ -1,5 +1,5 @@
 # Thin: every target is one command that can be typed by hand. `make` builds the five programs into build/tools/.
-.PHONY: all pictures package test demo population check sanitize install format man bench bench-rivals validation figure4 accuracy hard soak accuracy-cost presets clean
+.PHONY: all pictures package test demo population check sanitize install format man bench bench-rivals validation figure4 accuracy fuzz hard soak accuracy-cost presets clean
 
 all:
 	@scripts/build release
@@ -36,6 +36,9 @@ man:
 accuracy:
 	@scripts/build release
 	@scripts/accuracy --build build --write
+
+fuzz:
+	@scripts/fuzz
 
 bench:
 	@scripts/build release
