@@ -2,6 +2,7 @@
 #include <base/version.hpp>
 #include <body/body_json.hpp>
 #include <cli/run_tool.hpp>
+#include <garment/accuracy.hpp>
 #include <garment/bind.hpp>
 #include <garment/drape.hpp>
 #include <garment/follow.hpp>
@@ -25,7 +26,7 @@ namespace {
 struct Options {
   std::string scene, body, panels, from, accuracy, effects, material, report, output, follow, frames, edit_log;
   std::vector<std::string> set;
-  double max_seconds = 0;
+  double max_seconds = 0, max_error_mm = 0;
 };
 
 io::Json input_entry(const std::string& path) { return {{"file", io::file_name(path)}, {"sha256", io::sha256(io::read_file(path))}}; }
@@ -42,7 +43,12 @@ void add_options(cli::Tool& tool, Options& o) {
                  "fabric of panels that name none: a preset such as cotton-poplin, denim, silk, jersey, or a CSV of KES-F or FAST values")
       ->type_name("NAME");
   app.add_option("--set", o.set, "one setting by its name in the report's settings")->type_name("KNOB=VALUE");
-  app.add_option("--max-seconds", o.max_seconds, "stop after this wall time, s, with the best state so far (exit 4)")->check(cli::finite_in(0, 1e6, "s"));
+  app.add_option("--max-seconds", o.max_seconds,
+                 "stop after this wall time, s, with the best state so far; without --accuracy: draft, and standard when there is time for it")
+      ->check(cli::finite_in(0, 1e6, "s"));
+  app.add_option("--max-error-mm", o.max_error_mm,
+                 "go on from preset to preset until the cloth is nearer than this to where the finest would bring it, root mean square; exit 4 when none does")
+      ->check(cli::finite_in(1e-3, 1e3, "mm"));
   app.add_option("--report", o.report, "write report.json: convergence, effects with calls and time, quality, settings")->check(cli::output_file());
   app.add_option("--follow", o.follow,
                  "with --from: edits of the pattern, one JSON object a line, taken as they come from a file that grows or from standard input (\"-\")")
@@ -55,16 +61,29 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.formats("scene, body, panels and garment documents (version 1)", "garment and report documents (version 1), OBJ");
   tool.example("drape --from shirt.json --body body.json --follow edits.jsonl --frames - -o edited.json", "change the pattern and watch the cloth follow");
   tool.example("drape --from shirt.json --body body.json --accuracy fine -o shirt-fine.json", "go on, more exactly");
+  tool.example("drape --body body.json --panels panels.json --max-error-mm 0.5 --report report.json -o shirt.json", "as accurate as that, and no more");
 }
 
-garment::DrapeSettings resolve(const Options& o, const garment::Scene& scene) {
-  garment::DrapeSettings settings = garment::preset_settings(!o.accuracy.empty() ? o.accuracy : !scene.accuracy.empty() ? scene.accuracy : "standard");
+/// What scene and options say beside the preset.
+void set_knobs(garment::DrapeSettings& settings, const Options& o, const garment::Scene& scene) {
   for (const auto& [name, value] : scene.settings) garment::set_knob(settings, name, value);
   for (const std::string& assignment : o.set) garment::set_knob(settings, assignment);
   if (o.max_seconds > 0) settings.max_seconds = o.max_seconds;
   if (!scene.effects.empty()) settings.effects = scene.effects;
   if (!o.effects.empty()) settings.effects = o.effects;
+}
+
+garment::DrapeSettings resolve(const Options& o, const garment::Scene& scene) {
+  garment::DrapeSettings settings = garment::preset_settings(!o.accuracy.empty() ? o.accuracy : !scene.accuracy.empty() ? scene.accuracy : "standard");
+  set_knobs(settings, o, scene);
   return settings;
+}
+
+/// Whether presets are climbed until an error or a time is met, instead of one being given.
+bool has_goal(const Options& o, const garment::Scene& scene) {
+  const bool preset = !o.accuracy.empty() || !scene.accuracy.empty();
+  if (o.max_error_mm > 0 && !o.accuracy.empty()) throw Error(ErrorKind::USAGE, "", "--max-error-mm", "chooses the preset by itself", "leave --accuracy out");
+  return o.max_error_mm > 0 || (o.max_seconds > 0 && !preset);
 }
 
 /// Frames as they come: an OBJ each with an index beside them, or JSON lines.
@@ -105,9 +124,17 @@ private:
   std::ofstream m_index;
 };
 
-/// Drapes, or goes on with a draped garment while edits come. Lines that were refused are counted in `refused`.
-garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment::Garment& garment, const body::Body* body,
+/// Drapes, to a goal when there is one, or goes on with a draped garment while edits come. Lines that were refused are counted in `refused`.
+garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment::Garment& garment, const body::Body* body, const garment::Scene& scene,
                                      const garment::DrapeSettings& settings, io::Json& document, std::size_t& refused) {
+  if (o.follow.empty() && has_goal(o, scene)) {
+    const garment::AccuracyGoal goal{1e-3 * o.max_error_mm, settings.max_seconds};
+    garment::AccuracyReport report = garment::drape_to_goal(
+        garment, body, goal, [&](garment::DrapeSettings& s) { set_knobs(s, o, scene); }, tool.reporter());
+    document = garment::report_json(report.drape, tool.name());
+    document["accuracy"] = report.achieved;
+    return std::move(report.drape);
+  }
   if (o.follow.empty()) {
     garment::DrapeReport report = garment::drape(garment, body, settings, tool.reporter());
     document = garment::report_json(report, tool.name());
@@ -154,7 +181,7 @@ int run(cli::Tool& tool, Options& o) {
   }
   io::Json document;
   std::size_t refused = 0;
-  const garment::DrapeReport report = drape_or_follow(tool, o, garment, o.body.empty() ? nullptr : &body, settings, document, refused);
+  const garment::DrapeReport report = drape_or_follow(tool, o, garment, o.body.empty() ? nullptr : &body, scene, settings, document, refused);
   if (!o.body.empty()) garment::bind_garment(garment, body);
 
   garment::write_garment(o.output, garment, tool.name());
@@ -164,6 +191,10 @@ int run(cli::Tool& tool, Options& o) {
     io::write_json(o.report, document);
   }
   if (refused > 0) tool.reporter().warning(std::to_string(refused) + " lines were no edits of this pattern and changed nothing");
+  if (document.contains("accuracy") && report.converged && !document["accuracy"]["met"].get<bool>()) {
+    tool.reporter().warning("at rest, but not within --max-error-mm; see \"accuracy\" in the report; the state reached is in " + o.output);
+    return static_cast<int>(ErrorKind::FAILED);
+  }
   if (report.converged) return refused > 0 ? static_cast<int>(ErrorKind::FAILED) : 0;
   tool.reporter().warning("not done: " + report.stop_reason + " after " + std::to_string(report.steps) + " steps; the state reached is in " + o.output);
   return static_cast<int>(ErrorKind::FAILED);

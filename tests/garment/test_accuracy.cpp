@@ -1,0 +1,67 @@
+/// --max-error-mm and --max-seconds, on scenes that the presets were not measured on.
+#include "drape_scene.hpp"
+
+#include <garment/accuracy.hpp>
+#include <garment/scene.hpp>
+#include <gtest/gtest.h>
+
+using namespace sloper;
+using namespace sloper::garment;
+
+namespace {
+
+void keep(DrapeSettings&) {}
+
+double rms(const Garment& a, const Garment& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.position.size(); ++i) sum += (a.position[i] - b.position[i]).squaredNorm() / static_cast<double>(a.position.size());
+  return std::sqrt(sum);
+}
+
+} // namespace
+
+class Goal : public testing::TestWithParam<double> {};
+
+TEST_P(Goal, is_met_against_the_reference_going_on_from_the_same_state) {
+  const body::Body pillar = make_pillar();
+  Garment skirt = make_skirt(0.78, 0.35, 0.035);
+  const AccuracyReport report = drape_to_goal(skirt, &pillar, {GetParam(), 0}, keep, silent_reporter());
+  ASSERT_TRUE(report.drape.converged) << report.drape.stop_reason;
+  Garment reference = skirt;
+  drape(reference, &pillar, preset_settings("reference"), silent_reporter());
+  if (report.met) {
+    EXPECT_LT(rms(skirt, reference), GetParam()) << report.achieved.dump();
+  } else {
+    EXPECT_EQ(report.drape.settings.accuracy, "reference") << "gave up before the finest preset";
+  }
+  EXPECT_EQ(report.achieved["met"], report.met);
+  EXPECT_GE(report.achieved["presets"].size(), 2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(millimetres, Goal, testing::Values(2e-3, 5e-4, 1e-4),
+                         [](const auto& goal) { return std::to_string(static_cast<int>(1e6 * goal.param)) + "_um"; });
+
+TEST(Goal, of_time_is_kept_and_a_tighter_goal_takes_finer_presets) {
+  const body::Body pillar = make_pillar(32, 30);
+  Garment loose = make_skirt(0.78, 0.3, 0.05), tight = loose, hurried = loose;
+  const AccuracyReport a = drape_to_goal(loose, &pillar, {5e-3, 0}, keep, silent_reporter());
+  const AccuracyReport b = drape_to_goal(tight, &pillar, {5e-5, 0}, keep, silent_reporter());
+  EXPECT_LE(a.achieved["presets"].size(), b.achieved["presets"].size());
+  EXPECT_GT(b.drape.steps, a.drape.steps);
+  const AccuracyReport c = drape_to_goal(hurried, &pillar, {0, 1e-3}, keep, silent_reporter());
+  EXPECT_FALSE(c.met);
+  EXPECT_EQ(c.drape.stop_reason, "time limit");
+}
+
+TEST(Goal, that_needs_two_presets_reports_the_steps_and_the_sewing_of_both) {
+  const body::Body pillar = make_pillar(32, 30);
+  Garment skirt = make_skirt(0.78, 0.3, 0.05);
+  const AccuracyReport report = drape_to_goal(skirt, &pillar, {0, 1000}, keep, silent_reporter());
+  EXPECT_EQ(report.achieved["presets"].size(), 2u);
+  EXPECT_EQ(report.drape.settings.accuracy, "standard");
+  for (const EffectReport& e : report.drape.effects)
+    if (e.name == "sewing") {
+      EXPECT_GT(e.calls, 0);
+    }
+  EXPECT_TRUE(report.met);
+}
