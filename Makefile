@@ -59,6 +59,27 @@ hard:
 	@scripts/build release run-hard
 	@build/tests/hard/run-hard --jobs $(shell nproc) --table docs/hard-cases.md
 
+# 10,000 random scenes; what fails is made small and kept in build/soak. FROM and COUNT choose a slice.
+FROM ?= 0
+COUNT ?= 10000
+soak:
+	@scripts/build release run-soak
+	@build/tests/hard/run-soak --from $(FROM) --count $(COUNT) --out build/soak
+
+# What accuracy costs: tables and plots of three samples, gathered in docs/accuracy-cost.md.
+SCENES ?= skirt shirt trousers
+accuracy-cost:
+	@scripts/build release scan-landmarks pattern-mesh drape make-mannequin make-pattern
+	@scripts/setup gnuplot-nox
+	@for scene in $(SCENES); do scripts/accuracy-cost $$scene || exit; done
+	@scripts/accuracy-cost --gather docs $(SCENES)
+
+# The presets again from the measured front: the cheapest settings within each preset's error on all scenes.
+presets:
+	@scripts/build release scan-landmarks pattern-mesh drape make-mannequin make-pattern
+	@for scene in $(SCENES); do scripts/accuracy-cost --knobs grid --out build/presets/$$scene $$scene || exit; done
+	@scripts/accuracy-cost --derive build/presets $(SCENES)
+
 # The paper's Figure 4: ten drapes of the four-panel skirt, a sheet of pictures, and checks.
 figure4:
 	@scripts/build release scan-landmarks pattern-mesh drape render-png make-mannequin make-pattern measure-hem

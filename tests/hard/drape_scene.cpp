@@ -127,22 +127,23 @@ Garment make_garment(const Parameters& p) {
 /// Things that are wrong with the garment itself.
 void spoil(Garment& g, const std::string& what) {
   pattern::PanelMesh& m = g.panels;
-  if (what == "none") return;
+  if (what == "none" || m.triangles.empty()) return;
+  const Triangle some = m.triangles[std::min<std::size_t>(3, m.triangles.size() - 1)];
   if (what == "nan_position") m.placed[m.placed.size() / 2].x() = std::nan("");
   else if (what == "infinite_position") m.placed[m.placed.size() / 2].x() = INFINITY;
   else if (what == "nan_pattern") m.pattern[m.pattern.size() / 2].x() = std::nan("");
-  else if (what == "zero_triangle") m.pattern[m.triangles[3][0]] = m.pattern[m.triangles[3][1]];
-  else if (what == "duplicate_face") m.triangles.push_back(m.triangles[3]);
+  else if (what == "zero_triangle") m.pattern[some[0]] = m.pattern[some[1]];
+  else if (what == "duplicate_face") m.triangles.push_back(some);
   else if (what == "fin") { // a third triangle on an edge
-    m.pattern.push_back(m.pattern[m.triangles[3][0]] + Vec2(0, 0.02));
-    m.placed.push_back(m.placed[m.triangles[3][0]] + Vec3(0, 0, 0.02));
+    m.pattern.push_back(m.pattern[some[0]] + Vec2(0, 0.02));
+    m.placed.push_back(m.placed[some[0]] + Vec3(0, 0, 0.02));
     m.ids.push_back(m.ids.back());
-    m.triangles.push_back({m.triangles[3][0], m.triangles[3][1], static_cast<int>(m.pattern.size()) - 1});
+    m.triangles.push_back({some[0], some[1], static_cast<int>(m.pattern.size()) - 1});
   } else if (what == "lone_vertex") {
     m.pattern.push_back(Vec2(0, 0));
     m.placed.push_back(Vec3(0, 1, 0.3));
     m.ids.push_back(m.ids.back());
-  } else if (what == "bad_index") m.triangles[3][1] = static_cast<int>(m.pattern.size()) + 5;
+  } else if (what == "bad_index") m.triangles.back()[1] = static_cast<int>(m.pattern.size()) + 5;
   else if (what == "nan_material") g.materials[""].stretch_warp_n_m = std::nan("");
   else if (what == "zero_density") g.materials[""].density_kg_m2 = 0;
   else if (what == "inverted") // every panel seen from the other side
