@@ -159,6 +159,10 @@ StepResult ClothSolver::step(const StepOptions& o) {
       m_rhs[i] = m_force[i] + o.inertia * m_mesh.mass[i] / o.h * m_v[i];
     }
   }
+  if (!all_finite(m_rhs)) { // a position or a force was none: conjugate gradients would return no motion and hide it
+    result.finite = false;
+    return result;
+  }
   {
     const Stopwatch watch(solve_s);
     const LinearSystem system{m_matrix, m_elements};
