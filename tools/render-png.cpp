@@ -23,10 +23,10 @@ namespace {
 struct Options {
   std::vector<std::string> documents;
   std::string view = "front", camera, map = "none", show, fabric = "auto", colors, size = "800x1000", background = "white", context = "osmesa";
-  std::string labels, mask, values, output;
+  std::string labels, mask, values, as = "sheet", output;
   bool sheet = false, compare = false;
   int columns = 0;
-  double tolerance = 0.98, range = 0, print_size = 0.1, field_height = 0;
+  double tolerance = 0.98, seconds = 0.1, range = 0, print_size = 0.1, field_height = 0;
 };
 
 void add_options(cli::Tool& tool, Options& o) {
@@ -39,7 +39,7 @@ void add_options(cli::Tool& tool, Options& o) {
   app.add_option("--field-height", o.field_height, "metres that a picture is high; 0 frames the scene")->check(cli::finite_in(0, 1000, "m"));
   app.add_option("--map", o.map, "numbers as colours")->check(cli::one_of(render::map_names()))->capture_default_str();
   app.add_option("--range", o.range, "top of the colour scale in the map's unit; 0 picks one")->check(cli::finite_in(0, 1e9, ""));
-  app.add_option("--values", o.values, "write the numbers behind the map, CSV")->check(cli::output_file());
+  app.add_option("--values", o.values, "write the numbers behind the map: a .csv, or a .ply with a value for each vertex")->check(cli::output_file());
   app.add_option("--show", o.show, "landmarks, bones, frames, slices, seams, names; joined by commas")->type_name("LIST");
   app.add_option("--fabric", o.fabric, "auto, panels (a colour each), plain, woven, twill, stripes, checks, or a PNG to print on the cloth")
       ->capture_default_str()
@@ -49,6 +49,10 @@ void add_options(cli::Tool& tool, Options& o) {
   app.add_option("--size", o.size, "WIDTHxHEIGHT of one view, pixels")->capture_default_str()->type_name("WxH");
   app.add_option("--background", o.background, "of the picture")->check(cli::one_of({"white", "grey", "transparent"}))->capture_default_str();
   app.add_option("--context", o.context, "what draws: osmesa, or egl (surfaceless)")->check(cli::one_of({"osmesa", "egl"}))->capture_default_str();
+  app.add_option("--as", o.as, "several views: one sheet, one animation (APNG), or files of their own, numbered before the ending")
+      ->check(cli::one_of({"sheet", "animation", "files"}))
+      ->capture_default_str();
+  app.add_option("--seconds", o.seconds, "that each picture of an animation is shown")->check(cli::finite_in(0.001, 60, "s"))->capture_default_str();
   app.add_flag("--sheet", o.sheet, "put PNG files side by side");
   app.add_option("--columns", o.columns, "of a sheet; 0 is one row")->check(CLI::Range(0, 64));
   app.add_option("--labels", o.labels, "captions of a sheet, joined by commas")->type_name("LIST");
@@ -60,10 +64,11 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.example("render-png --view front,back,left,right -o views.png body.json shirt.json", "four views on one sheet");
   tool.example("render-png --map strain --view iso -o strain.png body.json shirt.json", "where the cloth is stretched");
   tool.example("render-png --view pattern -o pattern.png panels.json", "the pattern, laid flat, seams in colours");
+  tool.example("render-png --view turntable:36 --as animation --size 400x500 -o turn.png body.json shirt.json", "a turntable that browsers play");
   tool.example("render-png --show landmarks,slices -o landmarks.png body.json", "what was measured on a scan");
   tool.example("render-png -o shirt.glb body.json shirt.json", "a model for a browser");
   tool.example("render-png --sheet --labels before,after -o pair.png a.png b.png", "two pictures side by side");
-  tool.formats("body, garment and panels documents (version 1), pattern files, OBJ, PLY, STL, PNG", "PNG, GLB, OBJ, PLY, CSV");
+  tool.formats("body, garment and panels documents (version 1), pattern files, OBJ, PLY, STL, PNG", "PNG, APNG, GLB, OBJ, PLY, CSV");
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -167,8 +172,46 @@ void check_output(const std::string& path) {
   if (ending != ".png") throw Error(ErrorKind::USAGE, "", "-o " + path, "is no kind of file that can be written", "end it in .png, .glb, .obj or .ply");
 }
 
+/// What --values asks for; refused before anything is drawn.
+bool wants_ply(const Options& o) {
+  if (o.values.empty()) return false;
+  if (o.map == "none" || o.map == "parts") throw Error(ErrorKind::USAGE, "", "--values", "needs a map with numbers", "say for example --map strain");
+  const std::string name = io::file_name(o.values);
+  const std::size_t dot = name.rfind('.');
+  const std::string ending = dot == std::string::npos ? "" : name.substr(dot);
+  if (ending == ".ply") return true;
+  if (ending == ".csv" || o.values == "-" || o.values.rfind("/dev/", 0) == 0) return false;
+  throw Error(ErrorKind::USAGE, "", "--values " + o.values, "is no kind of file that can be written", "end it in .csv or .ply");
+}
+
+/// out.png, 7, 360 -> out-007.png
+std::string numbered(const std::string& path, std::size_t k, std::size_t n) {
+  std::string digits = std::to_string(k);
+  digits.insert(0, std::to_string(n).size() - digits.size(), '0');
+  const std::size_t dot = path.rfind('.'), slash = path.rfind('/');
+  if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) return path + "-" + digits;
+  return path.substr(0, dot) + "-" + digits + path.substr(dot);
+}
+
+void write_pictures(const Options& o, const std::vector<io::Image>& images, const render::Scene& scene) {
+  std::string source;
+  for (const std::string& name : scene.names) source += (source.empty() ? "" : ", ") + name;
+  const std::vector<std::pair<std::string, std::string>> texts = {{"Software", generator_stamp("render-png")}, {"Source", source}};
+  if (images.size() > 1 && o.as == "animation") {
+    io::write_file(o.output, io::apng_bytes(images, o.seconds, texts));
+  } else if (images.size() > 1 && o.as == "files") {
+    for (std::size_t k = 0; k < images.size(); ++k) io::write_png(numbered(o.output, k + 1, images.size()), images[k], texts);
+  } else {
+    const int columns = o.columns > 0 ? o.columns : std::min<int>(images.size() > 8 ? 6 : 4, static_cast<int>(images.size()));
+    io::write_png(o.output, images.size() == 1 ? images[0] : render::contact_sheet(images, split(o.labels), columns), texts);
+  }
+}
+
 int run_render(cli::Tool& tool, const Options& o) {
   check_output(o.output);
+  const bool values_as_ply = wants_ply(o);
+  if (o.as == "files" && (o.output == "-" || o.output.rfind("/dev/", 0) == 0))
+    throw Error(ErrorKind::USAGE, "", "--as files", "needs a file name to number", "say for example -o turn.png");
   render::DrawOptions options;
   const auto size = parse_size(o.size);
   options.width = size[0];
@@ -189,7 +232,7 @@ int run_render(cli::Tool& tool, const Options& o) {
   options.map_low = legend.low;
   options.map_high = legend.high;
   options.ground = scene.body_mesh >= 0;
-  if (!o.values.empty()) io::write_file(o.values, render::values_csv(scene, legend));
+  if (!o.values.empty()) io::write_file(o.values, values_as_ply ? render::values_ply(scene, legend) : render::values_csv(scene, legend));
   std::vector<render::DrawMesh> meshes = scene.meshes; // the scene keeps its panels' own vertices
   for (render::DrawMesh& mesh : meshes) render::smooth_cloth(mesh);
   if (render::is_export(o.output)) {
@@ -213,11 +256,7 @@ int run_render(cli::Tool& tool, const Options& o) {
     }
     render::draw_legend(images.back(), legend);
   }
-  std::string source;
-  for (const std::string& name : scene.names) source += (source.empty() ? "" : ", ") + name;
-  const int columns = o.columns > 0 ? o.columns : std::min<int>(images.size() > 8 ? 6 : 4, static_cast<int>(images.size()));
-  io::write_png(o.output, images.size() == 1 ? images[0] : render::contact_sheet(images, split(o.labels), columns),
-                {{"Software", generator_stamp("render-png")}, {"Source", source}});
+  write_pictures(o, images, scene);
   return 0;
 }
 

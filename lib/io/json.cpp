@@ -85,6 +85,11 @@ Json parse_json(const std::string& text, const std::string& name) {
   } catch (const Json::parse_error& e) {
     std::size_t line = 1;
     for (std::size_t i = 0; i + 1 < e.byte && i < text.size(); ++i) line += text[i] == '\n';
+    // Meshes lie beside their documents, and scans come before them: the commonest slip.
+    for (const char* ending : {".obj", ".ply", ".stl", ".3ds", ".xyz"})
+      if (name.size() > 4 && name.compare(name.size() - 4, 4, ending) == 0)
+        throw input_error(name, "line " + std::to_string(line), "is a mesh where a JSON document belongs",
+                          "give the .json that was written with it; of a scan, scan-landmarks makes one");
     throw input_error(name, "line " + std::to_string(line), "not valid JSON", "check that the file is complete and is a JSON document");
   } catch (const Json::out_of_range&) {
     throw input_error(name, "", "a number is too large to be stored");

@@ -2,9 +2,11 @@
 #include <io/files.hpp>
 #include <io/png.hpp>
 
+#include <cmath>
 #include <csetjmp>
 #include <cstring>
 #include <png.h>
+#include <zlib.h>
 
 namespace sloper::io {
 
@@ -47,21 +49,76 @@ void write_png(const std::string& path, const Image& image, const std::vector<st
   write_file(path, png_bytes(image, texts));
 }
 
+namespace {
+
+std::string big_endian(std::uint32_t x, int n_bytes = 4) {
+  std::string bytes;
+  for (int k = n_bytes - 1; k >= 0; --k) bytes += static_cast<char>(x >> (8 * k) & 255);
+  return bytes;
+}
+
+void append_chunk(std::string& to, const std::string& name, std::string_view data) {
+  const std::string body = name + std::string(data);
+  to += big_endian(static_cast<std::uint32_t>(data.size())) + body;
+  to += big_endian(static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()))));
+}
+
+/// Calls visit(name, data) for the chunks of a PNG of our own.
+template<class F> void for_chunks(const std::string& png, F&& visit) {
+  for (std::size_t at = 8; at + 12 <= png.size();) {
+    std::uint32_t size = 0;
+    for (int k = 0; k < 4; ++k) size = size << 8 | static_cast<unsigned char>(png[at + static_cast<std::size_t>(k)]);
+    visit(png.substr(at + 4, 4), std::string_view(png).substr(at + 8, size));
+    at += 12 + size;
+  }
+}
+
+} // namespace
+
+std::string apng_bytes(const std::vector<Image>& images, double seconds, const std::vector<std::pair<std::string, std::string>>& texts) {
+  if (images.empty()) throw Error(ErrorKind::INTERNAL, "", "", "an animation needs pictures");
+  std::string out;
+  std::uint32_t sequence = 0;
+  for (const Image& image : images) {
+    if (image.width != images[0].width || image.height != images[0].height)
+      throw Error(ErrorKind::INTERNAL, "", "", "the pictures of an animation differ in size");
+    const bool first = &image == &images[0];
+    const std::string png = png_bytes(image, first ? texts : decltype(texts){});
+    if (first) out = png.substr(0, 8);
+    bool opened = false;
+    for_chunks(png, [&](const std::string& name, std::string_view data) {
+      if (name == "IDAT" && !opened) {
+        opened = true;
+        if (first) append_chunk(out, "acTL", big_endian(static_cast<std::uint32_t>(images.size())) + big_endian(0));
+        append_chunk(out, "fcTL",
+                     big_endian(sequence++) + big_endian(static_cast<std::uint32_t>(image.width)) + big_endian(static_cast<std::uint32_t>(image.height)) +
+                         big_endian(0) + big_endian(0) + big_endian(static_cast<std::uint32_t>(std::lround(1000 * seconds)), 2) + big_endian(1000, 2) +
+                         std::string(2, '\0')); // each picture replaces the one before
+      }
+      if (name == "IDAT" && !first) append_chunk(out, "fdAT", big_endian(sequence++) + std::string(data));
+      else if (first && name != "IEND") append_chunk(out, name, data);
+    });
+  }
+  append_chunk(out, "IEND", "");
+  return out;
+}
+
 Image read_png(const std::string& path) {
   const std::string bytes = read_file(path);
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) throw input_error(path, "", "is not a readable PNG");
+  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
+    throw input_error(path, "", "is not a readable PNG", "give a picture that render-png or another program wrote as PNG");
   png.format = PNG_FORMAT_RGBA;
   Image image;
   image.width = static_cast<int>(png.width);
   image.height = static_cast<int>(png.height);
   if (png.width > 16384 || png.height > 16384) {
     png_image_free(&png);
-    throw input_error(path, "", "is larger than 16384 pixels");
+    throw input_error(path, "", "is larger than 16384 pixels a side", "give a smaller picture");
   }
   image.rgba.resize(PNG_IMAGE_SIZE(png));
-  if (!png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr)) throw input_error(path, "", "is a damaged PNG");
+  if (!png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr)) throw input_error(path, "", "is a damaged PNG", "write it again");
   return image;
 }
 

@@ -16,6 +16,10 @@ struct Image {
 /// Bytes of a PNG with sRGB and pHYs chunks and the given text chunks (keyword, text); the same for the same input.
 std::string png_bytes(const Image& image, const std::vector<std::pair<std::string, std::string>>& texts);
 void write_png(const std::string& path, const Image& image, const std::vector<std::pair<std::string, std::string>>& texts); ///< @throws Error OUTPUT
-Image read_png(const std::string& path);                                                                                    ///< @throws Error INPUT
+/// An animated PNG (PNG specification, third edition: acTL, fcTL and fdAT) of pictures of one size, repeated without end;
+/// programs that do not know animation show the first picture. @param seconds of one picture, 1/1000 to 60
+/// @throws Error INTERNAL for no pictures or pictures of different sizes
+std::string apng_bytes(const std::vector<Image>& images, double seconds, const std::vector<std::pair<std::string, std::string>>& texts);
+Image read_png(const std::string& path); ///< @throws Error INPUT
 
 } // namespace sloper::io

@@ -161,6 +161,12 @@ std::string ply_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend)
 
 } // namespace
 
+std::string values_ply(const Scene& scene, const Legend& legend) {
+  std::vector<DrawMesh> cloth;
+  for (int mesh : scene.garment_mesh) cloth.push_back(scene.meshes[static_cast<std::size_t>(mesh)]);
+  return ply_bytes(cloth, legend);
+}
+
 bool is_export(const std::string& path) {
   const std::string e = extension(path);
   return e == "glb" || e == "obj" || e == "ply";

@@ -13,6 +13,10 @@ std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend)
 /// @throws Error OUTPUT, USAGE for another extension
 void export_scene(const std::string& path, const std::vector<DrawMesh>& meshes, const Legend& legend);
 
+/// The numbers behind a map on the cloth as it was draped, not smoothed for drawing: binary PLY with x, y, z (m), normal, colour
+/// and `value` (NaN where the map has none), one vertex per panel vertex in the order of values_csv().
+std::string values_ply(const Scene& scene, const Legend& legend);
+
 /// True for the extensions that export_scene() knows.
 bool is_export(const std::string& path);
 

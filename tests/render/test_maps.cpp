@@ -125,6 +125,20 @@ TEST(Maps, the_values_table_has_a_row_for_each_vertex_and_no_number_is_lost) {
   EXPECT_EQ(rows, 9);
 }
 
+TEST(Maps, the_values_ply_holds_the_value_of_each_vertex) {
+  Scene scene = scene_of({make_sheet(2, [](const Vec2& p) { return Vec3(1.05 * p.x(), p.y(), 0); })});
+  const Legend legend = apply_map(scene, Map::WEFT);
+  const std::string bytes = values_ply(scene, legend);
+  const std::size_t data = bytes.find("end_header\n") + 11;
+  EXPECT_NE(bytes.find("element vertex 9\n"), std::string::npos);
+  EXPECT_NE(bytes.find("value is strain, weft, %"), std::string::npos);
+  for (std::size_t v = 0; v < 9; ++v) {
+    float value = 0;
+    std::memcpy(&value, bytes.data() + data + v * 31 + 27, sizeof value);
+    EXPECT_NEAR(value, 5, 1e-4);
+  }
+}
+
 TEST(Cloth, smoothing_keeps_flat_cloth_flat_and_hems_at_its_border) {
   garment::Garment g = make_sheet(6, flat);
   DrawMesh mesh = cloth_mesh(g);

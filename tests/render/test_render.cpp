@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
 using namespace sloper;
 using namespace sloper::render;
@@ -140,6 +141,40 @@ TEST(Png, a_picture_survives_writing_and_reading) {
   io::write_png(path, image, {});
   EXPECT_EQ(io::read_png(path).rgba, image.rgba);
   EXPECT_THROW(io::read_png(SLOPER_SOURCE_DIR "/CMakeLists.txt"), Error);
+}
+
+TEST(Png, an_animation_has_numbered_frames_and_its_first_picture_is_read_by_others) {
+  std::vector<io::Image> images(3);
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    images[k].width = 5;
+    images[k].height = 4;
+    images[k].rgba.assign(80, static_cast<std::uint8_t>(100 + k));
+  }
+  const std::string bytes = io::apng_bytes(images, 0.25, {{"Software", "test"}});
+  EXPECT_EQ(bytes, io::apng_bytes(images, 0.25, {{"Software", "test"}}));
+  auto u32 = [&](std::size_t at) {
+    std::uint32_t x = 0;
+    for (std::size_t k = 0; k < 4; ++k) x = x << 8 | static_cast<unsigned char>(bytes[at + k]);
+    return x;
+  };
+  std::uint32_t sequence = 0;
+  std::map<std::string, int> seen;
+  std::string order;
+  for (std::size_t at = 8; at + 12 <= bytes.size(); at += 12 + u32(at)) {
+    const std::string name = bytes.substr(at + 4, 4);
+    ++seen[name];
+    order += name + " ";
+    if (name == "acTL") EXPECT_EQ(u32(at + 8), 3u);
+    if (name == "fcTL" || name == "fdAT") EXPECT_EQ(u32(at + 8), sequence++);
+    if (name == "fcTL") EXPECT_EQ(u32(at + 8 + 20), 250u << 16 | 1000u) << "a quarter of a second";
+  }
+  EXPECT_EQ(seen["fcTL"], 3);
+  EXPECT_EQ(seen["IDAT"], 1);
+  EXPECT_EQ(seen["fdAT"], 2);
+  EXPECT_LT(order.find("acTL"), order.find("IDAT"));
+  const std::string path = ::testing::TempDir() + "animation.png";
+  io::write_file(path, bytes);
+  EXPECT_EQ(io::read_png(path).rgba, images[0].rgba);
 }
 
 TEST(Overlay, equal_pictures_compare_equal_and_a_defect_is_seen) {
