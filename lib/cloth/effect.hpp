@@ -31,6 +31,9 @@ public:
   virtual void add(StepContext& context) = 0;
   /// Potential at x, J; 0 for what has none (damping, friction).
   virtual double energy(const std::vector<Vec3>& /*x*/) const { return 0; }
+  /// Looks at a displacement that keeps `limits`, and adds limits for what it would yet pass through.
+  /// @param last  nothing comes after: limits now must stop all such displacements   @return whether limits were added
+  virtual bool guard_motion(const std::vector<Vec3>& /*x*/, const std::vector<Vec3>& /*dx*/, MotionLimits& /*limits*/, bool /*last*/) { return false; }
   /// After the step: x has become x + dx.
   virtual void end_step(const std::vector<Vec3>& /*x*/) {}
 

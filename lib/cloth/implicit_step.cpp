@@ -11,6 +11,8 @@ namespace sloper::cloth {
 namespace {
 
 constexpr int MOST_HALVINGS = 5;
+constexpr int GUARD_ROUNDS = 4;    // in which new limits are looked for; then those of the last round stop everything
+constexpr double MOST_CUT = 0.5;   // of an edge
 constexpr int LONGEST_FREEZE = 16; // steps
 constexpr double FROZEN = 1e4;     // times a particle's own stiffness
 
@@ -39,6 +41,7 @@ ClothSolver::ClothSolver(const ClothMesh& mesh, std::vector<Vec3> x) : m_mesh(me
   m_force = m_rhs = m_dx = m_v;
   m_freeze.assign(m_x.size(), 0);
   m_frozen_for = m_freeze;
+  for (double e : mesh.shortest_edge) m_mean_edge += e / mesh.n_particles;
 }
 
 Effect& ClothSolver::add(std::unique_ptr<Effect> effect) {
@@ -82,6 +85,17 @@ double ClothSolver::energy_after(const std::vector<Vec3>& dx) {
   return energy(m_trial);
 }
 
+/// What one limit turns aside may run into what no limit knew of.
+void ClothSolver::limit(std::vector<Vec3>& dx, std::vector<char>& held) {
+  m_limits.apply(m_x, dx, held);
+  for (int round = 1; round <= GUARD_ROUNDS; ++round) {
+    bool more = false;
+    for (const auto& e : m_effects) more |= e->guard_motion(m_x, dx, m_limits, round == GUARD_ROUNDS);
+    if (!more) return;
+    m_limits.apply(m_x, dx, held);
+  }
+}
+
 /// Shortening keeps all limits: they are half spaces around the present positions.
 int ClothSolver::search_along(double largest_move_m) {
   const Stopwatch watch(search_s);
@@ -109,7 +123,7 @@ void ClothSolver::lengthen(double energy, double largest_move_m) {
       largest2 = std::max(largest2, d.squaredNorm());
     }
     if (largest2 > largest_move_m * largest_move_m) return;
-    m_limits.apply(m_x, m_longer, m_longer_held);
+    limit(m_longer, m_longer_held);
     const double after = energy_after(m_longer);
     if (!(after < energy)) return;
     energy = after;
@@ -179,7 +193,16 @@ StepResult ClothSolver::step(const StepOptions& o) {
   {
     const Stopwatch watch(contact_s);
     m_held.assign(n, 0);
-    m_limits.apply(m_x, m_dx, m_held);
+    m_longer = m_dx;
+    limit(m_dx, m_held);
+    double cut2 = 0;
+    for (std::size_t i = 0; i < n; ++i) cut2 = std::max(cut2, (m_longer[i] - m_dx[i]).squaredNorm());
+    const double cut = std::sqrt(cut2), most = MOST_CUT * m_mean_edge;
+    if (!o.line_search && cut > most) {
+      for (std::size_t i = 0; i < n; ++i) m_dx[i] = most / cut * m_longer[i];
+      m_held.assign(n, 0);
+      limit(m_dx, m_held);
+    }
   }
   if (!all_finite(m_dx)) {
     result.finite = false;

@@ -54,6 +54,7 @@ private:
   void rebuild_pattern();
   double energy(const std::vector<Vec3>& x) const;
   double energy_after(const std::vector<Vec3>& dx); ///< potential, J
+  void limit(std::vector<Vec3>& dx, std::vector<char>& held);
   int search_along(double largest_move_m);
   void lengthen(double energy, double largest_move_m);
   void freeze_held(bool search_failed);
@@ -66,6 +67,7 @@ private:
   std::vector<char> m_held, m_longer_held;
   std::vector<int> m_freeze, m_frozen_for; // #P, steps: of the last freeze; still to go
   std::vector<double> m_residual;
+  double m_mean_edge = 0; // m
   BlockMatrix m_matrix;
   bool m_pattern_stale = true;
   std::unique_ptr<Preconditioner> m_preconditioner;

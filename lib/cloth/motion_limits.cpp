@@ -25,25 +25,31 @@ void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std:
     const double along = g.normal.dot(dx[g.particle[k]]);
     return k < g.n_above ? -along : along;
   };
+  std::vector<int> active; // guards that some particle's motion could reach; lengths never grow below
+  for (std::size_t k = 0; k < guards.size(); ++k) {
+    const PlaneGuard& g = guards[k];
+    bool reach = false;
+    for (int p = 0; p < g.n && !reach; ++p) reach = room(g, p) < length[g.particle[p]];
+    if (reach) active.push_back(static_cast<int>(k));
+  }
   for (int round = 0; round < ROUNDS; ++round)
-    for (const PlaneGuard& g : guards)
+    for (int index : active) {
+      const PlaneGuard& g = guards[index];
       for (int k = 0; k < g.n; ++k) {
         const int i = g.particle[k];
-        const double have = room(g, k);
-        if (have >= length[i]) continue; // length never grows below
-        const double excess = toward(g, k) - have;
+        const double excess = toward(g, k) - room(g, k);
         if (excess <= 0) continue;
         dx[i] += (k < g.n_above ? excess : -excess) * g.normal;
         held[i] = 1;
       }
-  for (const PlaneGuard& g : guards)
-    for (int k = 0; k < g.n; ++k) {
-      const int i = g.particle[k];
-      const double have = room(g, k);
-      if (have >= length[i]) continue;
-      const double along = toward(g, k);
-      if (along > have + 1e-12) share[i] = std::min(share[i], have / along);
     }
+  for (int index : active) {
+    const PlaneGuard& g = guards[index];
+    for (int k = 0; k < g.n; ++k) {
+      const double have = room(g, k), along = toward(g, k);
+      if (along > have + 1e-12) share[g.particle[k]] = std::min(share[g.particle[k]], have / along);
+    }
+  }
   for (std::size_t i = 0; i < dx.size(); ++i) {
     dx[i] *= share[i];
     const double move = dx[i].norm();

@@ -20,8 +20,8 @@ static constexpr double CLOSED_SEAM = 0.0015;
 static constexpr double FULL_FRICTION_SLIDE = 1e-4;
 
 SelfContactEffect::SelfContactEffect(const ClothMesh& mesh, const SelfContactOptions& options, std::vector<int> seam_class)
-    : m_mesh(mesh), m_options(options), m_proximity(mesh.n_particles, mesh.particle_triangles()), m_seam_class(std::move(seam_class)),
-      m_thickness(mesh.n_particles), m_last_dx(mesh.n_particles, Vec3::Zero()) {
+    : m_mesh(mesh), m_options(options), m_proximity(mesh.n_particles, mesh.particle_triangles()), m_closing(m_proximity.triangles(), m_proximity.topology()),
+      m_seam_class(std::move(seam_class)), m_thickness(mesh.n_particles), m_last_dx(mesh.n_particles, Vec3::Zero()) {
   for (int i = 0; i < mesh.n_particles; ++i) m_thickness[i] = std::min(options.thickness_m, THICKNESS_PER_EDGE * mesh.shortest_edge[i]);
   m_closed.assign(m_seam_class.empty() ? 0 : 1 + std::max(-1, *std::max_element(m_seam_class.begin(), m_seam_class.end())), 0);
 }
@@ -83,6 +83,8 @@ void SelfContactEffect::begin_step(const std::vector<Vec3>& x, double) {
   for (std::size_t i = 0; !m_stale && i < x.size(); ++i) m_stale = (x[i] - m_searched_at[i]).squaredNorm() > used * used;
   if (m_stale) search(x);
   m_x_before = x;
+  m_closing_stale = true;
+  for (auto& guarded : m_guarded_closing) guarded.clear();
 }
 
 SelfContactEffect::Closest SelfContactEffect::closest(const Near& near, const std::vector<Vec3>& x) const {
@@ -138,14 +140,56 @@ void SelfContactEffect::add(StepContext& context) {
         context.elements.push_back(e);
       }
     }
-    if (!context.limits) continue;
-    const double middle = 0.5 * normal.dot(c.first + c.second), margin = 0.5 * PLANE_MARGIN * c.distance;
-    context.limits->guards.push_back({4, c.n_first, near.particle, normal, middle + margin, middle - margin});
+    if (context.limits) guard(near, c, *context.limits);
   }
-  if (!context.limits) return;
-  const double radius = GAMMA * m_options.search_m;
-  for (std::size_t i = 0; i < context.x.size(); ++i)
-    context.limits->most[i] = std::min(context.limits->most[i], std::max(0.0, radius - (context.x[i] - m_searched_at[i]).norm()));
+}
+
+void SelfContactEffect::guard(const Near& near, const Closest& c, MotionLimits& limits) const {
+  const Vec3 normal = (c.first - c.second) / c.distance;
+  const double middle = 0.5 * normal.dot(c.first + c.second), margin = 0.5 * PLANE_MARGIN * c.distance;
+  limits.guards.push_back({4, c.n_first, near.particle, normal, middle + margin, middle - margin});
+}
+
+/// How far a particle may go whatever the others do, m.
+double SelfContactEffect::safe_move(std::size_t particle, const std::vector<Vec3>& x) const {
+  return std::max(0.0, GAMMA * m_options.search_m - (x[particle] - m_searched_at[particle]).norm());
+}
+
+bool SelfContactEffect::guard_closing(const std::vector<std::array<int, 2>>& pairs, bool is_edge, const std::vector<Vec3>& x, MotionLimits& limits) {
+  bool added = false;
+  for (const std::array<int, 2>& pair : pairs) {
+    if (is_edge ? m_proximity.has_edge_edge(pair) : m_proximity.has_vertex_face(pair)) continue; // add() guards those that it should
+    Near near{{}, is_edge, false};
+    if (is_edge) {
+      const auto &a = m_proximity.topology().edges[pair[0]], &b = m_proximity.topology().edges[pair[1]];
+      near.particle = {a[0], a[1], b[0], b[1]};
+    } else {
+      const Triangle& t = m_proximity.triangles()[pair[1]];
+      near.particle = {pair[0], t[0], t[1], t[2]};
+    }
+    const int n_first = is_edge ? 2 : 1;
+    if (kind_of(near.particle.data(), n_first, near.particle.data() + n_first, 4 - n_first) == Pair::CLOSED_SEAM) continue;
+    const Closest c = closest(near, x);
+    if (c.distance < 1e-12 || !m_guarded_closing[is_edge].insert(pair).second) continue;
+    guard(near, c, limits);
+    added = true;
+  }
+  return added;
+}
+
+bool SelfContactEffect::guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) {
+  bool near = true;
+  for (std::size_t i = 0; near && i < x.size(); ++i) near = dx[i].norm() <= safe_move(i, x) + 1e-12;
+  if (near) return false;
+  if (last || !m_crossings.empty()) { // of cloth that crosses nobody can tell which side is right
+    for (std::size_t i = 0; i < x.size(); ++i) limits.most[i] = std::min(limits.most[i], safe_move(i, x));
+    return true;
+  }
+  m_closing.find(x, dx, !m_closing_stale);
+  m_closing_stale = false;
+  ++far_searches;
+  const bool faces = guard_closing(m_closing.vertex_face(), false, x, limits);
+  return guard_closing(m_closing.edge_edge(), true, x, limits) || faces;
 }
 
 double SelfContactEffect::energy(const std::vector<Vec3>& x) const {

@@ -2,14 +2,17 @@
 /// Contact of cloth with cloth: repulsion inside the thickness, friction, and limits on every particle's motion that no
 /// crossing can survive.
 ///
-/// Every step keeps each element of a near pair on its side of the plane half way between them, and every particle within less
-/// than half the search radius of where it was searched (MotionLimits): a state free of crossings stays free of them. Repulsion: see
-/// contact_potential.hpp; friction between layers is viscous.
+/// Every step keeps each element of a near pair on its side of the plane half way between them (MotionLimits). While no particle
+/// goes farther than just under half the search radius from where it was searched, no other pair can cross. Where one does, pairs
+/// that close in on each other are looked for and guarded too (collision/closing_pairs.hpp): what moves together may move far. So a
+/// state free of crossings stays free of them. Repulsion: see contact_potential.hpp; friction between layers is viscous.
 #include <cloth/cloth_mesh.hpp>
 #include <cloth/contact_potential.hpp>
 #include <cloth/effect.hpp>
+#include <collision/closing_pairs.hpp>
 #include <collision/distance.hpp>
 #include <collision/self_proximity.hpp>
+#include <set>
 
 namespace sloper::cloth {
 
@@ -29,13 +32,15 @@ public:
   void begin_step(const std::vector<Vec3>& x, double h) override;
   void add(StepContext& c) override;
   double energy(const std::vector<Vec3>& x) const override;
+  bool guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) override;
   void end_step(const std::vector<Vec3>& x) override;
   void set_friction(double mu) { m_options.friction = mu; }
   /// Crossing pairs of triangles at the last search; while there are any, each search looks for them anew.
   const std::vector<std::array<int, 2>>& crossings() const { return m_crossings; }
   /// Positions were changed from outside: search before the next step.
   void refresh() { m_stale = true; }
-  long searches = 0; ///< so far
+  long searches = 0;     ///< so far
+  long far_searches = 0; ///< for pairs that close in on each other from beyond the search radius
 
 private:
   enum class Pair { FREE, OPEN_SEAM, CLOSED_SEAM };
@@ -46,9 +51,12 @@ private:
   const ClothMesh& m_mesh;
   SelfContactOptions m_options;
   collision::SelfProximity m_proximity;
-  std::vector<int> m_seam_class;   // #P or empty
-  std::vector<char> m_closed;      // by seam class
-  std::vector<double> m_thickness; // #P
+  collision::ClosingPairs m_closing;
+  bool m_closing_stale = true;                       // positions have changed since its last search
+  std::set<std::array<int, 2>> m_guarded_closing[2]; // in this step: vertex and face, edges
+  std::vector<int> m_seam_class;                     // #P or empty
+  std::vector<char> m_closed;                        // by seam class
+  std::vector<double> m_thickness;                   // #P
   struct Near {
     std::array<int, 4> particle; // vertex and face, or edge and edge
     bool is_edge, repels;
@@ -62,6 +70,9 @@ private:
   };
   Closest closest(const Near& near, const std::vector<Vec3>& x) const;
   Push push(const Near& near, const Closest& c) const;
+  void guard(const Near& near, const Closest& c, MotionLimits& limits) const;
+  bool guard_closing(const std::vector<std::array<int, 2>>& pairs, bool is_edge, const std::vector<Vec3>& x, MotionLimits& limits);
+  double safe_move(std::size_t particle, const std::vector<Vec3>& x) const;
   std::vector<Near> m_pairs;
   std::vector<Vec3> m_searched_at, m_x_before, m_last_dx;
   std::vector<std::array<int, 2>> m_crossings;

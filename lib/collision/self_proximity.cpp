@@ -230,6 +230,20 @@ void SelfProximity::update(const std::vector<Vec3>& x, double radius, const std:
   if (!intersecting.empty()) mark_exempt(intersecting);
 }
 
+bool SelfProximity::has_vertex_face(const std::array<int, 2>& pair) const {
+  const auto at = std::lower_bound(m_vertex_face.begin(), m_vertex_face.end(), pair, [](const VertexFacePair& p, const std::array<int, 2>& q) {
+    return std::array<int, 2>{p.vertex, p.triangle} < q;
+  });
+  return at != m_vertex_face.end() && at->vertex == pair[0] && at->triangle == pair[1];
+}
+
+bool SelfProximity::has_edge_edge(const std::array<int, 2>& pair) const {
+  const auto at = std::lower_bound(m_edge_edge.begin(), m_edge_edge.end(), pair, [](const EdgeEdgePair& p, const std::array<int, 2>& q) {
+    return std::array<int, 2>{p.edge_a, p.edge_b} < q;
+  });
+  return at != m_edge_edge.end() && at->edge_a == pair[0] && at->edge_b == pair[1];
+}
+
 void SelfProximity::mark_exempt(const std::vector<std::array<int, 2>>& intersecting) {
   std::vector<std::array<int, 2>> crossing;
   std::vector<char> touched(m_triangles.size(), 0);

@@ -36,6 +36,8 @@ public:
 
   const std::vector<VertexFacePair>& vertex_face() const { return m_vertex_face; } ///< sorted by vertex, triangle
   const std::vector<EdgeEdgePair>& edge_edge() const { return m_edge_edge; }       ///< sorted by edge_a, edge_b
+  bool has_vertex_face(const std::array<int, 2>& pair) const;                      ///< whether it is among vertex_face(): vertex, triangle
+  bool has_edge_edge(const std::array<int, 2>& pair) const;                        ///< likewise; the lower edge first
 
   /// gamma times each particle's least distance over the pairs it takes part in, at most gamma radius. If every particle
   /// moves less than its bound and gamma < 0.5, no pair can cross. Exempt and never-collide pairs do not bind.

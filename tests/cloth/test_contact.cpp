@@ -151,6 +151,73 @@ TEST(Contact, ClothThatStartsInTheSkinComesOut) {
   for (const Vec3& p : solver.x()) EXPECT_GT(p.y(), 0);
 }
 
+/// A sheet at y = 0 and one above it that comes down at `speed`, m/s.
+struct FallingSheet {
+  ClothMesh mesh;
+  std::vector<Vec3> x;
+};
+
+FallingSheet sheet_above_sheet(double height) {
+  const Grid one = make_grid(10, 0.1);
+  std::vector<RestTriangle> triangles;
+  FallingSheet s;
+  const auto n = static_cast<int>(one.x.size());
+  for (int layer = 0; layer < 2; ++layer)
+    for (const Triangle& t : one.mesh.particle_triangles()) {
+      RestTriangle rest{{t[0] + layer * n, t[1] + layer * n, t[2] + layer * n}, {}, 0};
+      for (int k = 0; k < 3; ++k) rest.flat[k] = Vec2(one.x[t[k]].x(), -one.x[t[k]].z());
+      triangles.push_back(rest);
+    }
+  s.mesh = make_cloth_mesh(2 * n, triangles, {Fabric{}});
+  for (int layer = 0; layer < 2; ++layer)
+    for (const Vec3& p : one.x) s.x.push_back(p + layer * Vec3(0.0031, height, 0.0023));
+  return s;
+}
+
+TEST(Contact, ClothThatFallsTogetherFallsFreely) {
+  FallingSheet s = sheet_above_sheet(0.02);
+  ClothSolver solver(s.mesh, s.x);
+  solver.emplace<EdgeSpringEffect>(s.mesh);
+  solver.emplace<GravityEffect>(s.mesh, Vec3(0, -9.81, 0));
+  solver.emplace<SelfContactEffect>(s.mesh, SelfContactOptions{});
+  StepOptions options;
+  options.inertia = 1;
+  options.largest_move_m = 1;
+  double fallen = 0;
+  for (int k = 1; k <= 8; ++k) {
+    solver.step(options);
+    fallen += 9.81 * k * options.h * options.h;
+  }
+  for (std::size_t i = 0; i < s.x.size(); ++i) EXPECT_NEAR(s.x[i].y() - solver.x()[i].y(), fallen, 1e-3 * fallen);
+}
+
+TEST(Contact, ClothThatMeetsClothInOneStepDoesNotPassIt) {
+  FallingSheet s = sheet_above_sheet(0.03);
+  ClothSolver solver(s.mesh, s.x);
+  solver.emplace<EdgeSpringEffect>(s.mesh);
+  auto& contact = solver.emplace<SelfContactEffect>(s.mesh, SelfContactOptions{});
+  struct Push : Effect { // drives the upper sheet down and the lower one up
+    const ClothMesh& mesh;
+    explicit Push(const ClothMesh& m) : mesh(m) {}
+    const char* name() const override { return "push"; }
+    void add(StepContext& c) override {
+      const std::size_t n = c.force.size();
+      for (std::size_t i = 0; i < n; ++i) c.force[i] += mesh.mass[i] * Vec3(0, i < n / 2 ? 60 : -60, 0);
+    }
+  };
+  solver.emplace<Push>(s.mesh);
+  StepOptions options;
+  options.inertia = 1;
+  options.largest_move_m = 1;
+  const std::vector<Triangle> triangles = s.mesh.particle_triangles();
+  for (int k = 0; k < 30; ++k) {
+    ASSERT_TRUE(solver.step(options).finite);
+    const collision::TriangleTree tree(solver.x(), triangles);
+    ASSERT_TRUE(collision::self_intersections(solver.x(), triangles, tree).empty()) << "step " << k;
+  }
+  EXPECT_GT(contact.far_searches, 0);
+}
+
 TEST(Contact, LimitsKeepPlanesAndLengths) {
   MotionLimits limits;
   limits.reset(2);

@@ -1,0 +1,125 @@
+#include <collision/closing_pairs.hpp>
+
+#include <base/parallel.hpp>
+
+#include <algorithm>
+
+namespace sloper::collision {
+
+namespace {
+
+constexpr std::size_t GRAIN = 512;
+/// Elements whose boxes stay this far apart do not count, m: more than rounding to float costs.
+constexpr float CLEAR = 1e-4f;
+
+using Pairs = std::vector<std::array<int, 2>>;
+
+/// Bounds of an element's positions and displacements, outward in float.
+struct Moving {
+  Float4 low[3], high[3], slow[3], fast[3];
+};
+
+template<std::size_t N> Moving bounds_of(const std::array<int, N>& particles, const std::vector<Vec3>& x, const std::vector<Vec3>& dx) {
+  Moving m;
+  for (int a = 0; a < 3; ++a) {
+    double low = x[particles[0]][a], high = low, slow = dx[particles[0]][a], fast = slow;
+    for (std::size_t k = 1; k < N; ++k) {
+      low = std::min(low, x[particles[k]][a]);
+      high = std::max(high, x[particles[k]][a]);
+      slow = std::min(slow, dx[particles[k]][a]);
+      fast = std::max(fast, dx[particles[k]][a]);
+    }
+    m.low[a] = Float4::all(static_cast<float>(low) - CLEAR);
+    m.high[a] = Float4::all(static_cast<float>(high) + CLEAR);
+    m.slow[a] = Float4::all(static_cast<float>(slow));
+    m.fast[a] = Float4::all(static_cast<float>(fast));
+  }
+  return m;
+}
+
+/// Calls visit(slot) for every slot >= first that could meet the element if all moved 1 / SHARE times as far.
+template<class Visit> void visit_meeting(const TriangleTree& tree, const TriangleTree& motion, const Moving& e, int first, Visit&& visit) {
+  if (tree.nodes().empty()) return;
+  const Float4 zero = Float4::all(0), stretch = Float4::all(static_cast<float>(1 / ClosingPairs::SHARE));
+  int stack[128], top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const int index = stack[--top];
+    const TriangleTree::Node &node = tree.nodes()[index], &moves = motion.nodes()[index];
+    int mask = 15;
+    for (int a = 0; a < 3 && mask; ++a) { // the node's way as the element sees it
+      const Float4 back = min(zero, Float4::load(moves.low[a]) - e.fast[a]) * stretch, on = max(zero, Float4::load(moves.high[a]) - e.slow[a]) * stretch;
+      mask &= both_less_equal(Float4::load(node.low[a]) + back, e.high[a], e.low[a], Float4::load(node.high[a]) + on);
+    }
+    for (int i = 0; i < 4; ++i) {
+      if (!(mask & (1 << i)) || node.child[i] == TriangleTree::EMPTY || node.slot_end[i] <= first) continue;
+      if (node.child[i] >= 0) stack[top++] = node.child[i];
+      else visit(-2 - node.child[i]);
+    }
+  }
+}
+
+/// The farthest that a particle of one element moves against one of the other, squared.
+template<std::size_t N, std::size_t M> double closing2(const std::array<int, N>& a, const std::array<int, M>& b, const std::vector<Vec3>& dx) {
+  double most = 0;
+  for (int i : a)
+    for (int j : b) most = std::max(most, (dx[i] - dx[j]).squaredNorm());
+  return most;
+}
+
+/// find(index, found) for 0 .. n - 1 on all threads; what is found, sorted.
+template<class Find> void collect(std::size_t n, Pairs& out, const Find& find) {
+  std::vector<Pairs> chunks((n + GRAIN - 1) / GRAIN);
+  parallel_for(n, GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) find(static_cast<int>(i), chunks[begin / GRAIN]);
+  });
+  out.clear();
+  for (const Pairs& chunk : chunks) out.insert(out.end(), chunk.begin(), chunk.end());
+  std::sort(out.begin(), out.end());
+}
+
+} // namespace
+
+void ClosingPairs::refit(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool same_x) {
+  if (m_faces.n_slots() == 0 && !m_triangles.empty()) {
+    m_faces = TriangleTree(x, m_triangles);
+    std::vector<Triangle> flat;
+    for (const auto& [a, b] : m_topology.edges) flat.push_back({a, b, b});
+    m_edges = TriangleTree(x, flat);
+    m_face_motion = m_faces;
+    m_edge_motion = m_edges;
+  } else if (!same_x) {
+    m_faces.refit(x);
+    m_edges.refit(x);
+  }
+  m_face_motion.refit(dx);
+  m_edge_motion.refit(dx);
+}
+
+void ClosingPairs::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool same_x) {
+  refit(x, dx, same_x);
+  const double share2 = SHARE * SHARE;
+  collect(x.size(), m_vertex_face, [&](int v, Pairs& found) {
+    if (m_topology.triangles_of_vertex(v).empty()) return;
+    const std::array<int, 1> own{v};
+    visit_meeting(m_faces, m_face_motion, bounds_of(own, x, dx), 0, [&](int slot) {
+      const int f = m_faces.triangle_of_slot(slot);
+      const Triangle& t = m_triangles[f];
+      if (v == t[0] || v == t[1] || v == t[2]) return;
+      if (closing2(own, t, dx) > share2 * point_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).squared_distance) found.push_back({v, f});
+    });
+  });
+  collect(m_topology.edges.size(), m_edge_edge, [&](int slot, Pairs& found) {
+    const int e = m_edges.triangle_of_slot(slot);
+    const std::array<int, 2>& a = m_topology.edges[e];
+    visit_meeting(m_edges, m_edge_motion, bounds_of(a, x, dx), slot + 1, [&](int other) {
+      const int f = m_edges.triangle_of_slot(other);
+      const std::array<int, 2>& b = m_topology.edges[f];
+      if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) return;
+      if (closing2(a, b, dx) > share2 * collision::edge_edge(x[a[0]], x[a[1]], x[b[0]], x[b[1]]).squared_distance)
+        found.push_back({std::min(e, f), std::max(e, f)});
+    });
+  });
+}
+
+} // namespace sloper::collision

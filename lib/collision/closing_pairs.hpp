@@ -1,0 +1,38 @@
+#pragma once
+/// Which elements of a cloth a displacement may bring together: a pair counts when its elements move against each other by more
+/// than a share of the distance between them. What moves together does not count, however fast it is.
+///
+/// Two trees of one shape, one over the positions and one over the displacements, bound both at every node: an element that moves
+/// like all below a node is not led astray by the node's speed.
+/// Test: tests/collision/test_closing_pairs.cpp
+#include <collision/topology.hpp>
+#include <collision/triangle_tree.hpp>
+namespace sloper::collision {
+
+class ClosingPairs {
+public:
+  /// A pair may close this share of its distance before it counts.
+  static constexpr double SHARE = 0.9;
+
+  /// Both outlive this.
+  ClosingPairs(const std::vector<Triangle>& triangles, const Topology& topology) : m_triangles(triangles), m_topology(topology) {}
+
+  /// Straight motion from x to x + dx, or any part of that. Pairs that share a particle, or lie farther apart than one and
+  /// 1/SHARE times the whole motion can bridge, are not among the pairs.
+  /// @param x, dx  #particles by 3, m   @param same_x  x has not changed since the last call: spares the refit
+  /// Cost: about that of a search for pairs in contact.
+  void find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool same_x);
+
+  const std::vector<std::array<int, 2>>& vertex_face() const { return m_vertex_face; } ///< vertex, triangle; sorted
+  const std::vector<std::array<int, 2>>& edge_edge() const { return m_edge_edge; }     ///< edges of the topology, the lower first; sorted
+
+private:
+  void refit(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool same_x);
+
+  const std::vector<Triangle>& m_triangles;
+  const Topology& m_topology;
+  TriangleTree m_faces, m_face_motion, m_edges, m_edge_motion; ///< the motion trees hold displacements where the others hold positions
+  std::vector<std::array<int, 2>> m_vertex_face, m_edge_edge;
+};
+
+} // namespace sloper::collision

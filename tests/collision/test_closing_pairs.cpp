@@ -1,0 +1,102 @@
+#include <collision/closing_pairs.hpp>
+
+#include "shapes.hpp"
+
+#include <base/parallel.hpp>
+#include <base/random.hpp>
+#include <collision/self_proximity.hpp>
+#include <gtest/gtest.h>
+
+namespace sloper::collision {
+namespace {
+
+/// Two sheets of n by n squares of 1 cm, 12 mm apart, uneven.
+struct Sheets {
+  std::vector<Vec3> x;
+  std::vector<Triangle> triangles;
+};
+
+Sheets two_sheets(int n) {
+  Sheets s;
+  Random random(7);
+  for (int layer = 0; layer < 2; ++layer) {
+    const auto first = static_cast<int>(s.x.size());
+    for (int r = 0; r <= n; ++r)
+      for (int c = 0; c <= n; ++c) s.x.emplace_back(0.01 * c, 0.012 * layer + 0.003 * random.uniform(-1, 1), 0.01 * r);
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) {
+        const int a = first + r * (n + 1) + c, b = a + 1, d = a + n + 1, e = d + 1;
+        s.triangles.push_back({a, b, e});
+        s.triangles.push_back({a, e, d});
+      }
+  }
+  return s;
+}
+
+/// The least distance of the pair on the way, by trying.
+template<class Distance> double least_on_the_way(const Sheets& s, const std::vector<Vec3>& dx, const Distance& distance) {
+  double least = 1e300;
+  for (int k = 0; k <= 20; ++k) {
+    std::vector<Vec3> x(s.x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = s.x[i] + k / 20.0 * dx[i];
+    least = std::min(least, distance(x));
+  }
+  return least;
+}
+
+TEST(ClosingPairs, WhatIsNotFoundStaysApart) {
+  const Sheets s = two_sheets(5);
+  const Topology topology = make_topology(s.x.size(), s.triangles);
+  Random random(8);
+  std::vector<Vec3> dx(s.x.size());
+  for (std::size_t i = 0; i < dx.size(); ++i) // the upper sheet falls through the lower, and both drift
+    dx[i] = Vec3(0.05, i < dx.size() / 2 ? 0 : -0.03, 0) + 0.002 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  ClosingPairs closing(s.triangles, topology);
+  closing.find(s.x, dx, false);
+  EXPECT_FALSE(closing.vertex_face().empty());
+  EXPECT_FALSE(closing.edge_edge().empty());
+  const auto listed = [](const auto& pairs, int a, int b) { return std::binary_search(pairs.begin(), pairs.end(), std::array<int, 2>{a, b}); };
+  const auto enough = [](double before) { return 0.99 * std::min((1 - ClosingPairs::SHARE) * before, 1e-4); };
+  for (int v = 0; v < static_cast<int>(s.x.size()); ++v)
+    for (int f = 0; f < static_cast<int>(s.triangles.size()); ++f) {
+      const Triangle& t = s.triangles[f];
+      if (v == t[0] || v == t[1] || v == t[2] || listed(closing.vertex_face(), v, f)) continue;
+      const auto distance = [&](const std::vector<Vec3>& x) { return std::sqrt(point_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).squared_distance); };
+      ASSERT_GE(least_on_the_way(s, dx, distance), enough(distance(s.x))) << v << " " << f;
+    }
+  for (int e = 0; e < static_cast<int>(topology.edges.size()); ++e)
+    for (int f = e + 1; f < static_cast<int>(topology.edges.size()); ++f) {
+      const auto &a = topology.edges[e], &b = topology.edges[f];
+      if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1] || listed(closing.edge_edge(), e, f)) continue;
+      const auto distance = [&](const std::vector<Vec3>& x) { return std::sqrt(edge_edge(x[a[0]], x[a[1]], x[b[0]], x[b[1]]).squared_distance); };
+      ASSERT_GE(least_on_the_way(s, dx, distance), enough(distance(s.x))) << e << " " << f;
+    }
+}
+
+TEST(ClosingPairs, WhatMovesTogetherIsNotFound) {
+  const Sheets s = two_sheets(6);
+  const Topology topology = make_topology(s.x.size(), s.triangles);
+  ClosingPairs closing(s.triangles, topology);
+  closing.find(s.x, std::vector<Vec3>(s.x.size(), Vec3(0.3, -1, 0.2)), false);
+  EXPECT_TRUE(closing.vertex_face().empty());
+  EXPECT_TRUE(closing.edge_edge().empty());
+}
+
+TEST(ClosingPairs, TheSameForAnyNumberOfThreads) {
+  const Sheets s = two_sheets(30);
+  const Topology topology = make_topology(s.x.size(), s.triangles);
+  Random random(9);
+  std::vector<Vec3> dx(s.x.size());
+  for (Vec3& d : dx) d = 0.01 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  ClosingPairs one(s.triangles, topology), many(s.triangles, topology);
+  set_thread_count(1);
+  one.find(s.x, dx, false);
+  set_thread_count(4);
+  many.find(s.x, dx, false);
+  set_thread_count(1);
+  EXPECT_EQ(one.vertex_face(), many.vertex_face());
+  EXPECT_EQ(one.edge_edge(), many.edge_edge());
+}
+
+} // namespace
+} // namespace sloper::collision
