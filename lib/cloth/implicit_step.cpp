@@ -10,7 +10,7 @@ namespace sloper::cloth {
 
 namespace {
 
-constexpr int MOST_HALVINGS = 5;
+constexpr int MOST_HALVINGS = 10;
 constexpr int GUARD_ROUNDS = 4;    // in which new limits are looked for; then those of the last round stop everything
 constexpr double MOST_CUT = 0.5;   // of an edge
 constexpr int LONGEST_FREEZE = 16; // steps
@@ -96,40 +96,37 @@ void ClothSolver::limit(std::vector<Vec3>& dx, std::vector<char>& held) {
   }
 }
 
-/// Shortening keeps all limits: they are half spaces around the present positions.
+/// Halves the step until the energy falls, or doubles it while it keeps falling: where cloth buckles the definite part is far stiffer
+/// than the cloth, and whole steps are much too short. A look ahead costs a fraction of a solve. Each length is limited anew: what
+/// limits cut from a long step bends it away from where the energy falls, and a short one they leave alone.
 int ClothSolver::search_along(double largest_move_m) {
   const Stopwatch watch(search_s);
-  const double before = energy(m_x);
-  for (int halvings = 0; halvings < MOST_HALVINGS; ++halvings) {
-    const double after = energy_after(m_dx);
-    if (after <= before) {
-      if (halvings == 0) lengthen(after, largest_move_m);
-      return halvings;
-    }
-    for (Vec3& d : m_dx) d *= 0.5;
+  double best = energy(m_x);
+  double largest = 0;
+  for (const Vec3& d : m_step) largest = std::max(largest, d.norm());
+  const auto try_length = [&](double share) { // keeps the step when it is better
+    m_trial_dx.resize(m_step.size());
+    for (std::size_t i = 0; i < m_step.size(); ++i) m_trial_dx[i] = share * m_step[i];
+    m_trial_held.assign(m_step.size(), 0);
+    limit(m_trial_dx, m_trial_held);
+    const double after = energy_after(m_trial_dx);
+    if (!(after < best)) return false;
+    best = after;
+    std::swap(m_dx, m_trial_dx);
+    std::swap(m_held, m_trial_held);
+    return true;
+  };
+  const double after = energy_after(m_dx);
+  if (after <= best) {
+    best = after;
+    for (double share = 2; share * largest <= largest_move_m && try_length(share);) share *= 2;
+    return 0;
   }
+  double share = 0.5;
+  for (int halvings = 1; halvings <= MOST_HALVINGS; ++halvings, share *= 0.5)
+    if (try_length(share)) return halvings;
+  std::fill(m_dx.begin(), m_dx.end(), Vec3::Zero());
   return MOST_HALVINGS;
-}
-
-/// Doubles the step while the energy keeps falling. Where cloth buckles the definite part is far stiffer than the cloth, and whole
-/// steps are much too short; a look ahead costs a fraction of a solve.
-void ClothSolver::lengthen(double energy, double largest_move_m) {
-  for (;;) {
-    m_longer = m_dx;
-    m_longer_held = m_held;
-    double largest2 = 0;
-    for (Vec3& d : m_longer) {
-      d *= 2;
-      largest2 = std::max(largest2, d.squaredNorm());
-    }
-    if (largest2 > largest_move_m * largest_move_m) return;
-    limit(m_longer, m_longer_held);
-    const double after = energy_after(m_longer);
-    if (!(after < energy)) return;
-    energy = after;
-    std::swap(m_dx, m_longer);
-    std::swap(m_held, m_longer_held);
-  }
 }
 
 /// A particle stuck in a pinch bends the step away from where the energy falls, and the line search then stops all the cloth for its
@@ -193,13 +190,13 @@ StepResult ClothSolver::step(const StepOptions& o) {
   {
     const Stopwatch watch(contact_s);
     m_held.assign(n, 0);
-    m_longer = m_dx;
+    m_step = m_dx;
     limit(m_dx, m_held);
     double cut2 = 0;
-    for (std::size_t i = 0; i < n; ++i) cut2 = std::max(cut2, (m_longer[i] - m_dx[i]).squaredNorm());
+    for (std::size_t i = 0; i < n; ++i) cut2 = std::max(cut2, (m_step[i] - m_dx[i]).squaredNorm());
     const double cut = std::sqrt(cut2), most = MOST_CUT * m_mean_edge;
     if (!o.line_search && cut > most) {
-      for (std::size_t i = 0; i < n; ++i) m_dx[i] = most / cut * m_longer[i];
+      for (std::size_t i = 0; i < n; ++i) m_dx[i] = most / cut * m_step[i];
       m_held.assign(n, 0);
       limit(m_dx, m_held);
     }

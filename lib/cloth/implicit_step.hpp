@@ -15,7 +15,7 @@ struct StepOptions {
   double inertia = 0;         ///< 0..1: share of the velocity that is carried over
   double cg_tolerance = 1e-2; ///< relative residual
   int cg_max_iterations = 400;
-  /// Shortens the step until the potential energy falls, at most MOST_HALVINGS times; lengthens it while it keeps falling.
+  /// Shortens the step until the potential energy falls, lengthens it while it keeps falling; nothing moves where it never falls.
   bool line_search = false;
   double largest_move_m = 0.05; ///< no particle moves farther in one step
 };
@@ -56,15 +56,14 @@ private:
   double energy_after(const std::vector<Vec3>& dx); ///< potential, J
   void limit(std::vector<Vec3>& dx, std::vector<char>& held);
   int search_along(double largest_move_m);
-  void lengthen(double energy, double largest_move_m);
   void freeze_held(bool search_failed);
 
   const ClothMesh& m_mesh;
-  std::vector<Vec3> m_x, m_v, m_force, m_rhs, m_dx, m_trial, m_longer;
+  std::vector<Vec3> m_x, m_v, m_force, m_rhs, m_dx, m_step, m_trial, m_trial_dx; // m_step: as solved, before limits
   std::vector<std::unique_ptr<Effect>> m_effects;
   std::vector<ContactElement> m_elements;
   MotionLimits m_limits;
-  std::vector<char> m_held, m_longer_held;
+  std::vector<char> m_held, m_trial_held;
   std::vector<int> m_freeze, m_frozen_for; // #P, steps: of the last freeze; still to go
   std::vector<double> m_residual;
   double m_mean_edge = 0; // m
