@@ -109,10 +109,10 @@ int run(cli::Tool& tool, const Options& o) {
   report.stop_reason = "placed only";
   const bool hopeless = !fit.fits;
   if (hopeless) report.stop_reason = "the garment " + fit.reason;
-  else if (!o.no_drape) report = garment::drape(garment, &body, settings, tool.reporter());
+  else if (!o.no_drape) report = garment::drape(garment, &body, settings, tool.reporter(), garment::hopeless_beyond(policy, fit));
   garment::bind_garment(garment, body);
   garment::write_garment(o.output, garment, tool.name());
-  if (!hopeless) fit = garment::fit_garment(garment, body, skin, policy, &placed.placed);
+  if (!hopeless) fit = garment::fit_garment(garment, body, skin, policy, &placed.placed, !report.unfit.empty());
   write_fit(o, fit, tool.name(), report.converged, inputs);
   if (!o.report.empty()) {
     io::Json document = garment::report_json(report, tool.name());
@@ -122,7 +122,7 @@ int run(cli::Tool& tool, const Options& o) {
     document["hash"] = {{"strict", garment::strict_hash(garment)}, {"quantised_10um", garment::quantised_hash(garment)}};
     io::write_json(o.report, document);
   }
-  if (!o.no_drape && !hopeless && !report.converged)
+  if (!o.no_drape && !hopeless && !report.converged && report.unfit.empty())
     tool.reporter().warning("not done: " + report.stop_reason + " after " + std::to_string(report.steps) + " steps; the state reached is in " + o.output);
   if (!fit.fits && !o.no_drape) return refuse(tool, o, fit);
   return report.converged || o.no_drape ? 0 : static_cast<int>(ErrorKind::FAILED);

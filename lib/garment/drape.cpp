@@ -35,6 +35,8 @@ constexpr int LATE_STEPS = 40;           // in which what stayed back comes home
 constexpr int GLIDE_STEPS = 40;          // after sewing, free of weight and friction, which would keep the strain that sewing left
 constexpr int PUSH_STEPS = 120;          // for cloth at rest that is still through the skin
 constexpr int STALLED_STEPS = 400;       // without a residual that is a tenth less, and more than the weight: it will not come to rest
+constexpr int JUDGE_EVERY = 20;          // steps between looks whether the garment can still fit
+constexpr int STRAINED_STEPS = 80;       // without a strain that is a tenth less: it stays
 constexpr double SHORTEST_STEP_S = 0.005;
 constexpr double LARGEST_STEP_S = 0.2; // s, while settling
 constexpr int UNTANGLE_ROUNDS = 80;
@@ -55,8 +57,8 @@ private:
   double m_began;
 };
 
-DrapeRun::DrapeRun(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter)
-    : m_garment(garment), m_body(body), m_settings(settings), m_reporter(reporter), m_start(std::chrono::steady_clock::now()) {
+DrapeRun::DrapeRun(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter, const FitBounds& bounds)
+    : m_garment(garment), m_body(body), m_settings(settings), m_bounds(bounds), m_reporter(reporter), m_start(std::chrono::steady_clock::now()) {
   m_report.settings = settings;
   if (garment.panels.triangles.empty()) throw input_error("", "", "the garment has no triangles", "mesh a pattern with pattern-mesh first");
 }
@@ -289,12 +291,38 @@ void DrapeRun::inflate() {
   m_body_contact->refresh();
 }
 
+void DrapeRun::judge_fit() {
+  const std::vector<Vec3>& x = m_solver->x();
+  const auto quantile = [](std::vector<double>& values, double q) {
+    const auto at = values.begin() + static_cast<long>(q * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+  };
+  std::vector<double> values;
+  if (m_bounds.slip_m > 0) {
+    for (std::size_t i = 0; i < x.size(); ++i) values.push_back(m_start_height[i] - x[i].y());
+    if (quantile(values, 0.5) > m_bounds.slip_m) m_report.unfit = "slides down";
+  }
+  if (m_bounds.strain_p99 > 0 && m_report.unfit.empty()) {
+    values.clear();
+    for (const cloth::EdgeSpring& s : m_cloth->springs) values.push_back((x[s.i] - x[s.j]).norm() / s.rest_length - 1);
+    const double strain = quantile(values, 0.99);
+    if (strain < 0.9 * m_least_strain) m_least_strain = strain, m_strain_fell_at = m_report.steps;
+    if (strain > m_bounds.strain_p99 && m_report.steps >= m_strain_fell_at + STRAINED_STEPS) m_report.unfit = "stays stretched";
+  }
+  if (m_report.unfit.empty()) return;
+  m_stopped = true;
+  m_report.stop_reason = "the garment " + m_report.unfit + " too far to fit";
+}
+
 void DrapeRun::settle() {
   const Phase phase(*this, "settle");
   double h = m_settings.time_step_s;
   int calm = 0, pushed = 0, best_at = 0;
   double best = std::numeric_limits<double>::infinity();
   m_settling = true;
+  m_start_height.clear();
+  for (const Vec3& p : m_solver->x()) m_start_height.push_back(p.y());
   const int glide = m_disturbed ? GLIDE_STEPS : 0;
   for (int k = 0; !m_stopped; ++k) {
     if (k == glide) {
@@ -321,6 +349,7 @@ void DrapeRun::settle() {
       m_report.stop_reason = "no nearer to rest in " + std::to_string(STALLED_STEPS) + " steps";
       break;
     }
+    if (k > glide && k % JUDGE_EVERY == 0) judge_fit();
     const bool still = speed < m_settings.settle_speed_m_s && residual < m_settings.settle_force_ratio;
     calm = still && k >= glide ? calm + 1 : 0;
     if (calm < 3) continue;
@@ -407,8 +436,8 @@ DrapeReport DrapeRun::run() {
   return std::move(m_report);
 }
 
-DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter) {
-  return DrapeRun(garment, body, settings, reporter).run();
+DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter, const FitBounds& bounds) {
+  return DrapeRun(garment, body, settings, reporter, bounds).run();
 }
 
 } // namespace sloper::garment

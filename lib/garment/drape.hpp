@@ -26,6 +26,12 @@ struct DrapeSettings {
   std::string accuracy = "standard";
 };
 
+/// Where a garment that is not yet at rest stands when it is plain that it will not fit; 0: never.
+struct FitBounds {
+  double slip_m = 0;     ///< half of the particles have sunk farther than this since the start
+  double strain_p99 = 0; ///< of all edges, and it no longer falls
+};
+
 struct EffectReport {
   std::string name;
   bool active = false;
@@ -37,6 +43,7 @@ struct EffectReport {
 struct DrapeReport {
   bool converged = false;
   std::string stop_reason;
+  std::string unfit; ///< what of FitBounds ended the drape: "slides down", "stays stretched", or nothing
   int steps = 0;
   double simulated_s = 0, wall_s = 0;
   std::vector<EffectReport> effects;
@@ -50,9 +57,10 @@ struct DrapeReport {
 /// Sews (when seams are open), repairs the start, drapes until at rest.
 /// @param garment  in: placed panels (particle_of empty: unsewn) or a sewn garment with positions near the body; out: the state reached
 /// @param body     nullptr for none
+/// @param bounds   ends the drape, with the reason in `unfit`, once the garment is beyond them
 /// @return what happened; not converging is a result, not an exception
 /// @throws Error INPUT for a garment that cannot be simulated
-DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter);
+DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter, const FitBounds& bounds = {});
 
 /// The report document without its envelope's inputs and hashes, which the tool adds.
 io::Json report_json(const DrapeReport& report, const std::string& tool);

@@ -18,7 +18,7 @@ class FollowRun;
 
 class DrapeRun {
 public:
-  DrapeRun(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter);
+  DrapeRun(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter, const FitBounds& bounds = {});
   DrapeReport run();
 
 private:
@@ -40,11 +40,13 @@ private:
   void finish();
   void report_effects(); ///< adds the solver's counts to the report
   bool active(const char* effect) const;
+  void judge_fit();         ///< stops when the garment is beyond the bounds
   double mean_edge() const; ///< mean rest length of the cloth's edges, m
 
   Garment& m_garment;
   const body::Body* m_body;
   DrapeSettings m_settings;
+  FitBounds m_bounds;
   Reporter& m_reporter;
   DrapeReport m_report;
   std::chrono::steady_clock::time_point m_start;
@@ -62,6 +64,9 @@ private:
   cloth::SelfContactEffect* m_self_contact = nullptr;
   cloth::SewingSpringEffect* m_sewing = nullptr;
   int m_untanglings = 0;
+  std::vector<double> m_start_height; // #P, m, where settling began
+  double m_least_strain = 1e300;      // 99th percentile, of those that judge_fit() has seen
+  int m_strain_fell_at = 0;           // step
   cloth::StepResult m_last;
   double m_last_h = 0; ///< s, of that step
   std::vector<int> m_cg_iterations;

@@ -265,7 +265,7 @@ void judge_strain(const FitPolicy& policy, FitReport& report) {
 }
 
 /// The verdict of all rows, the strain and the slip.
-void conclude(const FitPolicy& policy, FitReport& report) {
+void conclude(const FitPolicy& policy, bool beyond_bounds, FitReport& report) {
   const FitRow* worst = nullptr;
   for (const FitRow& row : report.rows) {
     const bool worse = !worst || row.verdict > worst->verdict || (row.verdict == worst->verdict && row.ease_m / row.body_m < worst->ease_m / worst->body_m);
@@ -280,9 +280,9 @@ void conclude(const FitPolicy& policy, FitReport& report) {
   }
   report.verdict = worst->verdict;
   report.reason = worst->reason;
-  const bool at_rest = report.convergence_m == 0;
-  if (at_rest) judge_strain(policy, report);
-  if (at_rest && report.verdict < FitVerdict::TOO_LARGE && report.slip_m > policy.slip_m(report.garment_class, report.fabric)) {
+  const bool certain = report.convergence_m == 0 || beyond_bounds;
+  if (certain) judge_strain(policy, report);
+  if (certain && report.verdict < FitVerdict::TOO_LARGE && report.slip_m > policy.slip_m(report.garment_class, report.fabric)) {
     report.verdict = FitVerdict::TOO_LARGE;
     report.reason = "slides down by " + centimetres(report.slip_m);
   }
@@ -295,7 +295,7 @@ void conclude(const FitPolicy& policy, FitReport& report) {
 } // namespace
 
 FitReport fit_garment(const Garment& garment, const body::Body& body, const collision::BodyCollider& skin, const FitPolicy& policy,
-                      const std::vector<Vec3>* placed) {
+                      const std::vector<Vec3>* placed, bool beyond_bounds) {
   if (garment.bind.empty()) throw input_error("", "/bind", "the garment is not bound to a body", "drape it on the body first");
   FitReport report;
   report.policy = policy.name;
@@ -333,8 +333,12 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
   for (const auto& [name, girth] : body.girths)
     if (!measured.count(name)) report.left_out.emplace_back(name, "where it was measured is not told by the body document");
   report.lines = fit_lines(garment, body);
-  conclude(policy, report);
+  conclude(policy, beyond_bounds, report);
   return report;
+}
+
+FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before) {
+  return {1.5 * policy.slip_m(before.garment_class, before.fabric), 1.5 * policy.strain_p99(before.garment_class, before.fabric)};
 }
 
 FitReport fit_before_drape(const Garment& placed, const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy) {

@@ -7,9 +7,11 @@
 /// is estimated by Laplace's law, tension / radius, with the fabric's stretch modulus and radius = body girth / 2 pi.
 /// Uncertainties: of the body's girth its spread, or what the next level tells of its slope; of the garment's the change within the error of the level's height
 /// and the chord's shortfall against its arc; of strain the change when half the band is taken; of the gap the sagitta of an edge; of pressure that of strain.
-/// A drape that did not come to rest adds `convergence_m` to lengths and gaps, and its strain and slip decide nothing: only the ease of its girths does.
+/// A drape that did not come to rest adds `convergence_m` to lengths and gaps, and its strain and slip decide nothing (only the ease of its girths does),
+/// unless it was ended for them.
 #include <body/body.hpp>
 #include <collision/body_collider.hpp>
+#include <garment/drape.hpp>
 #include <garment/fit_lines.hpp>
 #include <garment/fit_policy.hpp>
 #include <garment/garment.hpp>
@@ -67,9 +69,14 @@ struct FitReport {
 
 /// @param garment draped on `body` and bound to it (bind_garment)
 /// @param placed  positions before the drape, #P, or nullptr: how far the garment slid is measured from them
+/// @param beyond_bounds  the drape was ended by FitBounds: strain and slip decide although it is not at rest
 /// @throws Error INPUT when it is not bound
 FitReport fit_garment(const Garment& garment, const body::Body& body, const collision::BodyCollider& skin, const FitPolicy& policy,
-                      const std::vector<Vec3>* placed = nullptr);
+                      const std::vector<Vec3>* placed = nullptr, bool beyond_bounds = false);
+
+/// Bounds for a drape beyond which the garment will not fit by the policy: one and a half times the slip and the strain that it bears.
+/// @param before  of fit_before_drape(), for the class and the fabric
+FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before);
 
 /// Whether a garment can go on at all, before any drape: only girths that the cloth does not reach round even when it is stretched by
 /// all that the policy bears, or as far as it was on the first body where that is further (an elastic band). Only `fits`, `verdict`,
