@@ -23,6 +23,8 @@ check:
 sanitize:
 	@scripts/build sanitize
 	@scripts/test build-sanitize
+	@scripts/build threads
+	@scripts/test build-threads
 
 install: all
 	@cmake --install build $(if $(PREFIX),--prefix $(PREFIX))
@@ -74,11 +76,11 @@ accuracy-cost:
 	@for scene in $(SCENES); do scripts/accuracy-cost $$scene || exit; done
 	@scripts/accuracy-cost --gather docs $(SCENES)
 
-# The presets again from the measured front: the cheapest settings within each preset's error on all scenes.
+# The presets again from the measured front, into lib/garment/preset_table.hpp: the cheapest settings within each preset's error on all scenes.
 presets:
 	@scripts/build release scan-landmarks pattern-mesh drape make-mannequin make-pattern
-	@for scene in $(SCENES); do scripts/accuracy-cost --knobs grid --out build/presets/$$scene $$scene || exit; done
-	@scripts/accuracy-cost --derive build/presets $(SCENES)
+	@for scene in $(SCENES); do scripts/accuracy-cost --knobs grid $$scene || exit; done
+	@scripts/accuracy-cost --derive build/accuracy-cost $(SCENES)
 
 # The paper's Figure 4: ten drapes of the four-panel skirt, a sheet of pictures, and checks.
 figure4:
@@ -86,7 +88,7 @@ figure4:
 	@$(MAKE) --no-print-directory -C samples/figure4
 
 clean:
-	@cmake -E rm -rf build build-dev build-sanitize
+	@cmake -E rm -rf build build-dev build-sanitize build-threads
 	@$(MAKE) --no-print-directory -C samples/demo clean
 
 pictures: all

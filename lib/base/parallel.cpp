@@ -4,6 +4,11 @@
 
 #include <algorithm>
 #include <exception>
+#include <mutex>
+#if defined(__SANITIZE_THREAD__)
+#include <atomic>
+#include <thread>
+#endif
 
 namespace sloper {
 
@@ -11,6 +16,26 @@ static int g_threads = 1;
 
 void set_thread_count(int n) { g_threads = n > 0 ? n : std::max(1, omp_get_num_procs()); }
 int thread_count() { return g_threads; }
+
+namespace {
+
+/// Calls work(0) to work(chunks - 1), each on some thread.
+template<class Work> void spread(std::size_t chunks, const Work& work) {
+#if defined(__SANITIZE_THREAD__) // the thread sanitizer does not see how OpenMP's threads wait for each other
+  std::atomic<std::size_t> next{0};
+  std::vector<std::thread> threads;
+  for (int k = 0; k < g_threads; ++k)
+    threads.emplace_back([&] {
+      for (std::size_t c; (c = next++) < chunks;) work(c);
+    });
+  for (std::thread& t : threads) t.join();
+#else
+#pragma omp parallel for schedule(dynamic, 1) num_threads(g_threads)
+  for (long c = 0; c < static_cast<long>(chunks); ++c) work(static_cast<std::size_t>(c));
+#endif
+}
+
+} // namespace
 
 void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
   const std::size_t chunks = (n + grain - 1) / grain;
@@ -20,19 +45,18 @@ void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std
   }
   std::exception_ptr failure; // an exception must not leave a parallel region; the one of the lowest chunk is passed on, as with one thread
   std::size_t failed_chunk = chunks;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(g_threads)
-  for (long i = 0; i < static_cast<long>(chunks); ++i) {
-    const auto c = static_cast<std::size_t>(i);
+  std::mutex failing;
+  spread(chunks, [&](std::size_t c) {
     try {
       body(c * grain, std::min(n, (c + 1) * grain));
     } catch (...) {
-#pragma omp critical(sloper_parallel_failure)
+      const std::lock_guard lock(failing);
       if (c < failed_chunk) {
         failed_chunk = c;
         failure = std::current_exception();
       }
     }
-  }
+  });
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -225,6 +225,8 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
 } // namespace
 
 MeasuredScan measure_scan(const TriangleMesh& given, const std::string& file, const std::string& sha256, const ScanOptions& options, Reporter& reporter) {
+  for (std::size_t v = 0; v < given.positions.size(); ++v) // the readers refuse such files; a caller may hand over anything
+    if (!given.positions[v].allFinite()) throw input_error(file, "vertex " + std::to_string(v + 1), "is not a finite number");
   MeasuredScan result;
   Body& body = result.body;
   Phases phases(reporter);

@@ -37,6 +37,7 @@ bool all_finite(const std::vector<Vec3>& x) {
 
 ClothSolver::ClothSolver(const ClothMesh& mesh, std::vector<Vec3> x) : m_mesh(mesh), m_x(std::move(x)), m_preconditioner(std::make_unique<Aggregation>()) {
   if (static_cast<int>(m_x.size()) != mesh.n_particles) throw Error(ErrorKind::INTERNAL, "", "", "positions and particles differ in number");
+  if (!all_finite(m_x)) throw input_error("", "", "a particle's position is not a finite number");
   m_v.assign(m_x.size(), Vec3::Zero());
   m_force = m_rhs = m_dx = m_v;
   m_freeze.assign(m_x.size(), 0);

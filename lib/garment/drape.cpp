@@ -61,6 +61,7 @@ DrapeRun::DrapeRun(Garment& garment, const body::Body* body, const DrapeSettings
     : m_garment(garment), m_body(body), m_settings(settings), m_bounds(bounds), m_reporter(reporter), m_start(std::chrono::steady_clock::now()) {
   m_report.settings = settings;
   if (garment.panels.triangles.empty()) throw input_error("", "", "the garment has no triangles", "mesh a pattern with pattern-mesh first");
+  check_garment(garment);
 }
 
 double DrapeRun::elapsed() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }

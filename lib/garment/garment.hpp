@@ -54,4 +54,8 @@ struct Garment {
   std::vector<Triangle> particle_triangles() const;
 };
 
+/// Refuses what no document can hold but a caller can hand over: numbers that are none, indices that point nowhere.
+/// @throws Error INPUT naming the first
+void check_garment(const Garment& garment);
+
 } // namespace sloper::garment

@@ -6,6 +6,7 @@
 #include <cloth/pins.hpp>
 #include <cloth/self_contact.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sloper::hard {
@@ -45,6 +46,31 @@ BodyState look(const collision::BodyCollider& body, const std::vector<Vec3>& x, 
       s.deepest = std::max(s.deepest, -body.signed_distance(p, 1).distance);
     }
   return s;
+}
+
+/// How far along the unit vector `direction` from `start` a triangle lies; negative when it is not there.
+double way_to(const Vec3& start, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a, across = direction.cross(v);
+  const double det = u.dot(across);
+  if (std::abs(det) < 1e-18) return -1;
+  const Vec3 from = start - a, q = from.cross(u);
+  const double s = from.dot(across) / det, t = direction.dot(q) / det;
+  return s < 0 || t < 0 || s + t > 1 ? -1 : v.dot(q) / det;
+}
+
+/// Particles of a layer that, seen from the body's middle, lie more than a millimetre below a place of a layer that started below theirs.
+/// Layers may slide over each other, so it is that place and not the like particle that counts.
+double order_violations(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, std::size_t layers, const Vec3& middle) {
+  const std::size_t per_layer = x.size() / layers;
+  double violations = 0;
+  for (std::size_t i = per_layer; i < x.size(); ++i) {
+    const double out = (x[i] - middle).norm();
+    const Vec3 direction = (x[i] - middle) / out;
+    violations += std::any_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+      return static_cast<std::size_t>(t[0]) / per_layer < i / per_layer && way_to(middle, direction, x[t[0]], x[t[1]], x[t[2]]) > out + 1e-3;
+    });
+  }
+  return violations;
 }
 
 } // namespace
@@ -128,13 +154,9 @@ Outcome contact_scene(const Parameters& p, std::uint64_t seed) {
     // Layers, and which side of a moving or deep body the cloth is on: seen from the body's middle.
     Vec3 middle = Vec3::Zero();
     for (const Vec3& q : body.mesh().positions) middle += q / static_cast<double>(body.mesh().positions.size());
-    const std::size_t per_layer = s.x.size() / static_cast<std::size_t>(layers);
     const Vec3 at = solver.x()[s.at(s.columns / 2, s.rows / 2)];
     out.value["middle_ahead_m"] = hanging ? at.z() - middle.z() : at.y() - middle.y();
-    double violations = 0;
-    for (std::size_t i = per_layer; i < s.x.size(); ++i)
-      violations += (solver.x()[i] - solver.x()[i - per_layer]).dot((solver.x()[i] - middle).normalized()) < -1e-3;
-    out.value["order_violations"] = violations;
+    out.value["order_violations"] = order_violations(solver.x(), triangles, static_cast<std::size_t>(layers), middle);
   }
   out.hash = hash_of(solver.x());
   return out;

@@ -13,6 +13,17 @@ namespace sloper::hard {
 
 namespace {
 
+/// A force that is no number, as an effect with a mistake would give.
+class BadForce : public cloth::Effect {
+public:
+  explicit BadForce(int particle) : m_particle(particle) {}
+  const char* name() const override { return "bad_force"; }
+  void add(cloth::StepContext& c) override { c.force[m_particle].y() = std::nan(""); }
+
+private:
+  int m_particle;
+};
+
 std::vector<cloth::Pin> make_pins(const Sheet& s, const Parameters& p) {
   const std::string which = p.text("pins", "none");
   const double k = p.number("pin_stiffness_n_m", 1e4), pull = p.number("pin_pull_m", 0);
@@ -107,8 +118,10 @@ Outcome sheet_scene(const Parameters& p, std::uint64_t seed) {
   const bool adapt = p.flag("adapt_h", false);
   const double swing = p.number("pin_speed_m_s", 0);
   double swung = 0;
+  const int bad_step = p.whole("nan_force_step", -1);
   Watch watch(solver, o.inertia);
   for (int k = 0; k < steps; ++k) {
+    if (k == bad_step) solver.emplace<BadForce>(s.at(s.columns / 2, s.rows / 2));
     if (held && swing != 0) {
       swung += (k / 15 % 2 ? -1 : 1) * swing * o.h;
       for (std::size_t i = 0; i < pins.size(); ++i) held->set_target(i, pins[i].target + Vec3(0, 0, swung));
