@@ -1,5 +1,5 @@
 # Thin: every target is one command that can be typed by hand. `make` builds the five programs into build/tools/.
-.PHONY: all pictures package test demo population check sanitize install format man bench bench-rivals validation figure4 accuracy fuzz hard soak accuracy-cost presets clean
+.PHONY: all pictures package test demo population check sanitize install format man bench bench-rivals validation figure4 accuracy fuzz hard soak accuracy-cost presets compare-builds clean
 
 all:
 	@scripts/build release
@@ -68,6 +68,11 @@ soak:
 	@scripts/build release run-soak
 	@build/tests/hard/run-soak --from $(FROM) --count $(COUNT) --out build/soak
 
+# The hard cases' final states in builds by other compilers, compared.
+compare-builds:
+	@scripts/setup
+	@scripts/compare-builds
+
 # What accuracy costs: tables and plots of three samples, gathered in docs/accuracy-cost.md.
 SCENES ?= skirt shirt trousers
 accuracy-cost:
@@ -88,7 +93,7 @@ figure4:
 	@$(MAKE) --no-print-directory -C samples/figure4
 
 clean:
-	@cmake -E rm -rf build build-dev build-sanitize build-threads
+	@cmake -E rm -rf build build-dev build-sanitize build-threads build-compare
 	@$(MAKE) --no-print-directory -C samples/demo clean
 
 pictures: all

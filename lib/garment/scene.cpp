@@ -1,6 +1,7 @@
 #include <base/error.hpp>
 #include <garment/kes.hpp>
 #include <garment/materials.hpp>
+#include <garment/preset_table.hpp>
 #include <garment/scene.hpp>
 #include <garment/scene_effects_json.hpp>
 
@@ -121,29 +122,24 @@ void apply_scene(const Scene& scene, Garment& garment) {
   if (from.pressure_pa != 0) to.pressure_pa = from.pressure_pa;
 }
 
-std::vector<std::string> accuracy_names() { return {"draft", "standard", "fine", "reference"}; }
+std::vector<std::string> accuracy_names() {
+  std::vector<std::string> names;
+  for (const Preset& p : PRESETS) names.emplace_back(p.name);
+  return names;
+}
 
 DrapeSettings preset_settings(const std::string& accuracy) {
   DrapeSettings s;
-  s.accuracy = accuracy;
-  if (accuracy == "draft") {
-    s.cg_tolerance = 5e-2;
-    s.settle_force_ratio = 0.5;
-    s.settle_speed_m_s = 0.02;
-  } else if (accuracy == "fine") {
-    s.cg_tolerance = 1e-3;
-    s.settle_force_ratio = 0.05;
-    s.settle_speed_m_s = 0.0005;
-    s.max_steps = 4000;
-  } else if (accuracy == "reference") {
-    s.cg_tolerance = 1e-5;
-    s.settle_force_ratio = 0.01;
-    s.settle_speed_m_s = 0.0001;
-    s.max_steps = 20000;
-  } else if (accuracy != "standard") {
-    throw Error(ErrorKind::USAGE, "", "--accuracy", "\"" + accuracy + "\" is not known", "known are draft, standard, fine, reference");
-  }
-  return s;
+  for (const Preset& p : PRESETS)
+    if (accuracy == p.name) {
+      s.accuracy = p.name;
+      s.cg_tolerance = p.cg_tolerance;
+      s.settle_force_ratio = p.settle_force_ratio;
+      s.settle_speed_m_s = p.settle_speed_m_s;
+      s.max_steps = p.max_steps;
+      return s;
+    }
+  throw Error(ErrorKind::USAGE, "", "--accuracy", "\"" + accuracy + "\" is not known", "known are draft, standard, fine, reference");
 }
 
 void set_knob(DrapeSettings& settings, const std::string& name, double value) {

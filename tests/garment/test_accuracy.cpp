@@ -2,6 +2,8 @@
 #include "drape_scene.hpp"
 
 #include <garment/accuracy.hpp>
+#include <garment/materials.hpp>
+#include <garment/preset_table.hpp>
 #include <garment/scene.hpp>
 #include <gtest/gtest.h>
 
@@ -19,6 +21,28 @@ double rms(const Garment& a, const Garment& b) {
 }
 
 } // namespace
+
+/// The table's figures are of three samples. On another scene presets are farther off: measured 9, 6 and 2 times here.
+TEST(Presets, are_within_ten_times_their_table_on_a_scene_that_it_was_not_made_from_and_each_is_nearer_than_the_last) {
+  const body::Body pillar = make_pillar();
+  Garment start = make_skirt(0.76, 0.28, 0.04);
+  start.materials[""] = material_preset("wool-suiting");
+  DrapeSettings sewn = preset_settings("standard");
+  sewn.settle_force_ratio = 10;
+  sewn.settle_speed_m_s = 1;
+  drape(start, &pillar, sewn, silent_reporter());
+  Garment reference = start;
+  const DrapeReport finest = drape(reference, &pillar, preset_settings("reference"), silent_reporter());
+  ASSERT_TRUE(finest.converged) << finest.stop_reason;
+  double coarser = rms(start, reference);
+  for (const Preset& p : PRESETS) {
+    Garment cloth = start;
+    EXPECT_TRUE(drape(cloth, &pillar, preset_settings(p.name), silent_reporter()).converged) << p.name;
+    EXPECT_LE(rms(cloth, reference), 10e-3 * p.worst_rms_mm) << p.name;
+    EXPECT_LT(rms(cloth, reference), coarser) << p.name;
+    coarser = rms(cloth, reference);
+  }
+}
 
 class Goal : public testing::TestWithParam<double> {};
 

@@ -158,7 +158,7 @@ Outcome contact_scene(const Parameters& p, std::uint64_t seed) {
     out.value["middle_ahead_m"] = hanging ? at.z() - middle.z() : at.y() - middle.y();
     out.value["order_violations"] = order_violations(solver.x(), triangles, static_cast<std::size_t>(layers), middle);
   }
-  out.hash = hash_of(solver.x());
+  fingerprint(out, solver.x());
   return out;
 }
 

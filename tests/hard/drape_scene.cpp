@@ -247,7 +247,7 @@ Outcome drape_scene(const Parameters& p, std::uint64_t seed) {
   if (on) truth = collision::BodyCollider(whole);
   measure(out, g, report, on ? &truth : nullptr);
   out.value["resettle"] = report.steps / std::max(first_steps, 1.0);
-  out.hash = garment::strict_hash(g);
+  fingerprint(out, g.position);
   return out;
 }
 

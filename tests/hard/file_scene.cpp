@@ -144,7 +144,7 @@ Outcome scan_scene(const Parameters& p, std::uint64_t seed) {
   out.value["finite"] = finite;
   out.value["landmarks"] = static_cast<double>(found.body.landmarks.size());
   for (const body::Finding& f : found.body.scan.findings) out.said += f.what + "; ";
-  out.hash = hash_of(found.body.skin.positions);
+  fingerprint(out, found.body.skin.positions);
   return out;
 }
 

@@ -64,7 +64,7 @@ io::Json merged(io::Json base, const io::Json& overrides) {
 io::Json to_json(const Outcome& o) {
   io::Json values = io::Json::object();
   for (const auto& [name, v] : o.value) values[name] = std::isfinite(v) ? io::Json(v) : io::Json("not finite");
-  return {{"values", values}, {"said", o.said}, {"exit", o.exit}, {"hash", o.hash}};
+  return {{"values", values}, {"said", o.said}, {"exit", o.exit}, {"hash", o.hash}, {"quantised", o.quantised}};
 }
 
 Outcome from_json(const io::Json& json) {
@@ -73,6 +73,7 @@ Outcome from_json(const io::Json& json) {
   o.said = json["said"];
   o.exit = json["exit"];
   o.hash = json["hash"];
+  o.quantised = json["quantised"];
   return o;
 }
 
@@ -106,7 +107,7 @@ Outcome run_scene(const Case& c, const io::Json& parameters, std::uint64_t seed)
     o.value["cpu_s"] = static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
     text = to_json(o).dump(-1, ' ', true, io::Json::error_handler_t::replace);
   } catch (const std::exception& e) {
-    text = to_json({{}, std::string("exception: ") + e.what(), 70, ""}).dump(-1, ' ', true, io::Json::error_handler_t::replace);
+    text = to_json({{}, std::string("exception: ") + e.what(), 70, "", ""}).dump(-1, ' ', true, io::Json::error_handler_t::replace);
   }
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t n = write(pipe, text.data() + done, text.size() - done);

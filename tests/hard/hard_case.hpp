@@ -36,7 +36,8 @@ struct Outcome {
   std::map<std::string, double> value; ///< by measure
   std::string said;                    ///< all that was reported: stop reason, repairs, message of an error
   int exit = 0;                        ///< what the program would end with
-  std::string hash;                    ///< of the final state
+  std::string hash;                    ///< of the final state's bytes
+  std::string quantised;               ///< of its cells of 10 um, to compare compilers
 };
 using Scene = Outcome (*)(const Parameters&, std::uint64_t seed);
 const std::map<std::string, Scene>& scenes();

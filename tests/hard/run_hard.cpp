@@ -1,5 +1,5 @@
 /// run-hard: every case over its sweep and seeds; prints the table, writes it as Markdown; exit 1 when something breaks that is not
-/// listed as failing, or something listed holds.
+/// listed as failing, or something listed holds. --hashes keeps each point's final state as two hashes, to compare builds.
 #include "hard_case.hpp"
 
 #include <base/error.hpp>
@@ -16,7 +16,7 @@ using namespace sloper::hard;
 namespace {
 
 struct Options {
-  std::string cases = SLOPER_SOURCE_DIR "/tests/hard/cases", only, table;
+  std::string cases = SLOPER_SOURCE_DIR "/tests/hard/cases", only, table, hashes;
   int seeds = 0, jobs = 1;
   bool verbose = false;
 };
@@ -27,6 +27,7 @@ struct Result {
   bool same_bytes = true, has_bytes = false;
   std::string broken; ///< of the first seed that broke
   double cpu_s = 0;   ///< the longest
+  std::string hashes; ///< of the first seed: strict, quantised
 };
 
 Result run(const Case& c, const Point& point, int seeds, bool verbose) {
@@ -45,6 +46,7 @@ Result run(const Case& c, const Point& point, int seeds, bool verbose) {
     }
     if (seed == 0 && !v.outcome.hash.empty()) { // the same bytes again, with two threads
       r.has_bytes = true;
+      r.hashes = v.outcome.hash + " " + v.outcome.quantised;
       r.same_bytes = run_point(c, point, 0, 2).outcome.hash == v.outcome.hash;
     }
   }
@@ -64,8 +66,10 @@ Options parse(int argc, char** argv) {
     else if (a == "--seeds") o.seeds = std::stoi(next());
     else if (a == "--jobs") o.jobs = std::stoi(next());
     else if (a == "--table") o.table = next();
+    else if (a == "--hashes") o.hashes = next();
     else if (a == "-v") o.verbose = true;
-    else throw Error(ErrorKind::USAGE, "", a, "is not known", "run-hard [--cases DIR] [--only NAME] [--seeds N] [--jobs N] [--table FILE] [-v]");
+    else
+      throw Error(ErrorKind::USAGE, "", a, "is not known", "run-hard [--cases DIR] [--only NAME] [--seeds N] [--jobs N] [--table FILE] [--hashes FILE] [-v]");
   }
   return o;
 }
@@ -95,8 +99,8 @@ int main_of(const Options& o) {
       for (std::size_t i = static_cast<std::size_t>(w); i < points.size(); i += static_cast<std::size_t>(o.jobs)) {
         const auto& [c, p] = points[i];
         const Result r = run(*c, *p, o.seeds > 0 ? std::min(o.seeds, c->seeds) : c->seeds, o.verbose);
-        const io::Json line = {{"i", i},        {"runs", r.runs}, {"held", r.held}, {"same", r.same_bytes}, {"bytes", r.has_bytes}, {"broken", r.broken},
-                               {"cpu", r.cpu_s}};
+        const io::Json line = {{"i", i},         {"runs", r.runs},    {"held", r.held}, {"same", r.same_bytes}, {"bytes", r.has_bytes}, {"broken", r.broken},
+                               {"cpu", r.cpu_s}, {"hashes", r.hashes}};
         std::fprintf(files[static_cast<std::size_t>(w)], "%s\n", line.dump(-1, ' ', true, io::Json::error_handler_t::replace).c_str());
         std::fprintf(stderr, "%zu/%zu %s [%s]: %d of %d%s\n", i + 1, points.size(), c->file.c_str(), p->name.c_str(), r.held, r.runs,
                      r.broken.empty() ? "" : (", " + r.broken).c_str());
@@ -117,7 +121,7 @@ int main_of(const Options& o) {
     for (std::string line; std::getline(lines, line);) {
       const io::Json j = io::Json::parse(line);
       Result& r = results[j["i"].get<std::size_t>()];
-      r = {j["runs"], j["held"], j["same"], j["bytes"], j["broken"], j["cpu"]};
+      r = {j["runs"], j["held"], j["same"], j["bytes"], j["broken"], j["cpu"], j["hashes"]};
     }
   }
 
@@ -166,6 +170,10 @@ int main_of(const Options& o) {
   head << cases.size() << " cases, " << points.size() << " points, " << runs << " runs: " << held << " hold; " << whole << " cases hold throughout.\n";
   const std::string tail = failing.str().empty() ? "" : "\n## What does not hold yet\n\n" + failing.str();
   std::printf("%s\n%s%s", head.str().c_str(), table.str().c_str(), tail.c_str());
+  if (!o.hashes.empty()) {
+    std::ofstream out(o.hashes);
+    for (std::size_t i = 0; i < points.size(); ++i) out << points[i].first->file << " [" << points[i].second->name << "] " << results[i].hashes << "\n";
+  }
   if (!o.table.empty()) {
     std::ofstream out(o.table);
     out << "# Hard cases\n\nMade by `make hard` from `tests/hard/cases`: every case over its sweep, each point from 20 jittered starts (fewer where said by "

@@ -175,6 +175,10 @@ int main_of(int argc, char** argv) {
       ++other_bytes;
       std::printf("scene %llu: other bytes with two threads\n", static_cast<unsigned long long>(k));
     }
+    if ((k + 1 - from) % 100 == 0) {
+      std::printf("%llu scenes done: %llu fail\n", static_cast<unsigned long long>(k + 1 - from), static_cast<unsigned long long>(failed));
+      std::fflush(stdout);
+    }
     if (v.broken.empty()) continue;
     ++failed;
     const Case small = minimise(c, k);

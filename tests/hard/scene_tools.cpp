@@ -101,7 +101,13 @@ void measure_cloth(Outcome& o, const cloth::ClothMesh& mesh, const std::vector<V
   o.value["crossings"] = static_cast<double>(collision::self_intersections(x, triangles, collision::TriangleTree(x, triangles)).size());
 }
 
-std::string hash_of(const std::vector<Vec3>& x) { return io::sha256({reinterpret_cast<const char*>(x.data()), x.size() * sizeof(Vec3)}); }
+void fingerprint(Outcome& o, const std::vector<Vec3>& x) {
+  o.hash = io::sha256({reinterpret_cast<const char*>(x.data()), x.size() * sizeof(Vec3)});
+  std::vector<long> cells;
+  for (const Vec3& p : x)
+    for (int k = 0; k < 3; ++k) cells.push_back(std::isfinite(p[k]) ? std::lround(p[k] * 1e5) : 0);
+  o.quantised = io::sha256({reinterpret_cast<const char*>(cells.data()), cells.size() * sizeof(long)});
+}
 
 double potential(const cloth::ClothSolver& solver, const std::vector<Vec3>& x) {
   double sum = 0;

@@ -30,7 +30,8 @@ void jitter(std::vector<Vec3>& x, double amount, std::uint64_t seed);
 
 /// "finite", "strain_p99", "strain_max" (either sign), "stretch_p99" (lengthening), "crossings" (pairs of triangles), "extent_m".
 void measure_cloth(Outcome& o, const cloth::ClothMesh& mesh, const std::vector<Vec3>& x);
-std::string hash_of(const std::vector<Vec3>& x);
+/// Hashes of a state.
+void fingerprint(Outcome& o, const std::vector<Vec3>& x);
 
 /// Sums of effects' potentials and of the motion, J.
 double potential(const cloth::ClothSolver& solver, const std::vector<Vec3>& x);

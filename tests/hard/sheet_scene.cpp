@@ -141,7 +141,7 @@ Outcome sheet_scene(const Parameters& p, std::uint64_t seed) {
   for (int r = 0; r < s.rows; ++r) drop += (flat[s.at(s.columns - 1, r)].y() - solver.x()[s.at(s.columns - 1, r)].y()) / s.rows;
   out.value["tip_drop_m"] = drop;
   if (load > 0) out.value["stretch/load"] = out.value["stretch_p99"] / (load / (width * p.number("stretch_n_m", 1000)));
-  out.hash = hash_of(solver.x());
+  fingerprint(out, solver.x());
   return out;
 }
 
@@ -177,7 +177,7 @@ Outcome bending_scene(const Parameters& p, std::uint64_t seed) {
     all.insert(all.end(), solver.x().begin(), solver.x().end());
   }
   out.value["falls"] = falls;
-  out.hash = hash_of(all);
+  fingerprint(out, all);
   return out;
 }
 
