@@ -12,6 +12,7 @@
 #include <io/files.hpp>
 #include <io/line_follower.hpp>
 #include <io/obj.hpp>
+#include <pattern/folds.hpp>
 #include <pattern/panel_mesh_json.hpp>
 
 #include <cmath>
@@ -166,7 +167,7 @@ int run(cli::Tool& tool, Options& o) {
   io::Json inputs = io::Json::array();
   garment::Garment garment;
   const std::string& source = o.from.empty() ? o.panels : o.from;
-  if (o.from.empty()) garment.panels = pattern::read_panel_mesh(o.panels);
+  if (o.from.empty()) garment.panels = pattern::read_panel_mesh(o.panels), garment.rest_scale = pattern::tape_scales(garment.panels);
   else garment = garment::read_garment(o.from);
   inputs.push_back(input_entry(source));
   garment::apply_scene(scene, garment);

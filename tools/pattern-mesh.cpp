@@ -41,6 +41,7 @@ int check(const cli::Tool& tool, const pattern::Pattern& source, const Options& 
   }
   if (!bad) { // what the finished garment measures
     const pattern::FinishedMeasures measures = pattern::finished_measures(source, o.pattern);
+    for (const pattern::NamedMeasure& m : measures.named) std::cout << "measure: " << m.name << ' ' << pattern::centimetres(m.value) << " (" << m.how << ")\n";
     for (const pattern::Opening& opening : measures.openings) {
       std::string edges;
       for (const std::string& edge : opening.edges) edges += (edges.empty() ? "" : ", ") + edge;

@@ -9,6 +9,7 @@
 #include <garment/sewing.hpp>
 #include <pattern/check_pattern.hpp>
 #include <pattern/edits.hpp>
+#include <pattern/folds.hpp>
 #include <pattern/mesh_pattern.hpp>
 
 #include <algorithm>
@@ -42,6 +43,10 @@ public:
                         "the panels are no longer those of the garment's pattern: a vertex lies " + pattern::centimetres(m_follower->off_outline()) +
                             " off its outline",
                         "edits can follow a garment that drape made, not one that was regraded");
+    m_untaped = m_garment.rest_scale;
+    if (const auto scale = pattern::tape_scales(m_garment.panels); !scale.empty())
+      for (std::size_t f = 0; f < m_untaped.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k) m_untaped[f][k] /= scale[f][k];
     m_log = {{"format", "edits"}, {"version", 1}, {"length_unit", "m"}, {"edits", io::Json::array()}};
   }
 
@@ -133,10 +138,14 @@ private:
   void change(pattern::Pattern next) {
     m_garment.position = m_run.m_solver->x();
     if (m_follower->follow(next, m_garment.panels, LEAST_ANGLE)) {
+      m_garment.panels.source = std::make_shared<pattern::Pattern>(next);
+      tape();
       rest_changed();
     } else {
       carry_to(m_garment, pattern::mesh_pattern(next, m_garment.panels.edge_length, "edits", m_garment.panels.seam_length));
       m_follower.emplace(next, m_garment.panels);
+      m_untaped.clear(); // it counted old triangles
+      tape();
       m_run.build_solver(false);
       go_live();
       m_remeshed = true, ++m_report.remeshed;
@@ -144,6 +153,16 @@ private:
     }
     m_pattern = std::move(next);
     m_garment.panels.source = std::make_shared<pattern::Pattern>(m_pattern);
+  }
+
+  /// Elastic tapes on top of the rest lengths that the garment came with.
+  void tape() {
+    std::vector<std::array<double, 3>> scale = pattern::tape_scales(m_garment.panels);
+    if (scale.empty()) scale = m_untaped;
+    else
+      for (std::size_t f = 0; f < m_untaped.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k) scale[f][k] *= m_untaped[f][k];
+    m_garment.rest_scale = std::move(scale);
   }
 
   /// New rest lengths, areas and masses under the same particles. Terms that keep a copy of the rest state are made anew.
@@ -192,6 +211,7 @@ private:
   DrapeRun m_run;
   pattern::Pattern m_pattern;
   std::optional<pattern::MeshFollower> m_follower;
+  std::vector<std::array<double, 3>> m_untaped; ///< rest_scale without the tapes, or empty
   io::Json m_head, m_log;
   FollowReport m_report;
   int m_line = 0, m_calm = 0;

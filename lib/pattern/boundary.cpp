@@ -106,7 +106,10 @@ public:
     for (std::size_t p = 0; p < m_pattern.panels.size(); ++p) m_pieces[p].resize(static_cast<std::size_t>(m_pattern.panels[p].n_edges()));
     for (const Panel& panel : m_pattern.panels) m_chord.push_back(chord_limit(panel));
     m_pairs.resize(m_pattern.seams.size());
-    for (std::size_t s = 0; s < m_pattern.seams.size(); ++s) cut_seam(s);
+    for (std::size_t s = 0; s < m_pattern.seams.size(); ++s)
+      if (m_pattern.seams[s].kind != "pleat") cut_seam(s);
+    for (std::size_t s = 0; s < m_pattern.seams.size(); ++s) // their upper layers may be sewn already
+      if (m_pattern.seams[s].kind == "pleat") cut_pleat(s);
     for (std::size_t p = 0; p < m_pattern.panels.size(); ++p) {
       fill_free(static_cast<int>(p));
       sample_panel(static_cast<int>(p));
@@ -176,6 +179,34 @@ private:
                                  " is merged into its neighbours (edge length " + centimetres(m_seam_h) + ")");
       add_piece(pair.a, pair.n), add_piece(pair.b, pair.n);
       m_pairs[s].push_back(pair);
+    }
+  }
+
+  /// A layer of a pleat takes the cuts of the upper layer, one whole edge of another.
+  void cut_pleat(std::size_t s) {
+    const Run &layer = m_pattern.seams[s].a[0], &upper = m_pattern.seams[s].b[0];
+    auto& pieces = m_pieces[static_cast<std::size_t>(upper.panel)][static_cast<std::size_t>(upper.edge)];
+    std::sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) { return x.from < y.from; });
+    const double total = length(m_pattern.panels[static_cast<std::size_t>(upper.panel)].edge(upper.edge).path);
+    std::vector<std::pair<double, double>> gaps;
+    double at = 0;
+    for (const Piece& piece : pieces) {
+      if (piece.from - at > 1e-7) gaps.push_back({at, piece.from});
+      at = piece.to;
+    }
+    if (1 - at > 1e-7) gaps.push_back({at, 1});
+    for (const auto& [from, to] : gaps)
+      pieces.push_back({upper.panel, upper.edge, from, to, std::max(1, segments_for((to - from) * total, (to - from) * total, m_seam_h)), true, {}});
+    std::sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) { return x.from < y.from; });
+    const bool turned = (layer.from < layer.to) != (upper.from < upper.to);
+    for (const Piece& piece : std::vector<Piece>(pieces)) {
+      Run a{layer.panel, layer.edge, turned ? 1 - piece.from : piece.from, turned ? 1 - piece.to : piece.to};
+      m_pairs[s].push_back({a, {upper.panel, upper.edge, piece.from, piece.to}, piece.n});
+      add_piece(a, piece.n);
+    }
+    if (upper.from > upper.to) { // walked as the seam says
+      std::reverse(m_pairs[s].begin(), m_pairs[s].end());
+      for (Pair& pair : m_pairs[s]) std::swap(pair.a.from, pair.a.to), std::swap(pair.b.from, pair.b.to);
     }
   }
 
@@ -298,6 +329,9 @@ private:
     // A corner both of whose edges are in this seam, sewn to each other: a cone's or a dart's tip.
     for (std::size_t k = 0; k < out.a.size(); ++k)
       if (out.a[k] == out.b[k]) m_out.panels[static_cast<std::size_t>(out.a[k][0])].must_split[static_cast<std::size_t>(out.a[k][1])] = 1;
+    // So is the line along which a pleat is folded back: both layers under it are sewn to the same stretch.
+    if (m_pattern.seams[s].kind == "pleat" && !out.a.empty())
+      m_out.panels[static_cast<std::size_t>(out.a.back()[0])].must_split[static_cast<std::size_t>(out.a.back()[1])] = 1;
     m_out.seams.push_back(std::move(out));
   }
 

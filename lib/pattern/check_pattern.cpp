@@ -1,6 +1,7 @@
 #include <base/error.hpp>
 #include <base/units.hpp>
 #include <pattern/check_pattern.hpp>
+#include <pattern/folds.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -59,11 +60,12 @@ std::string at_point(const Vec2& p) {
 
 class Check {
 public:
-  explicit Check(const Pattern& pattern) : m_pattern(pattern) {}
+  explicit Check(const Pattern& pattern) : m_pattern(with_folds(pattern, "")) {} // lengths are those that are sewn
   std::vector<PatternFinding> run() {
     for (const Panel& p : m_pattern.panels) check_outline(p);
     check_runs();
-    for (const Seam& s : m_pattern.seams) check_seam(s);
+    for (const Seam& s : m_pattern.seams)
+      if (s.kind != "pleat") check_seam(s);
     check_unsewn();
     return std::move(m_out);
   }
@@ -158,6 +160,7 @@ private:
     for (const Seam& seam : m_pattern.seams)
       for (const auto* side : {&seam.a, &seam.b})
         for (const Run& run : *side) {
+          if (seam.kind == "pleat") continue; // three layers in one line
           const Use use{std::min(run.from, run.to), std::max(run.from, run.to), seam.name};
           for (const Use& other : uses[{run.panel, run.edge}]) {
             const double overlap = std::min(use.to, other.to) - std::max(use.from, other.from);
@@ -198,7 +201,7 @@ private:
       if (!sewn[k]) add(m_pattern.panels.size() == 1 ? "info" : "warning", "unsewn-panel", m_pattern.panels[k].name, "nothing is sewn to this panel");
   }
 
-  const Pattern& m_pattern;
+  const Pattern m_pattern;
   std::vector<PatternFinding> m_out;
 };
 

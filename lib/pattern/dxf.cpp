@@ -3,6 +3,7 @@
 /// counter-clockwise whatever its drawing order.
 #include <base/units.hpp>
 #include <pattern/dxf_blocks.hpp>
+#include <pattern/folds.hpp>
 #include <pattern/grade_rules.hpp>
 #include <pattern/outline_json.hpp>
 #include <pattern/read_pattern.hpp>
@@ -333,6 +334,7 @@ private:
         }
         if (best < 0.01) panel.notches.push_back({e, at, "layer " + std::to_string(p.layer)});
       }
+    if (!m_choice.rules || m_size == m_choice.rules->sample) read_marks(block, panel);
     const int index = static_cast<int>(m_pattern.panels.size());
     const std::string material = find_value(block.texts, "Material");
     if (!material.empty()) panel.label = material;
@@ -355,6 +357,24 @@ private:
     for (std::size_t k = 0; k < graded.size(); ++k) panel.loops[0][k].path = graded[k].path;
     if (fold >= 0) open_fold(panel, fold);
     m_pattern.panels.push_back(std::move(panel));
+  }
+
+  /// Open lines of layer 8 that do not run along the outline.
+  void read_marks(const DxfBlock& block, Panel& panel) {
+    constexpr double SHORTEST = 0.01; // m
+    for (const DxfLine& line : block.lines) {
+      if (line.layer != 8 || line.closed || line.points.size() < 2) continue;
+      InnerLine mark{"mark" + std::to_string(panel.lines.size() + 1), "mark", {}, 1, 0.01};
+      double off = 0;
+      for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
+        const Vec2 a = line.points[k] * m_unit, b = line.points[k + 1] * m_unit;
+        if ((a - b).norm() > 1e-6) mark.path.push_back(Segment::straight(a, b));
+        double near = 1e300;
+        for (int e = 0; e < panel.n_edges(); ++e) near = std::min(near, distance_to(panel.edge(e).path, 0.5 * (a + b)));
+        off = std::max(off, near);
+      }
+      if (off > LINE_ON_EDGE && length(mark.path) > SHORTEST) panel.lines.push_back(std::move(mark));
+    }
   }
 
   /// The edge that a mirror line lies on, or -1.

@@ -4,6 +4,8 @@
 #include <io/json.hpp>
 #include <pattern/pattern.hpp>
 
+#include <functional>
+
 namespace sloper::pattern {
 
 /// To the grid of 2^-30 m, on which sums are exact.
@@ -25,6 +27,12 @@ struct Rebuilt {
 /// the new edges; stretches that are gone leave their seams.
 /// @throws Error INPUT where nothing is left of a side of a seam
 void replace_panel(Pattern& pattern, int p, std::vector<Rebuilt> panels, const io::Node& node);
+
+/// Cuts edges of a panel's outer loop at fractions of their lengths. @return where each edge of the panel comes from
+std::vector<Origin> cut_edges(Pattern& pattern, int panel, const std::vector<std::pair<int, double>>& places);
+
+/// Drops lines of a panel that do not pass, and the pleats that need them.
+void keep_lines(Panel& panel, const std::function<bool(const InnerLine&)>& pass);
 
 /// `wanted`, or `wanted` with a number where the panel has an edge of this name.
 std::string free_edge_name(const Panel& panel, const std::string& wanted);

@@ -139,6 +139,40 @@ bool inside(const Panel& panel, const Vec2& p) {
 
 } // namespace
 
+std::vector<Origin> cut_edges(Pattern& pattern, int p, const std::vector<std::pair<int, double>>& places) {
+  const Panel panel = pattern.panels[static_cast<std::size_t>(p)];
+  std::vector<std::pair<int, double>> order = places; // the last first, so that what comes before keeps its number
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a > b; });
+  std::vector<Piece> pieces = pieces_of(panel);
+  std::vector<double> left(pieces.size(), 1); // fraction of each edge that its first piece still has
+  for (const auto& [edge, at] : order) {
+    double& whole = left[static_cast<std::size_t>(edge)];
+    const std::size_t before = pieces.size();
+    if (at < whole) corner_at(pieces, static_cast<std::size_t>(edge), at / whole);
+    if (pieces.size() > before) whole = at;
+  }
+  Rebuilt out = rebuilt(panel, pieces, all_holes(panel));
+  const std::vector<Origin> origin = out.origin;
+  static const io::Json NOTHING;
+  replace_panel(pattern, p, {std::move(out)}, io::Node(NOTHING, panel.name));
+  return origin;
+}
+
+void keep_lines(Panel& panel, const std::function<bool(const InnerLine&)>& pass) {
+  std::vector<int> number;
+  std::vector<InnerLine> kept;
+  for (const InnerLine& line : panel.lines) {
+    number.push_back(pass(line) ? static_cast<int>(kept.size()) : -1);
+    if (number.back() >= 0) kept.push_back(line);
+  }
+  std::vector<Pleat> pleats;
+  for (Pleat pleat : panel.pleats) {
+    pleat.fold = number[static_cast<std::size_t>(pleat.fold)], pleat.target = number[static_cast<std::size_t>(pleat.target)];
+    if (pleat.fold >= 0 && pleat.target >= 0 && !pleat.edges.empty()) pleats.push_back(pleat);
+  }
+  panel.lines = std::move(kept), panel.pleats = std::move(pleats);
+}
+
 std::string free_edge_name(const Panel& panel, const std::string& wanted) {
   std::string name = wanted;
   for (int k = 2; panel.find_edge(name) >= 0; ++k) name = wanted + std::to_string(k);
@@ -191,6 +225,14 @@ void replace_panel(Pattern& pattern, int p, std::vector<Rebuilt> panels, const i
         panel.notches.push_back({s.edge, (notch.at - s.from) / (s.to - s.from), notch.kind});
         break;
       }
+  for (std::size_t k = 0; k < panels.size(); ++k)
+    for (Pleat& pleat : panels[k].panel.pleats) {
+      std::vector<int> edges;
+      for (int e : pleat.edges)
+        for (const Stretch& s : stretches[static_cast<std::size_t>(e)])
+          if (s.panel == index[k]) edges.push_back(s.edge);
+      pleat.edges = std::move(edges);
+    }
   for (std::size_t k = 0; k < panels.size(); ++k) {
     if (k == 0) pattern.panels[static_cast<std::size_t>(p)] = std::move(panels[k].panel);
     else pattern.panels.push_back(std::move(panels[k].panel));
@@ -239,6 +281,13 @@ void split_panel(Pattern& pattern, const io::Node& node, double unit) {
   }
   std::vector<Rebuilt> both = {rebuilt(panel, one, holes[0]), rebuilt(panel, two, holes[1])};
   both[0].panel.name = names[0], both[1].panel.name = names[1];
+  for (std::size_t k = 0; k < 2; ++k) // a line that the cut crosses is in neither
+    keep_lines(both[k].panel, [&](const InnerLine& line) {
+      const ArcLength arc(line.path);
+      for (int i = 0; i <= 16; ++i)
+        if (side(arc.at(arc.length() * i / 16), from, to - from) * (k == 0 ? 1 : -1) < -1e-9) return false;
+      return true;
+    });
   const int other = static_cast<int>(pattern.panels.size());
   const int edge_one = static_cast<int>(one.size()) - 1, edge_two = static_cast<int>(two.size()) - 1;
   replace_panel(pattern, index, std::move(both), node);
@@ -326,6 +375,22 @@ void join_panels(Pattern& pattern, const io::Node& node) {
     for (const PanelEdge& e : q.loops[h]) loop.push_back(moved(e)), new_q[static_cast<std::size_t>(edge_q++)] = edge++;
     out.loops.push_back(loop);
   }
+  for (InnerLine line : q.lines) {
+    for (Segment& s : line.path)
+      for (Vec2& x : s.p) x = map(x);
+    const auto taken = [&] { return std::any_of(out.lines.begin(), out.lines.end(), [&](const InnerLine& l) { return l.name == line.name; }); };
+    while (taken()) line.name += "_" + q.name;
+    out.lines.push_back(std::move(line));
+  }
+  out.pleats.clear();
+  for (const auto& [from, numbers, first] :
+       {std::tuple<const Panel*, const std::vector<int>*, int>{&p, &new_p, 0}, {&q, &new_q, static_cast<int>(p.lines.size())}})
+    for (Pleat pleat : from->pleats) {
+      pleat.fold += first, pleat.target += first;
+      for (int& e : pleat.edges) e = (*numbers)[static_cast<std::size_t>(e)];
+      pleat.edges.erase(std::remove(pleat.edges.begin(), pleat.edges.end(), -1), pleat.edges.end());
+      if (!pleat.edges.empty()) out.pleats.push_back(std::move(pleat));
+    }
   out.notches.clear();
   for (const auto& [from, numbers] : {std::pair<const Panel*, const std::vector<int>*>{&p, &new_p}, {&q, &new_q}})
     for (Notch notch : from->notches)

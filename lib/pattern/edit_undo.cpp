@@ -28,6 +28,20 @@ io::Json panel_state(const Panel& p) {
   io::Json notches = io::Json::array(), hint = io::Json::object();
   for (const Notch& n : p.notches) notches.push_back({{"edge", n.edge}, {"at", n.at}, {"kind", n.kind}});
   out["notches"] = notches;
+  if (!p.lines.empty()) {
+    io::Json lines = io::Json::array(), pleats = io::Json::array();
+    for (const InnerLine& line : p.lines) {
+      io::Json path = io::Json::array();
+      for (const Segment& s : line.path) {
+        io::Json segment = io::Json::array({s.line ? 1 : 0});
+        for (const Vec2& x : s.p) segment.push_back(x.x()), segment.push_back(x.y());
+        path.push_back(segment);
+      }
+      lines.push_back({{"name", line.name}, {"kind", line.kind}, {"segments", path}, {"factor", line.factor}, {"width", line.width}});
+    }
+    for (const Pleat& pleat : p.pleats) pleats.push_back({{"name", pleat.name}, {"fold", pleat.fold}, {"target", pleat.target}, {"edges", pleat.edges}});
+    out["lines"] = lines, out["pleats"] = pleats;
+  }
   if (!p.hint.part.empty()) hint["part"] = p.hint.part;
   if (p.hint.theta) hint["theta"] = *p.hint.theta;
   if (p.hint.anchor) hint["anchor"] = io::to_json(*p.hint.anchor);
@@ -43,6 +57,20 @@ io::Json panel_state(const Panel& p) {
   return out;
 }
 
+Path path_from(const io::Node& segments) {
+  if (!segments.is_array() || segments.size() == 0) segments.fail("the edge has no segments");
+  Path path;
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    const io::Node numbers = segments.at(s);
+    if (numbers.size() != 9) numbers.fail("a segment has 9 numbers");
+    Segment segment;
+    segment.line = numbers.at(0).number() != 0;
+    for (std::size_t i = 0; i < 4; ++i) segment.p[i] = Vec2(numbers.at(1 + 2 * i).number(), numbers.at(2 + 2 * i).number());
+    path.push_back(segment);
+  }
+  return path;
+}
+
 Panel panel_from(const io::Node& node) {
   Panel p;
   p.name = node.at("name").string(), p.grain = node.at("grain").vec2(), p.material = node.string("material", ""), p.layer = node.integer("layer", 0),
@@ -55,17 +83,7 @@ Panel panel_from(const io::Node& node) {
     p.loops.push_back({});
     for (std::size_t k = 0; k < edges.size(); ++k) {
       const io::Node segments = edges.at(k).at("segments");
-      PanelEdge edge{edges.at(k).at("edge").string(), {}};
-      if (!segments.is_array() || segments.size() == 0) segments.fail("the edge has no segments");
-      for (std::size_t s = 0; s < segments.size(); ++s) {
-        const io::Node numbers = segments.at(s);
-        if (numbers.size() != 9) numbers.fail("a segment has 9 numbers");
-        Segment segment;
-        segment.line = numbers.at(0).number() != 0;
-        for (std::size_t i = 0; i < 4; ++i) segment.p[i] = Vec2(numbers.at(1 + 2 * i).number(), numbers.at(2 + 2 * i).number());
-        edge.path.push_back(segment);
-      }
-      p.loops.back().push_back(std::move(edge));
+      p.loops.back().push_back({edges.at(k).at("edge").string(), path_from(segments)});
     }
     for (std::size_t k = 0; k < p.loops.back().size(); ++k)
       if (const double gap = (p.loops.back()[k].path.back().p[3] - p.loops.back()[(k + 1) % p.loops.back().size()].path.front().p[0]).norm(); gap > 1e-4)
@@ -76,6 +94,24 @@ Panel panel_from(const io::Node& node) {
     const Notch n{notches.at(k).at("edge").integer(), notches.at(k).at("at").number(), notches.at(k).string("kind", "")};
     if (n.edge < 0 || n.edge >= p.n_edges()) notches.at(k).fail("there is no edge " + std::to_string(n.edge));
     p.notches.push_back(n);
+  }
+  if (node.has("lines")) {
+    for (std::size_t k = 0; k < node.at("lines").size(); ++k) {
+      const io::Node line = node.at("lines").at(k);
+      p.lines.push_back(
+          {line.at("name").string(), line.string("kind", "mark"), path_from(line.at("segments")), line.number("factor", 1), line.number("width", 0.01)});
+    }
+    for (std::size_t k = 0; k < node.at("pleats").size(); ++k) {
+      const io::Node item = node.at("pleats").at(k);
+      Pleat pleat{item.at("name").string(), item.at("fold").integer(), item.at("target").integer(), {}};
+      for (std::size_t e = 0; e < item.at("edges").size(); ++e) {
+        pleat.edges.push_back(item.at("edges").at(e).integer());
+        if (pleat.edges.back() < 0 || pleat.edges.back() >= p.n_edges()) item.fail("pleat " + pleat.name + " is sewn along an edge that is not there");
+      }
+      for (int line : {pleat.fold, pleat.target})
+        if (line < 0 || line >= static_cast<int>(p.lines.size())) item.fail("pleat " + pleat.name + " folds along a line that is not there");
+      p.pleats.push_back(std::move(pleat));
+    }
   }
   p.hint.part = hint.string("part", "");
   if (hint.has("theta")) p.hint.theta = hint.at("theta").number();
@@ -189,6 +225,8 @@ io::Json inverse_edits(const Pattern& before, const io::Json& json, const std::s
     one["edits"] = io::Json::array({edits.at(k).json()});
     apply_edits(pattern, one, file);
     io::Json back = opposite(edits.at(k).json());
+    // Inner lines follow the outline along curves, which no opposite undoes to the last bit.
+    if (std::any_of(last.panels.begin(), last.panels.end(), [](const Panel& p) { return !p.lines.empty(); })) back = nullptr;
     steps.push_back(back.is_null() ? restore_edit(last, pattern) : back);
   }
   std::reverse(steps.begin(), steps.end());

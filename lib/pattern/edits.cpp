@@ -1,5 +1,6 @@
 #include <pattern/edit_tools.hpp>
 #include <pattern/edits.hpp>
+#include <pattern/folds.hpp>
 #include <pattern/outline_json.hpp>
 
 #include <algorithm>
@@ -65,6 +66,26 @@ void map_panel(Panel& panel, const std::function<Vec2(const Vec2&)>& map) {
     for (PanelEdge& e : loop)
       for (Segment& s : e.path)
         for (Vec2& p : s.p) p = snapped(map(p));
+  for (InnerLine& line : panel.lines)
+    for (Segment& s : line.path)
+      for (Vec2& p : s.p) p = snapped(map(p));
+}
+
+/// After edits of edges: lines that end on an edge go with it, at the same fraction of its length.
+void carry_lines(const Panel& before, Panel& after) {
+  for (std::size_t k = 0; k < after.lines.size(); ++k) {
+    Path& path = after.lines[k].path;
+    Vec2 move[2];
+    for (const bool last : {false, true}) {
+      const Vec2 end = last ? path.back().p[3] : path.front().p[0];
+      const OnOutline on = on_outline(before, end);
+      move[last] = Vec2::Zero();
+      if (on.edge < 0) continue;
+      const ArcLength old(before.edge(on.edge).path), now(after.edge(on.edge).path);
+      move[last] = now.at(on.at * now.length()) - old.at(on.at * old.length());
+    }
+    if (move[0].norm() + move[1].norm() > 1e-12) drag(path, move[0], 1, 0), drag(path, move[1], 0, 1);
+  }
 }
 
 std::array<Vec2, 2> extent(const Panel& panel) {
@@ -206,8 +227,27 @@ void apply(Pattern& pattern, const io::Node& node, double unit) {
       map_panel(p, [&](const Vec2& q) { return Vec2(c + factor.cwiseProduct(q - c)); });
     }
   } else if (what == "shrink") {
-    node.allow_only({"edit", "panel", "warp", "weft", "edge", "factor", "strip"});
+    node.allow_only({"edit", "panel", "warp", "weft", "edge", "factor", "strip", "curve", "width", "name"});
     Panel& p = panel();
+    if (node.has("curve")) { // elastic tape: rest lengths change along it, the outline does not
+      InnerLine tape{"", "tape", read_path(node.at("curve"), unit, nullptr), factor(node, "factor"), node.number("width", 0.01 / unit) * unit};
+      for (Segment& s : tape.path)
+        for (Vec2& q : s.p) q = snapped(q);
+      const auto [low, high] = extent(p);
+      for (const Segment& s : tape.path)
+        for (const Vec2& q : s.p)
+          if (!((low - q).maxCoeff() < 0.1 && (q - high).maxCoeff() < 0.1)) node.at("curve").fail("the tape leaves panel " + p.name, "draw it inside");
+      if (!(pattern::length(tape.path) > 0.005)) node.at("curve").fail("a tape of " + centimetres(pattern::length(tape.path)) + " is none");
+      if (!(tape.width > 0 && tape.width < 1)) node.at("width").fail("a width of " + centimetres(tape.width) + " is none");
+      const auto taken = [&](const std::string& name) {
+        return std::any_of(p.lines.begin(), p.lines.end(), [&](const InnerLine& l) { return l.name == name; });
+      };
+      tape.name = node.string("name", "tape");
+      if (node.has("name") && taken(tape.name)) node.at("name").fail("panel " + p.name + " has a line '" + tape.name + "' already");
+      for (int k = 2; taken(tape.name); ++k) tape.name = "tape" + std::to_string(k);
+      p.lines.push_back(std::move(tape));
+      return;
+    }
     if (node.has("edge")) { // elastic tape along an edge
       const int e = edge(p);
       set_length(p, e, factor(node, "factor") * pattern::length(p.edge(e).path), "middle");
@@ -256,7 +296,15 @@ void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file
   onto_grid();
   const io::Node edits = root.at("edits");
   for (std::size_t k = 0; k < edits.size(); ++k) {
-    apply(pattern, edits.at(k), unit), onto_grid();
+    std::vector<Panel> lined;
+    for (const Panel& p : pattern.panels)
+      if (!p.lines.empty()) lined.push_back(p);
+    apply(pattern, edits.at(k), unit);
+    for (const char* what : {"move-point", "move-edge", "bend", "set-length", "take-in", "let-out", "shrink"})
+      if (edits.at(k).at("edit").string() == what && !edits.at(k).has("warp") && !edits.at(k).has("strip"))
+        for (const Panel& before : lined)
+          if (const int p = pattern.find_panel(before.name); p >= 0) carry_lines(before, pattern.panels[static_cast<std::size_t>(p)]);
+    onto_grid();
     for (const Panel& p : pattern.panels) {
       std::vector<Path> loop;
       for (const PanelEdge& e : p.loops[0]) loop.push_back(e.path);

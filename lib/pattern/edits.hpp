@@ -22,7 +22,8 @@ namespace sloper::pattern {
 ///   scale       {panel?, x, y}                                    about the panel's middle; all panels when none is named
 ///   grade       {panel?, width, height}                           as scale, by lengths: each panel gets this much wider and higher
 ///   shrink      {panel, warp, weft}                               as scale, along the grain and across it (elastic: below 1)
-///               {panel, edge, factor}                             elastic tape along an edge, about its middle
+///               {panel, edge, factor}                             along an edge, about its middle
+///               {panel, curve: [["M", x, y], ...], factor, width?, name?}   elastic tape along a free curve: rest lengths, no outline
 ///               {panel, strip: {from: [x, y], to: [x, y]}, factor}   between the lines through both points square to their connection
 ///   split       {panel, from: [x, y], to: [x, y], names?: [left, right], sew?: true}   along the line through both points
 ///   cut         {panel, from, to, names?}                         as split, left open

@@ -49,14 +49,16 @@ public:
     tag(40, 5.0), tag(1, words);
   }
   void mark(int layer, const Vec2& at) { entity("POINT", layer), point(at); }
-  void ring(int layer, const std::vector<Vec2>& points) {
-    entity("POLYLINE", layer), tag(66, "1"), tag(70, "1");
-    for (const Vec2& p : points) entity("VERTEX", layer), point(p);
-    entity("SEQEND", layer);
-  }
+  void ring(int layer, const std::vector<Vec2>& points) { polyline(layer, points, "1"); }
+  void chain(int layer, const std::vector<Vec2>& points) { polyline(layer, points, "0"); }
   const std::string& str() const { return m_text; }
 
 private:
+  void polyline(int layer, const std::vector<Vec2>& points, const char* closed) {
+    entity("POLYLINE", layer), tag(66, "1"), tag(70, closed);
+    for (const Vec2& p : points) entity("VERTEX", layer), point(p);
+    entity("SEQEND", layer);
+  }
   std::string m_text;
 };
 
@@ -101,6 +103,26 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool) {
       io::Json notches = io::Json::array();
       for (const Notch& n : p.notches) notches.push_back({{"edge", p.edge(n.edge).name}, {"at", n.at}, {"kind", n.kind}});
       panel["notches"] = notches;
+    }
+    if (!p.lines.empty()) {
+      io::Json lines = io::Json::array();
+      for (const InnerLine& line : p.lines) {
+        lines.push_back({{"name", line.name}, {"kind", line.kind}, {"path", path_json(line.path, UNIT)}});
+        if (line.kind == "tape") lines.back()["factor"] = line.factor, lines.back()["width"] = line.width / UNIT;
+      }
+      panel["lines"] = lines;
+    }
+    if (!p.pleats.empty()) {
+      io::Json pleats = io::Json::array();
+      for (const Pleat& pleat : p.pleats) {
+        io::Json edges = io::Json::array();
+        for (int e : pleat.edges) edges.push_back(p.edge(e).name);
+        pleats.push_back({{"name", pleat.name},
+                          {"fold", p.lines[static_cast<std::size_t>(pleat.fold)].name},
+                          {"target", p.lines[static_cast<std::size_t>(pleat.target)].name},
+                          {"edges", edges}});
+      }
+      panel["pleats"] = pleats;
     }
     io::Json place = io::Json::object();
     if (!p.hint.part.empty()) place["part"] = p.hint.part;
@@ -177,6 +199,16 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
       const ArcLength arc(panel.edge(n.edge).path);
       out.mark(4, arc.at(n.at * arc.length()));
     }
+    for (const InnerLine& line : panel.lines) {
+      const ArcLength arc(line.path);
+      const bool bent = line.path.size() > 1 || !line.path[0].line;
+      const int n = bent ? std::max(1, static_cast<int>(std::ceil(arc.length() / DXF_CHORD))) : 1;
+      std::vector<Vec2> points;
+      for (int k = 0; k <= n; ++k) points.push_back(arc.at(arc.length() * k / n));
+      out.chain(8, points);
+      if (line.kind == "tape") left_out.push_back(panel.name + ": line " + line.name + " is written without saying that it is a tape");
+    }
+    for (const Pleat& pleat : panel.pleats) left_out.push_back(panel.name + ": pleat " + pleat.name + " is written as two lines");
     const Vec2 from = panel.loops[0][0].path.front().p[0], to = from + 0.1 * panel.grain;
     out.entity("LINE", 7), out.point(from), out.tag(11, to.x() * 1000), out.tag(21, to.y() * 1000);
     out.entity("ENDBLK", 1);
@@ -212,6 +244,12 @@ std::string pattern_svg(const Pattern& pattern) {
       fill += "Z ";
     }
     body += "<g id=\"" + escaped(panel.name) + "\">\n<path d=\"" + fill + "\" fill=\"#f4f1ea\" fill-rule=\"evenodd\"/>\n";
+    for (const InnerLine& line : panel.lines)
+      body += "<path d=\"" + path(line.path, true) + "\" fill=\"none\" stroke=\"#555\" stroke-width=\"0.8\" stroke-dasharray=\"" +
+              (line.kind == "fold"   ? "8 4"
+               : line.kind == "tape" ? "2 2"
+                                     : "1 4") +
+              "\"/>\n";
     for (int e = 0; e < panel.n_edges(); ++e) {
       std::string color = "#888";
       double width = 1;

@@ -1,4 +1,5 @@
 #include <pattern/finished_measures.hpp>
+#include <pattern/folds.hpp>
 #include <pattern/mesh_pattern.hpp>
 #include <pattern/panel_layout.hpp>
 
@@ -76,7 +77,10 @@ FinishedMeasures finished_measures(const Pattern& pattern, const std::string& fi
   const PanelMesh mesh = mesh_pattern(pattern, COARSE, file);
   FinishedMeasures out;
   out.openings = openings_of(pattern, mesh);
-  for (const Seam& s : pattern.seams) out.seams.push_back({s.name, 0.5 * (side_length(pattern, s.a) + side_length(pattern, s.b))});
+  out.named = named_measures(pattern, mesh, out.openings);
+  const Pattern sewn = with_folds(pattern, file);
+  for (const Seam& s : sewn.seams)
+    if (s.kind != "pleat") out.seams.push_back({s.name, 0.5 * (side_length(sewn, s.a) + side_length(sewn, s.b))});
   for (const Panel& p : pattern.panels)
     for (const auto& loop : p.loops) {
       std::vector<Path> paths;
@@ -107,7 +111,9 @@ io::Json measures_json(const FinishedMeasures& measures) {
   for (const Opening& o : measures.openings) openings.push_back({{"edges", o.edges}, {"length_m", o.length}});
   for (const auto& [name, length] : measures.seams) seams.push_back({{"name", name}, {"length_m", length}});
   for (const auto& [depth, length] : measures.around) around.push_back({{"below_top_m", depth}, {"length_m", length}});
-  return {{"openings", openings}, {"seams", seams}, {"around", around}, {"cloth_m2", measures.cloth_m2}};
+  io::Json named = io::Json::array();
+  for (const NamedMeasure& m : measures.named) named.push_back({{"name", m.name}, {"length_m", m.value}, {"how", m.how}});
+  return {{"named", named}, {"openings", openings}, {"seams", seams}, {"around", around}, {"cloth_m2", measures.cloth_m2}};
 }
 
 } // namespace sloper::pattern

@@ -1,6 +1,7 @@
 #pragma once
 /// What a tailor measures on the finished garment, taken from the flat pattern: no body, no drape.
 #include <io/json.hpp>
+#include <pattern/panel_mesh.hpp>
 #include <pattern/pattern.hpp>
 
 namespace sloper::pattern {
@@ -11,7 +12,15 @@ struct Opening {
   double length = 0;              ///< m, around
 };
 
+/// A measure as a tailor names it.
+struct NamedMeasure {
+  std::string name;
+  double value = 0; ///< m
+  std::string how;  ///< where it was taken
+};
+
 struct FinishedMeasures {
+  std::vector<NamedMeasure> named;                   ///< what the garment has of them, in this order: see named_measures()
   std::vector<Opening> openings;                     ///< longest first
   std::vector<std::pair<std::string, double>> seams; ///< name, m: the mean of both sides
   std::vector<std::array<double, 2>> around;         ///< m below the garment's top, m of cloth around the trunk there, every 5 cm
@@ -21,7 +30,13 @@ struct FinishedMeasures {
 /// @throws Error INPUT for a pattern that cannot be meshed. Cost: one coarse mesh.
 FinishedMeasures finished_measures(const Pattern& pattern, const std::string& file);
 
-/// For the findings document: {"openings", "seams", "around", "cloth_m2"}, m.
+/// What hangs on shoulders has shoulder, chest (2.5 cm below the armholes), waist (narrowest from 10 to 25 cm below the chest), hip (widest
+/// from 15 to 25 cm below the waist), length (highest point to hem), side_seam, neck; sleeves have sleeve (length), upper_arm (2.5 cm
+/// below the sleeve's seam) and cuff. What hangs on the waist has waist (the top), hip (widest from 15 to 25 cm below), length,
+/// side_seam; trousers have rise (front), inseam, thigh (2.5 cm below the crotch) and leg_hem. hem is the lowest opening.
+std::vector<NamedMeasure> named_measures(const Pattern& pattern, const PanelMesh& mesh, const std::vector<Opening>& openings);
+
+/// For the findings document: {"named", "openings", "seams", "around", "cloth_m2"}, m.
 io::Json measures_json(const FinishedMeasures& measures);
 
 } // namespace sloper::pattern

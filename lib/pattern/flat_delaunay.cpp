@@ -151,6 +151,37 @@ bool FlatDelaunay::insert(const Vec2& p, bool pinned) {
   return true;
 }
 
+bool FlatDelaunay::connected(int a, int b) const {
+  std::vector<int> faces;
+  star(a, faces);
+  return std::any_of(faces.begin(), faces.end(), [&](int f) {
+    const Face& face = m_faces[static_cast<std::size_t>(f)];
+    return face.v[0] == b || face.v[1] == b || face.v[2] == b;
+  });
+}
+
+void FlatDelaunay::keep(int a, int b, int depth) {
+  if (connected(a, b)) {
+    m_kept.insert({std::min(a, b), std::max(a, b)});
+    return;
+  }
+  if (depth == 0 || !insert(0.5 * (m_points[static_cast<std::size_t>(a)] + m_points[static_cast<std::size_t>(b)]), true)) return;
+  const int middle = static_cast<int>(m_points.size()) - 1;
+  keep(a, middle, depth - 1), keep(middle, b, depth - 1);
+}
+
+void FlatDelaunay::add_line(const std::vector<Vec2>& points) {
+  std::vector<int> ids;
+  for (const Vec2& p : points) {
+    const auto end = m_points.begin() + m_n_boundary;
+    const auto on = std::find_if(m_points.begin(), end, [&](const Vec2& q) { return (p - q).squaredNorm() < 1e-18; });
+    if (on != end) ids.push_back(static_cast<int>(on - m_points.begin()));
+    else ids.push_back(insert(p, true) ? static_cast<int>(m_points.size()) - 1 : -1);
+  }
+  for (std::size_t k = 0; k + 1 < ids.size(); ++k)
+    if (ids[k] >= 0 && ids[k + 1] >= 0) keep(ids[k], ids[k + 1], 2);
+}
+
 void FlatDelaunay::split_face(int face, int vertex) {
   const Face old = m_faces[static_cast<std::size_t>(face)];
   const int f[3] = {face, static_cast<int>(m_faces.size()), static_cast<int>(m_faces.size()) + 1};
@@ -180,6 +211,11 @@ void FlatDelaunay::split_edge(int face, int k, int vertex) {
   int j = 0;
   while (twin.next[j] != face || twin.v[(j + 1) % 3] != old.v[(k + 2) % 3]) ++j;
   const int apex = old.v[k], a = old.v[(k + 1) % 3], b = old.v[(k + 2) % 3], below = twin.v[j];
+  if (is_kept(a, b)) { // in two from now on
+    m_kept.erase({std::min(a, b), std::max(a, b)});
+    m_kept.insert({std::min(a, vertex), std::max(a, vertex)}), m_kept.insert({std::min(b, vertex), std::max(b, vertex)});
+    m_pinned[static_cast<std::size_t>(vertex)] = 1;
+  }
   const int f2 = static_cast<int>(m_faces.size()), f3 = f2 + 1;
   m_faces.resize(m_faces.size() + 2);
   const auto set = [&](int f, int v0, int v1, int v2, int n0, int n1, int n2) {
@@ -213,6 +249,7 @@ bool FlatDelaunay::wants_flip(int face, int k) const {
   while (j < 3 && (g.next[j] != face || g.v[(j + 1) % 3] != f.v[(k + 2) % 3])) ++j;
   if (j == 3) return false;
   const int p = f.v[k], a = f.v[(k + 1) % 3], b = f.v[(k + 2) % 3], q = g.v[j];
+  if (is_kept(a, b)) return false;
   if (is_chord(p, q) && !is_chord(a, b)) return false; // never make a boundary-to-boundary edge where there was none
   const Vec2 &P = m_points[static_cast<std::size_t>(p)], &A = m_points[static_cast<std::size_t>(a)], &B = m_points[static_cast<std::size_t>(b)],
              &Q = m_points[static_cast<std::size_t>(q)];

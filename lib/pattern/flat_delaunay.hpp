@@ -3,6 +3,8 @@
 #include <geometry/types.hpp>
 #include <pattern/size_field.hpp>
 
+#include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,9 @@ public:
   FlatDelaunay(const std::vector<std::vector<Vec2>>& loops, const std::string& panel);
   int n_boundary() const { return m_n_boundary; }
   bool insert(const Vec2& p, bool pinned = false); ///< false when p is not inside; a pinned point stays where it is
+  /// Points of a line, pinned, and the edges between them, kept: boundary points are used where they are met. A stretch that cannot be
+  /// had as an edge is halved, at last left out.
+  void add_line(const std::vector<Vec2>& points);
   /// Splits interior edges whose ends are both on the boundary; ears of corners under 50 degrees stay unless must_split.
   void split_chords(const std::vector<char>& must_split);
   void smooth();                           ///< one round: interior points to the area-weighted mean of their circumcentres, then flips
@@ -34,6 +39,9 @@ private:
   void split_edge(int face, int k, int vertex);
   bool flip(int face, int k);
   bool wants_flip(int face, int k) const;
+  bool connected(int a, int b) const;
+  bool is_kept(int a, int b) const { return !m_kept.empty() && m_kept.count({std::min(a, b), std::max(a, b)}) != 0; }
+  void keep(int a, int b, int depth);
   void legalize(std::vector<std::pair<int, int>>& stack);
   void legalize_all();
   bool on_boundary(int vertex) const { return vertex < m_n_boundary; }
@@ -48,7 +56,8 @@ private:
   std::vector<char> m_dead; ///< points taken out
   std::vector<char> m_pinned;
   std::vector<Face> m_faces;
-  std::vector<int> m_face_of; ///< some face of each point
+  std::set<std::pair<int, int>> m_kept; ///< edges of lines, never flipped; lower end first
+  std::vector<int> m_face_of;           ///< some face of each point
   int m_n_boundary = 0;
   mutable int m_last = 0;
 };

@@ -87,7 +87,7 @@ bool FlatDelaunay::remove(int vertex) {
       int j = 0;
       while (o.next[j] != f || o.v[(j + 1) % 3] != g.v[(k + 2) % 3]) ++j;
       const int p = g.v[k], q = o.v[j], a = g.v[(k + 1) % 3], b = g.v[(k + 2) % 3];
-      if (is_chord(p, q)) continue;
+      if (is_chord(p, q) || is_kept(a, b)) continue;
       if (std::min(smallest_angle(m_points[static_cast<std::size_t>(p)], m_points[static_cast<std::size_t>(a)], m_points[static_cast<std::size_t>(q)]),
                    smallest_angle(m_points[static_cast<std::size_t>(p)], m_points[static_cast<std::size_t>(q)], m_points[static_cast<std::size_t>(b)])) <= 1e-3)
         continue;

@@ -51,6 +51,10 @@ bool same_edges(const Pattern& a, const Pattern& b) {
   if (a.panels.size() != b.panels.size() || a.seams.size() != b.seams.size()) return false;
   for (std::size_t p = 0; p < a.panels.size(); ++p) {
     if (a.panels[p].name != b.panels[p].name || a.panels[p].loops.size() != b.panels[p].loops.size()) return false;
+    const auto meshed = [](const Panel& panel) {
+      return std::count_if(panel.lines.begin(), panel.lines.end(), [](const InnerLine& line) { return line.kind != "tape"; });
+    };
+    if (meshed(a.panels[p]) != meshed(b.panels[p]) || a.panels[p].pleats.size() != b.panels[p].pleats.size()) return false;
     for (std::size_t l = 0; l < a.panels[p].loops.size(); ++l) {
       if (a.panels[p].loops[l].size() != b.panels[p].loops[l].size()) return false;
       for (std::size_t e = 0; e < a.panels[p].loops[l].size(); ++e)

@@ -2,6 +2,7 @@
 #include <base/parallel.hpp>
 #include <base/units.hpp>
 #include <pattern/boundary.hpp>
+#include <pattern/folds.hpp>
 #include <pattern/mesh_pattern.hpp>
 #include <pattern/triangulate.hpp>
 
@@ -47,25 +48,72 @@ SizeField size_field(const Pattern& pattern, std::size_t p, const Boundary::Pane
   return SizeField(mesh.edge_length, mesh.seam_length, std::move(lines));
 }
 
+double distance_to(const std::vector<Vec2>& loop, bool closed, const Vec2& p) {
+  double least = 1e300;
+  for (std::size_t k = 0; k + (closed ? 0 : 1) < loop.size(); ++k) {
+    const Vec2 a = loop[k], along = loop[(k + 1) % loop.size()] - a;
+    const double t = along.squaredNorm() > 0 ? std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0.0;
+    least = std::min(least, (p - a - t * along).norm());
+  }
+  return least;
+}
+
+/// Inner lines as chains of mesh points: where a line comes too near to the outline or to a line before it, it is left out and told.
+std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel, const Boundary::PanelBoundary& boundary, double h, std::vector<std::string>& findings) {
+  constexpr double CLEAR = 0.55; // edge lengths
+  std::vector<std::vector<Vec2>> out;
+  for (const InnerLine& line : panel.lines) {
+    const ArcLength arc(line.path);
+    const int n = std::max(1, static_cast<int>(std::lround(arc.length() / h)));
+    if (arc.length() < 0.5 * h) continue;
+    std::vector<std::vector<Vec2>> chains(1);
+    int n_left_out = 0;
+    for (int k = 0; k <= n; ++k) {
+      Vec2 p = arc.at(arc.length() * k / n);
+      bool fits = true;
+      for (const auto& loop : boundary.loops) {
+        const auto on = std::find_if(loop.begin(), loop.end(), [&](const Vec2& q) { return (p - q).norm() < 1e-6; });
+        if ((k == 0 || k == n) && on != loop.end()) {
+          p = *on;
+          break;
+        }
+        fits = fits && distance_to(loop, true, p) > CLEAR * h;
+      }
+      for (const auto& other : out) fits = fits && distance_to(other, false, p) > CLEAR * h;
+      if (fits) chains.back().push_back(p);
+      else ++n_left_out, chains.push_back({});
+    }
+    for (auto& chain : chains)
+      if (chain.size() >= 2) out.push_back(std::move(chain));
+    if (n_left_out > 2 || n_left_out == n + 1) // the ends of a line may be a little short of an outline that it does not reach
+      findings.push_back(panel.name + ": line " + line.name + " runs within " + centimetres(CLEAR * h) + " of the outline or of another line; " +
+                         std::to_string(n_left_out) + " of its " + std::to_string(n + 1) + " points are left out");
+  }
+  return out;
+}
+
 } // namespace
 
-PanelMesh mesh_pattern(const Pattern& pattern, double edge_length, const std::string& file, double seam_length) {
+PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::string& file, double seam_length) {
+  const Pattern pattern = with_folds(drawn, file);
   PanelMesh mesh;
   mesh.name = pattern.name;
   mesh.edge_length = edge_length;
   mesh.seam_length = seam_length > 0 && seam_length < edge_length ? seam_length : 0;
-  mesh.source = std::make_shared<Pattern>(pattern);
+  mesh.source = std::make_shared<Pattern>(drawn);
   mesh.findings = pattern.findings;
   const Boundary boundary = sample_boundary(pattern, edge_length, file, mesh.seam_length);
   mesh.findings.insert(mesh.findings.end(), boundary.findings.begin(), boundary.findings.end());
 
   std::vector<FlatMesh> flat(pattern.panels.size());
   std::vector<std::string> failed(pattern.panels.size());
+  std::vector<std::vector<std::vector<Vec2>>> lines;
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p) lines.push_back(sampled_lines(pattern.panels[p], boundary.panels[p], edge_length, mesh.findings));
   parallel_for(pattern.panels.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       try {
-        flat[p] =
-            triangulate(boundary.panels[p].loops, size_field(pattern, p, boundary.panels[p], mesh), boundary.panels[p].must_split, pattern.panels[p].name);
+        flat[p] = triangulate(boundary.panels[p].loops, size_field(pattern, p, boundary.panels[p], mesh), boundary.panels[p].must_split, pattern.panels[p].name,
+                              lines[p]);
       } catch (const Error& e) {
         failed[p] = e.fact();
       }

@@ -63,6 +63,11 @@ void turn_over(Pattern& pattern, int index) {
         for (Vec2& p : s.p) p.x() = -p.x();
     }
   }
+  for (InnerLine& line : panel.lines)
+    for (Segment& s : line.path)
+      for (Vec2& p : s.p) p.x() = -p.x();
+  for (Pleat& pleat : panel.pleats)
+    for (int& e : pleat.edges) e = renumber[static_cast<std::size_t>(e)];
   panel.grain.x() = -panel.grain.x();
   for (Notch& n : panel.notches) n.edge = renumber[static_cast<std::size_t>(n.edge)], n.at = 1 - n.at;
   if (panel.hint.anchor) panel.hint.anchor->x() *= -1;
@@ -118,6 +123,13 @@ bool unfold(Panel& panel, int fold_edge, const std::string& suffix, const std::s
   for (std::size_t h = 1, n = panel.loops.size(); h < n; ++h) {
     panel.loops.push_back(reflected(panel.loops[h], origin, along, mirror_suffix));
     for (PanelEdge& e : panel.loops[h]) e.name += suffix;
+  }
+  for (std::size_t k = 0, n = panel.lines.size(); k < n; ++k) {
+    InnerLine image = panel.lines[k];
+    for (Segment& s : image.path)
+      for (Vec2& p : s.p) p = reflect(p, origin, along);
+    image.name += mirror_suffix, panel.lines[k].name += suffix;
+    panel.lines.push_back(std::move(image));
   }
   return true;
 }

@@ -24,6 +24,22 @@ struct Notch {
   std::string kind;
 };
 
+/// A line inside a panel. The mesh has edges along marks and folds; an end within 2 mm of the outline lies on it. A tape shortens the
+/// cloth along it to `factor` of its length.
+struct InnerLine {
+  std::string name, kind = "mark"; ///< "mark", "fold", "tape"
+  Path path;
+  double factor = 1, width = 0.01; ///< of tapes; width in m
+};
+
+/// Cloth folded outwards along one line and brought to another; the cloth between them lies under it, folded back in the middle.
+/// Two folds brought to the same line from both sides make a box pleat.
+struct Pleat {
+  std::string name;
+  int fold = 0, target = 0; ///< indices of Panel::lines; straight, and no line ends between them
+  std::vector<int> edges;   ///< where the three layers are sewn onto each other: both lines end on each of these
+};
+
 /// Where the author of a pattern wants a panel to start. All fields are optional; unset ones are derived from name and seams.
 struct PlacementHint {
   std::string part;             ///< torso, neck, arm_l, arm_r, leg_l, leg_r, lower_body; empty when unknown
@@ -42,6 +58,8 @@ struct Panel {
   int layer = 0;
   std::string label; ///< the source's own word for the body part, if any
   std::vector<Notch> notches;
+  std::vector<InnerLine> lines;
+  std::vector<Pleat> pleats;
   PlacementHint hint;
 
   int n_edges() const;
@@ -58,7 +76,7 @@ struct Run {
 
 /// Side a's runs, walked one after the other, are sewn to side b's, start to start and end to end, linear in arc length.
 struct Seam {
-  std::string name, kind = "seam"; ///< "seam", "dart", "gather", "closure"
+  std::string name, kind = "seam"; ///< "seam", "dart", "gather", "closure", "pleat"
   std::vector<Run> a, b;
   std::string ease; ///< why the sides differ in length, or empty
 };

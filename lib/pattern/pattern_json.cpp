@@ -43,16 +43,64 @@ void read_place(const io::Node& node, Panel& panel, double unit) {
   if (node.has("height")) panel.hint.height = node.at("height").number() * unit;
 }
 
+int line_named(const Panel& panel, const io::Node& node) {
+  const std::string name = node.string();
+  std::vector<std::string> names;
+  for (const InnerLine& line : panel.lines) names.push_back(line.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<int>(found - names.begin());
+  const std::string near = nearest_word(name, names.data(), names.data() + names.size());
+  node.fail("panel " + panel.name + " has no line '" + name + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)"));
+}
+
+void read_lines(const io::Node& node, Panel& panel, double unit) {
+  for (std::size_t k = 0; k < node.size(); ++k) {
+    const io::Node item = node.at(k);
+    item.allow_only({"name", "kind", "path", "factor", "width"});
+    InnerLine line{item.at("name").string(), item.string("kind", "mark"), read_path(item.at("path"), unit, nullptr)};
+    if (line.kind != "mark" && line.kind != "fold" && line.kind != "tape")
+      item.at("kind").fail("'" + line.kind + "' is no kind of line", "give mark, fold or tape");
+    line.factor = item.number("factor", 1), line.width = item.number("width", 0.01 / unit) * unit;
+    if (!(line.factor >= 0.05 && line.factor <= 20)) item.at("factor").fail("a factor of " + std::to_string(line.factor) + " is none", "give 0.05 to 20");
+    if (!(line.width > 0)) item.at("width").fail("the tape has no width");
+    if (!(length(line.path) > 1e-3)) item.fail("line '" + line.name + "' of panel " + panel.name + " is " + centimetres(length(line.path)) + " long");
+    for (const InnerLine& other : panel.lines)
+      if (other.name == line.name) item.fail("panel " + panel.name + " has two lines named '" + line.name + "'");
+    panel.lines.push_back(std::move(line));
+  }
+}
+
+/// After fold and mirror: edges are those of the whole panel.
+void read_pleats(const io::Node& node, Panel& panel) {
+  for (std::size_t k = 0; k < node.size(); ++k) {
+    const io::Node item = node.at(k);
+    item.allow_only({"name", "fold", "target", "edges"});
+    Pleat pleat;
+    pleat.fold = line_named(panel, item.at("fold")), pleat.target = line_named(panel, item.at("target"));
+    pleat.name = item.string("name", panel.name + "-" + panel.lines[static_cast<std::size_t>(pleat.fold)].name);
+    if (pleat.fold == pleat.target) item.fail("pleat " + pleat.name + " brings a line to itself");
+    const io::Node edges = item.at("edges");
+    if (edges.size() == 0) edges.fail("pleat " + pleat.name + " is sewn along no edge");
+    for (std::size_t e = 0; e < edges.size(); ++e) pleat.edges.push_back(edge_named(panel, edges.at(e)));
+    panel.pleats.push_back(std::move(pleat));
+  }
+}
+
 void read_panel(const io::Node& node, Pattern& pattern, double unit) {
-  node.allow_only({"name", "outline", "holes", "grain", "material", "layer", "notches", "mirror_of", "fold", "place", "label"});
+  node.allow_only({"name", "outline", "holes", "grain", "material", "layer", "notches", "mirror_of", "fold", "place", "label", "lines", "pleats"});
   Panel panel;
   panel.name = node.at("name").string();
   if (panel.name.empty() || pattern.find_panel(panel.name) >= 0)
     node.fail(panel.name.empty() ? "a panel has no name" : "there are two panels named '" + panel.name + "'");
   if (node.has("mirror_of")) {
-    if (node.has("outline") || node.has("holes") || node.has("fold")) node.fail("panel " + panel.name + " has both mirror_of and an outline");
+    if (node.has("outline") || node.has("holes") || node.has("fold") || node.has("lines"))
+      node.fail("panel " + panel.name + " has both mirror_of and an outline");
     const Panel& other = pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("mirror_of")))];
     for (const auto& loop : other.loops) panel.loops.push_back(mirrored(loop));
+    panel.lines = other.lines;
+    for (InnerLine& line : panel.lines)
+      for (Segment& s : line.path)
+        for (Vec2& p : s.p) p.x() = -p.x();
     panel.grain = Vec2(-other.grain.x(), other.grain.y());
     panel.material = other.material, panel.layer = other.layer, panel.label = other.label;
   } else {
@@ -62,8 +110,10 @@ void read_panel(const io::Node& node, Pattern& pattern, double unit) {
         node.at("holes").at(k);
         panel.loops.push_back(read_loop(node.at("holes").at(k), "edge", unit, panel.name));
       }
+    if (node.has("lines")) read_lines(node.at("lines"), panel, unit);
     if (node.has("fold")) read_fold(node.at("fold"), panel);
   }
+  if (node.has("pleats")) read_pleats(node.at("pleats"), panel);
   if (node.has("grain")) {
     panel.grain = node.at("grain").vec2();
     if (!(panel.grain.norm() > 0)) node.at("grain").fail("panel " + panel.name + ": the grain has no direction");

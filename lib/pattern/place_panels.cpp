@@ -3,6 +3,7 @@
 #include <collision/intersections.hpp>
 #include <pattern/arm_tube.hpp>
 #include <pattern/body_space.hpp>
+#include <pattern/folds.hpp>
 #include <pattern/leg_layout.hpp>
 #include <pattern/panel_layout.hpp>
 #include <pattern/place_panels.hpp>
@@ -42,8 +43,8 @@ struct Group {
 
 class Placer {
 public:
-  Placer(const Pattern& pattern, const body::Body& body, PanelMesh& mesh)
-      : m_pattern(pattern), m_mesh(mesh), m_space(body), m_graph(mesh), m_roles(panel_roles(pattern, mesh, m_graph)),
+  Placer(const Pattern& pattern, const body::Body& body, PanelMesh& mesh, const Folding& folding)
+      : m_pattern(pattern), m_mesh(mesh), m_folding(folding), m_space(body), m_graph(mesh), m_roles(panel_roles(pattern, mesh, m_graph)),
         m_spots(lay_out(pattern, mesh, m_graph, m_roles)), m_depth(m_roles.size(), 0), m_collider(body.skin) {
     for (const PanelInfo& p : mesh.panels)
       for (int t = 0; t < p.n_triangles; ++t) m_panel_of_triangle.push_back(static_cast<int>(&p - mesh.panels.data()));
@@ -415,7 +416,15 @@ private:
 
   template<class Point> void put(std::size_t panel, Point point) {
     const PanelInfo& info = m_mesh.panels[panel];
-    for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) m_mesh.placed[static_cast<std::size_t>(v)] = point(uv(panel, v));
+    for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
+      const Vec2 p = uv(panel, v);
+      Vec3& at = m_mesh.placed[static_cast<std::size_t>(v)];
+      at = point(p);
+      if (m_folding.depth.empty() || m_folding.depth[static_cast<std::size_t>(v)] == 0) continue;
+      constexpr double STEP = 1e-4; // m: u is right and v up, seen from outside
+      const Vec3 outwards = (point(Vec2(p + Vec2(STEP, 0))) - at).cross(point(Vec2(p + Vec2(0, STEP))) - at);
+      if (outwards.norm() > 0) at -= m_folding.depth[static_cast<std::size_t>(v)] * outwards.normalized();
+    }
   }
 
   void place_group(const Group& g) {
@@ -521,6 +530,7 @@ private:
 
   const Pattern& m_pattern;
   PanelMesh& m_mesh;
+  const Folding& m_folding;
   BodySpace m_space;
   SeamGraph m_graph;
   std::vector<PanelRole> m_roles;
@@ -538,7 +548,16 @@ private:
 
 } // namespace
 
-PlacementReport place_panels(const Pattern& pattern, const body::Body& body, PanelMesh& mesh) { return Placer(pattern, body, mesh).run(); }
+PlacementReport place_panels(const Pattern& pattern, const body::Body& body, PanelMesh& mesh) {
+  // Pleats are laid before the panels are: their cloth is where it will be sewn.
+  const Folding folding = fold_panels(pattern, mesh);
+  if (folding.shift.empty()) return Placer(pattern, body, mesh, folding).run();
+  const std::vector<Vec2> flat = mesh.pattern;
+  for (std::size_t v = 0; v < flat.size(); ++v) mesh.pattern[v] += folding.shift[v];
+  const PlacementReport report = Placer(pattern, body, mesh, folding).run();
+  mesh.pattern = flat;
+  return report;
+}
 
 void lay_flat(const Pattern& pattern, PanelMesh& mesh) {
   const bool stated = std::all_of(pattern.panels.begin(), pattern.panels.end(), [](const Panel& p) { return p.hint.rigid.has_value(); });

@@ -14,7 +14,24 @@ bool all_finite(const Panel& panel) {
       for (const Segment& s : e.path)
         for (const Vec2& p : s.p)
           if (!p.allFinite()) return false;
+  for (const InnerLine& line : panel.lines)
+    for (const Segment& s : line.path)
+      for (const Vec2& p : s.p)
+        if (!p.allFinite()) return false;
   return true;
+}
+
+/// Lines belong to their panel: no control point lies further than its own size outside of it.
+void check_lines(const Panel& panel, const std::string& file) {
+  Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+  for (const PanelEdge& e : panel.loops[0])
+    for (const Segment& s : e.path) low = low.cwiseMin(s.p[0]), high = high.cwiseMax(s.p[0]);
+  const double size = (high - low).maxCoeff();
+  for (const InnerLine& line : panel.lines)
+    for (const Segment& s : line.path)
+      for (const Vec2& p : s.p)
+        if (const double off = std::max((low - p).maxCoeff(), (p - high).maxCoeff()); off > size)
+          throw input_error(file, panel.name + ": " + line.name, "the line leaves the panel by " + centimetres(off), "draw it inside");
 }
 
 } // namespace
@@ -24,6 +41,7 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
   for (std::size_t k = 0; k < pattern.panels.size(); ++k) {
     Panel& panel = pattern.panels[k];
     if (!all_finite(panel)) throw input_error(file, panel.name, "a coordinate is no finite number");
+    check_lines(panel, file);
     for (std::size_t l = 0; l < panel.loops.size(); ++l) {
       std::vector<Path> paths;
       Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
@@ -50,6 +68,9 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
         for (PanelEdge& e : loop)
           for (Segment& s : e.path)
             for (Vec2& p : s.p) p.x() = -p.x();
+      for (InnerLine& line : panel.lines)
+        for (Segment& s : line.path)
+          for (Vec2& p : s.p) p.x() = -p.x();
       panel.grain.x() = -panel.grain.x();
       if (panel.hint.anchor) panel.hint.anchor->x() *= -1;
       if (panel.hint.rigid) {

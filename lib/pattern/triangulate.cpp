@@ -9,12 +9,14 @@
 namespace sloper::pattern {
 namespace {
 
-/// Boundary segments in square cells of size h, for distances up to h.
+/// Segments of boundary and inner lines in square cells of size h, for distances up to h.
 class SegmentGrid {
 public:
-  SegmentGrid(const std::vector<std::vector<Vec2>>& loops, double h) : m_h(h) {
+  SegmentGrid(const std::vector<std::vector<Vec2>>& loops, const std::vector<std::vector<Vec2>>& lines, double h) : m_h(h) {
     for (const auto& loop : loops)
       for (std::size_t k = 0; k < loop.size(); ++k) m_segments.push_back({loop[k], loop[(k + 1) % loop.size()]});
+    for (const auto& line : lines)
+      for (std::size_t k = 0; k + 1 < line.size(); ++k) m_segments.push_back({line[k], line[k + 1]});
     m_low = Vec2::Constant(1e300);
     Vec2 high = Vec2::Constant(-1e300);
     for (const auto& s : m_segments) m_low = m_low.cwiseMin(s[0]), high = high.cwiseMax(s[0]);
@@ -28,7 +30,7 @@ public:
         for (int x = x0; x <= x1; ++x) m_cells[cell(x, y)].push_back(static_cast<int>(k));
     }
   }
-  /// Whether some boundary segment is nearer than d <= h.
+  /// Whether some segment is nearer than d <= h.
   bool nearer(const Vec2& p, double d) const {
     const int cx = column(p.x()), cy = row(p.y());
     for (int y = std::max(0, cy - 1); y <= std::min(m_ny - 1, cy + 1); ++y)
@@ -54,10 +56,10 @@ private:
 };
 
 /// Points of a hexagonal lattice inside the polygon and not nearer than `clearance` to its boundary, row by row, to and fro.
-std::vector<Vec2> lattice(const std::vector<std::vector<Vec2>>& loops, double h, double clearance) {
+std::vector<Vec2> lattice(const std::vector<std::vector<Vec2>>& loops, const std::vector<std::vector<Vec2>>& lines, double h, double clearance) {
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
   for (const Vec2& p : loops[0]) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const SegmentGrid grid(loops, h);
+  const SegmentGrid grid(loops, lines, h);
   const double step_y = h * std::sqrt(0.75);
   const int rows = static_cast<int>((high.y() - low.y()) / step_y) + 1;
   const double first_y = 0.5 * (low.y() + high.y() - (rows - 1) * step_y), middle = 0.5 * (low.x() + high.x());
@@ -85,15 +87,15 @@ std::vector<Vec2> lattice(const std::vector<std::vector<Vec2>>& loops, double h,
 }
 
 /// The same for edge lengths that vary: points of the finest lattice, each taken where those taken before leave it room.
-std::vector<Vec2> graded_lattice(const std::vector<std::vector<Vec2>>& loops, const SizeField& size) {
+std::vector<Vec2> graded_lattice(const std::vector<std::vector<Vec2>>& loops, const std::vector<std::vector<Vec2>>& lines, const SizeField& size) {
   constexpr double ROOM = 0.8, CLEARANCE = 0.62; // of the local length; the former gives a lattice's density
   const double cell = size.usual();
-  const SegmentGrid grid(loops, cell);
+  const SegmentGrid grid(loops, lines, cell);
   Vec2 low = loops[0][0];
   for (const Vec2& p : loops[0]) low = low.cwiseMin(p);
   std::map<std::pair<long, long>, std::vector<Vec2>> taken;
   std::vector<Vec2> points;
-  for (const Vec2& p : lattice(loops, size.fine(), CLEARANCE * size.fine())) {
+  for (const Vec2& p : lattice(loops, lines, size.fine(), CLEARANCE * size.fine())) {
     const double h = size.at(p);
     if (grid.nearer(p, CLEARANCE * h)) continue;
     const long x = static_cast<long>((p.x() - low.x()) / cell), y = static_cast<long>((p.y() - low.y()) / cell);
@@ -143,13 +145,14 @@ int n_small(const FlatMesh& mesh) {
 }
 
 /// @param spacing of the lattice of interior points, in edge lengths
-FlatMesh attempt(const std::vector<std::vector<Vec2>>& loops, const SizeField& size, double spacing, const std::vector<char>& must_split,
-                 const std::string& panel) {
+FlatMesh attempt(const std::vector<std::vector<Vec2>>& loops, const std::vector<std::vector<Vec2>>& lines, const SizeField& size, double spacing,
+                 const std::vector<char>& must_split, const std::string& panel) {
   FlatDelaunay mesh(loops, panel);
   const std::vector<Vec2> fans = fan_points(loops, must_split);
+  for (const auto& line : lines) mesh.add_line(line);
   for (const Vec2& p : fans) mesh.insert(p, true);
   const double h = size.usual();
-  for (const Vec2& p : size.uniform() ? lattice(loops, spacing * h, 0.62 * spacing * h) : graded_lattice(loops, size))
+  for (const Vec2& p : size.uniform() ? lattice(loops, lines, spacing * h, 0.62 * spacing * h) : graded_lattice(loops, lines, size))
     if (std::none_of(fans.begin(), fans.end(), [&](const Vec2& q) { return (p - q).norm() < 0.7 * size.at(q); })) mesh.insert(p);
   mesh.split_chords(must_split);
   for (int round = 0; round < 8; ++round) mesh.smooth();
@@ -166,13 +169,14 @@ FlatMesh attempt(const std::vector<std::vector<Vec2>>& loops, const SizeField& s
 
 } // namespace
 
-FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, const SizeField& size, const std::vector<char>& must_split, const std::string& panel) {
-  FlatMesh best = attempt(loops, size, 1, must_split, panel);
+FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, const SizeField& size, const std::vector<char>& must_split, const std::string& panel,
+                     const std::vector<std::vector<Vec2>>& lines) {
+  FlatMesh best = attempt(loops, lines, size, 1, must_split, panel);
   int least = n_small(best);
   // Strips a row or two wide may not go with the lattice: another spacing often does.
   for (double spacing : {0.9, 0.8, 1.1, 0.7}) {
     if (least == 0 || !size.uniform()) break;
-    FlatMesh other = attempt(loops, size, spacing, must_split, panel);
+    FlatMesh other = attempt(loops, lines, size, spacing, must_split, panel);
     if (const int n = n_small(other); n < least) best = std::move(other), least = n;
   }
   return best;

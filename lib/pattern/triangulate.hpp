@@ -19,9 +19,11 @@ struct FlatMesh {
 /// Corners below 50 degrees keep their ear: splitting it would make angles below 25.
 /// @param loops      [0] outer, counter-clockwise; the rest holes, clockwise; no repeated points
 /// @param size       edge length aimed at
+/// @param lines      chains of points inside that become edges where they can; an end may be a boundary point
 /// @param must_split boundary points whose ear must go whatever the angle (their two edges are sewn together)
 /// @throws Error INPUT when the polygon crosses itself; deterministic. About 25 us per point.
-FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, const SizeField& size, const std::vector<char>& must_split, const std::string& panel);
+FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, const SizeField& size, const std::vector<char>& must_split, const std::string& panel,
+                     const std::vector<std::vector<Vec2>>& lines = {});
 
 /// Smallest angle of a triangle, rad; 0 for one that has no area or is clockwise.
 double smallest_angle(const Vec2& a, const Vec2& b, const Vec2& c);

@@ -211,6 +211,51 @@ TEST(Edits, AnyLogIsTakenBackToTheLastByteAndReplaysTheSame) {
   EXPECT_GT(n_edits, 180);
 }
 
+TEST(Edits, EveryKindIsTakenBackToTheLastByte) {
+  const Pattern start = edited(curvy(), R"({"edit": "split", "panel": "back", "from": [-30, 30], "to": [30, 30], "names": ["top", "skirt"]},
+      {"edit": "add-dart", "panel": "front", "edge": "hem", "at": 0.5, "width": 2, "tip": [0, 12], "name": "dart"},
+      {"edit": "shrink", "panel": "front", "curve": [["M", -10, 30], ["Q", 0, 34, 4, 30]], "factor": 0.9, "name": "old"})");
+  const char* kinds[] = {
+      R"({"edit": "move-point", "panel": "front", "edge": "top", "end": "start", "by": [0.123, 1]})",
+      R"({"edit": "move-edge", "panel": "front", "edge": "side_l", "by": [0.7, -0.3]})",
+      R"({"edit": "bend", "panel": "front", "edge": "side_r", "by": [-0.9, 0.1]})",
+      R"({"edit": "add-point", "panel": "front", "edge": "top", "at": 0.3, "names": ["one", "two"]})",
+      R"({"edit": "set-length", "panel": "front", "edge": "side_l", "length": 61.7, "fixed": "middle"})",
+      R"({"edit": "set-length", "seam": "left", "length": 59})",
+      R"({"edit": "take-in", "panel": "front", "edge": "side_l", "by": 0.77})",
+      R"({"edit": "take-in", "seam": "left", "by": 0.3})",
+      R"({"edit": "let-out", "panel": "top", "edge": "side_r_2", "by": 0.77})",
+      R"({"edit": "let-out", "seam": "right", "by": 0.31})",
+      R"({"edit": "lengthen", "panel": "front", "at": [0, 20], "along": [0.2, 1], "by": 3})",
+      R"({"edit": "shorten", "panel": "front", "at": [0, 20], "along": [0, 1], "by": 3})",
+      R"({"edit": "scale", "x": 1.07, "y": 0.93})",
+      R"({"edit": "grade", "panel": "front", "width": 1.3, "height": -0.7})",
+      R"({"edit": "shrink", "panel": "front", "warp": 0.9, "weft": 1.01})",
+      R"({"edit": "shrink", "panel": "front", "edge": "top", "factor": 0.8})",
+      R"({"edit": "shrink", "panel": "front", "strip": {"from": [0, 20], "to": [0, 28]}, "factor": 0.8})",
+      R"({"edit": "shrink", "panel": "front", "curve": [["M", -12, 20], ["L", 12, 26]], "factor": 0.7, "width": 2})",
+      R"({"edit": "split", "panel": "front", "from": [-30, 25], "to": [30, 28]})",
+      R"({"edit": "cut", "panel": "front", "from": [-30, 25], "to": [30, 28]})",
+      R"({"edit": "join", "seam": "top-skirt", "name": "back"})",
+      R"({"edit": "add-dart", "panel": "front", "edge": "side_l", "at": 0.4, "width": 2, "tip": [8, 27]})",
+      R"({"edit": "add-dart", "panel": "front", "center": [-8, 30], "length": 12, "width": 2})",
+      R"({"edit": "rotate-dart", "dart": "dart", "edge": "side_r", "at": 0.8})",
+  };
+  for (const char* kind : kinds) {
+    SCOPED_TRACE(kind);
+    const Pattern after = edited(start, kind);
+    EXPECT_FALSE(bytes(after) == bytes(start));
+    EXPECT_TRUE(bytes(edited(start, kind)) == bytes(after)) << "replayed";
+    Pattern back = after;
+    const io::Json undo = inverse_edits(start, log_of(kind), "edits.json", "test");
+    apply_edits(back, undo, "undo.json");
+    EXPECT_TRUE(bytes(back) == bytes(start));
+    // The log that takes it back is itself taken back.
+    apply_edits(back, inverse_edits(after, undo, "undo.json", "test"), "redo.json");
+    EXPECT_TRUE(bytes(back) == bytes(after));
+  }
+}
+
 TEST(Edits, SetLengthIsExactToATenthOfAMillimetreOnAnyEdge) {
   const Pattern start = curvy();
   std::mt19937 random(7);
