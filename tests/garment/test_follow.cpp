@@ -143,6 +143,33 @@ TEST(Follow, an_edit_that_asks_for_another_mesh_carries_the_draped_state_across)
   EXPECT_EQ(joined.drape.quality["faces_through_body"], 0);
 }
 
+TEST(Follow, an_elastic_tape_draws_the_cloth_in_along_it_and_nowhere_else) {
+  const body::Body pillar = make_pillar();
+  Garment skirt = draped_skirt(pillar);
+  const auto stretch = [&](double low, double high) { // of level edges of the front between two heights of the pattern: length to that of the pattern
+    double now = 0, flat = 0;
+    for (int f = 0; f < skirt.panels.panels[0].n_triangles; ++f)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Triangle& t = skirt.panels.triangles[static_cast<std::size_t>(f)];
+        const auto a = static_cast<std::size_t>(t[k]), b = static_cast<std::size_t>(t[(k + 1) % 3]);
+        const Vec2 p = skirt.panels.pattern[a], q = skirt.panels.pattern[b];
+        if (std::abs((q - p).normalized().x()) < 0.95 || std::min(p.y(), q.y()) < low || std::max(p.y(), q.y()) > high) continue;
+        now += (skirt.position[static_cast<std::size_t>(skirt.particle_of[a])] - skirt.position[static_cast<std::size_t>(skirt.particle_of[b])]).norm();
+        flat += (q - p).norm();
+      }
+    return now / flat;
+  };
+  const double before = stretch(0.06, 0.14);
+  const std::vector<Vec2> pattern = skirt.panels.pattern;
+  const FollowReport report =
+      play(skirt, pillar, {HEAD, R"({"edit": "shrink", "panel": "front", "curve": [["M", -19, 10], ["L", 19, 10]], "factor": 0.7, "width": 6})"}, nullptr, 150);
+  EXPECT_EQ(report.edits, 1) << (report.refused.empty() ? "" : report.refused[0]);
+  EXPECT_EQ(report.remeshed, 0);
+  for (std::size_t v = 0; v < pattern.size(); ++v) EXPECT_LT((skirt.panels.pattern[v] - pattern[v]).norm(), 1e-8);
+  EXPECT_LT(stretch(0.06, 0.14), before - 0.05) << "the cloth beside the tape holds against it";
+  EXPECT_GT(stretch(0.25, 0.40), 0.96);
+}
+
 TEST(Follow, lines_that_are_no_edits_are_refused_with_their_number_and_change_nothing) {
   const body::Body pillar = make_pillar();
   Garment skirt = draped_skirt(pillar);
