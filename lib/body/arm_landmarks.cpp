@@ -32,7 +32,8 @@ std::optional<Vec3> top_of_shoulder(const TriangleMesh& skin, double stature, do
 
 /// Where the wrist is: behind the widest of the hand the girth falls to its least. Empty when it does not. The search
 /// starts at the palm, so that a fist, whose hand is short, has a wrist too.
-std::optional<double> wrist_by_girth(const ArmTrace& arm, double s) {
+std::optional<double> wrist_by_girth(const ArmTrace& arm, const Finder& f) {
+  const double s = f.s;
   const auto& sections = arm.sections;
   std::size_t palm = 0;
   for (std::size_t k = 0; k < sections.size() && sections[k].along < 0.11 * s; ++k)
@@ -41,7 +42,7 @@ std::optional<double> wrist_by_girth(const ArmTrace& arm, double s) {
   std::size_t least = palm;
   for (std::size_t k = palm + 1; k + 1 < sections.size() && sections[k].along < sections[palm].along + 0.085 * s; ++k)
     if (sections[k].girth < 0.995 * sections[least].girth) least = k;
-  if (sections[least].girth > 0.92 * sections[palm].girth) return std::nullopt;
+  if (sections[least].girth > f.number("wrist.least_to_palm") * sections[palm].girth) return std::nullopt;
   double sum = 0, weight = 0; // the middle of where it is as thin as makes no difference
   for (std::size_t k = palm + 1; k + 1 < sections.size() && sections[k].along < sections[palm].along + 0.085 * s; ++k) {
     const double w = std::max(0.0, 1.015 * sections[least].girth - sections[k].girth);
@@ -65,6 +66,85 @@ std::optional<double> elbow_by_girth(const ArmTrace& arm, double s, double wrist
   return best;
 }
 
+/// Axilla and its folds, shoulder joint and acromion. @return the joint, which the rest of the arm is measured from
+Vec3 find_shoulder(const Finder& f, int side) {
+  const double s = f.s;
+  const TriangleMesh& skin = f.levels.skin();
+  const ArmTrace& arm = f.arms[side];
+  const std::string suffix = side_suffix(side);
+  const double outward = arm.left ? 1 : -1;
+  const double raised = units::degrees(std::acos(std::clamp(-arm.out.y(), -1.0, 1.0))); // 0 hanging, 90 level
+  auto pit_if = [&](bool hidden) { return arm.axilla && hidden == arm.pit_hidden ? arm.axilla : std::nullopt; };
+  if (f.find("axilla", suffix, 1, {{"gap_closes", [&] { return pit_if(false); }}, {"proportion", [&] { return pit_if(true); }}})) {
+    f.find("axilla_merge", suffix, 1, {{"level_sections_merge", [&] { return arm.merge; }}});
+    if (arm.pit_hidden) f.body.scan.findings.push_back({"warning", "the arm pit is hidden, its place is estimated", "axilla" + suffix});
+    f.find("axilla_front", suffix, 2, {{"beside_arm_pit", [&] { return arm.axilla_front; }}});
+    f.find("axilla_back", suffix, 2, {{"beside_arm_pit", [&] { return arm.axilla_back; }}});
+  }
+  Vec3 by_axis = arm.at(arm.length() + 0.02 * s);
+  by_axis.z() += f.number("shoulder_joint.before_axis") * s;
+  auto by_pit = [&]() -> std::optional<Vec3> {
+    if (!arm.axilla) return std::nullopt;
+    // a raised arm draws the pit outward from under the joint
+    const double slide = f.number("shoulder_joint.pit_slide") * std::clamp((raised - 45) / 45, 0.0, 1.0) - f.number("shoulder_joint.pit_inside");
+    Vec3 joint(arm.axilla->x() - outward * slide * s, 0, by_axis.z());
+    const auto top = top_of_shoulder(skin, s, joint.x(), joint.z() - 0.01 * s);
+    if (!top) return std::nullopt;
+    const double w = f.number("shoulder_joint.of_girdle");
+    joint.y() = (1 - w) * arm.axilla->y() + w * top->y();
+    return joint;
+  };
+  const bool found = f.find("shoulder_joint", suffix, 2, {{"between_arm_pit_and_shoulder", by_pit}});
+  f.also("shoulder_joint" + suffix, by_axis);
+  const Vec3 joint = found ? f.at("shoulder_joint" + suffix) : by_axis;
+  const double lateral = f.number("acromion.outward") - f.number("acromion.outward_per_degree") * raised;
+  f.find("acromion", suffix, 2, {{"above_shoulder_joint", [&] {
+                                    return top_of_shoulder(skin, s, joint.x() + outward * lateral * s, joint.z() - f.number("acromion.behind_joint") * s);
+                                  }}});
+  return joint;
+}
+
+/// The elbow's point: the middle of what is as far back as makes no difference, in the section nearest to `along`.
+Vec3 rear_of_section(const ArmTrace& arm, double along) {
+  const LimbSection* section = &arm.sections.front();
+  for (const LimbSection& candidate : arm.sections)
+    if (std::abs(candidate.along - along) < std::abs(section->along - along)) section = &candidate;
+  double rear = 1e300, weight = 0;
+  for (const auto& seg : section->loop.segments) rear = std::min(rear, section->plane.point(seg[0]).z());
+  Vec3 back = Vec3::Zero();
+  for (const auto& seg : section->loop.segments) {
+    const Vec3 p = section->plane.point(0.5 * (seg[0] + seg[1]));
+    const double w = std::max(0.0, rear + FLAT - p.z()) * (seg[1] - seg[0]).norm();
+    back += w * p, weight += w;
+  }
+  if (weight > 0) back /= weight;
+  else back = section->center;
+  back.z() = std::min(back.z(), rear + 0.5 * FLAT);
+  return back;
+}
+
+void find_elbow(const Finder& f, int side, double hand, double to_elbow) {
+  const ArmTrace& arm = f.arms[side];
+  const std::string suffix = side_suffix(side);
+  const double by_ratio = hand + to_elbow;
+  std::optional<double> by_swell;
+  if (const auto rise = elbow_by_girth(arm, f.s, hand)) by_swell = *rise - f.number("elbow.before_swell") * f.s;
+  const auto along = f.choose<double>("elbow", "elbow" + suffix,
+                                      {{"upper_arm_swells",
+                                        [&]() -> std::optional<double> {
+                                          if (!by_swell || std::abs(*by_swell - by_ratio) >= f.number("elbow.swell_near_ratio") * f.s) return std::nullopt;
+                                          return by_ratio + f.number("elbow.girth_weight") * (*by_swell - by_ratio);
+                                        }},
+                                       {"arm_ratio", [&] { return std::optional(by_ratio); }}});
+  if (!along) return;
+  const Vec3 behind(0, 0, f.number("elbow.behind_axis") * f.s);
+  f.put("elbow" + suffix, arm.at(along->value) - behind, 2, *along->rule);
+  f.also("elbow" + suffix, arm.at(by_ratio) - behind);
+  if (by_swell) f.also("elbow" + suffix, arm.at(*by_swell) - behind);
+  f.find("olecranon", suffix, 2,
+         {{"rearmost_at_elbow", [&] { return std::optional(rear_of_section(arm, along->value + f.number("olecranon.above_joint") * f.s)); }}});
+}
+
 } // namespace
 
 void find_arm_landmarks(const Finder& f) {
@@ -74,85 +154,30 @@ void find_arm_landmarks(const Finder& f) {
     const ArmTrace& arm = f.arms[side];
     const std::string suffix = side_suffix(side);
     if (arm.sections.empty()) continue;
-    const double outward = arm.left ? 1 : -1;
-    const double raised = units::degrees(std::acos(std::clamp(-arm.out.y(), -1.0, 1.0))); // 0 hanging, 90 level
-    f.put("hand_tip" + suffix, arm.tip, 1, "farthest_over_the_skin", 0.9, 0.004);
-    // shoulder
-    Vec3 joint = arm.at(arm.length() + 0.02 * s);
-    joint.z() += f.number("shoulder_joint.before_axis") * s;
-    const Vec3 joint_by_axis = joint;
-    const char* joint_rule = "end_of_arm_axis";
-    if (arm.axilla) {
-      f.put("axilla" + suffix, *arm.axilla, 1, arm.pit_hidden ? "proportion" : "gap_closes", arm.pit_hidden ? 0.2 : 0.7, arm.pit_hidden ? 0.03 : 0.008);
-      if (arm.merge) f.put("axilla_merge" + suffix, *arm.merge, 1, "level_sections_merge", 0.8, 0.005);
-      if (arm.pit_hidden) f.body.scan.findings.push_back({"warning", "the arm pit is hidden, its place is estimated", "axilla" + suffix});
-      if (arm.axilla_front) f.put("axilla_front" + suffix, *arm.axilla_front, 2, "beside_arm_pit", 0.5, 0.010);
-      if (arm.axilla_back) f.put("axilla_back" + suffix, *arm.axilla_back, 2, "beside_arm_pit", 0.5, 0.010);
-      // a raised arm draws the pit outward from under the joint
-      const double slide = f.number("shoulder_joint.pit_slide") * std::clamp((raised - 45) / 45, 0.0, 1.0) - f.number("shoulder_joint.pit_inside");
-      joint.x() = arm.axilla->x() - outward * slide * s;
-      if (const auto top = top_of_shoulder(skin, s, joint.x(), joint.z() - 0.01 * s)) {
-        const double w = f.number("shoulder_joint.of_girdle");
-        joint.y() = (1 - w) * arm.axilla->y() + w * top->y();
-        joint_rule = "between_arm_pit_and_shoulder";
-      }
-    }
-    f.put("shoulder_joint" + suffix, joint, 2, joint_rule, 0.6, 0.012);
-    f.also("shoulder_joint" + suffix, joint_by_axis);
-    const double lateral = f.number("acromion.outward") - f.number("acromion.outward_per_degree") * raised;
-    if (const auto top = top_of_shoulder(skin, s, joint.x() + outward * lateral * s, joint.z() - f.number("acromion.behind_joint") * s))
-      f.put("acromion" + suffix, *top, 2, "above_shoulder_joint", 0.5, 0.012);
-    // wrist and elbow
-    const double hand_ratio = 0.5 * (f.number("hand.of_stature") * s + f.number("hand.of_arm") * (joint - arm.tip).norm());
-    double hand = hand_ratio;
-    const char* wrist_rule = "arm_ratio";
-    if (const auto least = wrist_by_girth(arm, s)) {
-      hand = *least - f.number("wrist.before_least_girth") * s;
-      wrist_rule = "least_girth_after_hand";
-    }
-    const Vec3 wrist = arm.at(hand);
-    f.put("wrist" + suffix, wrist, 2, wrist_rule, 0.7, 0.008);
-    f.also("wrist" + suffix, arm.at(hand_ratio));
-    const double to_elbow = (joint - wrist).norm() * (1 - f.number("elbow.of_arm"));
-    double elbow_along = hand + to_elbow;
-    const char* elbow_rule = "arm_ratio";
-    std::optional<double> elbow_by_swell;
-    if (const auto rise = elbow_by_girth(arm, s, hand)) {
-      const double by_girth = *rise - f.number("elbow.before_swell") * s;
-      elbow_by_swell = by_girth;
-      if (std::abs(by_girth - elbow_along) < 0.024 * s) {
-        elbow_along += f.number("elbow.girth_weight") * (by_girth - elbow_along);
-        elbow_rule = "upper_arm_swells";
-      }
-    }
-    const Vec3 elbow = arm.at(elbow_along) - Vec3(0, 0, f.number("elbow.behind_axis") * s);
-    f.put("elbow" + suffix, elbow, 2, elbow_rule, 0.6, 0.012);
-    const Vec3 behind(0, 0, f.number("elbow.behind_axis") * s);
-    f.also("elbow" + suffix, arm.at(hand + to_elbow) - behind);
-    if (elbow_by_swell) f.also("elbow" + suffix, arm.at(*elbow_by_swell) - behind);
+    f.find("hand_tip", suffix, 1, {{"farthest_over_the_skin", [&] { return std::optional(arm.tip); }}});
+    const Vec3 joint = find_shoulder(f, side);
     // a fist's farthest point is not the finger tip
-    Vec3 extreme = arm.tip;
-    for (const int t : arm.triangles)
-      for (const int v : skin.triangles[t])
-        if ((skin.positions[v] - joint).squaredNorm() > (extreme - joint).squaredNorm()) extreme = skin.positions[v];
-    f.put("hand_extreme" + suffix, extreme, 1, "farthest_from_shoulder", 0.9, 0.004);
-    // the elbow's point: rearmost skin of the section through the joint
-    const double point_along = elbow_along + f.number("olecranon.above_joint") * s;
-    const LimbSection* section = &arm.sections.front();
-    for (const LimbSection& candidate : arm.sections)
-      if (std::abs(candidate.along - point_along) < std::abs(section->along - point_along)) section = &candidate;
-    double rear = 1e300, weight = 0;
-    for (const auto& seg : section->loop.segments) rear = std::min(rear, section->plane.point(seg[0]).z());
-    Vec3 back = Vec3::Zero(); // the middle of what is as far back as makes no difference
-    for (const auto& seg : section->loop.segments) {
-      const Vec3 p = section->plane.point(0.5 * (seg[0] + seg[1]));
-      const double w = std::max(0.0, rear + FLAT - p.z()) * (seg[1] - seg[0]).norm();
-      back += w * p, weight += w;
-    }
-    if (weight > 0) back /= weight;
-    else back = section->center;
-    back.z() = std::min(back.z(), rear + 0.5 * FLAT);
-    f.put("olecranon" + suffix, back, 2, "rearmost_at_elbow", 0.5, 0.015);
+    f.find("hand_extreme", suffix, 1, {{"farthest_from_shoulder", [&] {
+                                          Vec3 extreme = arm.tip;
+                                          for (const int t : arm.triangles)
+                                            for (const int v : skin.triangles[t])
+                                              if ((skin.positions[v] - joint).squaredNorm() > (extreme - joint).squaredNorm()) extreme = skin.positions[v];
+                                          return std::optional(extreme);
+                                        }}});
+    const double by_ratio = 0.5 * (f.number("hand.of_stature") * s + f.number("hand.of_arm") * (joint - arm.tip).norm());
+    const auto hand = f.choose<double>("wrist", "wrist" + suffix,
+                                       {{"least_girth_after_hand",
+                                         [&]() -> std::optional<double> {
+                                           const auto least = wrist_by_girth(arm, f);
+                                           if (!least) return std::nullopt;
+                                           return *least - f.number("wrist.before_least_girth") * s;
+                                         }},
+                                        {"arm_ratio", [&] { return std::optional(by_ratio); }}});
+    if (!hand) continue;
+    const Vec3 wrist = arm.at(hand->value);
+    f.put("wrist" + suffix, wrist, 2, *hand->rule);
+    f.also("wrist" + suffix, arm.at(by_ratio));
+    find_elbow(f, side, hand->value, (joint - wrist).norm() * (1 - f.number("elbow.of_arm")));
   }
 }
 

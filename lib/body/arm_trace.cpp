@@ -14,10 +14,9 @@ constexpr double HAND_SKIP = 0.030;                 ///< fingers: no single sect
 constexpr double STEP = 0.005;
 constexpr double ARM_REACH = 0.46; ///< over the skin from finger tip to beyond the shoulder
 constexpr double MAX_ARM_GIRTH = 0.36;
-constexpr double JUMP = 1.35;    ///< of the girth, where the section runs into the trunk
-constexpr double MIN_ARM = 0.24; ///< a shorter trace is no arm
-constexpr double BLUNT = 0.0015; ///< m
-constexpr double LOWEST_PIT = 0.708;
+constexpr double JUMP = 1.35;      ///< of the girth, where the section runs into the trunk
+constexpr double MIN_ARM = 0.24;   ///< a shorter trace is no arm
+constexpr double BLUNT = 0.0015;   ///< m
 constexpr double TRUNK_LEAN = 0.5; ///< of the bisector between arm and trunk
 constexpr double LEAP = 0.008;     ///< the arm's underside bends away by more than this: no longer the pit
 constexpr double ROOF = 0.005;     ///< half breadth of the pit's roof at most
@@ -204,9 +203,9 @@ std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm
   return apex;
 }
 
-void find_axilla(ArmTrace& arm, const LevelStack& levels) {
+void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules) {
   const double s = levels.stature();
-  if (arm.sections.size() < 30) return;
+  if (arm.sections.empty()) return;
   const TriangleMesh& skin = levels.skin();
   std::vector<int> near;
   const double sign = arm.left ? 1 : -1;
@@ -235,10 +234,12 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels) {
     auto middle = [&](const std::vector<double>& v) { return n == 3 && v[2] - v[0] < 0.01 * s ? (v[0] + v[1] + v[2]) / 3 : v[n / 2]; };
     arm.axilla = Vec3(middle(xs), middle(ys), depth);
   }
-  if (!arm.axilla) return;
-  if (arm.axilla->y() < LOWEST_PIT * s) { // arm and trunk touch, or a hole was closed there
-    arm.pit_hidden = true;
-    *arm.axilla = Vec3(sign * 0.5 * (std::abs(arm.axilla->x()) + 0.105 * s), 0.751 * s, depth);
+  // arm and trunk touch, a hole was closed there, or a sleeve spans the pit
+  const double aside = rules.number("axilla.aside") * s, height = rules.number("axilla.height") * s;
+  arm.pit_hidden = !arm.axilla || arm.axilla->y() < rules.number("axilla.lowest") * s || std::abs(arm.axilla->x()) > rules.number("axilla.widest") * s;
+  if (arm.pit_hidden) {
+    const bool is_near = arm.axilla && std::abs(arm.axilla->x()) <= rules.number("axilla.widest") * s;
+    arm.axilla = Vec3(sign * (is_near ? 0.5 * (std::abs(arm.axilla->x()) + aside) : aside), height, depth);
   }
   arm.axilla_front = *arm.axilla + Vec3(-sign * 0.0021 * s, 0.22 * radius, 0.75 * radius);
   arm.axilla_back = *arm.axilla + Vec3(-sign * 0.0035 * s, 0.16 * radius, -1.2 * radius);
@@ -316,7 +317,7 @@ Vec3 ArmTrace::at(double along) const {
   return a.center + w * (b.center - a.center);
 }
 
-std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& graph, const std::vector<Vec3>& scan_points) {
+std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& graph, const std::vector<Vec3>& scan_points, const Rules& rules) {
   std::array<ArmTrace, 2> arms;
   arms[1].left = false;
   if (!levels.crotch()) return arms;
@@ -353,7 +354,7 @@ std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& gr
     }
     const double end = arm.length();
     arm.out = (arm.at(end - 0.12 * s) - arm.at(end)).normalized();
-    find_axilla(arm, levels);
+    find_axilla(arm, levels, rules);
     if (!arm.pit_hidden) find_merge(arm, levels);
   }
   return arms;

@@ -2,6 +2,7 @@
 /// One arm followed from the hand to the trunk in sections square to it, whatever the stance.
 #include <body/geodesic.hpp>
 #include <body/level_stack.hpp>
+#include <body/rules.hpp>
 #include <optional>
 namespace sloper::body {
 
@@ -21,7 +22,7 @@ struct ArmTrace {
   std::vector<int> triangles;        ///< of the arm and the shoulder's surroundings
   Vec3 out = Vec3::UnitX();          ///< unit, from shoulder to hand, over the upper arm
   std::optional<Vec3> axilla;        ///< roof of the arm pit
-  bool pit_hidden = false;           ///< the gap closes far below where an arm pit can be: it is placed by proportion
+  bool pit_hidden = false;           ///< no gap closes where an arm pit can be: it is placed by proportion
   std::optional<Vec3> axilla_front, axilla_back;
   std::optional<Vec3> merge; ///< where, going up, the level sections of arm and trunk become one
   /// Point of the centre line at `along` m from the tip, carried on straight beyond its ends.
@@ -31,6 +32,6 @@ struct ArmTrace {
 
 /// Both arms (left first); an arm that cannot be told from the trunk has no sections.
 /// @param scan_points the scan's own points where the skin was rebuilt and has lost the fingers' ends; else empty
-std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& graph, const std::vector<Vec3>& scan_points);
+std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& graph, const std::vector<Vec3>& scan_points, const Rules& rules);
 
 } // namespace sloper::body

@@ -8,11 +8,7 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double BELOW_BUTTOCKS = 0.051; ///< crotch below the level of the greatest buttock prominence, share of stature
-constexpr double OF_STATURE = 0.463;     ///< crotch height, share of stature (0.46-0.48 in Drillis and Contini 1966)
-constexpr double BUTTOCK_WEIGHT = 0.8;   ///< of the buttocks against the stature: they vary half as much
-constexpr double TOO_LOW = 0.032;        ///< below the expected height by this share of stature: the thighs touch
-constexpr double SAG = 0.015;            ///< a closed hole hangs this much lower than the skin that was there
+constexpr double SAG = 0.015; ///< a closed hole hangs this much lower than the skin that was there
 /// Half sizes of the box in which points of the scan show the crotch: thin, for the thighs beside a hole are near.
 const Vec3 SEEN(0.004, 0.012, 0.05);
 
@@ -33,16 +29,24 @@ std::optional<double> buttock_level(const LevelStack& levels) {
 
 } // namespace
 
-bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, std::vector<Finding>& findings, std::vector<std::string>& trail) {
+bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, const Rules& rules, bool rebuilt, std::vector<Finding>& findings,
+                  std::vector<std::string>& trail) {
   if (!levels.crotch()) return false;
+  // figure and stance are not known yet: of the tree's conditions only the skin's counts here
+  std::vector<std::string> order;
+  for (const RuleChoice& rule : rules.order("crotch"))
+    if (rule.skin.empty() || (rule.skin == "rebuilt") == rebuilt) order.push_back(rule.name);
+  if (std::find(order.begin(), order.end(), "below_buttocks") == order.end()) return false;
+  const bool always = order.front() == "below_buttocks";
   const double s = levels.stature(), found = *levels.crotch();
   const Vec3 place(levels.crotch_point().x(), found, levels.crotch_point().y());
   int seen = 0;
   for (const Vec3& p : scan_points) seen += ((p - place).cwiseAbs() - s * SEEN).maxCoeff() < 0;
   const auto buttock = buttock_level(levels);
-  const double by_stature = OF_STATURE * s;
-  const double expected = buttock ? by_stature + BUTTOCK_WEIGHT * (*buttock - BELOW_BUTTOCKS * s - by_stature) : by_stature;
-  const bool fused = found < expected - TOO_LOW * s;
+  const double by_stature = rules.number("crotch.of_stature") * s;
+  const double expected =
+      buttock ? by_stature + rules.number("crotch.buttock_weight") * (*buttock - rules.number("crotch.below_buttocks") * s - by_stature) : by_stature;
+  const bool fused = always || found < expected - rules.number("crotch.too_low") * s;
   if (seen >= 3 && !fused) return false;
   const double y = fused ? expected : 0.5 * (expected + found + SAG * s);
   double z = levels.crotch_point().y();

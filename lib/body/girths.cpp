@@ -1,3 +1,4 @@
+#include <Eigen/Cholesky>
 #include <body/landmark_finder.hpp>
 
 #include <algorithm>
@@ -21,6 +22,51 @@ double ring_length(const std::array<Vec3, 4>& corner) {
       last = p;
     }
   return length;
+}
+
+/// Length of the circle that fits the points best (Kasa 1976: least squares of |p|^2 - 2 c.p - k); 0 for too few of them.
+double circle_through(const std::vector<Vec2>& points) {
+  if (points.size() < 10) return 0;
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  Vec3 right = Vec3::Zero();
+  for (const Vec2& p : points) {
+    const Vec3 row(2 * p.x(), 2 * p.y(), 1);
+    squares += row * row.transpose();
+    right += p.squaredNorm() * row;
+  }
+  const Vec3 fit = squares.ldlt().solve(right);
+  const double r2 = fit.z() + fit.head<2>().squaredNorm();
+  return r2 > 0 ? 2 * 3.14159265358979323846 * std::sqrt(r2) : 0;
+}
+
+constexpr double TOO_WIDE = 1.35; ///< of the usual girth: the section has run into the trunk
+
+/// Girth of an arm in a plane through `center`; 0 where there is no section. Where the arm hangs on the trunk there, `outward` is not zero
+/// and `usual` is exceeded, the circle through the outline of the free side stands for it.
+struct ArmGirth {
+  double value = 0;
+  bool touches = false;
+};
+
+ArmGirth arm_girth(const Finder& f, const ArmTrace& arm, const Vec3& center, const Vec3& axis, double usual) {
+  const double reach = 0.09 * f.s;
+  const Plane plane = cross_plane(center, axis);
+  const std::vector<Loop> loops = cut(f.levels.skin(), plane, &arm.triangles);
+  const Loop* nearest = nullptr;
+  for (const Loop& loop : loops)
+    if (loop.area > 0 && loop.centroid.norm() < (nearest ? nearest->centroid.norm() : 0.05 * f.s)) nearest = &loop;
+  ArmGirth girth;
+  if (nearest) girth.value = taut_girth(*nearest);
+  if (nearest && girth.value < TOO_WIDE * usual) return girth;
+  // the free side faces away from the body's middle plane, square to the arm
+  const Vec3 out = (arm.left ? Vec3::UnitX() : Vec3(-Vec3::UnitX())) - (arm.left ? axis.x() : -axis.x()) / axis.squaredNorm() * axis;
+  std::vector<Vec2> points;
+  for (const Loop& loop : loops)
+    for (const auto& segment : loop.segments)
+      if (const Vec3 d = plane.point(segment[0]) - center; d.dot(out) >= 0 && d.norm() < reach) points.push_back(segment[0]);
+  girth.value = circle_through(points), girth.touches = true;
+  if (girth.value > TOO_WIDE * usual || girth.value < 0.6 * usual) girth.value = 0; // that side is not free either
+  return girth;
 }
 
 } // namespace
@@ -49,16 +95,16 @@ void find_girths(const Finder& f) {
       if (least < 1e299) put("ankle_min", least);
     }
     const ArmTrace& arm = f.arms[side];
-    if (!f.has("elbow" + suffix) || arm.sections.empty()) continue;
-    auto arm_girth = [&](const Vec3& center, const Vec3& axis) {
-      double girth = 0, nearest = 0.05 * s;
-      for (const Loop& loop : cut(f.levels.skin(), cross_plane(center, axis), &arm.triangles))
-        if (loop.area > 0 && loop.centroid.norm() < nearest) nearest = loop.centroid.norm(), girth = taut_girth(loop);
-      return girth;
-    };
+    if (arm.sections.empty() || !f.has("elbow" + suffix) || !f.has("shoulder_joint" + suffix) || !f.has("wrist" + suffix)) continue;
     const Vec3 &shoulder = f.at("shoulder_joint" + suffix), &elbow = f.at("elbow" + suffix), &wrist = f.at("wrist" + suffix);
-    put("upper_arm", arm_girth(0.5 * (shoulder + elbow), shoulder - elbow));
-    put("wrist", arm_girth(wrist, elbow - wrist));
+    const ArmGirth upper = arm_girth(f, arm, 0.5 * (shoulder + elbow), shoulder - elbow, arm.sections.back().girth);
+    put("upper_arm", upper.value);
+    if (upper.touches)
+      f.body.scan.findings.push_back({"warning",
+                                      upper.value > 0 ? "the upper arm touches the trunk: its girth is estimated from its free side"
+                                                      : "the upper arm touches the trunk: its girth cannot be measured",
+                                      "upper_arm" + suffix});
+    put("wrist", arm_girth(f, arm, wrist, elbow - wrist, 1e300).value);
   }
   // neck rings run higher at the sides than in front: quarter ellipses through four points of the skin
   if (!f.has("neck_back") || !f.has("neck_front") || !f.has("neck_center")) return;

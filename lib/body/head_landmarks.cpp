@@ -55,49 +55,18 @@ double neck_middle(const Finder& f) {
   return n ? sum / n : 0.0;
 }
 
-} // namespace
-
-void find_head_landmarks(const Finder& f) {
-  const double s = f.s;
-  const TriangleMesh& skin = f.levels.skin();
-  int top = -1;
-  for (std::size_t v = 0; v < skin.positions.size(); ++v)
-    if (top < 0 || skin.positions[v].y() > skin.positions[top].y()) top = static_cast<int>(v);
-  if (top >= 0) f.put("head_tip", skin.positions[top], 1, "highest_point", 0.95, 0.002);
-  // heights: the population's ratio, drawn towards what this neck shows
-  const double x = neck_middle(f);
-  double front_y = f.number("neck_front.height") * s;
-  std::string front_rule = "height_ratio", back_rule = "height_ratio";
-  const auto hollow = hollow_of_throat(f, x);
-  if (hollow) {
-    const double w = f.number("neck_front.hollow_weight");
-    front_y = (1 - w) * front_y + w * (*hollow - f.number("neck_front.below_hollow") * s);
-    front_rule = "hollow_of_throat";
-  }
-  double cues = f.number("neck_back.height") * s, n_cues = 1;
-  if (hollow) cues += front_y + f.number("neck_back.above_front") * s, ++n_cues, back_rule = "above_throat";
-  const auto turn = shoulder_turn(f);
-  if (turn) cues += *turn - f.number("neck_side.above_back") * s, ++n_cues, back_rule = "neck_meets_shoulders";
-  const double back_y = cues / n_cues;
-  double side_y = back_y + f.number("neck_side.above_back") * s;
-  if (turn) side_y = 0.5 * (side_y + *turn);
-  const auto back = midline(f.levels, back_y, x, 0.008 * s), front = midline(f.levels, front_y, x, 0.006 * s);
-  if (!back || !front) {
-    f.explain("neck: no section at the neck's height");
-    return;
-  }
-  const double confidence = 0.4 + 0.1 * n_cues;
-  f.put("neck_back", Vec3(x, back_y, back->back), 2, back_rule, confidence, 0.010);
-  f.put("neck_front", Vec3(x, front_y, front->front), 2, front_rule, confidence, 0.010);
-  auto also = [&](const char* name, double y, bool in_front) {
-    if (const auto m = midline(f.levels, y, x, 0.008 * s)) f.also(name, Vec3(x, y, in_front ? m->front : m->back));
-  };
-  also("neck_front", f.number("neck_front.height") * s, true);
-  if (hollow) also("neck_front", *hollow - f.number("neck_front.below_hollow") * s, true);
-  also("neck_back", f.number("neck_back.height") * s, false);
-  if (hollow) also("neck_back", front_y + f.number("neck_back.above_front") * s, false);
-  if (turn) also("neck_back", *turn - f.number("neck_side.above_back") * s, false);
-  const double depth = back->back + f.number("neck_side.from_back") * (front->front - back->back);
+/// Both side neck points: skin at that depth, at the height where neck and shoulder meet.
+void find_neck_sides(const Finder& f, double x, double back_y, const std::optional<double>& turn, double depth) {
+  const double s = f.s, above_back = back_y + f.number("neck_side.above_back") * s;
+  const auto height = f.choose<double>("neck_side", "neck_side",
+                                       {{"neck_meets_shoulders",
+                                         [&]() -> std::optional<double> {
+                                           if (!turn) return std::nullopt;
+                                           return 0.5 * (above_back + *turn);
+                                         }},
+                                        {"above_neck_back", [&] { return std::optional(above_back); }}});
+  if (!height) return;
+  double side_y = height->value;
   auto outer_at = [&](double y, int side, double near) {
     const double sign = side == 0 ? 1 : -1;
     std::optional<Vec2> outer;
@@ -114,8 +83,67 @@ void find_head_landmarks(const Finder& f) {
   }
   for (int side = 0; side < 2; ++side)
     if (const auto close = outer_at(side_y, side, 0.01), outer = close ? close : outer_at(side_y, side, 0.03); outer)
-      f.put(std::string("neck_side") + side_suffix(side), Vec3(outer->x(), side_y, depth), 2, turn ? "neck_meets_shoulders" : "above_neck_back", 0.5, 0.012);
-  f.put("neck_center", Vec3(x, 0.5 * (back_y + front_y), 0.5 * (back->back + front->front)), 2, "middle_of_neck_ring", 0.6, 0.010);
+      f.put(std::string("neck_side") + side_suffix(side), Vec3(outer->x(), side_y, depth), 2, *height->rule);
+}
+
+} // namespace
+
+void find_head_landmarks(const Finder& f) {
+  const double s = f.s;
+  const TriangleMesh& skin = f.levels.skin();
+  f.find("head_tip", "", 1, {{"highest_point", [&]() -> std::optional<Vec3> {
+                                const auto top =
+                                    std::max_element(skin.positions.begin(), skin.positions.end(), [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); });
+                                if (top == skin.positions.end()) return std::nullopt;
+                                return *top;
+                              }}});
+  // heights: the population's ratio, drawn towards what this neck shows
+  using Height = std::optional<double>;
+  const double x = neck_middle(f);
+  const auto hollow = hollow_of_throat(f, x), turn = shoulder_turn(f);
+  const double front_ratio = f.number("neck_front.height") * s, back_ratio = f.number("neck_back.height") * s;
+  const auto front_y = f.choose<double>("neck_front", "neck_front",
+                                        {{"hollow_of_throat",
+                                          [&]() -> Height {
+                                            if (!hollow) return std::nullopt;
+                                            const double w = f.number("neck_front.hollow_weight");
+                                            return (1 - w) * front_ratio + w * (*hollow - f.number("neck_front.below_hollow") * s);
+                                          }},
+                                         {"height_ratio", [&] { return Height(front_ratio); }}});
+  if (!front_y) return;
+  const Height by_throat = hollow ? Height(front_y->value + f.number("neck_back.above_front") * s) : std::nullopt;
+  const Height by_turn = turn ? Height(*turn - f.number("neck_side.above_back") * s) : std::nullopt;
+  const auto back_y = f.choose<double>("neck_back", "neck_back",
+                                       {{"neck_meets_shoulders",
+                                         [&]() -> Height {
+                                           if (!by_turn) return std::nullopt;
+                                           return by_throat ? (back_ratio + *by_throat + *by_turn) / 3 : 0.5 * (back_ratio + *by_turn);
+                                         }},
+                                        {"above_throat",
+                                         [&]() -> Height {
+                                           if (!by_throat) return std::nullopt;
+                                           return 0.5 * (back_ratio + *by_throat);
+                                         }},
+                                        {"height_ratio", [&] { return Height(back_ratio); }}});
+  if (!back_y) return;
+  const auto back = midline(f.levels, back_y->value, x, 0.008 * s), front = midline(f.levels, front_y->value, x, 0.006 * s);
+  if (!back || !front) {
+    f.explain("neck: no section at the neck's height");
+    return;
+  }
+  f.put("neck_back", Vec3(x, back_y->value, back->back), 2, *back_y->rule);
+  f.put("neck_front", Vec3(x, front_y->value, front->front), 2, *front_y->rule);
+  auto also = [&](const char* name, double y, bool in_front) {
+    if (const auto m = midline(f.levels, y, x, 0.008 * s)) f.also(name, Vec3(x, y, in_front ? m->front : m->back));
+  };
+  also("neck_front", front_ratio, true);
+  if (hollow) also("neck_front", *hollow - f.number("neck_front.below_hollow") * s, true);
+  also("neck_back", back_ratio, false);
+  if (by_throat) also("neck_back", *by_throat, false);
+  if (by_turn) also("neck_back", *by_turn, false);
+  find_neck_sides(f, x, back_y->value, turn, back->back + f.number("neck_side.from_back") * (front->front - back->back));
+  const Vec3 center(x, 0.5 * (back_y->value + front_y->value), 0.5 * (back->back + front->front));
+  f.find("neck_center", "", 2, {{"middle_of_neck_ring", [&] { return std::optional(center); }}});
 }
 
 } // namespace sloper::body

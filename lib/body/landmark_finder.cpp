@@ -1,9 +1,20 @@
+#include <base/error.hpp>
 #include <body/landmark_finder.hpp>
 namespace sloper::body {
 
-void Finder::put(const std::string& name, const Vec3& p, int step, const std::string& rule, double confidence, double spread_m) const {
+bool Finder::find(const std::string& place, const std::string& suffix, int step, std::initializer_list<Way<Vec3>> ways) const {
+  const auto chosen = choose<Vec3>(place, place + suffix, ways);
+  if (chosen) put(place + suffix, chosen->value, step, *chosen->rule);
+  return chosen && has(place + suffix);
+}
+
+void Finder::put(const std::string& name, const Vec3& p, int step, const RuleChoice& rule) const {
   if (!p.allFinite()) return;
-  body.landmarks[name] = {p, step, rule, confidence, spread_m, {}};
+  body.landmarks[name] = {p, step, rule.name, rule.confidence, rule.spread_m, {}};
+}
+
+void Finder::no_such_rule(const std::string& place, const std::string& rule) {
+  throw Error(ErrorKind::INTERNAL, "", "", "the tree names \"" + rule + "\" for " + place + ", which is no rule of the program");
 }
 
 void Finder::also(const std::string& name, const Vec3& p) const {

@@ -5,6 +5,8 @@
 #include <body/body.hpp>
 #include <body/relief.hpp>
 #include <body/rules.hpp>
+#include <functional>
+#include <initializer_list>
 namespace sloper::body {
 
 /// What the decision tree's first questions find: which proportions to expect. Not a statement about a person.
@@ -16,6 +18,17 @@ struct FigureClass {
 FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace, 2>& arms, const std::vector<Vec3>& normals, const Rules& rules,
                             std::vector<std::string>& trail);
 
+/// A way of the program to find something, under the name that the tree calls it by.
+template<class T> struct Way {
+  const char* rule;
+  std::function<std::optional<T>()> find; ///< nothing where the body does not show it
+};
+
+template<class T> struct Chosen {
+  T value;
+  const RuleChoice* rule;
+};
+
 struct Finder {
   const LevelStack& levels;
   const std::array<ArmTrace, 2>& arms;
@@ -24,12 +37,33 @@ struct Finder {
   bool rebuilt;                         ///< the skin is not the scan's own and has lost its finest ends
   bool crotch_moved;                    ///< the crotch is an estimate
   const Rules& rules;
+  const Situation situation;
   const FigureClass& figure;
   Body& body;
   std::vector<std::string>& trail; ///< the decision path, for --explain
   double s;                        ///< stature, m
 
-  void put(const std::string& name, const Vec3& p, int step, const std::string& rule, double confidence, double spread_m) const;
+  /// Tries the ways in the tree's order for `place`; the path goes to the trail under `label`, as "LABEL: RULE" for what was taken.
+  /// @throws Error INTERNAL where the tree names a rule that is no way of the program
+  template<class T> std::optional<Chosen<T>> choose(const std::string& place, const std::string& label, std::initializer_list<Way<T>> ways) const {
+    for (const RuleChoice& rule : rules.order(place)) {
+      if (!rule.applies(situation)) continue;
+      const Way<T>* way = nullptr;
+      for (const Way<T>& known : ways)
+        if (rule.name == known.rule) way = &known;
+      if (!way) no_such_rule(place, rule.name);
+      if (auto value = way->find()) {
+        explain(label + ": " + rule.name);
+        return Chosen<T>{std::move(*value), &rule};
+      }
+      explain(label + ": not by " + rule.name);
+    }
+    explain(label + ": not found");
+    return std::nullopt;
+  }
+  /// The landmark `place` + `suffix`, put where the first rule of the tree finds it. @return whether one did
+  bool find(const std::string& place, const std::string& suffix, int step, std::initializer_list<Way<Vec3>> ways) const;
+  void put(const std::string& name, const Vec3& p, int step, const RuleChoice& rule) const;
   /// What another rule gives for a landmark that was put: kept as an alternative when it is more than a millimetre away.
   void also(const std::string& name, const Vec3& p) const;
   bool has(const std::string& name) const { return body.landmarks.count(name) != 0; }
@@ -37,6 +71,7 @@ struct Finder {
   /// A rule's number; where it differs with the figure (name.female, name.male), the two are mixed.
   double number(const std::string& name) const;
   void explain(const std::string& line) const { trail.push_back(line); }
+  [[noreturn]] static void no_such_rule(const std::string& place, const std::string& rule);
 };
 
 inline const char* side_suffix(int side) { return side == 0 ? "_l" : "_r"; }

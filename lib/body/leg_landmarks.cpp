@@ -19,80 +19,92 @@ std::optional<double> hollow_of_knee(const Finder& f, int side, double around) {
   return best;
 }
 
-/// Foremost and rearmost points of the foot. On a rough scan the mean of three, and only points with company.
-void find_foot_ends(const Finder& f, int side, double ankle_y) {
+/// The end of the foot in front (direction 1) or behind (-1): the mean of its `n` outermost points.
+std::optional<Vec3> foot_end(const Finder& f, int side, double ankle_y, double direction, std::size_t n) {
   const double sign = side == 0 ? 1 : -1;
   const std::vector<Vec3>& points = f.rebuilt ? f.scan_points : f.levels.skin().positions;
   std::vector<int> foot;
   for (std::size_t v = 0; v < points.size(); ++v)
     if (points[v].y() <= ankle_y && points[v].y() > -0.01 * f.s && sign * points[v].x() > 0) foot.push_back(static_cast<int>(v));
-  const std::size_t wanted = f.rebuilt ? 3 : 1;
-  if (foot.size() < 10) return;
-  for (const double direction : {1.0, -1.0}) {
-    std::partial_sort(foot.begin(), foot.begin() + static_cast<std::ptrdiff_t>(wanted), foot.end(), [&](int a, int b) {
-      const double za = direction * points[a].z(), zb = direction * points[b].z();
-      return za != zb ? za > zb : a < b;
-    });
-    Vec3 mean = Vec3::Zero();
-    for (std::size_t k = 0; k < wanted; ++k) mean += points[foot[k]] / static_cast<double>(wanted);
-    f.put(std::string(direction > 0 ? "foot_tip" : "heel") + side_suffix(side), mean, 1, direction > 0 ? "foremost_of_foot" : "rearmost_of_foot", 0.95, 0.002);
-  }
+  if (foot.size() < 10) return std::nullopt;
+  std::partial_sort(foot.begin(), foot.begin() + static_cast<std::ptrdiff_t>(n), foot.end(), [&](int a, int b) {
+    const double za = direction * points[a].z(), zb = direction * points[b].z();
+    return za != zb ? za > zb : a < b;
+  });
+  Vec3 mean = Vec3::Zero();
+  for (std::size_t k = 0; k < n; ++k) mean += points[foot[k]] / static_cast<double>(n);
+  return mean;
+}
+
+/// Skin of a leg section that is farthest along `direction` (x, z).
+Vec2 outermost(const Loop& loop, const Vec2& direction) {
+  Vec2 outer = loop.segments.front()[0];
+  for (const auto& seg : loop.segments)
+    if (direction.dot(seg[0]) > direction.dot(outer)) outer = seg[0];
+  return outer;
+}
+
+void find_knee(const Finder& f, int side, double ankle_y, double hip_y) {
+  const std::string suffix = side_suffix(side);
+  const double by_ratio = ankle_y + f.number("knee.of_leg") * (hip_y - ankle_y);
+  std::optional<double> by_hollow;
+  if (const auto hollow = hollow_of_knee(f, side, by_ratio)) by_hollow = *hollow - f.number("knee.below_hollow") * f.s;
+  const auto height = f.choose<double>("knee", "knee" + suffix,
+                                       {{"leg_ratio_and_hollow",
+                                         [&]() -> std::optional<double> {
+                                           if (!by_hollow) return std::nullopt;
+                                           return 0.5 * (by_ratio + *by_hollow);
+                                         }},
+                                        {"leg_ratio", [&] { return std::optional(by_ratio); }}});
+  if (!height) return;
+  const auto section = f.levels.leg_at(height->value, side);
+  if (!section) return;
+  const Vec2 cap = outermost(*section, Vec2::UnitY());
+  f.find("patella", suffix, 2, {{"foremost_at_knee", [&] { return std::optional(Vec3(cap.x(), height->value, cap.y())); }}});
+  const Vec3 joint(section->center().x(), height->value, cap.y() - f.number("knee.behind_patella") * f.s);
+  f.put("knee" + suffix, joint, 2, *height->rule);
+  f.also("knee" + suffix, Vec3(joint.x(), by_ratio, joint.z()));
+  if (by_hollow) f.also("knee" + suffix, Vec3(joint.x(), *by_hollow, joint.z()));
+}
+
+/// Hip joint, knee and ankle of one leg, below a crotch that was found.
+void find_leg(const Finder& f, int side) {
+  const double s = f.s, sign = side == 0 ? 1 : -1, crotch_y = f.at("crotch").y();
+  const std::string suffix = side_suffix(side);
+  const double ankle_y = f.number("ankle.height") * s;
+  for (const auto& [place, direction] : {std::pair("foot_tip", 1.0), std::pair("heel", -1.0)})
+    f.find(place, suffix, 1,
+           {{direction > 0 ? "foremost_of_foot" : "rearmost_of_foot", [&] { return foot_end(f, side, ankle_y, direction, 1); }},
+            {"middle_of_three_outermost", [&] { return foot_end(f, side, ankle_y, direction, 3); }}});
+  const auto top = f.levels.leg_at(crotch_y - 0.010, side);
+  if (!top) return;
+  f.find("leg_top", suffix, 2, {{"section_under_crotch", [&] { return std::optional(Vec3(top->centroid.x(), crotch_y - 0.010, top->centroid.y())); }}});
+  // the leg's middle leans out with fat and in with muscle: half of it, half the usual breadth between the joints
+  const double hip_x = 0.5 * (top->centroid.x() + sign * (f.number("hip_joint.from_leg_top") + f.number("hip_joint.aside")) * s);
+  const Vec3 hip(hip_x, crotch_y + f.number("hip_joint.above_crotch") * s, top->centroid.y() - f.number("hip_joint.behind_leg_top") * s);
+  f.find("hip_joint", suffix, 2, {{"above_leg_top", [&] { return std::optional(hip); }}});
+  f.also("hip_joint" + suffix, Vec3(top->centroid.x() + sign * f.number("hip_joint.from_leg_top") * s, hip.y(), hip.z()));
+  f.also("hip_joint" + suffix, Vec3(sign * f.number("hip_joint.aside") * s, hip.y(), hip.z()));
+  const auto ankle = f.levels.leg_at(ankle_y, side);
+  if (!ankle) return;
+  // the section at this height holds the heel's upper rim: its middle in x, the joint lies nearer to the heel
+  const Vec3 joint(ankle->center().x() - sign * 0.0015 * s, ankle_y, ankle->low.y() + f.number("ankle.from_behind") * ankle->size().y());
+  f.find("ankle", suffix, 2, {{"height_ratio", [&] { return std::optional(joint); }}});
+  const Vec2 outer = outermost(*ankle, Vec2(sign, 0));
+  f.find("malleolus", suffix, 2, {{"outermost_at_ankle", [&] { return std::optional(Vec3(outer.x(), ankle_y, outer.y())); }}});
+  find_knee(f, side, ankle_y, hip.y());
 }
 
 } // namespace
 
 void find_leg_landmarks(const Finder& f) {
-  const double s = f.s;
   if (!f.levels.crotch()) return;
-  const double crotch_y = *f.levels.crotch();
-  f.put("crotch", Vec3(f.levels.crotch_point().x(), crotch_y, f.levels.crotch_point().y()), 1, f.crotch_moved ? "below_buttocks" : "leg_sections_merge",
-        f.crotch_moved ? 0.3 : 0.9, f.crotch_moved ? 0.02 : 0.003);
-  for (int side = 0; side < 2; ++side) {
-    const std::string suffix = side_suffix(side);
-    const double sign = side == 0 ? 1 : -1;
-    const double ankle_y = f.number("ankle.height") * s;
-    find_foot_ends(f, side, ankle_y);
-    const auto top = f.levels.leg_at(crotch_y - 0.010, side);
-    if (!top) continue;
-    f.put("leg_top" + suffix, Vec3(top->centroid.x(), crotch_y - 0.010, top->centroid.y()), 2, "section_under_crotch", 0.9, 0.003);
-    // the leg's middle leans out with fat and in with muscle: half of it, half the usual breadth between the joints
-    const double hip_x = 0.5 * (top->centroid.x() + sign * (f.number("hip_joint.from_leg_top") + f.number("hip_joint.aside")) * s);
-    const Vec3 hip(hip_x, crotch_y + f.number("hip_joint.above_crotch") * s, top->centroid.y() - f.number("hip_joint.behind_leg_top") * s);
-    f.put("hip_joint" + suffix, hip, 2, "above_leg_top", 0.6, 0.012);
-    f.also("hip_joint" + suffix, Vec3(top->centroid.x() + sign * f.number("hip_joint.from_leg_top") * s, hip.y(), hip.z()));
-    f.also("hip_joint" + suffix, Vec3(sign * f.number("hip_joint.aside") * s, hip.y(), hip.z()));
-    if (const auto ankle = f.levels.leg_at(ankle_y, side)) {
-      // the section at this height holds the heel's upper rim: its middle in x, the joint lies nearer to the heel
-      const Vec3 joint(ankle->center().x() - sign * 0.0015 * s, ankle_y, ankle->low.y() + f.number("ankle.from_behind") * ankle->size().y());
-      f.put("ankle" + suffix, joint, 2, "height_ratio", 0.7, 0.006);
-      double best = -1e300;
-      Vec2 outer = Vec2::Zero();
-      for (const auto& seg : ankle->segments)
-        if (sign * seg[0].x() > best) best = sign * seg[0].x(), outer = seg[0];
-      f.put("malleolus" + suffix, Vec3(outer.x(), ankle_y, outer.y()), 2, "outermost_at_ankle", 0.6, 0.006);
-      double knee_y = ankle_y + f.number("knee.of_leg") * (hip.y() - ankle_y);
-      const double knee_by_ratio = knee_y;
-      std::optional<double> knee_by_hollow;
-      const char* knee_rule = "leg_ratio";
-      if (const auto hollow = hollow_of_knee(f, side, knee_y)) {
-        knee_by_hollow = *hollow - f.number("knee.below_hollow") * s;
-        knee_y = 0.5 * (knee_y + *knee_by_hollow);
-        knee_rule = "leg_ratio_and_hollow";
-      }
-      if (const auto knee = f.levels.leg_at(knee_y, side)) {
-        Vec2 cap = knee->segments.front()[0];
-        for (const auto& seg : knee->segments)
-          if (seg[0].y() > cap.y()) cap = seg[0];
-        f.put("patella" + suffix, Vec3(cap.x(), knee_y, cap.y()), 2, "foremost_at_knee", 0.7, 0.01);
-        const Vec3 joint_of_knee(knee->center().x(), knee_y, cap.y() - f.number("knee.behind_patella") * s);
-        f.put("knee" + suffix, joint_of_knee, 2, knee_rule, 0.6, 0.012);
-        f.also("knee" + suffix, Vec3(joint_of_knee.x(), knee_by_ratio, joint_of_knee.z()));
-        if (knee_by_hollow) f.also("knee" + suffix, Vec3(joint_of_knee.x(), *knee_by_hollow, joint_of_knee.z()));
-      }
-    }
-  }
+  const Vec3 crotch(f.levels.crotch_point().x(), *f.levels.crotch(), f.levels.crotch_point().y());
+  auto when = [&](bool moved) { return moved == f.crotch_moved ? std::optional(crotch) : std::nullopt; };
+  if (!f.find("crotch", "", 1, {{"leg_sections_merge", [&] { return when(false); }}, {"below_buttocks", [&] { return when(true); }}})) return;
+  for (int side = 0; side < 2; ++side) find_leg(f, side);
   if (f.has("hip_joint_l") && f.has("hip_joint_r"))
-    f.put("hip_center", 0.5 * (f.at("hip_joint_l") + f.at("hip_joint_r")), 2, "middle_of_hip_joints", 0.6, 0.01);
+    f.find("hip_center", "", 2, {{"middle_of_hip_joints", [&] { return std::optional(Vec3(0.5 * (f.at("hip_joint_l") + f.at("hip_joint_r")))); }}});
 }
 
 } // namespace sloper::body

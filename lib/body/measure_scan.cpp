@@ -144,9 +144,9 @@ struct RuleInput {
 std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::string>& trail, Phases* phases) {
   LevelStack levels(body.skin, in.s, 0.0025 * in.s, in.rebuilt ? 0.002 : 0);
   if (phases) phases->done("slicing");
-  const bool crotch_moved = doubt_crotch(levels, in.scan_points, body.scan.findings, trail);
+  const bool crotch_moved = doubt_crotch(levels, in.scan_points, in.rules, in.rebuilt, body.scan.findings, trail);
   const EdgeGraph graph(body.skin);
-  const std::array<ArmTrace, 2> arms = trace_arms(levels, graph, in.rebuilt ? in.scan_points : std::vector<Vec3>{});
+  const std::array<ArmTrace, 2> arms = trace_arms(levels, graph, in.rebuilt ? in.scan_points : std::vector<Vec3>{}, in.rules);
   describe_stance(body, arms);
   for (const ArmTrace& arm : arms) {
     if (arm.sections.empty()) {
@@ -160,7 +160,8 @@ std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::
   }
   const std::vector<Vec3> normals = vertex_normals(body.skin);
   const FigureClass figure = classify_figure(levels, arms, normals, in.rules, trail);
-  const Finder finder{levels, arms, normals, in.scan_points, in.rebuilt, crotch_moved, in.rules, figure, body, trail, in.s};
+  const Situation situation{figure.female > 0.5, body.stance_class.front(), in.rebuilt};
+  const Finder finder{levels, arms, normals, in.scan_points, in.rebuilt, crotch_moved, in.rules, situation, figure, body, trail, in.s};
   find_leg_landmarks(finder);
   find_head_landmarks(finder);
   find_arm_landmarks(finder);

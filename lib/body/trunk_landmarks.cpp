@@ -43,6 +43,13 @@ void put_level(const Finder& f, const std::string& name, double y, const std::st
   }
 }
 
+void find_level(const Finder& f, const std::string& name, std::initializer_list<Way<Level>> ways) {
+  const auto chosen = f.choose<Level>(name, name, ways);
+  if (!chosen) return;
+  f.body.levels[name] = chosen->value;
+  f.body.levels[name].rule = chosen->rule->name;
+}
+
 /// Foremost (or rearmost) point of the trunk between two heights. Where the trunk only runs out towards an end of the range,
 /// the belly under a chest or the chest over a belly, the foremost place inside of it is the better answer, if there is one
 /// and it stands out by no more than INSIDE less.
@@ -109,67 +116,100 @@ std::optional<Vec3> front_at(const Finder& f, double x, double y, double half_wi
   return Vec3(x, y, m->front);
 }
 
-/// A bump of the chest is a nipple when it is high, both sides agree and it lies where one can be.
+/// A bump of the chest is a nipple when it is high, both sides agree and it lies where one can be: near the foremost skin of its side.
 bool is_nipple_pair(const Finder& f) {
   const auto &l = f.figure.nipple[0], &r = f.figure.nipple[1];
-  if (!l || !r || f.figure.female < 0.5) return false;
-  const double low = std::min(l->height, r->height);
-  return low > 0.0024 && std::abs(l->p.y() - r->p.y()) < 0.015 * f.s && std::abs(l->p.x() + r->p.x()) < 0.03 * f.s;
+  if (!l || !r || std::min(l->height, r->height) <= f.number("bust.bump")) return false;
+  if (std::abs(l->p.y() - r->p.y()) >= 0.015 * f.s || std::abs(l->p.x() + r->p.x()) >= 0.03 * f.s) return false;
+  for (int side = 0; side < 2; ++side) {
+    const Vec3& p = f.figure.nipple[side]->p;
+    const auto foremost = extreme_depth(f, p.y() - 0.03 * f.s, p.y() + 0.03 * f.s, 1, side == 0 ? 0.002 : -0.14 * f.s, side == 0 ? 0.14 * f.s : -0.002);
+    if (foremost && p.z() < foremost->z() - f.number("bust.bump_behind") * f.s) return false;
+  }
+  return true;
+}
+
+using BothSides = std::array<std::optional<Vec3>, 2>;
+
+/// Bust points beside the mid-plane at the given height. On a bust the foremost skin near the expected height draws them half way.
+/// @return whether it did on either side
+bool bust_at(const Finder& f, double expected, double y, BothSides& points) {
+  const double s = f.s, a = 0.02 * s, b = 0.10 * s;
+  bool drawn = false;
+  for (int side = 0; side < 2; ++side) {
+    double height = y;
+    if (f.situation.female)
+      if (const auto p = extreme_depth(f, expected - 0.035 * s, expected + 0.035 * s, 1, side == 0 ? a : -b, side == 0 ? b : -a))
+        if (p->y() > expected - 0.033 * s && p->y() < expected + 0.033 * s) height = 0.5 * (y + p->y()), drawn = true;
+    points[side] = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, height, 0.006 * s);
+  }
+  return drawn;
 }
 
 void find_bust(const Finder& f, double pit) {
   const double s = f.s, crotch = f.at("crotch").y(), trunk = f.at("neck_back").y() - crotch;
   const double by_trunk = crotch + f.number("bust.of_trunk") * trunk, by_pit = pit - f.number("bust.below_pit") * s;
   const double expected = pit > 0 ? 0.5 * (by_trunk + by_pit) : by_trunk;
-  const bool relief = is_nipple_pair(f);
-  f.explain(relief ? "bust: both sides have a bump, taken as the bust points" : "bust: no clear bumps, taken by proportion and the foremost skin");
-  std::optional<double> by_bumps; // the chest muscles' lower corners
-  if (const auto& l = f.figure.nipple[0], &r = f.figure.nipple[1]; !relief && l && r && std::abs(l->p.y() - r->p.y()) < 0.012 * s) {
-    const double y = 0.5 * (l->p.y() + r->p.y()) + f.number("bust.above_muscle") * s;
-    if (std::abs(y - expected) < 0.03 * s) by_bumps = y;
-  }
+  using Found = std::optional<BothSides>;
+  const auto points = f.choose<BothSides>("bust_point", "bust_point",
+                                          {{"bump_of_chest",
+                                            [&]() -> Found {
+                                              if (!is_nipple_pair(f)) return std::nullopt;
+                                              BothSides both;
+                                              for (int side = 0; side < 2; ++side) {
+                                                const Vec3& p = f.figure.nipple[side]->p;
+                                                both[side] = front_at(f, p.x(), p.y() + 0.002 * s, 0.004 * s);
+                                              }
+                                              return both;
+                                            }},
+                                           {"above_chest_muscle",
+                                            [&]() -> Found { // the chest muscles' lower corners
+                                              const auto &l = f.figure.nipple[0], &r = f.figure.nipple[1];
+                                              if (!l || !r || std::abs(l->p.y() - r->p.y()) >= 0.012 * s) return std::nullopt;
+                                              const double y = 0.5 * (l->p.y() + r->p.y()) + f.number("bust.above_muscle") * s;
+                                              if (std::abs(y - expected) >= f.number("bust.muscle_near_ratio") * s) return std::nullopt;
+                                              BothSides both;
+                                              bust_at(f, expected, 0.5 * (expected + y), both);
+                                              return both;
+                                            }},
+                                           {"foremost_near_ratio",
+                                            [&]() -> Found {
+                                              BothSides both;
+                                              return bust_at(f, expected, expected, both) ? Found(both) : std::nullopt;
+                                            }},
+                                           {"trunk_ratio", [&]() -> Found {
+                                              BothSides both;
+                                              for (int side = 0; side < 2; ++side)
+                                                both[side] = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected, 0.006 * s);
+                                              return both;
+                                            }}});
+  if (!points) return;
   double sum = 0;
   int n = 0;
   for (int side = 0; side < 2; ++side) {
-    const double sign = side == 0 ? 1 : -1;
-    const std::string suffix = side_suffix(side);
-    std::optional<Vec3> point;
-    if (relief) {
-      const Vec3& p = f.figure.nipple[side]->p;
-      point = front_at(f, p.x(), p.y() + 0.002 * s, 0.004 * s);
-    } else {
-      double y = by_bumps ? 0.5 * (expected + *by_bumps) : expected;
-      if (f.figure.female > 0.5) { // the foremost skin near the expected height
-        const double a = 0.02 * s, b = 0.10 * s;
-        if (const auto p = extreme_depth(f, expected - 0.035 * s, expected + 0.035 * s, 1, side == 0 ? a : -b, side == 0 ? b : -a))
-          if (p->y() > expected - 0.033 * s && p->y() < expected + 0.033 * s) y = 0.5 * (y + p->y());
-      }
-      point = front_at(f, sign * f.number("bust.beside") * s, y, 0.006 * s);
-    }
+    const auto& point = points->value[side];
     if (!point) continue;
-    f.put("bust_point" + suffix, *point, 2,
-          relief     ? "bump_of_chest"
-          : by_bumps ? "above_chest_muscle"
-                     : "proportion",
-          relief ? 0.85 : 0.5, relief ? 0.004 : 0.015);
-    if (const auto p = extreme_depth(f, point->y() - 0.024 * s, point->y() + 0.06 * s, 1, side == 0 ? 0.002 : -0.14 * s, side == 0 ? 0.14 * s : -0.002))
-      f.put("bust_prominent" + suffix, *p, 2, "foremost_of_chest", 0.8, 0.006);
-    if (const auto p = front_at(f, sign * f.number("bust.beside") * s, expected, 0.006 * s)) f.also("bust_point" + suffix, *p);
+    const std::string suffix = side_suffix(side);
+    f.put("bust_point" + suffix, *point, 2, *points->rule);
+    f.find("bust_prominent", suffix, 2, {{"foremost_of_chest", [&] {
+                                            return extreme_depth(f, point->y() - 0.024 * s, point->y() + 0.06 * s, 1, side == 0 ? 0.002 : -0.14 * s,
+                                                                 side == 0 ? 0.14 * s : -0.002);
+                                          }}});
+    if (const auto p = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected, 0.006 * s)) f.also("bust_point" + suffix, *p);
     sum += point->y(), ++n;
   }
-  if (n == 2) put_level(f, "bust", sum / 2, relief ? "bump_of_chest" : "proportion");
+  if (n == 2) put_level(f, "bust", sum / 2, points->rule->name);
 }
 
 /// Height of the fold under the breast: below the bust point, where the front turns from falling back to falling straight.
-double breast_fold(const Finder& f, double bust_y) {
+std::optional<double> breast_fold(const Finder& f, double bust_y, double expected) {
   const double s = f.s, step = 0.003 * s;
-  const double expected = bust_y - f.number("underbust.below_bust") * s;
-  if (f.figure.female < 0.5 || !f.has("bust_point_l") || !f.has("bust_point_r")) return expected;
+  if (!f.has("bust_point_l") || !f.has("bust_point_r")) return std::nullopt;
   double sum = 0;
   int n = 0;
   for (const char* name : {"bust_point_l", "bust_point_r"}) {
     const double x = f.at(name).x();
-    double sharpest = 0.06, at = 0; // rad of turn that a fold must have
+    double sharpest = f.number("underbust.fold_turn"), at = 0;
     for (double y = bust_y - 0.012 * s; y > bust_y - 0.065 * s; y -= 0.0015 * s) {
       const auto a = front_at(f, x, y + 2 * step, 0.005 * s), b = front_at(f, x, y, 0.005 * s), c = front_at(f, x, y - 2 * step, 0.005 * s);
       if (!a || !b || !c) continue;
@@ -178,7 +218,8 @@ double breast_fold(const Finder& f, double bust_y) {
     }
     if (at > 0) sum += at, ++n;
   }
-  return n ? (sum + (2 - n) * expected) / 2 : expected;
+  if (n == 0) return std::nullopt;
+  return (sum + (2 - n) * expected) / 2;
 }
 
 /// One side of a curve is higher than `least` by so much before it falls below it again: the smaller of both sides.
@@ -194,61 +235,99 @@ void find_waist_minima(const Finder& f, double top, double bottom) {
   for (double y = top; y > bottom; y -= 0.002)
     if (const auto level = measure_level(f, y)) curve.push_back(*level);
   if (curve.size() < 5) return;
-  auto take = [&](const char* name, const char* rule, double Level::*measure) {
+  auto least_of = [&](const char* name, double Level::*measure) -> std::optional<Level> {
     std::vector<double> values;
     for (const Level& level : curve) values.push_back(level.*measure);
     const std::size_t least = static_cast<std::size_t>(std::min_element(values.begin(), values.end()) - values.begin());
     const double rise = prominence(values, least);
     char text[160];
-    std::snprintf(text, sizeof text, "%s: least %.3f m at y %.3f, %.1f mm below its surroundings%s", name, values[least], curve[least].y, 1000 * rise,
-                  rise < f.number("waist.prominence") ? ": no minimum" : "");
+    std::snprintf(text, sizeof text, "%s: least %.3f m at y %.3f, %.1f mm below its surroundings", name, values[least], curve[least].y, 1000 * rise);
     f.explain(text);
-    if (rise < f.number("waist.prominence")) return;
-    Level level = curve[least];
-    level.rule = rule;
-    f.body.levels[name] = level;
+    if (rise < f.number("waist.prominence")) return std::nullopt;
+    return curve[least];
   };
-  take("waist_girth_min", "smallest_girth", &Level::girth_m);
-  take("waist_width_min", "smallest_width", &Level::width_m);
+  find_level(f, "waist_girth_min", {{"smallest_girth", [&] { return least_of("waist_girth_min", &Level::girth_m); }}});
+  find_level(f, "waist_width_min", {{"smallest_width", [&] { return least_of("waist_width_min", &Level::width_m); }}});
 }
 
 /// Navel: a dimple near the middle, or the proportion. @return its height
-double find_navel(const Finder& f) {
+std::optional<double> find_navel(const Finder& f) {
   const double s = f.s, crotch = f.at("crotch").y(), trunk = f.at("neck_back").y() - crotch;
   const double expected = crotch + f.number("omphalion.of_trunk") * trunk;
   const auto& dimple = f.figure.navel;
-  const bool seen = dimple && -dimple->height > f.number("omphalion.dimple") && std::abs(dimple->p.y() - expected) < 0.06 * s;
-  const double y = seen ? dimple->p.y() + f.number("omphalion.above_dimple") * s : expected, x = seen ? dimple->p.x() : 0.0;
-  f.explain(seen ? "navel: a dimple near the middle" : "navel: no dimple, taken by proportion");
+  const auto place = f.choose<Vec2>("omphalion", "omphalion",
+                                    {{"dimple",
+                                      [&]() -> std::optional<Vec2> {
+                                        if (!dimple || -dimple->height <= f.number("omphalion.dimple") || std::abs(dimple->p.y() - expected) >= 0.06 * s)
+                                          return std::nullopt;
+                                        return Vec2(dimple->p.x(), dimple->p.y() + f.number("omphalion.above_dimple") * s);
+                                      }},
+                                     {"trunk_ratio", [&] { return std::optional(Vec2(0, expected)); }}});
+  if (!place) return std::nullopt;
   // the tape and the truth lie on the belly's surface beside the dimple, not at its bottom
-  if (const auto p = front_at(f, x, y, 0.006 * s)) f.put("omphalion", *p, 2, seen ? "dimple" : "trunk_ratio", seen ? 0.85 : 0.4, seen ? 0.006 : 0.02);
+  if (const auto p = front_at(f, place->value.x(), place->value.y(), 0.006 * s)) f.put("omphalion", *p, 2, *place->rule);
   if (const auto p = front_at(f, 0, expected, 0.006 * s)) f.also("omphalion", *p);
-  put_level(f, "omphalion", y, seen ? "dimple" : "trunk_ratio");
-  return y;
+  put_level(f, "omphalion", place->value.y(), place->rule->name);
+  return place->value.y();
 }
 
-double find_waist(const Finder& f, double navel, double pit) {
+double find_waist(const Finder& f, const std::optional<double>& navel, double pit) {
   const double s = f.s, crotch = f.at("crotch").y();
   const double top = pit > 0 ? pit : 0.757 * s;
-  double waist = crotch + f.number("waist.of_trunk") * (top - crotch);
-  std::string rule = "trunk_ratio";
-  if (f.has("omphalion") && f.body.landmarks["omphalion"].rule == "dimple") {
-    const double above = std::clamp(navel + f.number("waist.above_navel") * s, waist - 0.02 * s, waist + 0.02 * s);
-    waist += (0.25 + 0.25 * f.figure.female) * (above - waist);
-    rule = "trunk_ratio_and_navel";
-  }
-  put_level(f, "waist_semantic", waist, rule);
+  const double by_ratio = crotch + f.number("waist.of_trunk") * (top - crotch);
+  const auto height = f.choose<double>("waist_semantic", "waist_semantic",
+                                       {{"trunk_ratio_and_navel",
+                                         [&]() -> std::optional<double> {
+                                           if (!navel || !f.has("omphalion") || f.body.landmarks["omphalion"].rule != "dimple") return std::nullopt;
+                                           const double above =
+                                               std::clamp(*navel + f.number("waist.above_navel") * s, by_ratio - 0.02 * s, by_ratio + 0.02 * s);
+                                           return by_ratio + (0.25 + 0.25 * f.figure.female) * (above - by_ratio);
+                                         }},
+                                        {"trunk_ratio", [&] { return std::optional(by_ratio); }}});
+  if (!height) return by_ratio;
+  const double waist = height->value;
+  put_level(f, "waist_semantic", waist, height->rule->name);
   const auto loop = f.levels.trunk_at(waist);
   if (!loop) return waist;
   const double depth = f.has("hip_center") ? f.at("hip_center").z() + f.number("waist.side_depth") * s : loop->centroid.y();
-  for (int side = 0; side < 2; ++side) {
-    const double sign = side == 0 ? 1 : -1;
-    std::optional<Vec2> outer;
-    for (const auto& seg : loop->segments)
-      if (std::abs(seg[0].y() - depth) < 0.01 * s && (!outer || sign * seg[0].x() > sign * outer->x())) outer = seg[0];
-    if (outer) f.put(std::string("waist_side") + side_suffix(side), Vec3(outer->x(), waist, depth), 2, rule, 0.5, 0.015);
-  }
+  for (int side = 0; side < 2; ++side)
+    f.find("waist_side", side_suffix(side), 2, {{"outermost_at_waist", [&]() -> std::optional<Vec3> {
+                                                   const double sign = side == 0 ? 1 : -1;
+                                                   std::optional<Vec2> outer;
+                                                   for (const auto& seg : loop->segments)
+                                                     if (std::abs(seg[0].y() - depth) < 0.01 * s && (!outer || sign * seg[0].x() > sign * outer->x()))
+                                                       outer = seg[0];
+                                                   if (!outer) return std::nullopt;
+                                                   return Vec3(outer->x(), waist, depth);
+                                                 }}});
   return waist;
+}
+
+void find_seat_and_belly(const Finder& f, double crotch, double waist) {
+  const double s = f.s;
+  if (f.find("abdomen_front", "", 2, {{"foremost_below_waist", [&] { return extreme_depth(f, crotch + 0.004, waist, 1, -0.1 * s, 0.1 * s); }}}))
+    put_level(f, "abdomen", f.at("abdomen_front").y(), "abdomen_front");
+  auto rearmost = [&] { // both sides of the seat are nearly level: the left one is taken unless the right one stands out clearly
+    auto rear = extreme_depth(f, crotch + 0.004, waist, -1, 0, 0.12 * s);
+    if (const auto right = extreme_depth(f, crotch + 0.004, waist, -1, -0.12 * s, 0); right && (!rear || right->z() < rear->z() - 0.0025)) rear = right;
+    return rear;
+  };
+  if (f.find("buttock_back", "", 2, {{"rearmost_below_waist", rearmost}})) {
+    const double hip = f.at("buttock_back").y();
+    put_level(f, "hip", hip, "buttock_back");
+    f.find("hip_section_center", "", 2, {{"section_at_hip", [&]() -> std::optional<Vec3> {
+                                            const auto loop = f.levels.trunk_at(hip);
+                                            if (!loop) return std::nullopt;
+                                            return Vec3(loop->centroid.x(), hip, loop->centroid.y());
+                                          }}});
+  }
+  find_level(f, "hip_girth_max", {{"largest_girth", [&] {
+                                     std::optional<Level> most;
+                                     for (double y = crotch + 0.004; y < waist; y += 0.002)
+                                       if (const auto level = measure_level(f, y))
+                                         if (!most || level->girth_m > most->girth_m) most = level;
+                                     return most;
+                                   }}});
 }
 
 } // namespace
@@ -266,40 +345,24 @@ void find_trunk_landmarks(const Finder& f) {
       if (f.has(name + suffix)) fold += f.at(name + suffix).y(), ++n_fold;
   }
   if (n_pit) pit /= n_pit;
-  if (n_fold) put_level(f, "chest_axilla", fold / n_fold, "axilla_folds");
+  find_level(f, "chest_axilla", {{"axilla_folds", [&] { return n_fold ? measure_level(f, fold / n_fold) : std::nullopt; }}});
   find_bust(f, pit);
-  const double navel = find_navel(f);
+  const auto navel = find_navel(f);
   const double waist = find_waist(f, navel, pit);
-  if (const auto p = extreme_depth(f, crotch + 0.004, waist, 1, -0.1 * s, 0.1 * s)) {
-    f.put("abdomen_front", *p, 2, "foremost_below_waist", 0.8, 0.008);
-    put_level(f, "abdomen", p->y(), "abdomen_front");
-  }
-  // both sides of the seat are nearly level: the left one is taken unless the right one stands out clearly
-  auto rear = extreme_depth(f, crotch + 0.004, waist, -1, 0, 0.12 * s);
-  if (const auto right = extreme_depth(f, crotch + 0.004, waist, -1, -0.12 * s, 0); right && (!rear || right->z() < rear->z() - 0.0025)) rear = right;
-  if (const auto p = rear) {
-    f.put("buttock_back", *p, 2, "rearmost_below_waist", 0.9, 0.005);
-    put_level(f, "hip", p->y(), "buttock_back");
-    if (const auto loop = f.levels.trunk_at(p->y()))
-      f.put("hip_section_center", Vec3(loop->centroid.x(), p->y(), loop->centroid.y()), 2, "section_at_hip", 0.9, 0.005);
-  }
+  find_seat_and_belly(f, crotch, waist);
   // the first level above the crotch that has one loop
   for (double y = crotch + 0.004; y < crotch + 0.02 && !f.body.levels.count("crotch"); y += 0.002) put_level(f, "crotch", y, "crotch");
   if (f.body.levels.count("crotch")) f.body.levels["crotch"].y = crotch;
   double under = waist + 0.055 * s;
   if (f.body.levels.count("bust")) {
-    under = breast_fold(f, f.body.levels["bust"].y);
-    put_level(f, "underbust", under, f.figure.female > 0.5 ? "fold_under_bust" : "proportion");
+    const double bust = f.body.levels["bust"].y, expected = bust - f.number("underbust.below_bust") * s;
+    const auto chosen =
+        f.choose<double>("underbust", "underbust",
+                         {{"fold_under_bust", [&] { return breast_fold(f, bust, expected); }}, {"below_bust", [&] { return std::optional(expected); }}});
+    under = chosen ? chosen->value : expected;
+    if (chosen) put_level(f, "underbust", under, chosen->rule->name);
   }
-  find_waist_minima(f, under - 0.005, 0.5 * (navel + crotch));
-  std::optional<Level> most;
-  for (double y = crotch + 0.004; y < waist; y += 0.002)
-    if (const auto level = measure_level(f, y))
-      if (!most || level->girth_m > most->girth_m) most = level;
-  if (most) {
-    most->rule = "largest_girth";
-    f.body.levels["hip_girth_max"] = *most;
-  }
+  find_waist_minima(f, under - 0.005, 0.5 * (navel.value_or(crotch + f.number("omphalion.of_trunk") * (f.at("neck_back").y() - crotch)) + crotch));
 }
 
 } // namespace sloper::body
