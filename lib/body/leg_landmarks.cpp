@@ -72,10 +72,13 @@ void find_leg(const Finder& f, int side) {
   const double s = f.s, sign = side == 0 ? 1 : -1, crotch_y = f.at("crotch").y();
   const std::string suffix = side_suffix(side);
   const double ankle_y = f.number("ankle.height") * s;
-  for (const auto& [place, direction] : {std::pair("foot_tip", 1.0), std::pair("heel", -1.0)})
-    f.find(place, suffix, 1,
-           {{direction > 0 ? "foremost_of_foot" : "rearmost_of_foot", [&] { return foot_end(f, side, ankle_y, direction, 1); }},
-            {"middle_of_three_outermost", [&] { return foot_end(f, side, ankle_y, direction, 3); }}});
+  auto find_end = [&](const char* place, const char* rule, double direction) {
+    f.find(place, suffix, 1, {{rule, [&] { return foot_end(f, side, ankle_y, direction, 1); }}, {"middle_of_three_outermost", [&] {
+                                                                                                   return foot_end(f, side, ankle_y, direction, 3);
+                                                                                                 }}});
+  };
+  find_end("foot_tip", "foremost_of_foot", 1);
+  find_end("heel", "rearmost_of_foot", -1);
   const auto top = f.levels.leg_at(crotch_y - 0.010, side);
   if (!top) return;
   f.find("leg_top", suffix, 2, {{"section_under_crotch", [&] { return std::optional(Vec3(top->centroid.x(), crotch_y - 0.010, top->centroid.y())); }}});
