@@ -56,10 +56,11 @@ validation:
 	@scripts/build release test_validation
 	@SLOPER_VALIDATION=1 SLOPER_FIGURES=1 build/tests/validation/test_validation
 
-# Every hard case over its sweep and 20 seeds; the table goes to docs/hard-cases.md.
+# Every hard case over its sweep and 20 seeds; the table goes to docs/hard-cases.md. Runs are kept in build/hard-runs, which a new build empties.
 hard:
 	@scripts/build release run-hard
-	@build/tests/hard/run-hard --jobs $(shell nproc) --table docs/hard-cases.md
+	@[ ! build/tests/hard/run-hard -nt build/hard-runs ] || rm -f build/hard-runs
+	@build/tests/hard/run-hard --jobs $(shell nproc) --kept build/hard-runs --table docs/hard-cases.md
 
 # 10,000 random scenes; what fails is made small and kept in build/soak. FROM and COUNT choose a slice.
 FROM ?= 0

@@ -1,5 +1,6 @@
 /// run-hard: every case over its sweep and seeds; prints the table, writes it as Markdown; exit 1 when something breaks that is not
-/// listed as failing, or something listed holds. --hashes keeps each point's final state as two hashes, to compare builds.
+/// listed as failing, or something listed holds. --hashes keeps each point's final state as two hashes, to compare builds. --kept
+/// keeps each run as it ends and does not do it again.
 #include "hard_case.hpp"
 
 #include <base/error.hpp>
@@ -16,7 +17,7 @@ using namespace sloper::hard;
 namespace {
 
 struct Options {
-  std::string cases = SLOPER_SOURCE_DIR "/tests/hard/cases", only, table, hashes;
+  std::string cases = SLOPER_SOURCE_DIR "/tests/hard/cases", only, table, hashes, kept;
   int seeds = 0, jobs = 1;
   bool verbose = false;
 };
@@ -30,24 +31,66 @@ struct Result {
   std::string hashes; ///< of the first seed: strict, quantised
 };
 
-Result run(const Case& c, const Point& point, int seeds, bool verbose) {
+/// Runs that were done before, by case, point and seed; new ones are added to the file as they end, so that a run can be broken off.
+class Kept {
+public:
+  explicit Kept(const std::string& path) : m_path(path) {
+    std::ifstream in(path);
+    for (std::string line; std::getline(in, line);)
+      if (const io::Json j = io::Json::parse(line, nullptr, false); !j.is_discarded()) m_runs[j["run"].get<std::string>()] = j;
+  }
+  const io::Json* find(const std::string& key) const {
+    const auto found = m_runs.find(key);
+    return found == m_runs.end() ? nullptr : &found->second;
+  }
+  void add(const io::Json& run) const {
+    if (!m_path.empty()) std::ofstream(m_path, std::ios::app) << run.dump(-1, ' ', true, io::Json::error_handler_t::replace) + "\n" << std::flush;
+  }
+
+private:
+  std::string m_path;
+  std::map<std::string, io::Json> m_runs;
+};
+
+/// One run, and for the first seed the same again with two threads.
+io::Json run_once(const Case& c, const Point& point, int seed, const std::string& key, bool verbose) {
+  const Verdict v = run_point(c, point, static_cast<std::uint64_t>(seed));
+  if (verbose) {
+    std::string text;
+    for (const auto& [name, value] : v.outcome.value) text += " " + name + "=" + std::to_string(value);
+    std::fprintf(stderr, "  %s [%s] seed %d: %s exit %d%s said \"%s\" %s\n", c.file.c_str(), point.name.c_str(), seed, v.broken.empty() ? "holds" : "BREAKS",
+                 v.outcome.exit, text.c_str(), v.outcome.said.c_str(), v.broken.c_str());
+  }
+  const auto cpu = v.outcome.value.find("cpu_s");
+  io::Json out = {{"run", key},
+                  {"broken", v.broken},
+                  {"cpu", cpu == v.outcome.value.end() ? 0.0 : cpu->second},
+                  {"hash", v.outcome.hash},
+                  {"quantised", v.outcome.quantised}};
+  if (seed == 0 && !v.outcome.hash.empty()) out["same"] = run_point(c, point, 0, 2).outcome.hash == v.outcome.hash;
+  return out;
+}
+
+Result run(const Case& c, const Point& point, int seeds, bool verbose, const Kept& kept) {
   Result r;
   for (int seed = 0; seed < seeds; ++seed) {
-    const Verdict v = run_point(c, point, static_cast<std::uint64_t>(seed));
-    ++r.runs;
-    r.held += v.broken.empty();
-    if (!v.broken.empty() && r.broken.empty()) r.broken = "seed " + std::to_string(seed) + ": " + v.broken;
-    if (const auto cpu = v.outcome.value.find("cpu_s"); cpu != v.outcome.value.end()) r.cpu_s = std::max(r.cpu_s, cpu->second);
-    if (verbose) {
-      std::string text;
-      for (const auto& [name, value] : v.outcome.value) text += " " + name + "=" + std::to_string(value);
-      std::fprintf(stderr, "  %s [%s] seed %d: %s exit %d%s said \"%s\" %s\n", c.file.c_str(), point.name.c_str(), seed, v.broken.empty() ? "holds" : "BREAKS",
-                   v.outcome.exit, text.c_str(), v.outcome.said.c_str(), v.broken.c_str());
+    const std::string key = c.file + " [" + point.name + "] " + std::to_string(seed);
+    io::Json one;
+    if (const io::Json* before = kept.find(key)) {
+      one = *before;
+    } else {
+      one = run_once(c, point, seed, key, verbose);
+      kept.add(one);
     }
-    if (seed == 0 && !v.outcome.hash.empty()) { // the same bytes again, with two threads
+    const std::string broken = one["broken"];
+    ++r.runs;
+    r.held += broken.empty();
+    if (!broken.empty() && r.broken.empty()) r.broken = "seed " + std::to_string(seed) + ": " + broken;
+    r.cpu_s = std::max(r.cpu_s, one["cpu"].get<double>());
+    if (one.contains("same")) { // the same bytes again, with two threads
       r.has_bytes = true;
-      r.hashes = v.outcome.hash + " " + v.outcome.quantised;
-      r.same_bytes = run_point(c, point, 0, 2).outcome.hash == v.outcome.hash;
+      r.hashes = one["hash"].get<std::string>() + " " + one["quantised"].get<std::string>();
+      r.same_bytes = one["same"];
     }
   }
   return r;
@@ -67,9 +110,11 @@ Options parse(int argc, char** argv) {
     else if (a == "--jobs") o.jobs = std::stoi(next());
     else if (a == "--table") o.table = next();
     else if (a == "--hashes") o.hashes = next();
+    else if (a == "--kept") o.kept = next();
     else if (a == "-v") o.verbose = true;
     else
-      throw Error(ErrorKind::USAGE, "", a, "is not known", "run-hard [--cases DIR] [--only NAME] [--seeds N] [--jobs N] [--table FILE] [--hashes FILE] [-v]");
+      throw Error(ErrorKind::USAGE, "", a, "is not known",
+                  "run-hard [--cases DIR] [--only NAME] [--seeds N] [--jobs N] [--table FILE] [--hashes FILE] [--kept FILE] [-v]");
   }
   return o;
 }
@@ -89,6 +134,7 @@ int main_of(const Options& o) {
   for (const Case& c : cases)
     for (const Point& p : c.points) points.emplace_back(&c, &p);
 
+  const Kept kept(o.kept);
   // Workers take every jobs-th point and leave their results in a file each.
   std::vector<FILE*> files;
   std::vector<pid_t> workers;
@@ -98,7 +144,7 @@ int main_of(const Options& o) {
     if (pid == 0) {
       for (std::size_t i = static_cast<std::size_t>(w); i < points.size(); i += static_cast<std::size_t>(o.jobs)) {
         const auto& [c, p] = points[i];
-        const Result r = run(*c, *p, o.seeds > 0 ? std::min(o.seeds, c->seeds) : c->seeds, o.verbose);
+        const Result r = run(*c, *p, o.seeds > 0 ? std::min(o.seeds, c->seeds) : c->seeds, o.verbose, kept);
         const io::Json line = {{"i", i},         {"runs", r.runs},    {"held", r.held}, {"same", r.same_bytes}, {"bytes", r.has_bytes}, {"broken", r.broken},
                                {"cpu", r.cpu_s}, {"hashes", r.hashes}};
         std::fprintf(files[static_cast<std::size_t>(w)], "%s\n", line.dump(-1, ' ', true, io::Json::error_handler_t::replace).c_str());
