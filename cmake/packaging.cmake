@@ -20,6 +20,7 @@ install(FILES ${PROJECT_BINARY_DIR}/sloperConfig.cmake ${PROJECT_BINARY_DIR}/slo
 if(TARGET PkgConfig::EGL)
   set(SLOPER_PC_EGL " egl")
 endif()
+file(RELATIVE_PATH SLOPER_PC_UP /p/${CMAKE_INSTALL_LIBDIR}/pkgconfig /p) # the prefix as seen from there: what is installed can be moved
 configure_file(cmake/sloper.pc.in ${PROJECT_BINARY_DIR}/sloper.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/sloper.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 
@@ -29,7 +30,8 @@ install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DO
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(TARGETS make-mannequin make-pattern RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/sloper)
 install(DIRECTORY samples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/sloper/samples USE_SOURCE_PERMISSIONS
-  PATTERN generator EXCLUDE PATTERN "*.cpp" EXCLUDE PATTERN CMakeLists.txt EXCLUDE)
+  PATTERN generator EXCLUDE PATTERN library EXCLUDE PATTERN "*.cpp" EXCLUDE PATTERN CMakeLists.txt EXCLUDE)
+install(DIRECTORY samples/library DESTINATION ${CMAKE_INSTALL_DATADIR}/sloper/samples)
 foreach(script compare-drape retarget-batch)
   if(EXISTS ${PROJECT_SOURCE_DIR}/scripts/${script})
     install(PROGRAMS scripts/${script} DESTINATION ${CMAKE_INSTALL_LIBDIR}/sloper)

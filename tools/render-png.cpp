@@ -31,7 +31,9 @@ struct Options {
 
 void add_options(cli::Tool& tool, Options& o) {
   CLI::App& app = tool.app();
-  app.add_option("DOC", o.documents, "body.json, shirt.json, panels.json, a pattern, OBJ, PLY or STL meshes; PNG files with --sheet and --compare")->required();
+  app.add_option("DOC", o.documents, "body.json, shirt.json, panels.json, a pattern, OBJ, PLY or STL meshes; PNG files with --sheet and --compare")
+      ->required()
+      ->check(cli::input_file());
   app.add_option("--view", o.view, "front, back, left, right, iso, pattern (laid flat) or turntable:N; several joined by commas make a sheet")
       ->capture_default_str()
       ->type_name("LIST");
@@ -236,7 +238,8 @@ int run_render(cli::Tool& tool, const Options& o) {
   std::vector<render::DrawMesh> meshes = scene.meshes; // the scene keeps its panels' own vertices
   for (render::DrawMesh& mesh : meshes) render::smooth_cloth(mesh);
   if (render::is_export(o.output)) {
-    render::export_scene(o.output, meshes, legend);
+    const std::optional<render::Rig> rig = render::make_rig(scene);
+    render::export_scene(o.output, meshes, legend, rig ? &*rig : nullptr);
     return 0;
   }
   std::optional<render::Renderer> renderer;

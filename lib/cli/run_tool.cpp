@@ -210,12 +210,18 @@ static std::string answer_request(const Request& request, const ToolDescription&
   return completion(tool, request.value);
 }
 
+/// CLI11's "--size: At Most 1 required but received 2" in words that say what to do.
+static std::string plain_words(const std::string& text) {
+  const std::size_t at = text.find(": At Most 1 required but received ");
+  return at == std::string::npos ? text : text.substr(0, at) + " is given more than once; give it once";
+}
+
 static int parse_and_run(CLI::App& app, const std::vector<std::string>& words, Reporter& reporter, const std::function<void()>& parsed,
                          const std::function<int()>& body) {
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend())); // CLI11 wants them reversed
   } catch (const CLI::ParseError& error) {
-    throw usage_error(error.what());
+    throw usage_error(plain_words(error.what()));
   }
   parsed();
   check_outputs(app);

@@ -99,13 +99,22 @@ Json parse_json(const std::string& text, const std::string& name) {
 
 Json read_json(const std::string& path) { return parse_json(read_file(path), path == "-" ? "standard input" : path); }
 
+/// What was expected, and where such a document comes from.
+static std::string expected_document(const std::string& format) {
+  const std::pair<const char*, const char*> makers[] = {
+      {"body", "scan-landmarks"}, {"panels", "pattern-mesh"}, {"garment", "drape or retarget-garment"}, {"fit", "retarget-garment --fit"}};
+  for (const auto& [name, maker] : makers)
+    if (format == name) return "expected a \"" + format + "\" document, as " + maker + " writes it";
+  return "expected a \"" + format + "\" document";
+}
+
 Json read_document(const std::string& path, const std::string& format, int newest) {
   Json document = read_json(path);
   const std::string name = path == "-" ? "standard input" : path;
   const Node node(document, name);
-  if (!node.is_object() || !node.has("format")) throw input_error(name, "/format", "is not a Sloper document", "expected a \"" + format + "\" document");
+  if (!node.is_object() || !node.has("format")) throw input_error(name, "/format", "is not a Sloper document", expected_document(format));
   if (const std::string got = node.at("format").string(); got != format)
-    throw input_error(name, "/format", "is a \"" + got + "\" document", "expected a \"" + format + "\" document");
+    throw input_error(name, "/format", "is a \"" + got + "\" document", expected_document(format));
   const int version = node.at("version").integer();
   if (version < 1) throw input_error(name, "/version", std::to_string(version) + " is not a version", "expected 1 to " + std::to_string(newest));
   if (version > newest)

@@ -1,5 +1,6 @@
 #include <base/error.hpp>
 #include <base/version.hpp>
+#include <body/pose.hpp>
 #include <io/files.hpp>
 #include <io/json.hpp>
 #include <render/export.hpp>
@@ -54,7 +55,7 @@ public:
   }
 };
 
-io::Json add_mesh(GlbBuffer& buffer, const DrawMesh& mesh, const Legend& legend) {
+io::Json add_mesh(GlbBuffer& buffer, const DrawMesh& mesh, const Legend& legend, const Rig* rig) {
   std::vector<float> positions, normals, colors, uv;
   Eigen::Vector3f low = Eigen::Vector3f::Constant(std::numeric_limits<float>::max()), high = -low;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -81,8 +82,42 @@ io::Json add_mesh(GlbBuffer& buffer, const DrawMesh& mesh, const Legend& legend)
   attributes["NORMAL"] = buffer.add_floats(normals, 3, "VEC3");
   attributes["COLOR_0"] = buffer.add_floats(colors, 3, "VEC3");
   if (!uv.empty()) attributes["TEXCOORD_0"] = buffer.add_floats(uv, 2, "VEC2");
+  if (rig) {
+    std::vector<std::uint16_t> joints;
+    std::vector<float> weights;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+      for (int k = 0; k < 4; ++k) {
+        joints.push_back(static_cast<std::uint16_t>(rig->joint[v][k]));
+        weights.push_back(static_cast<float>(rig->weight[v][k]));
+      }
+    attributes["JOINTS_0"] = buffer.add(joints.data(), joints.size() * sizeof(std::uint16_t), mesh.positions.size(), 5123, "VEC4", 34962);
+    attributes["WEIGHTS_0"] = buffer.add_floats(weights, 4, "VEC4");
+  }
   const int elements = buffer.add(indices.data(), indices.size() * sizeof(std::uint32_t), indices.size(), 5125, "SCALAR", 34963);
   return {{"name", mesh.name}, {"primitives", {{{"attributes", attributes}, {"indices", elements}, {"material", mesh.is_cloth ? 1 : 0}}}}};
+}
+
+/// Joint nodes after `nodes`, each placed from its parent's, and the skin that names them. In the bind pose nothing is turned, so
+/// that a joint's inverse matrix only moves its head to the origin.
+io::Json add_skin(GlbBuffer& buffer, io::Json& nodes, const Rig& rig) {
+  const std::size_t first = nodes.size();
+  std::vector<float> inverse;
+  io::Json joints = io::Json::array();
+  for (std::size_t j = 0; j < rig.names.size(); ++j) {
+    const Vec3 from = rig.parent[j] < 0 ? Vec3(0, 0, 0) : rig.head[static_cast<std::size_t>(rig.parent[j])], at = rig.head[j] - from;
+    io::Json children = io::Json::array();
+    for (std::size_t k = j + 1; k < rig.names.size(); ++k)
+      if (rig.parent[k] == static_cast<int>(j)) children.push_back(first + k);
+    nodes.push_back({{"name", rig.names[j]}, {"translation", {at.x(), at.y(), at.z()}}});
+    if (!children.empty()) nodes.back()["children"] = children;
+    joints.push_back(first + j);
+    Mat4 matrix = Mat4::Identity();
+    matrix.block<3, 1>(0, 3) = -rig.head[j];
+    for (int k = 0; k < 16; ++k) inverse.push_back(static_cast<float>(matrix(k % 4, k / 4))); // columns
+  }
+  const int matrices = buffer.add_floats(inverse, 16, "MAT4");
+  buffer.views.back().erase("target"); // no vertex attribute
+  return {{"skeleton", first}, {"joints", joints}, {"inverseBindMatrices", matrices}};
 }
 
 std::string obj_text(const std::vector<DrawMesh>& meshes, const std::string& material_file) {
@@ -172,7 +207,54 @@ bool is_export(const std::string& path) {
   return e == "glb" || e == "obj" || e == "ply";
 }
 
-std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend) {
+std::optional<Rig> make_rig(const Scene& scene) {
+  if (!scene.body || scene.body_mesh < 0) return {};
+  const body::Body& body = *scene.body;
+  body::SkinWeights weights;
+  try {
+    weights = body::skin_weights(body);
+  } catch (const Error&) {
+    return {}; // a torso, say: it is drawn as it stands
+  }
+  Rig rig;
+  rig.mesh = scene.body_mesh;
+  rig.names = weights.joints;
+  if (scene.meshes[static_cast<std::size_t>(rig.mesh)].positions.size() != weights.joint.size()) return {};
+  const auto bone = [&](const std::string& name) {
+    return std::find_if(body.bones.begin(), body.bones.end(), [&](const body::Bone& b) { return b.name == name; });
+  };
+  for (const std::string& name : rig.names) {
+    const bool root = rig.names.front() == name;
+    const auto own = bone(root ? "spine" : name);
+    if (own == body.bones.end()) return {};
+    rig.head.push_back(own->head);
+    int parent = root ? -1 : 0;
+    for (auto above = root ? body.bones.end() : bone(own->parent); above != body.bones.end() && parent == 0; above = bone(above->parent)) {
+      const auto known = std::find(rig.names.begin(), rig.names.end(), above->name);
+      if (known != rig.names.end()) parent = static_cast<int>(known - rig.names.begin());
+    }
+    if (parent >= static_cast<int>(rig.parent.size())) return {};
+    rig.parent.push_back(parent);
+  }
+  for (std::size_t v = 0; v < weights.joint.size(); ++v) {
+    std::array<int, body::SkinWeights::MOST> order;
+    for (int k = 0; k < body::SkinWeights::MOST; ++k) order[static_cast<std::size_t>(k)] = k;
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weights.share[v][a] > weights.share[v][b]; });
+    std::array<int, 4> joint{};
+    std::array<double, 4> share{};
+    double sum = 0;
+    for (int k = 0; k < 4; ++k) sum += weights.share[v][order[k]];
+    for (int k = 0; k < 4; ++k) {
+      share[k] = weights.share[v][order[k]] / sum;
+      joint[k] = share[k] > 0 ? weights.joint[v][order[k]] : 0;
+    }
+    rig.joint.push_back(joint);
+    rig.weight.push_back(share);
+  }
+  return rig;
+}
+
+std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend, const Rig* rig) {
   GlbBuffer buffer;
   io::Json document = {{"asset", {{"version", "2.0"}, {"generator", generator_stamp("render-png")}}}, {"scene", 0}};
   io::Json nodes = io::Json::array(), drawn = io::Json::array(), roots = io::Json::array();
@@ -180,7 +262,13 @@ std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend)
     if (meshes[m].triangles.empty()) continue;
     nodes.push_back({{"name", meshes[m].name}, {"mesh", drawn.size()}});
     roots.push_back(drawn.size());
-    drawn.push_back(add_mesh(buffer, meshes[m], legend));
+    const bool rigged = rig && rig->mesh == static_cast<int>(m);
+    if (rigged) nodes.back()["skin"] = 0;
+    drawn.push_back(add_mesh(buffer, meshes[m], legend, rigged ? rig : nullptr));
+  }
+  if (rig) {
+    roots.push_back(nodes.size()); // the root joint
+    document["skins"] = {add_skin(buffer, nodes, *rig)};
   }
   document["scenes"] = {{{"nodes", roots}}};
   document["nodes"] = nodes;
@@ -204,10 +292,10 @@ std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend)
   return bytes;
 }
 
-void export_scene(const std::string& path, const std::vector<DrawMesh>& meshes, const Legend& legend) {
+void export_scene(const std::string& path, const std::vector<DrawMesh>& meshes, const Legend& legend, const Rig* rig) {
   const std::string e = extension(path);
   if (e == "glb") {
-    io::write_file(path, glb_bytes(meshes, legend));
+    io::write_file(path, glb_bytes(meshes, legend, rig));
   } else if (e == "ply") {
     io::write_file(path, ply_bytes(meshes, legend));
   } else if (e == "obj") {

@@ -52,6 +52,29 @@ struct Label {
   bool always_left = false;
 };
 
+/// Heights in rising order, moved apart to `pitch` by as little as possible (least squares, pooling neighbours that violate it) and
+/// kept within [low, high] where they fit.
+std::vector<double> move_apart(const std::vector<double>& wanted, double pitch, double low, double high) {
+  struct Pool {
+    double sum; ///< of wanted heights less their place in the row
+    int n;
+    double mean() const { return sum / n; }
+  };
+  std::vector<Pool> pools;
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    pools.push_back({wanted[k] - pitch * static_cast<double>(k), 1});
+    for (; pools.size() > 1 && pools[pools.size() - 2].mean() >= pools.back().mean(); pools.pop_back()) {
+      pools[pools.size() - 2].sum += pools.back().sum;
+      pools[pools.size() - 2].n += pools.back().n;
+    }
+  }
+  std::vector<double> y;
+  const double last = pitch * static_cast<double>(wanted.size()) - pitch;
+  for (const Pool& pool : pools)
+    for (int k = 0; k < pool.n; ++k) y.push_back(std::max(low, std::min(pool.mean(), high - last)) + pitch * static_cast<double>(y.size()));
+  return y;
+}
+
 /// Names in two columns at the sides, each with a line to its point; moved apart so that none covers another.
 void draw_labels(Pen& pen, std::vector<Label> labels) {
   io::Image& image = pen.image();
@@ -61,10 +84,9 @@ void draw_labels(Pen& pen, std::vector<Label> labels) {
     std::vector<Label> column;
     for (const Label& l : labels)
       if ((l.at.x() >= 0.5 * image.width && !l.always_left) == right) column.push_back(l);
-    std::vector<double> y;
-    for (const Label& l : column) y.push_back(std::max(l.at.y(), y.empty() ? pitch : y.back() + pitch));
-    double limit = image.height - 0.4 * font;
-    for (std::size_t k = y.size(); k-- > 0; limit = y[k] - pitch) y[k] = std::min(y[k], limit);
+    std::vector<double> wanted;
+    for (const Label& l : column) wanted.push_back(l.at.y());
+    const std::vector<double> y = move_apart(wanted, pitch, pitch, image.height - 0.4 * font);
     for (std::size_t k = 0; k < column.size(); ++k) {
       const int width = text_width(column[k].text, font), margin = font / 2;
       const double edge = right ? image.width - margin - width - 4 : margin + width + 4;

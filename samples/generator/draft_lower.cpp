@@ -1,9 +1,9 @@
 /// The four-panel skirt (the paper's Figure 4) and trousers, each with a waistband, drafted flat.
 ///
-/// Skirt: a quarter of the waist above, a quarter of the hip 20 cm lower, flared to the hem; the difference of hip and
-/// waist is taken half at the side, half at the middle seam, by curves. Trousers: body rise, crotch extensions of a
-/// sixteenth and an eighth of the hip (front and back), crease in the middle of the crotch line, as in the classic
-/// trouser block (for one, Aldrich, Metric Pattern Cutting); coefficients are our own. Metres; y = 0 is the waist.
+/// Skirt: a quarter of the waist above, a quarter of the hip 20 cm lower, flared to the hem at the side seams, so that the middle hangs straight (flare in the
+/// middle seams sinks in between the thighs); the difference of hip and waist is taken half at the side, half at the middle seam, by curves. Trousers: body
+/// rise, crotch extensions of a sixteenth and an eighth of the hip (front and back), crease in the middle of the crotch line, as in the classic trouser block
+/// (for one, Aldrich, Metric Pattern Cutting); coefficients are our own. Metres; y = 0 is the waist.
 #include "draft.hpp"
 #include <cmath>
 namespace sloper::samples {
@@ -29,6 +29,16 @@ void add_waistband(Draft& d, const Measures& m, double front, double back, doubl
   }
 }
 
+/// The left front and the right back, with their mirror images on the other side.
+void add_quarters(Draft& d, const DraftPanel& front, const DraftPanel& back) {
+  d.add(front);
+  d.add(mirrored(front, "front_r", "torso"));
+  d.add(back);
+  DraftPanel back_l = mirrored(back, "back_l", "torso");
+  back_l.placement.theta_deg = 135;
+  d.add(back_l);
+}
+
 } // namespace
 
 Draft draft_skirt(const Measures& m) {
@@ -40,7 +50,7 @@ Draft draft_skirt(const Measures& m) {
   const auto panel = [&](const char* name, double theta) {
     DraftPanel p;
     p.name = name;
-    const Vec2 hem_middle(-flare * 0.4, -length), hem_side(hip + flare, -length), hip_side(hip, y_hip), hip_middle(0, y_hip);
+    const Vec2 hem_middle(0, -length), hem_side(hip + flare, -length), hip_side(hip, y_hip), hip_middle(0, y_hip);
     const double x0 = inset;
     // The side is longer than the middle by the lean; the waist point at the side is raised so that neighbours meet level.
     const Vec2 waist_side(x0 + waist, 0.010), waist_middle(x0, 0);
@@ -57,12 +67,7 @@ Draft draft_skirt(const Measures& m) {
   };
   // Wearer's left front and, the other way round, left back: seen from outside the left back's middle seam is at its +x.
   const DraftPanel front = panel("front_l", 45), back = panel("back_r", 225);
-  d.add(front);
-  d.add(mirrored(front, "front_r", "torso"));
-  d.add(back);
-  DraftPanel back_l = mirrored(back, "back_l", "torso");
-  back_l.placement.theta_deg = 135;
-  d.add(back_l);
+  add_quarters(d, front, back);
   for (const char* edge : {"side", "side_hip"}) {
     d.sew("front_l", edge, "back_l", edge);
     d.sew("front_r", edge, "back_r", edge);
@@ -120,12 +125,7 @@ Draft draft_trousers(const Measures& m) {
   const double top = m.waist_height() - 0.5 * band;
   front.placement = {"torso", 45, top, Vec2(front_leg.lean + 0.5 * waist, 0)};
   back.placement = {"torso", 225, top, Vec2(back_leg.lean + 0.5 * waist, 0)};
-  d.add(front);
-  d.add(mirrored(front, "front_r", "torso"));
-  d.add(back);
-  DraftPanel back_l = mirrored(back, "back_l", "torso");
-  back_l.placement.theta_deg = 135;
-  d.add(back_l);
+  add_quarters(d, front, back);
   for (const char* s : {"l", "r"}) {
     const std::string side = s;
     for (const char* edge : {"side_low", "side_thigh", "side_hip", "inside_thigh", "inside_low"}) d.sew("front_" + side, edge, "back_" + side, edge);
