@@ -15,6 +15,9 @@ namespace {
 constexpr double EDGE_REACH = 0.5;
 /// In one step an element uses at most this share of its distance to the skin.
 constexpr double APPROACH = 0.7;
+/// In one part of its way skin uses at most this share of its distance to cloth in front of it. One step of the cloth at most doubles a
+/// distance that is short (Newton's step into the barrier): with half, cloth would never be left the distance that it had.
+constexpr double SKIN_APPROACH = 1.0 / 3;
 /// Cloth is searched for again when a particle has used this share of what it may move unseen.
 constexpr double USED = 0.6;
 /// A crossed pair is pushed as if at most this deep, m: a deep start is pushed out, not shot out.
@@ -42,7 +45,8 @@ Push push_out_of(double d, double reach, double k) {
 BodyContactEffect::BodyContactEffect(const ClothMesh& mesh, collision::BodyCollider& body, const BodyContactOptions& options)
     : m_mesh(mesh), m_body(body), m_options(options), m_triangles(mesh.particle_triangles()),
       m_topology(collision::make_topology(mesh.n_particles, m_triangles)), m_clearance(mesh.n_particles), m_load(mesh.n_particles, Vec3::Zero()),
-      m_load_stiffness(mesh.n_particles), m_tangent(mesh.n_particles), m_anchor(mesh.n_particles, Vec3::Zero()), m_has_anchor(mesh.n_particles, 0) {
+      m_load_stiffness(mesh.n_particles), m_tangent(mesh.n_particles), m_anchor(mesh.n_particles, Vec3::Zero()), m_carried(m_anchor),
+      m_has_anchor(mesh.n_particles, 0) {
   m_edge_area.assign(m_topology.edges.size(), 0);
   for (std::size_t f = 0; f < m_triangles.size(); ++f) {
     const auto& flat = mesh.triangles[f].flat;
@@ -94,15 +98,60 @@ std::vector<double> BodyContactEffect::skin_room(const std::vector<Vec3>& x) {
   return room;
 }
 
+double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& way) {
+  double longest = 0;
+  for (const Vec3& w : way) longest = std::max(longest, w.norm());
+  if (longest <= 0) return 1;
+  if (m_edge_slot.empty()) return 0; // not bound yet: there was no step
+  const double seen = USED * (EDGE_REACH * m_options.gap_m + m_options.slack_m);
+  begin_step(x, 0);
+  double moved = m_body_moved;
+  for (std::size_t i = 0; i < x.size(); ++i) moved = std::max(moved, m_body_moved + (x[i] - m_searched_at[i]).norm());
+  if (moved > 0.5 * seen) {
+    search(x);
+    moved = 0;
+  }
+  double share = std::min(1.0, (seen - moved) / longest);
+  for (const Pair& pair : m_pairs) {
+    if (pair.crossed) continue;
+    const Closest c = closest(pair, x);
+    if (!c.valid) continue;
+    for (int k = 0; k < pair.n_body; ++k) {
+      const double toward = c.normal.dot(way[pair.body[k]]);
+      if (toward > 0) share = std::min(share, SKIN_APPROACH * c.distance / toward);
+    }
+  }
+  return share;
+}
+
+/// Anchors go with the nearest skin: it moves as its triangle does, in the barycentric coordinates of the anchor.
+void BodyContactEffect::carry_anchors(const std::vector<Vec3>& positions) {
+  const TriangleMesh& skin = m_body.mesh();
+  for (std::size_t i = 0; i < m_anchor.size(); ++i) {
+    if (!m_has_anchor[i]) continue;
+    const int f = m_clearance[i].triangle;
+    if (f < 0) {
+      m_has_anchor[i] = 0;
+      continue;
+    }
+    const Triangle& t = skin.triangles[f];
+    const auto near = collision::point_triangle(m_anchor[i], skin.positions[t[0]], skin.positions[t[1]], skin.positions[t[2]]);
+    Vec3 way = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) way += near.barycentric[k] * (positions[t[k]] - skin.positions[t[k]]);
+    m_anchor[i] += way;
+    m_carried[i] += way;
+  }
+}
+
 void BodyContactEffect::move_body(const std::vector<Vec3>& positions) {
   double motion = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) motion = std::max(motion, (positions[i] - m_body.mesh().positions[i]).squaredNorm());
   motion = std::sqrt(motion);
   m_body_moved += motion;
+  carry_anchors(positions);
   m_body.set_positions(positions);
   for (Clearance& c : m_clearance)
     if (c.distance >= 0) c.distance = std::max(0.0, c.distance - motion);
-  std::fill(m_has_anchor.begin(), m_has_anchor.end(), 0);
 }
 
 void BodyContactEffect::begin_step(const std::vector<Vec3>& x, double) {
@@ -314,6 +363,7 @@ void BodyContactEffect::add(StepContext& context) {
       most = std::min(most, std::max(0.0, m_reach_now[i] - m_body_moved - (x[i] - m_searched_at[i]).norm()));
     }
   if (m_options.friction > 0) add_friction(context);
+  m_carried.assign(x.size(), Vec3::Zero());
 }
 
 void BodyContactEffect::add_friction(StepContext& context) {
@@ -331,8 +381,15 @@ void BodyContactEffect::add_friction(StepContext& context) {
     Vec3 u = context.x[i] - m_anchor[i];
     u -= u.dot(normal) * normal;
     double tangent = m_tangent[i] = m_options.tangent_ratio * m_load_stiffness[i];
-    const double pull = tangent * u.norm(), most = m_options.friction * load;
-    if (pull > most) {
+    const double length = u.norm(), pull = tangent * length, most = m_options.friction * load, carried = m_carried[i].norm();
+    if (pull > most && carried > 0) {
+      // On skin that moves the pull ends where the cloth has caught up, and what the skin has gone since the last step may yet be caught
+      // up with: else the cloth would be held to where the skin was.
+      context.force[i] -= most / length * u;
+      const double kept = most / tangent + carried;
+      if (length > kept) m_anchor[i] = context.x[i] - kept / length * u;
+      tangent = most / length;
+    } else if (pull > most) {
       u *= most / pull;
       context.force[i] -= tangent * u;
       m_anchor[i] = context.x[i] - u;

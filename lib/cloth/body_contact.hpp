@@ -41,7 +41,11 @@ public:
   /// How far each vertex of the skin may move at once so that it passes none of the cloth at x, m: half of its distance to the cloth,
   /// and no more than what is seen. Cloth that crosses the skin already does not count. Searches. After a first step only.
   std::vector<double> skin_room(const std::vector<Vec3>& x);
-  /// Moves the body (same topology).
+  /// The largest share of the way `way` (#V by 3 of the skin, m) that the skin may go at once and pass none of the cloth at x: up to
+  /// a third of each pair's distance towards it, sideways and back without limit, and no farther than what is seen. Searches when
+  /// it must. Cloth that crosses the skin already does not count. In [0, 1]; 0 before the first step.
+  double free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& way);
+  /// Moves the body (same topology). Anchors of friction go with the skin that they are on.
   void move_body(const std::vector<Vec3>& positions);
   void set_friction(double mu) { m_options.friction = mu; }
   /// Positions were changed from outside: look for crossings at the next search, which comes before the next step.
@@ -78,6 +82,7 @@ private:
   void add_pair(const Pair& pair, const Closest& c, StepContext& context);
   void push_out(int particle, StepContext& context);
   void add_friction(StepContext& context);
+  void carry_anchors(const std::vector<Vec3>& positions);
 
   const ClothMesh& m_mesh;
   collision::BodyCollider& m_body;
@@ -107,6 +112,7 @@ private:
   std::vector<Vec3> m_load;                        // contact force on each particle, N
   std::vector<double> m_load_stiffness, m_tangent; // N/m; the latter of the tie to the anchor, 0 for none
   std::vector<Vec3> m_anchor;
+  std::vector<Vec3> m_carried; // how far the skin has taken each anchor since the last step, m
   std::vector<char> m_has_anchor;
 };
 

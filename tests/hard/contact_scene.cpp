@@ -1,7 +1,7 @@
 /// Sheets and a body: deep starts, ridges, pinches, fast bodies, layers.
 #include "scene_tools.hpp"
 
-#include <cloth/body_contact.hpp>
+#include <cloth/body_motion.hpp>
 #include <cloth/gravity.hpp>
 #include <cloth/pins.hpp>
 #include <cloth/self_contact.hpp>
@@ -123,14 +123,17 @@ Outcome contact_scene(const Parameters& p, std::uint64_t seed) {
   double clean_since = -1, largest_inside = 0, rms_when_pinched = 0, still_speed = 0;
   std::vector<Vec3> before_pinch;
   Watch watch(solver, o.inertia);
+  cloth::BodyMotion swept(solver, touch, body);
   const double there = motion.kind == "close" ? motion.way / motion.speed : 0;
   int k = 0;
   for (double t = o.h; t < duration + 0.5 * o.h; t += o.h, ++k) {
-    if (motion.moves()) {
-      touch.move_body(motion.at(skin.positions, t));
-    }
     const std::vector<Vec3> before = solver.x();
-    if (!watch.step(o)) break;
+    const auto watched = [&](const cloth::StepOptions& part) {
+      cloth::StepResult r;
+      r.finite = watch.step(part);
+      return r;
+    };
+    if (!(motion.moves() ? swept.advance(motion.at(skin.positions, t), o, watched).finite : watch.step(o))) break;
     const BodyState now = look(body, solver.x(), triangles);
     largest_inside = std::max(largest_inside, now.inside);
     if (now.through + now.inside > 0) clean_since = -1;
