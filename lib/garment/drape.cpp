@@ -37,6 +37,8 @@ constexpr int PUSH_STEPS = 120;          // for cloth at rest that is still thro
 constexpr int STALLED_STEPS = 400;       // without a residual that is a tenth less, and more than the weight: it will not come to rest
 constexpr int JUDGE_EVERY = 20;          // steps between looks whether the garment can still fit
 constexpr int STRAINED_STEPS = 80;       // without a strain that is a tenth less: it stays
+constexpr double FAR_RESIDUAL = 1;       // weights: above, garments that settle are far from rest,
+constexpr double FAR_TOLERANCE = 0.1;    // and this relative residual of a step is good enough
 constexpr double SHORTEST_STEP_S = 0.005;
 constexpr double LARGEST_STEP_S = 0.2; // s, while settling
 constexpr int UNTANGLE_ROUNDS = 80;
@@ -160,7 +162,8 @@ bool DrapeRun::step(double h, double inertia, double largest_move_m) {
   options.line_search = m_settling;
   options.h = h;
   options.inertia = inertia;
-  options.cg_tolerance = m_settings.cg_tolerance;
+  const bool far = m_settling && m_last.residual_force_ratio > FAR_RESIDUAL; // the line search shortens whatever is too rough
+  options.cg_tolerance = far ? std::max(FAR_TOLERANCE, m_settings.cg_tolerance) : m_settings.cg_tolerance;
   options.cg_max_iterations = m_settings.cg_max_iterations;
   m_last = m_solver->step(options);
   m_cg_iterations.push_back(m_last.cg.iterations);
