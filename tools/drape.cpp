@@ -8,6 +8,7 @@
 #include <garment/follow.hpp>
 #include <garment/garment_json.hpp>
 #include <garment/kes.hpp>
+#include <garment/layers.hpp>
 #include <garment/scene.hpp>
 #include <io/files.hpp>
 #include <io/line_follower.hpp>
@@ -26,7 +27,7 @@ namespace {
 
 struct Options {
   std::string scene, body, panels, from, accuracy, effects, material, report, output, follow, frames, edit_log;
-  std::vector<std::string> set;
+  std::vector<std::string> set, over, over_output;
   double max_seconds = 0, max_error_mm = 0;
 };
 
@@ -38,6 +39,12 @@ void add_options(cli::Tool& tool, Options& o) {
   app.add_option("--body", o.body, "body.json from scan-landmarks")->check(cli::input_file());
   app.add_option("--panels", o.panels, "panels.json from pattern-mesh")->check(cli::input_file());
   app.add_option("--from", o.from, "go on from a garment that drape or retarget-garment wrote")->check(cli::input_file());
+  app.add_option("--over", o.over,
+                 "a draped garment that this one goes over; repeated from the skin outwards. Inner cloth is tucked in where it lies outside, then all "
+                 "come to rest together")
+      ->check(cli::input_file());
+  app.add_option("--over-output", o.over_output, "write the garments of --over as they lie below this one; as many, in the same order")
+      ->check(cli::output_file());
   app.add_option("--accuracy", o.accuracy, "how exact, and how long it takes (default: standard)")->check(cli::one_of(garment::accuracy_names()));
   app.add_option("--effects", o.effects, "auto, auto with changes (auto,membrane,-friction), or exactly those of a list (default: auto)")->type_name("LIST");
   app.add_option("--material", o.material,
@@ -61,6 +68,7 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.example("drape --body body.json --panels panels.json --report report.json -o shirt.json", "drape a sewn pattern on a scanned body");
   tool.formats("scene, body, panels and garment documents (version 1)", "garment and report documents (version 1), OBJ");
   tool.example("drape --from shirt.json --body body.json --follow edits.jsonl --frames - -o edited.json", "change the pattern and watch the cloth follow");
+  tool.example("drape --body body.json --over shirt.json --panels jacket.json --over-output shirt-below.json -o jacket.json", "a jacket over a shirt");
   tool.example("drape --from shirt.json --body body.json --accuracy fine -o shirt-fine.json", "go on, more exactly");
   tool.example("drape --body body.json --panels panels.json --max-error-mm 0.5 --report report.json -o shirt.json", "as accurate as that, and no more");
 }
@@ -126,15 +134,24 @@ private:
 };
 
 /// Drapes, to a goal when there is one, or goes on with a draped garment while edits come. Lines that were refused are counted in `refused`.
-garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment::Garment& garment, const body::Body* body, const garment::Scene& scene,
-                                     const garment::DrapeSettings& settings, io::Json& document, std::size_t& refused) {
-  if (o.follow.empty() && has_goal(o, scene)) {
+garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment::Garment& garment, std::vector<garment::Garment>& layers,
+                                     const body::Body* body, const garment::Scene& scene, const garment::DrapeSettings& settings, io::Json& document,
+                                     std::size_t& refused) {
+  if (o.follow.empty() && layers.empty() && has_goal(o, scene)) {
     const garment::AccuracyGoal goal{1e-3 * o.max_error_mm, settings.max_seconds};
     garment::AccuracyReport report = garment::drape_to_goal(
         garment, body, goal, [&](garment::DrapeSettings& s) { set_knobs(s, o, scene); }, tool.reporter());
     document = garment::report_json(report.drape, tool.name());
     document["accuracy"] = report.achieved;
     return std::move(report.drape);
+  }
+  if (!layers.empty()) {
+    layers.push_back(std::move(garment));
+    garment::DrapeReport report = garment::drape_layers(layers, body, settings, tool.reporter());
+    garment = std::move(layers.back());
+    layers.pop_back();
+    document = garment::report_json(report, tool.name());
+    return report;
   }
   if (o.follow.empty()) {
     garment::DrapeReport report = garment::drape(garment, body, settings, tool.reporter());
@@ -152,10 +169,19 @@ garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment:
   return std::move(report.drape);
 }
 
-int run(cli::Tool& tool, Options& o) {
+void check_options(const Options& o) {
   if (!o.follow.empty() && o.from.empty()) throw Error(ErrorKind::USAGE, "", "--follow", "there is no garment to go on from", "give --from shirt.json");
   if (o.follow.empty() && !(o.frames.empty() && o.edit_log.empty()))
     throw Error(ErrorKind::USAGE, "", o.frames.empty() ? "--edit-log" : "--frames", "no edits are followed", "give --follow too");
+  if (!o.over_output.empty() && o.over_output.size() != o.over.size())
+    throw Error(ErrorKind::USAGE, "", "--over-output", "is given " + std::to_string(o.over_output.size()) + " times, --over " + std::to_string(o.over.size()),
+                "name one file for each garment of --over");
+  if (!o.over.empty() && !(o.follow.empty() && o.max_error_mm == 0))
+    throw Error(ErrorKind::USAGE, "", "--over", "goes with neither --follow nor --max-error-mm", "drape the layers first");
+}
+
+int run(cli::Tool& tool, Options& o) {
+  check_options(o);
   const garment::Scene scene = o.scene.empty() ? garment::Scene{} : garment::read_scene(o.scene);
   if (o.body.empty()) o.body = scene.body;
   if (o.panels.empty()) o.panels = scene.panels;
@@ -180,12 +206,21 @@ int run(cli::Tool& tool, Options& o) {
     const std::string mesh = io::mesh_path_beside(o.body);
     garment.body_sha256 = io::sha256(io::read_file(mesh));
   }
+  std::vector<garment::Garment> layers;
+  for (const std::string& path : o.over) {
+    layers.push_back(garment::read_garment(path));
+    inputs.push_back(input_entry(path));
+  }
   io::Json document;
   std::size_t refused = 0;
-  const garment::DrapeReport report = drape_or_follow(tool, o, garment, o.body.empty() ? nullptr : &body, scene, settings, document, refused);
+  const garment::DrapeReport report = drape_or_follow(tool, o, garment, layers, o.body.empty() ? nullptr : &body, scene, settings, document, refused);
   if (!o.body.empty()) garment::bind_garment(garment, body);
 
   garment::write_garment(o.output, garment, tool.name());
+  for (std::size_t k = 0; k < o.over_output.size(); ++k) {
+    garment::bind_garment(layers[k], body);
+    garment::write_garment(o.over_output[k], layers[k], tool.name());
+  }
   if (!o.report.empty()) {
     document["inputs"] = inputs;
     document["hash"] = {{"strict", garment::strict_hash(garment)}, {"quantised_10um", garment::quantised_hash(garment)}};

@@ -383,6 +383,7 @@ void DrapeRun::report_effects() {
       }
   for (EffectReport& r : m_report.effects) // damping and friction live in the terms that they belong to
     if (r.name == "friction" && m_body_contact) r.calls += m_body_contact->friction_calls;
+    else if (r.name == "layers" && r.active && m_self_contact) r.calls += m_self_contact->calls;
     else if (r.name == "damping" && r.active) r.calls = m_report.steps;
 }
 

@@ -98,6 +98,9 @@ std::vector<EffectReport> choose_effects(const Garment& garment, const body::Bod
   consider("body_contact", touches, "there is a body", "there is no body");
   consider("friction", touches && rubs, "cloth rests on the body by it", touches ? "no fabric has friction" : "there is no body to rest on");
   consider("self_contact", garment.panels.panels.size() > 1 || bend, "panels can touch each other", "one panel without bending");
+  int layers = 0;
+  for (const pattern::PanelInfo& panel : garment.panels.panels) layers = std::max(layers, panel.layer);
+  consider("layers", layers > 0 && touches, "cloth lies over cloth: self contact keeps the order", "there is one layer");
   std::vector<std::string> list;
   std::stringstream stream(settings.effects);
   for (std::string name; std::getline(stream, name, ',');) list.push_back(name);
