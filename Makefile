@@ -1,5 +1,5 @@
 # Thin: every target is one command that can be typed by hand. `make` builds the five programs into build/tools/.
-.PHONY: all pictures package test demo population check sanitize install format man bench bench-rivals validation figure4 accuracy fuzz hard soak accuracy-cost presets compare-builds clean
+.PHONY: all pictures package test demo population check sanitize sanitize-slice install format man bench bench-rivals validation figure4 accuracy fuzz hard soak accuracy-cost presets compare-builds clean
 
 all:
 	@scripts/build release
@@ -25,6 +25,11 @@ sanitize:
 	@scripts/test build-sanitize
 	@scripts/build threads
 	@scripts/test build-threads
+
+# The same for what indexes and counts most, in a few minutes.
+sanitize-slice:
+	@scripts/build sanitize test_base test_collision test_cloth
+	@for test in base collision cloth; do build-sanitize/tests/$$test/test_$$test --gtest_brief=1 || exit; done
 
 install: all
 	@cmake --install build $(if $(PREFIX),--prefix $(PREFIX))
