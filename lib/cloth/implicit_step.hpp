@@ -15,7 +15,7 @@ struct StepOptions {
   double inertia = 0;         ///< 0..1: share of the velocity that is carried over
   double cg_tolerance = 1e-2; ///< relative residual
   int cg_max_iterations = 400;
-  /// Shortens the step until the potential energy falls, lengthens it while it keeps falling; nothing moves where it never falls.
+  /// Halves the step until the energy falls, doubles it while it falls on; else no motion. Off: limits that cut half an edge shorten all.
   bool line_search = false;
   double largest_move_m = 0.05; ///< no particle moves farther in one step
 };

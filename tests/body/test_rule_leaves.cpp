@@ -144,6 +144,7 @@ TEST(RuleLeaves, every_rule_of_the_tree_is_reached) {
       if (rule.name == "upper_arm_swells" && !has_real) continue;
       EXPECT_TRUE(reached.count({place, rule.name})) << place << " was never found by " << rule.name;
     }
+  if (!has_real && !HasFailure()) GTEST_SKIP() << "all but upper_arm_swells are reached; that one needs SLOPER_SHARED";
 }
 
 TEST(RuleLeaves, a_file_reorders_the_tree_and_turns_rules_off) {
