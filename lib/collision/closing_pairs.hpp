@@ -18,7 +18,7 @@ public:
   ClosingPairs(const std::vector<Triangle>& triangles, const Topology& topology) : m_triangles(triangles), m_topology(topology) {}
 
   /// Every pair that straight motion from x to x + dx, or the same part of it for all, could close by more than SHARE of its
-  /// distance or to within 0.1 mm. Pairs that share a particle never count.
+  /// distance and to within 0.1 mm. Pairs that share a particle never count.
   /// @param x, dx  #particles by 3, m   @param same_x  x has not changed since the last call: spares the refit
   /// Cost: about that of a search for pairs in contact.
   void find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool same_x);
