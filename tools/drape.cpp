@@ -28,6 +28,8 @@ namespace {
 struct Options {
   std::string scene, body, panels, from, accuracy, effects, material, report, output, follow, frames, edit_log;
   std::vector<std::string> set, over, over_output;
+  std::string checkpoint;
+  int checkpoint_steps = 100;
   double max_seconds = 0, max_error_mm = 0;
 };
 
@@ -38,7 +40,7 @@ void add_options(cli::Tool& tool, Options& o) {
   app.add_option("--scene", o.scene, "scene.json: body, panels, materials, effects, settings; options below override it")->check(cli::input_file());
   app.add_option("--body", o.body, "body.json from scan-landmarks")->check(cli::input_file());
   app.add_option("--panels", o.panels, "panels.json from pattern-mesh")->check(cli::input_file());
-  app.add_option("--from", o.from, "go on from a garment that drape or retarget-garment wrote")->check(cli::input_file());
+  app.add_option("--from", o.from, "go on from a garment that drape or retarget-garment wrote, or from a checkpoint")->check(cli::input_file());
   app.add_option("--over", o.over,
                  "a draped garment that this one goes over; repeated from the skin outwards. Inner cloth is tucked in where it lies outside, then all "
                  "come to rest together")
@@ -64,11 +66,17 @@ void add_options(cli::Tool& tool, Options& o) {
   app.add_option("--frames", o.frames, "with --follow: every step as an OBJ in this folder with frames.jsonl, or as JSON lines to standard output (\"-\")")
       ->type_name("DIR");
   app.add_option("--edit-log", o.edit_log, "with --follow: the edits taken, as pattern-mesh --edits replays them")->check(cli::output_file());
+  app.add_option("--checkpoint", o.checkpoint,
+                 "note the state in this file now and then; after a crash, --from FILE with the same --body goes on from there to the same bytes")
+      ->check(cli::output_file());
+  app.add_option("--checkpoint-steps", o.checkpoint_steps, "steps from one checkpoint to the next; part of the result (default: 100)")
+      ->check(cli::finite_in(1, 1e6, "steps"));
   app.add_option("-o,--output", o.output, "shirt.json; shirt.obj is written beside it")->required()->check(cli::output_file());
   tool.example("drape --body body.json --panels panels.json --report report.json -o shirt.json", "drape a sewn pattern on a scanned body");
   tool.formats("scene, body, panels and garment documents (version 1)", "garment and report documents (version 1), OBJ");
   tool.example("drape --from shirt.json --body body.json --follow edits.jsonl --frames - -o edited.json", "change the pattern and watch the cloth follow");
   tool.example("drape --body body.json --over shirt.json --panels jacket.json --over-output shirt-below.json -o jacket.json", "a jacket over a shirt");
+  tool.example("drape --from run.checkpoint.json --body body.json -o shirt.json", "go on where a run with --checkpoint run.checkpoint.json was killed");
   tool.example("drape --from shirt.json --body body.json --accuracy fine -o shirt-fine.json", "go on, more exactly");
   tool.example("drape --body body.json --panels panels.json --max-error-mm 0.5 --report report.json -o shirt.json", "as accurate as that, and no more");
 }
@@ -90,7 +98,7 @@ garment::DrapeSettings resolve(const Options& o, const garment::Scene& scene) {
 
 /// Whether presets are climbed until an error or a time is met, instead of one being given.
 bool has_goal(const Options& o, const garment::Scene& scene) {
-  const bool preset = !o.accuracy.empty() || !scene.accuracy.empty();
+  const bool preset = !o.accuracy.empty() || !scene.accuracy.empty() || !o.checkpoint.empty();
   if (o.max_error_mm > 0 && !o.accuracy.empty()) throw Error(ErrorKind::USAGE, "", "--max-error-mm", "chooses the preset by itself", "leave --accuracy out");
   return o.max_error_mm > 0 || (o.max_seconds > 0 && !preset);
 }
@@ -133,10 +141,15 @@ private:
   std::ofstream m_index;
 };
 
-/// Drapes, to a goal when there is one, or goes on with a draped garment while edits come. Lines that were refused are counted in `refused`.
+struct Result {
+  io::Json document;       ///< the report
+  std::size_t refused = 0; ///< lines that were no edits
+};
+
+/// Drapes, to a goal when there is one, or goes on with a draped garment while edits come.
 garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment::Garment& garment, std::vector<garment::Garment>& layers,
-                                     const body::Body* body, const garment::Scene& scene, const garment::DrapeSettings& settings, io::Json& document,
-                                     std::size_t& refused) {
+                                     const body::Body* body, const garment::Scene& scene, const garment::DrapeSettings& settings, Result& result) {
+  io::Json& document = result.document;
   if (o.follow.empty() && layers.empty() && has_goal(o, scene)) {
     const garment::AccuracyGoal goal{1e-3 * o.max_error_mm, settings.max_seconds};
     garment::AccuracyReport report = garment::drape_to_goal(
@@ -154,7 +167,7 @@ garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment:
     return report;
   }
   if (o.follow.empty()) {
-    garment::DrapeReport report = garment::drape(garment, body, settings, tool.reporter());
+    garment::DrapeReport report = garment::drape(garment, body, settings, tool.reporter(), {}, {o.checkpoint, o.checkpoint_steps});
     document = garment::report_json(report, tool.name());
     return report;
   }
@@ -165,7 +178,7 @@ garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment:
   garment::FollowReport report = garment::follow(garment, body, settings, session, tool.reporter());
   if (!o.edit_log.empty()) io::write_json(o.edit_log, report.log);
   document = garment::follow_report_json(report, tool.name());
-  refused = report.refused.size();
+  result.refused = report.refused.size();
   return std::move(report.drape);
 }
 
@@ -176,12 +189,59 @@ void check_options(const Options& o) {
   if (!o.over_output.empty() && o.over_output.size() != o.over.size())
     throw Error(ErrorKind::USAGE, "", "--over-output", "is given " + std::to_string(o.over_output.size()) + " times, --over " + std::to_string(o.over.size()),
                 "name one file for each garment of --over");
+  if (!o.checkpoint.empty() && !(o.over.empty() && o.follow.empty() && o.max_error_mm == 0))
+    throw Error(ErrorKind::USAGE, "", "--checkpoint", "goes with neither --over, --follow nor --max-error-mm", "leave it out");
   if (!o.over.empty() && !(o.follow.empty() && o.max_error_mm == 0))
     throw Error(ErrorKind::USAGE, "", "--over", "goes with neither --follow nor --max-error-mm", "drape the layers first");
 }
 
+/// Writes the report; the exit code.
+int write_report(cli::Tool& tool, const Options& o, const garment::Garment& garment, const garment::DrapeReport& report, const io::Json& inputs,
+                 Result& result) {
+  io::Json& document = result.document;
+  if (!o.report.empty()) {
+    document["inputs"] = inputs;
+    document["hash"] = {{"strict", garment::strict_hash(garment)}, {"quantised_10um", garment::quantised_hash(garment)}};
+    io::write_json(o.report, document);
+  }
+  if (result.refused > 0) tool.reporter().warning(std::to_string(result.refused) + " lines were no edits of this pattern and changed nothing");
+  if (document.contains("accuracy") && report.converged && !document["accuracy"]["met"].get<bool>()) {
+    tool.reporter().warning("at rest, but not within --max-error-mm; see \"accuracy\" in the report; the state reached is in " + o.output);
+    return static_cast<int>(ErrorKind::FAILED);
+  }
+  if (report.converged) return result.refused > 0 ? static_cast<int>(ErrorKind::FAILED) : 0;
+  tool.reporter().warning("not done: " + report.stop_reason + " after " + std::to_string(report.steps) + " steps; the state reached is in " + o.output);
+  return static_cast<int>(ErrorKind::FAILED);
+}
+
+body::Body read_body(const std::string& path, garment::Garment& garment, io::Json& inputs) {
+  inputs.push_back(input_entry(path));
+  garment.body_sha256 = io::sha256(io::read_file(io::mesh_path_beside(path)));
+  return body::read_body(path);
+}
+
+/// Goes on from a checkpoint, which knows all but the body.
+int resume(cli::Tool& tool, const Options& o) {
+  const std::pair<const char*, bool> given[] = {
+      {"--scene", !o.scene.empty()},  {"--accuracy", !o.accuracy.empty()}, {"--effects", !o.effects.empty()},      {"--material", !o.material.empty()},
+      {"--set", !o.set.empty()},      {"--over", !o.over.empty()},         {"--max-error-mm", o.max_error_mm > 0}, {"--max-seconds", o.max_seconds > 0},
+      {"--follow", !o.follow.empty()}};
+  for (const auto& [name, is_given] : given)
+    if (is_given) throw Error(ErrorKind::USAGE, "", name, "is settled by the checkpoint", "leave it out");
+  io::Json inputs = io::Json::array({input_entry(o.from)});
+  garment::Garment garment;
+  body::Body body;
+  if (!o.body.empty()) body = read_body(o.body, garment, inputs);
+  const garment::DrapeReport report = garment::resume_drape(o.from, garment, o.body.empty() ? nullptr : &body, tool.reporter(), o.checkpoint);
+  if (!o.body.empty()) garment::bind_garment(garment, body);
+  garment::write_garment(o.output, garment, tool.name());
+  Result result{garment::report_json(report, tool.name())};
+  return write_report(tool, o, garment, report, inputs, result);
+}
+
 int run(cli::Tool& tool, Options& o) {
   check_options(o);
+  if (!o.from.empty() && garment::is_checkpoint(o.from)) return resume(tool, o);
   const garment::Scene scene = o.scene.empty() ? garment::Scene{} : garment::read_scene(o.scene);
   if (o.body.empty()) o.body = scene.body;
   if (o.panels.empty()) o.panels = scene.panels;
@@ -200,20 +260,14 @@ int run(cli::Tool& tool, Options& o) {
   if (!o.material.empty()) garment.materials[""] = garment::material_from(o.material);
 
   body::Body body;
-  if (!o.body.empty()) {
-    body = body::read_body(o.body);
-    inputs.push_back(input_entry(o.body));
-    const std::string mesh = io::mesh_path_beside(o.body);
-    garment.body_sha256 = io::sha256(io::read_file(mesh));
-  }
+  if (!o.body.empty()) body = read_body(o.body, garment, inputs);
   std::vector<garment::Garment> layers;
   for (const std::string& path : o.over) {
     layers.push_back(garment::read_garment(path));
     inputs.push_back(input_entry(path));
   }
-  io::Json document;
-  std::size_t refused = 0;
-  const garment::DrapeReport report = drape_or_follow(tool, o, garment, layers, o.body.empty() ? nullptr : &body, scene, settings, document, refused);
+  Result result;
+  const garment::DrapeReport report = drape_or_follow(tool, o, garment, layers, o.body.empty() ? nullptr : &body, scene, settings, result);
   if (!o.body.empty()) garment::bind_garment(garment, body);
 
   garment::write_garment(o.output, garment, tool.name());
@@ -221,19 +275,7 @@ int run(cli::Tool& tool, Options& o) {
     garment::bind_garment(layers[k], body);
     garment::write_garment(o.over_output[k], layers[k], tool.name());
   }
-  if (!o.report.empty()) {
-    document["inputs"] = inputs;
-    document["hash"] = {{"strict", garment::strict_hash(garment)}, {"quantised_10um", garment::quantised_hash(garment)}};
-    io::write_json(o.report, document);
-  }
-  if (refused > 0) tool.reporter().warning(std::to_string(refused) + " lines were no edits of this pattern and changed nothing");
-  if (document.contains("accuracy") && report.converged && !document["accuracy"]["met"].get<bool>()) {
-    tool.reporter().warning("at rest, but not within --max-error-mm; see \"accuracy\" in the report; the state reached is in " + o.output);
-    return static_cast<int>(ErrorKind::FAILED);
-  }
-  if (report.converged) return refused > 0 ? static_cast<int>(ErrorKind::FAILED) : 0;
-  tool.reporter().warning("not done: " + report.stop_reason + " after " + std::to_string(report.steps) + " steps; the state reached is in " + o.output);
-  return static_cast<int>(ErrorKind::FAILED);
+  return write_report(tool, o, garment, report, inputs, result);
 }
 
 } // namespace

@@ -82,6 +82,12 @@ void BodyContactEffect::bind(const BlockMatrix& matrix) {
 
 void BodyContactEffect::refresh() { m_stale = m_look_for_crossings = true; }
 
+void BodyContactEffect::recall(const Memory& memory) {
+  m_anchor = memory.anchor;
+  m_has_anchor = memory.has_anchor;
+  m_push = memory.push;
+}
+
 Vec3 BodyContactEffect::crossing_place() const {
   const auto first = std::find(m_crossing.begin(), m_crossing.end(), 1);
   return first == m_crossing.end() ? Vec3(Vec3::Zero()) : m_searched_at[m_triangles[first - m_crossing.begin()][0]];

@@ -50,6 +50,14 @@ public:
   void set_friction(double mu) { m_options.friction = mu; }
   /// Positions were changed from outside: look for crossings at the next search, which comes before the next step.
   void refresh();
+  /// What it remembers from step to step and could not find again from positions: the ties of friction, how hard it pushes crossed pairs.
+  struct Memory {
+    std::vector<Vec3> anchor;     ///< #P by 3, m
+    std::vector<char> has_anchor; ///< #P
+    double push = 1;
+  };
+  Memory memory() const { return {m_anchor, m_has_anchor, m_push}; }
+  void recall(const Memory& memory);
   /// Cloth triangles through the skin or with a vertex inside, at the last search; none once guarded.
   std::size_t n_crossing() const { return m_n_crossing; }
   Vec3 crossing_place() const; ///< where the first of them was, m; only when there is one

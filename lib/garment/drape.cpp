@@ -48,16 +48,12 @@ std::string millimetres(double m) { return std::to_string(std::lround(m * 1e4) /
 
 } // namespace
 
-class DrapeRun::Phase {
-public:
-  Phase(DrapeRun& run, const char* name) : m_run(run), m_name(name), m_began(run.elapsed()) { run.m_reporter.info(std::string(name) + " ..."); }
-  ~Phase() { m_run.m_report.phases.emplace_back(m_name, m_run.elapsed() - m_began); }
-
-private:
-  DrapeRun& m_run;
-  const char* m_name;
-  double m_began;
-};
+void DrapeRun::add_phase_time(const char* name, double wall_s) {
+  auto& phases = m_report.phases;
+  const auto same = std::find_if(phases.begin(), phases.end(), [&](const auto& p) { return p.first == name; });
+  if (same == phases.end()) phases.emplace_back(name, wall_s);
+  else same->second += wall_s; // a run that goes on from a checkpoint
+}
 
 DrapeRun::DrapeRun(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter, const FitBounds& bounds)
     : m_garment(garment), m_body(body), m_settings(settings), m_bounds(bounds), m_reporter(reporter), m_start(std::chrono::steady_clock::now()) {
@@ -66,7 +62,7 @@ DrapeRun::DrapeRun(Garment& garment, const body::Body* body, const DrapeSettings
   check_garment(garment);
 }
 
-double DrapeRun::elapsed() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
+double DrapeRun::elapsed() const { return m_elapsed_before + std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
 
 double DrapeRun::mean_edge() const {
   double sum = 0;
@@ -76,6 +72,14 @@ double DrapeRun::mean_edge() const {
 
 bool DrapeRun::active(const char* effect) const { return is_active(m_report.effects, effect); }
 
+void DrapeRun::prepare_body(bool near_hands) {
+  if (near_hands) m_mitten.emplace(*m_body);
+  if (m_mitten && !(m_mitten->has_shells() && (m_at.mitten || m_mitten->concerns(m_garment.position)))) m_mitten.reset();
+  m_collider.emplace(m_mitten ? m_mitten->mesh() : m_body->skin);
+  m_at.mitten = m_mitten.has_value();
+  if (m_mitten) m_reporter.info("hands as mittens: cloth is near them");
+}
+
 void DrapeRun::start_outside_body(bool unsewn) {
   if (!m_body || m_body->skin.triangles.empty()) return;
   const Phase phase(*this, "prepare body");
@@ -83,10 +87,7 @@ void DrapeRun::start_outside_body(bool unsewn) {
     const auto& panels = m_garment.panels.panels;
     return std::any_of(panels.begin(), panels.end(), [&](const pattern::PanelInfo& p) { return p.part.rfind(begins, 0) == 0; });
   };
-  if (has_part("arm")) m_mitten.emplace(*m_body);
-  if (m_mitten && !(m_mitten->has_shells() && m_mitten->concerns(m_garment.position))) m_mitten.reset();
-  m_collider.emplace(m_mitten ? m_mitten->mesh() : m_body->skin);
-  if (m_mitten) m_reporter.info("hands as mittens: cloth is near them");
+  prepare_body(has_part("arm"));
   const std::vector<Triangle> triangles = m_garment.particle_triangles();
   auto trouble = [&] {
     std::size_t count = m_collider->faces_through(m_garment.position, triangles).size();
@@ -98,8 +99,8 @@ void DrapeRun::start_outside_body(bool unsewn) {
   std::size_t least = trouble();
   if (least == 0 && tight) {
     m_shrink.emplace(*m_body);
-    m_scale = SEW_LEG_SCALE;
-    m_collider->set_positions(skin_at(m_scale));
+    m_at.scale = SEW_LEG_SCALE;
+    m_collider->set_positions(skin_at(m_at.scale));
   }
   if (least == 0) return;
   m_shrink.emplace(*m_body);
@@ -114,7 +115,7 @@ void DrapeRun::start_outside_body(bool unsewn) {
     }
     if (count == 0) break;
   }
-  m_scale = best;
+  m_at.scale = best;
   m_collider->set_positions(skin_at(best));
   m_report.repairs.push_back("start: " + std::to_string(at_start) + " vertices or faces in the body; body drawn in to " +
                              std::to_string(std::lround(best * 100)) + " % of its thickness and inflated again" +
@@ -162,16 +163,16 @@ bool DrapeRun::step(double h, double inertia, double largest_move_m) {
   options.line_search = m_settling;
   options.h = h;
   options.inertia = inertia;
-  const bool far = m_settling && m_last.residual_force_ratio > FAR_RESIDUAL; // the line search shortens whatever is too rough
+  const bool far = m_settling && m_at.last.residual_force_ratio > FAR_RESIDUAL; // the line search shortens whatever is too rough
   options.cg_tolerance = far ? std::max(FAR_TOLERANCE, m_settings.cg_tolerance) : m_settings.cg_tolerance;
   options.cg_max_iterations = m_settings.cg_max_iterations;
-  m_last = m_solver->step(options);
-  m_cg_iterations.push_back(m_last.cg.iterations);
+  m_at.last = m_solver->step(options);
+  m_at.cg_iterations.push_back(m_at.last.cg.iterations);
   ++m_report.steps;
   m_report.simulated_s += h;
-  m_last_h = h;
-  if (!m_last.finite) {
-    m_rejected.push_back("step " + std::to_string(m_report.steps) + ": not finite, undone");
+  m_at.last_h = h;
+  if (!m_at.last.finite) {
+    m_at.rejected.push_back("step " + std::to_string(m_report.steps) + ": not finite, undone");
     m_solver->stop();
     m_stopped = true;
     m_report.stop_reason = "diverged";
@@ -207,24 +208,29 @@ void DrapeRun::log_crossings(const char* when) const {
 
 void DrapeRun::sew() {
   const Phase phase(*this, "sew");
-  build_solver(true);
-  log_crossings("start");
-  double weight = 0;
-  for (double m : m_cloth->mass) weight += m * units::GRAVITY / m_cloth->n_particles;
-  double pull = SEW_PULL * weight;
-  std::vector<double> gaps;
-  int last_change = 0;
-  for (int k = 0; k < SEW_STEPS; ++k) {
-    m_sewing->set_stiffness(pull / SEW_REACH);
+  if (m_at.phase != DrapePhase::SEW) { // it begins; else it goes on from a checkpoint
+    build_solver(true);
+    log_crossings("start");
+    double weight = 0;
+    for (double m : m_cloth->mass) weight += m * units::GRAVITY / m_cloth->n_particles;
+    m_at.phase = DrapePhase::SEW;
+    m_at.step = 0;
+    m_at.pull = SEW_PULL * weight;
+  }
+  for (int& k = m_at.step; k < SEW_STEPS; ++k) {
+    checkpoint();
+    m_sewing->set_stiffness(m_at.pull / SEW_REACH);
+    std::vector<double>& gaps = m_at.gaps;
     gaps.push_back(m_sewing->largest_gap(m_solver->x()));
     m_reporter.progress("sew", 0.4 * k / SEW_STEPS);
-    if (k % 20 == 0) m_reporter.info("sew step " + std::to_string(k) + ": largest gap " + millimetres(gaps.back()) + ", pull " + std::to_string(pull) + " N");
+    if (k % 20 == 0)
+      m_reporter.info("sew step " + std::to_string(k) + ": largest gap " + millimetres(gaps.back()) + ", pull " + std::to_string(m_at.pull) + " N");
     if (gaps.back() < SEWN_GAP) break;
-    const bool slow = k >= last_change + 5 && gaps[k] > 0.96 * gaps[k - 5];
-    if (slow && pull >= SEW_STRONGEST && k >= last_change + 20) break; // it will not come closer
-    if (slow && pull < SEW_STRONGEST) {
-      pull = std::min(1.6 * pull, SEW_STRONGEST);
-      last_change = k;
+    const bool slow = k >= m_at.pull_changed + 5 && gaps[k] > 0.96 * gaps[k - 5];
+    if (slow && m_at.pull >= SEW_STRONGEST && k >= m_at.pull_changed + 20) break; // it will not come closer
+    if (slow && m_at.pull < SEW_STRONGEST) {
+      m_at.pull = std::min(1.6 * m_at.pull, SEW_STRONGEST);
+      m_at.pull_changed = k;
     }
     if (!step(SEW_STEP_S, 0, SEW_MOVE * mean_edge())) return;
   }
@@ -265,31 +271,37 @@ std::size_t DrapeRun::untangle() {
 /// to the cloth, then the cloth makes room. Where the cloth is slow to do so the skin waits, but not farther back than LATEST, and less
 /// and less far once the rest of the body is back; then it goes through, and pushes.
 void DrapeRun::inflate() {
-  if (m_scale >= 1 || !m_body_contact) return;
+  const bool goes_on = m_at.phase == DrapePhase::INFLATE;
+  if ((m_at.scale >= 1 && !goes_on) || !m_body_contact) return;
   const Phase phase(*this, "inflate body");
   const double step_scale = INFLATE_MOTION / m_shrink->reach();
   std::vector<Vec3> skin = m_collider->mesh().positions;
-  step(1.0 / 30, 0);
-  double farthest = 0;
-  for (double latest = LATEST; !m_stopped && (m_scale < 1 || farthest > 0);) {
-    if (m_scale < 1) m_scale = std::min(1.0, m_scale + step_scale);
-    else latest = std::max(0.0, latest - LATEST / LATE_STEPS);
-    const std::vector<Vec3> target = skin_at(m_scale);
+  if (!goes_on) {
+    m_at.phase = DrapePhase::INFLATE;
+    m_at.latest = LATEST;
+    m_at.farthest = 0;
+  }
+  step(1.0 / 30, 0); // contact knows how far skin may move from its last step
+  while (!m_stopped && (m_at.scale < 1 || m_at.farthest > 0)) {
+    if (m_at.scale < 1) m_at.scale = std::min(1.0, m_at.scale + step_scale);
+    else m_at.latest = std::max(0.0, m_at.latest - LATEST / LATE_STEPS);
+    const std::vector<Vec3> target = skin_at(m_at.scale);
     const std::vector<double> room = m_body_contact->skin_room(m_solver->x());
-    farthest = 0;
+    m_at.farthest = 0;
     for (std::size_t v = 0; v < skin.size(); ++v) {
       const Vec3 way = target[v] - skin[v];
-      const double length = way.norm(), late = std::min(length - room[v], latest);
+      const double length = way.norm(), late = std::min(length - room[v], m_at.latest);
       if (late > 0) {
         skin[v] = target[v] - late / length * way;
-        farthest = std::max(farthest, late);
+        m_at.farthest = std::max(m_at.farthest, late);
       } else {
         skin[v] = target[v];
       }
     }
     m_body_contact->move_body(skin);
-    if (farthest >= latest) m_body_contact->refresh(); // some of it had to go through
+    if (m_at.farthest >= m_at.latest) m_body_contact->refresh(); // some of it had to go through
     step(1.0 / 30, 0);
+    if (!m_stopped && checkpoint()) step(1.0 / 30, 0);
   }
   m_body_contact->move_body(skin_at(1)); // also when stopped on the way
   m_body_contact->refresh();
@@ -304,63 +316,73 @@ void DrapeRun::judge_fit() {
   };
   std::vector<double> values;
   if (m_bounds.slip_m > 0) {
-    for (std::size_t i = 0; i < x.size(); ++i) values.push_back(m_start_height[i] - x[i].y());
+    for (std::size_t i = 0; i < x.size(); ++i) values.push_back(m_at.start_height[i] - x[i].y());
     if (quantile(values, 0.5) > m_bounds.slip_m) m_report.unfit = "slides down";
   }
   if (m_bounds.strain_p99 > 0 && m_report.unfit.empty()) {
     values.clear();
     for (const cloth::EdgeSpring& s : m_cloth->springs) values.push_back((x[s.i] - x[s.j]).norm() / s.rest_length - 1);
     const double strain = quantile(values, 0.99);
-    if (strain < 0.9 * m_least_strain) m_least_strain = strain, m_strain_fell_at = m_report.steps;
-    if (strain > m_bounds.strain_p99 && m_report.steps >= m_strain_fell_at + STRAINED_STEPS) m_report.unfit = "stays stretched";
+    if (strain < 0.9 * m_at.least_strain) m_at.least_strain = strain, m_at.strain_fell_at = m_report.steps;
+    if (strain > m_bounds.strain_p99 && m_report.steps >= m_at.strain_fell_at + STRAINED_STEPS) m_report.unfit = "stays stretched";
   }
   if (m_report.unfit.empty()) return;
   m_stopped = true;
   m_report.stop_reason = "the garment " + m_report.unfit + " too far to fit";
 }
 
+int DrapeRun::glide() const { return m_at.disturbed ? GLIDE_STEPS : 0; }
+
+void DrapeRun::add_load() {
+  if (active("gravity")) m_solver->emplace<cloth::GravityEffect>(*m_cloth, Vec3(0, -m_settings.gravity_m_s2, 0));
+  const Material& material = material_of(m_garment, "");
+  if (active("friction") && m_body_contact) m_body_contact->set_friction(material.friction_body);
+  if (active("friction") && m_self_contact) m_self_contact->set_friction(material.friction_self);
+}
+
 void DrapeRun::settle() {
   const Phase phase(*this, "settle");
-  double h = m_settings.time_step_s;
-  int calm = 0, pushed = 0, best_at = 0;
-  double best = std::numeric_limits<double>::infinity();
   m_settling = true;
-  m_start_height.clear();
-  for (const Vec3& p : m_solver->x()) m_start_height.push_back(p.y());
-  const int glide = m_disturbed ? GLIDE_STEPS : 0;
-  for (int k = 0; !m_stopped; ++k) {
-    if (k == glide) {
-      if (active("gravity")) m_solver->emplace<cloth::GravityEffect>(*m_cloth, Vec3(0, -m_settings.gravity_m_s2, 0));
-      const Material& material = material_of(m_garment, "");
-      if (active("friction") && m_body_contact) m_body_contact->set_friction(material.friction_body);
-      if (active("friction") && m_self_contact) m_self_contact->set_friction(material.friction_self);
+  if (m_at.phase != DrapePhase::SETTLE) {
+    m_at.phase = DrapePhase::SETTLE;
+    m_at.step = 0;
+    m_at.h = m_settings.time_step_s;
+    m_at.start_height.clear();
+    for (const Vec3& p : m_solver->x()) m_at.start_height.push_back(p.y());
+  }
+  int &k = m_at.step, &calm = m_at.calm;
+  double &h = m_at.h, &best = m_at.best;
+  for (; !m_stopped; ++k) {
+    checkpoint();
+    if (k == glide()) {
+      add_load();
       h = m_settings.time_step_s;
     }
     if (!step(h, 0)) break;
-    const double speed = m_last.largest_move_m / h, residual = m_last.residual_force_ratio;
+    const double speed = m_at.last.largest_move_m / h, residual = m_at.last.residual_force_ratio;
     if (k % 20 == 0)
       m_reporter.info("settle step " + std::to_string(k) + ": h " + std::to_string(h) + " s, speed " + std::to_string(speed) + " m/s, residual force " +
-                      std::to_string(residual) + " of the weight, at most " + std::to_string(m_last.residual_force_ratio_max) + crossing_text());
+                      std::to_string(residual) + " of the weight, at most " + std::to_string(m_at.last.residual_force_ratio_max) + crossing_text());
     m_reporter.progress("settle", -1);
-    if (m_last.halvings > 0) h = std::max(h * 0.7, SHORTEST_STEP_S);
-    else if (m_last.largest_move_m < 0.003) h = std::min(h * 1.15, LARGEST_STEP_S);
-    else if (m_last.largest_move_m > 0.01) h = std::max(h * 0.8, m_settings.time_step_s);
-    if (k <= glide || residual < 0.9 * best) {
+    if (m_at.last.halvings > 0) h = std::max(h * 0.7, SHORTEST_STEP_S);
+    else if (m_at.last.largest_move_m < 0.003) h = std::min(h * 1.15, LARGEST_STEP_S);
+    else if (m_at.last.largest_move_m > 0.01) h = std::max(h * 0.8, m_settings.time_step_s);
+    if (k <= glide() || residual < 0.9 * best) {
       best = residual;
-      best_at = k;
-    } else if (best > 1 && k > best_at + STALLED_STEPS) {
+      m_at.best_at = k;
+    } else if (best > 1 && k > m_at.best_at + STALLED_STEPS) {
       m_stopped = true;
       m_report.stop_reason = "no nearer to rest in " + std::to_string(STALLED_STEPS) + " steps";
       break;
     }
-    if (k > glide && k % JUDGE_EVERY == 0) judge_fit();
+    if (k > glide() && k % JUDGE_EVERY == 0) judge_fit();
     const bool still = speed < m_settings.settle_speed_m_s && residual < m_settings.settle_force_ratio;
-    calm = still && k >= glide ? calm + 1 : 0;
+    calm = still && k >= glide() ? calm + 1 : 0;
     if (calm < 3) continue;
-    if (m_body_contact && m_body_contact->n_crossing() > 0 && ++pushed < PUSH_STEPS) continue; // what is through the skin is pushed harder each step
+    if (m_body_contact && m_body_contact->n_crossing() > 0 && ++m_at.pushed < PUSH_STEPS) continue; // what is through the skin is pushed harder each step
     m_garment.position = m_solver->x();
-    if (m_untanglings < 4 && m_self_contact && !m_self_contact->crossings().empty()) {
-      ++m_untanglings;
+    if (m_at.untanglings < 4 && m_self_contact && !m_self_contact->crossings().empty()) {
+      ++m_at.untanglings;
       untangle();
       m_solver->set_positions(m_garment.position);
       m_self_contact->refresh();
@@ -399,16 +421,16 @@ void DrapeRun::finish() {
                            " vertices inside it, " + std::to_string(a.self.size()) + " self intersections";
   }
   auto triple = [](const double q[3]) { return io::Json{{"p50", q[0]}, {"p99", q[1]}, {"max", q[2]}}; };
-  m_report.quality = {{"max_speed_m_s", m_last_h > 0 ? m_last.largest_move_m / m_last_h : 0},
-                      {"residual_force_ratio", m_last.residual_force_ratio},
-                      {"residual_force_ratio_max", m_last.residual_force_ratio_max},
-                      {"particles_held", m_last.held},
+  m_report.quality = {{"max_speed_m_s", m_at.last_h > 0 ? m_at.last.largest_move_m / m_at.last_h : 0},
+                      {"residual_force_ratio", m_at.last.residual_force_ratio},
+                      {"residual_force_ratio_max", m_at.last.residual_force_ratio_max},
+                      {"particles_held", m_at.last.held},
                       {"strain", {{"warp", triple(a.strain_warp)}, {"weft", triple(a.strain_weft)}, {"bias", triple(a.strain_bias)}}},
                       {"faces_through_body", a.through.size()},
                       {"vertices_inside_body", a.inside.size()},
                       {"deepest_m", a.deepest_m},
                       {"self_intersections", a.self.size()}};
-  std::vector<int> sorted = m_cg_iterations;
+  std::vector<int> sorted = m_at.cg_iterations;
   std::sort(sorted.begin(), sorted.end());
   double mean = 0;
   for (int n : sorted) mean += n;
@@ -416,24 +438,30 @@ void DrapeRun::finish() {
   m_report.solver = {
       {"cg_iterations",
        {{"mean", mean / static_cast<double>(n)}, {"p95", sorted.empty() ? 0 : sorted[(n - 1) * 95 / 100]}, {"max", sorted.empty() ? 0 : sorted.back()}}},
-      {"residual", m_last.cg.residual},
+      {"residual", m_at.last.cg.residual},
       {"newton", 1},
-      {"rejected_steps", m_rejected}};
+      {"rejected_steps", m_at.rejected}};
   m_garment.converged = m_report.converged;
   m_garment.offset_m = m_settings.contact_gap_m;
 }
 
 DrapeReport DrapeRun::run() {
-  const bool unsewn = m_garment.particle_of.empty();
-  if (unsewn) unsew(m_garment);
-  m_report.effects = choose_effects(m_garment, m_body, m_settings);
-  start_outside_body(unsewn);
-  m_disturbed = unsewn || m_scale < 1;
-  if (unsewn && active("sewing")) sew();
+  if (m_at.phase == DrapePhase::START) {
+    const bool unsewn = m_garment.particle_of.empty();
+    if (unsewn) unsew(m_garment);
+    m_report.effects = choose_effects(m_garment, m_body, m_settings);
+    start_outside_body(unsewn);
+    m_at.disturbed = unsewn || m_at.scale < 1;
+    if (unsewn && active("sewing")) sew();
+  } else if (m_at.phase == DrapePhase::SEW) {
+    sew();
+  }
   if (!m_stopped) {
-    untangle();
-    build_solver(false);
-    inflate();
+    if (m_at.phase == DrapePhase::START || m_at.phase == DrapePhase::SEW) {
+      untangle();
+      build_solver(false);
+    }
+    if (m_at.phase != DrapePhase::SETTLE) inflate();
     settle();
   }
   finish();
@@ -441,8 +469,11 @@ DrapeReport DrapeRun::run() {
   return std::move(m_report);
 }
 
-DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter, const FitBounds& bounds) {
-  return DrapeRun(garment, body, settings, reporter, bounds).run();
+DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter, const FitBounds& bounds,
+                  const Checkpoints& checkpoints) {
+  DrapeRun run(garment, body, settings, reporter, bounds);
+  run.set_checkpoints(checkpoints);
+  return run.run();
 }
 
 } // namespace sloper::garment

@@ -54,13 +54,29 @@ struct DrapeReport {
   DrapeSettings settings;
 };
 
+/// Where a drape notes its state now and then, so that it can go on from there after it was killed.
+struct Checkpoints {
+  std::string file; ///< replaced as a whole each time; empty: none is written
+  int every_steps = 100;
+};
+
 /// Sews (when seams are open), repairs the start, drapes until at rest.
 /// @param garment  in: placed panels (particle_of empty: unsewn) or a sewn garment with positions near the body; out: the state reached
 /// @param body     nullptr for none
 /// @param bounds   ends the drape, with the reason in `unfit`, once the garment is beyond them
+/// @param checkpoints  with a file: from one to the next the solver begins anew, so the result is another, as good, than without
 /// @return what happened; not converging is a result, not an exception
 /// @throws Error INPUT for a garment that cannot be simulated
-DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter, const FitBounds& bounds = {});
+DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter, const FitBounds& bounds = {},
+                  const Checkpoints& checkpoints = {});
+
+/// Whether this JSON file is one, by its envelope. @throws Error INPUT for what is no JSON
+bool is_checkpoint(const std::string& path);
+/// Goes on from a checkpoint to the same garment, bit by bit, that the undisturbed run would have come to; settings are the checkpoint's.
+/// @param garment  in: body_sha256 of the body, or empty to trust the caller; out: the state reached   @param body  the one that the run began with   @param
+/// file  new checkpoints go there; empty: nowhere
+/// @throws Error INPUT for what is no checkpoint, or for another body
+DrapeReport resume_drape(const std::string& checkpoint, Garment& garment, const body::Body* body, Reporter& reporter, const std::string& file = "");
 
 /// The report document without its envelope's inputs and hashes, which the tool adds.
 io::Json report_json(const DrapeReport& report, const std::string& tool);

@@ -6,7 +6,7 @@
 #include <cloth/sewing_spring.hpp>
 #include <garment/audit.hpp>
 #include <garment/body_shrink.hpp>
-#include <garment/drape.hpp>
+#include <garment/drape_state.hpp>
 #include <garment/mitten.hpp>
 
 #include <chrono>
@@ -20,12 +20,27 @@ class DrapeRun {
 public:
   DrapeRun(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter, const FitBounds& bounds = {});
   DrapeReport run();
+  void set_checkpoints(const Checkpoints& checkpoints) { m_checkpoints = checkpoints; }
+  /// Goes on from there with run(): the garment is the checkpoint's, as it was given to the constructor.
+  void resume(const DrapeCheckpoint& checkpoint);
 
 private:
   friend class FollowRun; ///< goes on with the same cloth while edits come, see follow.hpp
   /// Times a phase, into the report.
-  class Phase;
+  class Phase {
+  public:
+    Phase(DrapeRun& run, const char* name) : m_run(run), m_name(name), m_began(run.elapsed()) { run.m_reporter.info(std::string(name) + " ..."); }
+    Phase(const Phase&) = delete;
+    ~Phase() { m_run.add_phase_time(m_name, m_run.elapsed() - m_began); }
 
+  private:
+    DrapeRun& m_run;
+    const char* m_name;
+    double m_began;
+  };
+  void add_phase_time(const char* name, double wall_s);
+
+  void prepare_body(bool near_hands);
   void start_outside_body(bool unsewn);          ///< shrink until nothing of the garment is inside
   std::vector<Vec3> skin_at(double scale) const; ///< as the collider has it
   void build_solver(bool open_seams);            ///< cloth, effects and solver for the garment as it stands
@@ -35,6 +50,10 @@ private:
   std::size_t untangle();                     ///< draws crossing cloth apart; the pairs that remain
   void inflate();
   void settle();
+  void add_load();                                                   ///< weight and friction
+  int glide() const;                                                 ///< step of SETTLE at which they come
+  bool checkpoint();                                                 ///< between steps: where one is due, writes it and rebuilds; whether it did
+  void rebuild();                                                    ///< all that a checkpoint does not hold, from m_at and the garment
   bool step(double h, double inertia, double largest_move_m = 0.02); ///< one guarded step; false when the run must end
   double elapsed() const;
   void finish();
@@ -54,23 +73,18 @@ private:
   std::optional<collision::BodyCollider> m_collider;
   std::optional<MittenSkin> m_mitten; ///< only where cloth is near a hand
   std::optional<BodyShrink> m_shrink;
-  bool m_disturbed = false; ///< by sewing, or by a body that was drawn in
-  bool m_settling = false;  ///< steps are shortened until the energy falls
-  double m_scale = 1;       ///< of the body, see BodyShrink
+  DrapeState m_at;
+  Checkpoints m_checkpoints;
+  int m_checkpoint_step = 0;   ///< of all steps, where the last one was
+  double m_elapsed_before = 0; ///< s, of the runs before this one
+  bool m_resumed = false;      ///< the first part of this drape was another run's
+  bool m_settling = false;     ///< steps are shortened until the energy falls
 
   std::unique_ptr<cloth::ClothMesh> m_cloth;
   std::unique_ptr<cloth::ClothSolver> m_solver;
   cloth::BodyContactEffect* m_body_contact = nullptr;
   cloth::SelfContactEffect* m_self_contact = nullptr;
   cloth::SewingSpringEffect* m_sewing = nullptr;
-  int m_untanglings = 0;
-  std::vector<double> m_start_height; // #P, m, where settling began
-  double m_least_strain = 1e300;      // 99th percentile, of those that judge_fit() has seen
-  int m_strain_fell_at = 0;           // step
-  cloth::StepResult m_last;
-  double m_last_h = 0; ///< s, of that step
-  std::vector<int> m_cg_iterations;
-  std::vector<std::string> m_rejected;
   bool m_stopped = false; ///< by time limit, by the user or by the guard
 };
 

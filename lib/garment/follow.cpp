@@ -1,11 +1,9 @@
 #include <base/error.hpp>
-#include <cloth/gravity.hpp>
 #include <cloth/shear.hpp>
 #include <garment/carry.hpp>
 #include <garment/drape_run.hpp>
 #include <garment/effects.hpp>
 #include <garment/follow.hpp>
-#include <garment/materials.hpp>
 #include <garment/sewing.hpp>
 #include <pattern/check_pattern.hpp>
 #include <pattern/edits.hpp>
@@ -72,10 +70,7 @@ public:
 private:
   /// Weight and friction from the first frame on.
   void go_live() {
-    if (m_run.active("gravity")) m_run.m_solver->emplace<cloth::GravityEffect>(*m_run.m_cloth, Vec3(0, -m_run.m_settings.gravity_m_s2, 0));
-    const Material& material = material_of(m_garment, "");
-    if (m_run.active("friction") && m_run.m_body_contact) m_run.m_body_contact->set_friction(material.friction_body);
-    if (m_run.active("friction") && m_run.m_self_contact) m_run.m_self_contact->set_friction(material.friction_self);
+    m_run.add_load();
     m_run.m_settling = true;
   }
 
@@ -87,8 +82,8 @@ private:
     }
     m_garment.position = m_run.m_solver->x();
     m_run.build_solver(false);
-    m_run.m_report.steps = 0;  // the limit is for the way to rest
-    m_run.m_disturbed = false; // it hangs: without weight it would ride up
+    m_run.m_report.steps = 0;     // the limit is for the way to rest
+    m_run.m_at.disturbed = false; // it hangs: without weight it would ride up
     m_run.settle();
     m_run.finish();
     m_run.m_report.wall_s = m_run.elapsed();
@@ -191,8 +186,8 @@ private:
     if (!m_run.step(h, 0, LARGEST_MOVE)) return;
     FollowFrame f;
     f.number = ++m_report.frames, f.edits = m_report.edits, f.remeshed = m_remeshed;
-    f.speed_m_s = m_run.m_last.largest_move_m / h;
-    const bool still = f.speed_m_s < m_run.m_settings.settle_speed_m_s && m_run.m_last.residual_force_ratio < m_run.m_settings.settle_force_ratio;
+    f.speed_m_s = m_run.m_at.last.largest_move_m / h;
+    const bool still = f.speed_m_s < m_run.m_settings.settle_speed_m_s && m_run.m_at.last.residual_force_ratio < m_run.m_settings.settle_force_ratio;
     m_calm = still ? m_calm + 1 : 0;
     f.at_rest = m_at_rest = m_calm >= CALM_STEPS;
     m_garment.position = m_run.m_solver->x();

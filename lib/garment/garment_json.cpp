@@ -234,8 +234,7 @@ Bind read_bind(const Node& node, std::size_t n_particles) {
 }
 
 /// Panel mesh and particles from the OBJ. Unsewn garments have one `v` for each `vt`.
-void read_mesh(const std::string& path, bool sewn, Garment& garment) {
-  const io::ObjMesh obj = io::read_obj(path);
+void take_mesh(const io::ObjMesh& obj, const std::string& path, bool sewn, Garment& garment) {
   if (obj.texture_triangles.size() != obj.triangles.size())
     throw input_error(path, "", "the faces have no pattern coordinates (vt)", "give the OBJ that was written with the document");
   std::vector<int> particle_of(obj.texture.size(), -1);
@@ -279,17 +278,21 @@ void check_whole(const Garment& garment) {
 
 Garment read_garment(const std::string& path) {
   const Json document = io::read_document(path, "garment", GARMENT_VERSION);
-  const Node root(document, path);
+  const std::string mesh_path = io::path_beside(path, Node(document, path).at("mesh").string());
+  return garment_from(Node(document, path), io::read_obj(mesh_path), mesh_path);
+}
+
+Garment garment_from(const io::Node& root, const io::ObjMesh& mesh, const std::string& mesh_name) {
   Garment garment;
   garment.panels.name = root.string("name", "");
   garment.panels.edge_length = root.number("edge_length_m", 0), garment.panels.seam_length = root.number("seam_edge_length_m", 0);
-  read_mesh(io::path_beside(path, root.at("mesh").string()), root.boolean("sewn", true), garment);
+  take_mesh(mesh, mesh_name, root.boolean("sewn", true), garment);
   read_panels(root.at("panels"), garment.panels);
   read_ids(root.at("vertex_ids"), garment.panels);
   read_seams(root.at("seams"), garment.panels);
   if (root.has("findings"))
     for (std::size_t i = 0; i < root.at("findings").size(); ++i) garment.panels.findings.push_back(root.at("findings").at(i).string());
-  if (root.has("pattern")) garment.panels.source = std::make_shared<pattern::Pattern>(pattern::read_pattern_json(root.at("pattern").json(), path));
+  if (root.has("pattern")) garment.panels.source = std::make_shared<pattern::Pattern>(pattern::read_pattern_json(root.at("pattern").json(), root.file()));
   if (root.has("materials")) garment.materials = read_materials(root.at("materials"));
   if (root.has("rest_scale")) garment.rest_scale = read_rest_scale(root.at("rest_scale"), garment.panels.triangles.size());
   garment.offset_m = root.number("offset_m", garment.offset_m);
@@ -306,10 +309,9 @@ Garment read_garment(const std::string& path) {
   return garment;
 }
 
-void write_garment(const std::string& path, const Garment& garment, const std::string& tool) {
+GarmentText garment_text(const Garment& garment, const std::string& mesh_name, const std::string& tool) {
   check_whole(garment);
   const bool sewn = !garment.particle_of.empty();
-  const std::string mesh_path = io::mesh_path_beside(path);
   io::ObjMesh obj;
   obj.positions = sewn ? garment.position : garment.panels.placed;
   obj.texture = garment.panels.pattern;
@@ -318,7 +320,7 @@ void write_garment(const std::string& path, const Garment& garment, const std::s
 
   Json document = io::new_document("garment", GARMENT_VERSION, tool);
   document["name"] = garment.panels.name;
-  document["mesh"] = io::file_name(mesh_path);
+  document["mesh"] = mesh_name;
   document["converged"] = garment.converged;
   document["sewn"] = sewn;
   document["offset_m"] = garment.offset_m;
@@ -347,9 +349,14 @@ void write_garment(const std::string& path, const Garment& garment, const std::s
   document["vertex_ids"] = {{"s", s}, {"t", t}};
   if (!garment.scene.empty()) document["scene"] = scene_effects_json(garment.scene);
   if (!garment.bind.empty()) document["bind"] = bind_json(garment.bind);
+  return {std::move(document), io::obj_text(obj, "garment of " + generator_stamp(tool))};
+}
 
-  const std::string text = io::to_text(document); // refuses what is not finite before any file is touched
-  io::write_obj(mesh_path, obj, "garment of " + generator_stamp(tool));
+void write_garment(const std::string& path, const Garment& garment, const std::string& tool) {
+  const std::string mesh_path = io::mesh_path_beside(path);
+  const GarmentText garment_and_mesh = garment_text(garment, io::file_name(mesh_path), tool);
+  const std::string text = io::to_text(garment_and_mesh.document); // refuses what is not finite before any file is touched
+  io::write_file(mesh_path, garment_and_mesh.mesh);
   io::write_file(path, text);
 }
 

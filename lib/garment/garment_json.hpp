@@ -8,6 +8,8 @@
 /// `scene` (pins, elastic bands, wind ... as in scene.json, see scene_effects_json.hpp), `bind`, `offset_m`, `converged`, `sewn`, and `body` (sha256 and girths
 /// of the body it hangs on). PanelMesh::placed is not kept: after reading it is the particle's position. Unknown keys are ignored: tools write these files.
 #include <garment/garment.hpp>
+#include <io/json.hpp>
+#include <io/obj.hpp>
 namespace sloper::garment {
 inline constexpr int GARMENT_VERSION = 1;
 
@@ -19,4 +21,13 @@ Garment read_garment(const std::string& path);
 /// Writes the OBJ beside the document (`.json` -> `.obj`), then the document. Reading and writing again gives the same bytes.
 /// @throws Error OUTPUT when a file cannot be written, INTERNAL when the garment is not whole or not finite
 void write_garment(const std::string& path, const Garment& garment, const std::string& tool);
+
+/// Both files of write_garment(), for a document that holds a garment within. @throws Error INTERNAL as write_garment()
+struct GarmentText {
+  io::Json document;
+  std::string mesh; ///< OBJ
+};
+GarmentText garment_text(const Garment& garment, const std::string& mesh_name, const std::string& tool);
+/// @param document of garment_text()   @param mesh of its OBJ   @param mesh_name for messages   @throws Error INPUT as read_garment()
+Garment garment_from(const io::Node& document, const io::ObjMesh& mesh, const std::string& mesh_name);
 } // namespace sloper::garment

@@ -25,3 +25,30 @@ case_a_drape_with_no_body_nor_panels_is_a_usage_error() {
   run 2 "$program" --panels panels.json --set max_steps=nan -o out.json
   run 2 "$program" --panels panels.json --effects gravty -o out.json
 }
+
+case_a_run_killed_dead_goes_on_from_its_checkpoint_to_the_same_bytes() {
+  local of=(--body a.body.json --panels panels.json --set max_steps=100 --checkpoint-steps 10) pid kills=0 old="" new
+  run "0|4" "$program" "${of[@]}" --checkpoint whole.checkpoint -o whole.json
+  "$program" -q "${of[@]}" --checkpoint run.checkpoint -o run.json & pid=$!
+  while [[ $kills -lt 3 ]]; do
+    for _ in $(seq 3000); do # until there is a new checkpoint, or the run has ended
+      new=$(cksum run.checkpoint 2> /dev/null || true)
+      [[ $new != "$old" ]] && break
+      kill -0 "$pid" 2> /dev/null || break
+      sleep 0.01
+    done
+    [[ $new != "$old" ]] || break
+    old=$new
+    kill -KILL "$pid" 2> /dev/null && kills=$((kills + 1))
+    wait "$pid" 2> /dev/null || true
+    [[ -e run.json ]] && break
+    "$program" -q --from run.checkpoint --body a.body.json --checkpoint run.checkpoint -o run.json & pid=$!
+  done
+  wait "$pid" 2> /dev/null || true
+  [[ $kills -gt 0 ]] || fail "the run could not be killed on its way"
+  cmp whole.obj run.obj || fail "another mesh after $kills kills"
+  diff <(grep -v '"mesh"' whole.json) <(grep -v '"mesh"' run.json) || fail "another document after $kills kills"
+  run 2 "$program" --from run.checkpoint --body a.body.json --accuracy fine -o run.json
+  says "--accuracy"
+  run 3 "$program" --from run.checkpoint -o run.json
+}
