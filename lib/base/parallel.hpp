@@ -1,7 +1,7 @@
 #pragma once
 /// Loops over threads whose result does not depend on the number of threads.
 #include <cstddef>
-#include <functional>
+#include <memory>
 #include <vector>
 namespace sloper {
 
@@ -9,11 +9,30 @@ namespace sloper {
 void set_thread_count(int n);
 int thread_count();
 
-/// Calls body(begin, end) over [0, n) cut into fixed chunks of `grain`, in any order, on thread_count() threads.
-/// Chunk borders do not depend on the thread count; write only to what belongs to the chunk.
-void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
+/// Work on chunk [begin, end), with what it captured.
+using ChunkWork = void (*)(const void* capture, std::size_t begin, std::size_t end);
+/// What parallel_for does when there is more than one thread and chunk.
+void spread_chunks(std::size_t n, std::size_t grain, ChunkWork work, const void* capture);
 
-/// Sum of term(begin, end) over fixed chunks, added in chunk order: the same bits for any thread count.
-double parallel_sum(std::size_t n, std::size_t grain, const std::function<double(std::size_t, std::size_t)>& term);
+/// Calls body(begin, end) over [0, n) cut into fixed chunks of `grain`, in any order, on thread_count() threads.
+/// Chunk borders do not depend on the thread count; write only to what belongs to the chunk. Allocates nothing.
+template<class Body> void parallel_for(std::size_t n, std::size_t grain, const Body& body) {
+  if (thread_count() == 1 || n <= grain) {
+    for (std::size_t begin = 0; begin < n; begin += grain) body(begin, n - begin < grain ? n : begin + grain);
+    return;
+  }
+  spread_chunks(
+      n, grain, [](const void* capture, std::size_t begin, std::size_t end) { (*static_cast<const Body*>(capture))(begin, end); }, std::addressof(body));
+}
+
+/// Sum of term(begin, end) over fixed chunks, added in chunk order: the same bits for any thread count. term may write to what belongs
+/// to its chunk. @param part  work, of one number a chunk
+template<class Term> double parallel_sum(std::size_t n, std::size_t grain, std::vector<double>& part, const Term& term) {
+  part.assign((n + grain - 1) / grain, 0);
+  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) { part[begin / grain] = term(begin, end); });
+  double sum = 0;
+  for (double p : part) sum += p;
+  return sum;
+}
 
 } // namespace sloper

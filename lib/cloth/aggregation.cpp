@@ -1,3 +1,4 @@
+#include <base/parallel.hpp>
 #include <cloth/aggregation.hpp>
 
 #include <algorithm>
@@ -52,23 +53,45 @@ std::vector<int> aggregates(const BlockRows& a, const std::vector<Mat3>& diagona
 
 } // namespace
 
-void Aggregation::multiply(std::size_t l, const std::vector<Float4>& x, std::vector<Float4>& y) const {
-  m_levels[l].a.multiply(x, y);
+/// What the contacts of the finest level do, by contact; rows gather it.
+void Aggregation::pull_contacts(std::size_t l, const std::vector<Float4>& x) {
   if (l > 0) return;
-  for (const FloatContact& c : m_contacts) {
-    Float4 s = Float4::all(0);
-    for (int k = 0; k < 4; ++k) s = s + Float4::all(c.weight[k]) * x[c.particle[k]];
-    const Float4 along = c.normal * s;
-    const Float4 dot = lane<0>(along) + lane<1>(along) + lane<2>(along);
-    const Float4 a = Float4::all(c.tangent_stiffness) * s + Float4::all(c.normal_stiffness - c.tangent_stiffness) * dot * c.normal;
-    for (int k = 0; k < 4; ++k) y[c.particle[k]] = y[c.particle[k]] + Float4::all(c.weight[k]) * a;
+  parallel_for(m_contacts.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      const FloatContact& c = m_contacts[e];
+      Float4 s = Float4::all(0);
+      for (int k = 0; k < 4; ++k) s = s + Float4::all(c.weight[k]) * x[c.particle[k]];
+      const Float4 along = c.normal * s;
+      const Float4 dot = lane<0>(along) + lane<1>(along) + lane<2>(along);
+      m_contact_pull[e] = Float4::all(c.tangent_stiffness) * s + Float4::all(c.normal_stiffness - c.tangent_stiffness) * dot * c.normal;
+    }
+  });
+}
+
+/// Row i of the level's matrix times x, contacts included; pull_contacts() was called for this x.
+Float4 Aggregation::row_times(std::size_t l, std::size_t i, const std::vector<Float4>& x) const {
+  Float4 row = m_levels[l].a.row_times(i, x);
+  if (l > 0) return row;
+  for (int k = m_index->start[i]; k < m_index->start[i + 1]; ++k) {
+    const auto [e, at] = m_index->entry[k];
+    row = row + Float4::all(m_contacts[e].weight[at]) * m_contact_pull[e];
   }
+  return row;
+}
+
+/// put(i, row i of the level's matrix times x) for all rows, on all threads.
+template<class Put> void Aggregation::multiply(std::size_t l, const std::vector<Float4>& x, const Put& put) {
+  pull_contacts(l, x);
+  parallel_for(x.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) put(i, row_times(l, i, x));
+  });
 }
 
 /// The finest level's matrix, contacts and smoother as they are now.
 void Aggregation::copy_finest(const LinearSystem& system) {
   Level& finest = m_levels[0];
   refill(system.matrix, finest.a);
+  m_index = &system.index;
   m_contacts.clear();
   for (const ContactElement& e : system.elements) {
     FloatContact c{{e.particle[0], e.particle[0], e.particle[0], e.particle[0]},
@@ -82,6 +105,7 @@ void Aggregation::copy_finest(const LinearSystem& system) {
     }
     m_contacts.push_back(c);
   }
+  m_contact_pull.resize(m_contacts.size());
   for (std::size_t i = 0; i < finest.d_inverse.size(); ++i) finest.d_inverse[i] = to_float(m_jacobi.inverse()[i]);
 }
 
@@ -102,8 +126,8 @@ void Aggregation::estimate_lambda(std::size_t l, int iterations) {
   for (int it = 0; it < iterations; ++it) {
     const Float4 scale = Float4::all(static_cast<float>(1 / std::sqrt(std::max(squared_norm(e), 1e-30))));
     for (Float4& v : e) v = scale * v;
-    multiply(l, e, level.t);
-    for (std::size_t i = 0; i < e.size(); ++i) e[i] = level.d_inverse[i] * level.t[i];
+    multiply(l, e, [&](std::size_t i, Float4 row) { level.t[i] = level.d_inverse[i] * row; });
+    std::swap(e, level.t);
     lambda = std::sqrt(squared_norm(e));
   }
   level.lambda = static_cast<float>(std::min(1.15 * lambda, LAMBDA_LIMIT));
@@ -197,22 +221,23 @@ void Aggregation::smooth(std::size_t l, bool zero_start) {
   Level& level = m_levels[l];
   const std::vector<Float4>& r = level.r;
   std::vector<Float4>&z = level.z, &t = level.t, &d = level.d;
-  const std::size_t n = r.size();
   const float high = level.lambda, low = high / 4, center = 0.5F * (high + low), half = 0.5F * (high - low);
   const Float4 first = Float4::all(1 / center);
   if (zero_start) {
-    for (std::size_t i = 0; i < n; ++i) z[i] = d[i] = first * (level.d_inverse[i] * r[i]);
+    parallel_for(r.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) z[i] = d[i] = first * (level.d_inverse[i] * r[i]);
+    });
   } else {
-    multiply(l, z, t);
-    for (std::size_t i = 0; i < n; ++i) {
-      d[i] = first * (level.d_inverse[i] * (r[i] - t[i]));
-      z[i] = z[i] + d[i];
-    }
+    multiply(l, z, [&](std::size_t i, Float4 row) {
+      d[i] = first * (level.d_inverse[i] * (r[i] - row));
+      t[i] = z[i] + d[i];
+    });
+    std::swap(z, t);
   }
   const float sigma = center / half, rho = 1 / sigma, rho_next = 1 / (2 * sigma - rho);
   const Float4 keep = Float4::all(rho_next * rho), add = Float4::all(2 * rho_next / half);
-  multiply(l, z, t);
-  for (std::size_t i = 0; i < n; ++i) z[i] = z[i] + keep * d[i] + add * (level.d_inverse[i] * (r[i] - t[i]));
+  multiply(l, z, [&](std::size_t i, Float4 row) { t[i] = z[i] + keep * d[i] + add * (level.d_inverse[i] * (r[i] - row)); });
+  std::swap(z, t);
 }
 
 void Aggregation::cycle(std::size_t l) {
@@ -224,8 +249,7 @@ void Aggregation::cycle(std::size_t l) {
     return;
   }
   smooth(l, true);
-  multiply(l, level.z, level.t);
-  for (std::size_t i = 0; i < level.r.size(); ++i) level.t[i] = level.r[i] - level.t[i];
+  multiply(l, level.z, [&](std::size_t i, Float4 row) { level.t[i] = level.r[i] - row; });
   Level& coarse = m_levels[l + 1];
   level.pt.multiply(level.t, coarse.r);
   cycle(l + 1);
@@ -242,9 +266,14 @@ void Aggregation::apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) {
   double largest = 0;
   for (const Vec3& v : r) largest = std::max(largest, v.cwiseAbs().maxCoeff());
   if (largest == 0) largest = 1;
-  for (std::size_t i = 0; i < r.size(); ++i) m_levels[0].r[i] = to_float(Vec3(r[i] / largest));
+  const double shrink = 1 / largest;
+  parallel_for(r.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) m_levels[0].r[i] = to_float(Vec3(shrink * r[i]));
+  });
   cycle(0);
-  for (std::size_t i = 0; i < r.size(); ++i) z[i] = largest * to_double(m_levels[0].z[i]);
+  parallel_for(r.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) z[i] = largest * to_double(m_levels[0].z[i]);
+  });
 }
 
 } // namespace sloper::cloth

@@ -38,13 +38,17 @@ private:
   };
   void build(const LinearSystem& system);
   void copy_finest(const LinearSystem& system);
-  void multiply(std::size_t level, const std::vector<Float4>& x, std::vector<Float4>& y) const;
+  void pull_contacts(std::size_t level, const std::vector<Float4>& x);
+  Float4 row_times(std::size_t level, std::size_t i, const std::vector<Float4>& x) const;
+  template<class Put> void multiply(std::size_t level, const std::vector<Float4>& x, const Put& put);
   void estimate_lambda(std::size_t level, int iterations);
   void smooth(std::size_t level, bool zero_start);
   void cycle(std::size_t level);
 
   BlockJacobi m_jacobi;
   std::vector<FloatContact> m_contacts;
+  std::vector<Float4> m_contact_pull;
+  const ContactIndex* m_index = nullptr; // of the system that the finest level is a copy of
   std::vector<Level> m_levels;
   Eigen::LLT<Eigen::MatrixXd> m_coarsest;
   Eigen::VectorXd m_coarse_vector;

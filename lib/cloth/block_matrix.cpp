@@ -1,3 +1,4 @@
+#include <base/parallel.hpp>
 #include <cloth/block_matrix.hpp>
 
 #include <algorithm>
@@ -16,6 +17,13 @@ BlockMatrix::BlockMatrix(int n, std::vector<std::array<int, 2>> pairs) : m_n(n) 
     m_column.push_back(p[1]);
   }
   for (int i = 0; i < n; ++i) m_row_start[i + 1] += m_row_start[i];
+  m_lower_start.assign(static_cast<std::size_t>(n) + 1, 0);
+  for (int j : m_column) ++m_lower_start[j + 1];
+  for (int i = 0; i < n; ++i) m_lower_start[i + 1] += m_lower_start[i];
+  m_lower.resize(m_column.size());
+  std::vector<int> at(m_lower_start.begin(), m_lower_start.end() - 1);
+  for (int i = 0; i < n; ++i)
+    for (int k = m_row_start[i]; k < m_row_start[i + 1]; ++k) m_lower[at[m_column[k]]++] = {k, i};
   m_value.assign(m_column.size(), Mat3::Zero());
   m_diagonal.assign(static_cast<std::size_t>(n), Mat3::Zero());
 }
@@ -32,18 +40,9 @@ void BlockMatrix::set_zero() {
 }
 
 void BlockMatrix::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) const {
-  for (int i = 0; i < m_n; ++i) y[i].noalias() = m_diagonal[i] * x[i];
-  for (int i = 0; i < m_n; ++i) {
-    const Vec3 xi = x[i];
-    Vec3 sum = Vec3::Zero();
-    for (int k = m_row_start[i]; k < m_row_start[i + 1]; ++k) {
-      const Mat3& a = m_value[k];
-      const int j = m_column[k];
-      sum.noalias() += a * x[j];
-      y[j].noalias() += a.transpose() * xi;
-    }
-    y[i] += sum;
-  }
+  parallel_for(x.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) y[i] = row_times(static_cast<int>(i), x);
+  });
 }
 
 } // namespace sloper::cloth

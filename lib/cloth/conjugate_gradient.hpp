@@ -8,10 +8,9 @@ namespace sloper::cloth {
 struct LinearSystem {
   const BlockMatrix& matrix;
   const std::vector<ContactElement>& elements;
-  void multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) const {
-    matrix.multiply(x, y);
-    multiply_add(elements, x, y);
-  }
+  const ContactIndex& index; ///< of the elements
+  /// y = A x; returns x . y. pull, part: work
+  double multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y, std::vector<Vec3>& pull, std::vector<double>& part) const;
 };
 
 /// z = P^-1 r for a symmetric positive definite P near the system.
@@ -46,7 +45,8 @@ struct CgResult {
 
 /// Work vectors, kept so that a step allocates nothing.
 struct CgWork {
-  std::vector<Vec3> r, z, p, q;
+  std::vector<Vec3> r, z, p, q, pull;
+  std::vector<double> part;
 };
 
 /// Solves A x = b from x = 0. Stops when |r| <= tolerance |b|, after max_iterations, or where the matrix is not definite.

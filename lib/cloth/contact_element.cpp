@@ -17,13 +17,16 @@ void add_forces(const std::vector<ContactElement>& elements, std::vector<Vec3>& 
     for (int k = 0; k < e.n; ++k) force[e.particle[k]] += e.weight[k] * e.force;
 }
 
-void multiply_add(const std::vector<ContactElement>& elements, const std::vector<Vec3>& x, std::vector<Vec3>& y) {
-  for (const ContactElement& e : elements) {
-    Vec3 s = Vec3::Zero();
-    for (int k = 0; k < e.n; ++k) s += e.weight[k] * x[e.particle[k]];
-    const Vec3 a = e.tangent_stiffness * s + (e.normal_stiffness - e.tangent_stiffness) * e.normal.dot(s) * e.normal;
-    for (int k = 0; k < e.n; ++k) y[e.particle[k]] += e.weight[k] * a;
-  }
+void ContactIndex::build(const std::vector<ContactElement>& elements, std::size_t n_particles) {
+  start.assign(n_particles + 1, 0);
+  for (const ContactElement& e : elements)
+    for (int k = 0; k < e.n; ++k) ++start[e.particle[k] + 1];
+  for (std::size_t i = 0; i < n_particles; ++i) start[i + 1] += start[i];
+  entry.resize(static_cast<std::size_t>(start.back()));
+  for (int e = static_cast<int>(elements.size()) - 1; e >= 0; --e) // backwards: each particle's entries end up in the elements' order
+    for (int k = elements[e].n - 1; k >= 0; --k) entry[--start[elements[e].particle[k] + 1]] = {e, k};
+  start.erase(start.begin());
+  start.push_back(static_cast<int>(entry.size()));
 }
 
 } // namespace sloper::cloth

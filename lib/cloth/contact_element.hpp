@@ -16,6 +16,12 @@ struct ContactElement {
   Vec3 normal = Vec3::UnitY();  ///< unit
   double normal_stiffness = 0;  ///< kn >= 0, N/m
   double tangent_stiffness = 0; ///< kt >= 0, N/m
+  /// Of the weighted point, by which it pulls on each particle: stiffness times s. Force on particle k: w_k times that.
+  Vec3 pull(const std::vector<Vec3>& x) const {
+    Vec3 s = Vec3::Zero();
+    for (int k = 0; k < n; ++k) s += weight[k] * x[particle[k]];
+    return tangent_stiffness * s + (normal_stiffness - tangent_stiffness) * normal.dot(s) * normal;
+  }
   Mat3 stiffness() const { return tangent_stiffness * Mat3::Identity() + (normal_stiffness - tangent_stiffness) * normal * normal.transpose(); }
 };
 
@@ -24,7 +30,15 @@ struct ContactElement {
 double crossing_share(const Vec3& u, const Vec3& v);
 
 void add_forces(const std::vector<ContactElement>& elements, std::vector<Vec3>& force);
-/// y += stiffness of the elements times x
-void multiply_add(const std::vector<ContactElement>& elements, const std::vector<Vec3>& x, std::vector<Vec3>& y);
+
+/// Which elements each particle is in, so that threads share the particles.
+struct ContactIndex {
+  struct Entry {
+    int element, k; ///< the particle is its k-th
+  };
+  std::vector<int> start; ///< #P + 1
+  std::vector<Entry> entry;
+  void build(const std::vector<ContactElement>& elements, std::size_t n_particles);
+};
 
 } // namespace sloper::cloth

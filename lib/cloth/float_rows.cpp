@@ -1,21 +1,18 @@
+#include <base/parallel.hpp>
 #include <cloth/float_rows.hpp>
 
 namespace sloper::cloth {
 
 void FloatRows::multiply(const std::vector<Float4>& x, std::vector<Float4>& y) const {
-  for (int i = 0; i < rows; ++i) {
-    Float4 sum = Float4::all(0);
-    for (int k = start[i]; k < start[i + 1]; ++k) sum = sum + value[k] * x[column[k]];
-    y[i] = sum;
-  }
+  parallel_for(static_cast<std::size_t>(rows), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) y[i] = row_times(i, x);
+  });
 }
 
 void FloatRows::multiply_add(const std::vector<Float4>& x, std::vector<Float4>& y) const {
-  for (int i = 0; i < rows; ++i) {
-    Float4 sum = y[i];
-    for (int k = start[i]; k < start[i + 1]; ++k) sum = sum + value[k] * x[column[k]];
-    y[i] = sum;
-  }
+  parallel_for(static_cast<std::size_t>(rows), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) y[i] = y[i] + row_times(i, x);
+  });
 }
 
 Float4 to_float(const Vec3& v) {
@@ -38,37 +35,34 @@ FloatRows to_float(const BlockRows& rows) {
   return out;
 }
 
-/// Calls put(row, column, block) for all blocks of the whole matrix, each row in rising order of columns: the lower part comes from
-/// earlier rows, then the diagonal, then the upper part.
-template<class Put> static void visit_blocks(const BlockMatrix& m, const Put& put) {
-  for (int i = 0; i < m.size(); ++i) {
-    put(i, i, m.diagonal(i));
-    for (int k = m.row_start()[i]; k < m.row_start()[i + 1]; ++k) {
-      put(i, m.column()[k], m.value()[k]);
-      put(m.column()[k], i, Mat3(m.value()[k].transpose()));
-    }
-  }
+/// Calls put(k, column, block) for row i of the whole matrix, by rising column, k counting from `at`.
+template<class Put> static void visit_row(const BlockMatrix& m, int i, int at, const Put& put) {
+  for (int k = m.lower_start()[i]; k < m.lower_start()[i + 1]; ++k) put(at++, m.lower()[k].column, Mat3(m.value()[m.lower()[k].slot].transpose()));
+  put(at++, i, m.diagonal(i));
+  for (int k = m.row_start()[i]; k < m.row_start()[i + 1]; ++k) put(at++, m.column()[k], m.value()[k]);
 }
 
 BlockRows expand(const BlockMatrix& m) {
   BlockRows out;
   out.rows = out.columns = m.size();
   out.start.assign(m.size() + 1, 0);
-  visit_blocks(m, [&](int i, int, const Mat3&) { ++out.start[i + 1]; });
-  for (int i = 0; i < m.size(); ++i) out.start[i + 1] += out.start[i];
+  for (int i = 0; i < m.size(); ++i)
+    out.start[i + 1] = out.start[i] + 1 + m.lower_start()[i + 1] - m.lower_start()[i] + m.row_start()[i + 1] - m.row_start()[i];
   out.column.resize(out.start.back());
   out.value.resize(out.start.back());
-  std::vector<int> at(out.start.begin(), out.start.end() - 1);
-  visit_blocks(m, [&](int i, int j, const Mat3& value) {
-    out.column[at[i]] = j;
-    out.value[at[i]++] = value;
-  });
+  for (int i = 0; i < m.size(); ++i)
+    visit_row(m, i, out.start[i], [&](int k, int column, const Mat3& value) {
+      out.column[k] = column;
+      out.value[k] = value;
+    });
   return out;
 }
 
 void refill(const BlockMatrix& m, FloatRows& rows) {
-  std::vector<int> at(rows.start.begin(), rows.start.end() - 1);
-  visit_blocks(m, [&](int i, int, const Mat3& value) { rows.value[at[i]++] = to_float(value); });
+  parallel_for(static_cast<std::size_t>(m.size()), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
+      visit_row(m, i, rows.start[i], [&](int k, int, const Mat3& value) { rows.value[k] = to_float(value); });
+  });
 }
 
 BlockRows transpose(const BlockRows& a) {

@@ -22,6 +22,12 @@ struct FloatRows {
   int rows = 0, columns = 0;
   std::vector<int> start, column;
   std::vector<FloatBlock> value;
+  /// Row i of A x
+  Float4 row_times(std::size_t i, const std::vector<Float4>& x) const {
+    Float4 sum = Float4::all(0);
+    for (int k = start[i]; k < start[i + 1]; ++k) sum = sum + value[k] * x[column[k]];
+    return sum;
+  }
   /// y = A x
   void multiply(const std::vector<Float4>& x, std::vector<Float4>& y) const;
   /// y += A x

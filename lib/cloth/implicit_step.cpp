@@ -177,7 +177,8 @@ StepResult ClothSolver::step(const StepOptions& o) {
   }
   {
     const Stopwatch watch(solve_s);
-    const LinearSystem system{m_matrix, m_elements};
+    m_contacts.build(m_elements, n);
+    const LinearSystem system{m_matrix, m_elements, m_contacts};
     m_preconditioner->update(system);
     result.cg = conjugate_gradient(system, *m_preconditioner, m_rhs, o.cg_tolerance, o.cg_max_iterations, m_dx, m_work);
     m_preconditioner->report_iterations(result.cg.iterations);

@@ -62,6 +62,7 @@ private:
   std::vector<Vec3> m_x, m_v, m_force, m_rhs, m_dx, m_step, m_trial, m_trial_dx; // m_step: as solved, before limits
   std::vector<std::unique_ptr<Effect>> m_effects;
   std::vector<ContactElement> m_elements;
+  ContactIndex m_contacts; // of m_elements
   MotionLimits m_limits;
   std::vector<char> m_held, m_trial_held;
   std::vector<int> m_freeze, m_frozen_for; // #P, steps: of the last freeze; still to go

@@ -14,6 +14,8 @@ static constexpr double USED = 0.6;
 static constexpr double PLANE_MARGIN = 0.1;
 /// Contact thickness is at most this share of the shortest edge around, so that cloth does not push its own next row away.
 static constexpr double THICKNESS_PER_EDGE = 0.35;
+/// The search radius is at most this share of the mean edge: flat cloth finds few of its own next rows.
+static constexpr double SEARCH_PER_EDGE = 0.75;
 /// A seam counts as closed at a stitch of this length, m.
 static constexpr double CLOSED_SEAM = 0.0015;
 /// Friction reaches its full size at this sliding distance per step, m.
@@ -23,6 +25,9 @@ SelfContactEffect::SelfContactEffect(const ClothMesh& mesh, const SelfContactOpt
     : m_mesh(mesh), m_options(options), m_proximity(mesh.n_particles, mesh.particle_triangles()), m_closing(m_proximity.triangles(), m_proximity.topology()),
       m_seam_class(std::move(seam_class)), m_thickness(mesh.n_particles), m_last_dx(mesh.n_particles, Vec3::Zero()) {
   for (int i = 0; i < mesh.n_particles; ++i) m_thickness[i] = std::min(options.thickness_m, THICKNESS_PER_EDGE * mesh.shortest_edge[i]);
+  double mean_edge = 0;
+  for (const EdgeSpring& s : mesh.springs) mean_edge += s.rest_length / static_cast<double>(mesh.springs.size());
+  if (mean_edge > 0) m_options.search_m = std::min(m_options.search_m, SEARCH_PER_EDGE * mean_edge);
   m_closed.assign(m_seam_class.empty() ? 0 : 1 + std::max(-1, *std::max_element(m_seam_class.begin(), m_seam_class.end())), 0);
 }
 
@@ -59,18 +64,21 @@ void SelfContactEffect::search(const std::vector<Vec3>& x) {
   }
   if (!m_seam_class.empty()) find_closed_seams(x);
   m_pairs.clear();
-  auto take = [&](const std::array<int, 4>& p, int n_first, bool is_edge) {
+  auto take = [&](const std::array<int, 4>& p, int n_first, bool is_edge, double distance) {
     const Pair kind = kind_of(p.data(), n_first, p.data() + n_first, 4 - n_first);
-    if (kind != Pair::CLOSED_SEAM) m_pairs.push_back({p, is_edge, kind == Pair::FREE});
+    if (kind == Pair::CLOSED_SEAM) return;
+    Near near{p, is_edge, kind == Pair::FREE, distance};
+    if (near.repels) near.reach = std::min(std::min(m_thickness[p[0]], m_thickness[p[1]]), std::min(m_thickness[p[2]], m_thickness[p[3]]));
+    m_pairs.push_back(near);
   };
   for (const auto& pair : m_proximity.vertex_face()) {
     const Triangle& t = m_proximity.triangles()[pair.triangle];
-    if (!pair.exempt) take({pair.vertex, t[0], t[1], t[2]}, 1, false);
+    if (!pair.exempt) take({pair.vertex, t[0], t[1], t[2]}, 1, false, pair.distance);
   }
   for (const auto& pair : m_proximity.edge_edge()) {
     const auto& a = m_proximity.topology().edges[pair.edge_a];
     const auto& b = m_proximity.topology().edges[pair.edge_b];
-    if (!pair.exempt) take({a[0], a[1], b[0], b[1]}, 2, true);
+    if (!pair.exempt) take({a[0], a[1], b[0], b[1]}, 2, true, pair.distance);
   }
   m_searched_at = x;
   m_stale = false;
@@ -82,6 +90,8 @@ void SelfContactEffect::begin_step(const std::vector<Vec3>& x, double) {
   m_stale = m_stale || !m_crossings.empty();
   for (std::size_t i = 0; !m_stale && i < x.size(); ++i) m_stale = (x[i] - m_searched_at[i]).squaredNorm() > used * used;
   if (m_stale) search(x);
+  m_moved.resize(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) m_moved[i] = (x[i] - m_searched_at[i]).norm();
   m_x_before = x;
   m_closing_stale = true;
   for (auto& guarded : m_guarded_closing) guarded.clear();
@@ -90,64 +100,73 @@ void SelfContactEffect::begin_step(const std::vector<Vec3>& x, double) {
 SelfContactEffect::Closest SelfContactEffect::closest(const Near& near, const std::vector<Vec3>& x) const {
   const auto& p = near.particle;
   Closest c;
-  c.share = 1;
   if (near.is_edge) {
     const auto e = collision::edge_edge(x[p[0]], x[p[1]], x[p[2]], x[p[3]]);
     c.weight = {1 - e.s, e.s, e.t - 1, -e.t};
-    c.share = crossing_share(x[p[1]] - x[p[0]], x[p[3]] - x[p[2]]);
   } else {
     const auto t = collision::point_triangle(x[p[0]], x[p[1]], x[p[2]], x[p[3]]);
     c.weight = {1, -t.barycentric[0], -t.barycentric[1], -t.barycentric[2]};
   }
-  c.n_first = near.is_edge ? 2 : 1;
   c.first = c.second = Vec3::Zero();
-  for (int k = 0; k < c.n_first; ++k) c.first += c.weight[k] * x[p[k]];
-  for (int k = c.n_first; k < 4; ++k) c.second -= c.weight[k] * x[p[k]];
+  for (int k = 0; k < near.n_first(); ++k) c.first += c.weight[k] * x[p[k]];
+  for (int k = near.n_first(); k < 4; ++k) c.second -= c.weight[k] * x[p[k]];
   c.distance = (c.first - c.second).norm();
   return c;
 }
 
-Push SelfContactEffect::push(const Near& near, const Closest& c) const {
-  double thickness = 1e300, area = 0;
-  for (int k = 0; k < 4; ++k) {
-    thickness = std::min(thickness, m_thickness[near.particle[k]]);
-    area += std::abs(c.weight[k]) * m_mesh.area[near.particle[k]];
-  }
-  return push_of(c.distance, thickness, 0.5 * c.share * m_options.stiffness_n_m3 * area);
+Push SelfContactEffect::push(const Near& near, const Closest& c, const std::vector<Vec3>& x) const {
+  if (c.distance >= near.reach) return {};
+  const auto& p = near.particle;
+  double area = 0;
+  for (int k = 0; k < 4; ++k) area += std::abs(c.weight[k]) * m_mesh.area[p[k]];
+  const double share = near.is_edge ? crossing_share(x[p[1]] - x[p[0]], x[p[3]] - x[p[2]]) : 1;
+  return push_of(c.distance, near.reach, 0.5 * share * m_options.stiffness_n_m3 * area);
 }
 
+double SelfContactEffect::closing(const Near& near, const std::vector<double>& length) {
+  const auto& p = near.particle;
+  const double last = std::max(length[p[2]], length[p[3]]);
+  return near.is_edge ? std::max(length[p[0]], length[p[1]]) + last : length[p[0]] + std::max(length[p[1]], last);
+}
+
+/// Most pairs are too far apart to repel each other or to meet in one step, and are not looked at.
 void SelfContactEffect::add(StepContext& context) {
-  for (const Near& near : m_pairs) {
+  for (Near& near : m_pairs) {
+    near.guarded = false;
+    if (near.distance - closing(near, m_moved) >= near.reach) continue;
     const Closest c = closest(near, context.x);
-    if (c.distance < 1e-12) continue;
-    const Vec3 normal = (c.first - c.second) / c.distance;
-    if (near.repels) {
-      const Push p = push(near, c);
-      if (p.force > 0) {
-        ContactElement e;
-        e.n = 4;
-        e.particle = near.particle;
-        e.weight = c.weight;
-        e.normal = normal;
-        e.normal_stiffness = p.stiffness;
-        e.force = p.force * normal;
-        if (m_options.friction > 0) { // regularised Coulomb on the slide of the last step
-          Vec3 slide = Vec3::Zero();
-          for (int k = 0; k < 4; ++k) slide += c.weight[k] * m_last_dx[near.particle[k]];
-          slide -= slide.dot(normal) * normal;
-          e.tangent_stiffness = m_options.friction * p.force / std::max(slide.norm(), FULL_FRICTION_SLIDE);
-        }
-        context.elements.push_back(e);
-      }
+    if (c.distance < 1e-12) {
+      near.guarded = true;
+      continue;
     }
-    if (context.limits) guard(near, c, *context.limits);
+    const Push p = push(near, c, context.x);
+    if (p.force > 0) {
+      ContactElement e;
+      e.n = 4;
+      e.particle = near.particle;
+      e.weight = c.weight;
+      e.normal = (c.first - c.second) / c.distance;
+      e.normal_stiffness = p.stiffness;
+      e.force = p.force * e.normal;
+      if (m_options.friction > 0) { // regularised Coulomb on the slide of the last step
+        Vec3 slide = Vec3::Zero();
+        for (int k = 0; k < 4; ++k) slide += c.weight[k] * m_last_dx[near.particle[k]];
+        slide -= slide.dot(e.normal) * e.normal;
+        e.tangent_stiffness = m_options.friction * p.force / std::max(slide.norm(), FULL_FRICTION_SLIDE);
+      }
+      context.elements.push_back(e);
+    }
+    if (context.limits) {
+      guard(near, c, *context.limits);
+      near.guarded = true;
+    }
   }
 }
 
 void SelfContactEffect::guard(const Near& near, const Closest& c, MotionLimits& limits) const {
   const Vec3 normal = (c.first - c.second) / c.distance;
   const double middle = 0.5 * normal.dot(c.first + c.second), margin = 0.5 * PLANE_MARGIN * c.distance;
-  limits.guards.push_back({4, c.n_first, near.particle, normal, middle + margin, middle - margin});
+  limits.guards.push_back({4, near.n_first(), near.particle, normal, middle + margin, middle - margin});
 }
 
 /// How far a particle may go whatever the others do, m.
@@ -177,10 +196,27 @@ bool SelfContactEffect::guard_closing(const std::vector<std::array<int, 2>>& pai
   return added;
 }
 
+/// Guards those near pairs that add() left out and that the displacement may bring together.
+bool SelfContactEffect::guard_near(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits) {
+  m_length.resize(dx.size());
+  for (std::size_t i = 0; i < dx.size(); ++i) m_length[i] = dx[i].norm();
+  bool added = false;
+  for (Near& near : m_pairs) {
+    if (near.guarded || closing(near, m_length) < (1 - PLANE_MARGIN) * (near.distance - closing(near, m_moved))) continue;
+    near.guarded = true;
+    const Closest c = closest(near, x);
+    if (c.distance < 1e-12) continue; // no plane separates them
+    guard(near, c, limits);
+    added = true;
+  }
+  return added;
+}
+
 bool SelfContactEffect::guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) {
+  const bool more = guard_near(x, dx, limits);
   bool near = true;
   for (std::size_t i = 0; near && i < x.size(); ++i) near = dx[i].norm() <= safe_move(i, x) + 1e-12;
-  if (near) return false;
+  if (near) return more;
   if (last || !m_crossings.empty()) { // of cloth that crosses nobody can tell which side is right
     for (std::size_t i = 0; i < x.size(); ++i) limits.most[i] = std::min(limits.most[i], safe_move(i, x));
     return true;
@@ -189,13 +225,16 @@ bool SelfContactEffect::guard_motion(const std::vector<Vec3>& x, const std::vect
   m_closing_stale = false;
   ++far_searches;
   const bool faces = guard_closing(m_closing.vertex_face(), false, x, limits);
-  return guard_closing(m_closing.edge_edge(), true, x, limits) || faces;
+  return guard_closing(m_closing.edge_edge(), true, x, limits) || faces || more;
 }
 
 double SelfContactEffect::energy(const std::vector<Vec3>& x) const {
+  if (m_pairs.empty()) return 0;
+  m_length.resize(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) m_length[i] = (x[i] - m_searched_at[i]).norm();
   double sum = 0;
   for (const Near& near : m_pairs)
-    if (near.repels) sum += push(near, closest(near, x)).energy;
+    if (near.distance - closing(near, m_length) < near.reach) sum += push(near, closest(near, x), x).energy;
   return sum;
 }
 

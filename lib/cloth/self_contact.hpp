@@ -18,7 +18,7 @@ namespace sloper::cloth {
 
 struct SelfContactOptions {
   double thickness_m = 0.003;  ///< distance at which cloth feels cloth; less where the mesh is finer
-  double search_m = 0.008;     ///< pairs up to this distance are kept
+  double search_m = 0.008;     ///< pairs up to this distance are kept; less where the mesh is finer
   double stiffness_n_m3 = 1e6; ///< pressure per depth
   double friction = 0.0;
 };
@@ -60,21 +60,29 @@ private:
   struct Near {
     std::array<int, 4> particle; // vertex and face, or edge and edge
     bool is_edge, repels;
+    double distance = 0;  // m, at the search
+    double reach = 0;     // m, at which they begin to repel each other; 0 for those that do not
+    bool guarded = false; // in this step
+    int n_first() const { return is_edge ? 2 : 1; }
   };
   /// A pair's closest points now.
   struct Closest {
     std::array<double, 4> weight; // + on the first element, - on the second: the weighted sum is the way from it to the first
-    int n_first;                  // particles of the first element
     Vec3 first, second;           // m
-    double distance, share;       // see crossing_share()
+    double distance;              // m
   };
   Closest closest(const Near& near, const std::vector<Vec3>& x) const;
-  Push push(const Near& near, const Closest& c) const;
+  Push push(const Near& near, const Closest& c, const std::vector<Vec3>& x) const;
+  /// What a pair's ends can close in at most when particles move by these lengths, m.
+  static double closing(const Near& near, const std::vector<double>& length);
+  bool guard_near(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits);
   void guard(const Near& near, const Closest& c, MotionLimits& limits) const;
   bool guard_closing(const std::vector<std::array<int, 2>>& pairs, bool is_edge, const std::vector<Vec3>& x, MotionLimits& limits);
   double safe_move(std::size_t particle, const std::vector<Vec3>& x) const;
   std::vector<Near> m_pairs;
   std::vector<Vec3> m_searched_at, m_x_before, m_last_dx;
+  std::vector<double> m_moved;          // #P, m: from m_searched_at to the positions of this step
+  mutable std::vector<double> m_length; // #P, m: work
   std::vector<std::array<int, 2>> m_crossings;
   bool m_stale = true, m_look_for_crossings = true;
 };

@@ -40,9 +40,10 @@ TEST_P(Parallel, sums_to_the_same_bits_for_any_number_of_threads) {
     for (std::size_t i = begin; i < end; ++i) sum += std::sin(static_cast<double>(i) * 1e3) * std::pow(10.0, static_cast<double>(i % 17) - 8);
     return sum;
   };
-  const double here = parallel_sum(10000, 64, term);
+  std::vector<double> part;
+  const double here = parallel_sum(10000, 64, part, term);
   set_thread_count(1);
-  EXPECT_EQ(here, parallel_sum(10000, 64, term));
+  EXPECT_EQ(here, parallel_sum(10000, 64, part, term));
 }
 
 TEST_P(Parallel, passes_on_the_exception_of_the_lowest_chunk) {

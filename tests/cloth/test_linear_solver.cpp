@@ -69,7 +69,9 @@ TEST(BlockMatrix, multiplies_as_the_dense_matrix_does) {
 
 TEST(Aggregation, solves_the_same_system_as_block_jacobi_in_far_fewer_iterations) {
   System s = make_system(40, 0.1);
-  const LinearSystem system{s.matrix, s.elements};
+  ContactIndex index;
+  index.build(s.elements, s.matrix.size());
+  const LinearSystem system{s.matrix, s.elements, index};
   CgWork work;
   std::vector<Vec3> x_jacobi, x_aggregation;
   BlockJacobi jacobi;
@@ -93,7 +95,9 @@ TEST(Aggregation, particles_that_contacts_all_but_pin_do_not_fill_the_coarse_lev
   Random random(5);
   for (int i = 0; i < s.matrix.size(); ++i)
     if (random.uniform(0, 1) < 0.8) s.matrix.add_diagonal(i, 1e5 * Mat3::Identity()); // trousers drawn over far too wide hips
-  const LinearSystem system{s.matrix, s.elements};
+  ContactIndex index;
+  index.build(s.elements, s.matrix.size());
+  const LinearSystem system{s.matrix, s.elements, index};
   Aggregation aggregation;
   aggregation.update(system);
   EXPECT_LT(aggregation.complexity(), 2); // 3.2 when each of them is an aggregate
@@ -107,7 +111,9 @@ TEST(Aggregation, iterations_hardly_grow_with_the_mesh) {
   int at = 0;
   for (int n : {20, 60}) {
     System s = make_system(n, 0.1);
-    const LinearSystem system{s.matrix, s.elements};
+    ContactIndex index;
+    index.build(s.elements, s.matrix.size());
+    const LinearSystem system{s.matrix, s.elements, index};
     CgWork work;
     std::vector<Vec3> x;
     Aggregation aggregation;
@@ -123,7 +129,9 @@ TEST(ConjugateGradient, stops_at_an_indefinite_matrix_and_keeps_what_it_has) {
   BlockMatrix m(1, {});
   m.add_diagonal(0, -Mat3::Identity());
   std::vector<ContactElement> none;
-  const LinearSystem system{m, none};
+  ContactIndex index;
+  index.build(none, m.size());
+  const LinearSystem system{m, none, index};
   BlockJacobi jacobi;
   jacobi.update(system);
   CgWork work;
