@@ -49,7 +49,7 @@ void add_options(cli::Tool& tool, Options& o) {
   app.add_option("--print-size", o.print_size, "width of one repeat of a printed PNG")->check(cli::finite_in(0.001, 10, "m"))->capture_default_str();
   app.add_option("--color", o.colors, "cloth colours as RRGGBB, one for each garment, joined by commas")->type_name("LIST");
   app.add_option("--size", o.size, "WIDTHxHEIGHT of one view, pixels")->capture_default_str()->type_name("WxH");
-  app.add_option("--background", o.background, "of the picture")->check(cli::one_of({"white", "grey", "transparent"}))->capture_default_str();
+  app.add_option("--background", o.background, "white, grey, transparent, or a colour as RRGGBB")->capture_default_str()->type_name("COLOR");
   app.add_option("--context", o.context, "what draws: osmesa, or egl (surfaceless)")->check(cli::one_of({"osmesa", "egl"}))->capture_default_str();
   app.add_option("--as", o.as, "several views: one sheet, one animation (APNG), or files of their own, numbered before the ending")
       ->check(cli::one_of({"sheet", "animation", "files"}))
@@ -88,14 +88,31 @@ std::array<int, 2> parse_size(const std::string& text) {
   return {w, h};
 }
 
+int parse_color(const std::string& option, const std::string& word) {
+  if (word.size() != 6 || word.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
+    throw Error(ErrorKind::USAGE, "", option + " " + word, "is not a colour", "write six hexadecimal digits, for example " + option + " 4f7396");
+  return std::stoi(word, nullptr, 16);
+}
+
 std::vector<int> parse_colors(const std::string& text) {
   std::vector<int> colors;
-  for (const std::string& word : split(text)) {
-    if (word.size() != 6 || word.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
-      throw Error(ErrorKind::USAGE, "", "--color " + word, "is not a colour", "write six hexadecimal digits, for example --color 4f7396");
-    colors.push_back(std::stoi(word, nullptr, 16));
-  }
+  for (const std::string& word : split(text)) colors.push_back(parse_color("--color", word));
   return colors;
+}
+
+/// None for transparent.
+std::optional<int> parse_background(const std::string& text) {
+  if (text == "transparent") return std::nullopt;
+  return text == "white" ? 0xffffff : text == "grey" ? 0xdbdbdb : parse_color("--background", text);
+}
+
+/// ".png" of out.PNG; empty where there is none.
+std::string ending_of(const std::string& path) {
+  const std::string name = io::file_name(path);
+  const std::size_t dot = name.rfind('.');
+  std::string ending = dot == std::string::npos ? "" : name.substr(dot);
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
 }
 
 /// What --fabric says; sets how the cloth is coloured.
@@ -112,38 +129,13 @@ render::ClothColors choose_fabric(const Options& o, const render::Scene& scene, 
       return render::ClothColors::GARMENTS;
     }
   if (o.fabric == "auto") return render::ClothColors::GARMENTS;
-  if (o.fabric.size() < 4 || o.fabric.compare(o.fabric.size() - 4, 4, ".png") != 0)
+  if (ending_of(o.fabric) != ".png")
     throw Error(ErrorKind::USAGE, "", "--fabric " + o.fabric, "is not known",
                 "known are auto, panels, plain, woven, twill, stripes, checks and files ending in .png");
   options.fabric = Fabric::PRINT;
   options.print = io::read_png(o.fabric);
   options.print_size = o.print_size;
   return render::ClothColors::GARMENTS;
-}
-
-/// The views asked for; "pattern" has no camera.
-std::vector<std::optional<render::CameraOptions>> parse_views(const Options& o) {
-  std::vector<std::optional<render::CameraOptions>> views;
-  if (!o.camera.empty()) return {render::read_camera(o.camera)};
-  for (const std::string& word : split(o.view)) {
-    int turns = 0;
-    char end = 0;
-    if (word == "pattern") {
-      views.emplace_back();
-    } else if (std::sscanf(word.c_str(), "turntable:%d%c", &turns, &end) == 1) {
-      if (turns < 1 || turns > 360) throw Error(ErrorKind::USAGE, "", "--view " + word, "needs 1 to 360 views");
-      for (int k = 0; k < turns; ++k) {
-        views.emplace_back(render::named_view("front"));
-        views.back()->azimuth = 2 * units::PI * k / turns;
-      }
-    } else {
-      views.emplace_back(render::named_view(word));
-    }
-  }
-  if (views.empty()) throw Error(ErrorKind::USAGE, "", "--view", "names no view");
-  for (auto& v : views)
-    if (v && o.field_height > 0) v->field_height = o.field_height;
-  return views;
 }
 
 int run_compare(const Options& o) {
@@ -166,11 +158,8 @@ int run_sheet(const Options& o) {
 
 /// Names that promise something else than what would be written are refused.
 void check_output(const std::string& path) {
-  const std::string name = io::file_name(path);
-  const std::size_t dot = name.rfind('.');
-  if (dot == std::string::npos || path.rfind("/dev/", 0) == 0 || render::is_export(path)) return;
-  std::string ending = name.substr(dot);
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = ending_of(path);
+  if (ending.empty() || path.rfind("/dev/", 0) == 0 || render::is_export(path)) return;
   if (ending != ".png") throw Error(ErrorKind::USAGE, "", "-o " + path, "is no kind of file that can be written", "end it in .png, .glb, .obj or .ply");
 }
 
@@ -178,21 +167,10 @@ void check_output(const std::string& path) {
 bool wants_ply(const Options& o) {
   if (o.values.empty()) return false;
   if (o.map == "none" || o.map == "parts") throw Error(ErrorKind::USAGE, "", "--values", "needs a map with numbers", "say for example --map strain");
-  const std::string name = io::file_name(o.values);
-  const std::size_t dot = name.rfind('.');
-  const std::string ending = dot == std::string::npos ? "" : name.substr(dot);
+  const std::string ending = ending_of(o.values);
   if (ending == ".ply") return true;
   if (ending == ".csv" || o.values == "-" || o.values.rfind("/dev/", 0) == 0) return false;
   throw Error(ErrorKind::USAGE, "", "--values " + o.values, "is no kind of file that can be written", "end it in .csv or .ply");
-}
-
-/// out.png, 7, 360 -> out-007.png
-std::string numbered(const std::string& path, std::size_t k, std::size_t n) {
-  std::string digits = std::to_string(k);
-  digits.insert(0, std::to_string(n).size() - digits.size(), '0');
-  const std::size_t dot = path.rfind('.'), slash = path.rfind('/');
-  if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) return path + "-" + digits;
-  return path.substr(0, dot) + "-" + digits + path.substr(dot);
 }
 
 void write_pictures(const Options& o, const std::vector<io::Image>& images, const render::Scene& scene) {
@@ -202,7 +180,7 @@ void write_pictures(const Options& o, const std::vector<io::Image>& images, cons
   if (images.size() > 1 && o.as == "animation") {
     io::write_file(o.output, io::apng_bytes(images, o.seconds, texts));
   } else if (images.size() > 1 && o.as == "files") {
-    for (std::size_t k = 0; k < images.size(); ++k) io::write_png(numbered(o.output, k + 1, images.size()), images[k], texts);
+    for (std::size_t k = 0; k < images.size(); ++k) io::write_png(io::numbered_path(o.output, k + 1, images.size()), images[k], texts);
   } else {
     const int columns = o.columns > 0 ? o.columns : std::min<int>(images.size() > 8 ? 6 : 4, static_cast<int>(images.size()));
     io::write_png(o.output, images.size() == 1 ? images[0] : render::contact_sheet(images, split(o.labels), columns), texts);
@@ -219,11 +197,11 @@ int run_render(cli::Tool& tool, const Options& o) {
   options.width = size[0];
   options.height = size[1];
   if (std::max(size[0], size[1]) > 4096) options.supersample = 1; // four samples a pixel would need gigabytes
-  options.background = o.background == "grey"    ? render::Background::GREY
-                       : o.background == "white" ? render::Background::WHITE
-                                                 : render::Background::TRANSPARENT;
+  options.background = parse_background(o.background);
   options.context = o.context == "egl" ? render::ContextKind::EGL : render::ContextKind::OSMESA;
-  const auto views = parse_views(o);
+  auto views = o.camera.empty() ? render::parse_views(o.view) : std::vector<std::optional<render::CameraOptions>>{render::read_camera(o.camera)};
+  for (auto& v : views)
+    if (v && o.camera.empty() && o.field_height > 0) v->field_height = o.field_height;
   const render::Show show = render::parse_show(o.show);
   const std::vector<int> colors = parse_colors(o.colors);
   const auto& maps = render::map_names();

@@ -121,4 +121,12 @@ std::string sha256(std::string_view bytes) {
   return hex;
 }
 
+std::string numbered_path(const std::string& path, std::size_t k, std::size_t n) {
+  std::string digits = std::to_string(k);
+  digits.insert(0, std::to_string(n).size() - digits.size(), '0');
+  const std::size_t dot = path.rfind('.'), slash = path.rfind('/');
+  if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) return path + "-" + digits;
+  return path.substr(0, dot) + "-" + digits + path.substr(dot);
+}
+
 } // namespace sloper::io

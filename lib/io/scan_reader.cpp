@@ -106,7 +106,7 @@ private:
         {"float", PlyType::F32}, {"float32", PlyType::F32}, {"double", PlyType::F64}, {"float64", PlyType::F64}};
     for (const auto& [name, type] : names)
       if (word == name) return type;
-    fail(m_lines.place(), "\"" + std::string(word.substr(0, 20)) + "\" is not a PLY type");
+    fail(m_lines.place(), '"' + std::string(word.substr(0, 20)) + "\" is not a PLY type");
   }
 
   void read_header() {
@@ -148,7 +148,7 @@ private:
     if (m_ascii) {
       double x = 0;
       const std::string_view word = next_word(line);
-      if (!parse_number(word, x)) fail(m_lines.place(), word.empty() ? "a number is missing" : "\"" + std::string(word.substr(0, 20)) + "\" is not a number");
+      if (!parse_number(word, x)) fail(m_lines.place(), word.empty() ? "a number is missing" : '"' + std::string(word.substr(0, 20)) + "\" is not a number");
       return x;
     }
     const int n = size_of(type);

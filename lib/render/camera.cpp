@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdio>
+#include <sstream>
 
 namespace sloper::render {
 
@@ -105,6 +107,28 @@ CameraOptions named_view(const std::string& view) {
   options.elevation = units::radians(14);
   if (view == "iso") return options;
   throw Error(ErrorKind::USAGE, "", "--view " + view, "is not known", "known are front, back, left, right, iso, pattern and turntable:N");
+}
+
+std::vector<std::optional<CameraOptions>> parse_views(const std::string& list) {
+  std::vector<std::optional<CameraOptions>> views;
+  std::stringstream stream(list);
+  for (std::string word; std::getline(stream, word, ',');) {
+    int turns = 0;
+    char end = 0;
+    if (word == "pattern") {
+      views.emplace_back();
+    } else if (std::sscanf(word.c_str(), "turntable:%d%c", &turns, &end) == 1) {
+      if (turns < 1 || turns > 360) throw Error(ErrorKind::USAGE, "", "--view " + word, "needs 1 to 360 views");
+      for (int k = 0; k < turns; ++k) {
+        views.emplace_back(named_view("front"));
+        views.back()->azimuth = 2 * units::PI * k / turns;
+      }
+    } else {
+      views.emplace_back(named_view(word));
+    }
+  }
+  if (views.empty()) throw Error(ErrorKind::USAGE, "", "--view", "names no view");
+  return views;
 }
 
 } // namespace sloper::render

@@ -33,5 +33,7 @@ struct Camera {
 Camera frame_scene(const std::vector<DrawMesh>& meshes, const CameraOptions& options, double width_over_height);
 /// Azimuth and elevation of "front", "back", "left", "right", "iso". @throws Error USAGE
 CameraOptions named_view(const std::string& view);
+/// "front,iso,pattern,turntable:36": a camera for each view, none for the pattern laid flat. @throws Error USAGE
+std::vector<std::optional<CameraOptions>> parse_views(const std::string& list);
 
 } // namespace sloper::render

@@ -258,7 +258,9 @@ struct Renderer::Impl {
     gl.UniformMatrix4fv(uniform(line_program, "clip"), 1, GL_FALSE, clip.data());
     gl.Uniform2f(uniform(line_program, "half_size"), 0.5f * static_cast<float>(options.width), 0.5f * static_cast<float>(options.height));
     gl.Uniform1f(uniform(line_program, "width"), 0.9f * std::max(1.f, static_cast<float>(std::min(options.width, options.height)) / 1200.f));
-    gl.Uniform1f(uniform(line_program, "nearer"), static_cast<float>(0.0025 / (2 * camera.half_depth)));
+    const auto cloth = std::count_if(parts.begin(), parts.end(), [](const Part& p) { return p.kind == CLOTH; });
+    const double lift = cloth > 1 ? 0.0012 : 0.0025; // m: seams of an inner garment stay below the outer one
+    gl.Uniform1f(uniform(line_program, "nearer"), static_cast<float>(lift / (2 * camera.half_depth)));
     for (const Part& part : parts) {
       const bool ground_seen = part.kind == GROUND && camera.elevation > units::radians(2);
       if (part.kind == GROUND && !ground_seen) continue;
@@ -287,7 +289,7 @@ struct Renderer::Impl {
     const int s = options.supersample;
     const unsigned n = static_cast<unsigned>(s * s);
     const std::size_t row = 4 * static_cast<std::size_t>(image.width) * s;
-    const unsigned ground_grey = options.background == Background::GREY ? 219 : 255;
+    const unsigned color = static_cast<unsigned>(options.background.value_or(0)), ground[] = {color >> 16 & 255, color >> 8 & 255, color & 255};
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x) {
         unsigned sum[4] = {};
@@ -296,12 +298,12 @@ struct Renderer::Impl {
           for (int dx = 0; dx < s; ++dx)
             for (int k = 0; k < 4; ++k) sum[k] += corner[row * static_cast<std::size_t>(dy) + 4 * static_cast<std::size_t>(dx) + k];
         std::uint8_t* out = image.at(x, y);
-        if (options.background == Background::TRANSPARENT) { // colours are multiplied by coverage: undo that
+        if (!options.background) { // colours are multiplied by coverage: undo that
           for (int k = 0; k < 3; ++k) out[k] = sum[3] ? static_cast<std::uint8_t>(std::min(255u, (255 * sum[k] + sum[3] / 2) / sum[3])) : 0;
           out[3] = static_cast<std::uint8_t>((sum[3] + n / 2) / n);
         } else {
           const unsigned rest = 255 * n - sum[3];
-          for (int k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>((255 * sum[k] + rest * ground_grey + 255 * n / 2) / (255 * n));
+          for (int k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>((255 * sum[k] + rest * ground[k] + 255 * n / 2) / (255 * n));
           out[3] = 255;
         }
       }

@@ -2,21 +2,21 @@
 /// Drawing a scene into a picture.
 #include <io/png.hpp>
 #include <memory>
+#include <optional>
 #include <render/camera.hpp>
 #include <render/context.hpp>
 namespace sloper::render {
 
-enum class Background { WHITE, GREY, TRANSPARENT };
 /// What cloth looks like that has pattern coordinates; PRINT shows DrawOptions::print.
 enum class Fabric { PLAIN, WOVEN, TWILL, STRIPES, CHECKS, PRINT };
 
 struct DrawOptions {
   int width = 800, height = 1000;
-  int supersample = 2;           ///< each pixel is the mean of its square
-  int occlusion_directions = 32; ///< of the ambient light; 0 leaves everything unshadowed
-  Background background = Background::WHITE;
-  bool ground = true;       ///< a soft shadow on the floor, seen from above the horizon
-  bool border_lines = true; ///< seams and hems
+  int supersample = 2;                      ///< each pixel is the mean of its square
+  int occlusion_directions = 32;            ///< of the ambient light; 0 leaves everything unshadowed
+  std::optional<int> background = 0xffffff; ///< 0xRRGGBB; none: transparent
+  bool ground = true;                       ///< a soft shadow on the floor, seen from above the horizon
+  bool border_lines = true;                 ///< seams and hems
   Fabric fabric = Fabric::WOVEN;
   io::Image print;              ///< repeats along warp and weft
   double print_size = 0.1;      ///< m, width and height of one repeat

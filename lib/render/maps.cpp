@@ -14,8 +14,9 @@ using garment::Garment;
 using Flat = Eigen::Matrix2d;
 using Deformation = Eigen::Matrix<double, 3, 2>;
 
-constexpr double TOUCHING = 0.003; // m beyond the drape's contact gap at which cloth still presses
-constexpr double FAR = 0.3;        // m: gaps are measured up to here
+constexpr double TOUCHING = 0.003;       // m beyond the drape's contact gap at which cloth still presses
+constexpr double E100_TENSION = 98.0665; // N/m, 100 gf/cm
+constexpr double FAR = 0.3;              // m: gaps are measured up to here
 
 const garment::Material& material_of(const Garment& g, int panel) {
   static const garment::Material standard;
@@ -79,9 +80,11 @@ double larger(double a, double b) { return std::abs(a) >= std::abs(b) ? a : b; }
 std::vector<double> strain_values(const Garment& g, Map map) {
   VertexMean mean(g.panels.pattern.size());
   const double r = std::sqrt(0.5);
-  for_triangles(g, [&](int f, int, const Deformation& d, const Flat& rest, const Flat&, double area) {
+  for_triangles(g, [&](int f, int panel, const Deformation& d, const Flat& rest, const Flat&, double area) {
     const double weft = strain_along(d, rest, {1, 0}), warp = strain_along(d, rest, {0, 1});
-    const double value = map == Map::WARP   ? warp
+    const garment::Material& m = material_of(g, panel);
+    const double value = map == Map::LIMIT  ? std::max({warp * m.stretch_warp_n_m, weft * m.stretch_weft_n_m, 0.0}) / E100_TENSION
+                         : map == Map::WARP ? warp
                          : map == Map::WEFT ? weft
                          : map == Map::BIAS ? larger(strain_along(d, rest, {r, r}), strain_along(d, rest, {r, -r}))
                                             : larger(warp, weft);
@@ -198,7 +201,8 @@ void color_parts(Scene& scene) {
 } // namespace
 
 const std::vector<std::string>& map_names() {
-  static const std::vector<std::string> names = {"none", "strain", "warp", "weft", "bias", "gap", "pressure", "ease", "penetration", "difference", "parts"};
+  static const std::vector<std::string> names = {"none", "strain",   "warp", "weft",        "bias",       "limit",
+                                                 "gap",  "pressure", "ease", "penetration", "difference", "parts"};
   return names;
 }
 
@@ -233,7 +237,7 @@ Legend apply_map(Scene& scene, Map map, double limit) {
     scene.garment_mesh.pop_back();
     for (int* mesh : {&scene.garment_mesh[0], &scene.body_mesh})
       if (*mesh > hidden) --*mesh;
-  } else if (map == Map::STRAIN || map == Map::WARP || map == Map::WEFT || map == Map::BIAS) {
+  } else if (map == Map::STRAIN || map == Map::WARP || map == Map::WEFT || map == Map::BIAS || map == Map::LIMIT) {
     for (const Garment& g : scene.garments) values.push_back(strain_values(g, map));
   } else {
     if (!scene.body) throw Error(ErrorKind::USAGE, "", option, "needs the body too", "give body.json as a document");
@@ -255,6 +259,7 @@ Legend apply_map(Scene& scene, Map map, double limit) {
     legend.title = "ease at the level", legend.unit = "cm", legend.high = choose_range(legend.p99, {8, 16, 32, 80}), legend.diverging = true;
     break;
   case Map::DIFFERENCE: legend.title = "difference", legend.unit = "mm", legend.high = choose_range(legend.p99, {0.8, 4, 8, 40, 160, 800}); break;
+  case Map::LIMIT: legend.title = "share of strain limit", legend.unit = "%", legend.high = choose_range(legend.p99, {80, 160, 400, 1600}); break;
   default:
     legend.title = map == Map::STRAIN ? "strain" : "strain, " + map_names()[static_cast<int>(map)];
     legend.unit = "%", legend.high = choose_range(legend.p99, {4, 8, 20, 40}), legend.diverging = true;

@@ -67,6 +67,20 @@ TEST(Maps, strain_along_warp_weft_and_bias_is_that_of_a_homogeneous_stretch) {
   }
 }
 
+TEST(Maps, strain_is_compared_with_the_limit_of_its_own_fabric) {
+  const auto stretched = [](const Vec2& p) { return Vec3(1.02 * p.x(), 1.01 * p.y(), 0); };
+  garment::Garment soft = make_sheet(4, stretched), stiff = make_sheet(4, stretched);
+  soft.materials[""].stretch_weft_n_m = 98.0665; // doubles its length under 100 gf/cm
+  stiff.materials[""].stretch_weft_n_m = 4903.325;
+  stiff.materials[""].stretch_warp_n_m = 980.665;
+  soft.materials[""].stretch_warp_n_m = 1;
+  Scene scene = scene_of({soft, stiff});
+  const Legend legend = apply_map(scene, Map::LIMIT);
+  EXPECT_FALSE(legend.diverging);
+  for (double v : scene.meshes[0].values) EXPECT_NEAR(v, 2, 1e-9);
+  for (double v : scene.meshes[1].values) EXPECT_NEAR(v, 100, 1e-9);
+}
+
 TEST(Maps, edited_rest_lengths_count_in_strain) {
   garment::Garment g = make_sheet(3, flat);
   g.rest_scale.assign(g.panels.triangles.size(), {2, 2, 2});
