@@ -22,7 +22,7 @@
 
 namespace sloper::cli {
 
-static constexpr int DEFAULT_THREADS = 1; // batches run one program per core; more threads hardly help a garment of some thousand vertices
+static constexpr int MOST_DEFAULT_THREADS = 8; // a garment of some thousand vertices has no work for more
 
 struct Tool::Impl {
   std::string name, summary, reads, writes;
@@ -56,7 +56,7 @@ Tool::Tool(const std::string& name, const std::string& summary) : m_impl(std::ma
   m.app.add_flag("-v,--verbose", m.reporter.verbose, "say what is done, the options as resolved, time and memory")->group(common);
   m.app.add_flag("-V,--version", m.version_asked, "show the version and the formats")->group(common);
   m.app.add_flag("--no-progress", m.no_progress, "no progress line (there is none when stderr is not a terminal)")->group(common);
-  m.app.add_option("--threads", m.threads, "threads, 0 for all processors; results do not depend on it (default: 1)")
+  m.app.add_option("--threads", m.threads, "threads, 0 for all processors; results do not depend on it (default: the processors, at most 8)")
       ->check(finite_in(0, 1024, ""))
       ->group(common);
   m.app.add_flag("--generate-man", m.man_asked)->group("");
@@ -250,7 +250,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& body) {
     }
     auto parsed = [&m] {
       m.reporter.show_progress = !m.no_progress;
-      set_thread_count(m.threads > 0 ? m.threads : m.threads == 0 ? available_processors() : DEFAULT_THREADS);
+      set_thread_count(m.threads > 0 ? m.threads : m.threads == 0 ? available_processors() : std::min(available_processors(), MOST_DEFAULT_THREADS));
     };
     const int code = parse_and_run(m.app, words, m.reporter, parsed, body);
     m.reporter.clear_line();

@@ -19,14 +19,17 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double SEWN_GAP = 5e-4;   // m: a stitch this short is welded
-constexpr int SEW_STEPS = 600;      // at most
-constexpr double SEW_REACH = 0.05;  // m: the pull of a stitch does not grow beyond this gap
-constexpr double SEW_PULL = 10;     // of a stitch at reach, in weights of a particle
-constexpr double SEW_SEARCH = 0.75; // of the mesh edge: cloth nearer than this is watched while sewing
-constexpr double SEW_MOVE = 0.4;    // of the mesh edge: of any particle in one step
+constexpr double SEWN_GAP = 5e-4;      // m: a stitch this short is welded
+constexpr int SEW_STEPS = 600;         // at most
+constexpr double SEW_REACH = 0.05;     // m: the pull of a stitch does not grow beyond this gap
+constexpr double SEW_PULL = 10;        // of a stitch at reach, in weights of a particle
+constexpr double SEW_SEARCH = 0.75;    // of the mesh edge: cloth nearer than this is watched while sewing
+constexpr double SEW_MOVE = 0.8;       // of the mesh edge: of any particle in one step
+constexpr double SEW_TOLERANCE = 0.05; // relative residual of a step: only where the panels end up counts
+constexpr double SEW_GROWTH = 1.6;     // of the pull where seams hardly close on, in five steps by a part of SEW_SLOW
+constexpr double SEW_SLOW = 0.04;
 constexpr double SEW_STEP_S = 0.1;
-constexpr double SEW_STRONGEST = 5;      // N at reach
+constexpr double SEW_STRONGEST = 20;     // N at reach: closes seams of garments that fit tightly
 constexpr double SEW_LEG_SCALE = 0.7;    // of the body's thickness while trousers are sewn
 constexpr double SEW_BENDING = 30;       // times that of the fabric
 constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step while the body is inflated
@@ -164,7 +167,8 @@ bool DrapeRun::step(double h, double inertia, double largest_move_m) {
   options.h = h;
   options.inertia = inertia;
   const bool far = m_settling && m_at.last.residual_force_ratio > FAR_RESIDUAL; // the line search shortens whatever is too rough
-  options.cg_tolerance = far ? std::max(FAR_TOLERANCE, m_settings.cg_tolerance) : m_settings.cg_tolerance;
+  const double rough = m_sewing ? SEW_TOLERANCE : far ? FAR_TOLERANCE : 0;
+  options.cg_tolerance = std::max(rough, m_settings.cg_tolerance);
   options.cg_max_iterations = m_settings.cg_max_iterations;
   m_at.last = m_solver->step(options);
   m_at.cg_iterations.push_back(m_at.last.cg.iterations);
@@ -226,10 +230,10 @@ void DrapeRun::sew() {
     if (k % 20 == 0)
       m_reporter.info("sew step " + std::to_string(k) + ": largest gap " + millimetres(gaps.back()) + ", pull " + std::to_string(m_at.pull) + " N");
     if (gaps.back() < SEWN_GAP) break;
-    const bool slow = k >= m_at.pull_changed + 5 && gaps[k] > 0.96 * gaps[k - 5];
+    const bool slow = k >= m_at.pull_changed + 5 && gaps[k] > (1 - SEW_SLOW) * gaps[k - 5];
     if (slow && m_at.pull >= SEW_STRONGEST && k >= m_at.pull_changed + 20) break; // it will not come closer
     if (slow && m_at.pull < SEW_STRONGEST) {
-      m_at.pull = std::min(1.6 * m_at.pull, SEW_STRONGEST);
+      m_at.pull = std::min(SEW_GROWTH * m_at.pull, SEW_STRONGEST);
       m_at.pull_changed = k;
     }
     if (!step(SEW_STEP_S, 0, SEW_MOVE * mean_edge())) return;

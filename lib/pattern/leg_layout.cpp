@@ -18,6 +18,21 @@ double middle_height(const PanelMesh& mesh, const PanelRole& role, const PanelSp
   return 0.5 * (b[0].y() + b[1].y());
 }
 
+/// Rows between a leg and its cuff go over from the one to the other.
+void bridge(std::vector<LegRow>& rows, LegRow::Span LegRow::*span) {
+  const auto there = [&](std::size_t k) { return (rows[k].*span).width() > 0; };
+  std::size_t last = rows.size();
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (!there(k)) continue;
+    for (std::size_t j = last + 1; last < rows.size() && j < k; ++j) {
+      const double t = static_cast<double>(j - last) / static_cast<double>(k - last);
+      const LegRow::Span &a = rows[last].*span, &b = rows[k].*span;
+      (rows[j].*span).in = (1 - t) * a.in + t * b.in, (rows[j].*span).out = (1 - t) * a.out + t * b.out;
+    }
+    last = k;
+  }
+}
+
 /// Where the sides end in a zone, they go on straight up (or down).
 void carry_on(std::vector<LegRow>& rows, LegRow::Span LegRow::*span, double step, bool top) {
   const int n = static_cast<int>(rows.size()), zone = static_cast<int>(std::lround((top ? TOP_ZONE : BOTTOM_ZONE) / step));
@@ -105,6 +120,7 @@ std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>
         take(row, sign * (a.x() + (row - ra) / (rb - ra) * (b.x() - a.x())));
     }
   }
+  for (const auto span : {&LegRow::front, &LegRow::back, &LegRow::ring}) bridge(rows, span);
   for (const auto span : {&LegRow::front, &LegRow::back, &LegRow::ring}) carry_on(rows, span, step, true), carry_on(rows, span, step, false);
   return rows;
 }

@@ -1,44 +1,15 @@
 #include <base/units.hpp>
+#include <pattern/leg_roles.hpp>
 #include <pattern/panel_role.hpp>
+#include <pattern/panel_turn.hpp>
+#include <pattern/panel_words.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 
 namespace sloper::pattern {
 namespace {
-
-using Words = std::set<std::string>;
-
-/// Lower-case words of a name: "skirtFront_L2" is skirt, front, l.
-Words words_of(const std::string& name) {
-  Words words;
-  std::string word;
-  char last = 0;
-  for (char c : name + "_") {
-    const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
-    if (!letter || (std::isupper(static_cast<unsigned char>(c)) && std::islower(static_cast<unsigned char>(last)))) {
-      if (!word.empty()) words.insert(word);
-      word.clear();
-    }
-    if (letter) word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    last = c;
-  }
-  return words;
-}
-
-bool any_of(const Words& words, std::initializer_list<const char*> wanted) {
-  return std::any_of(wanted.begin(), wanted.end(), [&](const char* w) { return words.count(w) != 0; });
-}
-
-/// Whether some word begins with one of these.
-bool any_begins(const Words& words, std::initializer_list<const char*> wanted) {
-  for (const std::string& w : words)
-    for (const char* start : wanted)
-      if (w.rfind(start, 0) == 0) return true;
-  return false;
-}
 
 class Roles {
 public:
@@ -52,12 +23,15 @@ public:
     for (std::size_t k = 0; k < n; ++k) by_hint(k);
     for (std::size_t k = 0; k < n; ++k)
       if (!m_known[k]) by_name(k);
+    necks_by_height();
+    turn_trunk_panels(m_pattern, m_mesh, m_graph, m_roles);
     for (std::size_t k = 0; k < n; ++k) arm_side(k);
     for (std::size_t k = 0; k < n; ++k) rings(k);
+    ring_of_gores();
     one_ring_all_ring();
     for (std::size_t k = 0; k < n; ++k)
       if (m_roles[k].region == Region::ARM_L || m_roles[k].region == Region::ARM_R) turn_arm_panel(k);
-    legs();
+    assign_legs(m_pattern, m_mesh, m_graph, m_roles);
     return std::move(m_roles);
   }
 
@@ -103,7 +77,7 @@ private:
         role.side = Side::RING, role.theta = 0;
         return;
       }
-      side_from_theta(role, hint.theta.value_or(has_word(k, "back") ? units::PI : 0));
+      side_from_theta(role, hint.theta.value_or(says_back(m_words[k]) ? units::PI : 0));
       if (hint.anchor && (hint.radius || std::abs(std::remainder(*hint.theta, units::PI)) < 1e-6) && role.side != Side::RING && hint.part != "leg_l" &&
           hint.part != "leg_r")
         role.du = std::remainder(role.theta - (role.side == Side::BACK ? units::PI : 0), 2 * units::PI) * hint.radius.value_or(0) - hint.anchor->x();
@@ -117,44 +91,100 @@ private:
     const Vec2 m = middle(k);
     const Vec3 center = (*hint.rigid * Eigen::Vector4d(m.x(), m.y(), 0, 1)).head<3>();
     const Words& words = m_words[k];
-    const bool arm = panel.label == "arm" || any_begins(words, {"sleeve", "cuff", "arm"});
-    if (arm && any_begins(words, {"sleeve", "cuff", "arm", "sl"})) role.region = center.x() > 0 ? Region::ARM_L : Region::ARM_R;
-    else if (any_begins(words, {"collar", "hood", "neck", "stand"})) role.region = Region::NECK;
-    else role.part = panel.label == "leg" ? "lower_body" : "torso";
+    const bool legs = panel.label == "leg" || says_legs(words) || says_skirt(words);
+    const bool arm = !legs && (says_sleeve(words) || says_cuff(words) || (panel.label == "arm" && !any_begins(words, {"torso", "bodice", "ftorso", "btorso"})));
+    if (arm) role.region = center.x() > 0 ? Region::ARM_L : Region::ARM_R;
+    else if (!legs && says_neck(words)) role.region = Region::NECK;
+    else role.part = legs ? "lower_body" : "torso";
     if (std::hypot(normal.x(), normal.z()) < 0.3) { // drawn lying: names decide
-      role.side = has_word(k, "back") ? Side::BACK : Side::FRONT;
+      role.side = says_back(words) ? Side::BACK : Side::FRONT;
       return;
     }
     side_from_theta(role, std::atan2(normal.x(), normal.z()));
-    if (role.region == Region::NECK) {
-      if (role.side == Side::FRONT) role.theta = 0;
-      role.side = Side::RING;
-      return;
-    }
-    if (role.region != Region::TRUNK) return;
+    if (role.region != Region::TRUNK && role.region != Region::NECK) return;
     const Vec3 u_axis = Vec3::UnitY().cross(normal).normalized();
     const double angle = std::atan2(r.col(0).y(), r.col(0).dot(u_axis));
     role.turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
+    if (role.region == Region::NECK) return around_neck(role);
     role.dv = center.y() - (role.turn * m).y();
     if (role.side != Side::RING) role.du = (role.side == Side::BACK ? -center.x() : center.x()) - (role.turn * m).x();
   }
 
-  bool has_word(std::size_t k, const char* word) const { return m_words[k].count(word) != 0; }
+  static void around_neck(PanelRole& role) {
+    if (role.side == Side::FRONT) role.theta = 0;
+    role.side = Side::RING;
+    role.du.reset(), role.dv.reset();
+  }
+
+  /// Whether a level seam at its top joins the panel to one of the other side.
+  bool has_shoulder(std::size_t k) const {
+    double low = 1e300, high = -1e300;
+    for (int v : m_mesh.panels[k].outline) low = std::min(low, turned(k, v).y()), high = std::max(high, turned(k, v).y());
+    for (int q : m_graph.neighbours(static_cast<int>(k))) {
+      const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
+      if (other.region != Region::TRUNK || other.side == m_roles[k].side) continue;
+      for (const auto& seam : m_graph.between(static_cast<int>(k), q)) {
+        const Vec2 a = turned(k, seam.front()[0]), b = turned(k, seam.back()[0]);
+        if (std::abs(a.x() - b.x()) > std::abs(a.y() - b.y()) && std::min(a.y(), b.y()) > low + 0.75 * (high - low)) return true;
+      }
+    }
+    return false;
+  }
+  Vec2 turned(std::size_t k, int vertex) const { return m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(vertex)]; }
+
+  /// Hinted panels without a word for it that stand above all that they are sewn to, near the middle: hoods, collars.
+  void necks_by_height() {
+    const auto range = [&](std::size_t k) { // of the height of its hint
+      Vec2 y(1e300, -1e300);
+      for (int v : m_mesh.panels[k].outline) {
+        const Vec2& p = m_mesh.pattern[static_cast<std::size_t>(v)];
+        const double h = (*m_pattern.panels[k].hint.rigid * Eigen::Vector4d(p.x(), p.y(), 0, 1)).y();
+        y = Vec2(std::min(y.x(), h), std::max(y.y(), h));
+      }
+      return y;
+    };
+    std::vector<std::size_t> found;
+    for (std::size_t k = 0; k < m_roles.size(); ++k) {
+      const auto& hint = m_pattern.panels[k].hint;
+      if (!hint.rigid || m_roles[k].region != Region::TRUNK || m_roles[k].part != "torso" || m_graph.neighbours(static_cast<int>(k)).empty()) continue;
+      const Vec2 own = range(k), m = middle(k);
+      const double x = (*hint.rigid * Eigen::Vector4d(m.x(), m.y(), 0, 1)).x();
+      bool above = std::abs(x) < 0.2, trunk = false;
+      for (int q : m_graph.neighbours(static_cast<int>(k))) {
+        const std::size_t o = static_cast<std::size_t>(q);
+        if (m_roles[o].region != Region::TRUNK || !m_pattern.panels[o].hint.rigid) continue;
+        const Vec2 other = range(o);
+        const bool lower = 0.5 * (own.x() + own.y()) > other.y() + 0.01 && has_shoulder(o);
+        trunk = trunk || lower;
+        above = above && (lower || std::abs(own.x() - other.x()) < 0.05); // or is its like
+      }
+      if (above && trunk) found.push_back(k);
+    }
+    for (std::size_t k : found) m_roles[k].region = Region::NECK, m_roles[k].part.clear(), around_neck(m_roles[k]);
+  }
 
   void by_name(std::size_t k) {
     PanelRole& role = m_roles[k];
     const Words& words = m_words[k];
-    const bool back = any_begins(words, {"back", "bck", "rear", "bk"}) || any_of(words, {"b", "cb", "yoke"});
-    role.side = back && !any_begins(words, {"front"}) ? Side::BACK : Side::FRONT;
-    if (any_begins(words, {"sleeve", "slv", "cuff", "manche"})) role.region = left_word(k) ? Region::ARM_L : Region::ARM_R;
-    else if (any_begins(words, {"collar", "stand", "neck", "hood", "kragen"})) role.region = Region::NECK, role.side = Side::RING, role.theta = units::PI;
-    else if (any_begins(words, {"skirt", "gore", "waist", "wb", "leg", "pant", "trouser", "short"})) role.part = "lower_body";
-    else role.part = "torso";
+    role.side = says_back(words) && !any_begins(words, {"front"}) ? Side::BACK : Side::FRONT;
+    const bool legs = says_legs(words) || says_skirt(words);
+    if (!legs && (says_sleeve(words) || cuff_of_sleeve(k))) role.region = says_left(words) ? Region::ARM_L : Region::ARM_R;
+    else if (!legs && says_neck(words)) role.region = Region::NECK, role.side = Side::RING, role.theta = units::PI;
+    else role.part = legs || says_cuff(words) ? "lower_body" : "torso";
     role.theta = role.region == Region::NECK || role.side == Side::BACK ? units::PI : 0;
   }
 
-  bool left_word(std::size_t k) const { return any_of(m_words[k], {"l", "left", "lft"}); }
-  bool right_word(std::size_t k) const { return any_of(m_words[k], {"r", "right", "rgt"}); }
+  /// Cuffs belong to sleeves, unless they are sewn to other panels only: to trousers.
+  bool cuff_of_sleeve(std::size_t k) const {
+    if (!says_cuff(m_words[k])) return false;
+    bool other = false;
+    for (int q : m_graph.neighbours(static_cast<int>(k))) {
+      const std::size_t o = static_cast<std::size_t>(q);
+      if (says_sleeve(m_words[o]) || m_pattern.panels[o].hint.part.rfind("arm", 0) == 0) return true;
+      other = other || !says_cuff(m_words[o]);
+    }
+    return !other;
+  }
 
   /// A sleeve without a word for its side hangs on the armhole that it is sewn to: seen from outside, the left armhole of a front
   /// is on its +u side, that of a back on its -u side.
@@ -165,14 +195,15 @@ private:
       role.part = role.region == Region::ARM_L ? "arm_l" : "arm_r";
       return;
     }
-    if (!left_word(k) && !right_word(k)) {
+    if (!says_left(m_words[k]) && !says_right(m_words[k])) {
       double vote = 0;
       for (int q : m_graph.neighbours(static_cast<int>(k))) {
         const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
         if (other.region != Region::TRUNK) continue;
         for (const auto& seam : m_graph.between(static_cast<int>(k), q))
           for (const auto& s : seam)
-            vote += (m_mesh.pattern[static_cast<std::size_t>(s[1])].x() - middle(static_cast<std::size_t>(q)).x()) * (other.side == Side::BACK ? -1 : 1);
+            vote +=
+                (other.turn * (m_mesh.pattern[static_cast<std::size_t>(s[1])] - middle(static_cast<std::size_t>(q)))).x() * (other.side == Side::BACK ? -1 : 1);
       }
       role.region = vote >= 0 ? Region::ARM_L : Region::ARM_R;
     }
@@ -199,17 +230,80 @@ private:
     }
   }
 
-  /// Where one gore of a skirt looks sideways, all gores of its row stand in a ring.
+  /// Where one gore of a skirt looks sideways, all gores of its row stand in a ring: those that upright seams lead to.
   void one_ring_all_ring() {
-    for (std::size_t k = 0; k < m_roles.size(); ++k) {
-      if (m_roles[k].region != Region::TRUNK || m_roles[k].side != Side::RING) continue;
-      if (m_graph.between(static_cast<int>(k), static_cast<int>(k)).size() > 0) continue;
-      for (int q : m_graph.neighbours(static_cast<int>(k))) {
-        PanelRole& other = m_roles[static_cast<std::size_t>(q)];
-        if (other.region == Region::TRUNK && other.part == m_roles[k].part && m_pattern.panels[static_cast<std::size_t>(q)].label == m_pattern.panels[k].label)
-          other.side = Side::RING;
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t k = 0; k < m_roles.size(); ++k) {
+        if (m_roles[k].region != Region::TRUNK || m_roles[k].side != Side::RING) continue;
+        if (m_graph.between(static_cast<int>(k), static_cast<int>(k)).size() > 0) continue;
+        for (int q : m_graph.neighbours(static_cast<int>(k))) {
+          PanelRole& other = m_roles[static_cast<std::size_t>(q)];
+          if (other.region != Region::TRUNK || other.side == Side::RING || other.part != m_roles[k].part) continue;
+          if (upright_seam(m_mesh, m_graph, m_roles, k, static_cast<std::size_t>(q))) other.side = Side::RING, changed = true;
+        }
       }
     }
+  }
+
+  /// Three panels or more whose names tell no side, each sewn upright to two others, one after the other all around: gores.
+  void ring_of_gores() {
+    std::vector<std::vector<std::size_t>> beside(m_roles.size());
+    const auto untold = [&](std::size_t k) {
+      const auto& hint = m_pattern.panels[k].hint;
+      return m_roles[k].region == Region::TRUNK && m_roles[k].side != Side::RING && !hint.rigid && hint.part.empty() && !says_front(m_words[k]) &&
+             !says_back(m_words[k]);
+    };
+    for (std::size_t k = 0; k < m_roles.size(); ++k)
+      if (untold(k))
+        for (int q : m_graph.neighbours(static_cast<int>(k)))
+          if (untold(static_cast<std::size_t>(q)) && upright_seam(m_mesh, m_graph, m_roles, k, static_cast<std::size_t>(q)))
+            beside[k].push_back(static_cast<std::size_t>(q));
+    // Godets go between two that are joined above them.
+    std::vector<std::size_t> godets;
+    std::vector<std::array<std::size_t, 2>> joined;
+    const auto joins = [&](std::size_t k, std::size_t q) { return std::find(beside[k].begin(), beside[k].end(), q) != beside[k].end(); };
+    for (std::size_t k = 0; k < m_roles.size(); ++k)
+      if (beside[k].size() == 2 && joins(beside[k][0], beside[k][1]) &&
+          m_mesh.panels[k].n_triangles < std::min(m_mesh.panels[beside[k][0]].n_triangles, m_mesh.panels[beside[k][1]].n_triangles) / 2)
+        godets.push_back(k), joined.push_back({beside[k][0], beside[k][1]});
+    for (std::size_t g = 0; g < godets.size(); ++g) {
+      for (std::size_t k : joined[g]) beside[k].erase(std::find(beside[k].begin(), beside[k].end(), godets[g]));
+      beside[godets[g]].clear();
+    }
+    for (std::size_t first = 0; first < m_roles.size(); ++first) {
+      if (beside[first].size() != 2 || m_roles[first].side == Side::RING) continue;
+      std::vector<std::size_t> row = {first, right_of(first, beside[first])};
+      while (row.back() != first && row.size() <= m_roles.size() && beside[row.back()].size() == 2)
+        row.push_back(beside[row.back()][0] == row[row.size() - 2] ? beside[row.back()][1] : beside[row.back()][0]);
+      if (row.size() < 4 || row.back() != first) continue;
+      row.pop_back();
+      double around = 0, at = 0;
+      for (std::size_t k : row) around += width(k);
+      for (std::size_t k : row) { // u runs to the wearer's left, as theta does
+        m_roles[k].side = Side::RING;
+        m_roles[k].theta = std::remainder((at + 0.5 * (width(k) - width(first))) / around * 2 * units::PI, 2 * units::PI);
+        at += width(k);
+      }
+    }
+    for (std::size_t g = 0; g < godets.size(); ++g) {
+      const PanelRole &a = m_roles[joined[g][0]], &b = m_roles[joined[g][1]];
+      if (a.side != Side::RING || b.side != Side::RING) continue;
+      m_roles[godets[g]].side = Side::RING;
+      m_roles[godets[g]].theta = std::atan2(std::sin(a.theta) + std::sin(b.theta), std::cos(a.theta) + std::cos(b.theta));
+    }
+  }
+
+  /// Of two neighbours the one that is sewn on at the +u side.
+  std::size_t right_of(std::size_t k, const std::vector<std::size_t>& two) const {
+    double u[2] = {0, 0};
+    for (std::size_t i : {0, 1}) {
+      double n = 0;
+      for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(two[i])))
+        for (const auto& s : seam) u[i] += (m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(s[0])]).x(), ++n;
+      u[i] /= std::max(n, 1.0);
+    }
+    return two[u[0] >= u[1] ? 0 : 1];
   }
 
   /// (u, v) of an arm panel: v runs along the seams that close the tube, towards the end that is sewn to the trunk (or to the sleeve).
@@ -254,87 +348,6 @@ private:
     for (int q : m_graph.neighbours(p))
       if (m_roles[static_cast<std::size_t>(q)].region == Region::TRUNK) return true;
     return false;
-  }
-
-  /// A seam between the two panels that rises more than it goes across.
-  bool upright_seam(std::size_t k, std::size_t q) const {
-    for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(q))) {
-      Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
-      for (const auto& s : seam) {
-        const Vec2 p = m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(s[0])];
-        low = low.cwiseMin(p), high = high.cwiseMax(p);
-      }
-      if (high.y() - low.y() > high.x() - low.x()) return true;
-    }
-    return false;
-  }
-
-  /// Leggings: a leg in one piece, sewn to itself along the inside, to its like above. The back's middle seam is the longer one, for
-  /// it goes over the seat; of a left leg, seen from outside, it is on the right.
-  bool one_piece_legs() {
-    std::vector<std::size_t> tubes;
-    for (std::size_t k = 0; k < m_roles.size(); ++k)
-      if (m_roles[k].region == Region::TRUNK && m_roles[k].side == Side::RING && upright_seam(k, k)) tubes.push_back(k);
-    if (tubes.size() != 2 || !upright_seam(tubes[0], tubes[1])) return false;
-    double back[2];
-    for (std::size_t i : {0, 1}) {
-      const std::size_t k = tubes[i];
-      back[i] = 0;
-      for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(tubes[1 - i])))
-        for (std::size_t s = 0; s + 1 < seam.size(); ++s) {
-          const Vec2 a = m_mesh.pattern[static_cast<std::size_t>(seam[s][0])], b = m_mesh.pattern[static_cast<std::size_t>(seam[s + 1][0])];
-          back[i] += (0.5 * (a.x() + b.x()) > middle(k).x() ? 1 : -1) * (a - b).norm();
-        }
-      back[i] += (left_word(k) ? 1e3 : 0) - (right_word(k) ? 1e3 : 0);
-    }
-    const bool first_left = back[0] >= back[1];
-    m_roles[tubes[0]].part = first_left ? "leg_l" : "leg_r", m_roles[tubes[1]].part = first_left ? "leg_r" : "leg_l";
-    return true;
-  }
-
-  /// Trouser legs: two front-back tubes that are sewn to each other. Only PanelInfo::part and the layout's order depend on it.
-  void legs() {
-    if (one_piece_legs()) return;
-    std::vector<std::size_t> tubes;
-    for (std::size_t k = 0; k < m_roles.size(); ++k) {
-      if (m_roles[k].region != Region::TRUNK || m_roles[k].side == Side::RING) continue;
-      bool tube = false;
-      for (int q : m_graph.neighbours(static_cast<int>(k))) {
-        if (m_roles[static_cast<std::size_t>(q)].side == m_roles[k].side) continue;
-        int n_long = 0;
-        const PanelInfo& info = m_mesh.panels[k];
-        double low = 1e300, high = -1e300;
-        for (int v : info.outline)
-          low = std::min(low, m_mesh.pattern[static_cast<std::size_t>(v)].y()), high = std::max(high, m_mesh.pattern[static_cast<std::size_t>(v)].y());
-        for (const auto& seam : m_graph.between(static_cast<int>(k), q)) {
-          double a = 1e300, b = -1e300;
-          for (const auto& s : seam)
-            a = std::min(a, m_mesh.pattern[static_cast<std::size_t>(s[0])].y()), b = std::max(b, m_mesh.pattern[static_cast<std::size_t>(s[0])].y());
-          if (b - a > 0.3 * (high - low)) ++n_long;
-        }
-        tube = tube || n_long >= 2;
-      }
-      const std::string& name = m_pattern.panels[k].name;
-      if (tube || name.find("pant") != std::string::npos || name.find("trouser") != std::string::npos || name.find("leg") != std::string::npos)
-        tubes.push_back(k);
-    }
-    // A waistband over a skirt is two tubes as well, one above the other: legs stand side by side, joined by upright seams.
-    std::vector<std::size_t> beside;
-    for (std::size_t k : tubes)
-      if (std::any_of(tubes.begin(), tubes.end(), [&](std::size_t q) { return q != k && m_roles[q].side == m_roles[k].side && upright_seam(k, q); }))
-        beside.push_back(k);
-    tubes = std::move(beside);
-    if (tubes.size() < 4) return;
-    for (std::size_t k : tubes) {
-      // The crotch is where the other leg's panel of the same side is sewn on; the left leg has it on its inner side.
-      double inner = 0;
-      for (int q : m_graph.neighbours(static_cast<int>(k)))
-        if (std::find(tubes.begin(), tubes.end(), static_cast<std::size_t>(q)) != tubes.end() && m_roles[static_cast<std::size_t>(q)].side == m_roles[k].side)
-          for (const auto& seam : m_graph.between(static_cast<int>(k), q))
-            for (const auto& s : seam) inner += m_mesh.pattern[static_cast<std::size_t>(s[0])].x() - middle(k).x();
-      const bool front = m_roles[k].side == Side::FRONT;
-      m_roles[k].part = (inner < 0) == front ? "leg_l" : "leg_r";
-    }
   }
 
   const Pattern& m_pattern;

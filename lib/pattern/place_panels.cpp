@@ -5,6 +5,7 @@
 #include <pattern/body_space.hpp>
 #include <pattern/folds.hpp>
 #include <pattern/leg_layout.hpp>
+#include <pattern/leg_roles.hpp>
 #include <pattern/panel_layout.hpp>
 #include <pattern/place_panels.hpp>
 #include <pattern/wrap_curve.hpp>
@@ -245,11 +246,13 @@ private:
     std::vector<Vec2> hull = m_space.points(axis, parts, b[0].y() - 0.02, b[1].y() + 0.02);
     if (hull.size() < 3) hull = m_space.points(axis, {Part::TORSO, Part::LEG_L, Part::LEG_R}, -1, 3);
     std::map<int, WrapCurve> curves;
-    if (group.side == Side::RING && place_on_cone(group, hull)) return;
     if (group.side == Side::RING) {
       double widest = 0; // panels of one height stand side by side: what overlaps in v adds up
       for (std::size_t k : group.panels) widest = std::max(widest, row_width(group, k));
-      for (std::size_t k : group.panels) {
+      std::vector<std::size_t> around;
+      for (const auto& row : rows_of(group))
+        if (!place_on_cone(group, row, hull)) around.insert(around.end(), row.begin(), row.end());
+      for (std::size_t k : around) {
         const int depth = m_depth[k];
         if (!curves.count(depth)) curves.emplace(depth, WrapCurve::around(hull, GAP + group.extra + LAYER * depth, widest));
         const WrapCurve& curve = curves.at(depth);
@@ -290,17 +293,38 @@ private:
     return {2 * std::atan2(0.5 * (width[1] - width[0]), 0.7 * (b[1].y() - b[0].y())), width[0]};
   }
 
-  /// Gores that widen downwards stand on a cone: each is a sector of it, so that neighbours' sides lie along each other.
-  bool place_on_cone(const Group& group, const std::vector<Vec2>& hull) {
+  /// Panels of a group that upright seams lead from one to the other.
+  std::vector<std::vector<std::size_t>> rows_of(const Group& group) const {
+    std::vector<std::vector<std::size_t>> rows;
+    std::vector<std::size_t> left = group.panels;
+    while (!left.empty()) {
+      std::vector<std::size_t> row = {left[0]};
+      left.erase(left.begin());
+      for (std::size_t i = 0; i < row.size(); ++i)
+        for (std::size_t j = 0; j < left.size();)
+          if (upright_seam(m_mesh, m_graph, m_roles, row[i], left[j])) row.push_back(left[j]), left.erase(left.begin() + static_cast<long>(j));
+          else ++j;
+      rows.push_back(std::move(row));
+    }
+    return rows;
+  }
+
+  /// Gores that widen downwards stand on a cone: each is a sector of it, so that neighbours' sides lie along each other. Not where they
+  /// differ: in where their tops are, as gores and godets do, or in how far off the tip of their cone would be.
+  bool place_on_cone(const Group& group, const std::vector<std::size_t>& row, const std::vector<Vec2>& hull) {
     std::vector<std::pair<double, std::size_t>> by_theta;
-    double total = 0;
-    for (std::size_t k : group.panels) {
-      const double angle = flare(k)[0];
+    double total = 0, low_top = 1e300, high_top = -1e300, tallest = 0, near_tip = 1e300, far_tip = 0;
+    for (std::size_t k : row) {
+      const auto [angle, top_width] = flare(k);
       if (angle < 0.03) return false;
       total += angle;
       by_theta.push_back({m_roles[k].theta, k});
+      const auto b = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+      const double tip = 0.5 * top_width / std::tan(0.5 * angle);
+      low_top = std::min(low_top, b[1].y()), high_top = std::max(high_top, b[1].y()), tallest = std::max(tallest, b[1].y() - b[0].y());
+      near_tip = std::min(near_tip, tip), far_tip = std::max(far_tip, tip);
     }
-    if (group.panels.size() < 3 || total < 0.3 || total > 5.5) return false;
+    if (row.size() < 3 || total < 0.3 || total > 5.5 || high_top - low_top > 0.25 * tallest || far_tip > 2 * near_tip) return false;
     std::sort(by_theta.begin(), by_theta.end());
     const double slope = std::asin(total / (2 * M_PI)); // half the cone's opening angle
     const Vec2 center = 0.5 * (Vec2(plane_low(hull), hull_end(hull, -1)) + Vec2(plane_high(hull), hull_end(hull, 1)));

@@ -199,7 +199,8 @@ TEST(Placement, LeggingsInOnePieceGoAroundTheirLegs) {
     }
 }
 
-TEST(Placement, LongTrousersStartAsSmoothTubesAboveTheFeetWithTheirWaistInPlace) {
+/// Long trousers of four pieces, with what a test adds.
+Pattern box_trousers(const std::string& more_panels = "", const std::string& more_seams = "") {
   std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "trousers", "panels": [)";
   for (const char* name : {"front_l", "front_r", "back_l", "back_r"}) {
     const std::string mirror = (std::string(name) == "front_r" || std::string(name) == "back_l") ? "-" : "";
@@ -212,20 +213,29 @@ TEST(Placement, LongTrousersStartAsSmoothTubesAboveTheFeetWithTheirWaistInPlace)
         {"edge": "waist", "path": [["L", -24, 103]]}, {"edge": "out", "path": [["L", -26, 0]]}]})";
     if (std::string(name) != "back_r") text += ",";
   }
-  text += R"(], "seams": [)";
+  text += more_panels + R"(], "seams": [)";
   const char* pairs[][3] = {{"front_l", "out", "back_l"}, {"front_r", "out", "back_r"},     {"front_l", "in", "back_l"},
                             {"front_r", "in", "back_r"},  {"front_l", "centre", "front_r"}, {"back_l", "centre", "back_r"}};
   for (const auto& pair : pairs)
     text += std::string(&pair == &pairs[0] ? "" : ",") + R"({"name": ")" + pair[0] + pair[1] + R"(", "a": [{"panel": ")" + pair[0] + R"(", "edge": ")" +
             pair[1] + R"("}], "b": [{"panel": ")" + pair[2] + R"(", "edge": ")" + pair[1] + R"("}]})";
-  const Pattern pattern = own(text + "]}");
-  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  return own(text + more_seams + "]}");
+}
+
+body::Body body_with_ankles() {
   body::Body body = waisted_body();
   for (const char* side : {"_l", "_r"}) {
     body.landmarks[std::string("ankle") + side].p = Vec3(0.09, 0.08, 0);
     body.landmarks[std::string("knee") + side].p = Vec3(0.09, 0.5, 0);
   }
   body.landmarks["crotch"].p = Vec3(0, 0.8, 0);
+  return body;
+}
+
+TEST(Placement, LongTrousersStartAsSmoothTubesAboveTheFeetWithTheirWaistInPlace) {
+  const Pattern pattern = box_trousers();
+  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  const body::Body body = body_with_ankles();
   const PlacementReport report = place_panels(pattern, body, mesh);
   EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
   double bottom = 1e300, longest = 0, longest_above = 0;
@@ -260,6 +270,118 @@ TEST(Placement, LongTrousersStartAsSmoothTubesAboveTheFeetWithTheirWaistInPlace)
     if (std::max(at(k - 1).y(), at(k + 1).y()) < 0.7) {
       EXPECT_LT((at(k - 1) - 2 * at(k) + at(k + 1)).norm(), 0.008) << "the side seam bends at " << at(k).y();
     }
+  }
+}
+
+/// A skirt of gores as CAD lays pieces: along x, every other one upside down; their names tell nothing.
+Pattern lying_gores(int n) {
+  std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "gores", "panels": [)", seams;
+  for (int k = 0; k < n; ++k) {
+    const Eigen::Rotation2Dd turn(k % 2 ? M_PI / 2 : -M_PI / 2);
+    const auto point = [&](double x, double y) {
+      const Vec2 p = turn * Vec2(x, y);
+      return std::to_string(p.x()) + ", " + std::to_string(p.y());
+    };
+    const Vec2 grain = turn * Vec2(0, 1);
+    const std::string name = "piece " + std::to_string(k);
+    text += std::string(k ? "," : "") + R"({"name": ")" + name + R"(", "grain": [)" + std::to_string(grain.x()) + "," + std::to_string(grain.y()) +
+            R"(], "outline": [{"edge": "hem", "path": [["M", )" + point(-19, 0) + R"(], ["L", )" + point(19, 0) + R"(]]}, {"edge": "a", "path": [["L", )" +
+            point(13, 50) + R"(]]}, {"edge": "top", "path": [["L", )" + point(-13, 50) + R"(]]}, {"edge": "b", "path": [["L", )" + point(-19, 0) + "]]}]}";
+    seams += std::string(k ? "," : "") + R"({"name": "s)" + std::to_string(k) + R"(", "a": [{"panel": ")" + name +
+             R"(", "edge": "a"}], "b": [{"panel": "piece )" + std::to_string((k + 1) % n) + R"(", "edge": "b"}]})";
+  }
+  return own(text + R"(], "seams": [)" + seams + "]}");
+}
+
+TEST(Placement, GoresThatLieAlongTheClothStandUprightInARing) {
+  for (int n : {3, 4, 6}) {
+    SCOPED_TRACE(n);
+    const Pattern pattern = lying_gores(n);
+    PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+    const PlacementReport report = place_panels(pattern, waisted_body(), mesh);
+    EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
+    EXPECT_LT(report.seam_gap_mean, 0.15);
+    for (const PanelInfo& info : mesh.panels) { // wide at the bottom
+      double width[2] = {0, 0};
+      for (int v : info.outline)
+        for (int w : info.outline) {
+          const Vec3 &p = mesh.placed[static_cast<std::size_t>(v)], &q = mesh.placed[static_cast<std::size_t>(w)];
+          const Vec3 middle_of = middle(mesh, static_cast<int>(&info - mesh.panels.data()));
+          double& most = width[p.y() > middle_of.y()];
+          if ((p.y() > middle_of.y()) == (q.y() > middle_of.y())) most = std::max(most, (p - q).norm());
+        }
+      EXPECT_GT(width[0], width[1]) << info.name;
+    }
+  }
+}
+
+/// A shirt as GarmentCode has it, four halves of the trunk and what a test adds, with all hints but names of numbers.
+Pattern numbered(const std::string& more_panels, const std::string& more_stitches) {
+  const auto panel = [](const std::string& name, const std::string& points, double y, double z) {
+    std::string edges;
+    const long n = std::count(points.begin(), points.end(), '[') - 1;
+    for (long k = 0; k < n; ++k) edges += std::string(k ? "," : "") + R"({"endpoints": [)" + std::to_string(k) + "," + std::to_string((k + 1) % n) + "]}";
+    return "\"" + name + R"(": {"vertices": )" + points + R"(, "edges": [)" + edges + R"(], "translation": [0, )" + std::to_string(y) + "," +
+           std::to_string(z) + R"(], "rotation": [0, 0, 0], "label": "body"})";
+  };
+  const auto stitch = [](const char* a, int i, const char* b, int j) {
+    return std::string(R"([{"panel": ")") + a + R"(", "edge": )" + std::to_string(i) + R"(}, {"panel": ")" + b + R"(", "edge": )" + std::to_string(j) + "}]";
+  };
+  const std::string text = R"({"pattern": {"panels": {)" + panel("p0", "[[0, 0], [23, 0], [23, 23], [18, 44], [9, 46], [0, 34]]", 92, 30) + "," +
+                           panel("p1", "[[0, 0], [0, 43], [9, 46], [18, 44], [23, 23], [23, 0]]", 92, -25) + "," +
+                           panel("p2", "[[0, 0], [0, 34], [-9, 46], [-18, 44], [-23, 23], [-23, 0]]", 92, 30) + "," +
+                           panel("p3", "[[0, 0], [-23, 0], [-23, 23], [-18, 44], [-9, 46], [0, 43]]", 92, -25) + more_panels + R"(}, "stitches": [)" +
+                           stitch("p0", 3, "p1", 2) + "," + stitch("p0", 1, "p1", 4) + "," + stitch("p2", 2, "p3", 3) + "," + stitch("p2", 4, "p3", 1) + "," +
+                           stitch("p0", 5, "p2", 0) + "," + stitch("p1", 0, "p3", 5) + more_stitches +
+                           R"(]}, "properties": {"curvature_coords": "relative", "units_in_meter": 100}})";
+  Pattern pattern = read_garmentcode(io::parse_json(text, "t"), "t");
+  finish_pattern(pattern, "t");
+  return pattern;
+}
+
+TEST(Placement, AHoodWithoutAWordForItGoesAroundTheHead) {
+  const std::string hood =
+      R"(, "p4": {"vertices": [[0.8, 0], [-12, 36], [-23, 36], [-21, -11], [-10, 5]], "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]},
+      {"endpoints": [2, 3]}, {"endpoints": [3, 4]}, {"endpoints": [4, 0]}], "translation": [11, 149, -12], "rotation": [0, 90, 0], "label": "body"},
+    "p5": {"vertices": [[-0.8, 0], [10, 5], [21, -11], [23, 36], [12, 36]], "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]},
+      {"endpoints": [3, 4]}, {"endpoints": [4, 0]}], "translation": [-11, 149, -12], "rotation": [0, -90, 0], "label": "body"})";
+  const std::string stitches = R"(, [{"panel": "p0", "edge": 4}, {"panel": "p4", "edge": 3}], [{"panel": "p1", "edge": 1}, {"panel": "p4", "edge": 4}],
+    [{"panel": "p2", "edge": 1}, {"panel": "p5", "edge": 1}], [{"panel": "p3", "edge": 4}, {"panel": "p5", "edge": 0}],
+    [{"panel": "p5", "edge": 3}, {"panel": "p4", "edge": 1}], [{"panel": "p5", "edge": 4}, {"panel": "p4", "edge": 0}])";
+  const Pattern pattern = numbered(hood, stitches);
+  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  const PlacementReport report = place_panels(pattern, stick_body(45), mesh);
+  EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
+  EXPECT_EQ(mesh.panels[4].part, "neck");
+  EXPECT_EQ(mesh.panels[5].part, "neck");
+  EXPECT_GT(middle(mesh, 4).x(), 0.03) << "the left half on the left";
+  EXPECT_LT(middle(mesh, 5).x(), -0.03);
+  EXPECT_EQ(mesh.panels[0].part, "torso");
+}
+
+TEST(Placement, CuffsOfTrousersGoAroundTheirLegs) {
+  std::string panels, seams;
+  for (const char* side : {"l", "r"})
+    for (const char* at : {"front", "back"}) {
+      const std::string leg = std::string(at) + "_" + side, cuff = "cuff_" + leg;
+      panels += "," + rectangle(cuff, 20, 6);
+      seams += R"(, {"name": ")" + cuff + R"(", "a": [{"panel": ")" + leg + R"(", "edge": "hem"}], "b": [{"panel": ")" + cuff + R"(", "edge": "top"}]})";
+      if (std::string(at) == "back") continue;
+      for (const char* ends : {"lr", "rl"})
+        seams += R"(, {"name": ")" + cuff + ends + R"(", "a": [{"panel": ")" + cuff + R"(", "edge": ")" + ends[0] + R"("}], "b": [{"panel": "cuff_back_)" +
+                 side + R"(", "edge": ")" + ends[1] + R"("}]})";
+    }
+  const Pattern pattern = box_trousers(panels, seams);
+  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  const PlacementReport report = place_panels(pattern, body_with_ankles(), mesh);
+  EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
+  for (std::size_t k = 4; k < 8; ++k) {
+    const std::string& name = mesh.panels[k].name;
+    EXPECT_EQ(mesh.panels[k].part, name.back() == 'l' ? "leg_l" : "leg_r") << name;
+    const Vec3 m = middle(mesh, static_cast<int>(k));
+    EXPECT_NEAR(m.x(), name.back() == 'l' ? 0.09 : -0.09, 0.06) << name;
+    EXPECT_GT(m.z() * (name.find("front") != std::string::npos ? 1 : -1), 0.02) << name;
+    EXPECT_LT(m.y(), 0.25) << name;
   }
 }
 
