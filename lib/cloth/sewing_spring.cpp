@@ -33,10 +33,13 @@ double SewingSpringEffect::energy(const std::vector<Vec3>& x) const {
   return sum;
 }
 
-double SewingSpringEffect::largest_gap(const std::vector<Vec3>& x) const {
-  double largest = 0;
-  for (const auto& s : m_stitches) largest = std::max(largest, (x[s[1]] - x[s[0]]).norm());
-  return largest;
+SewingSpringEffect::Gap SewingSpringEffect::widest(const std::vector<Vec3>& x) const {
+  Gap widest;
+  for (const auto& [i, j] : m_stitches) {
+    const double length = (x[j] - x[i]).norm();
+    if (length > widest.length) widest = {length, 0.5 * (x[i] + x[j])};
+  }
+  return widest;
 }
 
 } // namespace sloper::cloth

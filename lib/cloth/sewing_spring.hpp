@@ -17,8 +17,12 @@ public:
   double energy(const std::vector<Vec3>& x) const override;
   void add(StepContext& c) override;
   void set_stiffness(double stiffness_n_m) { m_stiffness = stiffness_n_m; }
-  /// Largest gap of a stitch at x, m.
-  double largest_gap(const std::vector<Vec3>& x) const;
+  struct Gap {
+    double length = 0; ///< m
+    Vec3 middle = Vec3::Zero();
+  };
+  /// The stitch that is farthest from closed at x.
+  Gap widest(const std::vector<Vec3>& x) const;
   const std::vector<std::array<int, 2>>& stitches() const { return m_stitches; }
 
 private:

@@ -49,6 +49,12 @@ constexpr double UNTANGLE_STEP = 0.001; // m: of an edge against its face in one
 
 std::string millimetres(double m) { return std::to_string(std::lround(m * 1e4) / 10) + "." + std::to_string(std::lround(m * 1e4) % 10) + " mm"; }
 
+std::string place_text(const Vec3& p) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.3f, %.3f, %.3f) m", p.x(), p.y(), p.z());
+  return text;
+}
+
 } // namespace
 
 void DrapeRun::add_phase_time(const char* name, double wall_s) {
@@ -197,10 +203,7 @@ bool DrapeRun::step(double h, double inertia, double largest_move_m) {
 
 std::string DrapeRun::crossing_text() const {
   if (!m_body_contact || m_body_contact->n_crossing() == 0) return "";
-  const Vec3 p = m_body_contact->crossing_place();
-  char text[96];
-  std::snprintf(text, sizeof text, ", %zu faces through the skin, one at (%.3f, %.3f, %.3f) m", m_body_contact->n_crossing(), p.x(), p.y(), p.z());
-  return text;
+  return ", " + std::to_string(m_body_contact->n_crossing()) + " faces through the skin, one at " + place_text(m_body_contact->crossing_place());
 }
 
 void DrapeRun::log_crossings(const char* when) const {
@@ -225,7 +228,7 @@ void DrapeRun::sew() {
     checkpoint();
     m_sewing->set_stiffness(m_at.pull / SEW_REACH);
     std::vector<double>& gaps = m_at.gaps;
-    gaps.push_back(m_sewing->largest_gap(m_solver->x()));
+    gaps.push_back(m_sewing->widest(m_solver->x()).length);
     m_reporter.progress("sew", 0.4 * k / SEW_STEPS);
     if (k % 20 == 0)
       m_reporter.info("sew step " + std::to_string(k) + ": largest gap " + millimetres(gaps.back()) + ", pull " + std::to_string(m_at.pull) + " N");
@@ -238,8 +241,8 @@ void DrapeRun::sew() {
     }
     if (!step(SEW_STEP_S, 0, SEW_MOVE * mean_edge())) return;
   }
-  const double gap = m_sewing->largest_gap(m_solver->x());
-  if (gap > 5 * SEWN_GAP) m_report.repairs.push_back("seams were still open by " + millimetres(gap) + " when they were welded");
+  const auto [gap, where] = m_sewing->widest(m_solver->x());
+  if (gap > 5 * SEWN_GAP) m_report.repairs.push_back("seams were still open by " + millimetres(gap) + " at " + place_text(where) + " when they were welded");
   m_garment.position = m_solver->x();
   std::vector<Vec3> vertex_position(m_garment.particle_of.size());
   for (std::size_t v = 0; v < vertex_position.size(); ++v) vertex_position[v] = m_garment.position[m_garment.particle_of[v]];
