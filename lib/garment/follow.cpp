@@ -9,6 +9,7 @@
 #include <pattern/edits.hpp>
 #include <pattern/folds.hpp>
 #include <pattern/mesh_pattern.hpp>
+#include <pattern/place_panels.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -80,6 +81,7 @@ private:
       m_run.m_report.wall_s = m_run.elapsed();
       return;
     }
+    if (m_cold) return drape_cold();
     m_garment.position = m_run.m_solver->x();
     m_run.build_solver(false);
     m_run.m_report.steps = 0;     // the limit is for the way to rest
@@ -87,6 +89,13 @@ private:
     m_run.settle();
     m_run.finish();
     m_run.m_report.wall_s = m_run.elapsed();
+  }
+
+  /// As if nothing had hung before: friction and folds remember the way that cloth came, so only the same way gives the same drape.
+  void drape_cold() {
+    pattern::place_panels(m_pattern, *m_run.m_body, m_garment.panels);
+    m_garment.particle_of.clear(), m_garment.position.clear();
+    m_run.m_report = drape(m_garment, m_run.m_body, m_run.m_settings, m_reporter);
   }
 
   void take(const std::string& line) {
@@ -106,7 +115,10 @@ private:
         if (!node.has("edits")) document["edits"] = io::Json::array();
       } else {
         if (node.at("edit").string() == "end") {
-          m_end = true;
+          const std::string finish = node.string("finish", "warm");
+          if (finish != "warm" && finish != "cold") node.fail("there is no finish '" + finish + "'", "known are warm and cold");
+          if (finish == "cold" && !m_run.m_body) node.fail("without a body the panels cannot be placed for a cold finish", "give --body, or finish warm");
+          m_end = true, m_cold = finish == "cold";
           return;
         }
         if (m_head.is_null()) node.fail("there is no head line before the first edit", R"(begin with {"format": "edits", "version": 1, "length_unit": "cm"})");
@@ -210,7 +222,7 @@ private:
   io::Json m_head, m_log;
   FollowReport m_report;
   int m_line = 0, m_calm = 0;
-  bool m_end = false, m_at_rest = false, m_remeshed = false;
+  bool m_end = false, m_cold = false, m_at_rest = false, m_remeshed = false;
 };
 
 FollowReport follow(Garment& garment, const body::Body* body, const DrapeSettings& settings, const FollowSession& session, Reporter& reporter) {

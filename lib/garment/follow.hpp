@@ -37,6 +37,8 @@ struct FollowReport {
 
 /// Lines: a head {"format": "edits", "version": 1, "length_unit": "cm"} (with "edits" too where some are to be taken at once), then one
 /// edit a line, as pattern::apply_edits() knows them; {"edit": "end"} ends the session where nothing else does. Blank lines are skipped.
+/// What it ends in is the cloth's own rest, which remembers the way that it came (by friction and folds: some millimetres). {"edit": "end",
+/// "finish": "cold"} drapes the edited pattern anew instead: to the bytes of pattern-mesh --edits and drape, while no edit asked for a mesh.
 /// After each edit the cloth makes at least one step before the next line is looked at; when no line comes, it goes on to rest.
 /// @param garment  sewn, with the pattern it was meshed from (panels.source); left at rest, with that pattern edited
 /// @throws Error INPUT for a garment without its pattern, or whose panels are no longer its pattern's

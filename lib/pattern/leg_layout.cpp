@@ -61,6 +61,7 @@ void level_trunk(const PanelMesh& mesh, const SeamGraph& graph, const std::vecto
   for (std::size_t p = 0; p < roles.size(); ++p)
     for (int neighbour : graph.neighbours(static_cast<int>(p))) {
       const std::size_t q = static_cast<std::size_t>(neighbour);
+      if (mesh.panels[p].layer != mesh.panels[q].layer) continue;
       if (q < p || roles[p].region != Region::TRUNK || roles[q].region != Region::TRUNK) continue;
       for (const auto& seam : graph.between(static_cast<int>(p), neighbour)) {
         const Vec2 along = (v(p, seam.back()[0]) - v(p, seam.front()[0])).cwiseAbs();

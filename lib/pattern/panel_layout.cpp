@@ -24,6 +24,8 @@ private:
   Vec2 at(std::size_t panel, int vertex) const { return laid(m_mesh, m_roles[panel], m_spots[panel], vertex); }
   std::array<Vec2, 2> bounds(std::size_t panel) const { return laid_bounds(m_mesh, m_roles[panel], m_spots[panel], static_cast<int>(panel)); }
 
+  bool same_layer(std::size_t p, std::size_t q) const { return m_mesh.panels[p].layer == m_mesh.panels[q].layer; }
+
   double seam_length(std::size_t p, std::size_t q) const {
     double sum = 0;
     for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q)))
@@ -87,6 +89,7 @@ private:
       for (std::size_t j = 0; j < i; ++j) {
         const std::size_t q = order[j];
         if (m_roles[p].side != m_roles[q].side && m_roles[p].side != Side::RING && m_roles[q].side != Side::RING) continue;
+        if (!same_layer(p, q)) continue;
         Vec2 along = Vec2::Zero();
         for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q))) along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
         if (along.x() <= along.y() || along.x() < 0.05) continue; // no seam, an upright or a small one
@@ -142,6 +145,7 @@ private:
     }
     m_block[p] = m_block[q];
     m_u_known[p] = m_u_known[q];
+    if (!same_layer(p, q)) return;                          // it lies over the other, seam on seam
     const std::size_t axis = along.x() > along.y() ? 1 : 0; // a level seam parts them in v, an upright one in u
     const Vec2 mine = middle_of(p), theirs = middle_of(q);
     part(p, q, static_cast<long>(axis), mine[static_cast<long>(axis)] >= theirs[static_cast<long>(axis)] ? 1 : -1);

@@ -47,6 +47,9 @@ public:
   Placer(const Pattern& pattern, const body::Body& body, PanelMesh& mesh, const Folding& folding)
       : m_pattern(pattern), m_mesh(mesh), m_folding(folding), m_space(body), m_graph(mesh), m_roles(panel_roles(pattern, mesh, m_graph)),
         m_spots(lay_out(pattern, mesh, m_graph, m_roles)), m_depth(m_roles.size(), 0), m_collider(body.skin) {
+    const auto inner = [](const PanelInfo& a, const PanelInfo& b) { return a.layer < b.layer; };
+    m_innermost = mesh.panels.empty() ? 0 : std::min_element(mesh.panels.begin(), mesh.panels.end(), inner)->layer;
+    for (std::size_t k = 0; k < m_depth.size(); ++k) m_depth[k] = mesh.panels[k].layer - m_innermost;
     for (const PanelInfo& p : mesh.panels)
       for (int t = 0; t < p.n_triangles; ++t) m_panel_of_triangle.push_back(static_cast<int>(&p - mesh.panels.data()));
   }
@@ -151,7 +154,7 @@ private:
     // The top edge: boundary within 6 cm of the top on the way round, as far as it is level and not sewn. It may be an arc.
     double length = 0, height = 0, dip = top;
     for (std::size_t k = 0; k < m_roles.size(); ++k) {
-      if (m_roles[k].region != Region::TRUNK) continue;
+      if (m_roles[k].region != Region::TRUNK || m_mesh.panels[k].layer != m_innermost) continue;
       const auto& outline = m_mesh.panels[k].outline;
       for (std::size_t i = 0; i < outline.size(); ++i) {
         const int a = outline[i], b = outline[(i + 1) % outline.size()];
@@ -176,7 +179,8 @@ private:
   double covered(double v) const {
     double sum = 0;
     for (std::size_t k = 0; k < m_roles.size(); ++k)
-      if (m_roles[k].region == Region::TRUNK) sum += pattern::covered(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k), v);
+      if (m_roles[k].region == Region::TRUNK && m_mesh.panels[k].layer == m_innermost)
+        sum += pattern::covered(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k), v);
     return sum;
   }
 
@@ -559,7 +563,7 @@ private:
   SeamGraph m_graph;
   std::vector<PanelRole> m_roles;
   std::vector<PanelSpot> m_spots;
-  std::vector<int> m_depth;
+  std::vector<int> m_depth; ///< how many layers lie beneath: of the pattern, and of panels that would cross
   collision::BodyCollider m_collider;
   std::vector<Group> m_groups;
   std::vector<std::size_t> m_group_of;
@@ -567,6 +571,7 @@ private:
   std::vector<char> m_sewn;
   double m_arm_shift[2] = {0.0, 0.0}; ///< m along the arm; right, left
   double m_raised = 0;
+  int m_innermost = 0;               ///< layer
   std::optional<LegTube> m_tubes[2]; ///< right, left
 };
 

@@ -38,6 +38,7 @@ void check_lines(const Panel& panel, const std::string& file) {
 
 void finish_pattern(Pattern& pattern, const std::string& file) {
   double largest = 0;
+  std::string largest_name;
   for (std::size_t k = 0; k < pattern.panels.size(); ++k) {
     Panel& panel = pattern.panels[k];
     if (!all_finite(panel)) throw input_error(file, panel.name, "a coordinate is no finite number");
@@ -51,7 +52,7 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
         if (!(length(e.path) > 1e-6))
           throw input_error(file, panel.name + ": " + e.name, "the edge is 0.00 cm long (duplicate points)", "take it out of the outline");
       }
-      largest = std::max(largest, (high - low).maxCoeff());
+      if (const double size = (high - low).maxCoeff(); size > largest) largest = size, largest_name = panel.name;
       const double area = signed_area(paths);
       if (std::abs(area) < 1e-6)
         throw input_error(file, panel.name, "the outline encloses " + std::to_string(std::abs(area) * 1e4) + " cm2", "give the panel an area");
@@ -82,7 +83,8 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
     }
   }
   if (largest > 20 || largest < 0.05)
-    throw input_error(file, "", "the largest panel measures " + centimetres(largest) + ", so the unit is wrong", "check the unit that the file states");
+    throw input_error(file, largest_name, "the largest panel measures " + centimetres(largest) + ", so the unit is wrong",
+                      "check the unit that the file states, and the outline of this panel");
 }
 
 Pattern read_pattern(const std::string& path, const std::string& sewing, const std::string& size, const std::string& rules_path) {

@@ -8,6 +8,7 @@
 #include <io/line_follower.hpp>
 #include <pattern/edits.hpp>
 #include <pattern/mesh_pattern.hpp>
+#include <pattern/place_panels.hpp>
 #include <pattern/read_pattern.hpp>
 
 #include <filesystem>
@@ -116,6 +117,28 @@ TEST(Follow, the_same_lines_give_the_same_bytes_and_no_edit_leaves_the_drape_whe
   const std::vector<std::string> lines = {HEAD, R"({"edit": "take-in", "seam": "left", "by": 0.5})"};
   play(one, pillar, lines), play(two, pillar, lines);
   EXPECT_EQ(strict_hash(one), strict_hash(two));
+}
+
+TEST(Follow, a_cold_finish_gives_the_bytes_of_a_cold_drape_of_the_edited_pattern) {
+  const body::Body pillar = make_pillar();
+  const Garment start = draped_skirt(pillar);
+  Garment live = start;
+  const FollowReport report = play(live, pillar,
+                                   {HEAD, R"({"edit": "move-edge", "panel": "front", "edge": "hem", "by": [0, -1]})",
+                                    R"({"edit": "take-in", "seam": "left", "by": 0.3})", R"({"edit": "end", "finish": "cold"})", "never read"});
+  EXPECT_TRUE(report.drape.converged) << report.drape.stop_reason;
+  EXPECT_EQ(report.edits, 2);
+  Garment cold;
+  pattern::Pattern edited = *start.panels.source;
+  cold.materials = start.materials;
+  cold.panels = pattern::mesh_pattern(edited, 0.03, "skirt");
+  pattern::apply_edits(edited, report.log, "edits");
+  ASSERT_TRUE(pattern::follow_edits(*start.panels.source, edited, cold.panels, 15));
+  pattern::place_panels(edited, pillar, cold.panels);
+  drape(cold, &pillar, {}, silent_reporter());
+  EXPECT_EQ(strict_hash(live), strict_hash(cold));
+  Garment other = start;
+  EXPECT_EQ(play(other, pillar, {HEAD, R"({"edit": "end", "finish": "luke"})"}).refused.size(), 1u);
 }
 
 TEST(Follow, an_edit_that_asks_for_another_mesh_carries_the_draped_state_across) {

@@ -385,6 +385,28 @@ TEST(Placement, CuffsOfTrousersGoAroundTheirLegs) {
   }
 }
 
+TEST(Placement, APanelOfAnOuterLayerLiesOverTheOneThatItIsSewnTo) {
+  std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "skirt", "panels": [)" + rectangle("skirt_front", 46, 40) + "," +
+                     rectangle("skirt_back", 46, 40) + "," + rectangle("skirt_overlay_front", 30, 25) +
+                     R"(], "seams": [{"name": "a", "a": [{"panel": "skirt_front", "edge": "l"}], "b": [{"panel": "skirt_back", "edge": "r"}]},
+      {"name": "b", "a": [{"panel": "skirt_back", "edge": "l"}], "b": [{"panel": "skirt_front", "edge": "r"}]},
+      {"name": "c", "a": [{"panel": "skirt_front", "edge": "top", "from": 0.2, "to": 0.8}], "b": [{"panel": "skirt_overlay_front", "edge": "top", "from": 0, "to": 1}]}]})";
+  const std::string overlay = R"({"name": "skirt_overlay_front", )";
+  text.replace(text.find(overlay), overlay.size(), overlay + R"("layer": 1, )");
+  const Pattern pattern = own(text);
+  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  const PlacementReport report = place_panels(pattern, waisted_body(), mesh);
+  EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
+  for (const MeshSeam& s : mesh.seams) {
+    if (s.name != "c") continue;
+    for (std::size_t k = 0; k < s.a.size(); ++k) {
+      const Vec3 &under = mesh.placed[static_cast<std::size_t>(s.a[k])], &over = mesh.placed[static_cast<std::size_t>(s.b[k])];
+      EXPECT_NEAR((over - under).norm(), 0.012, 0.01);
+      EXPECT_GT(over.z(), under.z());
+    }
+  }
+}
+
 TEST(Placement, AStraplessTopIsPutOnTheChest) {
   std::string text = tube_text();
   text.replace(text.find("\"front\""), 7, "\"bodice_front\"");
