@@ -280,6 +280,48 @@ private:
     grade_ring(ring, rule, *m_choice.rules, m_size);
   }
 
+  /// Notches, as points or as short lines into the piece; lines side by side are one notch.
+  void read_notches(const DxfBlock& block, const Ring& cut, Panel& panel) const {
+    constexpr double REACH = 0.01, SIDE_BY_SIDE = 0.004; // m
+    const auto is_notch = [](int layer) { return layer == 4 || (layer >= 80 && layer <= 83); };
+    const auto off = [&](const Vec2& p) {
+      double least = 1e300;
+      for (std::size_t k = 0; k < cut.size(); ++k) {
+        const Vec2 a = cut[k], along = cut[(k + 1) % cut.size()] - a;
+        const double t = along.squaredNorm() > 0 ? std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0.0;
+        least = std::min(least, (p - a - t * along).norm());
+      }
+      return least;
+    };
+    std::vector<std::pair<Vec2, int>> marks;
+    for (const DxfPoint& p : block.points)
+      if (is_notch(p.layer)) marks.push_back({p.p * m_unit, p.layer});
+    std::vector<std::vector<Vec2>> slits;
+    std::vector<int> layers;
+    for (const DxfLine& line : block.lines) {
+      if (!is_notch(line.layer) || line.points.size() < 2) continue;
+      const Vec2 a = line.points.front() * m_unit, b = line.points.back() * m_unit, p = off(a) <= off(b) ? a : b;
+      if (!slits.empty() && layers.back() == line.layer && (slits.back().back() - p).norm() < SIDE_BY_SIDE) slits.back().push_back(p);
+      else slits.push_back({p}), layers.push_back(line.layer);
+    }
+    for (std::size_t k = 0; k < slits.size(); ++k) {
+      Vec2 sum = Vec2::Zero();
+      for (const Vec2& p : slits[k]) sum += p;
+      const Vec2 at = sum / static_cast<double>(slits[k].size());
+      if (std::none_of(marks.begin(), marks.end(), [&](const auto& m) { return (m.first - at).norm() < SIDE_BY_SIDE; })) marks.push_back({at, layers[k]});
+    }
+    for (const auto& [p, layer] : marks) {
+      const int e = edge_near(panel, p);
+      const ArcLength arc(panel.edge(e).path);
+      double best = 1e300, at = 0;
+      for (int k = 0; k <= 1000; ++k) {
+        const double d = (arc.at(arc.length() * k / 1000) - p).norm();
+        if (d < best) best = d, at = k / 1000.0;
+      }
+      if (best < REACH) panel.notches.push_back({e, at, "layer " + std::to_string(layer)});
+    }
+  }
+
   void read_piece(const DxfBlock& block) {
     Panel panel;
     panel.name = find_value(block.texts, "Piece Name");
@@ -323,17 +365,7 @@ private:
         Vec2 along = line.points.back() - line.points.front();
         if (along.norm() > 0) panel.grain = (along.y() < -1e-9 * along.norm() ? Vec2(-along) : along).normalized();
       }
-    for (const DxfPoint& p : block.points)
-      if (p.layer == 4 || (p.layer >= 80 && p.layer <= 83)) {
-        const int e = edge_near(panel, p.p * m_unit);
-        const ArcLength arc(panel.edge(e).path);
-        double best = 1e300, at = 0;
-        for (int k = 0; k <= 1000; ++k) {
-          const double d = (arc.at(arc.length() * k / 1000) - p.p * m_unit).norm();
-          if (d < best) best = d, at = k / 1000.0;
-        }
-        if (best < 0.01) panel.notches.push_back({e, at, "layer " + std::to_string(p.layer)});
-      }
+    read_notches(block, cut.empty() ? ring : cut[0], panel);
     if (!m_choice.rules || m_size == m_choice.rules->sample) read_marks(block, panel);
     const int index = static_cast<int>(m_pattern.panels.size());
     const std::string material = find_value(block.texts, "Material");

@@ -109,6 +109,19 @@ TEST(Dxf, TheOrderOfPiecesDoesNotMatter) {
   EXPECT_EQ(names, (std::vector<std::string>{"back", "flap", "flap#2", "front"}));
 }
 
+TEST(Dxf, NotchesDrawnAsLinesAreThoseDrawnAsPoints) {
+  const auto line = [](const char* x) { return std::string("0\nLINE\n8\n4\n10\n") + x + "\n20\n0\n11\n" + x + "\n21\n5\n"; };
+  const Pattern lines = read_dxf(file(block("a", polyline("14", box(400, 300)) + line("98.5") + line("100") + line("101.5") + line("300"))), "p.dxf");
+  const Pattern points =
+      read_dxf(file(block("a", polyline("14", box(400, 300)) + "0\nPOINT\n8\n4\n10\n100\n20\n0\n0\nPOINT\n8\n4\n10\n300\n20\n0\n")), "p.dxf");
+  ASSERT_EQ(lines.panels[0].notches.size(), 2u) << "three slits side by side are one notch";
+  ASSERT_EQ(points.panels[0].notches.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(lines.panels[0].notches[k].edge, points.panels[0].notches[k].edge);
+    EXPECT_EQ(lines.panels[0].notches[k].at, points.panels[0].notches[k].at);
+  }
+}
+
 TEST(Dxf, AHalfPieceIsUnfoldedWithItsNotchesAndSeams) {
   std::string half = polyline("14", box(200, 300)) + "0\nLINE\n8\n6\n10\n0\n20\n10\n11\n0\n21\n290\n";
   half += "0\nPOINT\n8\n4\n10\n200\n20\n100\n" + text_entity("15", 200, 150, "SEW side a 0 + side") + text_entity("15", 100, 300, "SEW side b 0 - top");
