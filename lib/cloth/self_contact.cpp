@@ -67,8 +67,8 @@ void SelfContactEffect::search(const std::vector<Vec3>& x) {
   auto take = [&](const std::array<int, 4>& p, int n_first, bool is_edge, double distance) {
     const Pair kind = kind_of(p.data(), n_first, p.data() + n_first, 4 - n_first);
     if (kind == Pair::CLOSED_SEAM) return;
-    Near near{p, is_edge, kind == Pair::FREE, distance};
-    if (near.repels) near.reach = std::min(std::min(m_thickness[p[0]], m_thickness[p[1]]), std::min(m_thickness[p[2]], m_thickness[p[3]]));
+    Near near{p, is_edge, distance};
+    if (kind == Pair::FREE) near.reach = std::min(std::min(m_thickness[p[0]], m_thickness[p[1]]), std::min(m_thickness[p[2]], m_thickness[p[3]]));
     m_pairs.push_back(near);
   };
   for (const auto& pair : m_proximity.vertex_face()) {
@@ -178,7 +178,7 @@ bool SelfContactEffect::guard_closing(const std::vector<std::array<int, 2>>& pai
   bool added = false;
   for (const std::array<int, 2>& pair : pairs) {
     if (is_edge ? m_proximity.has_edge_edge(pair) : m_proximity.has_vertex_face(pair)) continue; // add() guards those that it should
-    Near near{{}, is_edge, false};
+    Near near{{}, is_edge};
     if (is_edge) {
       const auto &a = m_proximity.topology().edges[pair[0]], &b = m_proximity.topology().edges[pair[1]];
       near.particle = {a[0], a[1], b[0], b[1]};

@@ -5,7 +5,8 @@
 /// Every step keeps each element of a near pair on its side of the plane half way between them (MotionLimits). While no particle
 /// goes farther than just under half the search radius from where it was searched, no other pair can cross. Where one does, pairs
 /// that close in on each other are looked for and guarded too (collision/closing_pairs.hpp): what moves together may move far. So a
-/// state free of crossings stays free of them. Repulsion: see contact_potential.hpp; friction between layers is viscous.
+/// state free of crossings stays free of them. Pairs that can neither repel each other nor meet in the step are not measured.
+/// Repulsion: see contact_potential.hpp; friction between layers is viscous.
 #include <cloth/cloth_mesh.hpp>
 #include <cloth/contact_potential.hpp>
 #include <cloth/effect.hpp>
@@ -59,7 +60,7 @@ private:
   std::vector<double> m_thickness;                   // #P
   struct Near {
     std::array<int, 4> particle; // vertex and face, or edge and edge
-    bool is_edge, repels;
+    bool is_edge;
     double distance = 0;  // m, at the search
     double reach = 0;     // m, at which they begin to repel each other; 0 for those that do not
     bool guarded = false; // in this step

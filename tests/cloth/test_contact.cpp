@@ -191,8 +191,10 @@ TEST(Contact, ClothThatFallsTogetherFallsFreely) {
   for (std::size_t i = 0; i < s.x.size(); ++i) EXPECT_NEAR(s.x[i].y() - solver.x()[i].y(), fallen, 1e-3 * fallen);
 }
 
-TEST(Contact, ClothThatMeetsClothInOneStepDoesNotPassIt) {
-  FallingSheet s = sheet_above_sheet(0.03);
+class ContactFrom : public ::testing::TestWithParam<double> {};
+
+TEST_P(ContactFrom, ClothThatMeetsClothInOneStepDoesNotPassIt) {
+  FallingSheet s = sheet_above_sheet(GetParam());
   ClothSolver solver(s.mesh, s.x);
   solver.emplace<EdgeSpringEffect>(s.mesh);
   auto& contact = solver.emplace<SelfContactEffect>(s.mesh, SelfContactOptions{});
@@ -217,6 +219,7 @@ TEST(Contact, ClothThatMeetsClothInOneStepDoesNotPassIt) {
   }
   EXPECT_GT(contact.far_searches, 0);
 }
+INSTANTIATE_TEST_SUITE_P(beyond_the_search_radius_and_within_it_but_too_far_to_repel, ContactFrom, ::testing::Values(0.03, 0.005));
 
 TEST(Contact, LimitsKeepPlanesAndLengths) {
   MotionLimits limits;
