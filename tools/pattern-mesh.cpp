@@ -97,7 +97,7 @@ int run(cli::Tool& tool, const Options& o) {
     return 0;
   }
   if (source.seams.empty() && source.source_format == "dxf" && source.panels.size() > 1 && !o.unsewn && !guess_seams(tool, source)) return 1;
-  if (o.output.empty()) throw Error(ErrorKind::USAGE, "", "-o", "no output is named", "give -o panels.json");
+  if (o.output.empty()) throw Error(ErrorKind::USAGE, "", "", "--output is missing", "say for example -o panels.json");
   pattern::require_sewable(source, o.pattern);
   pattern::PanelMesh mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern, o.seam_length);
   if (!o.edits.empty()) {

@@ -249,7 +249,7 @@ int main(int argc, char** argv) {
   add_options(tool, options);
   return tool.run(argc, argv, [&] {
     if (options.compare) return run_compare(options);
-    if (options.output.empty()) throw Error(ErrorKind::USAGE, "", "-o", "is missing", "name the PNG to write");
+    if (options.output.empty()) throw Error(ErrorKind::USAGE, "", "", "--output is missing", "say for example -o shirt.png");
     return options.sheet ? run_sheet(options) : run_render(tool, options);
   });
 }

@@ -210,18 +210,20 @@ static std::string answer_request(const Request& request, const ToolDescription&
   return completion(tool, request.value);
 }
 
-/// CLI11's "--size: At Most 1 required but received 2" in words that say what to do.
-static std::string plain_words(const std::string& text) {
-  const std::size_t at = text.find(": At Most 1 required but received ");
-  return at == std::string::npos ? text : text.substr(0, at) + " is given more than once; give it once";
+/// CLI11's "--size: At Most 1 required but received 2" and "--output is required" in words that say what to do.
+static std::string plain_words(const std::string& text, const std::vector<Example>& examples) {
+  const std::size_t twice = text.find(": At Most 1 required but received "), missing = text.rfind(" is required");
+  if (twice != std::string::npos) return text.substr(0, twice) + " is given more than once; give it once";
+  if (missing == std::string::npos || missing + 12 != text.size()) return text;
+  return text.substr(0, missing) + " is missing" + (examples.empty() ? "" : "; say for example " + examples.front().command_line);
 }
 
-static int parse_and_run(CLI::App& app, const std::vector<std::string>& words, Reporter& reporter, const std::function<void()>& parsed,
-                         const std::function<int()>& body) {
+static int parse_and_run(CLI::App& app, const std::vector<std::string>& words, const std::vector<Example>& examples, Reporter& reporter,
+                         const std::function<void()>& parsed, const std::function<int()>& body) {
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend())); // CLI11 wants them reversed
   } catch (const CLI::ParseError& error) {
-    throw usage_error(plain_words(error.what()));
+    throw usage_error(plain_words(error.what(), examples));
   }
   parsed();
   check_outputs(app);
@@ -252,7 +254,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& body) {
       m.reporter.show_progress = !m.no_progress;
       set_thread_count(m.threads > 0 ? m.threads : m.threads == 0 ? available_processors() : std::min(available_processors(), MOST_DEFAULT_THREADS));
     };
-    const int code = parse_and_run(m.app, words, m.reporter, parsed, body);
+    const int code = parse_and_run(m.app, words, m.examples, m.reporter, parsed, body);
     m.reporter.clear_line();
     return code;
   } catch (const Error& error) {
