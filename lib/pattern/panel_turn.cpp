@@ -36,10 +36,15 @@ public:
         for (std::size_t k = 0; k < n; ++k)
           if (open(k))
             if (const double size = area(k); size > most) most = size, best = k;
-        if (best == n) return;
+        if (best == n) break;
         stand(best);
       }
       m_known[best] = true;
+    }
+    for (bool changed = true; changed;) { // stands on neck lines, then collars on stands
+      changed = false;
+      for (std::size_t k = 0; k < n; ++k)
+        if (!m_known[k] && m_roles[k].region == Region::NECK && seam_below(k)) m_known[k] = changed = true;
     }
   }
 
@@ -112,6 +117,25 @@ private:
     const std::size_t best = static_cast<std::size_t>(std::max_element(score.begin(), score.end()) - score.begin());
     const bool drawn_upright = std::abs((turns[0] * m_pattern.panels[k].grain).y()) >= UPRIGHT;
     m_roles[k].turn = turns[score[best] > score[0] + (drawn_upright ? GAIN * total : 0) ? best : 0];
+  }
+
+  /// By quarter turns, with the seams to what stands already at the lower edge; false where there are none.
+  bool seam_below(std::size_t k) {
+    Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300), sum = Vec2::Zero();
+    for (int v : m_mesh.panels[k].outline) low = low.cwiseMin(at(v)), high = high.cwiseMax(at(v));
+    double count = 0;
+    for (const bool trunk : {true, false}) { // its own other half only where it is not sewn to the trunk
+      for (int q : m_graph.neighbours(static_cast<int>(k)))
+        if (const std::size_t o = static_cast<std::size_t>(q); m_known[o] && (m_roles[o].region == Region::TRUNK) == trunk)
+          for (const auto& seam : m_graph.between(static_cast<int>(k), q))
+            for (const auto& s : seam) sum += at(s[0]), ++count;
+      if (count > 0) break;
+    }
+    if (count == 0) return false;
+    const Vec2 down = sum / count - 0.5 * (low + high);
+    const std::vector<Turn> turns = candidates(k);
+    m_roles[k].turn = *std::min_element(turns.begin(), turns.end(), [&](const Turn& a, const Turn& b) { return (a * down).y() < (b * down).y() - 1e-9; });
+    return true;
   }
 
   /// Upright as drawn, else along its grain with what is longest and free below.

@@ -407,6 +407,38 @@ TEST(Placement, APanelOfAnOuterLayerLiesOverTheOneThatItIsSewnTo) {
   }
 }
 
+TEST(Placement, AShirtWithACollarStartsTheSameHoweverItsPiecesLie) {
+  const auto shirt = [](const std::vector<int>& quarters) {
+    const auto piece = [&](std::size_t k, const std::string& name, double w, double h) {
+      const Eigen::Rotation2Dd turn(quarters[k] * M_PI / 2);
+      const auto point = [&](double x, double y) {
+        const Vec2 p = turn * Vec2(x, y);
+        return std::to_string(p.x()) + ", " + std::to_string(p.y());
+      };
+      const Vec2 grain = turn * Vec2(0, 1);
+      return R"({"name": ")" + name + R"(", "grain": [)" + std::to_string(grain.x()) + ", " + std::to_string(grain.y()) +
+             R"(], "outline": [{"edge": "hem", "path": [["M", )" + point(0, 0) + R"(], ["L", )" + point(w, 0) + R"(]]}, {"edge": "l", "path": [["L", )" +
+             point(w, h) + R"(]]}, {"edge": "top", "path": [["L", )" + point(0, h) + R"(]]}, {"edge": "r", "path": [["L", )" + point(0, 0) + "]]}]}";
+    };
+    return own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "shirt", "panels": [)" + piece(0, "front", 52, 62) + "," +
+               piece(1, "back", 52, 62) + "," + piece(2, "collar", 41.6, 5) + R"(], "seams": [
+    {"name": "side_l", "a": [{"panel": "front", "edge": "l", "from": 0, "to": 0.645}], "b": [{"panel": "back", "edge": "r", "from": 1, "to": 0.355}]},
+    {"name": "side_r", "a": [{"panel": "back", "edge": "l", "from": 0, "to": 0.645}], "b": [{"panel": "front", "edge": "r", "from": 1, "to": 0.355}]},
+    {"name": "shoulder_l", "a": [{"panel": "front", "edge": "top", "from": 0, "to": 0.3}], "b": [{"panel": "back", "edge": "top", "from": 1, "to": 0.7}]},
+    {"name": "shoulder_r", "a": [{"panel": "back", "edge": "top", "from": 0, "to": 0.3}], "b": [{"panel": "front", "edge": "top", "from": 1, "to": 0.7}]},
+    {"name": "neck", "a": [{"panel": "back", "edge": "top", "from": 0.3, "to": 0.7}, {"panel": "front", "edge": "top", "from": 0.3, "to": 0.7}],
+     "b": [{"panel": "collar", "edge": "hem", "from": 1, "to": 0}]}]})");
+  };
+  const auto start = [](const Pattern& pattern) {
+    PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+    const PlacementReport report = place_panels(pattern, stick_body(45), mesh);
+    EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
+    return report.seam_gap_mean;
+  };
+  const double upright = start(shirt({0, 0, 0}));
+  for (const std::vector<int>& quarters : {std::vector<int>{1, 1, 1}, {-1, -1, -1}, {0, 1, -1}, {0, 2, 1}}) EXPECT_NEAR(start(shirt(quarters)), upright, 0.01);
+}
+
 TEST(Placement, AStraplessTopIsPutOnTheChest) {
   std::string text = tube_text();
   text.replace(text.find("\"front\""), 7, "\"bodice_front\"");
