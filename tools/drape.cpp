@@ -31,6 +31,7 @@ struct Options {
   std::string checkpoint;
   int checkpoint_steps = 100;
   double max_seconds = 0, max_error_mm = 0;
+  bool untangle_only = false;
 };
 
 io::Json input_entry(const std::string& path) { return {{"file", io::file_name(path)}, {"sha256", io::sha256(io::read_file(path))}}; }
@@ -66,6 +67,8 @@ void add_options(cli::Tool& tool, Options& o) {
   app.add_option("--frames", o.frames, "with --follow: every step as an OBJ in this folder with frames.jsonl, or as JSON lines to standard output (\"-\")")
       ->type_name("DIR");
   app.add_option("--edit-log", o.edit_log, "with --follow: the edits taken, as pattern-mesh --edits replays them")->check(cli::output_file());
+  app.add_flag("--untangle-only", o.untangle_only,
+               "with --from: only draw crossing cloth apart and out of the body, and drape nothing; exit 4 where crossings remain");
   app.add_option("--checkpoint", o.checkpoint,
                  "note the state in this file now and then; after a crash, --from FILE with the same --body goes on from there to the same bytes")
       ->check(cli::output_file());
@@ -76,6 +79,7 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.formats("scene, body, panels and garment documents (version 1)", "garment and report documents (version 1), OBJ");
   tool.example("drape --from shirt.json --body body.json --follow edits.jsonl --frames - -o edited.json", "change the pattern and watch the cloth follow");
   tool.example("drape --body body.json --over shirt.json --panels jacket.json --over-output shirt-below.json -o jacket.json", "a jacket over a shirt");
+  tool.example("drape --from shirt.json --body body.json --untangle-only -o clean.json", "free a garment of crossings and leave the rest of it as it is");
   tool.example("drape --from run.checkpoint.json --body body.json -o shirt.json", "go on where a run with --checkpoint run.checkpoint.json was killed");
   tool.example("drape --from shirt.json --body body.json --accuracy fine -o shirt-fine.json", "go on, more exactly");
   tool.example("drape --body body.json --panels panels.json --max-error-mm 0.5 --report report.json -o shirt.json", "as accurate as that, and no more");
@@ -150,7 +154,7 @@ struct Result {
 garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment::Garment& garment, std::vector<garment::Garment>& layers,
                                      const body::Body* body, const garment::Scene& scene, const garment::DrapeSettings& settings, Result& result) {
   io::Json& document = result.document;
-  if (o.follow.empty() && layers.empty() && has_goal(o, scene)) {
+  if (o.follow.empty() && layers.empty() && !o.untangle_only && has_goal(o, scene)) {
     const garment::AccuracyGoal goal{1e-3 * o.max_error_mm, settings.max_seconds};
     garment::AccuracyReport report = garment::drape_to_goal(
         garment, body, goal, [&](garment::DrapeSettings& s) { set_knobs(s, o, scene); }, tool.reporter());
@@ -164,6 +168,17 @@ garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment:
     garment = std::move(layers.back());
     layers.pop_back();
     document = garment::report_json(report, tool.name());
+    return report;
+  }
+  if (o.untangle_only) {
+    garment::DrapeReport report = garment::untangle_only(garment, body, settings, tool.reporter());
+    document = garment::report_json(report, tool.name());
+    const io::Json& counts = report.quality["untangled"];
+    for (const char* when : {"before", "after"}) {
+      const io::Json& c = counts[when];
+      tool.reporter().warning(std::string(when) + ": " + c["faces_through_body"].dump() + " faces through the body, " + c["vertices_inside_body"].dump() +
+                              " vertices inside it, " + c["self_intersections"].dump() + " self intersections");
+    }
     return report;
   }
   if (o.follow.empty()) {
@@ -189,6 +204,9 @@ void check_options(const Options& o) {
   if (!o.over_output.empty() && o.over_output.size() != o.over.size())
     throw Error(ErrorKind::USAGE, "", "--over-output", "is given " + std::to_string(o.over_output.size()) + " times, --over " + std::to_string(o.over.size()),
                 "name one file for each garment of --over");
+  if (o.untangle_only && o.from.empty()) throw Error(ErrorKind::USAGE, "", "--untangle-only", "there is no garment to untangle", "give --from shirt.json");
+  if (o.untangle_only && !(o.follow.empty() && o.over.empty() && o.checkpoint.empty() && o.max_error_mm == 0))
+    throw Error(ErrorKind::USAGE, "", "--untangle-only", "goes with neither --follow, --over, --checkpoint nor --max-error-mm", "leave them out");
   if (!o.checkpoint.empty() && !(o.over.empty() && o.follow.empty() && o.max_error_mm == 0))
     throw Error(ErrorKind::USAGE, "", "--checkpoint", "goes with neither --over, --follow nor --max-error-mm", "leave it out");
   if (!o.over.empty() && !(o.follow.empty() && o.max_error_mm == 0))
@@ -223,9 +241,9 @@ body::Body read_body(const std::string& path, garment::Garment& garment, io::Jso
 /// Goes on from a checkpoint, which knows all but the body.
 int resume(cli::Tool& tool, const Options& o) {
   const std::pair<const char*, bool> given[] = {
-      {"--scene", !o.scene.empty()},  {"--accuracy", !o.accuracy.empty()}, {"--effects", !o.effects.empty()},      {"--material", !o.material.empty()},
-      {"--set", !o.set.empty()},      {"--over", !o.over.empty()},         {"--max-error-mm", o.max_error_mm > 0}, {"--max-seconds", o.max_seconds > 0},
-      {"--follow", !o.follow.empty()}};
+      {"--scene", !o.scene.empty()},   {"--accuracy", !o.accuracy.empty()}, {"--effects", !o.effects.empty()},      {"--material", !o.material.empty()},
+      {"--set", !o.set.empty()},       {"--over", !o.over.empty()},         {"--max-error-mm", o.max_error_mm > 0}, {"--max-seconds", o.max_seconds > 0},
+      {"--follow", !o.follow.empty()}, {"--untangle-only", o.untangle_only}};
   for (const auto& [name, is_given] : given)
     if (is_given) throw Error(ErrorKind::USAGE, "", name, "is settled by the checkpoint", "leave it out");
   io::Json inputs = io::Json::array({input_entry(o.from)});

@@ -4,7 +4,6 @@
 #include <cloth/edge_spring.hpp>
 #include <cloth/gravity.hpp>
 #include <cloth/shear.hpp>
-#include <collision/untangle.hpp>
 #include <garment/drape_run.hpp>
 #include <garment/effects.hpp>
 #include <garment/materials.hpp>
@@ -36,7 +35,6 @@ constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step w
 constexpr double LATEST = 0.01;          // m: how far skin may stay back where cloth is in its way
 constexpr int LATE_STEPS = 40;           // in which what stayed back comes home
 constexpr int GLIDE_STEPS = 40;          // after sewing, free of weight and friction, which would keep the strain that sewing left
-constexpr int PUSH_STEPS = 120;          // for cloth at rest that is still through the skin
 constexpr int STALLED_STEPS = 400;       // without a residual that is a tenth less, and more than the weight: it will not come to rest
 constexpr int JUDGE_EVERY = 20;          // steps between looks whether the garment can still fit
 constexpr int STRAINED_STEPS = 80;       // without a strain that is a tenth less: it stays
@@ -44,8 +42,6 @@ constexpr double FAR_RESIDUAL = 1;       // weights: above, garments that settle
 constexpr double FAR_TOLERANCE = 0.05;   // and this relative residual of a step is good enough
 constexpr double SHORTEST_STEP_S = 0.005;
 constexpr double LARGEST_STEP_S = 0.2; // s, while settling
-constexpr int UNTANGLE_ROUNDS = 80;
-constexpr double UNTANGLE_STEP = 0.001; // m: of an edge against its face in one round
 
 std::string millimetres(double m) { return std::to_string(std::lround(m * 1e4) / 10) + "." + std::to_string(std::lround(m * 1e4) % 10) + " mm"; }
 
@@ -206,13 +202,6 @@ std::string DrapeRun::crossing_text() const {
   return ", " + std::to_string(m_body_contact->n_crossing()) + " faces through the skin, one at " + place_text(m_body_contact->crossing_place());
 }
 
-void DrapeRun::log_crossings(const char* when) const {
-  const std::vector<Triangle> triangles = m_garment.particle_triangles();
-  const collision::TriangleTree tree(m_garment.position, triangles);
-  m_reporter.info(std::string(when) + ": " + std::to_string(collision::self_intersections(m_garment.position, triangles, tree).size()) +
-                  " pairs of triangles cross");
-}
-
 void DrapeRun::sew() {
   const Phase phase(*this, "sew");
   if (m_at.phase != DrapePhase::SEW) { // it begins; else it goes on from a checkpoint
@@ -249,29 +238,6 @@ void DrapeRun::sew() {
   log_crossings("sewn");
   weld(m_garment, vertex_position);
   log_crossings("welded");
-}
-
-std::size_t DrapeRun::untangle() {
-  const std::vector<Triangle> triangles = m_garment.particle_triangles();
-  const collision::Topology topology = collision::make_topology(m_garment.position.size(), triangles);
-  std::vector<Vec3> x = m_garment.position;
-  collision::TriangleTree tree(x, triangles);
-  std::size_t at_start = 0, least = std::numeric_limits<std::size_t>::max();
-  for (int k = 0; k < UNTANGLE_ROUNDS; ++k) {
-    tree.refit(x);
-    const std::size_t count = collision::self_intersections(x, triangles, tree).size();
-    if (k == 0) at_start = count;
-    if (count < least) {
-      least = count;
-      m_garment.position = x;
-    }
-    if (count == 0) break;
-    const auto pairs = collision::untangle_directions(x, triangles, topology, tree);
-    const std::vector<Vec3> move = collision::untangle_displacements(pairs, triangles, topology, x.size(), UNTANGLE_STEP);
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += move[i];
-  }
-  if (at_start > 0) m_report.repairs.push_back("untangled: " + std::to_string(at_start) + " pairs of triangles crossed, " + std::to_string(least) + " remain");
-  return least;
 }
 
 /// The skin comes back to its place, if it can at no time through cloth that is clear of it: each vertex goes at most half of its way
@@ -386,7 +352,7 @@ void DrapeRun::settle() {
     const bool still = speed < m_settings.settle_speed_m_s && residual < m_settings.settle_force_ratio;
     calm = still && k >= glide() ? calm + 1 : 0;
     if (calm < 3) continue;
-    if (m_body_contact && m_body_contact->n_crossing() > 0 && ++m_at.pushed < PUSH_STEPS) continue; // what is through the skin is pushed harder each step
+    if (m_body_contact && m_body_contact->n_crossing() > 0 && ++m_at.pushed < MOST_PUSH_STEPS) continue; // what is through the skin is pushed harder each step
     m_garment.position = m_solver->x();
     if (m_at.untanglings < 4 && m_self_contact && !m_self_contact->crossings().empty()) {
       ++m_at.untanglings;
@@ -417,8 +383,10 @@ void DrapeRun::report_effects() {
 }
 
 void DrapeRun::finish() {
-  m_garment.position = m_solver->x();
-  report_effects();
+  if (m_solver) {
+    m_garment.position = m_solver->x();
+    report_effects();
+  }
   const Phase phase(*this, "audit");
   if (m_mitten) m_collider.emplace(m_body->skin); // the mittens were only a means
   const Audit a = audit(m_garment, m_collider ? &*m_collider : nullptr);

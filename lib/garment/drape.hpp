@@ -78,6 +78,12 @@ bool is_checkpoint(const std::string& path);
 /// @throws Error INPUT for what is no checkpoint, or for another body
 DrapeReport resume_drape(const std::string& checkpoint, Garment& garment, const body::Body* body, Reporter& reporter, const std::string& file = "");
 
+/// Draws crossing cloth apart and out of the body without draping: only what crosses moves, by short steps; where that does not do, the body
+/// is drawn in and inflated again under the whole garment, without weight. `quality.untangled` has the counts before and after.
+/// @return converged: nothing crosses any more; a garment that was clean stays as it was, to the bit
+/// @throws Error INPUT for a garment that is not sewn
+DrapeReport untangle_only(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter);
+
 /// The report document without its envelope's inputs and hashes, which the tool adds.
 io::Json report_json(const DrapeReport& report, const std::string& tool);
 

@@ -16,10 +16,13 @@ namespace sloper::garment {
 
 class FollowRun;
 
+inline constexpr int MOST_PUSH_STEPS = 120; ///< for cloth at rest that is still through the skin
+
 class DrapeRun {
 public:
   DrapeRun(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter, const FitBounds& bounds = {});
   DrapeReport run();
+  DrapeReport run_untangle_only();
   void set_checkpoints(const Checkpoints& checkpoints) { m_checkpoints = checkpoints; }
   /// Goes on from there with run(): the garment is the checkpoint's, as it was given to the constructor.
   void resume(const DrapeCheckpoint& checkpoint);
@@ -48,6 +51,8 @@ private:
   void log_crossings(const char* when) const; ///< to the log, with -v
   std::string crossing_text() const;          ///< for the log: what is through the skin, and where
   std::size_t untangle();                     ///< draws crossing cloth apart; the pairs that remain
+  std::size_t part_from_body(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, std::vector<Vec3>& move) const;
+  std::size_t part_all();
   void inflate();
   void settle();
   void add_load();                                                   ///< weight and friction
