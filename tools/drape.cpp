@@ -6,9 +6,11 @@
 #include <garment/bind.hpp>
 #include <garment/drape.hpp>
 #include <garment/follow.hpp>
+#include <garment/frame_writer.hpp>
 #include <garment/garment_json.hpp>
 #include <garment/kes.hpp>
 #include <garment/layers.hpp>
+#include <garment/motion.hpp>
 #include <garment/scene.hpp>
 #include <io/files.hpp>
 #include <io/line_follower.hpp>
@@ -16,9 +18,6 @@
 #include <pattern/folds.hpp>
 #include <pattern/panel_mesh_json.hpp>
 
-#include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 
 using namespace sloper;
@@ -26,11 +25,11 @@ using namespace sloper;
 namespace {
 
 struct Options {
-  std::string scene, body, panels, from, accuracy, effects, material, report, output, follow, frames, edit_log;
+  std::string scene, body, panels, from, accuracy, effects, material, report, output, follow, frames, edit_log, motion;
   std::vector<std::string> set, over, over_output;
   std::string checkpoint;
   int checkpoint_steps = 100;
-  double max_seconds = 0, max_error_mm = 0;
+  double max_seconds = 0, max_error_mm = 0, motion_fps = 30;
   bool untangle_only = false;
 };
 
@@ -64,7 +63,14 @@ void add_options(cli::Tool& tool, Options& o) {
   app.add_option("--follow", o.follow,
                  "with --from: edits of the pattern, one JSON object a line, taken as they come from a file that grows or from standard input (\"-\")")
       ->type_name("FILE");
-  app.add_option("--frames", o.frames, "with --follow: every step as an OBJ in this folder with frames.jsonl, or as JSON lines to standard output (\"-\")")
+  app.add_option("--motion", o.motion,
+                 "then move the body: a BVH motion, or the first of a numbered sequence of skins (body.0001.obj, from scan-landmarks --pose); the cloth "
+                 "moves with it and comes to rest in the last pose")
+      ->check(cli::input_file());
+  app.add_option("--motion-fps", o.motion_fps, "with --motion: frames a second kept of a BVH motion, and those of a sequence of skins (default: 30)")
+      ->check(cli::finite_in(1, 1000, "1/s"));
+  app.add_option("--frames", o.frames,
+                 "with --follow or --motion: every step or frame as an OBJ in this folder with frames.jsonl, or as JSON lines to standard output (\"-\")")
       ->type_name("DIR");
   app.add_option("--edit-log", o.edit_log, "with --follow: the edits taken, as pattern-mesh --edits replays them")->check(cli::output_file());
   app.add_flag("--untangle-only", o.untangle_only,
@@ -79,6 +85,7 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.formats("scene, body, panels and garment documents (version 1)", "garment and report documents (version 1), OBJ");
   tool.example("drape --from shirt.json --body body.json --follow edits.jsonl --frames - -o edited.json", "change the pattern and watch the cloth follow");
   tool.example("drape --body body.json --over shirt.json --panels jacket.json --over-output shirt-below.json -o jacket.json", "a jacket over a shirt");
+  tool.example("drape --from shirt.json --body body.json --motion walk.bvh --frames walk -o shirt-walked.json", "let the body walk, cloth frame by frame");
   tool.example("drape --from shirt.json --body body.json --untangle-only -o clean.json", "free a garment of crossings and leave the rest of it as it is");
   tool.example("drape --from run.checkpoint.json --body body.json -o shirt.json", "go on where a run with --checkpoint run.checkpoint.json was killed");
   tool.example("drape --from shirt.json --body body.json --accuracy fine -o shirt-fine.json", "go on, more exactly");
@@ -107,44 +114,6 @@ bool has_goal(const Options& o, const garment::Scene& scene) {
   return o.max_error_mm > 0 || (o.max_seconds > 0 && !preset);
 }
 
-/// Frames as they come: an OBJ each with an index beside them, or JSON lines.
-class FrameWriter {
-public:
-  FrameWriter(std::string where, std::string stamp) : m_where(std::move(where)), m_stamp(std::move(stamp)) {
-    if (m_where.empty() || m_where == "-") return;
-    std::error_code failed;
-    std::filesystem::create_directories(m_where, failed);
-    m_index.open(m_where + "/frames.jsonl");
-    if (failed || !m_index) throw Error(ErrorKind::OUTPUT, m_where, "", "no frames can be written there", "name a folder");
-  }
-  void operator()(const garment::FollowFrame& f, const garment::Garment& garment) {
-    if (m_where.empty()) return;
-    io::Json line = {{"frame", f.number}, {"edits", f.edits}};
-    if (f.latency_ms >= 0) line["latency_ms"] = std::round(1000 * f.latency_ms) / 1000, line["cpu_ms"] = f.cpu_ms;
-    line["remeshed"] = f.remeshed, line["speed_m_s"] = f.speed_m_s, line["at_rest"] = f.at_rest;
-    if (m_where == "-") {
-      line["x"] = io::Json::array();
-      for (const Vec3& p : garment.position)
-        for (int k = 0; k < 3; ++k) line["x"].push_back(std::round(1e6 * p[k]) / 1e6); // to a thousandth of a millimetre
-      std::cout << line.dump() << std::endl;
-      return;
-    }
-    char name[32];
-    std::snprintf(name, sizeof name, "frame-%06d.obj", f.number);
-    io::ObjMesh obj;
-    obj.positions = garment.position, obj.texture = garment.panels.pattern;
-    obj.triangles = garment.particle_triangles(), obj.texture_triangles = garment.panels.triangles;
-    for (const pattern::PanelInfo& panel : garment.panels.panels) obj.groups.push_back({panel.name, panel.first_triangle});
-    io::write_obj(m_where + "/" + name, obj, m_stamp);
-    line["mesh"] = name;
-    m_index << line.dump() << std::endl;
-  }
-
-private:
-  std::string m_where, m_stamp;
-  std::ofstream m_index;
-};
-
 struct Result {
   io::Json document;       ///< the report
   std::size_t refused = 0; ///< lines that were no edits
@@ -154,7 +123,7 @@ struct Result {
 garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment::Garment& garment, std::vector<garment::Garment>& layers,
                                      const body::Body* body, const garment::Scene& scene, const garment::DrapeSettings& settings, Result& result) {
   io::Json& document = result.document;
-  if (o.follow.empty() && layers.empty() && !o.untangle_only && has_goal(o, scene)) {
+  if (o.follow.empty() && o.motion.empty() && layers.empty() && !o.untangle_only && has_goal(o, scene)) {
     const garment::AccuracyGoal goal{1e-3 * o.max_error_mm, settings.max_seconds};
     garment::AccuracyReport report = garment::drape_to_goal(
         garment, body, goal, [&](garment::DrapeSettings& s) { set_knobs(s, o, scene); }, tool.reporter());
@@ -167,6 +136,19 @@ garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment:
     garment::DrapeReport report = garment::drape_layers(layers, body, settings, tool.reporter());
     garment = std::move(layers.back());
     layers.pop_back();
+    document = garment::report_json(report, tool.name());
+    return report;
+  }
+  if (!o.motion.empty()) {
+    const bool bvh = o.motion.size() > 4 && o.motion.substr(o.motion.size() - 4) == ".bvh";
+    const garment::BodyMoves moves =
+        bvh ? garment::moves_of(*body, body::read_bvh(o.motion, *body, 1 / o.motion_fps)) : garment::moves_of_files(*body, o.motion, 1 / o.motion_fps);
+    garment::FrameWriter write(o.frames, "frame of " + generator_stamp(tool.name()), std::cout);
+    garment::DrapeReport report = garment::drape_in_motion(
+        garment, *body, moves, settings, [&](const garment::MotionFrame& f, const garment::Garment& g) { write(f, g); }, tool.reporter());
+    garment.body_sha256.clear(); // it hangs on the last skin
+    if (moves.end) garment::bind_garment(garment, *moves.end);
+    else garment.bind = {};
     document = garment::report_json(report, tool.name());
     return report;
   }
@@ -187,7 +169,7 @@ garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment:
     return report;
   }
   io::LineFollower lines(o.follow);
-  FrameWriter write(o.frames, "frame of " + generator_stamp(tool.name()));
+  garment::FrameWriter write(o.frames, "frame of " + generator_stamp(tool.name()), std::cout);
   const garment::FollowSession session{[&](int wait_ms) { return lines.next(wait_ms); }, [&] { return lines.ended(); },
                                        [&](const garment::FollowFrame& f, const garment::Garment& g) { write(f, g); }};
   garment::FollowReport report = garment::follow(garment, body, settings, session, tool.reporter());
@@ -199,8 +181,11 @@ garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment:
 
 void check_options(const Options& o) {
   if (!o.follow.empty() && o.from.empty()) throw Error(ErrorKind::USAGE, "", "--follow", "there is no garment to go on from", "give --from shirt.json");
-  if (o.follow.empty() && !(o.frames.empty() && o.edit_log.empty()))
-    throw Error(ErrorKind::USAGE, "", o.frames.empty() ? "--edit-log" : "--frames", "no edits are followed", "give --follow too");
+  if (o.follow.empty() && !((o.frames.empty() || !o.motion.empty()) && o.edit_log.empty()))
+    throw Error(ErrorKind::USAGE, "", o.edit_log.empty() ? "--frames" : "--edit-log", "no edits are followed",
+                o.edit_log.empty() ? "give --follow or --motion too" : "give --follow too");
+  if (!o.motion.empty() && !(o.follow.empty() && o.over.empty() && o.checkpoint.empty() && o.max_error_mm == 0 && !o.untangle_only))
+    throw Error(ErrorKind::USAGE, "", "--motion", "goes with neither --follow, --over, --checkpoint, --max-error-mm nor --untangle-only", "leave them out");
   if (!o.over_output.empty() && o.over_output.size() != o.over.size())
     throw Error(ErrorKind::USAGE, "", "--over-output", "is given " + std::to_string(o.over_output.size()) + " times, --over " + std::to_string(o.over.size()),
                 "name one file for each garment of --over");
@@ -241,9 +226,9 @@ body::Body read_body(const std::string& path, garment::Garment& garment, io::Jso
 /// Goes on from a checkpoint, which knows all but the body.
 int resume(cli::Tool& tool, const Options& o) {
   const std::pair<const char*, bool> given[] = {
-      {"--scene", !o.scene.empty()},   {"--accuracy", !o.accuracy.empty()}, {"--effects", !o.effects.empty()},      {"--material", !o.material.empty()},
-      {"--set", !o.set.empty()},       {"--over", !o.over.empty()},         {"--max-error-mm", o.max_error_mm > 0}, {"--max-seconds", o.max_seconds > 0},
-      {"--follow", !o.follow.empty()}, {"--untangle-only", o.untangle_only}};
+      {"--scene", !o.scene.empty()},   {"--accuracy", !o.accuracy.empty()},  {"--effects", !o.effects.empty()},      {"--material", !o.material.empty()},
+      {"--set", !o.set.empty()},       {"--over", !o.over.empty()},          {"--max-error-mm", o.max_error_mm > 0}, {"--max-seconds", o.max_seconds > 0},
+      {"--follow", !o.follow.empty()}, {"--untangle-only", o.untangle_only}, {"--motion", !o.motion.empty()}};
   for (const auto& [name, is_given] : given)
     if (is_given) throw Error(ErrorKind::USAGE, "", name, "is settled by the checkpoint", "leave it out");
   io::Json inputs = io::Json::array({input_entry(o.from)});
@@ -267,6 +252,7 @@ int run(cli::Tool& tool, Options& o) {
     throw Error(ErrorKind::USAGE, "", "", o.from.empty() ? "nothing to drape" : "both --panels and --from are given",
                 "give --panels panels.json or --from shirt.json");
   const garment::DrapeSettings settings = resolve(o, scene);
+  if (!o.motion.empty() && o.body.empty()) throw Error(ErrorKind::USAGE, "", "--motion", "there is no body to move", "give --body body.json");
 
   io::Json inputs = io::Json::array();
   garment::Garment garment;
@@ -279,6 +265,7 @@ int run(cli::Tool& tool, Options& o) {
 
   body::Body body;
   if (!o.body.empty()) body = read_body(o.body, garment, inputs);
+  if (!o.motion.empty()) inputs.push_back(input_entry(o.motion));
   std::vector<garment::Garment> layers;
   for (const std::string& path : o.over) {
     layers.push_back(garment::read_garment(path));
@@ -286,7 +273,7 @@ int run(cli::Tool& tool, Options& o) {
   }
   Result result;
   const garment::DrapeReport report = drape_or_follow(tool, o, garment, layers, o.body.empty() ? nullptr : &body, scene, settings, result);
-  if (!o.body.empty()) garment::bind_garment(garment, body);
+  if (!o.body.empty() && o.motion.empty()) garment::bind_garment(garment, body);
 
   garment::write_garment(o.output, garment, tool.name());
   for (std::size_t k = 0; k < o.over_output.size(); ++k) {

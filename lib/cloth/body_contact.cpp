@@ -18,6 +18,10 @@ constexpr double APPROACH = 0.7;
 /// In one part of its way skin uses at most this share of its distance to cloth in front of it. One step of the cloth at most doubles a
 /// distance that is short (Newton's step into the barrier): with half, cloth would never be left the distance that it had.
 constexpr double SKIN_APPROACH = 1.0 / 3;
+/// Carried cloth that the skin would come too near to is pushed away by at most this much at a time, m, in so many rounds: a twist of the
+/// skin under taut cloth is met, a wall that comes is not.
+constexpr double MOST_CLEARED = 0.002;
+constexpr int CLEAR_ROUNDS = 12;
 /// Cloth is searched for again when a particle has used this share of what it may move unseen.
 constexpr double USED = 0.6;
 /// A crossed pair is pushed as if at most this deep, m: a deep start is pushed out, not shot out.
@@ -104,11 +108,24 @@ std::vector<double> BodyContactEffect::skin_room(const std::vector<Vec3>& x) {
   return room;
 }
 
-double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& way) {
-  double longest = 0;
-  for (const Vec3& w : way) longest = std::max(longest, w.norm());
-  if (longest <= 0) return 1;
+double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry) {
   if (m_edge_slot.empty()) return 0; // not bound yet: there was no step
+  double longest = 0, carried = 0;
+  for (const Vec3& d : carry) carried = std::max(carried, d.norm());
+  Vec3 low = Vec3::Constant(1e300), high = -low; // skin that no cloth is near may go as far as it likes
+  const double reach = m_options.gap_m + m_options.slack_m;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (const Vec3& p : {x[i], Vec3(x[i] + carry[i])}) {
+      low = low.cwiseMin(p - Vec3::Constant(reach));
+      high = high.cwiseMax(p + Vec3::Constant(reach));
+    }
+  const std::vector<Vec3>& skin = m_body.mesh().positions;
+  for (std::size_t v = 0; v < way.size(); ++v) {
+    const Vec3 to = skin[v] + way[v];
+    const bool near = (skin[v].cwiseMin(to).array() <= high.array()).all() && (skin[v].cwiseMax(to).array() >= low.array()).all();
+    if (near) longest = std::max(longest, way[v].norm());
+  }
+  if (longest <= 0 && carried <= 0) return 1;
   const double seen = USED * (EDGE_REACH * m_options.gap_m + m_options.slack_m);
   begin_step(x, 0);
   double moved = m_body_moved;
@@ -117,17 +134,54 @@ double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vect
     search(x);
     moved = 0;
   }
-  double share = std::min(1.0, (seen - moved) / longest);
+  double share = std::min(1.0, (seen - moved) / (longest + carried));
   for (const Pair& pair : m_pairs) {
     if (pair.crossed) continue;
     const Closest c = closest(pair, x);
     if (!c.valid) continue;
-    for (int k = 0; k < pair.n_body; ++k) {
-      const double toward = c.normal.dot(way[pair.body[k]]);
-      if (toward > 0) share = std::min(share, SKIN_APPROACH * c.distance / toward);
+    // At the closest points: what turns with the skin, as carried cloth does, comes no nearer by turning.
+    double skin_toward = 0, cloth_away = 0;
+    for (int k = 0; k < pair.n_body; ++k) skin_toward += c.body_weight[k] * c.normal.dot(way[pair.body[k]]);
+    for (int k = 0; k < pair.n; ++k) cloth_away += c.weight[k] * c.normal.dot(carry[pair.particle[k]]);
+    if (const double nearer = skin_toward - cloth_away; nearer > 0) {
+      share = std::min(share, SKIN_APPROACH * c.distance / nearer);
     }
   }
   return share;
+}
+
+void BodyContactEffect::clear_carry(const std::vector<Vec3>& x, const std::vector<Vec3>& way, std::vector<Vec3>& carry) {
+  if (m_edge_slot.empty()) return;
+  begin_step(x, 0);
+  struct Near {
+    const Pair* pair;
+    Closest c;
+    double skin_toward; // m
+  };
+  std::vector<Near> near;
+  for (const Pair& pair : m_pairs) {
+    if (pair.crossed) continue;
+    const Closest c = closest(pair, x);
+    if (!c.valid) continue;
+    double toward = 0;
+    for (int k = 0; k < pair.n_body; ++k) toward += c.body_weight[k] * c.normal.dot(way[pair.body[k]]);
+    near.push_back({&pair, c, toward});
+  }
+  for (int round = 0; round < CLEAR_ROUNDS; ++round) {
+    bool more = false;
+    for (const Near& n : near) {
+      double away = 0, share = 0;
+      for (int k = 0; k < n.pair->n; ++k) {
+        away += n.c.weight[k] * n.c.normal.dot(carry[n.pair->particle[k]]);
+        share += n.c.weight[k] * n.c.weight[k];
+      }
+      const double lack = n.skin_toward - away - 0.5 * SKIN_APPROACH * n.c.distance;
+      if (lack <= 0 || lack > MOST_CLEARED) continue;
+      for (int k = 0; k < n.pair->n; ++k) carry[n.pair->particle[k]] += n.c.weight[k] / share * lack * n.c.normal;
+      more = true;
+    }
+    if (!more) return;
+  }
 }
 
 /// Anchors go with the nearest skin: it moves as its triangle does, in the barycentric coordinates of the anchor.

@@ -41,12 +41,18 @@ public:
   /// How far each vertex of the skin may move at once so that it passes none of the cloth at x, m: half of its distance to the cloth,
   /// and no more than what is seen. Cloth that crosses the skin already does not count. Searches. After a first step only.
   std::vector<double> skin_room(const std::vector<Vec3>& x);
-  /// The largest share of the way `way` (#V by 3 of the skin, m) that the skin may go at once and pass none of the cloth at x: up to
-  /// a third of each pair's distance towards it, sideways and back without limit, and no farther than what is seen. Searches when
-  /// it must. Cloth that crosses the skin already does not count. In [0, 1]; 0 before the first step.
-  double free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& way);
+  /// Pushes `carry` (#P by 3, m) away from skin that goes `way` (#V by 3, m), where cloth at x + carry would be nearer to it than half of what
+  /// free_share() allows. Small pushes only. Cost: O(near pairs).
+  void clear_carry(const std::vector<Vec3>& x, const std::vector<Vec3>& way, std::vector<Vec3>& carry);
+  /// The largest share of the way `way` (#V by 3 of the skin, m) that the skin may go at once, while the cloth at x goes the same share of
+  /// `carry` (#P by 3, m), and pass none of it: they come nearer by at most a third of each pair's distance, sideways and apart without
+  /// limit, and no farther than what is seen. Searches when it must. Cloth that crosses the skin already does not count. In [0, 1];
+  /// 0 before the first step.
+  double free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry);
   /// Moves the body (same topology). Anchors of friction go with the skin that they are on.
   void move_body(const std::vector<Vec3>& positions);
+  /// How far beyond the reach pairs are kept, m: wide where skin and cloth pass each other fast.
+  void set_slack(double slack_m) { m_options.slack_m = slack_m, m_stale = true; }
   void set_friction(double mu) { m_options.friction = mu; }
   /// Positions were changed from outside: look for crossings at the next search, which comes before the next step.
   void refresh();

@@ -1,3 +1,4 @@
+#include <base/parallel.hpp>
 #include <cloth/body_motion.hpp>
 
 #include <algorithm>
@@ -13,6 +14,9 @@ constexpr double SHORTEST_PART = 2e-4;
 /// Time given to a part is at least this share of the advance's, however short its way. Without it cloth that must be as fast as the skin
 /// at once would never be: parts, and the time in which the contact speeds the cloth up, shrink with the distance.
 constexpr double LEAST_TIME = 0.02;
+/// Cloth this near is carried whole, then less and less, m.
+constexpr double CARRIED_WHOLE = 0.006, NOT_CARRIED = 0.03;
+constexpr int GUARD_ROUNDS = 4;
 
 double longest_of(const std::vector<Vec3>& way) {
   double longest = 0;
@@ -22,10 +26,54 @@ double longest_of(const std::vector<Vec3>& way) {
 
 } // namespace
 
+BodyMotion::BodyMotion(ClothSolver& solver, BodyContactEffect& contact, collision::BodyCollider& body)
+    : m_solver(solver), m_contact(contact), m_body(body), m_nearest(solver.x().size(), -1) {
+  for (const auto& effect : solver.effects())
+    if (effect->name() == std::string("self_contact")) m_self_contact = effect.get();
+}
+
+/// As the nearest skin goes: by the way of its triangle, in the barycentric coordinates of the nearest point.
+void BodyMotion::find_carry(const std::vector<Vec3>& way) {
+  const std::vector<Vec3>& x = m_solver.x();
+  m_carry.assign(x.size(), Vec3::Zero());
+  parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const collision::SignedDistance d = m_body.signed_distance(x[i], NOT_CARRIED, m_nearest[i]);
+      m_nearest[i] = d.triangle;
+      if (d.triangle < 0) continue;
+      const double far = std::clamp((d.distance - CARRIED_WHOLE) / (NOT_CARRIED - CARRIED_WHOLE), 0.0, 1.0);
+      const Triangle& t = m_body.mesh().triangles[d.triangle];
+      for (int k = 0; k < 3; ++k) m_carry[i] += (1 - far) * (1 - far) * d.barycentric[k] * way[t[k]];
+    }
+  });
+  m_contact.clear_carry(x, way, m_carry);
+  if (m_self_contact) keep_from_crossing();
+}
+
+/// Takes off what of the carry would bring cloth through cloth.
+void BodyMotion::keep_from_crossing() {
+  const std::vector<Vec3>& x = m_solver.x();
+  MotionLimits limits;
+  limits.reset(x.size());
+  std::vector<Vec3> force(x.size(), Vec3::Zero());
+  std::vector<ContactElement> elements;
+  BlockMatrix unused; // self contact adds elements only
+  StepContext context{x, 1, force, unused, elements, &limits};
+  std::vector<char> held(x.size(), 0);
+  m_self_contact->begin_step(x, 1);
+  m_self_contact->add(context);
+  limits.apply(x, m_carry, held);
+  for (int round = 1; round <= GUARD_ROUNDS; ++round) {
+    if (!m_self_contact->guard_motion(x, m_carry, limits, round == GUARD_ROUNDS)) return;
+    limits.apply(x, m_carry, held);
+  }
+}
+
 StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOptions& options, const std::function<StepResult(const StepOptions&)>& step) {
   ++calls;
   StepResult result;
-  std::vector<Vec3> way(target.size()), skin;
+  std::vector<Vec3> way(target.size()), skin, velocity(m_solver.x().size(), Vec3::Zero());
+  const std::vector<Vec3> nothing = velocity;
   double left = 1, moved = 0; // left: share of the way; moved: of all parts together, m
   int most_parts = 0;
   for (int part = 1;; ++part) {
@@ -37,9 +85,14 @@ StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOption
       largest_way_m = std::max(largest_way_m, longest);
       most_parts = MOST_PARTS + static_cast<int>(std::min(longest / SHORTEST_PART, 1e6));
     }
-    double share = m_contact.free_share(m_solver.x(), way);
+    m_carry = nothing;
+    if (longest > 0) find_carry(way);
+    double share = longest > 0 ? m_contact.free_share(m_solver.x(), way, m_carry) : 1;
     const bool force = part >= most_parts && share < 1;
-    if (force) share = 1;
+    if (force) {
+      share = 1;
+      m_carry = nothing;
+    }
     if (share > 0 && longest > 0) {
       for (std::size_t v = 0; v < way.size(); ++v) skin[v] = share < 1 ? Vec3(skin[v] + share * way[v]) : target[v];
       m_contact.move_body(skin);
@@ -48,14 +101,22 @@ StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOption
       ++forced;
       m_contact.refresh();
     }
-    wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     StepOptions o = options;
     const double time = share * left;
     if (options.inertia > 0) o.h = std::max(LEAST_TIME, time) * options.h;
     left -= time;
+    for (std::size_t i = 0; i < m_carry.size(); ++i) {
+      m_carry[i] *= share;
+      velocity[i] = -m_carry[i] / o.h;
+    }
+    const bool carried = longest > 0;
+    if (carried) m_solver.shift(m_carry, velocity);
+    wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     result = step ? step(o) : m_solver.step(o);
+    for (Vec3& v : velocity) v = -v;
+    if (carried && result.finite) m_solver.shift(nothing, velocity);
     ++parts;
-    moved += result.largest_move_m;
+    moved += result.largest_move_m + longest_of(m_carry);
     result.largest_move_m = moved;
     if (!result.finite || share >= 1) return result;
   }

@@ -1,11 +1,13 @@
 #pragma once
 /// Body motion: a body that moves under cloth, in parts so short that no skin passes cloth that is clear of it.
 ///
-/// A part of the way ends where the skin has come a third of the way to the cloth in front of it (BodyContactEffect::free_share()); then the
-/// cloth steps in its share of the time, and makes room by contact; then the next part. So a body of any speed pushes cloth and
-/// never jumps over it. Where cloth cannot give way in many parts (it is pinned, or caught between two limbs) the
-/// skin goes through what is left and pushes out what it crosses, as at a deep start; such moments are counted.
-/// Test: tests/cloth/test_body_motion.cpp
+/// Cloth near the skin is first carried along with it, as far as self contact lets it, so that a body under taut cloth meets as little of
+/// it as one that stands still. A part of the way ends where skin and carried cloth have come nearer by a third of the distance of any
+/// pair of them (BodyContactEffect::free_share()); then the cloth steps in its share of the time, from where it was carried to but with
+/// the inertia of where it was: (M/h^2 + K) dx = f(x + c) + M (v - c/h) / h, then v = (c + dx)/h, c being the carry. So the carry is
+/// where a step begins to look, and no motion: what swings freely, or slips, does so as without it. Then the next part. Where cloth cannot
+/// give way in many parts (it is pinned, or caught between two limbs) the skin goes through what is left and pushes out what it crosses,
+/// as at a deep start; such moments are counted. Test: tests/cloth/test_body_motion.cpp
 #include <cloth/body_contact.hpp>
 #include <cloth/implicit_step.hpp>
 
@@ -15,8 +17,8 @@ namespace sloper::cloth {
 
 class BodyMotion {
 public:
-  /// Both outlive this; `contact` is an effect of `solver`.
-  BodyMotion(ClothSolver& solver, BodyContactEffect& contact, collision::BodyCollider& body) : m_solver(solver), m_contact(contact), m_body(body) {}
+  /// All outlive this; `contact` is an effect of `solver`.
+  BodyMotion(ClothSolver& solver, BodyContactEffect& contact, collision::BodyCollider& body);
 
   /// The skin goes straight to `target` (#V by 3, m) and the cloth steps meanwhile; both take options.h seconds.
   /// @param options  of each part, whose h is its share of options.h (with inertia 0 all of it: that flow knows no time)
@@ -28,12 +30,18 @@ public:
   long parts = 0;           ///< steps
   long forced = 0;          ///< advances in which the skin had to go through cloth
   double largest_way_m = 0; ///< of a skin vertex in one advance
-  double wall_s = 0;        ///< of moving the skin, without the cloth's steps
+  double wall_s = 0;        ///< of moving the skin and carrying cloth, without the cloth's steps
 
 private:
+  void find_carry(const std::vector<Vec3>& way);
+  void keep_from_crossing();
+
   ClothSolver& m_solver;
   BodyContactEffect& m_contact;
   collision::BodyCollider& m_body;
+  Effect* m_self_contact = nullptr;
+  std::vector<Vec3> m_carry;  // #P, m
+  std::vector<int> m_nearest; // #P, triangle of the skin, or -1
 };
 
 } // namespace sloper::cloth

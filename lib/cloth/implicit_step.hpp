@@ -45,6 +45,10 @@ public:
   const std::vector<Vec3>& x() const { return m_x; }
   const std::vector<Vec3>& v() const { return m_v; }
   void set_positions(std::vector<Vec3> x);
+  /// Adds to positions and to velocities; for what carries cloth beside its steps (BodyMotion). Sizes #P.
+  void shift(const std::vector<Vec3>& dx, const std::vector<Vec3>& dv) {
+    for (std::size_t i = 0; i < m_x.size(); ++i) m_x[i] += dx[i], m_v[i] += dv[i];
+  }
   void stop() { m_v.assign(m_v.size(), Vec3::Zero()); }
   const std::vector<std::unique_ptr<Effect>>& effects() const { return m_effects; }
   const ClothMesh& mesh() const { return m_mesh; }

@@ -75,6 +75,11 @@ double DrapeRun::mean_edge() const {
   return sum / static_cast<double>(m_cloth->springs.size());
 }
 
+void DrapeRun::activate(const char* effect, const char* why) {
+  for (EffectReport& e : m_report.effects)
+    if (e.name == effect) e.active = true, e.why = why;
+}
+
 bool DrapeRun::active(const char* effect) const { return is_active(m_report.effects, effect); }
 
 void DrapeRun::prepare_body(bool near_hands) {
@@ -136,6 +141,7 @@ void DrapeRun::build_solver(bool open_seams) {
   if (m_solver) report_effects();
   m_cloth = std::make_unique<cloth::ClothMesh>(cloth_mesh_of(m_garment));
   m_solver = std::make_unique<cloth::ClothSolver>(*m_cloth, m_garment.position);
+  m_loaded = false;
   if (!active("damping"))
     for (cloth::EdgeSpring& s : m_cloth->springs) s.damping_s = 0;
   if (!active("damping"))
@@ -307,6 +313,8 @@ void DrapeRun::judge_fit() {
 int DrapeRun::glide() const { return m_at.disturbed ? GLIDE_STEPS : 0; }
 
 void DrapeRun::add_load() {
+  if (m_loaded) return;
+  m_loaded = true;
   if (active("gravity")) m_solver->emplace<cloth::GravityEffect>(*m_cloth, Vec3(0, -m_settings.gravity_m_s2, 0));
   const Material& material = material_of(m_garment, "");
   if (active("friction") && m_body_contact) m_body_contact->set_friction(material.friction_body);
@@ -416,6 +424,7 @@ void DrapeRun::finish() {
       {"residual", m_at.last.cg.residual},
       {"newton", 1},
       {"rejected_steps", m_at.rejected}};
+  if (m_moves) m_report.quality["motion"] = m_motion;
   m_garment.converged = m_report.converged;
   m_garment.offset_m = m_settings.contact_gap_m;
 }
@@ -425,6 +434,7 @@ DrapeReport DrapeRun::run() {
     const bool unsewn = m_garment.particle_of.empty();
     if (unsewn) unsew(m_garment);
     m_report.effects = choose_effects(m_garment, m_body, m_settings);
+    if (m_moves) activate("body_motion", "the body moves");
     start_outside_body(unsewn);
     m_at.disturbed = unsewn || m_at.scale < 1;
     if (unsewn && active("sewing")) sew();
@@ -438,6 +448,7 @@ DrapeReport DrapeRun::run() {
     }
     if (m_at.phase != DrapePhase::SETTLE) inflate();
     settle();
+    if (m_moves) follow_motion();
   }
   finish();
   m_report.wall_s = elapsed();

@@ -8,6 +8,7 @@
 #include <garment/body_shrink.hpp>
 #include <garment/drape_state.hpp>
 #include <garment/mitten.hpp>
+#include <garment/motion.hpp>
 
 #include <chrono>
 #include <optional>
@@ -22,6 +23,8 @@ class DrapeRun {
 public:
   DrapeRun(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter, const FitBounds& bounds = {});
   DrapeReport run();
+  /// Once the cloth is at rest the body moves, and the cloth comes to rest again at the end. To be called before run().
+  void then_move(const BodyMoves& moves, OnMotionFrame on_frame);
   DrapeReport run_untangle_only();
   void set_checkpoints(const Checkpoints& checkpoints) { m_checkpoints = checkpoints; }
   /// Goes on from there with run(): the garment is the checkpoint's, as it was given to the constructor.
@@ -55,6 +58,9 @@ private:
   std::size_t part_all();
   void inflate();
   void settle();
+  void follow_motion(); ///< drape_motion.cpp
+  void audit_frame(MotionFrame& frame);
+  void activate(const char* effect, const char* why);
   void add_load();                                                   ///< weight and friction
   int glide() const;                                                 ///< step of SETTLE at which they come
   bool checkpoint();                                                 ///< between steps: where one is due, writes it and rebuilds; whether it did
@@ -90,6 +96,11 @@ private:
   cloth::BodyContactEffect* m_body_contact = nullptr;
   cloth::SelfContactEffect* m_self_contact = nullptr;
   cloth::SewingSpringEffect* m_sewing = nullptr;
+  bool m_loaded = false; ///< with weight and friction
+  const BodyMoves* m_moves = nullptr;
+  OnMotionFrame m_on_frame;
+  io::Json m_motion;      ///< for the report
+  body::Body m_end_body;  ///< where the motion left it
   bool m_stopped = false; ///< by time limit, by the user or by the guard
 };
 

@@ -96,6 +96,7 @@ std::vector<EffectReport> choose_effects(const Garment& garment, const body::Bod
   consider("pressure", scene.pressure_pa != 0, "the scene has pressure", "the pressure is 0");
   const bool touches = body && !body->skin.triangles.empty();
   consider("body_contact", touches, "there is a body", "there is no body");
+  consider("body_motion", false, "", touches ? "the body stands still" : "there is no body");
   consider("friction", touches && rubs, "cloth rests on the body by it", touches ? "no fabric has friction" : "there is no body to rest on");
   consider("self_contact", garment.panels.panels.size() > 1 || bend, "panels can touch each other", "one panel without bending");
   int layers = 0;

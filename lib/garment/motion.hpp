@@ -1,0 +1,46 @@
+#pragma once
+/// A garment on a body that moves: poses as skins, and a drape that follows them with the cloth's own inertia.
+#include <body/pose_file.hpp>
+#include <garment/drape.hpp>
+
+#include <functional>
+#include <memory>
+
+namespace sloper::garment {
+
+/// The body's skin over time, frame by frame; frame 0 comes `frame_s` after the body stood as it was draped.
+struct BodyMoves {
+  std::size_t n_frames = 0;
+  double frame_s = 1.0 / 30;
+  std::size_t lead_in = 0;                            ///< frames at the start that lead from the body as it was draped to the motion's first
+  std::function<std::vector<Vec3>(std::size_t)> skin; ///< of frame k, #V by 3 as body.skin, m
+  std::shared_ptr<const body::Body> end;              ///< the whole body in the last frame, with its landmarks; null where not known
+};
+
+/// Poses of a motion (pose_file.hpp) on `body`, which outlives this, with a lead-in from the body as it stands: joints turn evenly, for as long
+/// as it takes no skin faster than LEAD_IN_SPEED, at least 0.2 s. @throws Error INPUT where the body cannot be posed or there is no pose
+BodyMoves moves_of(const body::Body& body, const body::Motion& motion);
+
+/// A numbered sequence of skins (NAME.0001.obj, NAME.0002.obj, ... as scan-landmarks --pose writes it) from its first file on, with a
+/// straight lead-in. Files are read as they are needed. @throws Error INPUT for a file without number, or of other vertices or faces than the body's
+BodyMoves moves_of_files(const body::Body& body, const std::string& first_file, double frame_s);
+
+/// One frame of the cloth, with what an exact audit of it found.
+struct MotionFrame {
+  int number = 0;    ///< from 1
+  double time_s = 0; ///< since the body began to move
+  std::size_t faces_through = 0, vertices_inside = 0, self_intersections = 0;
+  long parts = 0;       ///< in which the body went, see cloth/body_motion.hpp
+  bool forced = false;  ///< cloth could not give way, and the skin went through it
+  double speed_m_s = 0; ///< of the fastest particle, at most
+};
+using OnMotionFrame = std::function<void(const MotionFrame&, const Garment&)>;
+
+/// drape(), then the motion: the cloth keeps its velocity, sticks to and slides over the moving skin, and comes to rest again in the last
+/// pose. `quality.motion`: frames, lead_in, simulated_s, parts, forced_frames, largest_way_m (of skin in one frame), ms_per_frame, and
+/// frames and counts with faces through the body, vertices inside it and self intersections.
+/// @param on_frame  after each frame; may be empty
+DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const BodyMoves& moves, const DrapeSettings& settings, const OnMotionFrame& on_frame,
+                            Reporter& reporter);
+
+} // namespace sloper::garment

@@ -1,0 +1,177 @@
+/// Stiffness against finite differences of the force, matrix and contact elements together, for the effects that test_forces.cpp and
+/// test_effects.cpp do not cover; and what the paper says of the matrix of edge springs.
+#include "force_checks.hpp"
+
+#include <cloth/attachments.hpp>
+#include <cloth/body_contact.hpp>
+#include <cloth/edge_spring.hpp>
+#include <cloth/elastic_band.hpp>
+#include <cloth/gravity.hpp>
+#include <cloth/pins.hpp>
+#include <cloth/self_contact.hpp>
+#include <cloth/sewing_spring.hpp>
+#include <cloth/shear.hpp>
+
+using namespace sloper;
+using namespace sloper::cloth;
+
+namespace {
+
+using Field = std::vector<Vec3>;
+
+Field random_field(std::size_t n, std::uint64_t seed) { return jittered(Field(n, Vec3::Zero()), 1, seed); }
+
+/// Largest difference of K d from -(f(x + s d) - f(x - s d)) / 2 s, over the largest of K d.
+double jacobian_error(Effect& effect, const ClothMesh& mesh, const Field& x, const Field& direction, double step = 1e-7) {
+  std::vector<std::array<int, 2>> pairs;
+  effect.declare(pairs);
+  BlockMatrix matrix(mesh.n_particles, pairs), unused(mesh.n_particles, pairs);
+  effect.bind(matrix);
+  effect.begin_step(x, 1e30);
+  const auto fill = [&](const Field& at, BlockMatrix& stiffness, std::vector<ContactElement>& elements) {
+    Field force(x.size(), Vec3::Zero());
+    StepContext c{at, 1e30, force, stiffness, elements, nullptr};
+    effect.add(c);
+    add_forces(elements, force);
+    return force;
+  };
+  std::vector<ContactElement> elements, of_plus, of_minus;
+  fill(x, matrix, elements);
+  Field plus = x, minus = x, product(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) plus[i] += step * direction[i], minus[i] -= step * direction[i];
+  const Field fp = fill(plus, unused, of_plus), fm = fill(minus, unused, of_minus);
+  matrix.multiply(direction, product);
+  for (const ContactElement& e : elements) {
+    Vec3 s = Vec3::Zero();
+    for (int k = 0; k < e.n; ++k) s += e.weight[k] * direction[e.particle[k]];
+    for (int k = 0; k < e.n; ++k) product[e.particle[k]] += e.weight[k] * (e.stiffness() * s);
+  }
+  double error = 0, scale = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    error = std::max(error, (product[i] + (fp[i] - fm[i]) / (2 * step)).norm());
+    scale = std::max(scale, product[i].norm());
+  }
+  EXPECT_GT(scale, 0) << effect.name() << " has no stiffness here";
+  return error / std::max(scale, 1e-30);
+}
+
+Field along(std::size_t n, const Vec3& d) { return Field(n, d); }
+
+// Contact leaves out how the way between closest points turns, which is not definite. These scenes have pairs that do not turn.
+
+/// One large triangle below all of the cloth, closed downwards.
+TriangleMesh plate() { return {{Vec3(-2, 0, 2), Vec3(3, 0, 2), Vec3(0, 0, -4), Vec3(0, -1, 0)}, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}}; }
+
+/// A roof whose ridge runs along z below the middle of a column of cells.
+TriangleMesh roof() { return {{Vec3(0.05, 0, 1), Vec3(0.05, 0, -1), Vec3(-1, -0.5, 0), Vec3(1.1, -0.5, 0)}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}}; }
+
+} // namespace
+
+TEST(Jacobian, of_sewing_springs_within_reach) {
+  const Grid g = make_grid(4, 0.1);
+  SewingSpringEffect effect({{0, 1}, {2, 9}, {0, 15}}, 50, 1.0);
+  EXPECT_LT(jacobian_error(effect, g.mesh, jittered(g.x, 0.004, 1), random_field(16, 2), 1e-5), 1e-8);
+}
+
+TEST(Jacobian, of_pins_with_and_without_a_free_axis) {
+  const Grid g = make_grid(3, 0.1);
+  PinsEffect effect({{0, Vec3(0.01, 0.02, 0), 1e4, Vec3::Zero()}, {4, Vec3::Zero(), 500, Vec3::UnitX()}});
+  EXPECT_LT(jacobian_error(effect, g.mesh, g.x, random_field(9, 3), 1e-5), 1e-8);
+}
+
+TEST(Jacobian, of_taut_attachments_and_elastic_bands) {
+  const Grid g = make_grid(4, 0.1);
+  AttachmentsEffect cords({{0, Vec3(0, 0.2, 0.1), 0.05, 80}, {5, Vec3(0.1, 0.3, 0), 0.1, 30}});
+  EXPECT_LT(jacobian_error(cords, g.mesh, g.x, random_field(16, 4)), 1e-5);
+  ElasticBandEffect bands({{0, 1, 0.02, 40}, {1, 2, 0.03, 40}, {2, 3, 0.01, 10}});
+  EXPECT_LT(jacobian_error(bands, g.mesh, jittered(g.x, 0.002, 5), random_field(16, 6)), 1e-5);
+}
+
+TEST(Jacobian, of_shear_at_rest_where_its_definite_part_is_all_of_it) {
+  const Grid g = make_grid(5, 0.1);
+  ShearEffect effect(g.mesh);
+  EXPECT_LT(jacobian_error(effect, g.mesh, g.x, random_field(25, 7), 1e-6), 1e-4);
+}
+
+TEST(Jacobian, of_weight_is_none) {
+  const Grid g = make_grid(3, 0.1);
+  GravityEffect effect(g.mesh, Vec3(0, -9.80665, 0));
+  BlockMatrix matrix(g.mesh.n_particles, {});
+  const auto a = force_of(effect, g.mesh.n_particles, g.x, matrix), b = force_of(effect, g.mesh.n_particles, jittered(g.x, 0.1, 8), matrix);
+  EXPECT_EQ(a, b);
+  EXPECT_EQ(dense(matrix).norm(), 0);
+}
+
+TEST(Jacobian, of_body_contact_along_the_skins_normal) {
+  for (double height : {0.0028, 0.0012, 0.0005}) { // near the reach, deeper, and in the barrier
+    Grid g = make_grid(6, 0.1);
+    for (Vec3& p : g.x) p.y() += height;
+    collision::BodyCollider body(plate());
+    BodyContactEffect effect(g.mesh, body, {});
+    EXPECT_LT(jacobian_error(effect, g.mesh, g.x, along(36, Vec3::UnitY()), 1e-8), 1e-4) << height;
+  }
+}
+
+TEST(Jacobian, of_edges_of_the_cloth_over_an_edge_of_the_body) {
+  for (double height : {0.0012, 0.0004}) {
+    Grid g = make_grid(6, 0.1);
+    for (Vec3& p : g.x) p.y() += height;
+    collision::BodyCollider body(roof());
+    BodyContactEffect effect(g.mesh, body, {});
+    EXPECT_LT(jacobian_error(effect, g.mesh, g.x, along(36, Vec3::UnitY()), 1e-8), 1e-4) << height;
+  }
+}
+
+TEST(Jacobian, of_friction_that_sticks_along_the_skin) {
+  Grid g = make_grid(6, 0.1);
+  for (Vec3& p : g.x) p.y() += 0.002;
+  collision::BodyCollider body(plate());
+  BodyContactOptions options;
+  options.friction = 0.5;
+  BodyContactEffect effect(g.mesh, body, options);
+  EXPECT_LT(jacobian_error(effect, g.mesh, g.x, along(36, Vec3(0.6, 0, 0.8)), 1e-8), 1e-4);
+}
+
+TEST(Jacobian, of_self_contact_of_edges_that_cross) {
+  // two triangles over each other like a star: six pairs of edges cross, corners are far from the other face
+  std::vector<RestTriangle> triangles;
+  Field x, up(6, Vec3::Zero());
+  for (int of = 0; of < 2; ++of) {
+    RestTriangle t;
+    for (int k = 0; k < 3; ++k) {
+      const double angle = 2 * M_PI * k / 3 + of * M_PI / 3;
+      t.particle[k] = 3 * of + k;
+      t.flat[k] = 0.05 * Vec2(std::cos(angle), std::sin(angle));
+      x.emplace_back(t.flat[k].x(), of * 0.0015, -t.flat[k].y());
+      if (of) up[3 + k] = Vec3::UnitY();
+    }
+    triangles.push_back(t);
+  }
+  const ClothMesh mesh = make_cloth_mesh(6, triangles, {Fabric{}});
+  SelfContactEffect effect(mesh, {});
+  EXPECT_LT(jacobian_error(effect, mesh, x, up, 1e-8), 1e-4);
+}
+
+TEST(Jacobian, one_percent_compression_makes_the_papers_whole_matrix_indefinite) {
+  // M - h df/dv - h^2 df/dx over h^2, of a square of cloth that is 1 % too short: "always positive definite" it is not; clamped it is.
+  Fabric undamped;
+  undamped.damping_s = 0;
+  const Grid g = make_grid(5, 0.1, undamped);
+  Field x = g.x;
+  for (Vec3& p : x) p *= 0.99;
+  const double h = 1.0 / 30;
+  for (bool clamp : {false, true}) {
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(75, 75);
+    for (int i = 0; i < 25; ++i) a.block<3, 3>(3 * i, 3 * i) = g.mesh.mass[i] / (h * h) * Mat3::Identity();
+    for (const EdgeSpring& s : g.mesh.springs) {
+      const Mat3 k = edge_spring_stiffness(x[s.i], x[s.j], s.rest_length, s.stiffness, clamp);
+      a.block<3, 3>(3 * s.i, 3 * s.i) += k;
+      a.block<3, 3>(3 * s.j, 3 * s.j) += k;
+      a.block<3, 3>(3 * s.i, 3 * s.j) -= k;
+      a.block<3, 3>(3 * s.j, 3 * s.i) -= k;
+    }
+    const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a).eigenvalues()[0];
+    if (clamp) EXPECT_GT(least, 0);
+    else EXPECT_LT(least, -0.1);
+  }
+}
