@@ -52,3 +52,20 @@ case_a_run_killed_dead_goes_on_from_its_checkpoint_to_the_same_bytes() {
   says "--accuracy"
   run 3 "$program" --from run.checkpoint -o run.json
 }
+
+case_untangling_and_motion_say_what_they_need() {
+  local skirt=(--from "$data/skirt.json" --body a.body.json)
+  run 2 "$program" --panels panels.json --untangle-only -o out.json
+  says "--from"
+  run 2 "$program" "${skirt[@]}" --untangle-only --checkpoint c.json -o out.json
+  run 2 "$program" --from "$data/skirt.json" --motion a.body.obj -o out.json
+  says "--body"
+  run 3 "$program" "${skirt[@]}" --motion a.body.obj -o out.json
+  says "numbered"
+  run "0|4" "$program" "${skirt[@]}" --untangle-only --report report.json -o out.json
+  says "before:"
+  grep -q '"untangled"' report.json || fail "the report has no counts"
+  mkdir skins
+  for k in 1 2 3; do cp a.body.obj "skins/s.000$k.obj"; done
+  run "0|4" "$program" -q "${skirt[@]}" --accuracy draft --set max_steps=10 --motion skins/s.0001.obj --frames walk -o out.json
+}
