@@ -2,12 +2,15 @@
 /// What the fuzzers call: a reader on any bytes must read or refuse (sloper::Error), nothing else.
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 namespace sloper::fuzz {
 /// The first byte picks the format: o OBJ, p PLY, s STL, x XYZ, 3 3DS (through assimp); the rest is the file.
 void read_scan_bytes(std::string_view bytes);
-/// A JSON document, then each of our readers of documents that people or tools write.
+/// A JSON document; what we write of it, we read again.
 void read_json_bytes(std::string_view bytes);
+/// A file as a body document, a pose and landmark rules.
+void read_document_file(const std::string& path);
 /// BVH motion for a body with all bones.
 void read_bvh_bytes(std::string_view bytes);
 } // namespace sloper::fuzz

@@ -6,15 +6,16 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <set>
 #include <sstream>
 
 namespace {
 
-using Reader = void (*)(std::string_view);
+using Reader = std::function<void(std::string_view)>;
 
 /// Every file of a folder, each as it is, cut short at many places, and with bytes changed.
-void read_all(const char* folder, Reader reader) {
+void read_all(const char* folder, const Reader& reader) {
   std::set<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SLOPER_SOURCE_DIR) / "tests" / "fuzz" / "corpus" / folder))
     files.insert(entry.path());
@@ -38,4 +39,12 @@ void read_all(const char* folder, Reader reader) {
 
 TEST(FuzzCorpus, scans_are_read_or_refused) { read_all("scan", sloper::fuzz::read_scan_bytes); }
 TEST(FuzzCorpus, json_is_read_or_refused) { read_all("json", sloper::fuzz::read_json_bytes); }
+TEST(FuzzCorpus, documents_are_read_or_refused) {
+  const std::string path = ::testing::TempDir() + "sloper-fuzz-document.json";
+  read_all("document", [&](std::string_view bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+    sloper::fuzz::read_document_file(path);
+  });
+  std::filesystem::remove(path);
+}
 TEST(FuzzCorpus, motions_are_read_or_refused) { read_all("bvh", sloper::fuzz::read_bvh_bytes); }

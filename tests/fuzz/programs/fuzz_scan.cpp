@@ -1,4 +1,4 @@
-#include "targets.hpp"
+#include "../targets.hpp"
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   sloper::fuzz::read_scan_bytes({reinterpret_cast<const char*>(data), size});
   return 0;
