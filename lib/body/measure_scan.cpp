@@ -9,6 +9,7 @@
 #include <body/skin_surface.hpp>
 #include <body/torso_only.hpp>
 #include <body/touching_skin.hpp>
+#include <body/upright.hpp>
 #include <io/json.hpp>
 
 #include <algorithm>
@@ -225,13 +226,28 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
 
 } // namespace
 
-MeasuredScan measure_scan(const TriangleMesh& given, const std::string& file, const std::string& sha256, const ScanOptions& options, Reporter& reporter) {
-  for (std::size_t v = 0; v < given.positions.size(); ++v) // the readers refuse such files; a caller may hand over anything
-    if (!given.positions[v].allFinite()) throw input_error(file, "vertex " + std::to_string(v + 1), "is not a finite number");
+MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file, const std::string& sha256, const ScanOptions& options, Reporter& reporter) {
+  for (std::size_t v = 0; v < as_given.positions.size(); ++v) // the readers refuse such files; a caller may hand over anything
+    if (!as_given.positions[v].allFinite()) throw input_error(file, "vertex " + std::to_string(v + 1), "is not a finite number");
   MeasuredScan result;
   Body& body = result.body;
   Phases phases(reporter);
-  SortedScan sorted = sort_scan(given, options.up);
+  SortedScan sorted = sort_scan(as_given, options.up);
+  // a scan that lies or leans in its file is set upright first
+  std::optional<Eigen::Matrix3d> upright;
+  if (options.up == "auto" && !options.torso_only) upright = upright_turn(as_given, sorted);
+  TriangleMesh turned;
+  if (upright) {
+    turned.triangles = as_given.triangles;
+    turned.positions.reserve(as_given.positions.size());
+    for (const Vec3& p : as_given.positions) turned.positions.push_back(*upright * p);
+    sorted = sort_scan(turned, "y");
+    const Vec3 up = upright->row(1).transpose();
+    char text[80];
+    std::snprintf(text, sizeof text, "%.4f %.4f %.4f", up.x(), up.y(), up.z());
+    sorted.up_name = text;
+  }
+  const TriangleMesh& given = upright ? turned : as_given;
   CompletedTorso torso; // a scan of the torso alone stands on plain legs until the rules are done
   const bool is_torso = options.torso_only && !(shows_a_person(sorted) && sorted.up_score > 0.8); // hanging arms look a little like legs
   if (is_torso) {
@@ -290,6 +306,14 @@ MeasuredScan measure_scan(const TriangleMesh& given, const std::string& file, co
   shift(body, origin);
   if (is_torso) forget_unseen(body, transform(frame.scan_to_body, torso.seen_from * torso.up).y());
   body.scan_to_body = turn_and_shift(0, origin) * frame.scan_to_body;
+  if (upright) {
+    body.scan_to_body.block<3, 3>(0, 0) *= *upright;
+    const Vec3 facing = body.scan_to_body.block<1, 3>(2, 0).transpose().normalized();
+    char text[80];
+    std::snprintf(text, sizeof text, "%.4f %.4f %.4f", facing.x(), facing.y(), facing.z());
+    body.scan.front = text;
+    body.scan.findings.push_back({"info", "the scan leans or lies in its file: set upright on the soles of its feet", "scan"});
+  }
   build_frames(body);
   build_bones(body);
   phases.done("parts and frames");

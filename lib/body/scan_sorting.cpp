@@ -363,6 +363,8 @@ SortedScan sort_scan(const TriangleMesh& scan, const std::string& up_axis) {
   return best;
 }
 
+SortedScan sort_coarsely(const TriangleMesh& scan, const std::string& up_axis, int n_cells) { return sort_in_cells(scan, up_axis, n_cells, 1); }
+
 bool shows_a_person(const SortedScan& sorted) {
   // of a torso alone its arms are a little like legs, in one direction as in another
   const bool is_guess = sorted.up_score < DOUBTFUL_SCORE && sorted.up_score - sorted.next_score < DOUBTFUL_MARGIN;

@@ -23,6 +23,9 @@ struct SortedScan {
 /// @param up_axis "auto", "x", "y" or "z" (both signs are tried)
 SortedScan sort_scan(const TriangleMesh& scan, const std::string& up_axis);
 
+/// The same in one reading with cells of the longest side / `n_cells`: to compare many directions.
+SortedScan sort_coarsely(const TriangleMesh& scan, const std::string& up_axis, int n_cells);
+
 /// Two legs below, a narrow top: a whole person stands along `up`.
 bool shows_a_person(const SortedScan& sorted);
 
