@@ -8,7 +8,7 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double FLAT = 0.001; ///< m
+constexpr double FLAT = 0.002; ///< m
 
 /// The skin straight above (x, z), below the head.
 std::optional<Vec3> top_of_shoulder(const TriangleMesh& skin, double stature, double x, double z) {
@@ -54,16 +54,26 @@ std::optional<double> wrist_by_girth(const ArmTrace& arm, const Finder& f) {
 /// Where the upper arm starts to swell above the elbow: the steepest rise of girth past the forearm's belly.
 std::optional<double> elbow_by_girth(const ArmTrace& arm, double s, double wrist) {
   const auto& sections = arm.sections;
-  std::optional<double> best;
-  double steepest = 0;
+  std::vector<std::pair<double, double>> rises; // along, girth per length
+  std::size_t steepest = 0;
   for (std::size_t k = 3; k + 3 < sections.size(); ++k) {
     const double along = sections[k].along;
     if (along < wrist + 0.10 * s || along > wrist + 0.185 * s) continue;
     double rise = 0;
     for (std::size_t j = 1; j <= 3; ++j) rise += (sections[k + j].girth - sections[k - j].girth) / (sections[k + j].along - sections[k - j].along) / 3;
-    if (rise > steepest) steepest = rise, best = along;
+    rises.emplace_back(along, rise);
+    if (rise > rises[steepest].second) steepest = rises.size() - 1;
   }
-  return best;
+  if (rises.empty() || rises[steepest].second <= 0) return std::nullopt;
+  double sum = 0, weight = 0; // the middle of what is about as steep: sections lie centimetres apart
+  auto add = [&](std::size_t k) {
+    const double w = rises[k].second - 0.75 * rises[steepest].second;
+    if (w > 0) sum += w * rises[k].first, weight += w;
+    return w > 0;
+  };
+  for (std::size_t k = steepest; k < rises.size() && add(k); ++k) {}
+  for (std::size_t k = steepest; k > 0 && add(k - 1); --k) {}
+  return sum / weight;
 }
 
 /// Axilla and its folds, shoulder joint and acromion. @return the joint, which the rest of the arm is measured from
@@ -74,7 +84,13 @@ Vec3 find_shoulder(const Finder& f, int side) {
   const std::string suffix = side_suffix(side);
   const double outward = arm.left ? 1 : -1;
   const double raised = units::degrees(std::acos(std::clamp(-arm.out.y(), -1.0, 1.0))); // 0 hanging, 90 level
-  auto pit_if = [&](bool hidden) { return arm.axilla && hidden == arm.pit_hidden ? arm.axilla : std::nullopt; };
+  auto pit_if = [&](bool hidden) -> std::optional<Vec3> {
+    if (!arm.axilla || hidden != arm.pit_hidden) return std::nullopt;
+    if (hidden) return arm.axilla;
+    const auto belly = f.levels.trunk_at(0.60 * s);
+    const double stout = belly ? std::clamp(belly->size().y() / s - 0.165, 0.0, 0.1) : 0;
+    return Vec3(*arm.axilla + s * Vec3(0, f.number("axilla.above_roof"), f.number("axilla.before_stout") * stout));
+  };
   if (f.find("axilla", suffix, 1, {{"gap_closes", [&] { return pit_if(false); }}, {"proportion", [&] { return pit_if(true); }}})) {
     f.find("axilla_merge", suffix, 1, {{"level_sections_merge", [&] { return arm.merge; }}});
     if (arm.pit_hidden) f.body.scan.findings.push_back({"warning", "the arm pit is hidden, its place is estimated", "axilla" + suffix});
@@ -104,22 +120,29 @@ Vec3 find_shoulder(const Finder& f, int side) {
   return joint;
 }
 
-/// The elbow's point: the middle of what is as far back as makes no difference, in the section nearest to `along`.
-Vec3 rear_of_section(const ArmTrace& arm, double along) {
-  const LimbSection* section = &arm.sections.front();
+/// The elbow's point: the middle of what is as far back as makes no difference, in the arm's section at `along`.
+Vec3 rear_of_section(const ArmTrace& arm, const TriangleMesh& skin, double along) {
+  const LimbSection* near = &arm.sections.front();
   for (const LimbSection& candidate : arm.sections)
-    if (std::abs(candidate.along - along) < std::abs(section->along - along)) section = &candidate;
+    if (std::abs(candidate.along - along) < std::abs(near->along - along)) near = &candidate;
+  const Plane plane = cross_plane(arm.at(along), near->axis);
+  const std::vector<Loop> loops = cut(skin, plane, &arm.triangles);
+  const Loop* loop = nullptr;
+  for (const Loop& candidate : loops)
+    if (candidate.area > 0 && candidate.centroid.norm() < (loop ? loop->centroid.norm() : 0.05)) loop = &candidate;
+  if (!loop) return arm.at(along);
   double rear = 1e300, weight = 0;
-  for (const auto& seg : section->loop.segments) rear = std::min(rear, section->plane.point(seg[0]).z());
+  for (const auto& seg : loop->segments) rear = std::min(rear, plane.point(seg[0]).z());
   Vec3 back = Vec3::Zero();
-  for (const auto& seg : section->loop.segments) {
-    const Vec3 p = section->plane.point(0.5 * (seg[0] + seg[1]));
-    const double w = std::max(0.0, rear + FLAT - p.z()) * (seg[1] - seg[0]).norm();
-    back += w * p, weight += w;
-  }
+  for (const auto& seg : loop->segments)
+    for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+      const Vec3 p = plane.point((1 - t) * seg[0] + t * seg[1]);
+      const double w = std::max(0.0, rear + FLAT - p.z()) * (seg[1] - seg[0]).norm();
+      back += w * p, weight += w;
+    }
   if (weight > 0) back /= weight;
-  else back = section->center;
-  back.z() = std::min(back.z(), rear + 0.5 * FLAT);
+  else back = plane.point(loop->centroid);
+  back.z() = std::min(back.z(), rear + 0.25 * FLAT);
   return back;
 }
 
@@ -132,8 +155,10 @@ void find_elbow(const Finder& f, int side, double hand, double to_elbow) {
   const auto along = f.choose<double>("elbow", "elbow" + suffix,
                                       {{"upper_arm_swells",
                                         [&]() -> std::optional<double> {
-                                          if (!by_swell || std::abs(*by_swell - by_ratio) >= f.number("elbow.swell_near_ratio") * f.s) return std::nullopt;
-                                          return by_ratio + f.number("elbow.girth_weight") * (*by_swell - by_ratio);
+                                          const double most = f.number("elbow.swell_near_ratio") * f.s;
+                                          if (!by_swell || std::abs(*by_swell - by_ratio) >= most) return std::nullopt;
+                                          const double off = *by_swell - by_ratio; // fades towards the limit, so that nothing jumps there
+                                          return by_ratio + f.number("elbow.girth_weight") * std::min(1.0, 3 * (1 - std::abs(off) / most)) * off;
                                         }},
                                        {"arm_ratio", [&] { return std::optional(by_ratio); }}});
   if (!along) return;
@@ -142,7 +167,7 @@ void find_elbow(const Finder& f, int side, double hand, double to_elbow) {
   f.also("elbow" + suffix, arm.at(by_ratio) - behind);
   if (by_swell) f.also("elbow" + suffix, arm.at(*by_swell) - behind);
   f.find("olecranon", suffix, 2,
-         {{"rearmost_at_elbow", [&] { return std::optional(rear_of_section(arm, along->value + f.number("olecranon.above_joint") * f.s)); }}});
+         {{"rearmost_at_elbow", [&] { return std::optional(rear_of_section(arm, f.levels.skin(), along->value + f.number("olecranon.above_joint") * f.s)); }}});
 }
 
 } // namespace

@@ -59,8 +59,10 @@ FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace,
   box.low = Vec3(-0.02 * s, 0.55 * s, -1);
   box.high = Vec3(0.02 * s, 0.65 * s, 1);
   figure.navel = strongest_relief(skin, normals, box, 0.011 * s, -1);
+  for (auto* relief : {&figure.nipple[0], &figure.nipple[1], &figure.navel}) // the rules' heights are those of a person of 1.68 m
+    if (*relief) (*relief)->height *= 1.68 / s;
   const double bump = figure.nipple[0] && figure.nipple[1] ? std::min(figure.nipple[0]->height, figure.nipple[1]->height) : 0;
-  score += std::clamp((bump - rules.number("figure.bump")) / 0.0008, -0.6, 2.0);
+  score += std::clamp((bump - rules.number("figure.bump")) / 0.0008, -1.5, 2.0);
   if (arms[0].axilla && arms[1].axilla) {
     const double shoulder_to_hip = (arms[0].axilla->x() - arms[1].axilla->x()) / std::max(hip, 1e-6);
     score += std::clamp((rules.number("figure.shoulder_to_hip") - shoulder_to_hip) / 0.08, -1.0, 1.0);

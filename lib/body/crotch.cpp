@@ -29,7 +29,7 @@ std::optional<double> buttock_level(const LevelStack& levels) {
 
 } // namespace
 
-bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, const Rules& rules, bool rebuilt, std::vector<Finding>& findings,
+bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, const Rules& rules, bool rebuilt, bool whole, std::vector<Finding>& findings,
                   std::vector<std::string>& trail) {
   if (!levels.crotch()) return false;
   // figure and stance are not known yet: of the tree's conditions only the skin's counts here
@@ -47,7 +47,7 @@ bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, cons
   const double expected =
       buttock ? by_stature + rules.number("crotch.buttock_weight") * (*buttock - rules.number("crotch.below_buttocks") * s - by_stature) : by_stature;
   const bool fused = always || found < expected - rules.number("crotch.too_low") * s;
-  if (seen >= 3 && !fused) return false;
+  if ((whole || seen >= 3) && !fused) return false;
   const double y = fused ? expected : 0.5 * (expected + found + SAG * s);
   double z = levels.crotch_point().y();
   levels.move_crotch(y, z);

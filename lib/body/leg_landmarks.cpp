@@ -19,21 +19,37 @@ std::optional<double> hollow_of_knee(const Finder& f, int side, double around) {
   return best;
 }
 
-/// The end of the foot in front (direction 1) or behind (-1): the mean of its `n` outermost points.
+/// The end of the foot in front (direction 1) or behind (-1): the mean of its `n` outermost points. Of toes as long as makes no
+/// difference it is the great toe's; a heel is flat, and the middle of its end is taken, at the depth of the outermost point.
 std::optional<Vec3> foot_end(const Finder& f, int side, double ankle_y, double direction, std::size_t n) {
+  constexpr double AS_LONG = 0.0015, TOE = 0.006, FLAT_HEEL = 0.0015; // of stature
   const double sign = side == 0 ? 1 : -1;
   const std::vector<Vec3>& points = f.rebuilt ? f.scan_points : f.levels.skin().positions;
   std::vector<int> foot;
   for (std::size_t v = 0; v < points.size(); ++v)
     if (points[v].y() <= ankle_y && points[v].y() > -0.01 * f.s && sign * points[v].x() > 0) foot.push_back(static_cast<int>(v));
   if (foot.size() < 10) return std::nullopt;
-  std::partial_sort(foot.begin(), foot.begin() + static_cast<std::ptrdiff_t>(n), foot.end(), [&](int a, int b) {
+  auto farther = [&](int a, int b) {
     const double za = direction * points[a].z(), zb = direction * points[b].z();
     return za != zb ? za > zb : a < b;
-  });
+  };
+  if (direction > 0) {
+    const double end = points[*std::min_element(foot.begin(), foot.end(), farther)].z() - AS_LONG * f.s;
+    double inner = 1e300;
+    for (const int v : foot)
+      if (points[v].z() > end) inner = std::min(inner, sign * points[v].x());
+    std::erase_if(foot, [&](int v) { return points[v].z() > end && sign * points[v].x() > inner + TOE * f.s; });
+  }
+  n = std::min(n, foot.size());
+  std::partial_sort(foot.begin(), foot.begin() + static_cast<std::ptrdiff_t>(n), foot.end(), farther);
   Vec3 mean = Vec3::Zero();
   for (std::size_t k = 0; k < n; ++k) mean += points[foot[k]] / static_cast<double>(n);
-  return mean;
+  if (direction > 0) return mean;
+  Vec3 sum = Vec3::Zero();
+  double weight = 0;
+  for (const int v : foot)
+    if (const double w = FLAT_HEEL * f.s - (points[v].z() - mean.z()); w > 0) sum += w * points[v], weight += w;
+  return weight > 0 ? Vec3(sum.x() / weight, sum.y() / weight, mean.z()) : mean;
 }
 
 /// Skin of a leg section that is farthest along `direction` (x, z).

@@ -176,13 +176,16 @@ void LevelStack::follow_legs() {
   }
   double lowest = high;
   std::vector<Vec2> bottom;
-  for (const Loop& loop : cut(*m_skin, {Vec3(middle, 0, 0), Vec3::UnitZ(), Vec3::UnitY()}, &near))
+  for (const Loop& loop : cut(*m_skin, {Vec3(middle, 0, 0), Vec3::UnitZ(), Vec3::UnitY()}, &near)) {
+    // the trunk's outline, however deep it hangs; what does not reach up into the trunk is a thigh that crosses the middle
+    const double deepest = low - (loop.high.y() > high + 0.02 * m_stature ? 0.02 : 0.006) * m_stature;
     for (const auto& segment : loop.segments)
       for (const Vec2& q : segment)
-        if (q.y() > low - 0.006 * m_stature && q.y() < high + m_roughness) {
+        if (q.y() > deepest && q.y() < high + m_roughness) {
           bottom.push_back(q);
           if (q.y() < lowest) lowest = q.y(), m_crotch_point.y() = q.x();
         }
+  }
   m_crotch = std::min(low, lowest);
   if (m_roughness <= 0) return;
   // the skin there is nearly level from front to back: on a rough scan the lowest point is anywhere on it, its middle is not

@@ -136,8 +136,8 @@ private:
 
 struct RuleInput {
   const std::vector<Vec3>& scan_points; ///< the scan's own points of the body, body frame
-  bool rebuilt;
-  double s; ///< stature, m
+  bool rebuilt, whole;                  ///< as in SkinSurface
+  double s;                             ///< stature, m
   const Rules& rules;
 };
 
@@ -145,7 +145,7 @@ struct RuleInput {
 std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::string>& trail, Phases* phases) {
   LevelStack levels(body.skin, in.s, 0.0025 * in.s, in.rebuilt ? 0.002 : 0);
   if (phases) phases->done("slicing");
-  const bool crotch_moved = doubt_crotch(levels, in.scan_points, in.rules, in.rebuilt, body.scan.findings, trail);
+  const bool crotch_moved = doubt_crotch(levels, in.scan_points, in.rules, in.rebuilt, in.whole, body.scan.findings, trail);
   const EdgeGraph graph(body.skin);
   const std::array<ArmTrace, 2> arms = trace_arms(levels, graph, in.rebuilt ? in.scan_points : std::vector<Vec3>{}, in.rules);
   describe_stance(body, arms);
@@ -203,7 +203,7 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
     points.reserve(in.scan_points.size());
     for (const Vec3& p : in.scan_points) points.push_back(turn * p + lift);
     std::vector<std::string> unheard;
-    apply_rules({points, in.rebuilt, in.s, in.rules}, trial, unheard, nullptr);
+    apply_rules({points, in.rebuilt, in.whole, in.s, in.rules}, trial, unheard, nullptr);
     auto add = [](Sum& sum, double miss) { sum.squares += miss * miss, ++sum.n; };
     for (const auto& [name, landmark] : trial.landmarks)
       if (body.has_landmark(name)) add(landmarks[name], (turn.transpose() * (landmark.p - lift) - body.landmark(name)).norm());
@@ -280,7 +280,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   std::vector<Vec3> scan_points;
   for (std::size_t v = 0; v < positions.size(); ++v)
     if (sorted.is_body[v]) scan_points.push_back(positions[v]);
-  const RuleInput input{scan_points, skin.rebuilt, s, options.rules};
+  const RuleInput input{scan_points, skin.rebuilt, skin.whole, s, options.rules};
   reporter.progress("rules", -1);
   const std::vector<Part> skin_part = apply_rules(input, body, result.trail, &phases);
   phases.done("rules");

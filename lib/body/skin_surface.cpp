@@ -139,6 +139,7 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
   skin.mesh = own_faces(positions, triangles, is_body, skin.of_scan);
   auto keep = [&](const EdgeCounts& counts) { skin.border_edges = counts.border, skin.crowded_edges = counts.crowded, skin.flipped_edges = counts.flipped; };
   std::string why = rebuild_why;
+  bool filled = false;
   if (!why.empty()) skin.mesh = {};
   else if (skin.mesh.triangles.size() < 1000) why = triangles.empty() ? "the scan has points and no faces" : "the scan has hardly any faces";
   else {
@@ -161,6 +162,7 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
       const double widest = skin.border_edges <= MAX_BORDER_SHARE * edges ? 1e300 : SMALL_HOLE * stature;
       const int open = skin.border_edges;
       if (skin.border_edges < 0.4 * edges && fill_holes(skin.mesh, list, widest)) {
+        filled = true;
         keep(count_edges(half_edges(skin.mesh)));
         skin.findings.push_back({"info", "holes with " + std::to_string(open) + " open edges were closed", "body.obj"});
       }
@@ -169,6 +171,7 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
     else if (skin.crowded_edges > MAX_BORDER_SHARE * edges) why = "the scan has " + std::to_string(skin.crowded_edges) + " edges with more than two faces";
     else if (skin.noise_m > MAX_NOISE) why = text_of("the scan is rough (%.1f mm)", 1000 * skin.noise_m);
   }
+  skin.whole = why.empty() && !filled;
   if (why.empty()) return skin;
   double noise = 0;
   skin.mesh = rebuild_surface(positions, triangles, is_body, stature, noise);

@@ -7,6 +7,7 @@ struct SkinSurface {
   TriangleMesh mesh;        ///< outward
   std::vector<int> of_scan; ///< skin vertex of every scan vertex, -1 where there is none; empty when rebuilt
   bool rebuilt = false;
+  bool whole = false;                                         ///< the scan's own faces, and no hole had to be closed
   double noise_m = 0;                                         ///< roughness of the scan, m
   int border_edges = 0, crowded_edges = 0, flipped_edges = 0; ///< of the scan's own faces: one face, more than two, two that disagree
   std::vector<Finding> findings;

@@ -54,8 +54,8 @@ void find_level(const Finder& f, const std::string& name, std::initializer_list<
 /// the belly under a chest or the chest over a belly, the foremost place inside of it is the better answer, if there is one
 /// and it stands out by no more than INSIDE less.
 std::optional<Vec3> extreme_depth(const Finder& f, double y0, double y1, double sign, double x_low, double x_high) {
-  constexpr double INSIDE = 0.006, FLAT = 0.0015, UPRIGHT = 0.00008; // m
-  std::vector<Vec3> outline;                                         // one point per level
+  constexpr double INSIDE = 0.006, FLAT = 0.006, UPRIGHT = 0.00015; // m
+  std::vector<Vec3> outline;                                       // one point per level
   for (double y = y0; y <= y1; y += 0.002) {
     const auto loop = f.levels.trunk_at(y);
     if (!loop) continue;
@@ -68,13 +68,14 @@ std::optional<Vec3> extreme_depth(const Finder& f, double y0, double y1, double 
     if (!outer) continue;
     // on a flat front the middle of what is as far out as its vertices can tell
     double sum = 0, weight = 0;
-    for (const auto& segment : loop->segments) {
-      const Vec2 middle = 0.5 * (segment[0] + segment[1]);
-      const double less = sign * (outer->z() - middle.y());
-      if (middle.x() < x_low || middle.x() > x_high || less > FLAT) continue;
-      const double w = (FLAT - less) * (segment[1] - segment[0]).norm();
-      sum += w * middle.x(), weight += w;
-    }
+    for (const auto& segment : loop->segments)
+      for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) { // a segment is longer than the flat part may be
+        const Vec2 q = (1 - t) * segment[0] + t * segment[1];
+        const double less = sign * (outer->z() - q.y());
+        if (q.x() < x_low || q.x() > x_high || less > FLAT) continue;
+        const double w = (FLAT - less) * (segment[1] - segment[0]).norm();
+        sum += w * q.x(), weight += w;
+      }
     if (weight > 0) outer->x() = sum / weight;
     outline.push_back(*outer);
   }
@@ -165,11 +166,16 @@ void find_bust(const Finder& f, double pit) {
                                            {"above_chest_muscle",
                                             [&]() -> Found { // the chest muscles' lower corners
                                               const auto &l = f.figure.nipple[0], &r = f.figure.nipple[1];
-                                              if (!l || !r || std::abs(l->p.y() - r->p.y()) >= 0.012 * s) return std::nullopt;
+                                              if (!l || !r) return std::nullopt;
                                               const double y = 0.5 * (l->p.y() + r->p.y()) + f.number("bust.above_muscle") * s;
-                                              if (std::abs(y - expected) >= f.number("bust.muscle_near_ratio") * s) return std::nullopt;
+                                              const double off = std::abs(y - expected) / (f.number("bust.muscle_near_ratio") * s);
+                                              const double aslant = std::abs(l->p.y() - r->p.y()) / (0.012 * s);
+                                              if (off >= 1 || aslant >= 1)
+                                                return std::nullopt; // it fades towards both, and where it is low, so that nothing jumps
+                                              const double clear = std::clamp(std::min(l->height, r->height) / f.number("bust.bump") - 0.5, 0.0, 1.0);
+                                              const double share = 0.5 * clear * std::min(1.0, 2 * (1 - off)) * std::min(1.0, 2 * (1 - aslant));
                                               BothSides both;
-                                              bust_at(f, expected, 0.5 * (expected + y), both);
+                                              bust_at(f, expected, expected + share * (y - expected), both);
                                               return both;
                                             }},
                                            {"foremost_near_ratio",
@@ -258,9 +264,15 @@ std::optional<double> find_navel(const Finder& f) {
   const auto place = f.choose<Vec2>("omphalion", "omphalion",
                                     {{"dimple",
                                       [&]() -> std::optional<Vec2> {
-                                        if (!dimple || -dimple->height <= f.number("omphalion.dimple") || std::abs(dimple->p.y() - expected) >= 0.06 * s)
-                                          return std::nullopt;
-                                        return Vec2(dimple->p.x(), dimple->p.y() + f.number("omphalion.above_dimple") * s);
+                                        if (!dimple) return std::nullopt;
+                                        // by how deep it is and how near to the proportion it counts, so that nothing jumps: half for the
+                                        // depth that the rule names
+                                        const double deep = -dimple->height / f.number("omphalion.dimple"),
+                                                     off = std::abs(dimple->p.y() - expected) / (0.06 * s);
+                                        const double share = std::clamp((deep - 0.7) / 0.6, 0.0, 1.0) * std::clamp(3 * (1 - off), 0.0, 1.0);
+                                        if (share <= 0) return std::nullopt;
+                                        const Vec2 seen(dimple->p.x(), dimple->p.y() + f.number("omphalion.above_dimple") * s);
+                                        return Vec2(share * seen + (1 - share) * Vec2(0, expected));
                                       }},
                                      {"trunk_ratio", [&] { return std::optional(Vec2(0, expected)); }}});
   if (!place) return std::nullopt;

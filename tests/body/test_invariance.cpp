@@ -43,18 +43,15 @@ const Body& as_it_is(const Figure& figure) {
   return it->second;
 }
 
+/// No landmark may move by more than MOST or be lost; `linear` and `shift` lead from the scan to the other one.
 void expect_unmoved(const Figure& figure, const TriangleMesh& after_mesh, const Eigen::Matrix3d& linear, const Vec3& shift, double scale) {
   const Body &before = as_it_is(figure), after = measure(after_mesh).body;
-  // real feet have two toes of one length, real arms several places that look like an elbow: one pair may choose the other
-  const int allowed = figure.name.starts_with("body") ? 3 : 0;
-  std::vector<std::string> beyond;
   for (const auto& [name, landmark] : before.landmarks) {
-    if (name.starts_with("axilla_merge") && !after.has_landmark(name)) continue; // a level that a level arm has by a millimetre or not at all
+    if (name.starts_with("axilla_merge") && before.stance_class == "T") continue; // a level that a level arm has by a tenth of a millimetre or not at all
     ASSERT_TRUE(after.has_landmark(name)) << figure.name << " lost " << name;
     const double moved = (linear * test::in_scan(before, name) + shift - test::in_scan(after, name)).norm() / scale;
-    if (moved > MOST) beyond.push_back(name + " by " + std::to_string(moved) + " m (" + landmark.rule + ", then " + after.landmarks.at(name).rule + ")");
+    EXPECT_LE(moved, MOST) << figure.name << ": " << name << " (" << landmark.rule << ", then " << after.landmarks.at(name).rule << ")";
   }
-  EXPECT_LE(static_cast<int>(beyond.size()), allowed) << figure.name << ": " << ::testing::PrintToString(beyond);
 }
 
 } // namespace
@@ -65,6 +62,24 @@ TEST(Invariance, turning_moves_no_landmark_by_more_than_5_mm) {
       const Eigen::Matrix3d turn = test::turn_about_y(degrees);
       expect_unmoved(figure, test::moved(figure.mesh, turn, Vec3::Zero()), turn, Vec3::Zero(), 1);
     }
+}
+
+TEST(Invariance, lying_and_leaning_move_no_landmark_by_more_than_8_mm) {
+  // soles are level to a degree only, and so much the body may lean afterwards: places that are the highest, lowest or foremost in a level
+  // body may then be elsewhere on what is nearly level or upright
+  const std::set<std::string> extremes{"head_tip", "crotch", "abdomen_front", "axilla_merge_l", "axilla_merge_r"};
+  for (const Figure& figure : figures()) {
+    const Eigen::Matrix3d turn = (Eigen::AngleAxisd(1.1, Vec3::UnitZ()) * Eigen::AngleAxisd(-0.6, Vec3::UnitX())).toRotationMatrix() * test::turn_about_y(20);
+    const Vec3 shift(3, 1, -2);
+    const Body &before = as_it_is(figure), after = measure(test::moved(figure.mesh, turn, shift)).body;
+    const Vec3 up = after.scan_to_body.block<1, 3>(1, 0).transpose().normalized();
+    EXPECT_LT(std::acos(up.dot(turn.col(1))), 0.02) << figure.name;
+    for (const auto& [name, landmark] : before.landmarks) {
+      if (extremes.count(name)) continue;
+      ASSERT_TRUE(after.has_landmark(name)) << figure.name << " lost " << name;
+      EXPECT_LE((turn * test::in_scan(before, name) + shift - test::in_scan(after, name)).norm(), 0.008) << figure.name << ": " << name;
+    }
+  }
 }
 
 TEST(Invariance, shifting_scaling_and_another_up_axis_move_no_landmark_by_more_than_5_mm) {
@@ -82,6 +97,13 @@ TEST(Invariance, a_quarter_of_the_vertices_give_the_same_landmarks_within_5_mm) 
     const TriangleMesh coarse = test::decimated(figure.mesh, 0.25);
     ASSERT_LT(coarse.positions.size(), 0.65 * static_cast<double>(figure.mesh.positions.size()));
     expect_unmoved(figure, coarse, Eigen::Matrix3d::Identity(), Vec3::Zero(), 1);
+  }
+}
+
+TEST(Invariance, scaling_by_a_tenth_moves_no_landmark_by_more_than_5_mm) {
+  for (const Figure& figure : figures()) {
+    const Eigen::Matrix3d larger = 1.1 * Eigen::Matrix3d::Identity();
+    expect_unmoved(figure, test::moved(figure.mesh, larger, Vec3::Zero()), larger, Vec3::Zero(), 1.1);
   }
 }
 
