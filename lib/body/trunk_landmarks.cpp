@@ -269,7 +269,7 @@ std::optional<double> find_navel(const Finder& f) {
                                         // depth that the rule names
                                         const double deep = -dimple->height / f.number("omphalion.dimple"),
                                                      off = std::abs(dimple->p.y() - expected) / (0.06 * s);
-                                        const double share = std::clamp((deep - 0.7) / 0.6, 0.0, 1.0) * std::clamp(3 * (1 - off), 0.0, 1.0);
+                                        const double share = std::clamp((deep - 0.6) / 0.9, 0.0, 1.0) * std::clamp(3 * (1 - off), 0.0, 1.0);
                                         if (share <= 0) return std::nullopt;
                                         const Vec2 seen(dimple->p.x(), dimple->p.y() + f.number("omphalion.above_dimple") * s);
                                         return Vec2(share * seen + (1 - share) * Vec2(0, expected));
