@@ -55,7 +55,7 @@ void find_level(const Finder& f, const std::string& name, std::initializer_list<
 /// and it stands out by no more than INSIDE less.
 std::optional<Vec3> extreme_depth(const Finder& f, double y0, double y1, double sign, double x_low, double x_high) {
   constexpr double INSIDE = 0.006, FLAT = 0.006, UPRIGHT = 0.00015; // m
-  std::vector<Vec3> outline;                                       // one point per level
+  std::vector<Vec3> outline;                                        // one point per level
   for (double y = y0; y <= y1; y += 0.002) {
     const auto loop = f.levels.trunk_at(y);
     if (!loop) continue;
