@@ -20,6 +20,7 @@ struct LineVertex {
   float position[3], other[3], color[4];
 };
 constexpr int GROUND_RINGS = 28, GROUND_SPOKES = 56;
+constexpr double SMOOTHED_IN = 0.0006; // m, as far as smooth_cloth() moves cloth inwards
 enum Kind { BODY = 0, CLOTH = 1, FLAT = 2, GROUND = 3 };
 
 void put(float* to, const Vec3& v) {
@@ -234,7 +235,9 @@ struct Renderer::Impl {
                                  ", steps = " + std::to_string(options.map_colors.size()) + ";\n" + SURFACE_FRAGMENT_SHADER;
       program = gl.program(SURFACE_VERTEX_SHADER, source.c_str());
     }
-    const Eigen::Matrix4f clip = camera.matrix().cast<float>();
+    Eigen::Matrix4f clip = camera.matrix().cast<float>();
+    // Cloth made smooth for drawing may dip this far below where it lies: the skin must not come through it.
+    if (kind == BODY) clip.row(2) += static_cast<float>(SMOOTHED_IN / camera.half_depth) * clip.row(3);
     const Eigen::Matrix3f turn = camera.turn.cast<float>();
     auto at = [&](const char* name) { return gl.GetUniformLocation(program, name); };
     gl.UseProgram(program);
