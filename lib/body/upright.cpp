@@ -9,10 +9,12 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double OWN_LEAN = 5;       ///< degrees by which the line from calves to head leans in upright people, at most
-constexpr double FOOT_LEAN = 12;     ///< degrees between that line and the normal of the plane below the feet: more, and the feet do not rest on it
-constexpr double NEAR_AXIS = 3;      ///< degrees: so near to an axis of the file, the axis is meant
-constexpr double FOOT_HEIGHT = 0.06; ///< of stature
+constexpr double OWN_LEAN = 5;   ///< degrees by which the line from calves to head leans in upright people, at most
+constexpr double FOOT_LEAN = 12; ///< degrees between that line and the normal of the plane below the feet: more, and the feet do not rest on it
+constexpr double NEAR_AXIS = 3;  ///< degrees: so near to an axis of the file, the axis is meant
+constexpr int ROUNDS = 6;
+constexpr double CLEAR = 0.9, CLEARLY_BETTER = 0.1; ///< scores of readings
+constexpr double FOOT_HEIGHT = 0.06;                ///< of stature
 constexpr std::size_t THINNED = 20000;
 constexpr int COARSE_CELLS = 72; ///< along the longest side, to read many directions
 constexpr int DIRECTIONS = 110;  ///< over half the sphere: about 14 degrees apart
@@ -54,7 +56,7 @@ std::optional<Vec3> search(const std::vector<Vec3>& points) {
     if (sorted.up_score <= most || sorted.is_body.empty() || sorted.high <= sorted.low) continue;
     const auto line = body_line(cloud.positions, sorted);
     if (!line) continue;
-    const double lean = degrees_between(*line, sorted.up), worth = sorted.up_score - lean / 60;
+    const double lean = degrees_between(*line, sorted.up), worth = sorted.up_score - lean / 200;
     if (worth > most) most = worth, best = turn.transpose() * *line;
   }
   return best;
@@ -100,20 +102,29 @@ std::optional<Vec3> resting_plane(const std::vector<Vec3>& points, const Vec2& a
 }
 
 std::optional<Eigen::Matrix3d> upright_turn(const TriangleMesh& scan, const SortedScan& sorted) {
+  double most = 0; // of the axis that was read: a raised hand may pass for a head, so another direction must be clearly better
   if (sorted.high > sorted.low && shows_a_person(sorted))
-    if (const auto line = body_line(scan.positions, sorted); line && degrees_between(*line, sorted.up) < OWN_LEAN) return std::nullopt;
+    if (const auto line = body_line(scan.positions, sorted); line && degrees_between(*line, sorted.up) < OWN_LEAN) {
+      if (sorted.up_score > CLEAR) return std::nullopt;
+      most = CLEARLY_BETTER;
+    }
   std::vector<Vec3> points;
   for (std::size_t v = 0, step = 1 + scan.positions.size() / THINNED; v < scan.positions.size(); v += step) points.push_back(scan.positions[v]);
+  if (most > 0) { // compared as thinned as the others
+    TriangleMesh cloud;
+    cloud.positions = points;
+    most += sort_scan(cloud, "auto").up_score;
+  }
   const auto found = search(points);
   if (!found) return std::nullopt;
   Vec3 up = found->normalized();
   // the body's line, then the plane below the feet
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < ROUNDS; ++round) {
     const Eigen::Matrix3d turn = turn_to_y(up);
     TriangleMesh cloud;
     cloud.positions = turned(turn, points);
     const SortedScan stands = sort_scan(cloud, "y");
-    if (!shows_a_person(stands) || stands.up.y() < 0) return std::nullopt;
+    if (!shows_a_person(stands) || stands.up.y() < 0 || (round + 1 == ROUNDS && stands.up_score < most)) return std::nullopt;
     const auto line = body_line(cloud.positions, stands);
     if (!line) return std::nullopt;
     Vec3 next = line->normalized();
