@@ -13,6 +13,7 @@
 #include <garment/motion.hpp>
 #include <garment/scene.hpp>
 #include <io/files.hpp>
+#include <io/json.hpp>
 #include <io/line_follower.hpp>
 #include <io/obj.hpp>
 #include <pattern/folds.hpp>

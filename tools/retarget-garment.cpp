@@ -9,6 +9,7 @@
 #include <garment/retarget_pattern.hpp>
 #include <garment/scene.hpp>
 #include <io/files.hpp>
+#include <io/json.hpp>
 #include <pattern/export_pattern.hpp>
 
 using namespace sloper;

@@ -206,7 +206,7 @@ Body read_body(const std::string& path) {
       for (std::size_t i = 0; i < root.at("body_class").at("why").size(); ++i) body.body_class_why.push_back(root.at("body_class").at("why").at(i).string());
   }
   if (root.has("mesh") && root.at("mesh").is_string()) { // --anonymise leaves it out
-    const std::string mesh_path = io::path_beside(path, root.at("mesh").string());
+    const std::string mesh_path = io::file_beside(root.at("mesh"));
     read_skin(mesh_path, body);
     const int faces = static_cast<int>(body.skin.triangles.size());
     if (const int expected = root.integer("mesh_faces", faces); faces != expected)

@@ -10,7 +10,7 @@
 #include <body/torso_only.hpp>
 #include <body/touching_skin.hpp>
 #include <body/upright.hpp>
-#include <io/json.hpp>
+#include <io/json_fwd.hpp>
 
 #include <algorithm>
 #include <chrono>

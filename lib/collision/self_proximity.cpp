@@ -206,7 +206,6 @@ void SelfProximity::find_candidates(const std::vector<Vec3>& x, double radius) {
 }
 
 void SelfProximity::update(const std::vector<Vec3>& x, double radius, const std::vector<std::array<int, 2>>& intersecting) {
-  m_radius = radius;
   if (m_tree.n_slots() == 0 && !m_triangles.empty()) m_tree = TriangleTree(x, m_triangles, m_k);
   else m_tree.refit(x);
   ++m_updates;
@@ -263,22 +262,6 @@ void SelfProximity::mark_exempt(const std::vector<std::array<int, 2>>& intersect
     for (int f : m_topology.triangles_of_edge(pair.edge_a))
       if (touched[f])
         for (int g : m_topology.triangles_of_edge(pair.edge_b)) pair.exempt |= crosses(f, g);
-}
-
-std::vector<double> SelfProximity::displacement_bound(double gamma) const {
-  std::vector<double> bound(m_particles, m_radius);
-  for (const VertexFacePair& pair : m_vertex_face) {
-    if (pair.exempt) continue;
-    bound[pair.vertex] = std::min(bound[pair.vertex], pair.distance);
-    for (int v : m_triangles[pair.triangle]) bound[v] = std::min(bound[v], pair.distance);
-  }
-  for (const EdgeEdgePair& pair : m_edge_edge) {
-    if (pair.exempt) continue;
-    for (int e : {pair.edge_a, pair.edge_b})
-      for (int v : m_topology.edges[e]) bound[v] = std::min(bound[v], pair.distance);
-  }
-  for (double& b : bound) b *= gamma;
-  return bound;
 }
 
 } // namespace sloper::collision

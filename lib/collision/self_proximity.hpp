@@ -39,10 +39,6 @@ public:
   bool has_vertex_face(const std::array<int, 2>& pair) const;                      ///< whether it is among vertex_face(): vertex, triangle
   bool has_edge_edge(const std::array<int, 2>& pair) const;                        ///< likewise; the lower edge first
 
-  /// gamma times each particle's least distance over the pairs it takes part in, at most gamma radius. If every particle
-  /// moves less than its bound and gamma < 0.5, no pair can cross. Exempt and never-collide pairs do not bind.
-  std::vector<double> displacement_bound(double gamma) const;
-
   const std::vector<Triangle>& triangles() const { return m_triangles; }
   const Topology& topology() const { return m_topology; }
   /// Over triangles(), refitted to the x of the last update.
@@ -77,7 +73,6 @@ private:
   double m_candidates_radius = -1;
   double m_moved = 0;                ///< m, the most a particle has moved against the common drift since the candidates were found
   int m_rebuilds = 0, m_updates = 0; ///< updates since the last rebuild
-  double m_radius = 0;
   std::size_t m_particles = 0;
   int m_k = 6;
   std::vector<VertexFacePair> m_vertex_face;

@@ -1,5 +1,6 @@
 #include <garment/accuracy.hpp>
 #include <garment/scene.hpp>
+#include <io/json.hpp>
 
 #include <algorithm>
 #include <chrono>

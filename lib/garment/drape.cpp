@@ -9,6 +9,7 @@
 #include <garment/materials.hpp>
 #include <garment/scene_effects.hpp>
 #include <garment/sewing.hpp>
+#include <io/json.hpp>
 
 #include <algorithm>
 #include <cmath>

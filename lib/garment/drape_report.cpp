@@ -1,6 +1,7 @@
 #include <garment/drape.hpp>
 #include <garment/scene.hpp>
 #include <io/files.hpp>
+#include <io/json.hpp>
 
 #include <cmath>
 #include <cstring>

@@ -3,6 +3,7 @@
 #include <garment/scene.hpp>
 
 #include <base/error.hpp>
+#include <io/json.hpp>
 
 #include <algorithm>
 

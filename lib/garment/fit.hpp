@@ -15,7 +15,7 @@
 #include <garment/fit_lines.hpp>
 #include <garment/fit_policy.hpp>
 #include <garment/garment.hpp>
-#include <io/json.hpp>
+#include <io/json_fwd.hpp>
 
 namespace sloper::garment {
 

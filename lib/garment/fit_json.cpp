@@ -1,4 +1,5 @@
 #include <garment/fit.hpp>
+#include <io/json.hpp>
 
 #include <cstdio>
 

@@ -5,6 +5,7 @@
 #include <garment/effects.hpp>
 #include <garment/follow.hpp>
 #include <garment/sewing.hpp>
+#include <io/json.hpp>
 #include <pattern/check_pattern.hpp>
 #include <pattern/edits.hpp>
 #include <pattern/folds.hpp>

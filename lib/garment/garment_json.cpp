@@ -278,7 +278,7 @@ void check_whole(const Garment& garment) {
 
 Garment read_garment(const std::string& path) {
   const Json document = io::read_document(path, "garment", GARMENT_VERSION);
-  const std::string mesh_path = io::path_beside(path, Node(document, path).at("mesh").string());
+  const std::string mesh_path = io::file_beside(Node(document, path).at("mesh"));
   return garment_from(Node(document, path), io::read_obj(mesh_path), mesh_path);
 }
 

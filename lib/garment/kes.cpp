@@ -2,7 +2,7 @@
 #include <garment/kes.hpp>
 #include <garment/materials.hpp>
 #include <io/files.hpp>
-#include <io/json.hpp>
+#include <io/json_fwd.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -5,6 +5,7 @@
 #include <collision/intersections.hpp>
 #include <garment/audit.hpp>
 #include <garment/materials.hpp>
+#include <io/json.hpp>
 
 #include <algorithm>
 #include <cmath>

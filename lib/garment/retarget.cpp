@@ -6,6 +6,7 @@
 #include <garment/bind_frames.hpp>
 #include <garment/bind_laplacian.hpp>
 #include <garment/retarget_grade.hpp>
+#include <io/json.hpp>
 
 #include <Eigen/SVD>
 #include <Eigen/SparseCholesky>

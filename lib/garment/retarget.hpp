@@ -6,7 +6,7 @@
 #include <body/body.hpp>
 #include <collision/body_collider.hpp>
 #include <garment/garment.hpp>
-#include <io/json.hpp>
+#include <io/json_fwd.hpp>
 
 namespace sloper::garment {
 

@@ -4,6 +4,7 @@
 #include <garment/preset_table.hpp>
 #include <garment/scene.hpp>
 #include <garment/scene_effects_json.hpp>
+#include <io/json.hpp>
 
 #include <charconv>
 #include <cmath>

@@ -1,5 +1,6 @@
 #include <base/units.hpp>
 #include <garment/scene_effects_json.hpp>
+#include <io/json.hpp>
 
 #include <cmath>
 

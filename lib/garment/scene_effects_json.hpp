@@ -9,7 +9,7 @@
 ///   "wind_m_s": [x, y, z]; [0, 0, 0] is still air    "pressure_pa": number
 /// PLACE is "panel" with "at": [s, t], or with "from" and "to" for a line.
 #include <garment/scene_effects.hpp>
-#include <io/json.hpp>
+#include <io/json_fwd.hpp>
 
 namespace sloper::garment {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 namespace sloper::io {
@@ -142,6 +143,14 @@ std::string to_text(const Json& document) {
 
 void write_json(const std::string& path, const Json& document) { write_file(path, to_text(document)); }
 
+bool Node::has(const std::string& key) const { return m_value->is_object() && m_value->contains(key); }
+std::size_t Node::size() const { return m_value->size(); }
+bool Node::is_array() const { return m_value->is_array(); }
+bool Node::is_object() const { return m_value->is_object(); }
+bool Node::is_string() const { return m_value->is_string(); }
+bool Node::is_number() const { return m_value->is_number(); }
+bool Node::is_null() const { return m_value->is_null(); }
+
 Node Node::at(const std::string& key) const {
   if (!m_value->is_object()) fail("expected an object");
   const auto found = m_value->find(key);
@@ -232,6 +241,12 @@ std::string path_beside(const std::string& document_path, const std::string& nam
   if (!name.empty() && name[0] == '/') return name;
   const auto slash = document_path.rfind('/');
   return slash == std::string::npos ? name : document_path.substr(0, slash + 1) + name;
+}
+
+std::string file_beside(const Node& name) {
+  const std::string path = path_beside(name.file(), name.string());
+  if (!std::filesystem::exists(path)) name.fail("there is no " + path, "keep it beside the document under this name, or run again what wrote both");
+  return path;
 }
 
 } // namespace sloper::io

@@ -1,5 +1,6 @@
 #include <base/error.hpp>
 #include <base/units.hpp>
+#include <io/json.hpp>
 #include <pattern/check_pattern.hpp>
 #include <pattern/folds.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 /// What is wrong with a pattern, found without meshing it.
-#include <io/json.hpp>
+#include <io/json_fwd.hpp>
 #include <pattern/pattern.hpp>
 
 namespace sloper::pattern {

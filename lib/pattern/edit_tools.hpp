@@ -1,7 +1,7 @@
 #pragma once
 /// What the edits share: the grid that keeps moves exact, and outlines rebuilt edge by edge with their seams and notches following.
 /// Only for the edit sources.
-#include <io/json.hpp>
+#include <io/json_fwd.hpp>
 #include <pattern/pattern.hpp>
 
 #include <functional>

@@ -1,4 +1,5 @@
 /// Edits that change what edges and panels there are: split, cut, join, add-dart, rotate-dart.
+#include <io/json.hpp>
 #include <pattern/edit_tools.hpp>
 #include <pattern/outline_json.hpp>
 

@@ -1,4 +1,5 @@
 /// Taking edits back: the opposite edit where it is exact, else the touched panels as they were.
+#include <io/json.hpp>
 #include <pattern/edit_tools.hpp>
 #include <pattern/edits.hpp>
 #include <pattern/outline_json.hpp>

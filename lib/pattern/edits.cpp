@@ -1,3 +1,4 @@
+#include <io/json.hpp>
 #include <pattern/edit_tools.hpp>
 #include <pattern/edits.hpp>
 #include <pattern/folds.hpp>

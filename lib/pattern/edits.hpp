@@ -1,7 +1,7 @@
 #pragma once
 /// Edits of a pattern. Most keep its topology: outlines move, edges and seams keep their names and places, so that a mesh made before
 /// the edit can follow (its rest lengths and vt change, nothing else).
-#include <io/json.hpp>
+#include <io/json_fwd.hpp>
 #include <pattern/panel_mesh.hpp>
 #include <pattern/pattern.hpp>
 

@@ -1,4 +1,5 @@
 #include <base/units.hpp>
+#include <io/json.hpp>
 #include <pattern/export_pattern.hpp>
 
 #include <algorithm>

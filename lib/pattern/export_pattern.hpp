@@ -1,6 +1,6 @@
 #pragma once
 /// Patterns written out: our own JSON, DXF with sew line and notches, SVG to look at.
-#include <io/json.hpp>
+#include <io/json_fwd.hpp>
 #include <pattern/pattern.hpp>
 
 namespace sloper::pattern {

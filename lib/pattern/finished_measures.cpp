@@ -1,3 +1,4 @@
+#include <io/json.hpp>
 #include <pattern/finished_measures.hpp>
 #include <pattern/folds.hpp>
 #include <pattern/mesh_pattern.hpp>

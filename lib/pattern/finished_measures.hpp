@@ -1,6 +1,6 @@
 #pragma once
 /// What a tailor measures on the finished garment, taken from the flat pattern: no body, no drape.
-#include <io/json.hpp>
+#include <io/json_fwd.hpp>
 #include <pattern/panel_mesh.hpp>
 #include <pattern/pattern.hpp>
 

@@ -2,6 +2,7 @@
 /// the body, so a panel drawn clockwise is one whose inside we look at: it is turned over, and every loop ends up
 /// counter-clockwise seen from outside. Ordinary stitches then join edges that run in opposite directions.
 #include <base/units.hpp>
+#include <io/json.hpp>
 #include <pattern/read_pattern.hpp>
 
 namespace sloper::pattern {

@@ -1,3 +1,4 @@
+#include <io/json.hpp>
 #include <pattern/infer_seams.hpp>
 
 #include <algorithm>

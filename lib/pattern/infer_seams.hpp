@@ -1,6 +1,6 @@
 #pragma once
 /// Seams guessed for a pattern that states none (plain AAMA / ASTM files do not): from edge names, lengths, notches and piece names.
-#include <io/json.hpp>
+#include <io/json_fwd.hpp>
 #include <pattern/pattern.hpp>
 
 namespace sloper::pattern {

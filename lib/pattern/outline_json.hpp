@@ -1,6 +1,6 @@
 #pragma once
 /// What the JSON pattern formats share: edges with SVG-like paths, and loops that must close.
-#include <io/json.hpp>
+#include <io/json_fwd.hpp>
 #include <pattern/pattern.hpp>
 
 namespace sloper::pattern {

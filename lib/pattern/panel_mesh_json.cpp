@@ -78,7 +78,7 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
 PanelMesh read_panel_mesh(const std::string& path) {
   const io::Json json = io::read_document(path, "panels", PANELS_VERSION);
   const io::Node doc(json, path);
-  const io::ObjMesh obj = io::read_obj(io::path_beside(path, doc.at("mesh").string()));
+  const io::ObjMesh obj = io::read_obj(io::file_beside(doc.at("mesh")));
   PanelMesh mesh;
   mesh.name = doc.string("name", "");
   mesh.edge_length = doc.number("edge_length", 0), mesh.seam_length = doc.number("seam_edge_length", 0);

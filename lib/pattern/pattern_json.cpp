@@ -1,5 +1,6 @@
 /// Our own pattern format, a file that people write: every unknown key is an error. Its schema is pattern.schema.json beside this file.
 #include <base/units.hpp>
+#include <io/json.hpp>
 #include <pattern/outline_json.hpp>
 #include <pattern/read_pattern.hpp>
 

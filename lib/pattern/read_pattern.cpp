@@ -1,4 +1,5 @@
 #include <io/files.hpp>
+#include <io/json.hpp>
 #include <pattern/read_pattern.hpp>
 
 #include <algorithm>

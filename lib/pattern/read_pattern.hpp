@@ -1,6 +1,6 @@
 #pragma once
 /// A pattern file of any known format, told apart by its content.
-#include <io/json.hpp>
+#include <io/json_fwd.hpp>
 #include <pattern/grade_rules.hpp>
 #include <pattern/pattern.hpp>
 

@@ -1,5 +1,6 @@
 /// The neutral sewing JSON: outlines of named runs in millimetres, counter-clockwise seen from outside, and the sidecar with seams only.
 #include <base/units.hpp>
+#include <io/json.hpp>
 #include <pattern/outline_json.hpp>
 #include <pattern/read_pattern.hpp>
 

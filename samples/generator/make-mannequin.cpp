@@ -4,6 +4,7 @@
 #include <base/error.hpp>
 #include <cstdio>
 #include <io/files.hpp>
+#include <io/json.hpp>
 #include <io/obj.hpp>
 
 using namespace sloper;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <base/units.hpp>
 #include <cmath>
+#include <io/json.hpp>
 namespace sloper::samples {
 namespace {
 

@@ -1,6 +1,7 @@
 #include "measures.hpp"
 #include <base/units.hpp>
 #include <cmath>
+#include <io/json.hpp>
 namespace sloper::samples {
 namespace {
 

@@ -108,7 +108,6 @@ int main(int argc, char** argv) {
       proximity.update(moved.positions, radius);
     });
     std::printf("  %zu vertex-face, %zu edge-edge pairs, %d rebuilds\n", proximity.vertex_face().size(), proximity.edge_edge().size(), proximity.n_rebuilds());
-    report("  displacement bound", 5, [&] { proximity.displacement_bound(0.4); });
   }
   return 0;
 }

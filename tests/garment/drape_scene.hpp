@@ -40,6 +40,40 @@ inline body::Body make_pillar(int n_around = 64, int n_up = 60) {
   return body;
 }
 
+/// One panel of nx by ny cells on the torso. `flat(c, r)` gives the pattern point of column c and row r, `place` where a pattern point starts.
+/// @return the panel's index
+template<class Flat, class Place> int add_panel(Garment& garment, const std::string& name, int nx, int ny, Flat flat, Place place) {
+  pattern::PanelMesh& p = garment.panels;
+  pattern::PanelInfo info;
+  info.name = name;
+  info.part = "torso";
+  info.first_vertex = static_cast<int>(p.pattern.size());
+  info.first_triangle = static_cast<int>(p.triangles.size());
+  const int k = static_cast<int>(p.panels.size());
+  for (int r = 0; r <= ny; ++r)
+    for (int c = 0; c <= nx; ++c) {
+      const Vec2 uv = flat(c, r);
+      p.pattern.push_back(uv);
+      p.placed.push_back(place(uv));
+      p.ids.push_back({k, static_cast<double>(c) / nx, static_cast<double>(r) / ny});
+    }
+  auto id = [&](int r, int c) { return info.first_vertex + r * (nx + 1) + c; };
+  for (int r = 0; r < ny; ++r)
+    for (int c = 0; c < nx; ++c) {
+      if ((r + c) % 2) {
+        p.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c)});
+        p.triangles.push_back({id(r, c + 1), id(r + 1, c + 1), id(r + 1, c)});
+      } else {
+        p.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c + 1)});
+        p.triangles.push_back({id(r, c), id(r + 1, c + 1), id(r + 1, c)});
+      }
+    }
+  info.n_vertices = static_cast<int>(p.pattern.size()) - info.first_vertex;
+  info.n_triangles = static_cast<int>(p.triangles.size()) - info.first_triangle;
+  p.panels.push_back(info);
+  return k;
+}
+
 /// Front and back rectangle, each half the girth wide, side seams open; `girth` at rest, m.
 inline Garment make_skirt(double girth, double length, double edge, double top_y = 1.02, double distance = 0.25) {
   Garment garment;
@@ -47,34 +81,10 @@ inline Garment make_skirt(double girth, double length, double edge, double top_y
   p.name = "test skirt";
   p.edge_length = edge;
   const int nx = std::max(2, static_cast<int>(std::lround(0.5 * girth / edge))), ny = std::max(2, static_cast<int>(std::lround(length / edge)));
-  for (int side = 0; side < 2; ++side) {
-    pattern::PanelInfo info;
-    info.name = side ? "back" : "front";
-    info.part = "torso";
-    info.first_vertex = static_cast<int>(p.pattern.size());
-    info.first_triangle = static_cast<int>(p.triangles.size());
-    for (int r = 0; r <= ny; ++r)
-      for (int c = 0; c <= nx; ++c) {
-        const Vec2 uv(0.5 * girth * (static_cast<double>(c) / nx - 0.5), length * r / ny);
-        p.pattern.push_back(uv);
-        p.placed.emplace_back(side ? -uv.x() : uv.x(), top_y - length + uv.y(), side ? -distance : distance);
-        p.ids.push_back({side, static_cast<double>(c) / nx, static_cast<double>(r) / ny});
-      }
-    auto id = [&](int r, int c) { return info.first_vertex + r * (nx + 1) + c; };
-    for (int r = 0; r < ny; ++r)
-      for (int c = 0; c < nx; ++c) {
-        if ((r + c) % 2) {
-          p.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c)});
-          p.triangles.push_back({id(r, c + 1), id(r + 1, c + 1), id(r + 1, c)});
-        } else {
-          p.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c + 1)});
-          p.triangles.push_back({id(r, c), id(r + 1, c + 1), id(r + 1, c)});
-        }
-      }
-    info.n_vertices = static_cast<int>(p.pattern.size()) - info.first_vertex;
-    info.n_triangles = static_cast<int>(p.triangles.size()) - info.first_triangle;
-    p.panels.push_back(info);
-  }
+  for (int side = 0; side < 2; ++side)
+    add_panel(
+        garment, side ? "back" : "front", nx, ny, [&](int c, int r) { return Vec2(0.5 * girth * (static_cast<double>(c) / nx - 0.5), length * r / ny); },
+        [&](const Vec2& uv) { return Vec3(side ? -uv.x() : uv.x(), top_y - length + uv.y(), side ? -distance : distance); });
   const int back = p.panels[1].first_vertex;
   for (int end = 0; end < 2; ++end) {
     pattern::MeshSeam seam;

@@ -5,6 +5,7 @@
 #include <garment/fit.hpp>
 #include <garment/fit_section.hpp>
 #include <garment/materials.hpp>
+#include <io/json.hpp>
 
 #include <gtest/gtest.h>
 

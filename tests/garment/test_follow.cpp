@@ -5,6 +5,7 @@
 #include <garment/follow.hpp>
 #include <garment/garment_json.hpp>
 #include <gtest/gtest.h>
+#include <io/json.hpp>
 #include <io/line_follower.hpp>
 #include <pattern/edits.hpp>
 #include <pattern/mesh_pattern.hpp>

@@ -15,6 +15,7 @@
 #include <garment/sewing.hpp>
 #include <gtest/gtest.h>
 #include <io/files.hpp>
+#include <io/json.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;

@@ -17,37 +17,10 @@ namespace {
 
 using garment::Garment;
 
-/// One panel nx by ny cells, `place` gives the start of pattern point (u, v).
+/// One panel nx by ny cells about the origin, `place` gives the start of pattern point (u, v).
 template<class Place> int add_panel(Garment& g, const std::string& name, double width, double height, int nx, int ny, Place place) {
-  pattern::PanelMesh& p = g.panels;
-  pattern::PanelInfo info;
-  info.name = name;
-  info.part = "torso";
-  info.first_vertex = static_cast<int>(p.pattern.size());
-  info.first_triangle = static_cast<int>(p.triangles.size());
-  const int k = static_cast<int>(p.panels.size());
-  for (int r = 0; r <= ny; ++r)
-    for (int c = 0; c <= nx; ++c) {
-      const Vec2 uv(width * (static_cast<double>(c) / nx - 0.5), height * (static_cast<double>(r) / ny - 0.5));
-      p.pattern.push_back(uv);
-      p.placed.push_back(place(uv));
-      p.ids.push_back({k, static_cast<double>(c) / nx, static_cast<double>(r) / ny});
-    }
-  auto id = [&](int r, int c) { return info.first_vertex + r * (nx + 1) + c; };
-  for (int r = 0; r < ny; ++r)
-    for (int c = 0; c < nx; ++c) {
-      if ((r + c) % 2) {
-        p.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c)});
-        p.triangles.push_back({id(r, c + 1), id(r + 1, c + 1), id(r + 1, c)});
-      } else {
-        p.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c + 1)});
-        p.triangles.push_back({id(r, c), id(r + 1, c + 1), id(r + 1, c)});
-      }
-    }
-  info.n_vertices = static_cast<int>(p.pattern.size()) - info.first_vertex;
-  info.n_triangles = static_cast<int>(p.triangles.size()) - info.first_triangle;
-  p.panels.push_back(info);
-  return k;
+  return garment::add_panel(
+      g, name, nx, ny, [&](int c, int r) { return Vec2(width * (static_cast<double>(c) / nx - 0.5), height * (static_cast<double>(r) / ny - 0.5)); }, place);
 }
 
 void sew(Garment& g, const std::string& name, std::vector<int> a, std::vector<int> b) {

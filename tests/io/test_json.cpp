@@ -171,3 +171,14 @@ TEST(Paths, of_a_mesh_stand_beside_the_document) {
   EXPECT_EQ(io::path_beside("z.json", "w.obj"), "w.obj");
   EXPECT_EQ(io::path_beside("x/z.json", "/w.obj"), "/w.obj");
 }
+
+TEST(Json, a_file_that_is_not_beside_its_document_is_told_by_document_place_and_path) {
+  const io::Json document = io::parse_json(R"({"mesh": "gone.obj"})", "somewhere/shirt.json");
+  try {
+    io::file_beside(io::Node(document, "somewhere/shirt.json").at("mesh"));
+    FAIL() << "it was found";
+  } catch (const Error& e) {
+    const std::string text = e.what();
+    for (const char* part : {"somewhere/shirt.json", "mesh", "somewhere/gone.obj"}) EXPECT_NE(text.find(part), std::string::npos) << text;
+  }
+}

@@ -2,6 +2,7 @@
 
 #include <base/error.hpp>
 #include <gtest/gtest.h>
+#include <io/json.hpp>
 #include <pattern/check_pattern.hpp>
 #include <pattern/finished_measures.hpp>
 

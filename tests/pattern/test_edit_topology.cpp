@@ -2,6 +2,7 @@
 
 #include <base/error.hpp>
 #include <gtest/gtest.h>
+#include <io/json.hpp>
 #include <pattern/edits.hpp>
 #include <pattern/export_pattern.hpp>
 #include <random>

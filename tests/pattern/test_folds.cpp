@@ -3,6 +3,7 @@
 
 #include <base/error.hpp>
 #include <gtest/gtest.h>
+#include <io/json.hpp>
 #include <pattern/check_pattern.hpp>
 #include <pattern/edits.hpp>
 #include <pattern/export_pattern.hpp>

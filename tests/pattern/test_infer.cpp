@@ -1,6 +1,7 @@
 #include "pattern_texts.hpp"
 
 #include <gtest/gtest.h>
+#include <io/json.hpp>
 #include <pattern/infer_seams.hpp>
 
 namespace sloper::pattern::test {

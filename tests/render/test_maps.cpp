@@ -1,5 +1,6 @@
 #include <base/error.hpp>
 #include <gtest/gtest.h>
+#include <io/json.hpp>
 #include <nlohmann/json.hpp>
 #include <render/export.hpp>
 #include <render/maps.hpp>

@@ -2,6 +2,7 @@
 #include <base/progress.hpp>
 #include <body/measure_scan.hpp>
 #include <gtest/gtest.h>
+#include <io/json.hpp>
 #include <mannequin.hpp>
 #include <measures.hpp>
 #include <pattern/mesh_pattern.hpp>

@@ -1,6 +1,7 @@
 /// The mannequin family: every figure is a sound mesh of the right size, and its truth lies where its names say.
 #include <base/error.hpp>
 #include <gtest/gtest.h>
+#include <io/json.hpp>
 #include <io/obj.hpp>
 #include <mannequin.hpp>
 #include <polygonise.hpp>

@@ -1,5 +1,6 @@
 /// Any bytes as a pattern JSON of each kind, and as edits of a small pattern: read or refused with an Error, never a crash.
 #include <base/error.hpp>
+#include <io/json.hpp>
 #include <pattern/check_pattern.hpp>
 #include <pattern/edits.hpp>
 #include <pattern/read_pattern.hpp>

@@ -1,0 +1,1 @@
+// Nothing: the target of a precompiled header needs a source.
