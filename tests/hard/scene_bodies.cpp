@@ -135,6 +135,7 @@ body::Body make_body(TriangleMesh mesh) {
 void damage(TriangleMesh& mesh, const std::string& kind, std::uint64_t seed) {
   Random random(seed + 1);
   auto& f = mesh.triangles;
+  if (f.empty()) return; // nothing to damage
   if (kind == "holes") {
     for (int k = 0; k < 12; ++k) {
       const Vec3 middle = mesh.positions[f[random.next() % f.size()][0]];
