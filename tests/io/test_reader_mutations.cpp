@@ -1,7 +1,7 @@
 /// Readers under seeded damage: a file is read or refused with a message that names it, never a crash, never another exception.
 #include <base/error.hpp>
 #include <base/random.hpp>
-#include <io/json_fwd.hpp>
+#include <io/json.hpp>
 #include <io/obj.hpp>
 #include <io/scan_reader.hpp>
 
