@@ -335,7 +335,7 @@ private:
     if (outer.empty()) { // Valentina writes the sew line on layer 8, where others keep internal lines
       const std::vector<Ring> inner = rings_of(block, 8, m_unit, join);
       if (!inner.empty() && !cut.empty() && follows(inner[0], cut[0])) outer = {inner[0]};
-    } else if (!cut.empty() && !follows(outer[0], cut[0])) { // some programs write broken sew lines
+    } else if (!cut.empty() && !follows(outer[0], cut[0])) {                                                     // some programs write broken sew lines
       const double percent = 100 * std::abs(ring_area(outer[0])) / std::max(std::abs(ring_area(cut[0])), 1e-12); // an outline may have no area
       m_pattern.findings.push_back(panel.name + ": the sew line encloses " + std::to_string(std::lround(std::min(1e6, percent))) +
                                    " % of the piece and does not follow its outline; it is left out");
