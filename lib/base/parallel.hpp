@@ -15,7 +15,7 @@ using ChunkWork = void (*)(const void* capture, std::size_t begin, std::size_t e
 void spread_chunks(std::size_t n, std::size_t grain, ChunkWork work, const void* capture);
 
 /// Calls body(begin, end) over [0, n) cut into fixed chunks of `grain`, in any order, on thread_count() threads.
-/// Chunk borders do not depend on the thread count; write only to what belongs to the chunk. Allocates nothing.
+/// Chunk borders do not depend on the thread count; write only to what belongs to the chunk. Copies no capture.
 template<class Body> void parallel_for(std::size_t n, std::size_t grain, const Body& body) {
   if (thread_count() == 1 || n <= grain) {
     for (std::size_t begin = 0; begin < n; begin += grain) body(begin, n - begin < grain ? n : begin + grain);
