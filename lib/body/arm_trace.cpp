@@ -250,13 +250,16 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules) {
 void find_merge(ArmTrace& arm, const LevelStack& levels) {
   const double s = levels.stature();
   double reach = 0.01 * s, from = 0; // sections this near the level, this far from the hand
+  bool is_level = false;
   auto loops_at = [&](double y, int& trunk, int& limb) {
     std::vector<Loop> loops = levels.exact(y);
     trunk = limb = -1;
     double nearest = 0.03 * s;
     for (std::size_t i = 0; i < loops.size(); ++i) {
       if (loops[i].area <= 0) continue;
-      if (trunk < 0 && std::abs(loops[i].centroid.x()) < 0.06 * s) trunk = static_cast<int>(i); // the largest near the middle
+      const bool is_trunk = trunk < 0 && std::abs(loops[i].centroid.x()) < 0.06 * s; // the largest near the middle
+      if (is_trunk) trunk = static_cast<int>(i);
+      if (is_trunk && is_level) continue; // it reaches below the arm's middle even while the arm's underside is a loop of its own
       double d = 1e300;
       for (const LimbSection& section : arm.sections) {
         if (std::abs(section.center.y() - y) > reach || section.along < from) continue;
@@ -279,7 +282,7 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
   };
   if (arm.out.y() < -0.12) search(0.80 * s, 0.62 * s, 0.005 * s);
   if (low == 0 || high == 0) { // a level through a level arm's underside is further from its middle, and the hand may hang
-    reach = 0.035 * s, from = 0.6 * arm.length();
+    reach = 0.035 * s, from = 0.6 * arm.length(), is_level = true;
     const double middle = arm.at(0.85 * arm.length()).y();
     search(middle, middle - 0.05 * s, 0.0006 * s);
   }
