@@ -3,6 +3,7 @@
 #include <body/canonical_frame.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -132,12 +133,19 @@ RadialLayer radial_layer(const std::vector<Vec2>& points, const Vec2& center, do
 /// the median of |r - r'|, m. The layers are in the body frame.
 double asymmetry(const std::vector<RadialLayer>& layers, double angle, double offset) {
   const Vec2 normal(std::cos(angle), -std::sin(angle)); // of the mirror plane; +x at angle 0
+  static const std::array<Vec2, N_ANGLES> rays = [] {
+    std::array<Vec2, N_ANGLES> all;
+    for (int k = 0; k < N_ANGLES; ++k) {
+      const double theta = -units::PI + (k + 0.5) * 2 * units::PI / N_ANGLES;
+      all[k] = Vec2(std::cos(theta), std::sin(theta));
+    }
+    return all;
+  }();
   std::vector<double> misses;
   for (const RadialLayer& layer : layers)
     for (int k = 0; k < N_ANGLES; ++k) {
       if (layer.radius[k] < 0) continue;
-      const double theta = -units::PI + (k + 0.5) * 2 * units::PI / N_ANGLES;
-      const Vec2 p = layer.center + layer.radius[k] * Vec2(std::cos(theta), std::sin(theta));
+      const Vec2 p = layer.center + layer.radius[k] * rays[k];
       const Vec2 q = p - 2 * (normal.dot(p) - offset) * normal - layer.center;
       const double column = (std::atan2(q.y(), q.x()) + units::PI) / (2 * units::PI) * N_ANGLES - 0.5;
       const int a = ((static_cast<int>(std::floor(column)) % N_ANGLES) + N_ANGLES) % N_ANGLES, b = (a + 1) % N_ANGLES;

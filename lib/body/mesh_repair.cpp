@@ -1,6 +1,7 @@
 #include <body/mesh_repair.hpp>
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 namespace sloper::body {
@@ -62,19 +63,28 @@ std::vector<std::vector<int>> border_loops(const std::vector<std::array<int, 2>>
 TriangleMesh own_faces(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, std::vector<int>& number) {
   TriangleMesh skin;
   number.assign(positions.size(), -1);
-  std::vector<std::pair<std::array<int, 3>, int>> seen;
+  std::vector<int> first(positions.size() + 1, 0);
   for (const Triangle& t : triangles) {
     if (!is_body[t[0]] || !is_body[t[1]] || !is_body[t[2]] || t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
     if (area_normal(positions[t[0]], positions[t[1]], positions[t[2]]).squaredNorm() < 1e-24) continue;
-    std::array<int, 3> key = {t[0], t[1], t[2]};
-    std::sort(key.begin(), key.end());
-    seen.emplace_back(key, static_cast<int>(skin.triangles.size()));
+    ++first[std::min({t[0], t[1], t[2]}) + 1];
     skin.triangles.push_back(t);
   }
-  std::sort(seen.begin(), seen.end());
+  // faces by their lowest vertex, and those of one vertex by the other two: what is equal is the same face again
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::array<int, 3>> seen(skin.triangles.size()); // middle and highest vertex, face
+  std::vector<int> at(first.begin(), first.end() - 1);
+  for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
+    const auto& [a, b, c] = skin.triangles[i];
+    const int low = std::min({a, b, c}), high = std::max({a, b, c});
+    seen[at[low]++] = {static_cast<int>(static_cast<long>(a) + b + c - low - high), high, static_cast<int>(i)};
+  }
   std::vector<char> keep(skin.triangles.size(), 1);
-  for (std::size_t i = 1; i < seen.size(); ++i)
-    if (seen[i].first == seen[i - 1].first) keep[seen[i].second] = 0;
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    std::sort(seen.begin() + first[v], seen.begin() + first[v + 1]);
+    for (int i = first[v] + 1; i < first[v + 1]; ++i)
+      if (seen[i][0] == seen[i - 1][0] && seen[i][1] == seen[i - 1][1]) keep[seen[i][2]] = 0;
+  }
   std::vector<Triangle> kept;
   for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
     if (!keep[i]) continue;
@@ -152,14 +162,20 @@ int drop_small_pieces(TriangleMesh& mesh, std::vector<int>& of_scan) {
 }
 
 std::vector<HalfEdge> half_edges(const TriangleMesh& mesh) {
-  std::vector<HalfEdge> list;
-  list.reserve(mesh.triangles.size() * 3);
+  std::vector<HalfEdge> list(mesh.triangles.size() * 3);
+  std::vector<std::size_t> first(mesh.positions.size() + 1, 0); // by the lower vertex, then those of one vertex among themselves
+  for (const Triangle& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) ++first[std::min(t[k], t[(k + 1) % 3]) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::size_t> at(first.begin(), first.end() - 1);
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
     for (int k = 0; k < 3; ++k) {
       const auto a = static_cast<std::uint64_t>(mesh.triangles[f][k]), b = static_cast<std::uint64_t>(mesh.triangles[f][(k + 1) % 3]);
-      list.push_back({std::min(a, b) << 32 | std::max(a, b), static_cast<int>(f), a < b});
+      list[at[std::min(a, b)]++] = {std::min(a, b) << 32 | std::max(a, b), static_cast<int>(f), a < b};
     }
-  std::sort(list.begin(), list.end(), [](const HalfEdge& a, const HalfEdge& b) { return a.key != b.key ? a.key < b.key : a.face < b.face; });
+  for (std::size_t v = 0; v + 1 < first.size(); ++v)
+    std::sort(list.begin() + static_cast<std::ptrdiff_t>(first[v]), list.begin() + static_cast<std::ptrdiff_t>(first[v + 1]),
+              [](const HalfEdge& a, const HalfEdge& b) { return a.key != b.key ? a.key < b.key : a.face < b.face; });
   return list;
 }
 

@@ -191,7 +191,8 @@ void find_floor(const std::vector<int>& layer_count, Reading& r) {
   if (r.has_floor && layer_count[r.floor_top + 1] > 2 * usual) ++r.floor_top;
 }
 
-Reading read_direction(const Voxels& voxels, int axis, bool flipped, int reach) {
+/// @param without_floor pieces and their sizes as they are where there is no floor: the same in every direction, filled when first needed
+Reading read_direction(const Voxels& voxels, int axis, bool flipped, int reach, std::pair<std::vector<int>, std::vector<int>>& without_floor) {
   Reading r;
   r.reach = reach;
   r.axis = axis;
@@ -199,8 +200,9 @@ Reading read_direction(const Voxels& voxels, int axis, bool flipped, int reach) 
   std::vector<int> layer_count(static_cast<std::size_t>(voxels.extent(axis)), 0);
   for (int c = 0; c < voxels.count(); ++c) ++layer_count[layer_of(voxels, c, r)];
   find_floor(layer_count, r);
-  std::vector<int> sizes;
-  const std::vector<int> label = label_pieces(voxels, r, sizes);
+  std::pair<std::vector<int>, std::vector<int>> with_floor;
+  auto& [label, sizes] = r.has_floor ? with_floor : without_floor;
+  if (label.empty()) label = label_pieces(voxels, r, sizes);
   r.is_body.assign(static_cast<std::size_t>(voxels.count()), 0);
   if (sizes.empty()) return r;
   const int body = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
@@ -309,11 +311,12 @@ void rescue_soles(const TriangleMesh& scan, const Voxels& voxels, const Reading&
 SortedScan sort_in_cells(const TriangleMesh& scan, const std::string& up_axis, int n_cells, int reach) {
   const Voxels voxels(scan, n_cells);
   Reading best;
+  std::pair<std::vector<int>, std::vector<int>> without_floor;
   double next = -1;
   for (int axis : {1, 2, 0}) { // ties go to y, then z
     if (up_axis != "auto" && up_axis[0] - 'x' != axis) continue;
     for (bool flipped : {false, true}) {
-      Reading r = read_direction(voxels, axis, flipped, reach);
+      Reading r = read_direction(voxels, axis, flipped, reach, without_floor);
       if (r.score > best.score + 1e-9) {
         next = best.score;
         best = std::move(r);

@@ -27,17 +27,29 @@ std::vector<int> loop_numbers(const std::vector<Cut>& cuts, std::vector<char>& i
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
   };
-  std::vector<std::pair<std::uint64_t, int>> ends;
-  ends.reserve(cuts.size() * 2);
-  for (std::size_t i = 0; i < cuts.size(); ++i) {
-    ends.emplace_back(cuts[i].from, static_cast<int>(i));
-    ends.emplace_back(cuts[i].to, static_cast<int>(i));
-  }
-  std::sort(ends.begin(), ends.end());
-  for (std::size_t k = 1; k < ends.size(); ++k) {
-    if (ends[k].first != ends[k - 1].first) continue;
-    const int a = root(ends[k - 1].second), b = root(ends[k].second);
+  struct End {
+    std::uint64_t key;
+    int first; ///< the segment that came first, -1: free
+    bool shared;
+  };
+  std::size_t size = 16;
+  while (size < 3 * cuts.size()) size *= 2;
+  std::vector<End> table(size, {0, -1, false}); // at most two thirds full; nothing depends on its order
+  auto join = [&](std::uint64_t key, int i) {
+    std::size_t at = (key * 0x9E3779B97F4A7C15u >> 32) & (size - 1);
+    while (table[at].first >= 0 && table[at].key != key) at = (at + 1) & (size - 1);
+    End& end = table[at];
+    if (end.first < 0) {
+      end = {key, i, false};
+      return;
+    }
+    end.shared = true;
+    const int a = root(end.first), b = root(i);
     if (a != b) parent[std::max(a, b)] = std::min(a, b);
+  };
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    join(cuts[i].from, static_cast<int>(i));
+    join(cuts[i].to, static_cast<int>(i));
   }
   std::vector<int> number(cuts.size(), -1);
   int count = 0;
@@ -47,8 +59,8 @@ std::vector<int> loop_numbers(const std::vector<Cut>& cuts, std::vector<char>& i
     number[i] = number[r];
   }
   is_open.assign(static_cast<std::size_t>(count), 0);
-  for (std::size_t k = 0; k < ends.size(); ++k) // an end that no other segment shares
-    if ((k == 0 || ends[k - 1].first != ends[k].first) && (k + 1 == ends.size() || ends[k + 1].first != ends[k].first)) is_open[number[ends[k].second]] = 1;
+  for (const End& end : table) // an end that no other segment shares
+    if (end.first >= 0 && !end.shared) is_open[number[end.first]] = 1;
   return number;
 }
 
@@ -89,6 +101,7 @@ std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane, const std::v
   const Vec3 n = plane.normal();
   const double offset = n.dot(plane.origin);
   std::vector<Cut> cuts;
+  cuts.reserve(512);
   const std::size_t total = subset ? subset->size() : mesh.triangles.size();
   for (std::size_t i = 0; i < total; ++i) {
     const Triangle& t = mesh.triangles[subset ? (*subset)[i] : i];
@@ -122,6 +135,9 @@ std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane, const std::v
   const std::vector<int> number = loop_numbers(cuts, is_open);
   std::vector<Loop> loops(is_open.size());
   for (std::size_t k = 0; k < loops.size(); ++k) loops[k].closed = !is_open[k];
+  std::vector<std::size_t> sizes(loops.size(), 0);
+  for (const int n : number) ++sizes[n];
+  for (std::size_t k = 0; k < loops.size(); ++k) loops[k].segments.reserve(sizes[k]);
   for (std::size_t i = 0; i < cuts.size(); ++i) loops[number[i]].segments.push_back({cuts[i].a, cuts[i].b});
   for (Loop& loop : loops) measure_loop(loop);
   std::erase_if(loops, [](const Loop& loop) { return std::abs(loop.area) < 1e-6; });

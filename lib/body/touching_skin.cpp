@@ -64,12 +64,12 @@ std::vector<char> facing_candidates(const TriangleMesh& skin, const std::vector<
     else faced[n++] = faced[i];
   faced.resize(n);
   std::vector<int> around(n, 0); // the same over the neighbour cells
-  for (std::size_t i = 0; i < n; ++i)
-    for (long x = -1; x <= 1; ++x)
-      for (long y = -1; y <= 1; ++y) {
+  for (long x = -1; x <= 1; ++x)
+    for (long y = -1; y <= 1; ++y)
+      for (std::size_t i = 0, from = 0; i < n; ++i) { // cells come in order, and so do their neighbours on this side
         const long low = faced[i].first + (x << 40) + (y << 20) - 1;
-        for (auto at = std::lower_bound(faced.begin(), faced.end(), std::pair<long, int>(low, 0)); at != faced.end() && at->first <= low + 2; ++at)
-          around[i] |= at->second;
+        while (from < n && faced[from].first < low) ++from;
+        for (std::size_t at = from; at < n && faced[at].first <= low + 2; ++at) around[i] |= faced[at].second;
       }
   std::vector<char> candidate(skin.positions.size(), 0);
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {

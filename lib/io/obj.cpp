@@ -124,6 +124,12 @@ void append_number(std::string& out, double x) {
   out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, x == 0 ? 0.0 : x).ptr);
 }
 
+void append_index(std::string& out, char before, int from_zero) {
+  char buffer[16];
+  out += before;
+  out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, from_zero + 1).ptr);
+}
+
 } // namespace
 
 ObjMesh parse_obj(std::string_view text, const std::string& name) { return Parser(text, name).run(); }
@@ -152,8 +158,8 @@ std::string obj_text(const ObjMesh& mesh, const std::string& comment) {
     while (group < mesh.groups.size() && mesh.groups[group].first_triangle <= static_cast<int>(f)) out += "g " + mesh.groups[group++].name + "\n";
     out += 'f';
     for (int k = 0; k < 3; ++k) {
-      out += ' ' + std::to_string(mesh.triangles[f][k] + 1);
-      if (!mesh.texture_triangles.empty() && mesh.texture_triangles[f][k] >= 0) out += '/' + std::to_string(mesh.texture_triangles[f][k] + 1);
+      append_index(out, ' ', mesh.triangles[f][k]);
+      if (!mesh.texture_triangles.empty() && mesh.texture_triangles[f][k] >= 0) append_index(out, '/', mesh.texture_triangles[f][k]);
     }
     out += '\n';
   }
