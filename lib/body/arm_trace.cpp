@@ -16,6 +16,7 @@ constexpr double ARM_REACH = 0.46; ///< over the skin from finger tip to beyond 
 constexpr double MAX_ARM_GIRTH = 0.36;
 constexpr double JUMP = 1.35;      ///< of the girth, where the section runs into the trunk
 constexpr double MIN_ARM = 0.24;   ///< a shorter trace is no arm
+constexpr double MIN_REACH = 0.27; ///< from the waist over the skin to a hand: arms that touch the trunk from the elbow up lead to it by the shortest way
 constexpr double BLUNT = 0.0015;   ///< m
 constexpr double TRUNK_LEAN = 0.5; ///< of the bisector between arm and trunk
 constexpr double LEAP = 0.008;     ///< the arm's underside bends away by more than this: no longer the pit
@@ -48,6 +49,18 @@ std::vector<char> leg_vertices(const LevelStack& levels, const TriangleMesh& ski
   }
   for (std::size_t v = 0; v < skin.positions.size(); ++v) blocked[v] = skin.positions[v].y() < crotch - 0.01 * s && is_leg_piece[piece[v]];
   return blocked;
+}
+
+/// The level from which reach is measured: at the waist, or, where arms hang on the trunk there, where the trunk alone is cut.
+const Slice& free_level(const LevelStack& levels) {
+  constexpr double WITH_ARMS = 1.4; // of the trunk's least breadth
+  const double s = levels.stature();
+  const Slice* usual = &levels.at(SEED_LEVEL * s);
+  const Slice* narrowest = usual;
+  auto breadth = [](const Slice& slice) { return slice.trunk < 0 ? 1e300 : slice.loops[slice.trunk].size().x(); };
+  for (double y = *levels.crotch() + 0.05 * s; y < 0.70 * s; y += levels.spacing())
+    if (const Slice& slice = levels.at(y); breadth(slice) < breadth(*narrowest)) narrowest = &slice;
+  return breadth(*usual) > WITH_ARMS * breadth(*narrowest) ? *narrowest : *usual;
 }
 
 /// Mean of the vertices between two distances from the tip.
@@ -327,13 +340,21 @@ std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& gr
   const TriangleMesh& skin = levels.skin();
   const double s = levels.stature();
   const std::vector<char> legs = leg_vertices(levels, skin);
-  const Slice& seed = levels.at(SEED_LEVEL * s);
+  const Slice& seed = free_level(levels);
   if (seed.trunk < 0) return arms;
   const Loop& trunk = seed.loops[seed.trunk];
+  auto is_in = [](const Loop& loop, const Vec3& p, double margin) {
+    return p.x() > loop.low.x() - margin && p.x() < loop.high.x() + margin && p.z() > loop.low.y() - margin && p.z() < loop.high.y() + margin;
+  };
+  auto is_of_arm = [&](const Vec3& p) { // one that hangs close to the trunk
+    for (std::size_t i = 0; i < seed.loops.size(); ++i)
+      if (static_cast<int>(i) != seed.trunk && seed.loops[i].area > 0 && is_in(seed.loops[i], p, 0.003 * s)) return !is_in(trunk, p, 0.003 * s);
+    return false;
+  };
   std::vector<int> sources;
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
     const Vec3& p = skin.positions[v];
-    if (std::abs(p.y() - seed.y) < 0.015 * s && p.x() > trunk.low.x() - 0.01 * s && p.x() < trunk.high.x() + 0.01 * s) sources.push_back(static_cast<int>(v));
+    if (std::abs(p.y() - seed.y) < 0.015 * s && is_in(trunk, p, 0.01 * s) && !is_of_arm(p)) sources.push_back(static_cast<int>(v));
   }
   const std::vector<double> reach = graph.distances(sources, 1e200, legs);
   for (ArmTrace& arm : arms) {
@@ -343,7 +364,7 @@ std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& gr
       if (reach[v] > 1e199 || (p.x() > 0) != arm.left || p.y() > 0.93 * s || std::abs(p.x()) < 0.06 * s) continue;
       if (tip < 0 || reach[v] > reach[tip]) tip = static_cast<int>(v);
     }
-    if (tip < 0 || reach[tip] < 0.35 * s) continue;
+    if (tip < 0 || reach[tip] < MIN_REACH * s) continue;
     arm.tip = skin.positions[tip];
     const std::vector<double> from_tip = graph.distances({tip}, ARM_REACH * s, legs);
     for (std::size_t f = 0; f < skin.triangles.size(); ++f) {

@@ -18,6 +18,15 @@ constexpr double SAMPLE = 1.0 / 260;      ///< of stature: spacing of the sample
 constexpr double MAX_BORDER_SHARE = 1e-3; ///< of all edges: more open edges and the skin is rebuilt
 constexpr double SMALL_HOLE = 0.035;      ///< of stature: a hole that a fan closes well enough
 constexpr double MAX_NOISE = 0.45e-3;     ///< m
+/// ... or this share of the edges: between vertices that far apart a smooth body bends by as much, which is no noise.
+constexpr double MAX_NOISE_TO_EDGE = 0.04;
+
+/// Edge length of so many equal triangles of the same area, m.
+double usual_edge(const TriangleMesh& mesh) {
+  double twice = 0;
+  for (const Triangle& t : mesh.triangles) twice += area_normal(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]).norm();
+  return std::sqrt(2 / std::sqrt(3.0) * twice / static_cast<double>(std::max<std::size_t>(1, mesh.triangles.size())));
+}
 
 /// Roughness at the scale of the mesh: the part of the umbrella vector along the normal that neighbours do not share.
 double roughness(const TriangleMesh& mesh) {
@@ -157,7 +166,8 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
     if (skin.flipped_edges)
       skin.findings.push_back({"warning", std::to_string(skin.flipped_edges) + " edges whose faces disagree about outside; turned", "faces"});
     skin.noise_m = roughness(skin.mesh);
-    if (skin.border_edges > 0 && skin.noise_m <= MAX_NOISE) {
+    const double most_noise = std::max(MAX_NOISE, MAX_NOISE_TO_EDGE * usual_edge(skin.mesh));
+    if (skin.border_edges > 0 && skin.noise_m <= most_noise) {
       // many small holes, or few of any size: the scan's own faces stay
       const double widest = skin.border_edges <= MAX_BORDER_SHARE * edges ? 1e300 : SMALL_HOLE * stature;
       const int open = skin.border_edges;
@@ -169,7 +179,7 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
     }
     if (skin.border_edges > 0) why = "the scan has holes (" + std::to_string(skin.border_edges) + " open edges)";
     else if (skin.crowded_edges > MAX_BORDER_SHARE * edges) why = "the scan has " + std::to_string(skin.crowded_edges) + " edges with more than two faces";
-    else if (skin.noise_m > MAX_NOISE) why = text_of("the scan is rough (%.1f mm)", 1000 * skin.noise_m);
+    else if (skin.noise_m > most_noise) why = text_of("the scan is rough (%.1f mm)", 1000 * skin.noise_m);
   }
   skin.whole = why.empty() && !filled;
   if (why.empty()) return skin;

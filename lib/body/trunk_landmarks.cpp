@@ -132,17 +132,22 @@ bool is_nipple_pair(const Finder& f) {
 
 using BothSides = std::array<std::optional<Vec3>, 2>;
 
-/// Bust points beside the mid-plane at the given height. On a bust the foremost skin near the expected height draws them half way.
+/// Bust points beside the mid-plane at the given height. On a bust the foremost skin near the expected height draws them half way, sideways
+/// as far as it stands out clearly from the skin between both sides.
 /// @return whether it did on either side
 bool bust_at(const Finder& f, double expected, double y, BothSides& points) {
   const double s = f.s, a = 0.02 * s, b = 0.10 * s;
   bool drawn = false;
   for (int side = 0; side < 2; ++side) {
-    double height = y;
+    double height = y, x = (side == 0 ? 1 : -1) * f.number("bust.beside") * s;
     if (f.situation.female)
       if (const auto p = extreme_depth(f, expected - 0.035 * s, expected + 0.035 * s, 1, side == 0 ? a : -b, side == 0 ? b : -a))
-        if (p->y() > expected - 0.033 * s && p->y() < expected + 0.033 * s) height = 0.5 * (y + p->y()), drawn = true;
-    points[side] = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, height, 0.006 * s);
+        if (p->y() > expected - 0.033 * s && p->y() < expected + 0.033 * s) {
+          height = 0.5 * (y + p->y()), drawn = true;
+          if (const auto between = front_at(f, 0, p->y(), 0.006 * s))
+            x += 0.5 * std::clamp((p->z() - between->z()) / (f.number("bust.clear_of_middle") * s), 0.0, 1.0) * (p->x() - x);
+        }
+    points[side] = front_at(f, x, height, 0.006 * s);
   }
   return drawn;
 }
