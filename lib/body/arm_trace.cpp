@@ -18,6 +18,8 @@ constexpr double JUMP = 1.35;      ///< of the girth, where the section runs int
 constexpr double MIN_ARM = 0.24;   ///< a shorter trace is no arm
 constexpr double MIN_REACH = 0.27; ///< from the waist over the skin to a hand: arms that touch the trunk from the elbow up lead to it by the shortest way
 constexpr double BLUNT = 0.0015;   ///< m
+constexpr double POCKET = 0.001;   ///< what is thinner is no limb: where faces were dropped and closed again, skin has pockets
+constexpr double AS_NEAR = 0.0003; ///< m
 constexpr double TRUNK_LEAN = 0.5; ///< of the bisector between arm and trunk
 constexpr double LEAP = 0.008;     ///< the arm's underside bends away by more than this: no longer the pit
 constexpr double ROOF = 0.005;     ///< half breadth of the pit's roof at most
@@ -197,7 +199,10 @@ std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm
   for (double along = end - 0.09 * s; along < end + 0.08 * s; along += 0.001 * s) {
     const Vec3 c = arm.at(along);
     const Vec2 q(c.x(), c.y());
-    const std::vector<double> t = crossings(loops, q, e);
+    std::vector<double> t = crossings(loops, q, e);
+    for (std::size_t k = 0; k + 1 < t.size();) // body between an odd and the next crossing
+      if (t[k + 1] - t[k] < POCKET * s) t.erase(t.begin() + static_cast<std::ptrdiff_t>(k), t.begin() + static_cast<std::ptrdiff_t>(k) + 2);
+      else k += 2;
     const auto first = std::upper_bound(t.begin(), t.end(), 0.0);
     if (first == t.end() || (first - t.begin()) % 2 == 0) continue; // not inside the arm in this plane
     const double leave = *first;
@@ -307,14 +312,30 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
   int trunk, limb;
   const std::vector<Loop> loops = loops_at(low, trunk, limb);
   if (trunk < 0 || limb < 0) return;
-  double best = 1e300;
+  // both folds of the pit may come as near: of places as near as makes no difference the middle
+  struct Near {
+    Vec2 middle;
+    double gap, length;
+  };
+  std::vector<Near> all;
+  double least = 1e300;
   for (const auto& a : loops[trunk].segments)
-    for (const auto& b : loops[limb].segments)
-      if (const double d = (a[0] - b[0]).squaredNorm(); d < best) {
-        best = d;
-        const Vec2 middle = 0.5 * (a[0] + b[0]);
-        arm.merge = Vec3(middle.x(), low, middle.y());
+    for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+      const Vec2 p = (1 - t) * a[0] + t * a[1];
+      Near near{p, 1e300, (a[1] - a[0]).norm()};
+      for (const auto& b : loops[limb].segments) {
+        const Vec2 along = b[1] - b[0];
+        const Vec2 q = b[0] + std::clamp((p - b[0]).dot(along) / std::max(along.squaredNorm(), 1e-20), 0.0, 1.0) * along;
+        if (const double gap = (p - q).norm(); gap < near.gap) near.gap = gap, near.middle = 0.5 * (p + q);
       }
+      least = std::min(least, near.gap);
+      all.push_back(near);
+    }
+  Vec2 sum = Vec2::Zero();
+  double weight = 0;
+  for (const Near& near : all)
+    if (const double w = (least + AS_NEAR - near.gap) * near.length; w > 0) sum += w * near.middle, weight += w;
+  if (weight > 0) arm.merge = Vec3(sum.x() / weight, low, sum.y() / weight);
 }
 
 } // namespace

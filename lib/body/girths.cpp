@@ -115,7 +115,8 @@ void find_girths(const Finder& f) {
   if (fore && rear && sides) {
     double left = -1e300, right = 1e300;
     for (const auto& seg : sides->segments)
-      if (std::abs(seg[0].y() - center.z() - 0.003 * s) < 0.012 * s) left = std::max(left, seg[0].x()), right = std::min(right, seg[0].x());
+      if (const auto piece = clipped(seg, 1, center.z() - 0.009 * s, center.z() + 0.015 * s))
+        for (const Vec2& q : *piece) left = std::max(left, q.x()), right = std::min(right, q.x());
     if (left > right) {
       // the slope of the shoulders makes this breadth uncertain; the narrowest breadth of the neck is not
       double narrowest = 1e300;

@@ -10,12 +10,11 @@ std::optional<Profile> midline(const LevelStack& levels, double y, double x, dou
   const auto loop = levels.trunk_at(y);
   if (!loop) return std::nullopt;
   Profile profile{-1e300, 1e300};
-  const Vec2 up = Vec2::UnitY();
   for (const auto& segment : loop->segments)
-    for (const Vec2& q : segment)
-      if (std::abs(q.x() - x) <= half_width) {
-        profile.front = std::max(profile.front, up.dot(q));
-        profile.back = std::min(profile.back, up.dot(q));
+    if (const auto piece = clipped(segment, 0, x - half_width, x + half_width))
+      for (const Vec2& q : *piece) {
+        profile.front = std::max(profile.front, q.y());
+        profile.back = std::min(profile.back, q.y());
       }
   if (profile.front < profile.back) return std::nullopt;
   return profile;
@@ -67,6 +66,30 @@ double neck_middle(const Finder& f) {
   return n ? sum / n : 0.0;
 }
 
+/// The highest skin: of a flat crown the middle of what is as high as makes no difference, at the height of the highest point.
+std::optional<Vec3> top_of_head(const TriangleMesh& skin) {
+  constexpr double AS_HIGH = 0.0005; // m
+  constexpr int PIECES = 6;          // a face of a coarse mesh is larger than the flat part
+  double top = -1e300;
+  for (const Vec3& p : skin.positions) top = std::max(top, p.y());
+  if (top < -1e299) return std::nullopt;
+  Vec3 sum = Vec3::Zero();
+  double weight = 0;
+  for (const Triangle& t : skin.triangles) {
+    const Vec3 &a = skin.positions[t[0]], &b = skin.positions[t[1]], &c = skin.positions[t[2]];
+    if (std::max({a.y(), b.y(), c.y()}) < top - AS_HIGH) continue;
+    const double area = area_normal(a, b, c).norm();
+    for (int i = 0; i < PIECES; ++i)
+      for (int j = 0; j + i < PIECES; ++j) {
+        const double u = (i + 1.0 / 3) / PIECES, v = (j + 1.0 / 3) / PIECES;
+        const Vec3 p = a + u * (b - a) + v * (c - a);
+        if (const double w = (p.y() - top + AS_HIGH) * area; w > 0) sum += w * p, weight += w;
+      }
+  }
+  if (weight <= 0) return *std::max_element(skin.positions.begin(), skin.positions.end(), [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); });
+  return Vec3(sum.x() / weight, top, sum.z() / weight);
+}
+
 /// Both side neck points: skin at that depth, at the height where neck and shoulder meet.
 void find_neck_sides(const Finder& f, double x, double back_y, const std::optional<double>& turn, double depth) {
   const double s = f.s, above_back = back_y + f.number("neck_side.above_back") * s;
@@ -84,7 +107,9 @@ void find_neck_sides(const Finder& f, double x, double back_y, const std::option
     std::optional<Vec2> outer;
     if (const auto loop = f.levels.trunk_at(y))
       for (const auto& seg : loop->segments)
-        if (std::abs(seg[0].y() - depth) < near * s && sign * (seg[0].x() - x) > 0 && (!outer || sign * seg[0].x() > sign * outer->x())) outer = seg[0];
+        if (const auto piece = clipped(seg, 1, depth - near * s, depth + near * s))
+          for (const Vec2& q : *piece)
+            if (sign * (q.x() - x) > 0 && (!outer || sign * q.x() > sign * outer->x())) outer = q;
     return outer;
   };
   // where the shoulders are nearly level a millimetre of height is a centimetre of breadth: too broad is too low
@@ -103,12 +128,7 @@ void find_neck_sides(const Finder& f, double x, double back_y, const std::option
 void find_head_landmarks(const Finder& f) {
   const double s = f.s;
   const TriangleMesh& skin = f.levels.skin();
-  f.find("head_tip", "", 1, {{"highest_point", [&]() -> std::optional<Vec3> {
-                                const auto top =
-                                    std::max_element(skin.positions.begin(), skin.positions.end(), [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); });
-                                if (top == skin.positions.end()) return std::nullopt;
-                                return *top;
-                              }}});
+  f.find("head_tip", "", 1, {{"highest_point", [&]() -> std::optional<Vec3> { return top_of_head(skin); }}});
   // heights: the population's ratio, drawn towards what this neck shows
   using Height = std::optional<double>;
   const double x = neck_middle(f);

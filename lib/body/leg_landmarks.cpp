@@ -8,6 +8,8 @@ namespace sloper::body {
 
 namespace {
 
+constexpr double FLAT = 0.001; ///< m: as far out as makes no difference
+
 /// Height of the hollow behind the knee: where the back of the leg comes furthest forward.
 std::optional<double> hollow_of_knee(const Finder& f, int side, double around) {
   std::optional<double> best;
@@ -52,14 +54,6 @@ std::optional<Vec3> foot_end(const Finder& f, int side, double ankle_y, double d
   return weight > 0 ? Vec3(sum.x() / weight, sum.y() / weight, mean.z()) : mean;
 }
 
-/// Skin of a leg section that is farthest along `direction` (x, z).
-Vec2 outermost(const Loop& loop, const Vec2& direction) {
-  Vec2 outer = loop.segments.front()[0];
-  for (const auto& seg : loop.segments)
-    if (direction.dot(seg[0]) > direction.dot(outer)) outer = seg[0];
-  return outer;
-}
-
 void find_knee(const Finder& f, int side, double ankle_y, double hip_y) {
   const std::string suffix = side_suffix(side);
   const double by_ratio = ankle_y + f.number("knee.of_leg") * (hip_y - ankle_y);
@@ -75,7 +69,7 @@ void find_knee(const Finder& f, int side, double ankle_y, double hip_y) {
   if (!height) return;
   const auto section = f.levels.leg_at(height->value, side);
   if (!section) return;
-  const Vec2 cap = outermost(*section, Vec2::UnitY());
+  const Vec2 cap = outermost(*section, Vec2::UnitY(), FLAT);
   f.find("patella", suffix, 2, {{"foremost_at_knee", [&] { return std::optional(Vec3(cap.x(), height->value, cap.y())); }}});
   const Vec3 joint(section->center().x(), height->value, cap.y() - f.number("knee.behind_patella") * f.s);
   f.put("knee" + suffix, joint, 2, *height->rule);
@@ -109,7 +103,7 @@ void find_leg(const Finder& f, int side) {
   // the section at this height holds the heel's upper rim: its middle in x, the joint lies nearer to the heel
   const Vec3 joint(ankle->center().x() - sign * 0.0015 * s, ankle_y, ankle->low.y() + f.number("ankle.from_behind") * ankle->size().y());
   f.find("ankle", suffix, 2, {{"height_ratio", [&] { return std::optional(joint); }}});
-  const Vec2 outer = outermost(*ankle, Vec2(sign, 0));
+  const Vec2 outer = outermost(*ankle, Vec2(sign, 0), FLAT);
   f.find("malleolus", suffix, 2, {{"outermost_at_ankle", [&] { return std::optional(Vec3(outer.x(), ankle_y, outer.y())); }}});
   find_knee(f, side, ankle_y, hip.y());
 }

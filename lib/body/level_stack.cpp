@@ -9,6 +9,7 @@ namespace sloper::body {
 namespace {
 
 constexpr double CALF = 0.08;         ///< of stature: from here up two legs are looked for
+constexpr double LEVEL = 0.0003;      ///< m: as low as makes no difference
 constexpr double MIN_LEG_AREA = 6e-4; ///< of stature squared, below it a loop at the calf is no leg
 
 double overlap(const Loop& a, const Loop& b) {
@@ -175,24 +176,27 @@ void LevelStack::follow_legs() {
     if (y > low - 0.04 * m_stature && y < low + 0.04 * m_stature) near.push_back(static_cast<int>(f));
   }
   double lowest = high;
-  std::vector<Vec2> bottom;
+  std::vector<std::array<Vec2, 2>> bottom;
   for (const Loop& loop : cut(*m_skin, {Vec3(middle, 0, 0), Vec3::UnitZ(), Vec3::UnitY()}, &near)) {
     // the trunk's outline, however deep it hangs; what does not reach up into the trunk is a thigh that crosses the middle
     const double deepest = low - (loop.high.y() > high + 0.02 * m_stature ? 0.02 : 0.006) * m_stature;
     for (const auto& segment : loop.segments)
-      for (const Vec2& q : segment)
-        if (q.y() > deepest && q.y() < high + m_roughness) {
-          bottom.push_back(q);
-          if (q.y() < lowest) lowest = q.y(), m_crotch_point.y() = q.x();
-        }
+      if (const auto piece = clipped(segment, 1, deepest, high + LEVEL + m_roughness)) {
+        bottom.push_back(*piece);
+        for (const Vec2& q : *piece)
+          if (q.y() < lowest && q.y() > deepest) lowest = q.y(), m_crotch_point.y() = q.x();
+      }
   }
   m_crotch = std::min(low, lowest);
-  if (m_roughness <= 0) return;
   // the skin there is nearly level from front to back: on a rough scan the lowest point is anywhere on it, its middle is not
-  double front = -1e300, back = 1e300;
-  for (const Vec2& q : bottom)
-    if (q.y() < lowest + m_roughness) front = std::max(front, q.x()), back = std::min(back, q.x());
-  if (front >= back) m_crotch_point.y() = 0.5 * (front + back);
+  double sum = 0, weight = 0;
+  for (const auto& segment : bottom)
+    for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+      const Vec2 q = (1 - t) * segment[0] + t * segment[1];
+      const double w = std::max(0.0, lowest + LEVEL + m_roughness - q.y()) * std::abs(segment[1].x() - segment[0].x());
+      sum += w * q.x(), weight += w;
+    }
+  if (weight > 0) m_crotch_point.y() = sum / weight;
 }
 
 void LevelStack::follow_trunk() {

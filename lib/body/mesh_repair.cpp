@@ -8,6 +8,8 @@ namespace sloper::body {
 
 namespace {
 
+constexpr std::size_t FEW_EDGES = 20; ///< around some faces of a mesh that were dropped, however coarse it is
+
 /// Border edges against their face's direction, so that a new face agrees with the old one. Sorted.
 std::vector<std::array<int, 2>> border_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
   std::vector<std::array<int, 2>> border;
@@ -239,7 +241,12 @@ bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double wi
   for (const std::vector<int>& loop : loops) {
     Box3 box;
     for (const int v : loop) box.add(mesh.positions[v]);
-    if (box.size().norm() > widest && loop.size() > 10) return false; // few edges: a face or two of a coarse mesh
+    if (box.size().norm() > widest && loop.size() > FEW_EDGES) return false;
+  }
+  std::vector<Vec3> normal(mesh.positions.size(), Vec3::Zero());
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 facing = area_normal(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+    for (const int v : t) normal[v] += facing;
   }
   for (const std::vector<int>& loop : loops) {
     if (loop.size() == 3) {
@@ -248,6 +255,18 @@ bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double wi
     }
     Vec3 middle = Vec3::Zero();
     for (const int v : loop) middle += mesh.positions[v] / static_cast<double>(loop.size());
+    if (loop.size() <= FEW_EDGES) { // over a sphere the hub stands half as far out as its rim's normals lean, which without the faces inside lean too far
+      Vec3 out = Vec3::Zero();
+      double lean = 0, reach = 0;
+      for (const int v : loop) {
+        const double length = normal[v].norm(), share = 1 / static_cast<double>(loop.size());
+        if (length <= 0) continue;
+        const Vec3 arm = mesh.positions[v] - middle;
+        out += normal[v] / length;
+        lean += share * arm.dot(normal[v]) / length, reach += share * arm.norm();
+      }
+      if (const double length = out.norm(); length > 0) middle += std::clamp(0.3 * lean, -0.2 * reach, 0.2 * reach) / length * out;
+    }
     const int hub = static_cast<int>(mesh.positions.size());
     mesh.positions.push_back(middle);
     for (std::size_t k = 0; k < loop.size(); ++k) mesh.triangles.push_back({loop[k], loop[(k + 1) % loop.size()], hub});

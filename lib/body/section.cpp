@@ -208,6 +208,36 @@ double taut_girth(const Loop& loop) {
   return closed_length(convex_hull(std::move(points)));
 }
 
+std::optional<std::array<Vec2, 2>> clipped(const std::array<Vec2, 2>& segment, int axis, double low, double high) {
+  const double a = segment[0][axis], b = segment[1][axis];
+  if (std::max(a, b) < low || std::min(a, b) > high) return std::nullopt;
+  auto at = [&](double end, const Vec2& q) {
+    const double to = std::clamp(end, low, high);
+    return to == end ? q : Vec2(segment[0] + (to - a) / (b - a) * (segment[1] - segment[0]));
+  };
+  return std::array<Vec2, 2>{at(a, segment[0]), at(b, segment[1])};
+}
+
+Vec2 outermost(const Loop& loop, const Vec2& direction, double flat) {
+  double most = -1e300;
+  for (const auto& segment : loop.segments) most = std::max(most, direction.dot(segment[0]));
+  Vec2 sum = Vec2::Zero();
+  double weight = 0;
+  for (const auto& segment : loop.segments) {
+    const double a = direction.dot(segment[0]) - most + flat, b = direction.dot(segment[1]) - most + flat;
+    if (a <= 0 && b <= 0) continue;
+    const double length = (segment[1] - segment[0]).norm();
+    constexpr int PIECES = 8; // a segment of a coarse mesh may be longer than the flat part
+    for (int k = 0; k < PIECES; ++k) {
+      const double t = (k + 0.5) / PIECES, w = ((1 - t) * a + t * b) * length;
+      if (w > 0) sum += w * ((1 - t) * segment[0] + t * segment[1]), weight += w;
+    }
+  }
+  if (weight <= 0) return loop.centroid;
+  const Vec2 middle = sum / weight;
+  return middle + (most - direction.dot(middle)) * direction;
+}
+
 bool encloses(const Loop& loop, const Vec2& q) {
   int winding = 0;
   for (const auto& s : loop.segments) {

@@ -2,6 +2,7 @@
 /// Plane cuts of a closed skin. A section is a set of loops; a loop keeps its oriented segments, which suffice for area,
 /// centroid, extent and taut girth, so that nothing has to be chained and a small gap harms nothing.
 #include <geometry/triangle_mesh.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 namespace sloper::body {
@@ -63,6 +64,11 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points);
 double closed_length(const std::vector<Vec2>& polygon);
 /// Taut (convex) girth of a loop.
 double taut_girth(const Loop& loop);
+/// The piece of a segment whose x (axis 0) or y (axis 1) lies within low .. high; nothing where there is none. What is asked of a band
+/// of the outline then does not depend on where the mesh has its vertices.
+std::optional<std::array<Vec2, 2>> clipped(const std::array<Vec2, 2>& segment, int axis, double low, double high);
+/// The outermost place of a loop along the unit `direction`: of an outline that is nearly square to it, the middle of what is within `flat`, m.
+Vec2 outermost(const Loop& loop, const Vec2& direction, double flat);
 /// True when the loop's outline winds around q.
 bool encloses(const Loop& loop, const Vec2& q);
 

@@ -171,7 +171,7 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
       // many small holes, or few of any size: the scan's own faces stay
       const double widest = skin.border_edges <= MAX_BORDER_SHARE * edges ? 1e300 : SMALL_HOLE * stature;
       const int open = skin.border_edges;
-      if (skin.border_edges < 0.4 * edges && fill_holes(skin.mesh, list, widest)) {
+      if (skin.border_edges < 0.5 * edges && fill_holes(skin.mesh, list, widest)) {
         filled = true;
         keep(count_edges(half_edges(skin.mesh)));
         skin.findings.push_back({"info", "holes with " + std::to_string(open) + " open edges were closed", "body.obj"});

@@ -312,8 +312,9 @@ double find_waist(const Finder& f, const std::optional<double>& navel, double pi
                                                    const double sign = side == 0 ? 1 : -1;
                                                    std::optional<Vec2> outer;
                                                    for (const auto& seg : loop->segments)
-                                                     if (std::abs(seg[0].y() - depth) < 0.01 * s && (!outer || sign * seg[0].x() > sign * outer->x()))
-                                                       outer = seg[0];
+                                                     if (const auto piece = clipped(seg, 1, depth - 0.01 * s, depth + 0.01 * s))
+                                                       for (const Vec2& q : *piece)
+                                                         if (!outer || sign * q.x() > sign * outer->x()) outer = q;
                                                    if (!outer) return std::nullopt;
                                                    return Vec3(outer->x(), waist, depth);
                                                  }}});
@@ -324,9 +325,9 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
   const double s = f.s;
   if (f.find("abdomen_front", "", 2, {{"foremost_below_waist", [&] { return extreme_depth(f, crotch + 0.004, waist, 1, -0.1 * s, 0.1 * s); }}}))
     put_level(f, "abdomen", f.at("abdomen_front").y(), "abdomen_front");
-  auto rearmost = [&] { // both sides of the seat are nearly level: the left one is taken unless the right one stands out clearly
+  auto rearmost = [&] { // both sides of the seat are nearly level: the left one is taken unless the right one stands out more than people's do
     auto rear = extreme_depth(f, crotch + 0.004, waist, -1, 0, 0.12 * s);
-    if (const auto right = extreme_depth(f, crotch + 0.004, waist, -1, -0.12 * s, 0); right && (!rear || right->z() < rear->z() - 0.0025)) rear = right;
+    if (const auto right = extreme_depth(f, crotch + 0.004, waist, -1, -0.12 * s, 0); right && (!rear || right->z() < rear->z() - 0.005)) rear = right;
     return rear;
   };
   if (f.find("buttock_back", "", 2, {{"rearmost_below_waist", rearmost}})) {
