@@ -65,8 +65,8 @@ TEST(Invariance, turning_moves_no_landmark_by_more_than_5_mm) {
 }
 
 TEST(Invariance, lying_and_leaning_move_no_landmark_by_more_than_8_mm) {
-  // soles are level to a degree only, and so much the body may lean afterwards: places that are the highest, lowest or foremost in a level
-  // body may then be elsewhere on what is nearly level or upright
+  // soles are level to a degree only, and so much the body may lean afterwards: the foremost place and the first level of a level body may
+  // then be elsewhere on what is nearly upright or level
   const std::set<std::string> extremes{"abdomen_front", "axilla_merge_l", "axilla_merge_r"};
   for (const Figure& figure : figures()) {
     const Eigen::Matrix3d turn = (Eigen::AngleAxisd(1.1, Vec3::UnitZ()) * Eigen::AngleAxisd(-0.6, Vec3::UnitX())).toRotationMatrix() * test::turn_about_y(20);
@@ -119,7 +119,8 @@ TEST(Invariance, dropping_one_face_in_twenty_or_in_five_moves_no_landmark_by_mor
 
 TEST(Invariance, a_coarse_clean_mesh_keeps_its_own_faces) {
   // between vertices that far apart a smooth body bends by more than what is noise on a fine mesh
-  for (const Figure& figure : figures()) {
+  for (const Figure* f : {&figures().front(), &figures().back()}) {
+    const Figure& figure = *f;
     const TriangleMesh coarse = test::decimated(figure.mesh, 5000.0 / static_cast<double>(figure.mesh.positions.size()));
     ASSERT_LT(coarse.positions.size(), 5001u);
     for (const Finding& finding : measure(coarse).body.scan.findings) EXPECT_EQ(finding.what.find("rebuilt"), std::string::npos) << finding.what;
