@@ -11,6 +11,7 @@ namespace {
 constexpr double STRONG = 0.08;      // |A_ij|^2 > STRONG^2 |A_ii| |A_jj|
 constexpr int COARSEST = 64;         // block rows that are factorised
 constexpr double LAMBDA_LIMIT = 4.0; // an element has at most four particles, which bounds the eigenvalues of D^-1 A
+constexpr int PATIENCE = 12;         // iterations beyond those of a fresh hierarchy that are borne: about what a new one costs
 
 /// Aggregate of every row; greedy: whole free neighbourhoods first, then leftovers join their strongest neighbour. Rows without a strong
 /// neighbour, such as particles that a contact all but pins, get none (-1): smoothing solves them, and on coarser levels each of them
@@ -192,7 +193,6 @@ void Aggregation::build(const LinearSystem& system) {
   else m_coarsest.compute(dense);
   if (n <= 4 * COARSEST && m_coarsest.info() != Eigen::Success) m_levels.clear();
   m_coarse_vector.resize(3 * n);
-  m_iterations_when_fresh = 0;
   m_age = 0;
 }
 
@@ -204,16 +204,23 @@ double Aggregation::complexity() const {
 
 void Aggregation::update(const LinearSystem& system) {
   m_jacobi.update(system);
-  const bool tired = m_iterations_when_fresh > 0 && m_last_iterations > m_iterations_when_fresh + m_iterations_when_fresh / 3 + 3;
+  const bool tired = m_last_iterations > m_iterations_when_fresh + PATIENCE;
   if (m_levels.empty() || static_cast<int>(m_levels[0].d_inverse.size()) != system.matrix.size() || tired) build(system);
   else copy_finest(system);
   if (m_levels.empty()) return;
   if (m_age++ > 0) estimate_lambda(0, 2);
 }
 
+bool Aggregation::renew(const LinearSystem& system, int iterations) {
+  if (m_levels.empty() || m_age == 1 || iterations < m_iterations_when_fresh + PATIENCE) return false;
+  build(system);
+  m_age = 1;
+  return true;
+}
+
 void Aggregation::report_iterations(int iterations) {
   m_last_iterations = iterations;
-  if (m_iterations_when_fresh == 0) m_iterations_when_fresh = std::max(iterations, 8);
+  if (m_age == 1) m_iterations_when_fresh = iterations;
 }
 
 /// Chebyshev of degree 2 for D^-1 A on [lambda / 4, lambda].

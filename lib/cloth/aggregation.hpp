@@ -3,9 +3,9 @@
 ///
 /// Near-null space: the three translations. Greedy aggregation over strong couplings, prolongator smoothed by one step of
 /// block Jacobi, Chebyshev smoother of degree 2, coarsest level factorised. There is no geometric coarsening, so narrow
-/// straps are no special case. The hierarchy lags: it is rebuilt only where the iterations that it costs have grown; the
-/// finest level always sees the current matrix. It is built in double and applied in single precision: the conjugate gradients
-/// around it, in double, have the last word.
+/// straps are no special case. The hierarchy lags: it is rebuilt, within a solve too, only where the iterations that it costs have
+/// grown by what a new one costs; the finest level always sees the current matrix. It is built in double and applied in single
+/// precision: the conjugate gradients around it, in double, have the last word.
 #include <Eigen/Dense>
 #include <cloth/conjugate_gradient.hpp>
 #include <cloth/float_rows.hpp>
@@ -16,6 +16,7 @@ class Aggregation : public Preconditioner {
 public:
   void update(const LinearSystem& system) override;
   void apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) override;
+  bool renew(const LinearSystem& system, int iterations) override;
   void report_iterations(int iterations) override;
   void reset() override { m_levels.clear(); }
   long rebuilds = 0;

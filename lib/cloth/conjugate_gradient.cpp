@@ -80,10 +80,12 @@ CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& precondi
       }
       return sum;
     });
-    ++result.iterations;
+    ++result.iterations, ++result.since_renewal;
     if (r_norm2 <= target2) break;
+    const bool renewed = preconditioner.renew(system, result.since_renewal);
+    if (renewed) result.since_renewal = 0;
     preconditioner.apply(r, z);
-    const double rz_next = dot(r, z, part), beta = rz_next / rz;
+    const double rz_next = dot(r, z, part), beta = renewed ? 0 : rz_next / rz; // with another preconditioner the directions start anew
     rz = rz_next;
     parallel_for(n, ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) p[i] = z[i] + beta * p[i];

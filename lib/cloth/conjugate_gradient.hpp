@@ -21,7 +21,10 @@ public:
   virtual void apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) = 0;
   /// The sparsity pattern has changed.
   virtual void reset() {}
-  /// How many iterations the last solve took; a lagging preconditioner decides by it when to be rebuilt.
+  /// Asked within a solve that is not done after so many iterations: a preconditioner that lags may bring itself up to date, and returns
+  /// true where it did.
+  virtual bool renew(const LinearSystem&, int /*iterations*/) { return false; }
+  /// How many iterations the last solve took since the preconditioner was last changed.
   virtual void report_iterations(int) {}
 };
 
@@ -38,7 +41,8 @@ private:
 
 struct CgResult {
   int iterations = 0;
-  double residual = 1; ///< |b - A x| / |b|
+  int since_renewal = 0; ///< iterations with the preconditioner as it is now
+  double residual = 1;   ///< |b - A x| / |b|
   bool converged = false;
   bool indefinite = false; ///< p'Ap <= 0 was met; x is the best iterate before
 };

@@ -181,7 +181,7 @@ StepResult ClothSolver::step(const StepOptions& o) {
     const LinearSystem system{m_matrix, m_elements, m_contacts};
     m_preconditioner->update(system);
     result.cg = conjugate_gradient(system, *m_preconditioner, m_rhs, o.cg_tolerance, o.cg_max_iterations, m_dx, m_work);
-    m_preconditioner->report_iterations(result.cg.iterations);
+    m_preconditioner->report_iterations(result.cg.since_renewal);
   }
   double largest2 = 0;
   for (const Vec3& d : m_dx) largest2 = std::max(largest2, d.squaredNorm());

@@ -85,6 +85,12 @@ void SelfContactEffect::search(const std::vector<Vec3>& x) {
   ++searches;
 }
 
+const std::vector<std::array<int, 2>>& SelfContactEffect::find_crossings(const std::vector<Vec3>& x) {
+  m_look_for_crossings = true;
+  search(x);
+  return m_crossings;
+}
+
 void SelfContactEffect::begin_step(const std::vector<Vec3>& x, double) {
   const double used = USED * GAMMA * m_options.search_m;
   m_stale = m_stale || !m_crossings.empty();

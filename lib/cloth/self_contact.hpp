@@ -38,8 +38,10 @@ public:
   void set_friction(double mu) { m_options.friction = mu; }
   /// Crossing pairs of triangles at the last search; while there are any, each search looks for them anew.
   const std::vector<std::array<int, 2>>& crossings() const { return m_crossings; }
+  /// The same at x, looked for now: pairs that crossed and came apart are watched less closely for a while.
+  const std::vector<std::array<int, 2>>& find_crossings(const std::vector<Vec3>& x);
   /// Positions were changed from outside: search before the next step.
-  void refresh() { m_stale = true; }
+  void refresh() { m_stale = m_look_for_crossings = true; }
   long searches = 0;     ///< so far
   long far_searches = 0; ///< for pairs that close in on each other from beyond the search radius
 

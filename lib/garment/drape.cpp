@@ -39,10 +39,7 @@ constexpr int GLIDE_STEPS = 40;          // after sewing, free of weight and fri
 constexpr int STALLED_STEPS = 400;       // without a residual that is a tenth less, and more than the weight: it will not come to rest
 constexpr int JUDGE_EVERY = 20;          // steps between looks whether the garment can still fit
 constexpr int STRAINED_STEPS = 80;       // without a strain that is a tenth less: it stays
-constexpr double FAR_RESIDUAL = 1;       // weights: above, garments that settle are far from rest,
-constexpr double FAR_TOLERANCE = 0.05;   // and this relative residual of a step is good enough
-constexpr double SHORTEST_STEP_S = 0.005;
-constexpr double LARGEST_STEP_S = 0.2; // s, while settling
+constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
 
 std::string millimetres(double m) { return std::to_string(std::lround(m * 1e4) / 10) + "." + std::to_string(std::lround(m * 1e4) % 10) + " mm"; }
 
@@ -175,9 +172,7 @@ bool DrapeRun::step(double h, double inertia, double largest_move_m) {
   options.line_search = m_settling;
   options.h = h;
   options.inertia = inertia;
-  const bool far = m_settling && m_at.last.residual_force_ratio > FAR_RESIDUAL; // the line search shortens whatever is too rough
-  const double rough = m_sewing ? SEW_TOLERANCE : far ? FAR_TOLERANCE : 0;
-  options.cg_tolerance = std::max(rough, m_settings.cg_tolerance);
+  options.cg_tolerance = m_sewing ? std::max(SEW_TOLERANCE, m_settings.cg_tolerance) : m_settings.cg_tolerance;
   options.cg_max_iterations = m_settings.cg_max_iterations;
   m_at.last = m_solver->step(options);
   m_at.cg_iterations.push_back(m_at.last.cg.iterations);
@@ -346,8 +341,8 @@ void DrapeRun::settle() {
       m_reporter.info("settle step " + std::to_string(k) + ": h " + std::to_string(h) + " s, speed " + std::to_string(speed) + " m/s, residual force " +
                       std::to_string(residual) + " of the weight, at most " + std::to_string(m_at.last.residual_force_ratio_max) + crossing_text());
     m_reporter.progress("settle", -1);
-    if (m_at.last.halvings > 0) h = std::max(h * 0.7, SHORTEST_STEP_S);
-    else if (m_at.last.largest_move_m < 0.003) h = std::min(h * 1.15, LARGEST_STEP_S);
+    if (m_at.last.halvings > 0) h = std::max(h * 0.7, m_settings.time_step_s);
+    else if (m_at.last.largest_move_m < 0.003) h = std::min(h * 1.3, LARGEST_STEP_S);
     else if (m_at.last.largest_move_m > 0.01) h = std::max(h * 0.8, m_settings.time_step_s);
     if (k <= glide() || residual < 0.9 * best) {
       best = residual;
@@ -363,7 +358,7 @@ void DrapeRun::settle() {
     if (calm < 3) continue;
     if (m_body_contact && m_body_contact->n_crossing() > 0 && ++m_at.pushed < MOST_PUSH_STEPS) continue; // what is through the skin is pushed harder each step
     m_garment.position = m_solver->x();
-    if (m_at.untanglings < 4 && m_self_contact && !m_self_contact->crossings().empty()) {
+    if (m_at.untanglings < 4 && m_self_contact && !m_self_contact->find_crossings(m_solver->x()).empty()) {
       ++m_at.untanglings;
       untangle();
       m_solver->set_positions(m_garment.position);
