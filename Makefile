@@ -1,19 +1,19 @@
-# Thin: every target is one command that can be typed by hand. `make` builds the five programs into build/tools/.
+# Thin: every target is one command that can be typed by hand. `make` builds the programs into build/tools/ and build/samples/, `make test` the tests too.
 .PHONY: all pictures package test demo population check sanitize sanitize-slice install format man bench bench-rivals validation figure4 accuracy fuzz hard soak accuracy-cost presets compare-builds clean
 
 all:
-	@scripts/build release
+	@scripts/build release programs
 
 test:
 	@scripts/build release
 	@scripts/test build
 
 demo:
-	@scripts/build release scan-landmarks pattern-mesh drape retarget-garment render-png make-mannequin make-pattern
+	@scripts/build release programs
 	@$(MAKE) --no-print-directory -C samples/demo
 
 population:
-	@scripts/build release scan-landmarks pattern-mesh drape retarget-garment render-png make-mannequin make-pattern
+	@scripts/build release programs
 	@$(MAKE) --no-print-directory -C samples/population
 
 check:
@@ -41,7 +41,7 @@ man:
 	@scripts/build release man
 
 accuracy:
-	@scripts/build release
+	@scripts/build release programs
 	@scripts/accuracy --build build --write
 
 fuzz:
@@ -95,7 +95,7 @@ presets:
 
 # The paper's Figure 4: ten drapes of the four-panel skirt, a sheet of pictures, and checks.
 figure4:
-	@scripts/build release scan-landmarks pattern-mesh drape render-png make-mannequin make-pattern measure-hem
+	@scripts/build release programs measure-hem
 	@$(MAKE) --no-print-directory -C samples/figure4
 
 clean:

@@ -37,51 +37,49 @@ struct Options {
 io::Json input_entry(const std::string& path) { return {{"file", io::file_name(path)}, {"sha256", io::sha256(io::read_file(path))}}; }
 
 void add_options(cli::Tool& tool, Options& o) {
-  CLI::App& app = tool.app();
-  app.add_option("--scene", o.scene, "scene.json: body, panels, materials, effects, settings; options below override it")->check(cli::input_file());
-  app.add_option("--body", o.body, "body.json from scan-landmarks")->check(cli::input_file());
-  app.add_option("--panels", o.panels, "panels.json from pattern-mesh")->check(cli::input_file());
-  app.add_option("--from", o.from, "go on from a garment that drape or retarget-garment wrote, or from a checkpoint")->check(cli::input_file());
-  app.add_option("--over", o.over,
-                 "a draped garment that this one goes over; repeated from the skin outwards. Inner cloth is tucked in where it lies outside, then all "
-                 "come to rest together")
-      ->check(cli::input_file());
-  app.add_option("--over-output", o.over_output, "write the garments of --over as they lie below this one; as many, in the same order")
-      ->check(cli::output_file());
-  app.add_option("--accuracy", o.accuracy, "how exact, and how long it takes (default: standard)")->check(cli::one_of(garment::accuracy_names()));
-  app.add_option("--effects", o.effects, "auto, auto with changes (auto,membrane,-friction), or exactly those of a list (default: auto)")->type_name("LIST");
-  app.add_option("--material", o.material,
-                 "fabric of panels that name none: a preset such as cotton-poplin, denim, silk, jersey, or a CSV of KES-F or FAST values")
-      ->type_name("NAME");
-  app.add_option("--set", o.set, "one setting by its name in the report's settings")->type_name("KNOB=VALUE");
-  app.add_option("--max-seconds", o.max_seconds,
-                 "stop after this wall time, s, with the best state so far; without --accuracy: draft, and standard when there is time for it")
-      ->check(cli::finite_in(0, 1e6, "s"));
-  app.add_option("--max-error-mm", o.max_error_mm,
-                 "go on from preset to preset until the cloth is nearer than this to where the finest would bring it, root mean square; exit 4 when none does")
-      ->check(cli::finite_in(1e-3, 1e3, "mm"));
-  app.add_option("--report", o.report, "write report.json: convergence, effects with calls and time, quality, settings")->check(cli::output_file());
-  app.add_option("--follow", o.follow,
-                 "with --from: edits of the pattern, one JSON object a line, taken as they come from a file that grows or from standard input (\"-\")")
-      ->type_name("FILE");
-  app.add_option("--motion", o.motion,
-                 "then move the body: a BVH motion, or the first of a numbered sequence of skins (body.0001.obj, from scan-landmarks --pose); the cloth "
-                 "moves with it and comes to rest in the last pose")
-      ->check(cli::input_file());
-  app.add_option("--motion-fps", o.motion_fps, "with --motion: frames a second kept of a BVH motion, and those of a sequence of skins (default: 30)")
-      ->check(cli::finite_in(1, 1000, "1/s"));
-  app.add_option("--frames", o.frames,
-                 "with --follow or --motion: every step or frame as an OBJ in this folder with frames.jsonl, or as JSON lines to standard output (\"-\")")
-      ->type_name("DIR");
-  app.add_option("--edit-log", o.edit_log, "with --follow: the edits taken, as pattern-mesh --edits replays them")->check(cli::output_file());
-  app.add_flag("--untangle-only", o.untangle_only,
-               "with --from: only draw crossing cloth apart and out of the body, and drape nothing; exit 4 where crossings remain");
-  app.add_option("--checkpoint", o.checkpoint,
-                 "note the state in this file now and then; after a crash, --from FILE with the same --body goes on from there to the same bytes")
-      ->check(cli::output_file());
-  app.add_option("--checkpoint-steps", o.checkpoint_steps, "steps from one checkpoint to the next; part of the result (default: 100)")
-      ->check(cli::finite_in(1, 1e6, "steps"));
-  app.add_option("-o,--output", o.output, "shirt.json; shirt.obj is written beside it")->required()->check(cli::output_file());
+  tool.option("--scene", o.scene, "scene.json: body, panels, materials, effects, settings; options below override it").check(cli::input_file());
+  tool.option("--body", o.body, "body.json from scan-landmarks").check(cli::input_file());
+  tool.option("--panels", o.panels, "panels.json from pattern-mesh").check(cli::input_file());
+  tool.option("--from", o.from, "go on from a garment that drape or retarget-garment wrote, or from a checkpoint").check(cli::input_file());
+  tool.option("--over", o.over,
+              "a draped garment that this one goes over; repeated from the skin outwards. Inner cloth is tucked in where it lies outside, then all "
+              "come to rest together")
+      .check(cli::input_file());
+  tool.option("--over-output", o.over_output, "write the garments of --over as they lie below this one; as many, in the same order").check(cli::output_file());
+  tool.option("--accuracy", o.accuracy, "how exact, and how long it takes (default: standard)").check(cli::one_of(garment::accuracy_names()));
+  tool.option("--effects", o.effects, "auto, auto with changes (auto,membrane,-friction), or exactly those of a list (default: auto)").type_name("LIST");
+  tool.option("--material", o.material,
+              "fabric of panels that name none: a preset such as cotton-poplin, denim, silk, jersey, or a CSV of KES-F or FAST values")
+      .type_name("NAME");
+  tool.option("--set", o.set, "one setting by its name in the report's settings").type_name("KNOB=VALUE");
+  tool.option("--max-seconds", o.max_seconds,
+              "stop after this wall time, s, with the best state so far; without --accuracy: draft, and standard when there is time for it")
+      .check(cli::finite_in(0, 1e6, "s"));
+  tool.option("--max-error-mm", o.max_error_mm,
+              "go on from preset to preset until the cloth is nearer than this to where the finest would bring it, root mean square; exit 4 when none does")
+      .check(cli::finite_in(1e-3, 1e3, "mm"));
+  tool.option("--report", o.report, "write report.json: convergence, effects with calls and time, quality, settings").check(cli::output_file());
+  tool.option("--follow", o.follow,
+              "with --from: edits of the pattern, one JSON object a line, taken as they come from a file that grows or from standard input (\"-\")")
+      .type_name("FILE");
+  tool.option("--motion", o.motion,
+              "then move the body: a BVH motion, or the first of a numbered sequence of skins (body.0001.obj, from scan-landmarks --pose); the cloth "
+              "moves with it and comes to rest in the last pose")
+      .check(cli::input_file());
+  tool.option("--motion-fps", o.motion_fps, "with --motion: frames a second kept of a BVH motion, and those of a sequence of skins (default: 30)")
+      .check(cli::finite_in(1, 1000, "1/s"));
+  tool.option("--frames", o.frames,
+              "with --follow or --motion: every step or frame as an OBJ in this folder with frames.jsonl, or as JSON lines to standard output (\"-\")")
+      .type_name("DIR");
+  tool.option("--edit-log", o.edit_log, "with --follow: the edits taken, as pattern-mesh --edits replays them").check(cli::output_file());
+  tool.flag("--untangle-only", o.untangle_only,
+            "with --from: only draw crossing cloth apart and out of the body, and drape nothing; exit 4 where crossings remain");
+  tool.option("--checkpoint", o.checkpoint,
+              "note the state in this file now and then; after a crash, --from FILE with the same --body goes on from there to the same bytes")
+      .check(cli::output_file());
+  tool.option("--checkpoint-steps", o.checkpoint_steps, "steps from one checkpoint to the next; part of the result (default: 100)")
+      .check(cli::finite_in(1, 1e6, "steps"));
+  tool.option("-o,--output", o.output, "shirt.json; shirt.obj is written beside it").required().check(cli::output_file());
   tool.example("drape --body body.json --panels panels.json --report report.json -o shirt.json", "drape a sewn pattern on a scanned body");
   tool.formats("scene, body, panels and garment documents (version 1)", "garment and report documents (version 1), OBJ");
   tool.example("drape --from shirt.json --body body.json --follow edits.jsonl --frames - -o edited.json", "change the pattern and watch the cloth follow");
@@ -220,8 +218,9 @@ int write_report(cli::Tool& tool, const Options& o, const garment::Garment& garm
 
 body::Body read_body(const std::string& path, garment::Garment& garment, io::Json& inputs) {
   inputs.push_back(input_entry(path));
+  body::Body body = body::read_body(path);
   garment.body_sha256 = io::sha256(io::read_file(io::mesh_path_beside(path)));
-  return body::read_body(path);
+  return body;
 }
 
 /// Goes on from a checkpoint, which knows all but the body.

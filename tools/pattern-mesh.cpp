@@ -129,25 +129,25 @@ int run(cli::Tool& tool, const Options& o) {
 int main(int argc, char** argv) {
   cli::Tool tool("pattern-mesh", "Mesh a sewing pattern and place its panels around a body");
   Options o;
-  CLI::App& app = tool.app();
-  app.add_option("PATTERN", o.pattern, "pattern JSON, GarmentCode specification, sewing-spec JSON or AAMA / ASTM DXF")->required()->check(cli::input_file());
-  app.add_option("--edge-length", o.edge_length, "length of mesh edges, m (default: 0.015)")->check(cli::finite_in(0.001, 0.2, "m"));
-  app.add_option("--seam-edge-length", o.seam_length, "length of mesh edges along seams and darts, m, growing away from them (default: as elsewhere)")
-      ->check(cli::finite_in(0.001, 0.2, "m"));
-  app.add_option("--body", o.body, "body.json from scan-landmarks: panels are placed around this body")->check(cli::input_file());
-  app.add_option("--edits", o.edits, "edits.json: changes of the outline that keep the mesh and its vertex ids where they can; \"-\" reads standard input")
-      ->check(cli::input_file());
-  app.add_option("--undo", o.undo, "write the edits that take --edits back, to the last bit")->check(cli::output_file());
-  app.add_option("--sewing", o.sewing, "sidecar with the seams of a DXF that has none")->check(cli::input_file());
-  app.add_option("--size", o.size, "size to take from a graded DXF (default: its sample size)");
-  app.add_option("--grade-rules", o.grade_rules, "grade rule table (.rul) of a DXF")->check(cli::input_file());
-  app.add_flag("--unsewn", o.unsewn, "mesh a DXF that states no seams without guessing any");
-  app.add_option("--write-pattern", o.write_pattern,
-                 "write the pattern as read and edited: FILE.json (own format), FILE.dxf (AAMA with sewing texts) or FILE.svg (to look at)");
-  app.add_option("-o,--output", o.output, "panels.json; panels.obj is written beside it")->check(cli::output_file());
-  app.add_flag("--check", o.check,
-               "validate only: findings and finished measures to standard output (as JSON or SARIF to -o FILE.json or FILE.sarif), exit 1 where the pattern "
-               "cannot be sewn as drawn");
+  tool.option("PATTERN", o.pattern, "pattern JSON, GarmentCode specification, sewing-spec JSON or AAMA / ASTM DXF").required().check(cli::input_file());
+  tool.option("--edge-length", o.edge_length, "length of mesh edges, m (default: 0.015)").check(cli::finite_in(0.001, 0.2, "m"));
+  tool.option("--seam-edge-length", o.seam_length, "length of mesh edges along seams and darts, m, growing away from them (default: as elsewhere)")
+      .check(cli::finite_in(0.001, 0.2, "m"));
+  tool.option("--body", o.body, "body.json from scan-landmarks: panels are placed around this body").check(cli::input_file());
+  tool.option("--edits", o.edits, "edits.json: changes of the outline that keep the mesh and its vertex ids where they can; \"-\" reads standard input")
+      .check(cli::input_file());
+  tool.option("--undo", o.undo, "write the edits that take --edits back, to the last bit").check(cli::output_file());
+  tool.option("--sewing", o.sewing, "sidecar with the seams of a DXF that has none").check(cli::input_file());
+  tool.option("--size", o.size, "size to take from a graded DXF (default: its sample size)").type_name("SIZE");
+  tool.option("--grade-rules", o.grade_rules, "grade rule table (.rul) of a DXF").check(cli::input_file());
+  tool.flag("--unsewn", o.unsewn, "mesh a DXF that states no seams without guessing any");
+  tool.option("--write-pattern", o.write_pattern,
+              "write the pattern as read and edited: FILE.json (own format), FILE.dxf (AAMA with sewing texts) or FILE.svg (to look at)")
+      .check(cli::output_file());
+  tool.option("-o,--output", o.output, "panels.json; panels.obj is written beside it").check(cli::output_file());
+  tool.flag("--check", o.check,
+            "validate only: findings and finished measures to standard output (as JSON or SARIF to -o FILE.json or FILE.sarif), exit 1 where the pattern "
+            "cannot be sewn as drawn");
   tool.example("pattern-mesh --body body.json -o panels.json shirt.pattern.json", "mesh a pattern and place it around a scanned body");
   tool.example("pattern-mesh --check shirt.pattern.json", "list what is wrong with a pattern without meshing it");
   return tool.run(argc, argv, [&] { return run(tool, o); });

@@ -30,38 +30,37 @@ struct Options {
 };
 
 void add_options(cli::Tool& tool, Options& o) {
-  CLI::App& app = tool.app();
-  app.add_option("DOC", o.documents, "body.json, shirt.json, panels.json, a pattern, OBJ, PLY or STL meshes; PNG files with --sheet and --compare")
-      ->required()
-      ->check(cli::input_file());
-  app.add_option("--view", o.view, "front, back, left, right, iso, pattern (laid flat) or turntable:N; several joined by commas make a sheet")
-      ->capture_default_str()
-      ->type_name("LIST");
-  app.add_option("--camera", o.camera, "camera.json instead of --view")->check(cli::input_file());
-  app.add_option("--field-height", o.field_height, "metres that a picture is high; 0 frames the scene")->check(cli::finite_in(0, 1000, "m"));
-  app.add_option("--map", o.map, "numbers as colours")->check(cli::one_of(render::map_names()))->capture_default_str();
-  app.add_option("--range", o.range, "top of the colour scale in the map's unit; 0 picks one")->check(cli::finite_in(0, 1e9, ""));
-  app.add_option("--values", o.values, "write the numbers behind the map: a .csv, or a .ply with a value for each vertex")->check(cli::output_file());
-  app.add_option("--show", o.show, "landmarks, bones, frames, slices, seams, names; joined by commas")->type_name("LIST");
-  app.add_option("--fabric", o.fabric, "auto, panels (a colour each), plain, woven, twill, stripes, checks, or a PNG to print on the cloth")
-      ->capture_default_str()
-      ->type_name("NAME");
-  app.add_option("--print-size", o.print_size, "width of one repeat of a printed PNG")->check(cli::finite_in(0.001, 10, "m"))->capture_default_str();
-  app.add_option("--color", o.colors, "cloth colours as RRGGBB, one for each garment, joined by commas")->type_name("LIST");
-  app.add_option("--size", o.size, "WIDTHxHEIGHT of one view, pixels")->capture_default_str()->type_name("WxH");
-  app.add_option("--background", o.background, "white, grey, transparent, or a colour as RRGGBB")->capture_default_str()->type_name("COLOR");
-  app.add_option("--context", o.context, "what draws: osmesa, or egl (surfaceless)")->check(cli::one_of({"osmesa", "egl"}))->capture_default_str();
-  app.add_option("--as", o.as, "several views: one sheet, one animation (APNG), or files of their own, numbered before the ending")
-      ->check(cli::one_of({"sheet", "animation", "files"}))
-      ->capture_default_str();
-  app.add_option("--seconds", o.seconds, "that each picture of an animation is shown")->check(cli::finite_in(0.001, 60, "s"))->capture_default_str();
-  app.add_flag("--sheet", o.sheet, "put PNG files side by side");
-  app.add_option("--columns", o.columns, "of a sheet; 0 is one row")->check(CLI::Range(0, 64));
-  app.add_option("--labels", o.labels, "captions of a sheet, joined by commas")->type_name("LIST");
-  app.add_flag("--compare", o.compare, "compare two PNG files: figures to standard output, exit 1 when they differ");
-  app.add_option("--tolerance", o.tolerance, "with --compare: least structural similarity")->check(cli::finite_in(0, 1, ""))->capture_default_str();
-  app.add_option("--mask", o.mask, "with --compare: a PNG, bright where pixels count")->check(cli::input_file());
-  app.add_option("-o,--output", o.output, "the PNG, or a .glb, .obj or .ply of the scene; with --compare the difference picture")->check(cli::output_file());
+  tool.option("DOC", o.documents, "body.json, shirt.json, panels.json, a pattern, OBJ, PLY or STL meshes; PNG files with --sheet and --compare")
+      .required()
+      .check(cli::input_file());
+  tool.option("--view", o.view, "front, back, left, right, iso, pattern (laid flat) or turntable:N; several joined by commas make a sheet")
+      .show_default()
+      .type_name("LIST");
+  tool.option("--camera", o.camera, "camera.json instead of --view").check(cli::input_file());
+  tool.option("--field-height", o.field_height, "metres that a picture is high; 0 frames the scene").check(cli::finite_in(0, 1000, "m"));
+  tool.option("--map", o.map, "numbers as colours").check(cli::one_of(render::map_names())).show_default();
+  tool.option("--range", o.range, "top of the colour scale in the map's unit; 0 picks one").check(cli::finite_in(0, 1e9, ""));
+  tool.option("--values", o.values, "write the numbers behind the map: a .csv, or a .ply with a value for each vertex").check(cli::output_file());
+  tool.option("--show", o.show, "landmarks, bones, frames, slices, seams, names; joined by commas").type_name("LIST");
+  tool.option("--fabric", o.fabric, "auto, panels (a colour each), plain, woven, twill, stripes, checks, or a PNG to print on the cloth")
+      .show_default()
+      .type_name("NAME");
+  tool.option("--print-size", o.print_size, "width of one repeat of a printed PNG").check(cli::finite_in(0.001, 10, "m")).show_default();
+  tool.option("--color", o.colors, "cloth colours as RRGGBB, one for each garment, joined by commas").type_name("LIST");
+  tool.option("--size", o.size, "WIDTHxHEIGHT of one view, pixels").show_default().type_name("WxH");
+  tool.option("--background", o.background, "white, grey, transparent, or a colour as RRGGBB").show_default().type_name("COLOR");
+  tool.option("--context", o.context, "what draws: osmesa, or egl (surfaceless)").check(cli::one_of({"osmesa", "egl"})).show_default();
+  tool.option("--as", o.as, "several views: one sheet, one animation (APNG), or files of their own, numbered before the ending")
+      .check(cli::one_of({"sheet", "animation", "files"}))
+      .show_default();
+  tool.option("--seconds", o.seconds, "that each picture of an animation is shown").check(cli::finite_in(0.001, 60, "s")).show_default();
+  tool.flag("--sheet", o.sheet, "put PNG files side by side");
+  tool.option("--columns", o.columns, "of a sheet; 0 is one row").check(cli::finite_in(0, 64, ""));
+  tool.option("--labels", o.labels, "captions of a sheet, joined by commas").type_name("LIST");
+  tool.flag("--compare", o.compare, "compare two PNG files: figures to standard output, exit 1 when they differ");
+  tool.option("--tolerance", o.tolerance, "with --compare: least structural similarity").check(cli::finite_in(0, 1, "")).show_default();
+  tool.option("--mask", o.mask, "with --compare: a PNG, bright where pixels count").check(cli::input_file());
+  tool.option("-o,--output", o.output, "the PNG, or a .glb, .obj or .ply of the scene; with --compare the difference picture").check(cli::output_file());
   tool.example("render-png -o shirt.png body.json shirt.json", "a dressed body from the front");
   tool.example("render-png --view front,back,left,right -o views.png body.json shirt.json", "four views on one sheet");
   tool.example("render-png --map strain --view iso -o strain.png body.json shirt.json", "where the cloth is stretched");
@@ -88,9 +87,9 @@ std::array<int, 2> parse_size(const std::string& text) {
   return {w, h};
 }
 
-int parse_color(const std::string& option, const std::string& word) {
+int parse_color(const std::string& option, const std::string& word, const std::string& or_else = "") {
   if (word.size() != 6 || word.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
-    throw Error(ErrorKind::USAGE, "", option + " " + word, "is not a colour", "write six hexadecimal digits, for example " + option + " 4f7396");
+    throw Error(ErrorKind::USAGE, "", option + " " + word, "is not a colour", "write " + or_else + "six hexadecimal digits, for example " + option + " 4f7396");
   return std::stoi(word, nullptr, 16);
 }
 
@@ -103,7 +102,7 @@ std::vector<int> parse_colors(const std::string& text) {
 /// None for transparent.
 std::optional<int> parse_background(const std::string& text) {
   if (text == "transparent") return std::nullopt;
-  return text == "white" ? 0xffffff : text == "grey" ? 0xdbdbdb : parse_color("--background", text);
+  return text == "white" ? 0xffffff : text == "grey" ? 0xdbdbdb : parse_color("--background", text, "white, grey, transparent or ");
 }
 
 /// ".png" of out.PNG; empty where there is none.
@@ -124,10 +123,7 @@ render::ClothColors choose_fabric(const Options& o, const render::Scene& scene, 
   options.fabric = panels ? Fabric::PLAIN : Fabric::WOVEN;
   if (panels) return render::ClothColors::PANELS;
   for (const auto& [name, fabric] : known)
-    if (o.fabric == name) {
-      options.fabric = fabric;
-      return render::ClothColors::GARMENTS;
-    }
+    if (o.fabric == name) return options.fabric = fabric, render::ClothColors::GARMENTS;
   if (o.fabric == "auto") return render::ClothColors::GARMENTS;
   if (ending_of(o.fabric) != ".png")
     throw Error(ErrorKind::USAGE, "", "--fabric " + o.fabric, "is not known",
@@ -227,10 +223,7 @@ int run_render(cli::Tool& tool, const Options& o) {
     if (!view) {
       images.push_back(render::draw_pattern(scene, options));
     } else {
-      if (!renderer) {
-        renderer.emplace(meshes, options);
-        renderer->keep_depth(show.any());
-      }
+      if (!renderer) renderer.emplace(meshes, options).keep_depth(show.any());
       const render::Camera camera = render::frame_scene(meshes, *view, static_cast<double>(options.width) / options.height);
       images.push_back(renderer->draw(camera));
       if (show.any()) render::draw_show(images.back(), scene, camera, *renderer, show);

@@ -24,23 +24,22 @@ struct Options {
 };
 
 void add_options(cli::Tool& tool, Options& o) {
-  CLI::App& app = tool.app();
-  app.add_option("--garment", o.garment, "shirt.json from drape or retarget-garment")->required()->check(cli::input_file());
-  app.add_option("--to", o.to, "body.json of the other body, from scan-landmarks")->required()->check(cli::input_file());
-  app.add_option("--mode", o.mode, "keep-fabric: the same sewn garment; keep-fit: the pattern is regraded so that the ease stays (default: keep-fabric)")
-      ->check(cli::one_of({"keep-fabric", "keep-fit"}));
-  app.add_option("--policy", o.policy, "policy.json with limits per girth; exit 1 when the garment does not fit by it")->check(cli::input_file());
-  app.add_option("--fit", o.fit, "write fit.json: body, garment, ease, strain, gap, pressure and verdict per girth")->check(cli::output_file());
-  app.add_option("--fit-csv", o.fit_csv, "write the girths of the fit report as CSV")->check(cli::output_file());
-  app.add_option("--fit-page", o.fit_page, "write the fit report as one HTML page")->check(cli::output_file());
-  app.add_option("--pattern", o.pattern, "with keep-fit: write the regraded pattern JSON; its .dxf and its .csv of changes in cm go beside it")
-      ->check(cli::output_file());
-  app.add_option("--report", o.report, "write report.json: placement, convergence, effects, quality, settings")->check(cli::output_file());
-  app.add_option("--accuracy", o.accuracy, "how exact the re-drape is (default: standard)")->check(cli::one_of(garment::accuracy_names()));
-  app.add_option("--set", o.set, "one setting of the re-drape")->type_name("KNOB=VALUE");
-  app.add_option("--max-seconds", o.max_seconds, "stop after this wall time, s, with the best state so far (exit 4)")->check(cli::finite_in(0, 1e6, "s"));
-  app.add_flag("--no-drape", o.no_drape, "only place the garment by its coordinates, without a drape");
-  app.add_option("-o,--output", o.output, "shirt-b.json; shirt-b.obj is written beside it")->required()->check(cli::output_file());
+  tool.option("--garment", o.garment, "shirt.json from drape or retarget-garment").required().check(cli::input_file());
+  tool.option("--to", o.to, "body.json of the other body, from scan-landmarks").required().check(cli::input_file());
+  tool.option("--mode", o.mode, "keep-fabric: the same sewn garment; keep-fit: the pattern is regraded so that the ease stays (default: keep-fabric)")
+      .check(cli::one_of({"keep-fabric", "keep-fit"}));
+  tool.option("--policy", o.policy, "policy.json with limits per girth; exit 1 when the garment does not fit by it").check(cli::input_file());
+  tool.option("--fit", o.fit, "write fit.json: body, garment, ease, strain, gap, pressure and verdict per girth").check(cli::output_file());
+  tool.option("--fit-csv", o.fit_csv, "write the girths of the fit report as CSV").check(cli::output_file());
+  tool.option("--fit-page", o.fit_page, "write the fit report as one HTML page").check(cli::output_file());
+  tool.option("--pattern", o.pattern, "with keep-fit: write the regraded pattern JSON; its .dxf and its .csv of changes in cm go beside it")
+      .check(cli::output_file());
+  tool.option("--report", o.report, "write report.json: placement, convergence, effects, quality, settings").check(cli::output_file());
+  tool.option("--accuracy", o.accuracy, "how exact the re-drape is (default: standard)").check(cli::one_of(garment::accuracy_names()));
+  tool.option("--set", o.set, "one setting of the re-drape").type_name("KNOB=VALUE");
+  tool.option("--max-seconds", o.max_seconds, "stop after this wall time, s, with the best state so far (exit 4)").check(cli::finite_in(0, 1e6, "s"));
+  tool.flag("--no-drape", o.no_drape, "only place the garment by its coordinates, without a drape");
+  tool.option("-o,--output", o.output, "shirt-b.json; shirt-b.obj is written beside it").required().check(cli::output_file());
   tool.example("retarget-garment --garment shirt.json --to other.body.json --fit fit.json -o shirt-b.json", "put a shirt on another body and see how it fits");
   tool.formats("garment, body and fit policy documents (version 1)", "garment, fit and report documents (version 1), OBJ");
   tool.example("retarget-garment --garment shirt.json --to other.body.json --mode keep-fit -o shirt-b.json", "make the shirt over for another body");

@@ -4,10 +4,12 @@
 #include <body/measure_scan.hpp>
 #include <cli/run_tool.hpp>
 #include <io/files.hpp>
+#include <io/json_fwd.hpp>
 #include <io/scan_reader.hpp>
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 
 using namespace sloper;
 
@@ -37,7 +39,18 @@ void strike_pose(cli::Tool& tool, const Options& o, body::Body& body) {
   } else body = body::posed_body(body, weights, body::read_pose(o.pose, body));
 }
 
+/// A scan cannot be made again, so nothing is written over it.
+void spare_the_scan(const Options& o) {
+  for (const std::string& path : {o.output, io::mesh_path_beside(o.output), o.parts, o.csv, o.vit, o.garmentcode, o.skeleton}) {
+    std::error_code absent;
+    if (!path.empty() && std::filesystem::equivalent(path, o.scan, absent))
+      throw Error(ErrorKind::USAGE, path, "", "would be written over the scan" + std::string(path == o.output ? "" : " that " + o.output + " is made from"),
+                  "name another output, for example -o " + std::filesystem::path(o.scan).stem().string() + ".body.json");
+  }
+}
+
 int run(cli::Tool& tool, const Options& o) {
+  spare_the_scan(o);
   body::ScanOptions options;
   options.unit = o.unit;
   options.up = o.up;
@@ -76,28 +89,26 @@ int run(cli::Tool& tool, const Options& o) {
 int main(int argc, char** argv) {
   cli::Tool tool("scan-landmarks", "Find landmarks, levels, girths, parts and frames on a raw body scan");
   Options o;
-  CLI::App& app = tool.app();
-  app.add_option("SCAN", o.scan, "scan of one standing person: OBJ, PLY, STL, 3DS or XYZ, mesh or bare points")->required()->check(cli::input_file());
-  app.add_option("--unit", o.unit, "unit of the scan's coordinates (default: auto, from the stature)")->check(cli::one_of({"auto", "m", "cm", "mm"}));
-  app.add_option("--up", o.up, "axis along which the body stands (default: auto, from the legs and the head)")->check(cli::one_of({"auto", "x", "y", "z"}));
-  app.add_flag("--torso-only", o.torso_only, "take a scan without legs too: what it shows is found, stature and floor are estimated from the head");
-  app.add_option(
-         "--jitter", o.jitter,
-         "runs of the rules on a slightly turned, lifted and roughened skin, which measure each landmark's spread (default: 3, none beyond 80,000 faces)")
-      ->check(cli::finite_in(0, 100, ""));
-  app.add_option("--rules", o.rules, "landmark rules to use in place of the built-in numbers")->check(cli::input_file());
-  app.add_option("--parts", o.parts, "write one byte for each vertex of the scan: 0 head, 1 torso, 2 arm_l, 3 arm_r, 4 leg_l, 5 leg_r, 255 not body")
-      ->check(cli::output_file());
-  app.add_option("--csv", o.csv, "write the measurements as a table, with ISO 8559-1 names beside ours")->check(cli::output_file());
-  app.add_option("--vit", o.vit, "write the measurements for Valentina (.vit, cm)")->check(cli::output_file());
-  app.add_option("--garmentcode", o.garmentcode, "write the measurements as a GarmentCode body file (YAML, cm)")->check(cli::output_file());
-  app.add_option("--skeleton", o.skeleton, "write the bones as an OBJ of lines")->check(cli::output_file());
-  app.add_option("--pose", o.pose, "joint angles (JSON): the body is written in that pose; or BVH motion: body.0001.obj, ... are written beside it")
-      ->check(cli::input_file());
-  app.add_option("--pose-fps", o.pose_fps, "poses per second kept of a BVH motion; 0 keeps all (default: 30)")->check(cli::finite_in(0, 1000, "1/s"));
-  app.add_flag("--anonymise", o.anonymise, "drop the skin and the scan's name; keep landmarks, measurements, frames and bones");
-  app.add_flag("--explain", o.explain, "print the decision path to stderr");
-  app.add_option("-o,--output", o.output, "body.json; body.obj is written beside it")->required()->check(cli::output_file());
+  tool.option("SCAN", o.scan, "scan of one standing person: OBJ, PLY, STL, 3DS or XYZ, mesh or bare points").required().check(cli::input_file());
+  tool.option("--unit", o.unit, "unit of the scan's coordinates (default: auto, from the stature)").check(cli::one_of({"auto", "m", "cm", "mm"}));
+  tool.option("--up", o.up, "axis along which the body stands (default: auto, from the legs and the head)").check(cli::one_of({"auto", "x", "y", "z"}));
+  tool.flag("--torso-only", o.torso_only, "take a scan without legs too: what it shows is found, stature and floor are estimated from the head");
+  tool.option("--jitter", o.jitter,
+              "runs of the rules on a slightly turned, lifted and roughened skin, which measure each landmark's spread (default: 3, none beyond 80,000 faces)")
+      .check(cli::finite_in(0, 100, ""));
+  tool.option("--rules", o.rules, "landmark rules to use in place of the built-in numbers").check(cli::input_file());
+  tool.option("--parts", o.parts, "write one byte for each vertex of the scan: 0 head, 1 torso, 2 arm_l, 3 arm_r, 4 leg_l, 5 leg_r, 255 not body")
+      .check(cli::output_file());
+  tool.option("--csv", o.csv, "write the measurements as a table, with ISO 8559-1 names beside ours").check(cli::output_file());
+  tool.option("--vit", o.vit, "write the measurements for Valentina (.vit, cm)").check(cli::output_file());
+  tool.option("--garmentcode", o.garmentcode, "write the measurements as a GarmentCode body file (YAML, cm)").check(cli::output_file());
+  tool.option("--skeleton", o.skeleton, "write the bones as an OBJ of lines").check(cli::output_file());
+  tool.option("--pose", o.pose, "joint angles (JSON): the body is written in that pose; or BVH motion: body.0001.obj, ... are written beside it")
+      .check(cli::input_file());
+  tool.option("--pose-fps", o.pose_fps, "poses per second kept of a BVH motion; 0 keeps all (default: 30)").check(cli::finite_in(0, 1000, "1/s"));
+  tool.flag("--anonymise", o.anonymise, "drop the skin and the scan's name; keep landmarks, measurements, frames and bones");
+  tool.flag("--explain", o.explain, "print the decision path to stderr");
+  tool.option("-o,--output", o.output, "body.json; body.obj is written beside it").required().check(cli::output_file());
   tool.example("scan-landmarks -o body.json scan.obj", "measure a scan; unit, up axis and facing are found out");
   tool.example("scan-landmarks --unit mm --parts parts.u8 -o body.json scan.ply", "measure a scan in millimetres and label its vertices");
   tool.example("scan-landmarks --pose walk.bvh -o body.json scan.obj", "also write the body walking: body.0001.obj, body.0002.obj, ...");

@@ -1,6 +1,7 @@
 #include <base/error.hpp>
 #include <base/units.hpp>
 #include <body/pose_file.hpp>
+#include <geometry/rotation.hpp>
 #include <io/files.hpp>
 #include <io/json.hpp>
 
@@ -242,7 +243,7 @@ Motion parse_bvh(std::string_view text, const std::string& name, const Body& bod
     if (theirs < 0 || (!b && ours != "root")) return;
     Followed f{ours, theirs, Quaterniond::Identity()};
     const Vec3 rest = rest_direction(bvh, theirs);
-    if (align && b && rest.norm() > 0.5) f.align = Quaterniond::FromTwoVectors(b->tail - b->head, facing * rest);
+    if (align && b && rest.norm() > 0.5) f.align = rotation_between(b->tail - b->head, facing * rest);
     followed.push_back(f);
   };
   follow("root", 0, false);

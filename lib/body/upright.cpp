@@ -1,6 +1,7 @@
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <base/units.hpp>
 #include <body/upright.hpp>
+#include <geometry/rotation.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +35,7 @@ std::optional<Vec3> body_line(const std::vector<Vec3>& positions, const SortedSc
   return head.center() - calves.center();
 }
 
-Eigen::Matrix3d turn_to_y(const Vec3& up) { return Eigen::Quaterniond::FromTwoVectors(up, Vec3::UnitY()).toRotationMatrix(); }
+Eigen::Matrix3d turn_to_y(const Vec3& up) { return rotation_between(up, Vec3::UnitY()).toRotationMatrix(); }
 
 std::vector<Vec3> turned(const Eigen::Matrix3d& turn, const std::vector<Vec3>& points) {
   std::vector<Vec3> out;

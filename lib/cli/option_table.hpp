@@ -1,8 +1,11 @@
 #pragma once
 /// The one option table: what CLI11 was told, as rows from which help, man page, completion and suggestions are made.
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace sloper::cli {
 

@@ -1,5 +1,6 @@
 #include <cli/run_tool.hpp>
 
+#include <CLI/CLI.hpp>
 #include <base/parallel.hpp>
 #include <base/version.hpp>
 #include <cli/option_table.hpp>
@@ -56,15 +57,21 @@ Tool::Tool(const std::string& name, const std::string& summary) : m_impl(std::ma
   m.app.add_flag("-v,--verbose", m.reporter.verbose, "say what is done, the options as resolved, time and memory")->group(common);
   m.app.add_flag("-V,--version", m.version_asked, "show the version and the formats")->group(common);
   m.app.add_flag("--no-progress", m.no_progress, "no progress line (there is none when stderr is not a terminal)")->group(common);
-  m.app.add_option("--threads", m.threads, "threads, 0 for all processors; results do not depend on it (default: the processors, at most 8)")
-      ->check(finite_in(0, 1024, ""))
-      ->group(common);
+  CLI::Option* threads =
+      m.app.add_option("--threads", m.threads, "threads, 0 for all processors; results do not depend on it (default: the processors, at most 8)");
+  Option(threads->group(common)).check(finite_in(0, 1024, ""));
   m.app.add_flag("--generate-man", m.man_asked)->group("");
   m.app.add_option("--generate-completion", m.shell_asked)->group("");
 }
 
 Tool::~Tool() = default;
-CLI::App& Tool::app() { return m_impl->app; }
+Option Tool::option(const std::string& names, std::string& value, const std::string& what) { return Option(m_impl->app.add_option(names, value, what)); }
+Option Tool::option(const std::string& names, std::vector<std::string>& value, const std::string& what) {
+  return Option(m_impl->app.add_option(names, value, what));
+}
+Option Tool::option(const std::string& names, double& value, const std::string& what) { return Option(m_impl->app.add_option(names, value, what)); }
+Option Tool::option(const std::string& names, int& value, const std::string& what) { return Option(m_impl->app.add_option(names, value, what)); }
+Option Tool::flag(const std::string& names, bool& value, const std::string& what) { return Option(m_impl->app.add_flag(names, value, what)); }
 Reporter& Tool::reporter() { return m_impl->reporter; }
 const std::string& Tool::name() const { return m_impl->name; }
 void Tool::example(const std::string& command_line, const std::string& what) { m_impl->examples.push_back({command_line, what}); }
@@ -143,8 +150,9 @@ static void tighten(CLI::App& app) {
     const std::string type = option->get_type_name();
     const std::string plain = type.substr(0, type.find(':'));
     if ((plain == "FLOAT" || plain == "INT" || plain == "UINT") && type == plain) {
-      CLI::Validator finite = finite_in(-1e308, 1e308, "");
-      option->check(finite.description(""));
+      Check finite = finite_in(-1e308, 1e308, "");
+      finite.words.clear();
+      Option(option).check(finite);
     }
   }
 }
@@ -222,6 +230,10 @@ static int parse_and_run(CLI::App& app, const std::vector<std::string>& words, c
                          const std::function<void()>& parsed, const std::function<int()>& body) {
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend())); // CLI11 wants them reversed
+  } catch (const CLI::ExtrasError&) {
+    std::string extra;
+    for (const std::string& word : app.remaining()) extra += (extra.empty() ? "" : ", ") + word;
+    throw usage_error("no place for " + extra + (examples.empty() ? "" : "; say for example " + examples.front().command_line));
   } catch (const CLI::ParseError& error) {
     throw usage_error(plain_words(error.what(), examples));
   }

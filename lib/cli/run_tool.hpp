@@ -1,11 +1,11 @@
 #pragma once
-/// What the five programs share: options, exit codes, progress, Ctrl-C. Only tools/ link this.
+/// What all programs share: options, exit codes, progress, Ctrl-C. Only tools/ and the samples' programs link this.
 ///
-/// A tool declares its options on app(), its examples with example(), and hands its work to run(). Everything that speaks of
-/// options (--help, man page, completion, suggestions) is made from that one declaration.
-#include <CLI/CLI.hpp>
+/// A tool declares its options with option() and flag(), its examples with example(), and hands its work to run(). Everything that
+/// speaks of options (--help, man page, completion, suggestions) is made from that one declaration.
 #include <base/error.hpp>
 #include <base/progress.hpp>
+#include <cli/options.hpp>
 #include <functional>
 #include <memory>
 #include <string>
@@ -23,7 +23,14 @@ public:
   Tool(const Tool&) = delete;
   Tool& operator=(const Tool&) = delete;
 
-  CLI::App& app();                                                        ///< add options here
+  /// An option or, where the name has no dash ("SCAN"), an operand.
+  /// @param names  "-o,--output"
+  /// @param value  where the value goes, which must live until run() returns; a vector takes an option that may be given again
+  Option option(const std::string& names, std::string& value, const std::string& description);
+  Option option(const std::string& names, std::vector<std::string>& value, const std::string& description);
+  Option option(const std::string& names, double& value, const std::string& description);
+  Option option(const std::string& names, int& value, const std::string& description);
+  Option flag(const std::string& names, bool& value, const std::string& description);
   void example(const std::string& command_line, const std::string& what); ///< for --help and the man page
   /// Formats read and written, for --version: formats("body.json (version 1)", "shirt.json (version 1), OBJ").
   void formats(const std::string& read, const std::string& written);
@@ -42,17 +49,6 @@ private:
   struct Impl;
   std::unique_ptr<Impl> m_impl;
 };
-
-/// Validators for CLI11, whose own accept NaN, 1e400 and 0x10 and refuse "-".
-
-/// A plain decimal number in [low, high]. @param unit  shown in the help, such as "m"; empty for a pure number
-CLI::Validator finite_in(double low, double high, const std::string& unit);
-/// An existing file, or "-". A file that is not there is bad input: exit 3.
-CLI::Validator input_file();
-/// A file to be written, or "-". Tool::run checks its folder before the work starts: exit 5.
-CLI::Validator output_file();
-/// One of some words; the complaint suggests the nearest. Shown as a|b|c and offered by the completion.
-CLI::Validator one_of(const std::vector<std::string>& words);
 
 /// Processors that this process may use: affinity mask and cgroup quota, at least 1.
 int available_processors();

@@ -2,8 +2,7 @@
 
 #include <base/error.hpp>
 #include <base/units.hpp>
-
-#include <Eigen/SparseCholesky>
+#include <geometry/sparse_solver.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -180,7 +179,7 @@ body::SkinProfile fit_skin_profile(const PartFrame& frame, const std::vector<Vec
     }
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+  const SparseSolver solver(matrix);
   const Eigen::VectorXd radius = solver.solve(right);
   profile.radius.resize(n);
   for (int k = 0; k < n; ++k) profile.radius[k] = std::max(radius[k], MIN_RADIUS);

@@ -4,8 +4,7 @@
 #include <base/parallel.hpp>
 #include <collision/triangle_tree.hpp>
 #include <garment/bind_laplacian.hpp>
-
-#include <Eigen/SparseCholesky>
+#include <geometry/sparse_solver.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -161,7 +160,7 @@ std::vector<std::vector<std::pair<int, double>>> bind_weights(const Garment& gar
 
   Eigen::SparseMatrix<double> system = BLEND_LENGTH * BLEND_LENGTH * stiffness;
   for (Eigen::Index i = 0; i < mass.size(); ++i) system.coeffRef(i, i) += mass[i];
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(system);
+  const SparseSolver solver(system);
   std::vector<std::vector<std::pair<int, double>>> weights(x.size());
   std::vector<double> sum(x.size(), 0);
   for (int k = 0; k < static_cast<int>(frames.frames.size()); ++k) {

@@ -6,10 +6,9 @@
 #include <garment/bind_frames.hpp>
 #include <garment/bind_laplacian.hpp>
 #include <garment/retarget_grade.hpp>
+#include <geometry/rotation.hpp>
+#include <geometry/sparse_solver.hpp>
 #include <io/json.hpp>
-
-#include <Eigen/SVD>
-#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -96,10 +95,7 @@ public:
       Mat3 covariance = Mat3::Zero();
       for (Eigen::SparseMatrix<double>::InnerIterator e(m_stiffness, static_cast<Eigen::Index>(i)); e; ++e)
         if (const auto j = static_cast<std::size_t>(e.row()); j != i) covariance -= e.value() * (m_shape[i] - m_shape[j]) * (x[i] - x[j]).transpose();
-      const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-      Mat3 v = svd.matrixV();
-      if ((v * svd.matrixU().transpose()).determinant() < 0) v.col(2) *= -1;
-      rotation[i] = v * svd.matrixU().transpose();
+      rotation[i] = nearest_rotation(covariance);
     }
     Field right = Field::Zero(static_cast<Eigen::Index>(x.size()), 3);
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -139,8 +135,8 @@ int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, c
   const SurfaceOperators ops = surface_operators(shape, triangles);
   const Rotations rotations(shape, ops);
   const double attraction = 1 / (ATTRACTION_LENGTH * ATTRACTION_LENGTH), push_stiffness = CONTACT_STIFFNESS / (CONTACT_LENGTH * CONTACT_LENGTH);
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
-  solver.analyzePattern(ops.stiffness);
+  SparseSolver solver;
+  solver.analyse(ops.stiffness);
   std::vector<int> hint(n, -1);
   for (int round = 0; round < max_rounds; ++round) {
     const Pushes pushes = pushes_of(positions, triangles, topology, body, gap, hint);
@@ -153,7 +149,7 @@ int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, c
       system.coeffRef(row, row) += pull + push;
       right.row(row) += (pull * placed[i] + push * (positions[i] + pushes[i])).transpose();
     }
-    solver.factorize(system);
+    solver.factorise(system);
     const Field solved = solver.solve(right);
     for (std::size_t i = 0; i < n; ++i) positions[i] = solved.row(static_cast<Eigen::Index>(i)).transpose();
   }

@@ -1,9 +1,9 @@
 #include <garment/retarget_grade.hpp>
 
 #include <garment/bind_laplacian.hpp>
+#include <geometry/sparse_solver.hpp>
 
 #include <Eigen/LU>
-#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ struct PanelLayout {
   std::vector<Triangle> triangles;
   Eigen::MatrixX2d right, solved;
   std::vector<Eigen::Triplet<double>> entries;
-  std::unique_ptr<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>> solver; ///< of `entries`
+  SparseSolver solver; ///< of `entries`
 
   double length_before(int i, int j) const { return (flat[i] - flat[j]).norm(); }
   double length_now(int i, int j) const { return (solved.row(i) - solved.row(j)).norm(); }
@@ -93,7 +93,7 @@ PanelLayout panel_layout(const Garment& garment, const pattern::PanelInfo& panel
   const SurfaceOperators ops = surface_operators(flat, layout.triangles);
   Eigen::SparseMatrix<double> system = GRADE_LENGTH * GRADE_LENGTH * ops.stiffness;
   for (int i = 0; i < n; ++i) system.coeffRef(i, i) += ops.mass[i];
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> smoother(system);
+  const SparseSolver smoother(system);
   const Eigen::MatrixX2d weighted = ops.mass.asDiagonal() * log_stretch;
   const Eigen::MatrixX2d smooth = smoother.solve(weighted);
 
@@ -121,7 +121,7 @@ PanelLayout panel_layout(const Garment& garment, const pattern::PanelInfo& panel
 void factorise(PanelLayout& layout) {
   Eigen::SparseMatrix<double> system(layout.panel->n_vertices, layout.panel->n_vertices);
   system.setFromTriplets(layout.entries.begin(), layout.entries.end());
-  layout.solver = std::make_unique<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>(system);
+  layout.solver.compute(system);
 }
 
 std::vector<SeamEdge> seam_edges(const Garment& garment, const std::vector<int>& layout_of_vertex, const std::vector<PanelLayout>& layouts) {
@@ -162,7 +162,7 @@ void match_seams(std::vector<PanelLayout>& layouts, const std::vector<SeamEdge>&
         right[s.layout].row(s.from) -= wanted;
       }
     }
-    for (std::size_t k = 0; k < layouts.size(); ++k) layouts[k].solved = layouts[k].solver->solve(right[k]);
+    for (std::size_t k = 0; k < layouts.size(); ++k) layouts[k].solved = layouts[k].solver.solve(right[k]);
   }
 }
 
@@ -176,7 +176,7 @@ void regrade(Garment& garment, const std::vector<Vec3>& before, const std::vecto
     for (int i = 0; i < panel.n_vertices; ++i) layout_of_vertex[panel.first_vertex + i] = static_cast<int>(layouts.size());
     layouts.push_back(panel_layout(garment, panel, before, after));
     factorise(layouts.back());
-    layouts.back().solved = layouts.back().solver->solve(layouts.back().right);
+    layouts.back().solved = layouts.back().solver.solve(layouts.back().right);
   }
   match_seams(layouts, seam_edges(garment, layout_of_vertex, layouts));
   for (const PanelLayout& layout : layouts) {

@@ -1,9 +1,8 @@
 #include <base/error.hpp>
 #include <base/units.hpp>
+#include <geometry/sparse_solver.hpp>
 #include <pattern/edits.hpp>
 #include <pattern/triangulate.hpp>
-
-#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +87,7 @@ struct PanelState {
   std::vector<std::array<int, 2>> edges; ///< of the mesh, global vertices
   std::vector<int> row;                  ///< by local vertex: of the system, -1 on the boundary
   std::vector<OnEdge> on;                ///< by local vertex: boundary only
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
+  SparseSolver solver;
   int n_free = 0;
 };
 

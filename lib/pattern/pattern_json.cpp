@@ -161,6 +161,7 @@ Pattern read_pattern_json(const io::Json& json, const std::string& file) {
   root.allow_only({"format", "version", "generator", "length_unit", "name", "panels", "seams"});
   if (root.integer("version", 1) > 1)
     root.at("version").fail("version " + std::to_string(root.at("version").integer()) + " is newer than this program knows", "update, or write version 1");
+  if (!root.has("length_unit")) root.fail("has no \"length_unit\"", "add for example \"length_unit\": \"cm\"");
   const double unit = unit_of(root.at("length_unit"));
   Pattern pattern;
   pattern.source_format = "pattern";

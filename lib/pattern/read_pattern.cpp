@@ -93,16 +93,19 @@ Pattern read_pattern(const std::string& path, const std::string& sewing, const s
   Pattern pattern;
   const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == std::string::npos) throw input_error(path, "", "the file is empty", "give a pattern");
+  const char* readable = "give a pattern JSON, a GarmentCode specification, a sewing-spec JSON or a text DXF";
   if (text[first] == '{' || text[first] == '[') {
     const io::Json json = io::parse_json(text, path);
     const std::string format = json.is_object() && json.contains("format") && json["format"].is_string() ? json["format"].get<std::string>() : "";
     if (format == "pattern") pattern = read_pattern_json(json, path);
     else if (format == "sewing-spec") pattern = read_sewing_spec(json, path);
+    else if (format == "panels" || format == "garment")
+      throw input_error(path, "/format", "is a \"" + format + "\" document, which is meshed already", "give the pattern that it was made from");
     else if (json.is_object() && json.contains("pattern")) pattern = read_garmentcode(json, path);
-    else
-      throw input_error(path, "/format", "'" + format + "' is no pattern format that is known",
-                        "give a pattern JSON, a GarmentCode specification, a sewing-spec JSON or a DXF");
+    else throw input_error(path, "/format", "'" + format + "' is no pattern format that is known", readable);
     if (!size.empty() || !rules_path.empty()) throw input_error(path, "", "this format holds one size", "leave out --size and --grade-rules");
+  } else if (text[first] < '0' || text[first] > '9') { // a DXF starts with a group code
+    throw input_error(path, "line 1", "is neither JSON nor a text DXF", readable);
   } else if (rules_path.empty()) {
     pattern = read_dxf(text, path, {size, nullptr});
   } else {

@@ -1,7 +1,7 @@
 /// Makes a mannequin: a closed body mesh from proportions, girths and a stance, with its landmarks known by construction.
 #include "mannequin.hpp"
-#include <CLI/CLI.hpp>
 #include <base/error.hpp>
+#include <cli/run_tool.hpp>
 #include <cstdio>
 #include <io/files.hpp>
 #include <io/json.hpp>
@@ -47,51 +47,41 @@ void write(const Options& o, const samples::Mannequin& shape) {
 } // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Makes a mannequin (OBJ, m, y up, facing +z) from proportions, girths and a stance.", "make-mannequin");
-  app.footer("Examples:\n"
-             "  make-mannequin --preset f-165-a -o body.obj\n"
-             "  make-mannequin --sex f --stature 1.65 --arm-deg 40 --girth waist=0.72 -o body.obj --truth body.truth.json\n"
-             "  make-mannequin --list");
+  cli::Tool tool("make-mannequin", "Make a mannequin (OBJ, m, y up, facing +z) from proportions, girths and a stance");
   Options o;
   samples::Mannequin given;
-  app.add_option("--preset", o.preset, "A figure of the family by name; the options below change it");
-  app.add_flag("--list", o.list, "List the figures and stop");
-  auto* sex = app.add_option("--sex", given.sex, "f or m");
-  auto* stature = app.add_option("--stature", given.stature_m, "Stature, m");
-  auto* bmi = app.add_option("--bmi", given.bmi, "Body mass index; decides the girths that are not given");
-  auto* arm = app.add_option("--arm-deg", given.arm_deg, "Angle of the arms from hanging down, 10 to 90");
-  auto* leg = app.add_option("--leg-deg", given.leg_deg, "Angle of each leg from vertical, 0 to 15");
-  auto* cell = app.add_option("--cell", given.cell_m, "Edge length of the mesh, m");
-  app.add_option("--girth", o.girths, "NAME=METRES; neck, bust, underbust, waist, abdomen, hip, thigh, knee, calf, ankle, upper_arm, forearm, wrist");
-  app.add_option("-o,--output", o.output, "OBJ file to write");
-  app.add_option("--truth", o.truth, "Write landmarks, levels and girths known by construction (JSON)");
-  app.add_option("--parts", o.parts, "Write one byte per vertex: 0 head, 1 torso, 2 arm_l, 3 arm_r, 4 leg_l, 5 leg_r");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
-  }
-  try {
+  tool.option("--preset", o.preset, "a figure of the family by name; the options below change it").type_name("NAME");
+  tool.flag("--list", o.list, "list the figures and stop");
+  const cli::Option sex = tool.option("--sex", given.sex, "f or m").type_name("f|m");
+  const cli::Option stature = tool.option("--stature", given.stature_m, "stature, m").type_name("M");
+  const cli::Option bmi = tool.option("--bmi", given.bmi, "body mass index; decides the girths that are not given");
+  const cli::Option arm = tool.option("--arm-deg", given.arm_deg, "angle of the arms from hanging down, 10 to 90");
+  const cli::Option leg = tool.option("--leg-deg", given.leg_deg, "angle of each leg from vertical, 0 to 15");
+  const cli::Option cell = tool.option("--cell", given.cell_m, "edge length of the mesh, m").type_name("M");
+  tool.option("--girth", o.girths, "neck, bust, underbust, waist, abdomen, hip, thigh, knee, calf, ankle, upper_arm, forearm or wrist")
+      .type_name("NAME=METRES");
+  tool.option("-o,--output", o.output, "OBJ file to write").check(cli::output_file());
+  tool.option("--truth", o.truth, "write landmarks, levels and girths known by construction (JSON)").check(cli::output_file());
+  tool.option("--parts", o.parts, "write one byte per vertex: 0 head, 1 torso, 2 arm_l, 3 arm_r, 4 leg_l, 5 leg_r").check(cli::output_file());
+  tool.example("make-mannequin --preset f-165-a -o body.obj", "one of the family");
+  tool.example("make-mannequin --sex f --stature 1.65 --arm-deg 40 --girth waist=0.72 -o body.obj --truth body.truth.json", "a figure of these measures");
+  tool.example("make-mannequin --list", "the names of the family");
+  tool.formats("", "OBJ, truth documents (JSON)");
+  return tool.run(argc, argv, [&] {
     if (o.list) {
       for (const std::string& name : samples::preset_names()) std::printf("%s\n", name.c_str());
       return 0;
     }
-    if (o.output.empty()) throw Error(ErrorKind::USAGE, "", "-o", "no output file is given");
+    if (o.output.empty()) throw Error(ErrorKind::USAGE, "", "-o", "no output file is given", "for example -o body.obj");
     samples::Mannequin shape = o.preset.empty() ? samples::Mannequin{} : samples::preset(o.preset);
-    if (*sex) shape.sex = given.sex;
-    if (*stature) shape.stature_m = given.stature_m;
-    if (*bmi) shape.bmi = given.bmi;
-    if (*arm) shape.arm_deg = given.arm_deg;
-    if (*leg) shape.leg_deg = given.leg_deg;
-    if (*cell) shape.cell_m = given.cell_m;
+    if (sex.given()) shape.sex = given.sex;
+    if (stature.given()) shape.stature_m = given.stature_m;
+    if (bmi.given()) shape.bmi = given.bmi;
+    if (arm.given()) shape.arm_deg = given.arm_deg;
+    if (leg.given()) shape.leg_deg = given.leg_deg;
+    if (cell.given()) shape.cell_m = given.cell_m;
     read_girths(o.girths, shape);
     write(o, shape);
     return 0;
-  } catch (const Error& e) {
-    std::fprintf(stderr, "make-mannequin: %s\n", e.what());
-    return e.exit_code();
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "make-mannequin: %s\n", e.what());
-    return static_cast<int>(ErrorKind::INTERNAL);
-  }
+  });
 }

@@ -1,9 +1,8 @@
 /// Drafts a sewing pattern from body measures: shirt, tshirt, skirt or trousers.
 #include "mannequin.hpp"
 #include "measures.hpp"
-#include <CLI/CLI.hpp>
 #include <base/error.hpp>
-#include <cstdio>
+#include <cli/run_tool.hpp>
 
 using namespace sloper;
 
@@ -41,28 +40,22 @@ void set_measures(const std::vector<std::string>& texts, samples::Measures& meas
 } // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Drafts a sewing pattern from body measures.", "make-pattern");
+  cli::Tool tool("make-pattern", "Draft a sewing pattern from body measures");
   std::string names;
   for (const auto& [name, member] : samples::measure_names()) names += (names.empty() ? "" : ", ") + name;
-  app.footer("Examples:\n"
-             "  make-pattern shirt --body body.json -o shirt.pattern.json\n"
-             "  make-pattern skirt --preset f-165-a -o skirt.pattern.json\n"
-             "  make-pattern shirt --measure bust=0.96 --measure waist=0.78 -o shirt.pattern.json\n"
-             "Measures: " +
-             names);
   std::string garment, body, preset, output;
   std::vector<std::string> given;
-  app.add_option("GARMENT", garment, "shirt, tshirt, skirt or trousers")->required();
-  auto* from_body = app.add_option("--body", body, "Take the measures from a body document (or from a mannequin's truth)");
-  app.add_option("--preset", preset, "Take the measures from a mannequin of the family")->excludes(from_body);
-  app.add_option("--measure", given, "NAME=METRES: set one measure");
-  app.add_option("-o,--output", output, "Pattern document to write")->required();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
-  }
-  try {
+  tool.option("GARMENT", garment, "shirt, tshirt, skirt or trousers").required();
+  tool.option("--body", body, "take the measures from a body document (or from a mannequin's truth)").check(cli::input_file());
+  tool.option("--preset", preset, "take the measures from a mannequin of the family").type_name("NAME");
+  tool.option("--measure", given, "set one measure: " + names).type_name("NAME=METRES");
+  tool.option("-o,--output", output, "pattern document to write").required().check(cli::output_file());
+  tool.example("make-pattern shirt --body body.json -o shirt.pattern.json", "a shirt for a measured body");
+  tool.example("make-pattern skirt --preset f-165-a -o skirt.pattern.json", "a skirt for a mannequin");
+  tool.example("make-pattern shirt --measure bust=0.96 --measure waist=0.78 -o shirt.pattern.json", "a shirt for these measures");
+  tool.formats("body documents (version 1)", "pattern documents (version 1)");
+  return tool.run(argc, argv, [&] {
+    if (!body.empty() && !preset.empty()) throw Error(ErrorKind::USAGE, "", "--body", "does not go with --preset", "leave one of them out");
     samples::Measures measures;
     if (!body.empty()) measures = samples::measures_from_body(io::read_json(body), body);
     else if (!preset.empty()) measures = samples::measures_from_body(samples::make_mannequin(samples::preset(preset)).truth, preset);
@@ -72,11 +65,5 @@ int main(int argc, char** argv) {
       throw Error(ErrorKind::FAILED, body, garment, "these measures give a faulty draft: " + faults.front(), "check the measures");
     io::write_json(output, samples::pattern_document(made));
     return 0;
-  } catch (const Error& e) {
-    std::fprintf(stderr, "make-pattern: %s\n", e.what());
-    return e.exit_code();
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "make-pattern: %s\n", e.what());
-    return static_cast<int>(ErrorKind::INTERNAL);
-  }
+  });
 }

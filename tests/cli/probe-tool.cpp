@@ -16,15 +16,15 @@ int main(int argc, char** argv) {
   double length = 0.01, bare = 0;
   int count = 1;
   std::vector<std::string> set, operands;
-  tool.app().add_option("INPUT", operands, "files to read")->check(cli::input_file());
-  tool.app().add_option("--body", input, "a file to read")->check(cli::input_file());
-  tool.app().add_option("--do", deed, "what to do");
-  tool.app().add_option("--accuracy", accuracy, "how exact")->check(cli::one_of({"draft", "standard", "fine"}));
-  tool.app().add_option("--edge-length", length, "length of an edge")->type_name("M")->check(cli::finite_in(0.001, 1, "m"));
-  tool.app().add_option("--bare", bare, "a number whose author forgot the range check");
-  tool.app().add_option("--count", count, "a whole number");
-  tool.app().add_option("--set", set, "KNOB=VALUE");
-  tool.app().add_option("-o,--output", output, "a file to write")->required()->check(cli::output_file());
+  tool.option("INPUT", operands, "files to read").check(cli::input_file());
+  tool.option("--body", input, "a file to read").check(cli::input_file());
+  tool.option("--do", deed, "what to do");
+  tool.option("--accuracy", accuracy, "how exact").check(cli::one_of({"draft", "standard", "fine"}));
+  tool.option("--edge-length", length, "length of an edge").type_name("M").check(cli::finite_in(0.001, 1, "m"));
+  tool.option("--bare", bare, "a number whose author forgot the range check");
+  tool.option("--count", count, "a whole number");
+  tool.option("--set", set, "KNOB=VALUE");
+  tool.option("-o,--output", output, "a file to write").required().check(cli::output_file());
   tool.example("probe-tool --do nothing -o out.txt", "do nothing");
   tool.formats("text", "text (version 1)");
   return tool.run(argc, argv, [&] {

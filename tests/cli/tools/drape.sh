@@ -24,6 +24,11 @@ case_a_drape_with_no_body_nor_panels_is_a_usage_error() {
   run 2 "$program" --panels panels.json --set no_such_knob=1 -o out.json
   run 2 "$program" --panels panels.json --set max_steps=nan -o out.json
   run 2 "$program" --panels panels.json --effects gravty -o out.json
+  run 2 "$program" a.body.json panels.json -o out.json
+  says "no place for a.body.json, panels.json; say for example drape --body"
+  mkdir lone && cp a.body.json lone/
+  run 3 "$program" --body lone/a.body.json --panels panels.json -o out.json
+  says "lone/a.body.json: /mesh: there is no lone/a.body.obj"
 }
 
 case_a_run_killed_dead_goes_on_from_its_checkpoint_to_the_same_bytes() {

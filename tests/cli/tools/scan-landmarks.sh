@@ -2,3 +2,14 @@
 good=(0)
 inputs=(a.ply)
 command_line=(-o out.json a.ply)
+
+case_a_scan_is_never_written_over() {
+  local scan=out.obj
+  cp a.ply a.obj && cp a.obj "$scan" && cp a.obj before
+  run 2 "$program" -o out.json "$scan"
+  says "out.obj: would be written over the scan that out.json is made from; name another output, for example -o out.body.json"
+  run 2 "$program" -o "./$scan" "$scan"
+  run 2 "$program" -o other.json --csv "$scan" "$scan"
+  cmp "$scan" before || fail "the scan is another one"
+  [[ ! -e out.json && ! -e other.json ]] || fail "something was written"
+}

@@ -1,4 +1,5 @@
-#include <cli/run_tool.hpp>
+#include <base/error.hpp>
+#include <cli/options.hpp>
 
 #include <sys/stat.h>
 
@@ -14,14 +15,14 @@ static std::string number_text(double value) {
   return text;
 }
 
-CLI::Validator finite_in(double low, double high, const std::string& unit) {
+Check finite_in(double low, double high, const std::string& unit) {
   const std::string tail = unit.empty() ? "" : " " + unit;
   std::string range;
   if (low > -1e300 && high < 1e300) range = number_text(low) + " to " + number_text(high) + tail;
   else if (low > -1e300) range = "at least " + number_text(low) + tail;
   else if (high < 1e300) range = "at most " + number_text(high) + tail;
   else range = "any finite number" + (unit.empty() ? "" : " of " + unit);
-  auto check = [low, high, range](std::string& text) -> std::string {
+  auto check = [low, high, range](const std::string& text) -> std::string {
     const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
     const char* end = text.data() + text.size();
     double value = 0;
@@ -30,30 +31,29 @@ CLI::Validator finite_in(double low, double high, const std::string& unit) {
     if (value < low || value > high) return text + " is out of range (expected " + range + ")";
     return {};
   };
-  CLI::Validator validator(check, range, "finite_in");
-  return validator;
+  return {"finite_in", range, check};
 }
 
-CLI::Validator input_file() {
-  auto check = [](std::string& path) -> std::string {
+Check input_file() {
+  auto check = [](const std::string& path) -> std::string {
     struct stat info {};
     if (path == "-") return {};
     if (stat(path.c_str(), &info) != 0) throw input_error(path, "", "no such file", "check the path");
     if (S_ISDIR(info.st_mode)) throw input_error(path, "", "is a folder, not a file", "name the file inside it");
     return {};
   };
-  return CLI::Validator(check, "FILE", "input_file");
+  return {"input_file", "FILE", check};
 }
 
-CLI::Validator output_file() {
-  auto check = [](std::string& path) -> std::string { return path.empty() ? "an empty file name" : ""; };
-  return CLI::Validator(check, "FILE", "output_file");
+Check output_file() {
+  auto check = [](const std::string& path) -> std::string { return path.empty() ? "an empty file name" : ""; };
+  return {"output_file", "FILE", check};
 }
 
-CLI::Validator one_of(const std::vector<std::string>& words) {
+Check one_of(const std::vector<std::string>& words) {
   std::string joined;
   for (const std::string& word : words) joined += (joined.empty() ? "" : "|") + word;
-  auto check = [words](std::string& text) -> std::string {
+  auto check = [words](const std::string& text) -> std::string {
     std::string list;
     for (const std::string& word : words) {
       if (word == text) return {};
@@ -62,7 +62,7 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
     const std::string near = nearest_word(text, words.data(), words.data() + words.size());
     return "'" + text + "' is none of " + list + (near.empty() ? "" : " (did you mean '" + near + "'?)");
   };
-  return CLI::Validator(check, joined, "one_of");
+  return {"one_of", joined, check};
 }
 
 } // namespace sloper::cli

@@ -1,0 +1,45 @@
+#pragma once
+/// One option of a tool and what its value must be. CLI11, which is dear to compile, stays behind this.
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class Option;
+}
+
+namespace sloper::cli {
+
+/// What a value must be, in words for the help and as a test that returns its complaint.
+struct Check {
+  std::string name;                                     ///< "finite_in": by which the option table knows it
+  std::string words;                                    ///< "0 to 1 m", "FILE", "a|b|c"
+  std::function<std::string(const std::string&)> fault; ///< empty when the value will do
+};
+
+// CLI11's own checks accept NaN, 1e400 and 0x10 and refuse "-".
+
+/// A plain decimal number in [low, high]. @param unit  shown in the help, such as "m"; empty for a pure number
+Check finite_in(double low, double high, const std::string& unit);
+/// An existing file, or "-". A file that is not there is bad input: exit 3.
+Check input_file();
+/// A file to be written, or "-". Tool::run checks its folder before the work starts: exit 5.
+Check output_file();
+/// One of some words; the complaint suggests the nearest. Shown as a|b|c and offered by the completion.
+Check one_of(const std::vector<std::string>& words);
+
+/// A declared option, to say more of it: tool.option(...).required().check(input_file()).
+class Option {
+public:
+  explicit Option(CLI::Option* option) : m_option(option) {}
+  Option& check(const Check& check);
+  Option& required();
+  Option& type_name(const std::string& word); ///< what stands for the value in the help: "LIST"
+  Option& show_default();                     ///< the value that the variable has now is told in the help
+  bool given() const;                         ///< whether the command line named it; known inside Tool::run's body
+
+private:
+  CLI::Option* m_option;
+};
+
+} // namespace sloper::cli

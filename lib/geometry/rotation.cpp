@@ -1,0 +1,16 @@
+#include <geometry/rotation.hpp>
+
+#include <Eigen/SVD>
+
+namespace sloper {
+
+Eigen::Quaterniond rotation_between(const Vec3& from, const Vec3& to) { return Eigen::Quaterniond::FromTwoVectors(from, to); }
+
+Mat3 nearest_rotation(const Mat3& covariance) {
+  const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Mat3 v = svd.matrixV();
+  if ((v * svd.matrixU().transpose()).determinant() < 0) v.col(2) *= -1;
+  return v * svd.matrixU().transpose();
+}
+
+} // namespace sloper
