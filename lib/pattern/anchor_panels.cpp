@@ -1,0 +1,125 @@
+#include <pattern/leg_layout.hpp>
+#include <pattern/placer.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::pattern {
+
+constexpr double SHOULDER_RAISE = 0.02; // m above the shoulders, so that the shoulder seam closes downwards
+
+std::array<Vec2, 2> Placer::bounds(const PanelGroup& group) const {
+  std::array<Vec2, 2> all = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
+  for (std::size_t k : group.panels) {
+    const auto b = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+    all[0] = all[0].cwiseMin(b[0]), all[1] = all[1].cwiseMax(b[1]);
+  }
+  return all;
+}
+
+bool Placer::hangs_on_shoulders(double top) const {
+  for (std::size_t k = 0; k < m_roles.size(); ++k) {
+    if (m_roles[k].region != Region::TRUNK) return true;
+    if (m_roles[k].side != Side::FRONT) continue;
+    for (int q : m_graph.neighbours(static_cast<int>(k))) {
+      if (m_roles[static_cast<std::size_t>(q)].side != Side::BACK) continue;
+      for (const auto& seam : m_graph.between(static_cast<int>(k), q)) { // a level seam at the top
+        const Vec2 a = uv(k, seam.front()[0]), b = uv(k, seam.back()[0]);
+        if (std::abs(a.x() - b.x()) > 1.2 * std::abs(a.y() - b.y()) && std::min(a.y(), b.y()) > top - 0.15) return true;
+      }
+    }
+  }
+  return false;
+}
+
+double Placer::strapless_height(double top) const {
+  constexpr double USUAL_STATURE = 1.7, ABOVE_WAIST = 1.12; // m
+  bool stated = true, named = false;
+  for (std::size_t k = 0; k < m_roles.size(); ++k) {
+    stated = stated && m_roles[k].dv.has_value();
+    for (const char* word : {"bodice", "bust", "corset", "bandeau", "tubetop", "tube_top"})
+      named = named || m_pattern.panels[k].name.find(word) != std::string::npos;
+  }
+  const double chest = std::min(m_space.level("chest_axilla", 0.76), top / USUAL_STATURE * m_space.stature());
+  if (stated) return top > ABOVE_WAIST ? chest : 0;
+  return named ? m_space.level("chest_axilla", 0.76) : 0;
+}
+
+void Placer::anchor_trunk() {
+  double top = -1e300;
+  for (const PanelGroup& g : m_groups)
+    if (g.region == Region::TRUNK) top = std::max(top, bounds(g)[1].y());
+  if (top < -1e299) return;
+  double shift = 0;
+  if (hangs_on_shoulders(top)) {
+    // The highest point is the neck end of the shoulder seam: it goes to the skin's height there.
+    double x = 0;
+    for (const PanelGroup& g : m_groups)
+      if (g.region == Region::TRUNK)
+        for (std::size_t k : g.panels)
+          for (int v : m_mesh.panels[k].outline)
+            if (const Vec2 p = uv(k, v); p.y() > top - 0.005) x = std::max(x, std::abs(p.x()));
+    shift = m_space.shoulder_height(std::clamp(x, 0.05, 0.12)) + SHOULDER_RAISE - top;
+  } else if (const double chest = strapless_height(top); chest > 0) {
+    shift = chest - top;
+  } else {
+    const auto [around, edge] = lengths_around(top);
+    const double crotch = m_space.body().has_landmark("crotch") ? m_space.body().landmark("crotch").y() : 0.47 * m_space.stature();
+    shift = m_space.hang_height(around, crotch + edge - legs_part(m_mesh, m_graph, m_roles, m_spots).value_or(-1e3)) - edge;
+  }
+  for (std::size_t k = 0; k < m_roles.size(); ++k)
+    if (m_roles[k].region == Region::TRUNK) m_spots[k].offset.y() += shift;
+}
+
+std::pair<std::vector<double>, double> Placer::lengths_around(double top) {
+  // The top edge: boundary within 6 cm of the top on the way round, as far as it is level and not sewn. It may be an arc.
+  double length = 0, height = 0, dip = top;
+  for (std::size_t k = 0; k < m_roles.size(); ++k) {
+    if (m_roles[k].region != Region::TRUNK || m_mesh.panels[k].layer != m_innermost) continue;
+    const auto& outline = m_mesh.panels[k].outline;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const int a = outline[i], b = outline[(i + 1) % outline.size()];
+      const Vec2 p = uv(k, a), q = uv(k, b);
+      if (std::min(p.y(), q.y()) > top - 0.06 && std::abs(p.x() - q.x()) > std::abs(p.y() - q.y()) && !(sewn(a) && sewn(b)))
+        length += (p - q).norm(), height += 0.5 * (p - q).norm() * (p.y() + q.y()), dip = std::min({dip, p.y(), q.y()});
+    }
+  }
+  if (!(length > 0.1)) return {{}, top};
+  const double edge = height / length;
+  std::vector<double> around = {length};
+  for (int row = 1; row <= 15; ++row) {
+    const double line = edge - 0.01 * row;
+    double widest = 0; // rows of panels are laid a little apart: look around the gap
+    for (double off : {-0.012, -0.006, 0.0, 0.006, 0.012}) widest = std::max(widest, covered(line + off));
+    around.push_back(line > dip - 0.002 ? std::max(length, widest) : widest);
+  }
+  return {around, edge};
+}
+
+double Placer::covered(double v) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < m_roles.size(); ++k)
+    if (m_roles[k].region == Region::TRUNK && m_mesh.panels[k].layer == m_innermost)
+      sum += pattern::covered(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k), v);
+  return sum;
+}
+
+bool Placer::sewn(int vertex) {
+  if (m_sewn.empty()) {
+    m_sewn.assign(m_mesh.pattern.size(), 0);
+    for (const MeshSeam& s : m_mesh.seams)
+      for (std::size_t k = 0; k < s.a.size(); ++k) m_sewn[static_cast<std::size_t>(s.a[k])] = m_sewn[static_cast<std::size_t>(s.b[k])] = 1;
+  }
+  return m_sewn[static_cast<std::size_t>(vertex)] != 0;
+}
+
+void Placer::anchor_neck() {
+  for (const PanelGroup& g : m_groups) {
+    if (g.region != Region::NECK) continue;
+    const auto b = bounds(g);
+    const double neck = std::max(m_space.shoulder_height(0.06), m_space.body().has_landmark("neck_side_l") ? m_space.body().landmark("neck_side_l").y() : 0.0);
+    for (std::size_t k : g.panels) m_spots[k].offset.y() += neck + 0.005 - b[0].y();
+  }
+}
+
+} // namespace sloper::pattern

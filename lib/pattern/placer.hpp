@@ -1,0 +1,101 @@
+#pragma once
+/// The work of place_panels(): groups of panels about one axis, the heights at which they hang (anchor_panels.cpp), their surfaces around the
+/// body (wrap_panels.cpp), and what pushes them free of each other and of the skin (place_panels.cpp).
+#include <collision/body_collider.hpp>
+#include <map>
+#include <pattern/body_space.hpp>
+#include <pattern/folds.hpp>
+#include <pattern/leg_tube.hpp>
+#include <pattern/panel_layout.hpp>
+#include <pattern/place_panels.hpp>
+
+namespace sloper::pattern {
+
+/// Panels that share one cylinder.
+struct PanelGroup {
+  Region region;
+  Side side;
+  std::vector<std::size_t> panels;
+  double extra = 0; ///< m added to the gap while panels are pushed free
+  double wing = 0;  ///< m added to the distance of the wings, where sleeves of hanging arms are in their way
+  std::string leg;  ///< of trousers: leg_l or leg_r, all around
+};
+
+class Placer {
+public:
+  Placer(const Pattern& pattern, const body::Body& body, PanelMesh& mesh, const Folding& folding);
+  PlacementReport run();
+
+private:
+  static std::string region_name(Region r) { return r == Region::TRUNK ? "torso" : r == Region::ARM_L ? "arm_l" : r == Region::ARM_R ? "arm_r" : "neck"; }
+  bool is_arm(std::size_t k) const { return m_roles[k].region == Region::ARM_L || m_roles[k].region == Region::ARM_R; }
+  Vec2 uv(std::size_t panel, int vertex) const { return laid(m_mesh, m_roles[panel], m_spots[panel], vertex); }
+  double area(std::size_t k) const { return static_cast<double>(m_mesh.panels[k].n_triangles); }
+
+  // place_panels.cpp
+  void make_groups();
+  void place_all();
+  std::map<std::pair<int, int>, int> crossings() const;
+  /// Pushes what crosses apart, arms outwards along their axis, collars up, the smaller of two panels of one side outwards, and
+  /// grows the gap of groups that meet the body.
+  PlacementReport push_free();
+  void measure_gaps(PlacementReport& report) const;
+
+  // anchor_panels.cpp
+  std::array<Vec2, 2> bounds(const PanelGroup& group) const;
+  /// Whether the garment hangs on the shoulders: front and back are sewn together near their tops, or there are sleeves or a collar.
+  bool hangs_on_shoulders(double top) const;
+  /// Height for the top of what hangs on the chest without straps; 0 for skirts and trousers. Told by the pattern's own heights
+  /// (they are those of its body, of about 1.7 m), else by words.
+  double strapless_height(double top) const;
+  void anchor_trunk();
+  /// Cloth around a skirt's or trousers' uppermost 15 cm, one length for every centimetre, m, and the mean height of its top edge.
+  std::pair<std::vector<double>, double> lengths_around(double top);
+  /// How much of the level line v is covered by panels about the trunk, m.
+  double covered(double v) const;
+  bool sewn(int vertex);
+  void anchor_neck();
+
+  // wrap_panels.cpp
+  template<class Point> void put(std::size_t panel, Point point);
+  /// Angle between a panel's two sides, rad, and its width near the top, m.
+  std::array<double, 2> flare(std::size_t k) const;
+  /// Panels of a group that upright seams lead from one to the other.
+  std::vector<std::vector<std::size_t>> rows_of(const PanelGroup& group) const;
+  /// Sum of the widths of the panels of a group that stand beside panel k, itself among them, with a little room between.
+  double row_width(const PanelGroup& group, std::size_t k) const;
+  /// z in front of which (or behind which, for backs) the wings must stay: past the arms that hang within the panels' reach.
+  double wing_limit(const PanelGroup& group, const Axis& axis, const std::array<Vec2, 2>& b, const std::vector<Vec2>& hull) const;
+  void place_trunk(const PanelGroup& group);
+  /// Gores that widen downwards stand on a cone: each is a sector of it, so that neighbours' sides lie along each other. Not where they
+  /// differ: in where their tops are, as gores and godets do, or in how far off the tip of their cone would be.
+  bool place_on_cone(const PanelGroup& group, const std::vector<std::size_t>& row, const std::vector<Vec2>& hull);
+  /// Height along the arm's axis at which a long sleeve may end: a little beyond the wrist.
+  double arm_end(const Axis& axis, bool left) const;
+  void place_arm(const PanelGroup& group);
+  /// Legs start as smooth tubes around the legs. Longer than to the ankles they start shortened: a hem closes around an ankle, not
+  /// around a foot.
+  void place_leg(const PanelGroup& group);
+  void place_neck(const PanelGroup& group);
+  void place_group(const PanelGroup& g);
+
+  const Pattern& m_pattern;
+  PanelMesh& m_mesh;
+  const Folding& m_folding;
+  BodySpace m_space;
+  SeamGraph m_graph;
+  std::vector<PanelRole> m_roles;
+  std::vector<PanelSpot> m_spots;
+  std::vector<int> m_depth; ///< how many layers lie beneath: of the pattern, and of panels that would cross
+  collision::BodyCollider m_collider;
+  std::vector<PanelGroup> m_groups;
+  std::vector<std::size_t> m_group_of;
+  std::vector<int> m_panel_of_triangle;
+  std::vector<char> m_sewn;
+  double m_arm_shift[2] = {0.0, 0.0}; ///< m along the arm; right, left
+  double m_raised = 0;
+  int m_innermost = 0;               ///< layer
+  std::optional<LegTube> m_tubes[2]; ///< right, left
+};
+
+} // namespace sloper::pattern

@@ -1,0 +1,275 @@
+#include <base/error.hpp>
+#include <pattern/arm_tube.hpp>
+#include <pattern/leg_layout.hpp>
+#include <pattern/leg_roles.hpp>
+#include <pattern/placer.hpp>
+#include <pattern/wrap_curve.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::pattern {
+
+using body::Part;
+
+constexpr double GAP = 0.015;         // m between skin and cloth at the start
+constexpr double LAYER = 0.012;       // m between panels that lie over each other
+constexpr double FILLET = 0.06;       // m: radius with which the front curve turns into its wings
+constexpr double WING = 0.02;         // m between the wings and what they pass: arms, or each other
+constexpr double BEYOND_WRIST = 0.03; // m: how far over the hand a sleeve longer than the arm starts
+constexpr double SLEEVE_KEEPS = 0.4;  // of the arm's length, from the shoulder: where such a sleeve is not shortened
+constexpr double BELOW_CROTCH = 0.03; // m: where trousers' crotch starts below the body's
+constexpr double MOST_RISE = 1.25;    // stretch of the way from waist to crotch for that, at most
+constexpr double LEG_ROW = 0.01;      // m between the rows of cloth that a leg is laid out by
+
+static double hull_end(const std::vector<Vec2>& hull, double sense) {
+  double z = -1e300;
+  for (const Vec2& p : hull) z = std::max(z, sense * p.y());
+  return sense * z;
+}
+
+static double plane_low(const std::vector<Vec2>& hull) {
+  double x = 1e300;
+  for (const Vec2& p : hull) x = std::min(x, p.x());
+  return x;
+}
+
+static double plane_high(const std::vector<Vec2>& hull) {
+  double x = -1e300;
+  for (const Vec2& p : hull) x = std::max(x, p.x());
+  return x;
+}
+
+template<class Point> void Placer::put(std::size_t panel, Point point) {
+  const PanelInfo& info = m_mesh.panels[panel];
+  for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
+    const Vec2 p = uv(panel, v);
+    Vec3& at = m_mesh.placed[static_cast<std::size_t>(v)];
+    at = point(p);
+    if (m_folding.depth.empty() || m_folding.depth[static_cast<std::size_t>(v)] == 0) continue;
+    constexpr double STEP = 1e-4; // m: u is right and v up, seen from outside
+    const Vec3 outwards = (point(Vec2(p + Vec2(STEP, 0))) - at).cross(point(Vec2(p + Vec2(0, STEP))) - at);
+    if (outwards.norm() > 0) at -= m_folding.depth[static_cast<std::size_t>(v)] * outwards.normalized();
+  }
+}
+
+std::array<double, 2> Placer::flare(std::size_t k) const {
+  const auto b = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+  double width[2] = {0, 0};
+  for (int end = 0; end < 2; ++end) {
+    const double line = b[1].y() - (end ? 0.85 : 0.15) * (b[1].y() - b[0].y());
+    double low = 1e300, high = -1e300;
+    const auto& outline = m_mesh.panels[k].outline;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Vec2 p = uv(k, outline[i]), q = uv(k, outline[(i + 1) % outline.size()]);
+      if ((p.y() <= line) == (q.y() <= line)) continue;
+      const double x = p.x() + (line - p.y()) / (q.y() - p.y()) * (q.x() - p.x());
+      low = std::min(low, x), high = std::max(high, x);
+    }
+    width[end] = high - low;
+  }
+  return {2 * std::atan2(0.5 * (width[1] - width[0]), 0.7 * (b[1].y() - b[0].y())), width[0]};
+}
+
+std::vector<std::vector<std::size_t>> Placer::rows_of(const PanelGroup& group) const {
+  std::vector<std::vector<std::size_t>> rows;
+  std::vector<std::size_t> left = group.panels;
+  while (!left.empty()) {
+    std::vector<std::size_t> row = {left[0]};
+    left.erase(left.begin());
+    for (std::size_t i = 0; i < row.size(); ++i)
+      for (std::size_t j = 0; j < left.size();)
+        if (upright_seam(m_mesh, m_graph, m_roles, row[i], left[j])) row.push_back(left[j]), left.erase(left.begin() + static_cast<long>(j));
+        else ++j;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+double Placer::row_width(const PanelGroup& group, std::size_t k) const {
+  const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+  double sum = 0;
+  for (std::size_t o : group.panels) {
+    const auto other = laid_bounds(m_mesh, m_roles[o], m_spots[o], static_cast<int>(o));
+    if (o == k || std::min(own[1].y(), other[1].y()) - std::max(own[0].y(), other[0].y()) > 0.02) sum += other[1].x() - other[0].x() + 0.01;
+  }
+  return sum;
+}
+
+double Placer::wing_limit(const PanelGroup& group, const Axis& axis, const std::array<Vec2, 2>& b, const std::vector<Vec2>& hull) const {
+  double low = 1e300, high = -1e300;
+  for (const Vec2& p : hull) low = std::min(low, p.y()), high = std::max(high, p.y());
+  // Fronts and backs share the middle plane of the hull; plane z of the back axis is turned.
+  double limit = 0.5 * (low + high) + 0.5 * WING;
+  const double reach = std::max(std::abs(b[0].x()), std::abs(b[1].x())) + 0.03;
+  for (const Vec2& p : m_space.points(axis, {Part::ARM_L, Part::ARM_R}, b[0].y() - 0.02, b[1].y() + 0.02))
+    if (std::abs(p.x()) < reach) limit = std::max(limit, p.y() + WING);
+  return limit + group.wing;
+}
+
+void Placer::place_trunk(const PanelGroup& group) {
+  const auto b = bounds(group);
+  std::vector<Part> parts = {Part::TORSO};
+  if (b[0].y() < m_space.level("hip", 0.5)) parts.push_back(Part::LEG_L), parts.push_back(Part::LEG_R);
+  const Axis axis = m_space.trunk(group.side == Side::BACK);
+  std::vector<Vec2> hull = m_space.points(axis, parts, b[0].y() - 0.02, b[1].y() + 0.02);
+  if (hull.size() < 3) hull = m_space.points(axis, {Part::TORSO, Part::LEG_L, Part::LEG_R}, -1, 3);
+  std::map<int, WrapCurve> curves;
+  if (group.side == Side::RING) {
+    double widest = 0; // panels of one height stand side by side: what overlaps in v adds up
+    for (std::size_t k : group.panels) widest = std::max(widest, row_width(group, k));
+    std::vector<std::size_t> around;
+    for (const auto& row : rows_of(group))
+      if (!place_on_cone(group, row, hull)) around.insert(around.end(), row.begin(), row.end());
+    for (std::size_t k : around) {
+      const int depth = m_depth[k];
+      if (!curves.count(depth)) curves.emplace(depth, WrapCurve::around(hull, GAP + group.extra + LAYER * depth, widest));
+      const WrapCurve& curve = curves.at(depth);
+      const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+      const double center = m_roles[k].theta / (2 * M_PI) * curve.length() - 0.5 * (own[0].x() + own[1].x());
+      put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x() + center), p.y()); });
+    }
+    return;
+  }
+  const double wing = wing_limit(group, axis, b, hull);
+  for (std::size_t k : group.panels) {
+    const int depth = m_depth[k];
+    if (!curves.count(depth)) {
+      const double out = group.extra + LAYER * depth;
+      curves.emplace(depth, WrapCurve::front_of(hull, GAP + out, wing + out, FILLET, axis.plane(Vec3(0, 0, 0)).x()));
+    }
+    const WrapCurve& curve = curves.at(depth);
+    put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x()), p.y()); });
+  }
+}
+
+bool Placer::place_on_cone(const PanelGroup& group, const std::vector<std::size_t>& row, const std::vector<Vec2>& hull) {
+  std::vector<std::pair<double, std::size_t>> by_theta;
+  double total = 0, low_top = 1e300, high_top = -1e300, tallest = 0, near_tip = 1e300, far_tip = 0;
+  for (std::size_t k : row) {
+    const auto [angle, top_width] = flare(k);
+    if (angle < 0.03) return false;
+    total += angle;
+    by_theta.push_back({m_roles[k].theta, k});
+    const auto b = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+    const double tip = 0.5 * top_width / std::tan(0.5 * angle);
+    low_top = std::min(low_top, b[1].y()), high_top = std::max(high_top, b[1].y()), tallest = std::max(tallest, b[1].y() - b[0].y());
+    near_tip = std::min(near_tip, tip), far_tip = std::max(far_tip, tip);
+  }
+  if (row.size() < 3 || total < 0.3 || total > 5.5 || high_top - low_top > 0.25 * tallest || far_tip > 2 * near_tip) return false;
+  std::sort(by_theta.begin(), by_theta.end());
+  const double slope = std::asin(total / (2 * M_PI)); // half the cone's opening angle
+  const Vec2 center = 0.5 * (Vec2(plane_low(hull), hull_end(hull, -1)) + Vec2(plane_high(hull), hull_end(hull, 1)));
+  double theta = by_theta[0].first - 0.5 * flare(by_theta[0].second)[0] / std::sin(slope);
+  for (auto& [hint, k] : by_theta) {
+    const auto [angle, top_width] = flare(k);
+    const auto b = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+    const double middle = theta + 0.5 * angle / std::sin(slope), u0 = 0.5 * (b[0].x() + b[1].x());
+    theta += angle / std::sin(slope);
+    const double top = b[1].y(), apex = top - 0.15 * (top - b[0].y()) + 0.5 * top_width / std::tan(0.5 * angle);
+    const double out = GAP + group.extra + LAYER * m_depth[k];
+    const Vec2 push(std::sin(middle) * out, std::cos(middle) * out); // each gore as a whole, so that it keeps its shape
+    put(k, [&](const Vec2& p) {
+      const Vec2 d(p.x() - u0, apex - p.y());
+      const double rho = d.norm(), t = middle + std::atan2(d.x(), d.y()) / std::sin(slope), r = rho * std::sin(slope);
+      const double y = top - (rho - (apex - top)) * std::cos(slope);
+      return Vec3(center.x() + r * std::sin(t) + push.x(), y, center.y() + r * std::cos(t) + push.y());
+    });
+  }
+  return true;
+}
+
+double Placer::arm_end(const Axis& axis, bool left) const {
+  const std::string side = left ? "_l" : "_r";
+  if (m_space.body().has_landmark("wrist" + side)) return axis.height(m_space.body().landmark("wrist" + side)) - BEYOND_WRIST;
+  if (m_space.body().has_landmark("hand_tip" + side)) return 0.8 * axis.height(m_space.body().landmark("hand_tip" + side));
+  return -0.32 * m_space.stature();
+}
+
+void Placer::place_arm(const PanelGroup& group) {
+  const bool left = group.region == Region::ARM_L;
+  double low = 1e300, high = -1e300;
+  for (const PanelGroup& g : m_groups) // front, back and ring of one arm share one axis and one hull
+    if (g.region == group.region) low = std::min(low, bounds(g)[0].y()), high = std::max(high, bounds(g)[1].y());
+  const Axis axis = m_space.arm(left, group.side == Side::FRONT ? 0 : group.side == Side::BACK ? 1 : 2, high - low);
+  const double shift = m_arm_shift[left] - high;
+  std::vector<Vec2> hull = m_space.points(axis, {left ? Part::ARM_L : Part::ARM_R}, low + shift - 0.02, high + shift + 0.02);
+  if (hull.size() < 3) hull = m_space.points(axis, {left ? Part::ARM_L : Part::ARM_R}, -3, 3);
+  if (hull.size() < 3)
+    throw input_error("", "body", std::string("the ") + (left ? "left" : "right") + " arm has no skin", "scan the arms, or leave the sleeves out");
+  const auto b = bounds(group);
+  // A sleeve longer than the arm starts shortened: its end closes around the wrist, not around a hand.
+  const double end = arm_end(axis, left), from = SLEEVE_KEEPS * end, bottom = low + shift;
+  const double share = bottom < end ? (end - from) / (bottom - from) : 1;
+  const auto along = [&](double v) { return v + shift < from ? from + share * (v + shift - from) : v + shift; };
+  if (group.side == Side::RING) {
+    ArmTube tube(m_space, axis, left, along(b[0].y()), along(b[1].y()));
+    std::vector<double> widths(tube.n_rows(), 0);
+    for (std::size_t row = 0; row < widths.size(); ++row) {
+      const double v = tube.height(row) < from ? from + (tube.height(row) - from) / share : tube.height(row);
+      for (std::size_t k : group.panels) widths[row] = std::max(widths[row], pattern::covered(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k), v - shift));
+    }
+    tube.shape(widths, GAP + group.extra);
+    for (std::size_t k : group.panels) {
+      const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+      const double center = -0.5 * (own[0].x() + own[1].x());
+      put(k, [&](const Vec2& p) { return axis.point(tube.at(p.x() + center, along(p.y())), along(p.y())); });
+    }
+    return;
+  }
+  double back = 1e300, front = -1e300;
+  for (const Vec2& p : hull) back = std::min(back, p.y()), front = std::max(front, p.y());
+  const WrapCurve curve =
+      WrapCurve::front_of(hull, GAP + group.extra, 0.5 * (back + front) + 0.5 * WING + group.extra, 0.04, 0.5 * (plane_low(hull) + plane_high(hull)));
+  for (std::size_t k : group.panels) put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x()), along(p.y())); });
+}
+
+void Placer::place_leg(const PanelGroup& group) {
+  const bool left = group.leg == "leg_l";
+  const auto b = bounds(group);
+  const std::size_t n = static_cast<std::size_t>(std::ceil((b[1].y() - b[0].y()) / LEG_ROW)) + 2;
+  const std::string ankle_name = left ? "ankle_l" : "ankle_r";
+  const double end = (m_space.body().has_landmark(ankle_name) ? m_space.body().landmark(ankle_name).y() : 0.045 * m_space.stature()) + 0.025;
+  std::optional<LegTube>& tube = m_tubes[left];
+  if (!tube) tube.emplace(m_space, left);
+  // The crotch starts a little below the body's, so that there is way between the legs for it.
+  const double top = b[1].y(), from = std::min(legs_part(m_mesh, m_graph, m_roles, m_spots).value_or(top - 0.25), top - 0.05);
+  const double crotch = std::min(from, std::max(tube->crotch() - BELOW_CROTCH, top - MOST_RISE * (top - from)));
+  const double rise = (top - crotch) / (top - from), leg = std::clamp((crotch - end) / std::max(from - b[0].y(), 1e-6), 0.2, 1.0);
+  std::vector<double> heights;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double v = top - LEG_ROW * static_cast<double>(k);
+    heights.push_back(v > from ? top - rise * (top - v) : crotch - leg * (from - v));
+  }
+  tube->shape(heights, leg_rows(m_mesh, m_roles, m_spots, group.panels, left, b[1].y(), LEG_ROW, n), GAP + group.extra);
+  for (std::size_t k : group.panels) {
+    const Side side = m_roles[k].side;
+    const double sign = (left ? 1 : -1) * (side == Side::BACK ? -1 : 1);
+    put(k, [&](const Vec2& p) { return tube->at(side, sign * p.x(), (b[1].y() - p.y()) / LEG_ROW, LAYER * m_depth[k]); });
+  }
+}
+
+void Placer::place_neck(const PanelGroup& group) {
+  const auto b = bounds(group);
+  const Axis axis = m_space.neck();
+  const double top = b[1].y() - b[0].y() > 0.15 ? b[1].y() : b[0].y() + 0.04; // a hood has to clear the head, a collar the neck
+  std::vector<Vec2> hull = m_space.points(axis, {Part::HEAD, Part::TORSO}, b[0].y(), top);
+  if (hull.size() < 3) hull = m_space.points(axis, {Part::HEAD}, -1, 3);
+  double widest = 0;
+  for (std::size_t k : group.panels) widest = std::max(widest, row_width(group, k));
+  for (std::size_t k : group.panels) {
+    const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+    const WrapCurve curve = WrapCurve::around(hull, 0.008 + group.extra + LAYER * m_depth[k], widest + 0.01);
+    const double center = m_roles[k].theta / (2 * M_PI) * curve.length() - 0.5 * (own[0].x() + own[1].x());
+    put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x() + center), p.y()); });
+  }
+}
+
+void Placer::place_group(const PanelGroup& g) {
+  if (!g.leg.empty()) place_leg(g);
+  else if (g.region == Region::TRUNK) place_trunk(g);
+  else if (g.region == Region::NECK) place_neck(g);
+  else place_arm(g);
+}
+
+} // namespace sloper::pattern
