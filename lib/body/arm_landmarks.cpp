@@ -202,6 +202,12 @@ void find_arm_landmarks(const Finder& f) {
     const Vec3 wrist = arm.at(hand->value);
     f.put("wrist" + suffix, wrist, 2, *hand->rule);
     f.also("wrist" + suffix, arm.at(by_ratio));
+    if (hand->rule->name == "arm_ratio" && (joint - arm.tip).norm() < f.number("hand.least_arm") * s) {
+      f.body.scan.findings.push_back({"warning", "the hand is missing or hidden: hand and wrist are put where the arm ends", "hand_tip" + suffix});
+      f.explain("hand_tip" + suffix + ": the arm is too short for a hand and has no wrist");
+      for (const char* name : {"hand_tip", "hand_extreme", "wrist"})
+        if (const auto it = f.body.landmarks.find(name + suffix); it != f.body.landmarks.end()) it->second.confidence = 0.1;
+    }
     find_elbow(f, side, hand->value, (joint - wrist).norm() * (1 - f.number("elbow.of_arm")));
   }
 }

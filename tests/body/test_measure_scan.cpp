@@ -2,6 +2,7 @@
 
 #include <base/error.hpp>
 #include <gtest/gtest.h>
+#include <utility>
 
 using namespace sloper;
 using namespace sloper::body;
@@ -42,6 +43,36 @@ void add_box(TriangleMesh& mesh, const Vec3& low, const Vec3& high) {
 }
 
 } // namespace
+
+TEST(MeasureScan, a_missing_hand_is_told) {
+  const samples::MadeMannequin& made = test::mannequin("f-165-a");
+  auto told = [](const Body& body) {
+    int n = 0;
+    for (const Finding& f : body.scan.findings) n += f.what.find("the hand is missing") != std::string::npos;
+    return n;
+  };
+  const Body whole = measure(made.mesh).body;
+  EXPECT_EQ(told(whole), 0);
+  const Vec3 wrist = test::in_scan(whole, "wrist_l"), tip = test::in_scan(whole, "hand_tip_l");
+  TriangleMesh cut = made.mesh;
+  std::erase_if(cut.triangles, [&](const Triangle& t) {
+    const Vec3& p = cut.positions[t[0]];
+    return p.x() > 0.3 && (p - wrist).dot(tip - wrist) > 0;
+  });
+  const TriangleMesh loose = std::exchange(cut, {}); // without the hand's vertices too
+  std::vector<int> number(loose.positions.size(), -1);
+  for (Triangle t : loose.triangles) {
+    for (int& v : t) {
+      if (number[v] < 0) number[v] = static_cast<int>(cut.positions.size()), cut.positions.push_back(loose.positions[v]);
+      v = number[v];
+    }
+    cut.triangles.push_back(t);
+  }
+  const Body body = measure(cut).body;
+  EXPECT_EQ(told(body), 1);
+  EXPECT_LT(body.landmarks.at("hand_tip_l").confidence, 0.15);
+  EXPECT_GT(body.landmarks.at("hand_tip_r").confidence, 0.5);
+}
 
 TEST(MeasureScan, finds_a_mannequins_points_where_they_were_built) {
   for (const char* name : {"f-165-a", "m-185-t", "f-165-plus", "m-170-stout"}) {
