@@ -49,15 +49,18 @@ static std::string quoted(const std::string& text) {
 
 static std::string zsh(const ToolDescription& tool) {
   std::string out = "#compdef " + tool.name + "\n_arguments -s -S";
+  const std::string all = "*:", open = "[", colon = ":";
   for (const OptionRow& row : tool.rows) {
     std::string text; // brackets and colons delimit the fields of a specification
     for (const char c : row.description) text += c == '[' ? "(" : c == ']' ? ")" : c == ':' ? "\\:" : std::string(1, c);
-    const std::string action = !row.choices.empty() ? "(" + join(row.choices) + ")" : row.is_file || !row.operand.empty() ? "_files" : " ";
-    if (!row.operand.empty()) out += " \\\n  " + quoted("*:" + row.operand + ":_files");
+    const std::string action = !row.choices.empty()                  ? std::string("(").append(join(row.choices)).append(")")
+                               : row.is_file || !row.operand.empty() ? "_files"
+                                                                     : " ";
+    if (!row.operand.empty()) out += " \\\n  " + quoted(all + row.operand + ":_files");
     for (const std::string& name : spellings(row)) {
       const std::string star = row.repeats ? "*" : "";
       out += " \\\n  " +
-             quoted(star + name + "[" + text + "]" + (row.value.empty() ? "" : ":" + std::string(row.choices.empty() ? row.value : "choice") + ":" + action));
+             quoted(star + name + open + text + "]" + (row.value.empty() ? "" : colon + (row.choices.empty() ? row.value : "choice") + colon + action));
     }
   }
   return out + "\n";

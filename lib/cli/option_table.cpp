@@ -16,7 +16,8 @@ std::string OptionRow::spelling() const {
 std::string ToolDescription::usage() const {
   std::string out = name + " [OPTION]...";
   for (const OptionRow& row : rows)
-    if (row.operand.empty() && row.required) out += " " + (row.shorts.empty() ? "--" + row.longs.front() : "-" + row.shorts.front()) + " " + row.value;
+    if (row.operand.empty() && row.required)
+      out.append(row.shorts.empty() ? " --" : " -").append(row.shorts.empty() ? row.longs.front() : row.shorts.front()).append(" ").append(row.value);
   for (const OptionRow& row : rows)
     if (!row.operand.empty()) out += row.required ? " " + row.operand : " [" + row.operand + "]";
   return out;
@@ -40,7 +41,7 @@ std::string wrap(const std::string& text, std::size_t width, std::size_t indent)
   std::stringstream stream(text);
   for (std::string word; stream >> word;) {
     if (column > indent && column + 1 + word.size() > width) {
-      out += "\n" + std::string(indent, ' ');
+      out.append("\n").append(indent, ' ');
       column = indent;
     } else if (column > indent) {
       out += ' ';
