@@ -3,6 +3,7 @@
 #include <cloth/bending.hpp>
 #include <cloth/edge_spring.hpp>
 #include <cloth/gravity.hpp>
+#include <cloth/pressure.hpp>
 #include <cloth/shear.hpp>
 #include <garment/drape_run.hpp>
 #include <garment/effects.hpp>
@@ -36,9 +37,11 @@ constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step w
 constexpr double LATEST = 0.01;          // m: how far skin may stay back where cloth is in its way
 constexpr int LATE_STEPS = 40;           // in which what stayed back comes home
 constexpr int GLIDE_STEPS = 40;          // after sewing, free of weight and friction, which would keep the strain that sewing left
+constexpr double BREATH = 1;             // weights of the cloth on its area: pressure from within meanwhile, which turns out dents that sewing left
 constexpr int STALLED_STEPS = 400;       // without a residual that is a tenth less, and more than the weight: it will not come to rest
 constexpr int JUDGE_EVERY = 20;          // steps between looks whether the garment can still fit
 constexpr int STRAINED_STEPS = 80;       // without a strain that is a tenth less: it stays
+constexpr double NEAR_RESIDUAL = 1;      // weights: below, steps may grow faster
 constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
 
 std::string millimetres(double m) { return std::to_string(std::lround(m * 1e4) / 10) + "." + std::to_string(std::lround(m * 1e4) % 10) + " mm"; }
@@ -150,6 +153,7 @@ void DrapeRun::build_solver(bool open_seams) {
   if (active("shear")) m_solver->emplace<cloth::ShearEffect>(*m_cloth);
   if (active("bending")) m_solver->emplace<cloth::BendingEffect>(*m_cloth);
   add_scene_effects(*m_solver, *m_cloth, m_garment, m_body, m_report.effects, open_seams);
+  m_breath = nullptr;
   m_sewing = nullptr;
   if (open_seams) m_sewing = &m_solver->emplace<cloth::SewingSpringEffect>(open_stitches(m_garment), 1.0, SEW_REACH);
   m_body_contact = nullptr;
@@ -317,6 +321,22 @@ void DrapeRun::add_load() {
   if (active("friction") && m_self_contact) m_self_contact->set_friction(material.friction_self);
 }
 
+/// A flared hem that sewing has dented inwards may stay so: a cone turned in is a state of rest too.
+void DrapeRun::breathe() {
+  if (m_breath || m_settings.effects.rfind("auto", 0) != 0 || m_settings.effects.find("-pressure") != std::string::npos) return;
+  if (!active("pressure")) activate("pressure", "for a moment after sewing: it turns out dents");
+  const double weight = material_of(m_garment, "").density_kg_m2 * units::GRAVITY;
+  m_breath = &m_solver->emplace<cloth::PressureEffect>(m_cloth->particle_triangles(), BREATH * weight);
+}
+
+void DrapeRun::stop_breathing() {
+  if (!m_breath) return;
+  const std::unique_ptr<cloth::Effect> taken = m_solver->remove(*m_breath);
+  m_breath = nullptr;
+  for (EffectReport& r : m_report.effects)
+    if (r.name == taken->name()) r.calls += taken->calls, r.wall_s += taken->wall_s;
+}
+
 void DrapeRun::settle() {
   const Phase phase(*this, "settle");
   m_settling = true;
@@ -331,7 +351,9 @@ void DrapeRun::settle() {
   double &h = m_at.h, &best = m_at.best;
   for (; !m_stopped; ++k) {
     checkpoint();
+    if (k < glide()) breathe();
     if (k == glide()) {
+      stop_breathing();
       add_load();
       h = m_settings.time_step_s;
     }
@@ -342,7 +364,7 @@ void DrapeRun::settle() {
                       std::to_string(residual) + " of the weight, at most " + std::to_string(m_at.last.residual_force_ratio_max) + crossing_text());
     m_reporter.progress("settle", -1);
     if (m_at.last.halvings > 0) h = std::max(h * 0.7, m_settings.time_step_s);
-    else if (m_at.last.largest_move_m < 0.003) h = std::min(h * 1.3, LARGEST_STEP_S);
+    else if (m_at.last.largest_move_m < 0.003) h = std::min(h * (residual > NEAR_RESIDUAL ? 1.15 : 1.3), LARGEST_STEP_S);
     else if (m_at.last.largest_move_m > 0.01) h = std::max(h * 0.8, m_settings.time_step_s);
     if (k <= glide() || residual < 0.9 * best) {
       best = residual;

@@ -61,6 +61,8 @@ private:
   void follow_motion(); ///< drape_motion.cpp
   void audit_frame(MotionFrame& frame);
   void activate(const char* effect, const char* why);
+  void breathe(); ///< a little pressure from within, until stop_breathing()
+  void stop_breathing();
   void add_load();                                                   ///< weight and friction
   int glide() const;                                                 ///< step of SETTLE at which they come
   bool checkpoint();                                                 ///< between steps: where one is due, writes it and rebuilds; whether it did
@@ -95,6 +97,7 @@ private:
   std::unique_ptr<cloth::ClothSolver> m_solver;
   cloth::BodyContactEffect* m_body_contact = nullptr;
   cloth::SelfContactEffect* m_self_contact = nullptr;
+  const cloth::Effect* m_breath = nullptr; // of m_solver
   cloth::SewingSpringEffect* m_sewing = nullptr;
   bool m_loaded = false; ///< with weight and friction
   const BodyMoves* m_moves = nullptr;

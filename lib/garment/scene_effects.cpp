@@ -215,7 +215,7 @@ void add_scene_effects(cloth::ClothSolver& solver, const cloth::ClothMesh& mesh,
     options.velocity = scene.wind_m_s;
     solver.emplace<cloth::WindEffect>(mesh.particle_triangles(), options);
   }
-  if (is_active(effects, "pressure")) solver.emplace<cloth::PressureEffect>(mesh.particle_triangles(), scene.pressure_pa);
+  if (is_active(effects, "pressure") && scene.pressure_pa != 0) solver.emplace<cloth::PressureEffect>(mesh.particle_triangles(), scene.pressure_pa);
 }
 
 } // namespace sloper::garment
