@@ -19,6 +19,7 @@ constexpr double BLEND_LENGTH = 0.035;     // m along the cloth; weights go from
 constexpr double FACING_PENALTY = 0.03;    // m added to the distance of skin that faces away from the cloth's outside
 constexpr double SMALL_PATCH = 0.02;       // of its piece: a smaller patch of one frame is a stray, not a sleeve
 constexpr double NEGLIGIBLE_WEIGHT = 2e-3; // taken off before normalising, so that weights reach 0 without a jump
+constexpr int LEG_LINES = 24;              // heights at which cloth between the legs is looked for
 
 struct Patches {
   std::vector<int> of_particle;
@@ -112,25 +113,41 @@ bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<T
                          const BindFrames& frames, double crotch_y) {
   const int l = frames.index("leg_l"), r = frames.index("leg_r");
   if (l < 0 || r < 0) return false;
-  // Between the legs: on a line from axis to axis at the same height, within the thighs' own depth. Counted by area and by
-  // height, so that a pleat that hangs in at the front does not make a pair of trousers out of a skirt.
-  double between = 0, below = 0;
   const auto axis_at = [&](int k, double y) {
     const PartFrame& f = frames.frames[k].frame;
     return Vec3(f.lower + (f.upper - f.lower) * ((y - f.lower.y()) / (f.upper.y() - f.lower.y())));
   };
-  for (const Triangle& t : triangles) {
-    if (piece[t[0]] != which) continue;
-    const Vec3 p = (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3;
-    if (p.y() > crotch_y - 0.01) continue;
-    const double area = 0.5 * area_normal(positions[t[0]], positions[t[1]], positions[t[2]]).norm();
-    const Vec3 a = axis_at(l, p.y()), b = axis_at(r, p.y()), d = b - a;
-    const double u = (p - a).dot(d) / d.squaredNorm();
-    const double depth = (p - a - u * d).norm();
-    below += area;
-    if (u > 0.05 && u < 0.95 && depth < 0.35 * d.norm()) between += area;
+  double lowest = 1e300;
+  for (const Triangle& t : triangles)
+    if (piece[t[0]] == which)
+      for (int i : t) lowest = std::min(lowest, positions[i].y());
+  const double highest = crotch_y - 0.01;
+  if (lowest >= highest) return false;
+  // A line from leg to leg at one height passes cloth of trousers, and none of a skirt, however far apart the feet stand. Most heights
+  // decide, so that a pleat that hangs in at the front does not make a pair of trousers out of a skirt.
+  int passed = 0;
+  for (int k = 0; k < LEG_LINES; ++k) {
+    const double y = lowest + (k + 0.5) / LEG_LINES * (highest - lowest);
+    const Vec3 a = axis_at(l, y), b = axis_at(r, y);
+    const Vec2 from(a.x(), a.z()), way(b.x() - a.x(), b.z() - a.z()), aside(-way.y(), way.x());
+    passed += std::any_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+      if (piece[t[0]] != which) return false;
+      Vec2 cut[2]; // where the triangle's edges are at this height
+      int n = 0;
+      for (int e = 0; e < 3; ++e) {
+        const Vec3 &p = positions[t[e]], &q = positions[t[(e + 1) % 3]];
+        if ((p.y() <= y) == (q.y() <= y)) continue;
+        const Vec3 at = p + (y - p.y()) / (q.y() - p.y()) * (q - p);
+        cut[n++] = Vec2(at.x(), at.z()) - from;
+      }
+      if (n != 2) return false;
+      const double u = cut[0].dot(aside), v = cut[1].dot(aside);
+      if ((u <= 0) == (v <= 0)) return false;
+      const double along = (cut[0] + u / (u - v) * (cut[1] - cut[0])).dot(way) / way.squaredNorm();
+      return along > 0 && along < 1;
+    });
   }
-  return below > 0 && between < 0.05 * below;
+  return 2 * passed < LEG_LINES;
 }
 
 std::vector<std::vector<std::pair<int, double>>> bind_weights(const Garment& garment, const body::Body& body, const BindFrames& frames) {

@@ -10,7 +10,7 @@
 namespace sloper::garment {
 
 /// Whether some piece of the garment wraps both legs together (skirt, dress) rather than each by itself (trousers): below the
-/// crotch it has cloth, and none of it lies between the legs.
+/// crotch it has cloth, and at most heights none of it lies between the axes of the legs, however far apart the feet stand.
 bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<int>& piece, int which,
                          const BindFrames& frames, double crotch_y);
 

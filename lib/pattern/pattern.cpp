@@ -48,40 +48,6 @@ double side_length(const Pattern& pattern, const std::vector<Run>& side) {
   return sum;
 }
 
-void turn_over(Pattern& pattern, int index) {
-  Panel& panel = pattern.panels[static_cast<std::size_t>(index)];
-  std::vector<int> renumber; // new index of each old edge
-  int first = 0;
-  for (auto& loop : panel.loops) {
-    const int n = static_cast<int>(loop.size());
-    for (int k = 0; k < n; ++k) renumber.push_back(first + n - 1 - k);
-    first += n;
-    std::reverse(loop.begin(), loop.end());
-    for (PanelEdge& e : loop) {
-      e.path = reversed(e.path);
-      for (Segment& s : e.path)
-        for (Vec2& p : s.p) p.x() = -p.x();
-    }
-  }
-  for (InnerLine& line : panel.lines)
-    for (Segment& s : line.path)
-      for (Vec2& p : s.p) p.x() = -p.x();
-  for (Pleat& pleat : panel.pleats)
-    for (int& e : pleat.edges) e = renumber[static_cast<std::size_t>(e)];
-  panel.grain.x() = -panel.grain.x();
-  for (Notch& n : panel.notches) n.edge = renumber[static_cast<std::size_t>(n.edge)], n.at = 1 - n.at;
-  if (panel.hint.anchor) panel.hint.anchor->x() *= -1;
-  if (panel.hint.rigid) {
-    Mat4 turn = Mat4::Identity();
-    turn(0, 0) = turn(2, 2) = -1; // half a turn about y: the same cloth in the same place, seen from behind
-    panel.hint.rigid = *panel.hint.rigid * turn;
-  }
-  for (Seam& seam : pattern.seams)
-    for (auto* side : {&seam.a, &seam.b})
-      for (Run& run : *side)
-        if (run.panel == index) run.edge = renumber[static_cast<std::size_t>(run.edge)], run.from = 1 - run.from, run.to = 1 - run.to;
-}
-
 namespace {
 
 Vec2 reflect(const Vec2& p, const Vec2& origin, const Vec2& along) {

@@ -94,10 +94,6 @@ struct Pattern {
 double run_length(const Pattern& pattern, const Run& run);
 double side_length(const Pattern& pattern, const std::vector<Run>& side);
 
-/// Mirrors a panel in x (seen from the other side) with all loops reversed, so that loops keep their sense; edge indices and names
-/// stay with their curves, and run directions of seams on this panel are turned with them.
-void turn_over(Pattern& pattern, int panel);
-
 /// Opens a half piece cut on the fold: the fold edge (of the outer loop, straight) goes, its mirror image comes. Names of the edges
 /// given get `suffix`, those of the mirrored half `mirror_suffix`. @return false, with nothing changed, where the edge is no fold
 bool unfold(Panel& panel, int fold_edge, const std::string& suffix, const std::string& mirror_suffix);

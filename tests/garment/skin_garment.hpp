@@ -90,8 +90,8 @@ inline Garment skin_trousers(const body::Body& body, double gap = 0.01, double s
   return skin_garment(body, {Part::TORSO, Part::LEG_L, Part::LEG_R}, body.landmark("ankle_l").y() + 0.03, body.levels.at("waist_semantic").y, gap, strain);
 }
 
-/// A tube around both legs from the waist to the knees, elliptic, `ease` wider than the hips.
-inline Garment tube_skirt(const body::Body& body, double ease = 0.06) {
+/// A tube around both legs from the waist to the knees, elliptic, `ease` wider than the hips; `depth` is half its depth in radii.
+inline Garment tube_skirt(const body::Body& body, double ease = 0.06, double depth = 0.83) {
   const int n = 72, rows = 30;
   const double top = body.levels.at("waist_semantic").y, bottom = body.landmark("knee_l").y();
   const double girth = std::max(body.levels.at("hip").girth_m, body.levels.at("hip_girth_max").girth_m) + ease;
@@ -101,7 +101,7 @@ inline Garment tube_skirt(const body::Body& body, double ease = 0.06) {
   for (int r = 0; r <= rows; ++r)
     for (int c = 0; c < n; ++c) {
       const double a = 2 * M_PI * c / n;
-      position.emplace_back(1.15 * radius * std::sin(a), bottom + (top - bottom) * r / rows, z + 0.83 * radius * std::cos(a));
+      position.emplace_back(1.15 * radius * std::sin(a), bottom + (top - bottom) * r / rows, z + depth * radius * std::cos(a));
     }
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < n; ++c) {

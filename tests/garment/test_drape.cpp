@@ -1,5 +1,6 @@
 #include "drape_scene.hpp"
 
+#include <algorithm>
 #include <base/parallel.hpp>
 #include <garment/audit.hpp>
 #include <garment/drape.hpp>
@@ -32,6 +33,22 @@ TEST(Drape, effects_that_are_off_are_never_called_and_named_with_a_reason) {
     EXPECT_TRUE(e.active || (e.calls == 0 && e.wall_s == 0)) << e.name;
     EXPECT_FALSE(e.active && (e.name == "gravity" || e.name == "body_contact" || e.name == "friction")) << e.name;
     EXPECT_TRUE(e.name != "edge_springs" || e.calls > 0);
+  }
+}
+
+TEST(Drape, after_sewing_the_cloth_breathes_until_its_weight_comes_unless_told_not_to) {
+  const body::Body pillar = make_pillar();
+  for (const bool breathes : {true, false}) {
+    Garment skirt = make_skirt(0.75, 0.3, 0.03);
+    DrapeSettings settings;
+    if (!breathes) settings.effects = "auto,-pressure";
+    const DrapeReport report = drape(skirt, &pillar, settings, silent_reporter());
+    EXPECT_TRUE(report.converged);
+    const auto pressure = std::find_if(report.effects.begin(), report.effects.end(), [](const EffectReport& e) { return e.name == "pressure"; });
+    ASSERT_NE(pressure, report.effects.end());
+    EXPECT_EQ(pressure->active, breathes);
+    EXPECT_EQ(pressure->calls, breathes ? 40 : 0);
+    EXPECT_EQ(pressure->why.find("dents") != std::string::npos, breathes) << pressure->why;
   }
 }
 
