@@ -39,6 +39,7 @@ constexpr int LATE_STEPS = 40;           // in which what stayed back comes home
 constexpr int GLIDE_STEPS = 40;          // after sewing, free of weight and friction, which would keep the strain that sewing left
 constexpr double BREATH = 1;             // weights of the cloth on its area: pressure from within meanwhile, which turns out dents that sewing left
 constexpr int STALLED_STEPS = 400;       // without a residual that is a tenth less, and more than the weight: it will not come to rest
+constexpr int UNMOVED_STEPS = 25;        // one after the other in which nothing can move at all
 constexpr int JUDGE_EVERY = 20;          // steps between looks whether the garment can still fit
 constexpr int STRAINED_STEPS = 80;       // without a strain that is a tenth less: it stays
 constexpr double NEAR_RESIDUAL = 1;      // weights: below, steps may grow faster
@@ -372,6 +373,12 @@ void DrapeRun::settle() {
     } else if (best > 1 && k > m_at.best_at + STALLED_STEPS) {
       m_stopped = true;
       m_report.stop_reason = "no nearer to rest in " + std::to_string(STALLED_STEPS) + " steps";
+      break;
+    }
+    m_at.unmoved = m_at.last.largest_move_m > 0 ? 0 : m_at.unmoved + 1;
+    if (m_at.unmoved >= UNMOVED_STEPS && residual >= m_settings.settle_force_ratio) {
+      m_stopped = true;
+      m_report.stop_reason = "stuck: nothing could move in " + std::to_string(UNMOVED_STEPS) + " steps";
       break;
     }
     if (k > glide() && k % JUDGE_EVERY == 0) judge_fit();
