@@ -322,9 +322,9 @@ void DrapeRun::add_load() {
   if (active("friction") && m_self_contact) m_self_contact->set_friction(material.friction_self);
 }
 
-/// A flared hem that sewing has dented inwards may stay so: a cone turned in is a state of rest too.
+/// A flared hem that sewing has dented inwards may stay so: a cone turned in is a state of rest too. Cloth without seams would fly off.
 void DrapeRun::breathe() {
-  if (m_breath || m_settings.effects.rfind("auto", 0) != 0 || m_settings.effects.find("-pressure") != std::string::npos) return;
+  if (m_breath || !active("sewing") || m_settings.effects.rfind("auto", 0) != 0 || m_settings.effects.find("-pressure") != std::string::npos) return;
   if (!active("pressure")) activate("pressure", "for a moment after sewing: it turns out dents");
   const double weight = material_of(m_garment, "").density_kg_m2 * units::GRAVITY;
   m_breath = &m_solver->emplace<cloth::PressureEffect>(m_cloth->particle_triangles(), BREATH * weight);
