@@ -11,6 +11,10 @@ namespace sloper::garment {
 
 /// Whether some piece of the garment wraps both legs together (skirt, dress) rather than each by itself (trousers): below the
 /// crotch it has cloth, and at most heights none of it lies between the axes of the legs, however far apart the feet stand.
+/// @param positions  #P by 3, m, y up, in the body's frame
+/// @param piece      #P, the connected piece of each particle; `which` of them is asked about
+/// @param crotch_y   m
+/// @return false, too, for a body without legs and for a piece that ends above the crotch. Cost: O(#triangles)
 bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<int>& piece, int which,
                          const BindFrames& frames, double crotch_y);
 
