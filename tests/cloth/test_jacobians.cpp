@@ -3,14 +3,20 @@
 #include "force_checks.hpp"
 
 #include <cloth/attachments.hpp>
+#include <cloth/bending.hpp>
 #include <cloth/body_contact.hpp>
+#include <cloth/dihedral_bending.hpp>
 #include <cloth/edge_spring.hpp>
 #include <cloth/elastic_band.hpp>
 #include <cloth/gravity.hpp>
+#include <cloth/membrane.hpp>
 #include <cloth/pins.hpp>
+#include <cloth/pressure.hpp>
 #include <cloth/self_contact.hpp>
 #include <cloth/sewing_spring.hpp>
 #include <cloth/shear.hpp>
+#include <cloth/triangle_stretch.hpp>
+#include <cloth/wind.hpp>
 
 using namespace sloper;
 using namespace sloper::cloth;
@@ -55,7 +61,49 @@ double jacobian_error(Effect& effect, const ClothMesh& mesh, const Field& x, con
   return error / std::max(scale, 1e-30);
 }
 
+/// The matrix that an effect adds in a step of h seconds, and its force.
+struct Linearised {
+  BlockMatrix matrix;
+  Field force;
+  Field times(const Field& d) const {
+    Field product(d.size());
+    matrix.multiply(d, product);
+    return product;
+  }
+};
+Linearised linearised(Effect& effect, const Field& x, double h) {
+  std::vector<std::array<int, 2>> pairs;
+  effect.declare(pairs);
+  Linearised made{BlockMatrix(static_cast<int>(x.size()), pairs), Field(x.size(), Vec3::Zero())};
+  effect.bind(made.matrix);
+  std::vector<ContactElement> elements;
+  StepContext c{x, h, made.force, made.matrix, elements, nullptr};
+  effect.add(c);
+  return made;
+}
+
+double dot(const Field& a, const Field& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
+  return sum;
+}
+
 Field along(std::size_t n, const Vec3& d) { return Field(n, d); }
+
+/// The damping of an effect at rest is that share of its stiffness, and nothing of its force.
+void expect_damping(Effect& effect, const Field& x, double damping_s) {
+  constexpr double H = 0.02;
+  const Field v = random_field(x.size(), 11);
+  const Linearised still = linearised(effect, x, 1e30), damped = linearised(effect, x, H);
+  const Field k = still.times(v), d = damped.times(v);
+  double scale = 0;
+  for (const Vec3& row : k) scale = std::max(scale, row.norm());
+  ASSERT_GT(scale, 0) << effect.name();
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_LT((d[i] - k[i] - damping_s / H * k[i]).norm(), 1e-9 * scale) << effect.name();
+    EXPECT_EQ(damped.force[i], still.force[i]) << effect.name();
+  }
+}
 
 // Contact leaves out how the way between closest points turns, which is not definite. These scenes have pairs that do not turn.
 
@@ -148,6 +196,78 @@ TEST(Jacobian, of_self_contact_of_edges_that_cross) {
   const ClothMesh mesh = make_cloth_mesh(6, triangles, {Fabric{}});
   SelfContactEffect effect(mesh, {});
   EXPECT_LT(jacobian_error(effect, mesh, x, up, 1e-8), 1e-4);
+}
+
+TEST(Jacobian, of_damping_is_its_time_times_the_stiffness_at_rest) {
+  Fabric fabric;
+  fabric.damping_s = 0.03;
+  const Grid g = make_grid(5, 0.1, fabric);
+  EdgeSpringEffect springs(g.mesh);
+  expect_damping(springs, g.x, fabric.damping_s);
+  TriangleStretchEffect stretch(g.mesh);
+  expect_damping(stretch, g.x, fabric.damping_s);
+  ShearEffect shear(g.mesh);
+  expect_damping(shear, g.x, fabric.damping_s);
+  MembraneEffect membrane(g.mesh);
+  expect_damping(membrane, g.x, fabric.damping_s);
+  BendingEffect bending(g.mesh);
+  expect_damping(bending, g.x, fabric.damping_s);
+  DihedralBendingEffect dihedral(g.mesh);
+  expect_damping(dihedral, g.x, fabric.damping_s);
+}
+
+TEST(Jacobian, of_damping_takes_the_power_with_which_stretched_springs_change_length) {
+  Fabric fabric;
+  fabric.damping_s = 0.03;
+  const Grid g = make_grid(4, 0.1, fabric);
+  EdgeSpringEffect springs(g.mesh);
+  constexpr double H = 0.02, STEP = 1e-6;
+  for (double stretch : {0.8, 1.3}) {
+    Field x = jittered(g.x, 0.002, 12);
+    for (Vec3& p : x) p *= stretch;
+    const Field v = random_field(x.size(), 13);
+    double power = 0; // W
+    for (const EdgeSpring& s : g.mesh.springs) {
+      const double longer = (x[s.j] + STEP * v[s.j] - x[s.i] - STEP * v[s.i]).norm(), shorter = (x[s.j] - STEP * v[s.j] - x[s.i] + STEP * v[s.i]).norm();
+      power += s.stiffness * s.damping_s * std::pow((longer - shorter) / (2 * STEP), 2);
+    }
+    const double taken = H * (dot(v, linearised(springs, x, H).times(v)) - dot(v, linearised(springs, x, 1e30).times(v)));
+    EXPECT_NEAR(taken, power, 1e-6 * power);
+  }
+}
+
+/// Air has no potential: its matrix is minus the derivative of its force by the velocity, over h, with the speeds |q.n| and |q_t| kept.
+TEST(Jacobian, of_wind_makes_its_force_that_of_the_velocity_at_the_steps_end) {
+  const Grid g = make_grid(3, 0.1);
+  const std::vector<Triangle> triangles = g.mesh.particle_triangles();
+  WindOptions options;
+  options.velocity = Vec3(1, 4, -2);
+  WindEffect wind(triangles, options);
+  constexpr double H = 0.02;
+  const Vec3 v(-0.5, 1.5, 0.3); // of all the cloth
+  Field x = jittered(g.x, 0.01, 14);
+  wind.begin_step(x, H);
+  for (Vec3& p : x) p += H * v;
+  wind.begin_step(x, H);
+  const Linearised air = linearised(wind, x, H);
+  const Field carried = air.times(along(9, H * options.velocity)), kept = air.times(along(9, H * v));
+  Field drag(9, Vec3::Zero());
+  for (const Triangle& t : triangles) {
+    const Vec3 cross = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]), n = cross.normalized(), q = options.velocity - v;
+    const Vec3 across = q - q.dot(n) * n;
+    const double share = 0.5 * options.air_density * 0.5 * cross.norm() / 3;
+    for (int k : t) drag[k] += share * (options.normal_drag * std::abs(q.dot(n)) * q.dot(n) * n + options.tangent_drag * across.norm() * across);
+  }
+  for (int i = 0; i < 9; ++i) {
+    EXPECT_LT((air.force[i] - carried[i]).norm(), 1e-12) << "cloth that goes with the air feels it";
+    EXPECT_LT((air.force[i] - kept[i] - drag[i]).norm(), 1e-9 * drag[i].norm());
+  }
+}
+
+TEST(Jacobian, of_pressure_is_left_out) {
+  const Grid g = make_grid(3, 0.1);
+  PressureEffect effect(g.mesh.particle_triangles(), 200);
+  for (const Vec3& row : linearised(effect, g.x, 0.02).times(random_field(9, 15))) EXPECT_EQ(row, Vec3(Vec3::Zero()));
 }
 
 TEST(Jacobian, one_percent_compression_makes_the_papers_whole_matrix_indefinite) {
