@@ -8,6 +8,7 @@
 #include <garment/follow.hpp>
 #include <garment/frame_writer.hpp>
 #include <garment/garment_json.hpp>
+#include <garment/inputs.hpp>
 #include <garment/kes.hpp>
 #include <garment/layers.hpp>
 #include <garment/motion.hpp>
@@ -33,8 +34,6 @@ struct Options {
   double max_seconds = 0, max_error_mm = 0, motion_fps = 30;
   bool untangle_only = false;
 };
-
-io::Json input_entry(const std::string& path) { return {{"file", io::file_name(path)}, {"sha256", io::sha256(io::read_file(path))}}; }
 
 void add_options(cli::Tool& tool, Options& o) {
   tool.option("--scene", o.scene, "scene.json: body, panels, materials, effects, settings; options below override it").check(cli::input_file());
@@ -114,8 +113,9 @@ bool has_goal(const Options& o, const garment::Scene& scene) {
 }
 
 struct Result {
-  io::Json document;       ///< the report
-  std::size_t refused = 0; ///< lines that were no edits
+  io::Json document;                 ///< the report
+  std::size_t refused = 0;           ///< lines that were no edits
+  std::vector<std::string> findings; ///< what does not belong together
 };
 
 /// Drapes, to a goal when there is one, or goes on with a draped garment while edits come.
@@ -139,9 +139,7 @@ garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment:
     return report;
   }
   if (!o.motion.empty()) {
-    const bool bvh = o.motion.size() > 4 && o.motion.substr(o.motion.size() - 4) == ".bvh";
-    const garment::BodyMoves moves =
-        bvh ? garment::moves_of(*body, body::read_bvh(o.motion, *body, 1 / o.motion_fps)) : garment::moves_of_files(*body, o.motion, 1 / o.motion_fps);
+    const garment::BodyMoves moves = garment::read_moves(*body, o.motion, 1 / o.motion_fps);
     garment::FrameWriter write(o.frames, "frame of " + generator_stamp(tool.name()), std::cout);
     garment::DrapeReport report = garment::drape_in_motion(
         garment, *body, moves, settings, [&](const garment::MotionFrame& f, const garment::Garment& g) { write(f, g); }, tool.reporter());
@@ -179,22 +177,20 @@ garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment:
 }
 
 void check_options(const Options& o) {
-  if (!o.follow.empty() && o.from.empty()) throw Error(ErrorKind::USAGE, "", "--follow", "there is no garment to go on from", "give --from shirt.json");
-  if (o.follow.empty() && !((o.frames.empty() || !o.motion.empty()) && o.edit_log.empty()))
-    throw Error(ErrorKind::USAGE, "", o.edit_log.empty() ? "--frames" : "--edit-log", "no edits are followed",
-                o.edit_log.empty() ? "give --follow or --motion too" : "give --follow too");
-  if (!o.motion.empty() && !(o.follow.empty() && o.over.empty() && o.checkpoint.empty() && o.max_error_mm == 0 && !o.untangle_only))
-    throw Error(ErrorKind::USAGE, "", "--motion", "goes with neither --follow, --over, --checkpoint, --max-error-mm nor --untangle-only", "leave them out");
+  const cli::Given follow{"--follow", !o.follow.empty()}, over{"--over", !o.over.empty()}, checkpoint{"--checkpoint", !o.checkpoint.empty()},
+      max_error{"--max-error-mm", o.max_error_mm > 0}, untangle{"--untangle-only", o.untangle_only}, motion{"--motion", !o.motion.empty()};
+  cli::refuse_together(motion, {follow, over, checkpoint, max_error, untangle});
+  cli::refuse_together(untangle, {follow, over, checkpoint, max_error});
+  cli::refuse_together(checkpoint, {over, follow, max_error});
+  cli::refuse_together(over, {follow, max_error});
+  for (const cli::Given& one : {follow, untangle})
+    if (one.second && o.from.empty()) throw Error(ErrorKind::USAGE, "", one.first, "there is no garment to go on from", "give --from shirt.json");
+  if (o.follow.empty() && !o.edit_log.empty()) throw Error(ErrorKind::USAGE, "", "--edit-log", "no edits are followed", "give --follow too");
+  if (o.follow.empty() && o.motion.empty() && !o.frames.empty())
+    throw Error(ErrorKind::USAGE, "", "--frames", "nothing moves", "give --follow or --motion too");
   if (!o.over_output.empty() && o.over_output.size() != o.over.size())
     throw Error(ErrorKind::USAGE, "", "--over-output", "is given " + std::to_string(o.over_output.size()) + " times, --over " + std::to_string(o.over.size()),
                 "name one file for each garment of --over");
-  if (o.untangle_only && o.from.empty()) throw Error(ErrorKind::USAGE, "", "--untangle-only", "there is no garment to untangle", "give --from shirt.json");
-  if (o.untangle_only && !(o.follow.empty() && o.over.empty() && o.checkpoint.empty() && o.max_error_mm == 0))
-    throw Error(ErrorKind::USAGE, "", "--untangle-only", "goes with neither --follow, --over, --checkpoint nor --max-error-mm", "leave them out");
-  if (!o.checkpoint.empty() && !(o.over.empty() && o.follow.empty() && o.max_error_mm == 0))
-    throw Error(ErrorKind::USAGE, "", "--checkpoint", "goes with neither --over, --follow nor --max-error-mm", "leave it out");
-  if (!o.over.empty() && !(o.follow.empty() && o.max_error_mm == 0))
-    throw Error(ErrorKind::USAGE, "", "--over", "goes with neither --follow nor --max-error-mm", "drape the layers first");
 }
 
 /// Writes the report; the exit code.
@@ -202,6 +198,7 @@ int write_report(cli::Tool& tool, const Options& o, const garment::Garment& garm
                  Result& result) {
   io::Json& document = result.document;
   if (!o.report.empty()) {
+    document["findings"] = result.findings;
     document["inputs"] = inputs;
     document["hash"] = {{"strict", garment::strict_hash(garment)}, {"quantised_10um", garment::quantised_hash(garment)}};
     io::write_json(o.report, document);
@@ -216,25 +213,22 @@ int write_report(cli::Tool& tool, const Options& o, const garment::Garment& garm
   return static_cast<int>(ErrorKind::FAILED);
 }
 
-body::Body read_body(const std::string& path, garment::Garment& garment, io::Json& inputs) {
-  inputs.push_back(input_entry(path));
-  body::Body body = body::read_body(path);
-  garment.body_sha256 = io::sha256(io::read_file(io::mesh_path_beside(path)));
-  return body;
-}
-
 /// Goes on from a checkpoint, which knows all but the body.
 int resume(cli::Tool& tool, const Options& o) {
-  const std::pair<const char*, bool> given[] = {
+  const cli::Given given[] = {
       {"--scene", !o.scene.empty()},   {"--accuracy", !o.accuracy.empty()},  {"--effects", !o.effects.empty()},      {"--material", !o.material.empty()},
       {"--set", !o.set.empty()},       {"--over", !o.over.empty()},          {"--max-error-mm", o.max_error_mm > 0}, {"--max-seconds", o.max_seconds > 0},
       {"--follow", !o.follow.empty()}, {"--untangle-only", o.untangle_only}, {"--motion", !o.motion.empty()}};
   for (const auto& [name, is_given] : given)
     if (is_given) throw Error(ErrorKind::USAGE, "", name, "is settled by the checkpoint", "leave it out");
-  io::Json inputs = io::Json::array({input_entry(o.from)});
+  io::Json inputs = io::Json::array({garment::input_entry(o.from)});
   garment::Garment garment;
   body::Body body;
-  if (!o.body.empty()) body = read_body(o.body, garment, inputs);
+  if (!o.body.empty()) {
+    body = body::read_body(o.body);
+    garment.body_sha256 = body::skin_sha256(o.body);
+    inputs.push_back(garment::input_entry(o.body));
+  }
   const garment::DrapeReport report = garment::resume_drape(o.from, garment, o.body.empty() ? nullptr : &body, tool.reporter(), o.checkpoint);
   if (!o.body.empty()) garment::bind_garment(garment, body);
   garment::write_garment(o.output, garment, tool.name());
@@ -259,19 +253,26 @@ int run(cli::Tool& tool, Options& o) {
   const std::string& source = o.from.empty() ? o.panels : o.from;
   if (o.from.empty()) garment.panels = pattern::read_panel_mesh(o.panels), garment.rest_scale = pattern::tape_scales(garment.panels);
   else garment = garment::read_garment(o.from);
-  inputs.push_back(input_entry(source));
+  inputs.push_back(garment::input_entry(source));
   garment::apply_scene(scene, garment);
   if (!o.material.empty()) garment.materials[""] = garment::material_from(o.material);
 
-  body::Body body;
-  if (!o.body.empty()) body = read_body(o.body, garment, inputs);
-  if (!o.motion.empty()) inputs.push_back(input_entry(o.motion));
   std::vector<garment::Garment> layers;
-  for (const std::string& path : o.over) {
-    layers.push_back(garment::read_garment(path));
-    inputs.push_back(input_entry(path));
-  }
+  for (const std::string& path : o.over) layers.push_back(garment::read_garment(path));
+  body::Body body;
   Result result;
+  if (!o.body.empty()) {
+    body = body::read_body(o.body);
+    const std::string skin = body::skin_sha256(o.body);
+    result.findings = garment::start_findings(garment, {source, o.body, skin, !o.from.empty()});
+    for (std::size_t k = 0; k < layers.size(); ++k)
+      for (const std::string& finding : garment::start_findings(layers[k], {o.over[k], o.body, skin, true})) result.findings.push_back(finding);
+    for (const std::string& finding : result.findings) tool.reporter().warning(finding);
+    garment.body_sha256 = skin;
+    inputs.push_back(garment::input_entry(o.body));
+  }
+  if (!o.motion.empty()) inputs.push_back(garment::input_entry(o.motion));
+  for (const std::string& path : o.over) inputs.push_back(garment::input_entry(path));
   const garment::DrapeReport report = drape_or_follow(tool, o, garment, layers, o.body.empty() ? nullptr : &body, scene, settings, result);
   if (!o.body.empty() && o.motion.empty()) garment::bind_garment(garment, body);
 

@@ -113,6 +113,7 @@ int run(cli::Tool& tool, const Options& o) {
   if (!o.write_pattern.empty()) write_pattern(tool, source, o.write_pattern);
   if (o.body.empty()) pattern::lay_flat(source, mesh);
   else {
+    mesh.body_sha256 = body::skin_sha256(o.body);
     const pattern::PlacementReport r = pattern::place_panels(source, body::read_body(o.body), mesh);
     if (r.crossings + r.vertices_inside + r.faces_through > 0)
       tool.reporter().warning("the start is not free: " + std::to_string(r.crossings) + " pairs of triangles cross, " + std::to_string(r.vertices_inside) +

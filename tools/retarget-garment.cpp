@@ -5,6 +5,7 @@
 #include <garment/drape.hpp>
 #include <garment/fit.hpp>
 #include <garment/garment_json.hpp>
+#include <garment/inputs.hpp>
 #include <garment/retarget.hpp>
 #include <garment/retarget_pattern.hpp>
 #include <garment/scene.hpp>
@@ -44,8 +45,6 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.formats("garment, body and fit policy documents (version 1)", "garment, fit and report documents (version 1), OBJ");
   tool.example("retarget-garment --garment shirt.json --to other.body.json --mode keep-fit -o shirt-b.json", "make the shirt over for another body");
 }
-
-io::Json input_entry(const std::string& path) { return {{"file", io::file_name(path)}, {"sha256", io::sha256(io::read_file(path))}}; }
 
 void write_fit(const Options& o, const garment::FitReport& fit, const std::string& tool, bool converged, const io::Json& inputs) {
   if (!o.fit.empty()) {
@@ -90,7 +89,8 @@ int run(cli::Tool& tool, const Options& o) {
   const garment::Garment source = garment::read_garment(o.garment);
   if (source.bind.empty()) throw input_error(o.garment, "/bind", "the garment is not bound to a body", "drape it with --body first");
   const body::Body body = body::read_body(o.to);
-  const io::Json inputs = {input_entry(o.garment), input_entry(o.to)};
+  const std::string skin_hash = body::skin_sha256(o.to);
+  const io::Json inputs = {garment::input_entry(o.garment), garment::input_entry(o.to)};
   if (const std::string reason = garment::why_impossible(source, body); !reason.empty()) {
     const garment::FitReport fit = garment::impossible_fit(reason, policy);
     write_fit(o, fit, tool.name(), false, inputs);
@@ -100,7 +100,7 @@ int run(cli::Tool& tool, const Options& o) {
 
   garment::Retargeted placed = garment::retarget(source, body, skin, mode, tool.reporter());
   garment::Garment& garment = placed.garment;
-  garment.body_sha256 = io::sha256(io::read_file(io::mesh_path_beside(o.to)));
+  garment.body_sha256 = skin_hash;
   if (!o.pattern.empty()) write_pattern(tool, o, garment, source);
   garment::FitReport fit;
   if (!o.no_drape) fit = garment::fit_before_drape(garment, source.position, body, policy);

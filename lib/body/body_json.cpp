@@ -216,6 +216,15 @@ Body read_body(const std::string& path) {
   return body;
 }
 
+std::string skin_sha256(const std::string& path) {
+  const Json document = io::read_document(path, "body", BODY_VERSION);
+  const io::Node root(document, path);
+  if (!root.has("mesh") || !root.at("mesh").is_string())
+    throw input_error(path, "/mesh", "the body was written without its skin, which cloth would hang on",
+                      "give one that scan-landmarks wrote to a file and without --anonymise");
+  return io::sha256(io::read_file(io::file_beside(root.at("mesh"))));
+}
+
 namespace {
 
 /// Faces in order of part, so that every part is one group.

@@ -108,8 +108,10 @@ void merge_tree(Tree& tree, const io::Node& table, bool may_add) {
 void merge(Numbers& numbers, Tree& tree, const std::string& text, const std::string& name, bool may_add) {
   const io::Json document = io::parse_json(text, name);
   const io::Node root(document, name);
+  if (const std::string format = root.string("format", ""); format != "landmark-rules")
+    root.fail(format.empty() ? "is not a landmark-rules document" : "is a \"" + format + "\" document",
+              "give rules as lib/body/rules/standard.json has them, with \"format\": \"landmark-rules\"");
   root.allow_only({"format", "version", "numbers", "tree"});
-  if (root.string("format", "") != "landmark-rules") root.fail("is not a landmark-rules document", "its \"format\" must be \"landmark-rules\"");
   if (root.integer("version", 1) > 1) root.fail("is of a newer version than this program reads (1)");
   if (!root.has("numbers") && !root.has("tree")) root.fail("has neither \"numbers\" nor \"tree\"");
   if (root.has("numbers")) merge_numbers(numbers, root.at("numbers"), may_add);

@@ -65,4 +65,10 @@ Check one_of(const std::vector<std::string>& words) {
   return {"one_of", joined, check};
 }
 
+void refuse_together(const Given& one, std::initializer_list<Given> others) {
+  if (!one.second) return;
+  for (const auto& [name, given] : others)
+    if (given) throw Error(ErrorKind::USAGE, "", one.first, std::string("does not go with ") + name, "leave one of them out");
+}
+
 } // namespace sloper::cli

@@ -28,6 +28,11 @@ Check output_file();
 /// One of some words; the complaint suggests the nearest. Shown as a|b|c and offered by the completion.
 Check one_of(const std::vector<std::string>& words);
 
+/// An option and whether it is given.
+using Given = std::pair<const char*, bool>;
+/// @throws Error USAGE when `one` is given together with any of `others`, naming both
+void refuse_together(const Given& one, std::initializer_list<Given> others);
+
 /// A declared option, to say more of it: tool.option(...).required().check(input_file()).
 class Option {
 public:

@@ -91,4 +91,8 @@ BodyMoves moves_of_files(const body::Body& body, const std::string& first_file, 
   return moves;
 }
 
+BodyMoves read_moves(const body::Body& body, const std::string& file, double frame_s) {
+  return file.ends_with(".bvh") ? moves_of(body, body::read_bvh(file, body, frame_s)) : moves_of_files(body, file, frame_s);
+}
+
 } // namespace sloper::garment

@@ -25,6 +25,9 @@ BodyMoves moves_of(const body::Body& body, const body::Motion& motion);
 /// straight lead-in. Files are read as they are needed. @throws Error INPUT for a file without number, or of other vertices or faces than the body's
 BodyMoves moves_of_files(const body::Body& body, const std::string& first_file, double frame_s);
 
+/// Either of them by the file's name: a BVH motion, or the first of a numbered sequence of skins. @throws Error INPUT
+BodyMoves read_moves(const body::Body& body, const std::string& file, double frame_s);
+
 /// One frame of the cloth, with what an exact audit of it found.
 struct MotionFrame {
   int number = 0;    ///< from 1

@@ -37,13 +37,23 @@ struct MeshSeam {
   double length_a = 0, length_b = 0; ///< m, in the pattern
 };
 
+/// How the start positions came about.
+enum class Placement {
+  UNKNOWN, ///< a document of an older program, or made by hand
+  FLAT,    ///< side by side: no body was given
+  STATED,  ///< in the pattern itself
+  BODY     ///< around a body
+};
+
 struct PanelMesh {
   std::string name;       ///< of the pattern
   double edge_length = 0; ///< m, asked for
   double seam_length = 0; ///< m, asked for along seams and darts; 0 where the same
   std::vector<PanelInfo> panels;
-  std::vector<Vec2> pattern;             ///< #V by 2, m: vt
-  std::vector<Vec3> placed;              ///< #V by 3, m, start position in the world (body frame)
+  std::vector<Vec2> pattern; ///< #V by 2, m: vt
+  std::vector<Vec3> placed;  ///< #V by 3, m, start position in the world (body frame)
+  Placement placement = Placement::UNKNOWN;
+  std::string body_sha256;               ///< of the skin that they were placed around, or empty
   std::vector<StableId> ids;             ///< #V
   std::vector<Triangle> triangles;       ///< #F by 3, global
   std::vector<MeshSeam> seams;           ///< stitches are the pairs (a[i], b[i])

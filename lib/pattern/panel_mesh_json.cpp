@@ -26,6 +26,15 @@ std::vector<int> vertex_list(const io::Node& node, std::size_t n_vertices) {
   return out;
 }
 
+/// In the order of Placement; UNKNOWN is not written.
+const char* const PLACEMENTS[] = {"", "flat", "stated", "body"};
+
+Placement placement_of(const io::Node& by) {
+  for (const Placement p : {Placement::FLAT, Placement::STATED, Placement::BODY})
+    if (by.string() == PLACEMENTS[static_cast<int>(p)]) return p;
+  return Placement::UNKNOWN;
+}
+
 } // namespace
 
 void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std::string& tool) {
@@ -39,6 +48,8 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
   doc["mesh"] = io::file_name(mesh_path);
   doc["edge_length"] = mesh.edge_length;
   if (mesh.seam_length > 0) doc["seam_edge_length"] = mesh.seam_length;
+  if (mesh.placement != Placement::UNKNOWN) doc["placement"] = {{"by", PLACEMENTS[static_cast<int>(mesh.placement)]}};
+  if (!mesh.body_sha256.empty()) doc["placement"]["body_sha256"] = mesh.body_sha256;
   io::Json panels = io::Json::array();
   for (std::size_t k = 0; k < mesh.panels.size(); ++k) {
     const PanelInfo& p = mesh.panels[k];
@@ -83,6 +94,10 @@ PanelMesh read_panel_mesh(const std::string& path) {
   mesh.name = doc.string("name", "");
   mesh.edge_length = doc.number("edge_length", 0), mesh.seam_length = doc.number("seam_edge_length", 0);
   mesh.placed = obj.positions, mesh.pattern = obj.texture, mesh.triangles = obj.triangles;
+  if (doc.has("placement")) {
+    mesh.placement = placement_of(doc.at("placement").at("by"));
+    mesh.body_sha256 = doc.at("placement").string("body_sha256", "");
+  }
   const std::size_t n = mesh.placed.size();
   if (mesh.pattern.size() != n)
     doc.at("mesh").fail("the mesh has " + std::to_string(n) + " v and " + std::to_string(mesh.pattern.size()) + " vt",

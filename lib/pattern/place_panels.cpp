@@ -136,6 +136,7 @@ void Placer::measure_gaps(PlacementReport& report) const {
 }
 
 PlacementReport place_panels(const Pattern& pattern, const body::Body& body, PanelMesh& mesh) {
+  mesh.placement = Placement::BODY;
   // Pleats are laid before the panels are: their cloth is where it will be sewn.
   const Folding folding = fold_panels(pattern, mesh);
   if (folding.shift.empty()) return Placer(pattern, body, mesh, folding).run();
@@ -148,6 +149,7 @@ PlacementReport place_panels(const Pattern& pattern, const body::Body& body, Pan
 
 void lay_flat(const Pattern& pattern, PanelMesh& mesh) {
   const bool stated = std::all_of(pattern.panels.begin(), pattern.panels.end(), [](const Panel& p) { return p.hint.rigid.has_value(); });
+  mesh.placement = stated ? Placement::STATED : Placement::FLAT;
   if (stated) return;
   double x = 0;
   for (const PanelInfo& info : mesh.panels) {

@@ -14,7 +14,7 @@ struct PlacementReport {
   double seam_gap_mean = 0, seam_gap_max = 0; ///< m
 };
 
-/// Fills mesh.placed and PanelInfo::part; adds to mesh.findings what could not be made free.
+/// Fills mesh.placed, mesh.placement and PanelInfo::part; adds to mesh.findings what could not be made free.
 /// @param pattern the one that `mesh` was made from
 /// @throws Error INPUT when the body lacks the landmarks a panel needs
 PlacementReport place_panels(const Pattern& pattern, const body::Body& body, PanelMesh& mesh);

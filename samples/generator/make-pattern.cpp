@@ -1,8 +1,10 @@
 /// Drafts a sewing pattern from body measures: shirt, tshirt, skirt or trousers.
 #include "mannequin.hpp"
 #include "measures.hpp"
+#include <algorithm>
 #include <base/error.hpp>
 #include <cli/run_tool.hpp>
+#include <cstdio>
 
 using namespace sloper;
 
@@ -37,6 +39,19 @@ void set_measures(const std::vector<std::string>& texts, samples::Measures& meas
   }
 }
 
+/// Which measures are nobody's own, with their values.
+std::string standard_measures(const std::vector<std::string>& given) {
+  const samples::Measures standard;
+  std::string list;
+  for (const auto& [name, member] : samples::measure_names()) {
+    const bool own = std::any_of(given.begin(), given.end(), [n = name](const std::string& text) { return text.rfind(n + "=", 0) == 0; });
+    char value[32];
+    std::snprintf(value, sizeof value, " %.1f", 100 * standard.*member);
+    if (!own) list += (list.empty() ? "" : ", ") + name + value;
+  }
+  return list.empty() ? "all measures are those of --measure" : "what --measure does not say is of a standard figure, in cm: " + list;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -60,6 +75,7 @@ int main(int argc, char** argv) {
     if (!body.empty()) measures = samples::measures_from_body(io::read_json(body), body);
     else if (!preset.empty()) measures = samples::measures_from_body(samples::make_mannequin(samples::preset(preset)).truth, preset);
     set_measures(given, measures);
+    if (body.empty() && preset.empty()) tool.reporter().warning("no --body is given: " + standard_measures(given));
     const samples::Draft made = draft(garment, measures);
     if (const std::vector<std::string> faults = samples::draft_faults(made); !faults.empty())
       throw Error(ErrorKind::FAILED, body, garment, "these measures give a faulty draft: " + faults.front(), "check the measures");

@@ -74,3 +74,21 @@ case_untangling_and_motion_say_what_they_need() {
   for k in 1 2 3; do cp a.body.obj "skins/s.000$k.obj"; done
   run "0|4" "$program" -q "${skirt[@]}" --accuracy draft --set max_steps=10 --motion skins/s.0001.obj --frames walk -o out.json
 }
+
+case_what_belongs_to_another_body_is_told() {
+  local two=(--accuracy draft --set max_steps=2 --report report.json -o out.json)
+  run 4 "$program" --body "$data/b.body.json" --panels panels.json "${two[@]}"
+  says "the panels of panels.json were placed around another body than b.body.json; place them with pattern-mesh --body b.body.json"
+  grep -q '"the panels of panels.json were placed around another body' report.json || fail "the report has no finding"
+  run 4 "$program" --body "$data/b.body.json" --from "$data/skirt.json" "${two[@]}"
+  says "skirt.json hung on another body than b.body.json"
+  "$(dirname "$program")/pattern-mesh" -q --edge-length 0.05 -o flat.json "$data/skirt.pattern.json"
+  run 4 "$program" --body a.body.json --panels flat.json "${two[@]}"
+  says "the panels of flat.json lie flat, around no body"
+  cp a.body.json renamed.json # the same skin
+  run 4 "$program" --body renamed.json --panels panels.json "${two[@]}"
+  if grep -q "another body" stderr; then fail "told of the same body"; fi
+  "$(dirname "$program")/scan-landmarks" -q --anonymise -o bare.json "$data/a.obj"
+  run 3 "$program" --body bare.json --panels panels.json "${two[@]}"
+  says "the body was written without its skin"
+}

@@ -13,3 +13,9 @@ case_a_scan_is_never_written_over() {
   cmp "$scan" before || fail "the scan is another one"
   [[ ! -e out.json && ! -e other.json ]] || fail "something was written"
 }
+
+case_rules_of_another_kind_are_told_as_such() {
+  run 3 "$program" --rules "$data/a.body.json" -o out.json a.ply
+  says 'is a "body" document; give rules as'
+  [[ ! -e out.json ]] || fail "something was written"
+}

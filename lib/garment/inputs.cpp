@@ -1,0 +1,22 @@
+#include <garment/inputs.hpp>
+#include <io/files.hpp>
+#include <io/json.hpp>
+
+namespace sloper::garment {
+
+io::Json input_entry(const std::string& path) { return {{"file", io::file_name(path)}, {"sha256", io::sha256(io::read_file(path))}}; }
+
+std::vector<std::string> start_findings(const Garment& garment, const Start& start) {
+  const std::string file = io::file_name(start.file), body = io::file_name(start.body);
+  if (start.draped) {
+    if (garment.body_sha256.empty() || garment.body_sha256 == start.skin_sha256) return {};
+    return {file + " hung on another body than " + body + ", which it may lie inside of; retarget-garment --to " + body + " places it"};
+  }
+  const std::string place = "; place them with pattern-mesh --body " + body;
+  if (garment.panels.placement == pattern::Placement::FLAT) return {"the panels of " + file + " lie flat, around no body" + place};
+  const std::string& around = garment.panels.body_sha256;
+  if (around.empty() || around == start.skin_sha256) return {};
+  return {"the panels of " + file + " were placed around another body than " + body + place};
+}
+
+} // namespace sloper::garment
