@@ -37,6 +37,36 @@ void keep_lines(Panel& panel, const std::function<bool(const InnerLine&)>& pass)
 /// `wanted`, or `wanted` with a number where the panel has an edge of this name.
 std::string free_edge_name(const Panel& panel, const std::string& wanted);
 
+inline constexpr double AT_CORNER = 2e-4; ///< m: nearer than this to an edge's end is its end
+
+/// An edge of the outer loop while the loop is taken apart.
+struct Piece {
+  PanelEdge edge;
+  Origin origin;
+};
+
+/// A panel's outer loop, taken apart.
+std::vector<Piece> pieces_of(const Panel& panel);
+const Vec2& start_of(const Piece& piece);
+const Vec2& end_of(const Piece& piece);
+/// A new edge, which comes from nowhere.
+Piece straight(const std::string& name, const Vec2& a, const Vec2& b);
+/// Cuts a piece at a fraction of its length; the parts are named name_1 and name_2.
+std::pair<Piece, Piece> cut_piece(const Piece& piece, double at);
+/// Makes sure that a corner lies at a fraction of a piece. @return the index of the piece that starts there
+std::size_t corner_at(std::vector<Piece>& pieces, std::size_t k, double at);
+/// The pieces from one to before another, around the loop.
+std::vector<Piece> walk(const std::vector<Piece>& pieces, std::size_t from, std::size_t to);
+/// Indices of the loops that are holes.
+std::vector<std::size_t> all_holes(const Panel& panel);
+/// A panel `like` another with this outer loop and those of its holes.
+Rebuilt rebuilt(const Panel& like, const std::vector<Piece>& outer, const std::vector<std::size_t>& holes);
+
+/// The edge of the outline that an edit names. @throws Error INPUT
+int outer_edge(const Panel& panel, const io::Node& node, const char* key);
+/// A number from 0 to 1. @throws Error INPUT
+double fraction(const io::Node& node, const char* key);
+
 /// The edits that change what edges and panels there are; `unit` is m per unit of the document.
 void split_panel(Pattern& pattern, const io::Node& node, double unit); ///< split, cut
 void add_point(Pattern& pattern, const io::Node& node);                ///< add-point

@@ -122,8 +122,9 @@ TEST(Mesh, TenThousandVerticesTakeATenthOfASecondOfCpu) {
 }
 
 TEST(Mesh, DocumentReadsBackAsItWasWritten) {
-  const PanelMesh mesh = mesh_pattern(own(tube_text()), 0.03, "test.json");
+  PanelMesh mesh = mesh_pattern(own(tube_text()), 0.03, "test.json");
   const std::string path = (std::filesystem::temp_directory_path() / ("sloper_panels_" + std::to_string(::getpid()) + ".json")).string();
+  mesh.placement = Placement::BODY, mesh.body_sha256 = "of a skin";
   write_panel_mesh(path, mesh, "test");
   const PanelMesh back = read_panel_mesh(path);
   EXPECT_EQ(back.name, mesh.name);
@@ -133,6 +134,8 @@ TEST(Mesh, DocumentReadsBackAsItWasWritten) {
     EXPECT_EQ(back.placed[v], mesh.placed[v]);
     EXPECT_EQ(back.ids[v].s, mesh.ids[v].s);
   }
+  EXPECT_EQ(back.placement, Placement::BODY);
+  EXPECT_EQ(back.body_sha256, mesh.body_sha256);
   EXPECT_EQ(back.triangles, mesh.triangles);
   ASSERT_EQ(back.seams.size(), mesh.seams.size());
   for (std::size_t s = 0; s < mesh.seams.size(); ++s) {

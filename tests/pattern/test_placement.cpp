@@ -456,6 +456,7 @@ TEST(Placement, WithoutABodyPanelsLieFlatAndSaySo) {
   const Pattern pattern = box_shirt();
   PanelMesh mesh = mesh_pattern(pattern, 0.03, "t");
   lay_flat(pattern, mesh);
+  EXPECT_EQ(mesh.placement, Placement::FLAT);
   for (const Vec3& p : mesh.placed) EXPECT_EQ(p.z(), 0);
   EXPECT_NE(mesh.findings.back().find("lie flat"), std::string::npos);
 }
