@@ -44,7 +44,8 @@ void add_options(cli::Tool& tool, Options& o) {
               "a draped garment that this one goes over; repeated from the skin outwards. Inner cloth is tucked in where it lies outside, then all "
               "come to rest together")
       .check(cli::input_file());
-  tool.option("--over-output", o.over_output, "write the garments of --over as they lie below this one; as many, in the same order").check(cli::output_file());
+  tool.option("--over-output", o.over_output, "write the garments of --over as they lie below this one; as many, in the same order")
+      .check(cli::document_file());
   tool.option("--accuracy", o.accuracy, "how exact, and how long it takes (default: standard)").check(cli::one_of(garment::accuracy_names()));
   tool.option("--effects", o.effects, "auto, auto with changes (auto,membrane,-friction), or exactly those of a list (default: auto)").type_name("LIST");
   tool.option("--material", o.material,
@@ -78,7 +79,7 @@ void add_options(cli::Tool& tool, Options& o) {
       .check(cli::output_file());
   tool.option("--checkpoint-steps", o.checkpoint_steps, "steps from one checkpoint to the next; part of the result (default: 100)")
       .check(cli::finite_in(1, 1e6, "steps"));
-  tool.option("-o,--output", o.output, "shirt.json; shirt.obj is written beside it").required().check(cli::output_file());
+  tool.option("-o,--output", o.output, "shirt.json; shirt.obj is written beside it").required().check(cli::document_file());
   tool.example("drape --body body.json --panels panels.json --report report.json -o shirt.json", "drape a sewn pattern on a scanned body");
   tool.formats("scene, body, panels and garment documents (version 1)", "garment and report documents (version 1), OBJ");
   tool.example("drape --from shirt.json --body body.json --follow edits.jsonl --frames - -o edited.json", "change the pattern and watch the cloth follow");
@@ -203,7 +204,9 @@ int write_report(cli::Tool& tool, const Options& o, const garment::Garment& garm
     document["hash"] = {{"strict", garment::strict_hash(garment)}, {"quantised_10um", garment::quantised_hash(garment)}};
     io::write_json(o.report, document);
   }
-  if (result.refused > 0) tool.reporter().warning(std::to_string(result.refused) + " lines were no edits of this pattern and changed nothing");
+  if (result.refused > 0)
+    tool.reporter().warning(std::to_string(result.refused) + (result.refused == 1 ? " line was no edit" : " lines were no edits") +
+                            " of this pattern and changed nothing");
   if (document.contains("accuracy") && report.converged && !document["accuracy"]["met"].get<bool>()) {
     tool.reporter().warning("at rest, but not within --max-error-mm; see \"accuracy\" in the report; the state reached is in " + o.output);
     return static_cast<int>(ErrorKind::FAILED);
@@ -247,6 +250,7 @@ int run(cli::Tool& tool, Options& o) {
                 "give --panels panels.json or --from shirt.json");
   const garment::DrapeSettings settings = resolve(o, scene);
   if (!o.motion.empty() && o.body.empty()) throw Error(ErrorKind::USAGE, "", "--motion", "there is no body to move", "give --body body.json");
+  if (!o.over.empty() && o.body.empty()) throw Error(ErrorKind::USAGE, "", "--over", "there is no body that layers could lie on", "give --body body.json");
 
   io::Json inputs = io::Json::array();
   garment::Garment garment;

@@ -145,7 +145,7 @@ int main(int argc, char** argv) {
   tool.option("--write-pattern", o.write_pattern,
               "write the pattern as read and edited: FILE.json (own format), FILE.dxf (AAMA with sewing texts) or FILE.svg (to look at)")
       .check(cli::output_file());
-  tool.option("-o,--output", o.output, "panels.json; panels.obj is written beside it").check(cli::output_file());
+  tool.option("-o,--output", o.output, "panels.json; panels.obj is written beside it").check(cli::document_file());
   tool.flag("--check", o.check,
             "validate only: findings and finished measures to standard output (as JSON or SARIF to -o FILE.json or FILE.sarif), exit 1 where the pattern "
             "cannot be sewn as drawn");

@@ -40,7 +40,7 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.option("--set", o.set, "one setting of the re-drape").type_name("KNOB=VALUE");
   tool.option("--max-seconds", o.max_seconds, "stop after this wall time, s, with the best state so far (exit 4)").check(cli::finite_in(0, 1e6, "s"));
   tool.flag("--no-drape", o.no_drape, "only place the garment by its coordinates, without a drape");
-  tool.option("-o,--output", o.output, "shirt-b.json; shirt-b.obj is written beside it").required().check(cli::output_file());
+  tool.option("-o,--output", o.output, "shirt-b.json; shirt-b.obj is written beside it").required().check(cli::document_file());
   tool.example("retarget-garment --garment shirt.json --to other.body.json --fit fit.json -o shirt-b.json", "put a shirt on another body and see how it fits");
   tool.formats("garment, body and fit policy documents (version 1)", "garment, fit and report documents (version 1), OBJ");
   tool.example("retarget-garment --garment shirt.json --to other.body.json --mode keep-fit -o shirt-b.json", "make the shirt over for another body");
@@ -76,7 +76,6 @@ void write_pattern(cli::Tool& tool, const Options& o, const garment::Garment& re
 
 int run(cli::Tool& tool, const Options& o) {
   const garment::RetargetMode mode = garment::retarget_mode_from_name(o.mode);
-  if (o.output == "-") throw Error(ErrorKind::USAGE, "", "-o", "a garment is two files and cannot go to standard output", "give a file name");
   if (!o.pattern.empty() && mode != garment::RetargetMode::KEEP_FIT)
     throw Error(ErrorKind::USAGE, "", "--pattern", "keep-fabric does not change the pattern", "say --mode keep-fit");
   if (o.pattern == "-")

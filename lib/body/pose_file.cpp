@@ -13,6 +13,13 @@ namespace sloper::body {
 
 namespace {
 
+/// A word of the file, cut where it is endless.
+std::string quoted(std::string_view word) {
+  std::string out(1, '"');
+  out += word.substr(0, 30);
+  return out += '"';
+}
+
 using Eigen::Quaterniond;
 
 constexpr int MAX_JOINTS = 2000, MAX_FRAMES = 2'000'000;
@@ -52,7 +59,7 @@ public:
     return word;
   }
   void expect(const char* wanted) {
-    if (const std::string_view word = must(); word != wanted) fail("\"" + std::string(word.substr(0, 30)) + "\" where \"" + wanted + "\" should stand");
+    if (const std::string_view word = must(); word != wanted) fail(quoted(word) + " where " + quoted(wanted) + " should stand");
   }
   double number() {
     std::string_view word = must();
@@ -60,7 +67,7 @@ public:
     double x = 0;
     const auto result = std::from_chars(word.data(), word.data() + word.size(), x);
     if (word.empty() || result.ec != std::errc() || result.ptr != word.data() + word.size() || !std::isfinite(x))
-      fail("\"" + std::string(word.substr(0, 30)) + "\" is not a finite number");
+      fail(quoted(word) + " is not a finite number");
     return x;
   }
   int count(int most, const char* what) {
@@ -117,7 +124,7 @@ Bvh parse(std::string_view text, const std::string& name) {
         static const char* names[] = {"Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation"};
         const std::string_view channel = words.must();
         const auto* it = std::find(std::begin(names), std::end(names), channel);
-        if (it == std::end(names)) words.fail("\"" + std::string(channel.substr(0, 30)) + "\" is no BVH channel");
+        if (it == std::end(names)) words.fail(quoted(channel) + " is no BVH channel");
         bvh.joints[open.back()].channels.push_back(static_cast<int>(it - std::begin(names)));
       }
       bvh.joints[open.back()].first_channel = bvh.n_channels;
@@ -130,7 +137,7 @@ Bvh parse(std::string_view text, const std::string& name) {
       words.expect("{");
       if (open.back() < 0) words.fail("an end site within an end site");
       open.push_back(-1);
-    } else words.fail("\"" + std::string(word.substr(0, 30)) + "\" is not expected in a hierarchy");
+    } else words.fail(quoted(word) + " is not expected in a hierarchy");
   }
   words.expect("MOTION");
   words.expect("Frames:");
@@ -169,7 +176,7 @@ std::string plain_name(std::string name) {
 int find_joint(const Bvh& bvh, std::initializer_list<const char*> names, bool left) {
   for (const char* wanted : names) {
     std::string name = wanted;
-    if (!left) name = name[0] == 'l' && name.starts_with("left") ? "right" + name.substr(4) : "r" + name.substr(1);
+    if (!left) name.replace(0, name.starts_with("left") ? 4 : 1, name.starts_with("left") ? "right" : "r");
     for (std::size_t j = 0; j < bvh.joints.size(); ++j)
       if (!bvh.joints[j].name.empty() && plain_name(bvh.joints[j].name) == name) return static_cast<int>(j);
   }

@@ -136,7 +136,7 @@ std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane, const std::v
   std::vector<Loop> loops(is_open.size());
   for (std::size_t k = 0; k < loops.size(); ++k) loops[k].closed = !is_open[k];
   std::vector<std::size_t> sizes(loops.size(), 0);
-  for (const int n : number) ++sizes[n];
+  for (const int loop : number) ++sizes[loop];
   for (std::size_t k = 0; k < loops.size(); ++k) loops[k].segments.reserve(sizes[k]);
   for (std::size_t i = 0; i < cuts.size(); ++i) loops[number[i]].segments.push_back({cuts[i].a, cuts[i].b});
   for (Loop& loop : loops) measure_loop(loop);

@@ -50,6 +50,13 @@ Check output_file() {
   return {"output_file", "FILE", check};
 }
 
+Check document_file() {
+  auto check = [](const std::string& path) -> std::string {
+    return path.empty() ? "an empty file name" : path == "-" ? "the document has a mesh beside it and cannot go to standard output; name a file" : "";
+  };
+  return {"output_file", "FILE", check};
+}
+
 Check one_of(const std::vector<std::string>& words) {
   std::string joined;
   for (const std::string& word : words) joined += (joined.empty() ? "" : "|") + word;

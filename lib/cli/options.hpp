@@ -25,6 +25,8 @@ Check finite_in(double low, double high, const std::string& unit);
 Check input_file();
 /// A file to be written, or "-". Tool::run checks its folder before the work starts: exit 5.
 Check output_file();
+/// A document with a mesh beside it, which cannot go to standard output.
+Check document_file();
 /// One of some words; the complaint suggests the nearest. Shown as a|b|c and offered by the completion.
 Check one_of(const std::vector<std::string>& words);
 

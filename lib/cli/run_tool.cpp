@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 #include <new>
 
 namespace sloper::cli {
@@ -246,6 +247,15 @@ static int parse_and_run(CLI::App& app, const std::vector<std::string>& words, c
   return code;
 }
 
+/// What was printed must have gone out: a full disk is told, a reader that left is no error.
+static void finish_output() {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return;
+  struct stat info {};
+  if (fstat(STDOUT_FILENO, &info) == 0 && (S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode))) return;
+  throw Error(ErrorKind::OUTPUT, "standard output", "", std::string("cannot write: ") + std::strerror(errno));
+}
+
 int Tool::run(int argc, char** argv, const std::function<int()>& body) {
   Impl& m = *m_impl;
   install_signal_handlers();
@@ -268,6 +278,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& body) {
     };
     const int code = parse_and_run(m.app, words, m.examples, m.reporter, parsed, body);
     m.reporter.clear_line();
+    finish_output();
     return code;
   } catch (const Error& error) {
     m.reporter.error((error.kind() == ErrorKind::INTERNAL ? "our bug: " : "") + std::string(error.what()));

@@ -18,6 +18,7 @@ static void on_stop_signal(int) { g_stop = 1; }
 
 void install_signal_handlers() {
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN); // a limit on file sizes is then an error of writing like a full disk
   struct sigaction action {};
   action.sa_handler = on_stop_signal;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
@@ -83,9 +84,9 @@ void ToolReporter::progress(const std::string& phase, double fraction) {
   std::string text = m_tool + ": " + phase;
   if (fraction >= 0) {
     fraction = std::min(fraction, 1.0);
-    text += " " + std::to_string(std::lround(100 * fraction)) + " %";
+    text.append(" ").append(std::to_string(std::lround(100 * fraction))).append(" %");
     const double elapsed = std::chrono::duration<double>(now - m_phase_start).count();
-    if (fraction > 0.02 && fraction < 1 && elapsed > 1) text += ", " + clock_text(elapsed * (1 - fraction) / fraction) + " left";
+    if (fraction > 0.02 && fraction < 1 && elapsed > 1) text.append(", ").append(clock_text(elapsed * (1 - fraction) / fraction)).append(" left");
   }
   std::fprintf(stderr, "\r\033[K%s", text.c_str());
   std::fflush(stderr);

@@ -106,6 +106,7 @@ private:
     if (line.find_first_not_of(" \t") == std::string::npos) return;
     try {
       const std::string place = "line " + std::to_string(m_line);
+      if (!line.starts_with('{')) throw input_error(place, "", "is no JSON object", R"(write an edit such as {"edit": "scale", ...} on one line)");
       io::Json json = io::parse_json(line, place);
       const io::Node node(json, place);
       if (!node.is_object()) node.fail("a line is a head or an edit");

@@ -85,7 +85,7 @@ Scene read_scene(const std::string& path) {
     const io::Node effects = root.at("effects");
     if (effects.is_string()) scene.effects = effects.string();
     else
-      for (std::size_t i = 0; i < effects.size(); ++i) scene.effects += (i ? "," : "") + effects.at(i).string();
+      for (std::size_t i = 0; i < effects.size(); ++i) scene.effects.append(i ? "," : "").append(effects.at(i).string());
   }
   scene.extras = read_scene_effects(root);
   if (root.has("materials"))

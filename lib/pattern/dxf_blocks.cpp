@@ -60,7 +60,8 @@ public:
     std::string_view digits = value;
     if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
-    if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(x)) fail("'" + utf8(value.substr(0, 40)) + "' is no number");
+    if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(x))
+      fail(std::string("'").append(utf8(value.substr(0, 40))).append("' is no number"));
     return x;
   }
   [[noreturn]] void fail(const std::string& fact) const { throw input_error(m_file, "line " + std::to_string(m_line), fact, "give a text DXF"); }

@@ -287,8 +287,9 @@ Vec2 snapped(const Vec2& p) { return {std::nearbyint(p.x() / GRID) * GRID, std::
 
 void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file) {
   const io::Node root(json, file);
+  if (const std::string format = root.at("format").string(); format != "edits")
+    root.at("format").fail("is a \"" + format + "\" document, not edits", "write \"format\": \"edits\"");
   root.allow_only({"format", "version", "generator", "length_unit", "edits"});
-  if (root.at("format").string() != "edits") root.at("format").fail("this is no edits document", "write \"format\": \"edits\"");
   if (root.integer("version", 1) > 1) root.at("version").fail("the version is newer than this program knows", "update, or write version 1");
   const double unit = unit_of(root.at("length_unit"));
   const auto onto_grid = [&] { // after each edit, so that a log in one piece and in many gives the same

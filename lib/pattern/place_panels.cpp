@@ -161,7 +161,7 @@ void lay_flat(const Pattern& pattern, PanelMesh& mesh) {
     }
     x += high.x() - low.x() + 0.05;
   }
-  mesh.findings.push_back("no body is given: the panels lie flat side by side");
+  mesh.findings.emplace_back("no body is given: the panels lie flat side by side");
 }
 
 } // namespace sloper::pattern

@@ -114,7 +114,10 @@ Pattern read_pattern(const std::string& path, const std::string& sewing, const s
   }
   if (!sewing.empty()) {
     pattern.seams.clear(); // the sidecar replaces what the file says
-    read_sewing_seams(pattern, io::read_json(sewing), sewing);
+    const io::Json sidecar = io::read_json(sewing);
+    if (const std::string format = io::Node(sidecar, sewing).string("format", ""); format == "panels" || format == "garment" || format == "body")
+      throw input_error(sewing, "/format", "is a \"" + format + "\" document, not a sidecar with seams", "give what answers the questions of pattern-mesh");
+    read_sewing_seams(pattern, sidecar, sewing);
   }
   if (pattern.name.empty()) pattern.name = path == "-" ? "pattern" : std::filesystem::path(path).stem().string();
   if (pattern.panels.empty()) throw input_error(path, "", "there are no panels");

@@ -18,6 +18,9 @@ CameraOptions read_camera(const std::string& path) {
   const io::Json document = io::read_json(path);
   const io::Node node(document, path);
   if (!node.is_object()) node.fail("a camera is an object", R"(write for example {"azimuth_deg": 30, "elevation_deg": 10})");
+  if (node.has("format"))
+    throw input_error(path, "/format", "is a \"" + node.string("format", "") + "\" document, not a camera",
+                      R"(write for example {"azimuth_deg": 30, "elevation_deg": 10})");
   node.allow_only({"azimuth_deg", "elevation_deg", "field_of_view_deg", "orthographic", "field_height_m", "target"});
   CameraOptions options;
   options.azimuth = units::radians(node.number("azimuth_deg", 0));

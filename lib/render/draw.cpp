@@ -292,7 +292,7 @@ struct Renderer::Impl {
     const int s = options.supersample;
     const unsigned n = static_cast<unsigned>(s * s);
     const std::size_t row = 4 * static_cast<std::size_t>(image.width) * s;
-    const unsigned color = static_cast<unsigned>(options.background.value_or(0)), ground[] = {color >> 16 & 255, color >> 8 & 255, color & 255};
+    const unsigned color = static_cast<unsigned>(options.background.value_or(0)), behind[] = {color >> 16 & 255, color >> 8 & 255, color & 255};
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x) {
         unsigned sum[4] = {};
@@ -306,7 +306,7 @@ struct Renderer::Impl {
           out[3] = static_cast<std::uint8_t>((sum[3] + n / 2) / n);
         } else {
           const unsigned rest = 255 * n - sum[3];
-          for (int k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>((255 * sum[k] + rest * ground[k] + 255 * n / 2) / (255 * n));
+          for (int k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>((255 * sum[k] + rest * behind[k] + 255 * n / 2) / (255 * n));
           out[3] = 255;
         }
       }

@@ -285,7 +285,7 @@ std::string values_csv(const Scene& scene, const Legend& legend) {
       const Vec3& p = garment.position[garment.particle_of[v]];
       std::string panel = garment.panels.panels[id.panel].name;
       if (panel.find_first_of(",\"\n") != std::string::npos) {
-        for (std::size_t at = 0; (at = panel.find('"', at)) != std::string::npos; at += 2) panel.insert(at, "\"");
+        for (std::size_t at = 0; (at = panel.find('"', at)) != std::string::npos; at += 2) panel.insert(at, 1, '"');
         panel = "\"" + panel + "\"";
       }
       text += std::to_string(g + 1) + "," + panel + "," + number(id.s) + "," + number(id.t) + "," + number(p.x()) + "," + number(p.y()) + "," + number(p.z()) +

@@ -2,6 +2,7 @@
 #include <body/body_json.hpp>
 #include <garment/garment_json.hpp>
 #include <geometry/triangle_mesh.hpp>
+#include <io/files.hpp>
 #include <io/json.hpp>
 #include <io/obj.hpp>
 #include <io/scan_reader.hpp>
@@ -9,6 +10,7 @@
 #include <pattern/panel_mesh_json.hpp>
 #include <pattern/read_pattern.hpp>
 #include <render/scene.hpp>
+#include <render/words.hpp>
 
 #include <cmath>
 #include <map>
@@ -19,10 +21,6 @@ namespace {
 
 constexpr double PATTERN_EDGE = 0.02; // m: a flat pattern needs no fine mesh
 constexpr int SKIN = 0xcfc3b8;
-
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 DrawMesh plain_mesh(const TriangleMesh& source, const Vec3& color) {
   DrawMesh mesh;
@@ -53,16 +51,29 @@ std::string format_of(const io::Json& document, const std::string& path) {
                                                                                                                                               : format;
 }
 
+constexpr const char* DRAWABLE = "give body.json, shirt.json, panels.json, a pattern, or an OBJ, PLY or STL mesh";
+
+/// @throws Error INPUT for what can be no document
+void refuse_no_document(const std::string& path) {
+  const std::string text = io::read_file(path);
+  if (text.rfind("\x89PNG", 0) == 0) throw input_error(path, "", "is a picture already", "--sheet puts pictures side by side, --compare compares two");
+  const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (first == std::string::npos) throw input_error(path, "", "the file is empty", DRAWABLE);
+  if (text[first] != '{') throw input_error(path, "", "is neither a document nor a mesh by its ending", DRAWABLE);
+}
+
 void read_one(Scene& scene, const std::string& path) {
-  if (ends_with(path, ".obj")) {
+  const std::string ending = ending_of(path);
+  if (ending == ".obj") {
     scene.meshes.push_back(obj_mesh(io::read_obj(path)));
     return;
   }
-  if (ends_with(path, ".ply") || ends_with(path, ".stl")) {
+  if (ending == ".ply" || ending == ".stl") {
     scene.meshes.push_back(plain_mesh(io::read_scan(path).mesh, linear_color(SKIN)));
     return;
   }
-  const bool drawing = ends_with(path, ".dxf") || ends_with(path, ".DXF");
+  const bool drawing = ending == ".dxf";
+  if (!drawing && path != "-") refuse_no_document(path);
   const io::Json document = drawing ? io::Json::object() : io::read_json(path);
   const std::string format = drawing ? "pattern" : format_of(document, path);
   if (format == "body") {
@@ -92,8 +103,7 @@ void read_one(Scene& scene, const std::string& path) {
     scene.meshes.push_back(cloth_mesh(g));
     scene.garments.push_back(std::move(g));
   } else {
-    throw input_error(path, "/format", format.empty() ? "is not a Sloper document" : "a \"" + format + "\" document cannot be drawn",
-                      "give body.json, shirt.json, panels.json, a pattern, or an OBJ, PLY or STL mesh");
+    throw input_error(path, "/format", format.empty() ? "is not a Sloper document" : "a \"" + format + "\" document cannot be drawn", DRAWABLE);
   }
 }
 
@@ -166,6 +176,8 @@ Scene read_scene(const std::vector<std::string>& paths) {
   }
   std::size_t triangles = 0;
   for (const DrawMesh& m : scene.meshes) triangles += m.triangles.size();
+  if (triangles == 0 && scene.body)
+    throw input_error(paths.front(), "", "the body was written without its skin, and there is nothing else to draw", "give one written without --anonymise");
   if (triangles == 0) throw input_error(paths.front(), "", "there is no triangle to draw", "points are made a body by scan-landmarks: draw its body.json");
   return scene;
 }

@@ -20,12 +20,9 @@ struct Options {
 void read_girths(const std::vector<std::string>& texts, samples::Mannequin& shape) {
   for (const std::string& text : texts) {
     const std::size_t equal = text.find('=');
-    try {
-      if (equal == std::string::npos) throw std::invalid_argument(text);
-      shape.girths_m[text.substr(0, equal)] = std::stod(text.substr(equal + 1));
-    } catch (const std::logic_error&) {
+    if (equal == std::string::npos || !cli::finite_in(-10, 10, "m").fault(text.substr(equal + 1)).empty())
       throw Error(ErrorKind::USAGE, "", "--girth", "\"" + text + "\" is not NAME=METRES", "for example --girth waist=0.72");
-    }
+    shape.girths_m[text.substr(0, equal)] = std::stod(text.substr(equal + 1));
   }
 }
 

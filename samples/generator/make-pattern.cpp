@@ -28,13 +28,9 @@ samples::Draft draft(const std::string& garment, const samples::Measures& measur
 void set_measures(const std::vector<std::string>& texts, samples::Measures& measures) {
   for (const std::string& text : texts) {
     const std::size_t equal = text.find('=');
-    double value = 0;
-    try {
-      if (equal == std::string::npos) throw std::invalid_argument(text);
-      value = std::stod(text.substr(equal + 1));
-    } catch (const std::logic_error&) {
+    if (equal == std::string::npos || !cli::finite_in(-10, 10, "m").fault(text.substr(equal + 1)).empty())
       throw Error(ErrorKind::USAGE, "", "--measure", "\"" + text + "\" is not NAME=METRES", "for example --measure bust=0.96");
-    }
+    const double value = std::stod(text.substr(equal + 1));
     samples::set_measure(measures, text.substr(0, equal), value);
   }
 }
@@ -75,8 +71,8 @@ int main(int argc, char** argv) {
     if (!body.empty()) measures = samples::measures_from_body(io::read_json(body), body);
     else if (!preset.empty()) measures = samples::measures_from_body(samples::make_mannequin(samples::preset(preset)).truth, preset);
     set_measures(given, measures);
-    if (body.empty() && preset.empty()) tool.reporter().warning("no --body is given: " + standard_measures(given));
     const samples::Draft made = draft(garment, measures);
+    if (body.empty() && preset.empty()) tool.reporter().warning("no --body is given: " + standard_measures(given));
     if (const std::vector<std::string> faults = samples::draft_faults(made); !faults.empty())
       throw Error(ErrorKind::FAILED, body, garment, "these measures give a faulty draft: " + faults.front(), "check the measures");
     io::write_json(output, samples::pattern_document(made));

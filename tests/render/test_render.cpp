@@ -164,9 +164,15 @@ TEST(Png, an_animation_has_numbered_frames_and_its_first_picture_is_read_by_othe
     const std::string name = bytes.substr(at + 4, 4);
     ++seen[name];
     order += name + " ";
-    if (name == "acTL") EXPECT_EQ(u32(at + 8), 3u);
-    if (name == "fcTL" || name == "fdAT") EXPECT_EQ(u32(at + 8), sequence++);
-    if (name == "fcTL") EXPECT_EQ(u32(at + 8 + 20), 250u << 16 | 1000u) << "a quarter of a second";
+    if (name == "acTL") {
+      EXPECT_EQ(u32(at + 8), 3u);
+    }
+    if (name == "fcTL" || name == "fdAT") {
+      EXPECT_EQ(u32(at + 8), sequence++);
+    }
+    if (name == "fcTL") {
+      EXPECT_EQ(u32(at + 8 + 20), 250u << 16 | 1000u) << "a quarter of a second";
+    }
   }
   EXPECT_EQ(seen["fcTL"], 3);
   EXPECT_EQ(seen["IDAT"], 1);

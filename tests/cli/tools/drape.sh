@@ -24,6 +24,10 @@ case_a_drape_with_no_body_nor_panels_is_a_usage_error() {
   run 2 "$program" --panels panels.json --set no_such_knob=1 -o out.json
   run 2 "$program" --panels panels.json --set max_steps=nan -o out.json
   run 2 "$program" --panels panels.json --effects gravty -o out.json
+  run 2 "$program" --panels panels.json -o -
+  says "cannot go to standard output"
+  run 2 "$program" --panels panels.json --over "$data/skirt.json" -o out.json
+  says "give --body"
   run 2 "$program" a.body.json panels.json -o out.json
   says "no place for a.body.json, panels.json; say for example drape --body"
   mkdir lone && cp a.body.json lone/

@@ -30,6 +30,37 @@ case_what_cannot_be_drawn_is_told_with_a_next_step() {
   [[ ! -e out.png ]] || fail "a picture was written"
 }
 
+case_options_that_would_do_nothing_are_refused() {
+  local option
+  printf 'no document' > text.txt
+  asks 3 "text.txt: is neither a document nor a mesh" "give body.json" -o out.png text.txt
+  run 0 "$program" -q --size 64x64 -o small.png a.body.json
+  asks 3 "small.png: is a picture already" "--sheet puts" -o out.png small.png
+  asks 3 'is a "garment" document, not a camera' "write for example" --camera skirt.json -o out.png skirt.json
+  run 2 "$program" --size 8192x8192 --view turntable:100 -o out.png skirt.json
+  says "million pixels"
+  says "--as files"
+  for option in "--mask small.png" "--tolerance 0.9" "--seconds 1" "--labels a,b" "--columns 2"; do
+    # shellcheck disable=SC2086
+    run 2 "$program" --size 64x64 $option -o out.png skirt.json
+    says "${option%% *}: "
+    [[ ! -e out.png ]] || fail "a picture was written"
+  done
+}
+
+case_ctrl_c_ends_a_turntable() {
+  local pid status=0 before
+  "$program" --size 600x800 --view turntable:360 --as animation -o out.png a.body.json skirt.json > stdout 2> stderr &
+  pid=$!
+  sleep 1
+  before=$SECONDS
+  kill -TERM "$pid"
+  wait "$pid" || status=$?
+  [[ $status -eq 4 && $((SECONDS - before)) -le 10 ]] || fail "exit $status after $((SECONDS - before)) s"
+  says "stopped by the user"
+  [[ ! -e out.png ]] || fail "half an animation was written"
+}
+
 case_a_glb_of_a_body_can_be_posed() {
   run 0 "$program" -o out.glb a.body.json skirt.json
   python3 - << 'PYTHON' || fail "the GLB's skin"
