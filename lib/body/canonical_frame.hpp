@@ -14,6 +14,12 @@ struct CanonicalFrame {
 /// @throws Error INPUT (naming `file`) where the scan is no standing body or no unit makes it one
 CanonicalFrame guess_frame(const TriangleMesh& scan, const SortedScan& sorted, const std::string& unit, const std::string& file);
 
+constexpr std::size_t SHAPE_POINTS = 60000; ///< for medians of radii, more points of the body are not needed
+
+/// Turns and shifts a frame whose heading is right to a few degrees so that the trunk is its own mirror image; fills `front`.
+/// @param points of the body, scan units
+void refine_heading(std::vector<Vec3> points, CanonicalFrame& frame);
+
 /// A rigid turn about y by `angle` (rad, from +z towards +x) and a shift, as a 4x4.
 Mat4 turn_and_shift(double angle, const Vec3& shift);
 Vec3 transform(const Mat4& m, const Vec3& p);

@@ -10,6 +10,7 @@
 #include <body/torso_only.hpp>
 #include <body/touching_skin.hpp>
 #include <body/upright.hpp>
+#include <body/vertical.hpp>
 #include <io/json_fwd.hpp>
 
 #include <algorithm>
@@ -258,7 +259,9 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   for (std::size_t v = 0; v < torso.is_cut.size(); ++v)
     if (torso.is_cut[v]) sorted.is_body[v] = 0;
   const TriangleMesh& scan = is_torso ? torso.scan : given;
-  const CanonicalFrame frame = guess_frame(scan, sorted, options.unit, file);
+  CanonicalFrame frame = guess_frame(scan, sorted, options.unit, file);
+  // the same body gets the same vertical however it lies in its file; a floor, or a user, knows better
+  if (options.up == "auto" && !is_torso && (upright || !sorted.has_floor)) settle_vertical(scan, sorted, frame, !upright);
   body.scan = {io::file_name(file),
                sha256,
                frame.unit,

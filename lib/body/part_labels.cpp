@@ -30,7 +30,8 @@ std::vector<Part> label_skin(const Finder& f) {
   for (int side = 0; side < 2; ++side) {
     const ArmTrace& arm = f.arms[side];
     if (arm.sections.empty()) continue;
-    const Vec3 joint = f.at(std::string("shoulder_joint") + side_suffix(side));
+    const std::string name = std::string("shoulder_joint") + side_suffix(side);
+    const Vec3 joint = f.has(name) ? f.at(name) : arm.at(arm.length() + 0.02 * s);
     const double outward = arm.left ? 1 : -1;
     const Vec3 corner = arm.axilla ? *arm.axilla : arm.at(arm.length());
     const Vec3 top = joint + Vec3(-outward * 0.014 * s, 0.037 * s, -0.007 * s);

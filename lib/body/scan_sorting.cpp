@@ -368,6 +368,28 @@ SortedScan sort_scan(const TriangleMesh& scan, const std::string& up_axis) {
 
 SortedScan sort_coarsely(const TriangleMesh& scan, const std::string& up_axis, int n_cells) { return sort_in_cells(scan, up_axis, n_cells, 1); }
 
+std::vector<Vec3> points_of_body(const TriangleMesh& scan, const std::vector<char>& is_body, std::size_t wanted) {
+  std::vector<Vec3> points;
+  const std::size_t stride = 1 + scan.positions.size() / wanted;
+  for (std::size_t v = 0; v < scan.positions.size(); v += stride)
+    if (is_body[v]) points.push_back(scan.positions[v]);
+  auto is_of_body = [&](const Triangle& t) { return is_body[t[0]] && is_body[t[1]] && is_body[t[2]]; };
+  auto area_of = [&](const Triangle& t) { return area_normal(scan.positions[t[0]], scan.positions[t[1]], scan.positions[t[2]]).norm(); };
+  double area = 0;
+  for (const Triangle& t : scan.triangles)
+    if (is_of_body(t)) area += area_of(t);
+  for (const Triangle& t : scan.triangles) {
+    if (!is_of_body(t)) continue;
+    const int n = static_cast<int>(std::min(30.0, std::sqrt(static_cast<double>(wanted) * area_of(t) / std::max(area, 1e-300))));
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; i + j < n; ++j) {
+        const double u = (i + 1.0 / 3) / n, v = (j + 1.0 / 3) / n;
+        points.push_back((1 - u - v) * scan.positions[t[0]] + u * scan.positions[t[1]] + v * scan.positions[t[2]]);
+      }
+  }
+  return points;
+}
+
 bool shows_a_person(const SortedScan& sorted) {
   // of a torso alone its arms are a little like legs, in one direction as in another
   const bool is_guess = sorted.up_score < DOUBTFUL_SCORE && sorted.up_score - sorted.next_score < DOUBTFUL_MARGIN;

@@ -26,6 +26,10 @@ SortedScan sort_scan(const TriangleMesh& scan, const std::string& up_axis);
 /// The same in one reading with cells of the longest side / `n_cells`: to compare many directions.
 SortedScan sort_coarsely(const TriangleMesh& scan, const std::string& up_axis, int n_cells);
 
+/// About `wanted` points of the body, scan units: every so many of its vertices, and points spread over its larger faces, so that a coarse mesh shows
+/// its shape as a fine one does. @param is_body one per vertex
+std::vector<Vec3> points_of_body(const TriangleMesh& scan, const std::vector<char>& is_body, std::size_t wanted);
+
 /// Two legs below, a narrow top: a whole person stands along `up`.
 bool shows_a_person(const SortedScan& sorted);
 

@@ -12,13 +12,15 @@ namespace {
 
 constexpr double OWN_LEAN = 5;   ///< degrees by which the line from calves to head leans in upright people, at most
 constexpr double FOOT_LEAN = 12; ///< degrees between that line and the normal of the plane below the feet: more, and the feet do not rest on it
-constexpr double NEAR_AXIS = 3;  ///< degrees: so near to an axis of the file, the axis is meant
+constexpr double NEAR_AXIS = 3;  ///< degrees: so near to the axis that was read, the axis is meant
 constexpr int ROUNDS = 6;
 constexpr double CLEAR = 0.9, CLEARLY_BETTER = 0.1; ///< scores of readings
 constexpr double FOOT_HEIGHT = 0.06;                ///< of stature
 constexpr std::size_t THINNED = 20000;
 constexpr int COARSE_CELLS = 72; ///< along the longest side, to read many directions
 constexpr int DIRECTIONS = 110;  ///< over half the sphere: about 14 degrees apart
+constexpr std::size_t CANDIDATES = 4;
+constexpr double SAME = 25; ///< degrees: directions that near lead to the same
 
 double degrees_between(const Vec3& a, const Vec3& b) { return units::degrees(std::acos(std::clamp(a.dot(b) / (a.norm() * b.norm()), -1.0, 1.0))); }
 
@@ -44,23 +46,66 @@ std::vector<Vec3> turned(const Eigen::Matrix3d& turn, const std::vector<Vec3>& p
   return out;
 }
 
-/// The direction of a coarse grid over the sphere along which a person stands most clearly and with the least lean.
-std::optional<Vec3> search(const std::vector<Vec3>& points) {
-  std::optional<Vec3> best;
-  double most = 0;
+/// Directions of a coarse grid over the sphere along which a person stands most clearly and with the least lean, the best first.
+std::vector<Vec3> search(const std::vector<Vec3>& points) {
+  std::vector<std::pair<double, Vec3>> all;
   for (int k = 0; k < DIRECTIONS; ++k) { // a spiral of equal areas over half the sphere; a reading looks both ways
     const double y = (k + 0.5) / DIRECTIONS, angle = 2.399963229728653 * k, r = std::sqrt(1 - y * y);
     const Eigen::Matrix3d turn = turn_to_y(Vec3(r * std::cos(angle), y, r * std::sin(angle)));
     TriangleMesh cloud;
     cloud.positions = turned(turn, points);
     const SortedScan sorted = sort_coarsely(cloud, "y", COARSE_CELLS);
-    if (sorted.up_score <= most || sorted.is_body.empty() || sorted.high <= sorted.low) continue;
+    if (sorted.is_body.empty() || sorted.high <= sorted.low) continue;
     const auto line = body_line(cloud.positions, sorted);
     if (!line) continue;
-    const double lean = degrees_between(*line, sorted.up), worth = sorted.up_score - lean / 200;
-    if (worth > most) most = worth, best = turn.transpose() * *line;
+    const double worth = sorted.up_score - degrees_between(*line, sorted.up) / 200;
+    if (worth > 0) all.emplace_back(worth, (turn.transpose() * *line).normalized());
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Vec3> best;
+  for (const auto& [worth, up] : all) {
+    if (best.size() == CANDIDATES) break;
+    if (std::none_of(best.begin(), best.end(), [&](const Vec3& other) { return degrees_between(up, other) < SAME; })) best.push_back(up);
   }
   return best;
+}
+
+struct Standing {
+  Vec3 up;
+  double score; ///< of the reading along it
+};
+
+/// From a rough direction to that of the body's line, then of the normal of the plane below the feet.
+std::optional<Standing> stand_up(const std::vector<Vec3>& points, Vec3 up) {
+  double score = 0;
+  for (int round = 0; round < ROUNDS; ++round) {
+    const Eigen::Matrix3d turn = turn_to_y(up);
+    TriangleMesh cloud;
+    cloud.positions = turned(turn, points);
+    const SortedScan stands = sort_scan(cloud, "y");
+    if (!shows_a_person(stands)) return std::nullopt;
+    score = stands.up_score;
+    const auto line = body_line(cloud.positions, stands); // along what is up now: it may be upside down to what it was
+    if (!line) return std::nullopt;
+    Vec3 next = line->normalized();
+    if (round > 0) {
+      const Eigen::Matrix3d along = turn_to_y(next); // heights along the body's line, as long as the plane is not known
+      std::vector<Vec3> feet;
+      double lowest = 1e300;
+      for (std::size_t v = 0; v < points.size(); ++v)
+        if (stands.is_body[v]) lowest = std::min(lowest, (along * cloud.positions[v]).y());
+      Box3 box;
+      for (std::size_t v = 0; v < points.size(); ++v)
+        if (stands.is_body[v])
+          if (const Vec3 p = along * cloud.positions[v]; p.y() < lowest + FOOT_HEIGHT * (stands.high - stands.low)) feet.push_back(p), box.add(p);
+      if (const auto plane = resting_plane(feet, Vec2(box.center().x(), box.center().z()))) {
+        const Vec3 normal = Vec3(-plane->x(), 1, -plane->y()).normalized();
+        if (degrees_between(normal, Vec3::UnitY()) < FOOT_LEAN) next = along.transpose() * normal;
+      }
+    }
+    up = (turn.transpose() * next).normalized();
+  }
+  return Standing{up, score};
 }
 
 } // namespace
@@ -111,43 +156,21 @@ std::optional<Eigen::Matrix3d> upright_turn(const TriangleMesh& scan, const Sort
     }
   std::vector<Vec3> points;
   for (std::size_t v = 0, step = 1 + scan.positions.size() / THINNED; v < scan.positions.size(); v += step) points.push_back(scan.positions[v]);
-  if (most > 0) { // compared as thinned as the others
+  const std::vector<Vec3> spread = points_of_body(scan, std::vector<char>(scan.positions.size(), 1), 2 * THINNED); // a coarse mesh's vertices fall apart
+  if (most > 0) {                                                                                                  // compared as thinned as the others
     TriangleMesh cloud;
-    cloud.positions = points;
+    cloud.positions = spread;
     most += sort_scan(cloud, "auto").up_score;
   }
-  const auto found = search(points);
-  if (!found) return std::nullopt;
-  Vec3 up = found->normalized();
-  // the body's line, then the plane below the feet
-  for (int round = 0; round < ROUNDS; ++round) {
-    const Eigen::Matrix3d turn = turn_to_y(up);
-    TriangleMesh cloud;
-    cloud.positions = turned(turn, points);
-    const SortedScan stands = sort_scan(cloud, "y");
-    if (!shows_a_person(stands) || stands.up.y() < 0 || (round + 1 == ROUNDS && stands.up_score < most)) return std::nullopt;
-    const auto line = body_line(cloud.positions, stands);
-    if (!line) return std::nullopt;
-    Vec3 next = line->normalized();
-    if (round > 0) {
-      Eigen::Matrix3d along = turn_to_y(next); // heights along the body's line, as long as the plane is not known
-      std::vector<Vec3> feet;
-      double lowest = 1e300;
-      for (std::size_t v = 0; v < points.size(); ++v)
-        if (stands.is_body[v]) lowest = std::min(lowest, (along * cloud.positions[v]).y());
-      Box3 box;
-      for (std::size_t v = 0; v < points.size(); ++v)
-        if (stands.is_body[v])
-          if (const Vec3 p = along * cloud.positions[v]; p.y() < lowest + FOOT_HEIGHT * (stands.high - stands.low)) feet.push_back(p), box.add(p);
-      if (const auto plane = resting_plane(feet, Vec2(box.center().x(), box.center().z()))) {
-        const Vec3 normal = Vec3(-plane->x(), 1, -plane->y()).normalized();
-        if (degrees_between(normal, Vec3::UnitY()) < FOOT_LEAN) next = along.transpose() * normal;
-      }
-    }
-    up = (turn.transpose() * next).normalized();
+  std::optional<Standing> best;
+  for (const Vec3& direction : search(points)) {
+    const auto found = stand_up(spread, direction);
+    if (found && (!best || found->score > best->score + 0.02)) best = found;
+    if (best && best->score > CLEAR) break;
   }
-  for (int axis = 0; axis < 3; ++axis)
-    if (std::abs(up[axis]) > std::cos(units::radians(NEAR_AXIS))) return std::nullopt;
+  if (!best || best->score < most) return std::nullopt;
+  const Vec3 up = best->up;
+  if (degrees_between(up, sorted.up) < NEAR_AXIS) return std::nullopt;
   return turn_to_y(up);
 }
 

@@ -47,7 +47,6 @@ const Body& as_it_is(const Figure& figure) {
 void expect_unmoved(const Figure& figure, const TriangleMesh& after_mesh, const Eigen::Matrix3d& linear, const Vec3& shift, double scale) {
   const Body &before = as_it_is(figure), after = measure(after_mesh).body;
   for (const auto& [name, landmark] : before.landmarks) {
-    if (name.starts_with("axilla_merge") && before.stance_class == "T") continue; // a level that a level arm has by a tenth of a millimetre or not at all
     ASSERT_TRUE(after.has_landmark(name)) << figure.name << " lost " << name;
     const double moved = (linear * test::in_scan(before, name) + shift - test::in_scan(after, name)).norm() / scale;
     EXPECT_LE(moved, MOST) << figure.name << ": " << name << " (" << landmark.rule << ", then " << after.landmarks.at(name).rule << ")";
@@ -64,22 +63,12 @@ TEST(Invariance, turning_moves_no_landmark_by_more_than_5_mm) {
     }
 }
 
-TEST(Invariance, lying_and_leaning_move_no_landmark_by_more_than_8_mm) {
-  // soles are level to a degree only, and so much the body may lean afterwards: the foremost place and the first level of a level body may
-  // then be elsewhere on what is nearly upright or level
-  const std::set<std::string> extremes{"abdomen_front", "axilla_merge_l", "axilla_merge_r"};
-  for (const Figure& figure : figures()) {
-    const Eigen::Matrix3d turn = (Eigen::AngleAxisd(1.1, Vec3::UnitZ()) * Eigen::AngleAxisd(-0.6, Vec3::UnitX())).toRotationMatrix() * test::turn_about_y(20);
-    const Vec3 shift(3, 1, -2);
-    const Body &before = as_it_is(figure), after = measure(test::moved(figure.mesh, turn, shift)).body;
-    const Vec3 up = after.scan_to_body.block<1, 3>(1, 0).transpose().normalized();
-    EXPECT_LT(std::acos(up.dot(turn.col(1))), 0.02) << figure.name;
-    for (const auto& [name, landmark] : before.landmarks) {
-      if (extremes.count(name)) continue;
-      ASSERT_TRUE(after.has_landmark(name)) << figure.name << " lost " << name;
-      EXPECT_LE((turn * test::in_scan(before, name) + shift - test::in_scan(after, name)).norm(), 0.008) << figure.name << ": " << name;
-    }
-  }
+TEST(Invariance, lying_and_leaning_about_any_axis_move_no_landmark_by_more_than_5_mm) {
+  const Eigen::Matrix3d lying = (Eigen::AngleAxisd(1.1, Vec3::UnitZ()) * Eigen::AngleAxisd(-0.6, Vec3::UnitX())).toRotationMatrix() * test::turn_about_y(20);
+  const Eigen::Matrix3d leaning = Eigen::AngleAxisd(0.014, Vec3(1, 0, 1).normalized()).toRotationMatrix(); // 0.8 degrees, of which the file says nothing
+  const Vec3 shift(3, 1, -2);
+  for (const Figure& figure : figures())
+    for (const Eigen::Matrix3d& turn : {lying, leaning}) expect_unmoved(figure, test::moved(figure.mesh, turn, shift), turn, shift, 1);
 }
 
 TEST(Invariance, shifting_scaling_and_another_up_axis_move_no_landmark_by_more_than_5_mm) {

@@ -2,6 +2,7 @@
 #include "figures.hpp"
 
 #include <body/upright.hpp>
+#include <body/vertical.hpp>
 #include <gtest/gtest.h>
 
 using namespace sloper;
@@ -32,4 +33,51 @@ TEST(Upright, who_lies_askew_is_set_on_both_soles) {
   const auto upright = upright_turn(lying, sort_scan(lying, "auto"));
   ASSERT_TRUE(upright);
   EXPECT_LT(std::acos((*upright * turn * Vec3::UnitY()).y()), 0.02);
+}
+
+TEST(Upright, a_body_with_level_arms_is_found_however_it_lies) {
+  const TriangleMesh& mesh = test::mannequin("m-185-t").mesh;
+  Random random(5);
+  for (int k = 0; k < 8; ++k) {
+    const Eigen::Quaterniond q(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    const Eigen::Matrix3d turn = q.normalized().toRotationMatrix();
+    const TriangleMesh lying = test::moved(mesh, turn, Vec3(1, 2, 3));
+    const auto upright = upright_turn(lying, sort_scan(lying, "auto"));
+    ASSERT_TRUE(upright) << k;
+    EXPECT_GT((*upright * turn * Vec3::UnitY()).y(), std::cos(0.02)) << k;
+  }
+}
+
+namespace {
+
+/// Of the mannequin's own vertical, turned by `turn`: the angle to what is found, rad.
+double missed_by(const Eigen::Matrix3d& turn, bool given) {
+  ScanOptions options;
+  if (given) options.up = "y";
+  const Body body = test::measure(test::moved(test::mannequin("f-165-a").mesh, turn, Vec3::Zero()), options).body;
+  const Vec3 up = body.scan_to_body.block<1, 3>(1, 0).transpose().normalized();
+  return std::acos(std::min(1.0, up.dot(turn.col(1))));
+}
+
+} // namespace
+
+TEST(Vertical, is_the_bodys_own_whichever_way_it_leans_in_the_file) {
+  for (const double degrees : {0.0, 1.0, 4.0})
+    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(-1, 0, -1)}) {
+      const Eigen::Matrix3d turn = Eigen::AngleAxisd(degrees * 3.14159265 / 180, axis.normalized()).toRotationMatrix();
+      EXPECT_LT(missed_by(turn, false), 0.005) << degrees; // posture tells it to a third of a degree
+    }
+}
+
+TEST(Vertical, that_was_given_is_kept) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.02, Vec3::UnitX()).toRotationMatrix();
+  EXPECT_NEAR(missed_by(turn, true), 0.02, 1e-6);
+}
+
+TEST(Vertical, of_the_file_stays_where_a_person_bends_over_level_soles) {
+  TriangleMesh bent = test::mannequin("f-165-a").mesh;
+  for (Vec3& p : bent.positions) // from the ankles up, which leaves the soles as they are
+    if (p.y() > 0.12) p.z() += 0.08 * (p.y() - 0.12);
+  const Body body = test::measure(bent).body;
+  EXPECT_NEAR((body.scan_to_body.block<1, 3>(1, 0).normalized() - Vec3::UnitY().transpose()).norm(), 0, 1e-6);
 }
