@@ -91,7 +91,8 @@ int main(int argc, char** argv) {
   Options o;
   tool.option("SCAN", o.scan, "scan of one standing person: OBJ, PLY, STL, 3DS or XYZ, mesh or bare points").required().check(cli::input_file());
   tool.option("--unit", o.unit, "unit of the scan's coordinates (default: auto, from the stature)").check(cli::one_of({"auto", "m", "cm", "mm"}));
-  tool.option("--up", o.up, "axis along which the body stands, taken as it is (default: auto, the vertical is told from the body)").check(cli::one_of({"auto", "x", "y", "z"}));
+  tool.option("--up", o.up, "axis along which the body stands, taken as it is (default: auto, the vertical is told from the body)")
+      .check(cli::one_of({"auto", "x", "y", "z"}));
   tool.flag("--torso-only", o.torso_only, "take a scan without legs too: what it shows is found, stature and floor are estimated from the head");
   tool.option("--jitter", o.jitter,
               "runs of the rules on a slightly turned, lifted and roughened skin, which measure each landmark's spread (default: 3, none beyond 80,000 faces)")
