@@ -17,8 +17,11 @@ configure_package_config_file(cmake/sloperConfig.cmake.in ${PROJECT_BINARY_DIR}/
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/sloperConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/sloperConfig.cmake ${PROJECT_BINARY_DIR}/sloperConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sloper COMPONENT development)
+if(TARGET PkgConfig::OSMESA)
+  string(APPEND SLOPER_PC_CONTEXTS " osmesa")
+endif()
 if(TARGET PkgConfig::EGL)
-  set(SLOPER_PC_EGL " egl")
+  string(APPEND SLOPER_PC_CONTEXTS " egl")
 endif()
 file(RELATIVE_PATH SLOPER_PC_UP /p/${CMAKE_INSTALL_LIBDIR}/pkgconfig /p) # the prefix as seen from there: what is installed can be moved
 configure_file(cmake/sloper.pc.in ${PROJECT_BINARY_DIR}/sloper.pc @ONLY)

@@ -23,7 +23,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> documents;
-  std::string view = "front", camera, map = "none", show, fabric = "auto", colors, size = "800x1000", background = "white", context = "osmesa";
+  std::string view = "front", camera, map = "none", show, fabric = "auto", colors, size = "800x1000", background = "white", context;
   std::string labels, mask, values, as = "sheet", output;
   bool sheet = false, compare = false;
   int columns = 0;
@@ -51,7 +51,10 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.option("--color", o.colors, "cloth colours as RRGGBB, one for each garment, joined by commas").type_name("LIST");
   tool.option("--size", o.size, "WIDTHxHEIGHT of one view, pixels").show_default().type_name("WxH");
   tool.option("--background", o.background, "white, grey, transparent, or a colour as RRGGBB").show_default().type_name("COLOR");
-  tool.option("--context", o.context, "what draws: osmesa, or egl (surfaceless)").check(cli::one_of({"osmesa", "egl"})).show_default();
+  std::vector<std::string> contexts;
+  for (const render::ContextKind kind : render::built_contexts()) contexts.emplace_back(kind == render::ContextKind::EGL ? "egl" : "osmesa");
+  o.context = contexts.front();
+  tool.option("--context", o.context, "what draws: osmesa, or egl (surfaceless), as built in").check(cli::one_of(contexts)).show_default();
   tool.option("--as", o.as, "several views: one sheet, one animation (APNG), or files of their own, numbered before the ending")
       .check(cli::one_of({"sheet", "animation", "files"}))
       .show_default();

@@ -35,7 +35,7 @@ DrawMesh make_ball() {
   return mesh;
 }
 
-io::Image draw_ball(std::optional<int> background, ContextKind context = ContextKind::OSMESA, const CameraOptions& view = {}) {
+io::Image draw_ball(std::optional<int> background, ContextKind context = built_contexts().front(), const CameraOptions& view = {}) {
   const std::vector<DrawMesh> meshes{make_ball()};
   DrawOptions options;
   options.width = 120;
