@@ -137,7 +137,7 @@ void damage(TriangleMesh& mesh, const std::string& kind, std::uint64_t seed) {
   auto& f = mesh.triangles;
   if (f.empty()) return; // nothing to damage
   if (kind == "holes") {
-    for (int k = 0; k < 12; ++k) {
+    for (int k = 0; k < 12 && !f.empty(); ++k) {
       const Vec3 middle = mesh.positions[f[random.next() % f.size()][0]];
       f.erase(std::remove_if(f.begin(), f.end(), [&](const Triangle& t) { return (mesh.positions[t[0]] - middle).norm() < 0.02; }), f.end());
     }
