@@ -40,6 +40,8 @@ constexpr int GLIDE_STEPS = 40;          // after sewing, free of weight and fri
 constexpr double BREATH = 1;             // weights of the cloth on its area: pressure from within meanwhile, which turns out dents that sewing left
 constexpr int STALLED_STEPS = 400;       // without a residual that is a tenth less, and more than the weight: it will not come to rest
 constexpr int UNMOVED_STEPS = 25;        // one after the other in which nothing can move at all
+constexpr int MOST_UNTANGLINGS = 8;      // of cloth at rest that crosses itself
+constexpr int PART_EVERY = 40;           // steps between looks whether a few faces are still through the skin
 constexpr int JUDGE_EVERY = 20;          // steps between looks whether the garment can still fit
 constexpr int STRAINED_STEPS = 80;       // without a strain that is a tenth less: it stays
 constexpr double NEAR_RESIDUAL = 1;      // weights: below, steps may grow faster
@@ -376,7 +378,14 @@ void DrapeRun::settle() {
       break;
     }
     m_at.unmoved = m_at.last.largest_move_m > 0 ? 0 : m_at.unmoved + 1;
-    if (m_at.unmoved >= UNMOVED_STEPS && residual >= m_settings.settle_force_ratio) {
+    const bool stuck = m_at.unmoved >= UNMOVED_STEPS && residual >= m_settings.settle_force_ratio;
+    if ((stuck || (k > glide() && k % PART_EVERY == 0)) && part_the_few()) {
+      h = m_settings.time_step_s;
+      calm = m_at.unmoved = 0;
+      m_at.best_at = k;
+      continue;
+    }
+    if (stuck) {
       m_stopped = true;
       m_report.stop_reason = "stuck: nothing could move in " + std::to_string(UNMOVED_STEPS) + " steps";
       break;
@@ -387,7 +396,7 @@ void DrapeRun::settle() {
     if (calm < 3) continue;
     if (m_body_contact && m_body_contact->n_crossing() > 0 && ++m_at.pushed < MOST_PUSH_STEPS) continue; // what is through the skin is pushed harder each step
     m_garment.position = m_solver->x();
-    if (m_at.untanglings < 4 && m_self_contact && !m_self_contact->find_crossings(m_solver->x()).empty()) {
+    if (m_at.untanglings < MOST_UNTANGLINGS && m_self_contact && !m_self_contact->find_crossings(m_solver->x()).empty()) {
       ++m_at.untanglings;
       untangle();
       m_solver->set_positions(m_garment.position);

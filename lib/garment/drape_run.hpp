@@ -55,7 +55,8 @@ private:
   std::string crossing_text() const;          ///< for the log: what is through the skin, and where
   std::size_t untangle();                     ///< draws crossing cloth apart; the pairs that remain
   std::size_t part_from_body(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, std::vector<Vec3>& move) const;
-  std::size_t part_all();
+  std::size_t part_all(int most_rounds, int& rounds);
+  bool part_the_few(); ///< moves the last faces through the skin out of it, while the garment settles; whether there were any
   void inflate();
   void settle();
   void follow_motion(); ///< drape_motion.cpp

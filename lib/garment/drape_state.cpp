@@ -86,7 +86,7 @@ Json state_json(const DrapeState& s) {
   j["pull"] = s.pull, j["pull_changed"] = s.pull_changed, j["gaps"] = s.gaps;
   j["latest"] = s.latest, j["farthest"] = s.farthest;
   j["h"] = s.h;
-  j["calm"] = s.calm, j["unmoved"] = s.unmoved, j["pushed"] = s.pushed, j["best_at"] = s.best_at, j["untanglings"] = s.untanglings;
+  j["calm"] = s.calm, j["unmoved"] = s.unmoved, j["pushed"] = s.pushed, j["best_at"] = s.best_at, j["untanglings"] = s.untanglings, j["partings"] = s.partings;
   if (s.best < std::numeric_limits<double>::infinity()) j["best"] = s.best;
   j["start_height"] = s.start_height;
   j["least_strain"] = s.least_strain, j["strain_fell_at"] = s.strain_fell_at;
@@ -118,7 +118,7 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   s.latest = node.at("latest").number(), s.farthest = node.at("farthest").number();
   s.h = node.at("h").number();
   s.calm = node.at("calm").integer(), s.pushed = node.at("pushed").integer();
-  s.best_at = node.at("best_at").integer(), s.untanglings = node.at("untanglings").integer();
+  s.best_at = node.at("best_at").integer(), s.untanglings = node.at("untanglings").integer(), s.partings = node.at("partings").integer();
   if (node.has("unmoved")) s.unmoved = node.at("unmoved").integer();
   if (node.has("best")) s.best = node.at("best").number();
   s.start_height = read_numbers(node.at("start_height"));

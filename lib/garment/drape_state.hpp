@@ -35,7 +35,7 @@ struct DrapeState {
   double latest = 0, farthest = 0; ///< m, how far skin may stay back, and does
   // SETTLE
   double h = 0; ///< s
-  int calm = 0, unmoved = 0, pushed = 0, best_at = 0, untanglings = 0;
+  int calm = 0, unmoved = 0, pushed = 0, best_at = 0, untanglings = 0, partings = 0;
   double best = std::numeric_limits<double>::infinity(); ///< least residual so far, weights
   std::vector<double> start_height;                      ///< #P, m, where settling began
   double least_strain = 1e300;                           ///< 99th percentile, of those that were looked at

@@ -12,11 +12,13 @@ namespace sloper::garment {
 namespace {
 
 constexpr int UNTANGLE_ROUNDS = 80;
-constexpr double UNTANGLE_STEP = 0.001; // m: of an edge against its face in one round
-constexpr int PART_ROUNDS = 300;        // of untangling with the body in the way
-constexpr double PART_STEP = 0.004;     // m: of a particle out of the body in one round
-constexpr double PART_CLEAR = 5e-4;     // m: what was in the body ends this far outside
-constexpr double PART_REACH = 0.3;      // m: deeper cloth has no way out along the skin's normal
+constexpr double UNTANGLE_STEP = 0.001;                // m: of an edge against its face in one round
+constexpr int PART_ROUNDS = 300;                       // of untangling with the body in the way
+constexpr double PART_STEP = 0.004;                    // m: of a particle out of the body in one round
+constexpr double PART_CLEAR = 5e-4;                    // m: what was in the body ends this far outside
+constexpr int SETTLING_ROUNDS = 60, MOST_PARTINGS = 4; // while the garment settles
+constexpr double FEW = 0.01;                           // of the faces: more is no pinch but a garment too small
+constexpr double PART_REACH = 0.3;                     // m: deeper cloth has no way out along the skin's normal
 
 } // namespace
 
@@ -83,15 +85,15 @@ std::size_t DrapeRun::part_from_body(const std::vector<Vec3>& x, const std::vect
   return trouble;
 }
 
-/// Short moves of what crosses, and of nothing else. What remains.
-std::size_t DrapeRun::part_all() {
+/// Short moves of what crosses, and of nothing else, in at most so many rounds. What remains.
+std::size_t DrapeRun::part_all(int most_rounds, int& rounds) {
   const std::vector<Triangle> triangles = m_garment.particle_triangles();
   const collision::Topology topology = collision::make_topology(m_garment.position.size(), triangles);
   std::vector<Vec3> x = m_garment.position;
   collision::TriangleTree tree(x, triangles);
   std::size_t least = std::numeric_limits<std::size_t>::max();
-  for (; m_report.steps < PART_ROUNDS && !m_reporter.stop_requested(); ++m_report.steps) {
-    m_reporter.progress("untangle", static_cast<double>(m_report.steps) / PART_ROUNDS);
+  for (rounds = 0; rounds < most_rounds && !m_reporter.stop_requested(); ++rounds) {
+    m_reporter.progress("untangle", static_cast<double>(rounds) / most_rounds);
     tree.refit(x);
     const auto pairs = collision::untangle_directions(x, triangles, topology, tree);
     std::vector<Vec3> move = collision::untangle_displacements(pairs, triangles, topology, x.size(), UNTANGLE_STEP);
@@ -104,6 +106,23 @@ std::size_t DrapeRun::part_all() {
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += move[i];
   }
   return least;
+}
+
+/// Contact alone does not free cloth whose other side is held too, as in the fold of an arm pit.
+bool DrapeRun::part_the_few() {
+  if (!m_body_contact || m_at.partings >= MOST_PARTINGS) return false;
+  const std::size_t through = m_body_contact->n_crossing();
+  if (through == 0 || static_cast<double>(through) > FEW * static_cast<double>(m_cloth->triangles.size())) return false;
+  ++m_at.partings;
+  m_garment.position = m_solver->x();
+  int rounds = 0;
+  const std::size_t remain = part_all(SETTLING_ROUNDS, rounds);
+  m_report.repairs.push_back("step " + std::to_string(m_report.steps) + ": " + std::to_string(through) + " faces through the skin moved out, " +
+                             std::to_string(remain) + " crossings remain");
+  m_solver->set_positions(m_garment.position);
+  m_body_contact->refresh();
+  if (m_self_contact) m_self_contact->refresh();
+  return true;
 }
 
 DrapeReport DrapeRun::run_untangle_only() {
@@ -122,7 +141,7 @@ DrapeReport DrapeRun::run_untangle_only() {
   std::size_t least = 0;
   {
     const Phase phase(*this, "untangle");
-    least = part_all();
+    least = part_all(PART_ROUNDS, m_report.steps);
   }
   if (least > 0 && m_collider && !m_reporter.stop_requested()) { // deep: the body is drawn in, the cloth makes room as it comes back
     const std::vector<Vec3> shallow = m_garment.position;
@@ -137,8 +156,7 @@ DrapeReport DrapeRun::run_untangle_only() {
     report_effects();
     m_solver.reset();
     if (m_mitten) m_collider.emplace(m_body->skin), m_mitten.reset();
-    m_report.steps = 0; // what the push leaves is shallow
-    const std::size_t now = part_all();
+    const std::size_t now = part_all(PART_ROUNDS, m_report.steps); // what the push leaves is shallow
     if (now >= least) m_garment.position = shallow;
     least = std::min(least, now);
   }
