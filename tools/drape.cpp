@@ -235,7 +235,7 @@ int resume(cli::Tool& tool, const Options& o) {
   const garment::DrapeReport report = garment::resume_drape(o.from, garment, o.body.empty() ? nullptr : &body, tool.reporter(), o.checkpoint);
   if (!o.body.empty()) garment::bind_garment(garment, body);
   garment::write_garment(o.output, garment, tool.name());
-  Result result{garment::report_json(report, tool.name())};
+  Result result{garment::report_json(report, tool.name()), 0, {}};
   return write_report(tool, o, garment, report, inputs, result);
 }
 

@@ -1,4 +1,5 @@
 #include <base/error.hpp>
+#include <base/units.hpp>
 #include <cloth/aggregation.hpp>
 #include <cloth/implicit_step.hpp>
 
@@ -15,6 +16,9 @@ constexpr int GUARD_ROUNDS = 4;    // in which new limits are looked for; then t
 constexpr double MOST_CUT = 0.5;   // of an edge
 constexpr int LONGEST_FREEZE = 16; // steps
 constexpr double FROZEN = 1e4;     // times a particle's own stiffness
+constexpr double NEAR_REST = 1;    // weights, of the 95th percentile of the forces
+constexpr double OUTLIER = 10;     // times that percentile
+constexpr double TIGHTEST = 0.01;  // of the tolerance
 
 /// Adds the wall seconds of its own life to a counter.
 class Stopwatch {
@@ -146,6 +150,26 @@ void ClothSolver::freeze_held(bool search_failed) {
   }
 }
 
+/// Near rest a few particles in a pinch can have forces a thousand times those of all others, and a residual relative to theirs would
+/// leave the others where they are, for hundreds of steps. There they count as outliers, and the tolerance is relative to the rest.
+double ClothSolver::tolerance(const StepOptions& o) {
+  if (!o.line_search) return o.cg_tolerance;
+  double all = 0, capped = 0, weight = 0;
+  m_residual.clear();
+  for (std::size_t i = 0; i < m_rhs.size(); ++i) {
+    m_residual.push_back(m_rhs[i].squaredNorm());
+    all += m_residual.back();
+    weight += m_mesh.mass[i] * units::GRAVITY;
+  }
+  weight /= static_cast<double>(m_rhs.size());
+  const auto p95 = m_residual.begin() + static_cast<long>(0.95 * static_cast<double>(m_residual.size() - 1));
+  std::nth_element(m_residual.begin(), p95, m_residual.end());
+  if (!(all > 0) || *p95 > NEAR_REST * NEAR_REST * weight * weight) return o.cg_tolerance;
+  const double most = OUTLIER * OUTLIER * *p95;
+  for (double r : m_residual) capped += std::min(r, most);
+  return o.cg_tolerance * std::max(TIGHTEST, std::sqrt(capped / all));
+}
+
 StepResult ClothSolver::step(const StepOptions& o) {
   if (m_pattern_stale) rebuild_pattern();
   const std::size_t n = m_x.size();
@@ -180,7 +204,7 @@ StepResult ClothSolver::step(const StepOptions& o) {
     m_contacts.build(m_elements, n);
     const LinearSystem system{m_matrix, m_elements, m_contacts};
     m_preconditioner->update(system);
-    result.cg = conjugate_gradient(system, *m_preconditioner, m_rhs, o.cg_tolerance, o.cg_max_iterations, m_dx, m_work);
+    result.cg = conjugate_gradient(system, *m_preconditioner, m_rhs, tolerance(o), o.cg_max_iterations, m_dx, m_work);
     m_preconditioner->report_iterations(result.cg.since_renewal);
   }
   double largest2 = 0;
@@ -214,7 +238,7 @@ StepResult ClothSolver::step(const StepOptions& o) {
   double weight = 0;
   m_residual.clear();
   for (std::size_t i = 0; i < n; ++i) {
-    weight += m_mesh.mass[i] * 9.80665;
+    weight += m_mesh.mass[i] * units::GRAVITY;
     if (m_held[i]) ++result.held;
     else m_residual.push_back(m_force[i].norm());
   }

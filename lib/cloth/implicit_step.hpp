@@ -13,7 +13,7 @@ namespace sloper::cloth {
 struct StepOptions {
   double h = 1.0 / 30;        ///< s
   double inertia = 0;         ///< 0..1: share of the velocity that is carried over
-  double cg_tolerance = 1e-2; ///< relative residual
+  double cg_tolerance = 1e-2; ///< relative residual; near rest, with a line search, relative to that without outliers
   int cg_max_iterations = 400;
   /// Halves the step until the energy falls, doubles it while it falls on; else no motion. Off: limits that cut half an edge shorten all.
   bool line_search = false;
@@ -61,6 +61,7 @@ private:
   void limit(std::vector<Vec3>& dx, std::vector<char>& held);
   int search_along(double largest_move_m);
   void freeze_held(bool search_failed);
+  double tolerance(const StepOptions& options); ///< of the solve for m_rhs
 
   const ClothMesh& m_mesh;
   std::vector<Vec3> m_x, m_v, m_force, m_rhs, m_dx, m_step, m_trial, m_trial_dx; // m_step: as solved, before limits
