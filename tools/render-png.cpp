@@ -173,6 +173,7 @@ int run_render(cli::Tool& tool, const Options& o) {
   std::vector<io::Image> images;
   const Texts texts = provenance(scene);
   std::size_t drawn = 0;
+  const double legend_share = static_cast<double>(render::legend_width(legend, options.width, options.height)) / options.width;
   if (o.as != "files") render::check_pixels(size, views.size());
   for (const auto& view : views) {
     if (tool.reporter().stop_requested()) throw Error(ErrorKind::FAILED, o.output, "", "stopped by the user; nothing is written");
@@ -181,7 +182,8 @@ int run_render(cli::Tool& tool, const Options& o) {
       images.push_back(render::draw_pattern(scene, options));
     } else {
       if (!renderer) renderer.emplace(meshes, options).keep_depth(show.any());
-      const render::Camera camera = render::frame_scene(meshes, *view, static_cast<double>(options.width) / options.height);
+      const render::Camera camera = render::frame_beside(meshes, *view, static_cast<double>(options.width) / options.height,
+                                                         view->field_height > 0 || !o.camera.empty() ? 0 : legend_share);
       images.push_back(renderer->draw(camera));
       if (show.any()) render::draw_show(images.back(), scene, camera, *renderer, show);
     }

@@ -115,10 +115,14 @@ void draw_disc(io::Image& image, double cx, double cy, double radius, int color,
   });
 }
 
+static int legend_font(int width, int height) { return std::max(10, std::min(height / 55, width / 36)); }
+
+int legend_width(const Legend& legend, int width, int height) { return legend.steps.empty() ? 0 : std::min(width / 2, 8 * legend_font(width, height)); }
+
 void draw_legend(io::Image& image, const Legend& legend) {
   if (legend.steps.empty()) return;
   const int n = static_cast<int>(legend.steps.size());
-  const int font = std::max(10, std::min(image.height / 55, image.width / 36)), step = std::max(2, image.height / 22), bar_width = 2 * font;
+  const int font = legend_font(image.width, image.height), step = std::max(2, image.height / 22), bar_width = 2 * font;
   const int left = image.width - 6 * font, top = image.height / 8 + 2 * font;
   for (int y = 0; y < n * step; ++y)
     for (int x = left; x < std::min(left + bar_width, image.width); ++x) {

@@ -15,6 +15,8 @@ void draw_line(io::Image& image, double x0, double y0, double x1, double y1, dou
 void draw_disc(io::Image& image, double x, double y, double radius, int color, double ring = 0, double opacity = 1);
 /// Colour bar of eight steps along the right edge with ticks, unit and quantiles.
 void draw_legend(io::Image& image, const Legend& legend);
+/// Pixels that the colour bar takes along the right edge of a picture of this size; 0 without one.
+int legend_width(const Legend& legend, int width, int height);
 /// Pictures side by side, row by row, each with a caption below (captions may be empty).
 io::Image contact_sheet(const std::vector<io::Image>& images, const std::vector<std::string>& captions, int columns);
 struct Comparison {
