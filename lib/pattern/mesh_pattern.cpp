@@ -158,16 +158,4 @@ PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::stri
   return mesh;
 }
 
-double smallest_angle_deg(const PanelMesh& mesh, int panel) {
-  double worst = units::PI;
-  const std::size_t first = panel < 0 ? 0 : static_cast<std::size_t>(mesh.panels[static_cast<std::size_t>(panel)].first_triangle);
-  const std::size_t n = panel < 0 ? mesh.triangles.size() : static_cast<std::size_t>(mesh.panels[static_cast<std::size_t>(panel)].n_triangles);
-  for (std::size_t t = first; t < first + n; ++t) {
-    const Triangle& tri = mesh.triangles[t];
-    worst = std::min(worst, smallest_angle(mesh.pattern[static_cast<std::size_t>(tri[0])], mesh.pattern[static_cast<std::size_t>(tri[1])],
-                                           mesh.pattern[static_cast<std::size_t>(tri[2])]));
-  }
-  return units::degrees(worst);
-}
-
 } // namespace sloper::pattern

@@ -12,7 +12,4 @@ namespace sloper::pattern {
 /// @throws Error INPUT where a panel cannot be meshed
 PanelMesh mesh_pattern(const Pattern& pattern, double edge_length, const std::string& file, double seam_length = 0);
 
-/// Smallest angle over all triangles of a panel (all panels when negative), degrees, in the pattern.
-double smallest_angle_deg(const PanelMesh& mesh, int panel = -1);
-
 } // namespace sloper::pattern

@@ -1,3 +1,4 @@
+#include "mesh_quality.hpp"
 #include "pattern_texts.hpp"
 
 #include <base/error.hpp>

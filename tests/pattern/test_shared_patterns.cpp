@@ -1,4 +1,5 @@
 /// All patterns of the shared data set, when SLOPER_SHARED names its folder.
+#include "mesh_quality.hpp"
 #include "pattern_texts.hpp"
 
 #include <cstdlib>
