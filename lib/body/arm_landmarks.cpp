@@ -1,5 +1,6 @@
 #include <base/units.hpp>
 #include <body/landmark_finder.hpp>
+#include <body/plateau.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -54,26 +55,18 @@ std::optional<double> wrist_by_girth(const ArmTrace& arm, const Finder& f) {
 /// Where the upper arm starts to swell above the elbow: the steepest rise of girth past the forearm's belly.
 std::optional<double> elbow_by_girth(const ArmTrace& arm, double s, double wrist) {
   const auto& sections = arm.sections;
-  std::vector<std::pair<double, double>> rises; // along, girth per length
-  std::size_t steepest = 0;
+  std::vector<Vec2> falls; // along, girth lost per length
   for (std::size_t k = 3; k + 3 < sections.size(); ++k) {
     const double along = sections[k].along;
     if (along < wrist + 0.10 * s || along > wrist + 0.185 * s) continue;
     double rise = 0;
     for (std::size_t j = 1; j <= 3; ++j) rise += (sections[k + j].girth - sections[k - j].girth) / (sections[k + j].along - sections[k - j].along) / 3;
-    rises.emplace_back(along, rise);
-    if (rise > rises[steepest].second) steepest = rises.size() - 1;
+    falls.emplace_back(along, -rise);
   }
-  if (rises.empty() || rises[steepest].second <= 0) return std::nullopt;
-  double sum = 0, weight = 0; // the middle of what is about as steep: sections lie centimetres apart
-  auto add = [&](std::size_t k) {
-    const double w = rises[k].second - 0.75 * rises[steepest].second;
-    if (w > 0) sum += w * rises[k].first, weight += w;
-    return w > 0;
-  };
-  for (std::size_t k = steepest; k < rises.size() && add(k); ++k) {}
-  for (std::size_t k = steepest; k > 0 && add(k - 1); --k) {}
-  return sum / weight;
+  double steepest = 0;
+  for (const Vec2& fall : falls) steepest = std::max(steepest, -fall.y());
+  if (steepest <= 0) return std::nullopt;
+  return lowest_of(falls, 0.25 * steepest).middle; // of what is about as steep: sections lie centimetres apart
 }
 
 /// Axilla and its folds, shoulder joint and acromion. @return the joint, which the rest of the arm is measured from
@@ -96,7 +89,7 @@ Vec3 find_shoulder(const Finder& f, int side) {
     if (arm.pit_hidden) f.body.scan.findings.push_back({"warning", "the arm pit is hidden, its place is estimated", "axilla" + suffix});
     f.find("axilla_front", suffix, 2, {{"beside_arm_pit", [&] { return arm.axilla_front; }}});
     f.find("axilla_back", suffix, 2, {{"beside_arm_pit", [&] { return arm.axilla_back; }}});
-  }
+  } else f.body.scan.findings.push_back({"warning", "the arm touches the trunk or the scan has a hole there: the arm pit is not found", "axilla" + suffix});
   Vec3 by_axis = arm.at(arm.length() + 0.02 * s);
   by_axis.z() += f.number("shoulder_joint.before_axis") * s;
   auto by_pit = [&]() -> std::optional<Vec3> {
@@ -111,6 +104,7 @@ Vec3 find_shoulder(const Finder& f, int side) {
     return joint;
   };
   const bool found = f.find("shoulder_joint", suffix, 2, {{"between_arm_pit_and_shoulder", by_pit}});
+  if (found && arm.pit_hidden) f.body.landmarks["shoulder_joint" + suffix].confidence *= 0.5; // it rests on where pits usually are
   f.also("shoulder_joint" + suffix, by_axis);
   const Vec3 joint = found ? f.at("shoulder_joint" + suffix) : by_axis;
   const double lateral = f.number("acromion.outward") - f.number("acromion.outward_per_degree") * raised;

@@ -30,6 +30,13 @@ struct ArmTrace {
   double length() const { return sections.empty() ? 0 : sections.back().along; }
 };
 
+/// Fills the arm pit's roof and the folds beside it: where, along the arm, the gap between arm and trunk closes; else by proportion, `pit_hidden`.
+void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules);
+
+/// Fills `merge`: going up, the level at which the loops of a hanging arm and of the trunk become one, by bisection to 0.02 mm: front and back fold
+/// often meet within a tenth of a millimetre of each other.
+void find_merge(ArmTrace& arm, const LevelStack& levels);
+
 /// Both arms (left first); an arm that cannot be told from the trunk has no sections.
 /// @param scan_points the scan's own points where the skin was rebuilt and has lost the fingers' ends; else empty
 std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& graph, const std::vector<Vec3>& scan_points, const Rules& rules);

@@ -85,8 +85,9 @@ void name_body_class(const Finder& f) {
   body.body_class = f.figure.female > 0.5 ? "female figure" : "male figure";
   body.body_class_why.push_back(line("%.2f female proportions by waist to hip breadth, groin and chest", f.figure.female));
   const bool indented = body.levels.count("waist_girth_min") != 0 || body.levels.count("waist_width_min") != 0;
-  body.body_class += indented ? ", indented waist" : ", straight waist";
-  if (!indented) body.body_class_why.emplace_back("neither girth nor breadth has a minimum between chest and hip: the waist is taken by proportion");
+  const bool hidden = std::any_of(body.scan.findings.begin(), body.scan.findings.end(), [](const Finding& finding) { return finding.place == "waist"; });
+  body.body_class += indented ? ", indented waist" : hidden ? ", hidden waist" : ", straight waist";
+  if (!indented && !hidden) body.body_class_why.emplace_back("neither girth nor breadth has a minimum between chest and hip: the waist is taken by proportion");
   if (body.levels.count("abdomen") && body.levels.count("bust")) {
     const double bulge = body.levels["abdomen"].depth_m / body.levels["bust"].depth_m;
     if (bulge > 1.02) {

@@ -1,4 +1,5 @@
 #include <body/crotch.hpp>
+#include <body/plateau.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -8,23 +9,23 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double SAG = 0.015; ///< a closed hole hangs this much lower than the skin that was there
+constexpr double FLAT = 0.003; ///< m: as far back as makes no difference
+constexpr double SAG = 0.015;  ///< a closed hole hangs this much lower than the skin that was there
 /// Half sizes of the box in which points of the scan show the crotch: thin, for the thighs beside a hole are near.
-const Vec3 SEEN(0.004, 0.012, 0.05);
+const Vec3 SEEN(0.004, 0.012, 0.025);
 
 /// Height of the rearmost part of the trunk below the waist; none where it only runs out upwards, as of a back that leans.
 std::optional<double> buttock_level(const LevelStack& levels) {
   const double s = levels.stature(), top = 0.60 * s;
-  std::optional<double> best;
-  double rearmost = 1e300;
+  std::vector<Vec2> backs; // height, depth
   for (double y = 0.46 * s; y < top; y += levels.spacing()) {
     const Slice& slice = levels.at(y);
-    if (slice.trunk < 0) continue;
-    const double z = slice.loops[slice.trunk].low.y();
-    if (z < rearmost) rearmost = z, best = slice.y;
+    if (slice.trunk >= 0) backs.emplace_back(slice.y, slice.loops[slice.trunk].low.y());
   }
-  if (best && *best > top - 0.025 * s) return std::nullopt;
-  return best;
+  if (backs.empty()) return std::nullopt;
+  const Lowest rearmost = lowest_of(backs, FLAT);
+  if (rearmost.least > top - 0.025 * s) return std::nullopt;
+  return rearmost.middle;
 }
 
 } // namespace

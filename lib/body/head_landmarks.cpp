@@ -1,4 +1,5 @@
 #include <body/landmark_finder.hpp>
+#include <body/plateau.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,23 +27,13 @@ namespace {
 std::optional<double> hollow_of_throat(const Finder& f, double x) {
   constexpr double AS_DEEP = 0.0008; // m
   const double low = f.number("neck_front.search_low") * f.s, high = f.number("neck_front.search_high") * f.s;
-  std::vector<std::pair<double, double>> fronts; // height, depth
-  std::size_t deepest = 0;
+  std::vector<Vec2> fronts; // height, depth
   for (double y = low; y <= high; y += 0.001 * f.s)
-    if (const auto m = midline(f.levels, y, x, 0.006 * f.s)) {
-      fronts.emplace_back(y, m->front);
-      if (m->front < fronts[deepest].second) deepest = fronts.size() - 1;
-    }
-  if (fronts.empty() || fronts[deepest].first < low + 0.003 * f.s || fronts[deepest].first > high - 0.003 * f.s) return std::nullopt;
-  double sum = 0, weight = 0; // the middle of what is as deep as makes no difference
-  auto add = [&](std::size_t k) {
-    const double w = fronts[deepest].second + AS_DEEP - fronts[k].second;
-    if (w > 0) sum += w * fronts[k].first, weight += w;
-    return w > 0;
-  };
-  for (std::size_t k = deepest; k < fronts.size() && add(k); ++k) {}
-  for (std::size_t k = deepest; k > 0 && add(k - 1); --k) {}
-  return sum / weight;
+    if (const auto m = midline(f.levels, y, x, 0.006 * f.s)) fronts.emplace_back(y, m->front);
+  if (fronts.empty()) return std::nullopt;
+  const Lowest deepest = lowest_of(fronts, AS_DEEP);
+  if (deepest.least < low + 0.003 * f.s || deepest.least > high - 0.003 * f.s) return std::nullopt;
+  return deepest.middle;
 }
 
 /// Where the neck turns into the shoulders: coming down, the outline widens faster than it falls.

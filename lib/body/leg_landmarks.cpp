@@ -1,4 +1,5 @@
 #include <body/landmark_finder.hpp>
+#include <body/plateau.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,24 +13,13 @@ constexpr double FLAT = 0.001; ///< m: as far out as makes no difference
 
 /// Height of the hollow behind the knee: where the back of the leg comes furthest forward.
 std::optional<double> hollow_of_knee(const Finder& f, int side, double around) {
-  std::vector<std::pair<double, double>> backs; // height, depth
-  std::size_t deepest = 0;
+  std::vector<Vec2> backs; // height, depth from the front
   for (double y = around - 0.03 * f.s; y <= around + 0.06 * f.s; y += 0.0025 * f.s)
-    if (const auto loop = f.levels.leg_at(y, side)) {
-      backs.emplace_back(y, loop->low.y());
-      if (backs.back().second > backs[deepest].second) deepest = backs.size() - 1;
-    }
-  // at the end of the search there is no hollow
-  if (backs.empty() || backs[deepest].first < around - 0.027 * f.s || backs[deepest].first > around + 0.057 * f.s) return std::nullopt;
-  double sum = 0, weight = 0; // the middle of what is as deep as makes no difference
-  auto add = [&](std::size_t k) {
-    const double w = backs[k].second + FLAT - backs[deepest].second;
-    if (w > 0) sum += w * backs[k].first, weight += w;
-    return w > 0;
-  };
-  for (std::size_t k = deepest; k < backs.size() && add(k); ++k) {}
-  for (std::size_t k = deepest; k > 0 && add(k - 1); --k) {}
-  return sum / weight;
+    if (const auto loop = f.levels.leg_at(y, side)) backs.emplace_back(y, -loop->low.y());
+  if (backs.empty()) return std::nullopt;
+  const Lowest deepest = lowest_of(backs, FLAT);
+  if (deepest.least < around - 0.027 * f.s || deepest.least > around + 0.057 * f.s) return std::nullopt; // at the end of the search there is no hollow
+  return deepest.middle;
 }
 
 /// The end of the foot in front (direction 1) or behind (-1): the mean of its `n` outermost points. Of toes as long as makes no

@@ -36,6 +36,18 @@ std::optional<Level> measure_level(const Finder& f, double y) {
   return level;
 }
 
+/// An arm that touches the trunk below the pit is part of this level's outline, which tells no breadth of the trunk then.
+bool arm_hangs_on(const Finder& f, double y) {
+  const auto loop = f.levels.trunk_at(y);
+  if (!loop) return false;
+  for (const ArmTrace& arm : f.arms) {
+    if (arm.sections.empty() || (!arm.pit_hidden && arm.axilla && y > arm.axilla->y() - 0.02 * f.s)) continue;
+    for (const LimbSection& section : arm.sections)
+      if (std::abs(section.center.y() - y) < 0.004 * f.s && encloses(*loop, Vec2(section.center.x(), section.center.z()))) return true;
+  }
+  return false;
+}
+
 void put_level(const Finder& f, const std::string& name, double y, const std::string& rule) {
   if (auto level = measure_level(f, y)) {
     level->rule = rule;
@@ -243,8 +255,13 @@ double prominence(const std::vector<double>& curve, std::size_t least) {
 
 void find_waist_minima(const Finder& f, double top, double bottom) {
   std::vector<Level> curve;
-  for (double y = top; y > bottom; y -= 0.002)
+  for (double y = top; y > bottom; y -= 0.002) {
+    if (arm_hangs_on(f, y)) {
+      f.body.scan.findings.push_back({"warning", "an arm touches the trunk: its least girth and breadth are not found", "waist"});
+      return;
+    }
     if (const auto level = measure_level(f, y)) curve.push_back(*level);
+  }
   if (curve.size() < 5) return;
   auto least_of = [&](const char* name, double Level::*measure) -> std::optional<Level> {
     std::vector<double> values;
@@ -342,7 +359,7 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
   find_level(f, "hip_girth_max", {{"largest_girth", [&] {
                                      std::optional<Level> most;
                                      for (double y = crotch + 0.004; y < waist; y += 0.002)
-                                       if (const auto level = measure_level(f, y))
+                                       if (const auto level = arm_hangs_on(f, y) ? std::nullopt : measure_level(f, y))
                                          if (!most || level->girth_m > most->girth_m) most = level;
                                      return most;
                                    }}});

@@ -303,3 +303,15 @@ TEST(MeasureScan, a_stature_that_no_unit_explains_is_refused) {
   options.unit = "mm";
   EXPECT_THROW(measure(test::mannequin("f-165-a").mesh, options), Error);
 }
+
+TEST(MeasureScan, an_arm_that_touches_the_trunk_hides_the_pit_and_the_waist) {
+  samples::Mannequin pressed;
+  pressed.sex = "m", pressed.stature_m = 1.64, pressed.bmi = 31, pressed.arm_deg = 12;
+  const Body body = test::measure(samples::make_mannequin(pressed).mesh).body;
+  for (const char* name : {"axilla_l", "axilla_r", "axilla_merge_l", "axilla_front_r"}) EXPECT_FALSE(body.has_landmark(name)) << name;
+  for (const char* name : {"waist_width_min", "waist_girth_min"}) EXPECT_FALSE(body.levels.count(name)) << name;
+  std::set<std::string> told;
+  for (const Finding& finding : body.scan.findings) told.insert(finding.place);
+  for (const char* place : {"axilla_l", "axilla_r", "waist"}) EXPECT_TRUE(told.count(place)) << place;
+  EXPECT_TRUE(body.has_landmark("shoulder_joint_l"));
+}
