@@ -3,7 +3,6 @@
 #include <cloth/bending.hpp>
 #include <cloth/edge_spring.hpp>
 #include <cloth/gravity.hpp>
-#include <cloth/pressure.hpp>
 #include <cloth/shear.hpp>
 #include <garment/drape_run.hpp>
 #include <garment/effects.hpp>
@@ -20,24 +19,14 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double SEWN_GAP = 5e-4;      // m: a stitch this short is welded
-constexpr int SEW_STEPS = 600;         // at most
-constexpr double SEW_REACH = 0.05;     // m: the pull of a stitch does not grow beyond this gap
-constexpr double SEW_PULL = 10;        // of a stitch at reach, in weights of a particle
-constexpr double SEW_SEARCH = 0.75;    // of the mesh edge: cloth nearer than this is watched while sewing
-constexpr double SEW_MOVE = 0.8;       // of the mesh edge: of any particle in one step
-constexpr double SEW_TOLERANCE = 0.05; // relative residual of a step: only where the panels end up counts
-constexpr double SEW_GROWTH = 1.6;     // of the pull where seams hardly close on, in five steps by a part of SEW_SLOW
-constexpr double SEW_SLOW = 0.04;
-constexpr double SEW_STEP_S = 0.1;
-constexpr double SEW_STRONGEST = 20;     // N at reach: closes seams of garments that fit tightly
+constexpr double SEW_SEARCH = 0.75;      // of the mesh edge: cloth nearer than this is watched while sewing
+constexpr double SEW_TOLERANCE = 0.05;   // relative residual of a step: only where the panels end up counts
 constexpr double SEW_LEG_SCALE = 0.7;    // of the body's thickness while trousers are sewn
 constexpr double SEW_BENDING = 30;       // times that of the fabric
 constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step while the body is inflated
 constexpr double LATEST = 0.01;          // m: how far skin may stay back where cloth is in its way
 constexpr int LATE_STEPS = 40;           // in which what stayed back comes home
 constexpr int GLIDE_STEPS = 40;          // after sewing, free of weight and friction, which would keep the strain that sewing left
-constexpr double BREATH = 1;             // weights of the cloth on its area: pressure from within meanwhile, which turns out dents that sewing left
 constexpr int STALLED_STEPS = 400;       // without a residual that is a tenth less, and more than the weight: it will not come to rest
 constexpr int UNMOVED_STEPS = 25;        // one after the other in which nothing can move at all
 constexpr int MOST_UNTANGLINGS = 8;      // of cloth at rest that crosses itself
@@ -47,15 +36,13 @@ constexpr int STRAINED_STEPS = 80;       // without a strain that is a tenth les
 constexpr double NEAR_RESIDUAL = 1;      // weights: below, steps may grow faster
 constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
 
-std::string millimetres(double m) { return std::to_string(std::lround(m * 1e4) / 10) + "." + std::to_string(std::lround(m * 1e4) % 10) + " mm"; }
+} // namespace
 
 std::string place_text(const Vec3& p) {
   char text[64];
   std::snprintf(text, sizeof text, "(%.3f, %.3f, %.3f) m", p.x(), p.y(), p.z());
   return text;
 }
-
-} // namespace
 
 void DrapeRun::add_phase_time(const char* name, double wall_s) {
   auto& phases = m_report.phases;
@@ -211,44 +198,6 @@ std::string DrapeRun::crossing_text() const {
   return ", " + std::to_string(m_body_contact->n_crossing()) + " faces through the skin, one at " + place_text(m_body_contact->crossing_place());
 }
 
-void DrapeRun::sew() {
-  const Phase phase(*this, "sew");
-  if (m_at.phase != DrapePhase::SEW) { // it begins; else it goes on from a checkpoint
-    build_solver(true);
-    log_crossings("start");
-    double weight = 0;
-    for (double m : m_cloth->mass) weight += m * units::GRAVITY / m_cloth->n_particles;
-    m_at.phase = DrapePhase::SEW;
-    m_at.step = 0;
-    m_at.pull = SEW_PULL * weight;
-  }
-  for (int& k = m_at.step; k < SEW_STEPS; ++k) {
-    checkpoint();
-    m_sewing->set_stiffness(m_at.pull / SEW_REACH);
-    std::vector<double>& gaps = m_at.gaps;
-    gaps.push_back(m_sewing->widest(m_solver->x()).length);
-    m_reporter.progress("sew", 0.4 * k / SEW_STEPS);
-    if (k % 20 == 0)
-      m_reporter.info("sew step " + std::to_string(k) + ": largest gap " + millimetres(gaps.back()) + ", pull " + std::to_string(m_at.pull) + " N");
-    if (gaps.back() < SEWN_GAP) break;
-    const bool slow = k >= m_at.pull_changed + 5 && gaps[k] > (1 - SEW_SLOW) * gaps[k - 5];
-    if (slow && m_at.pull >= SEW_STRONGEST && k >= m_at.pull_changed + 20) break; // it will not come closer
-    if (slow && m_at.pull < SEW_STRONGEST) {
-      m_at.pull = std::min(SEW_GROWTH * m_at.pull, SEW_STRONGEST);
-      m_at.pull_changed = k;
-    }
-    if (!step(SEW_STEP_S, 0, SEW_MOVE * mean_edge())) return;
-  }
-  const auto [gap, where] = m_sewing->widest(m_solver->x());
-  if (gap > 5 * SEWN_GAP) m_report.repairs.push_back("seams were still open by " + millimetres(gap) + " at " + place_text(where) + " when they were welded");
-  m_garment.position = m_solver->x();
-  std::vector<Vec3> vertex_position(m_garment.particle_of.size());
-  for (std::size_t v = 0; v < vertex_position.size(); ++v) vertex_position[v] = m_garment.position[m_garment.particle_of[v]];
-  log_crossings("sewn");
-  weld(m_garment, vertex_position);
-  log_crossings("welded");
-}
-
 /// The skin comes back to its place, if it can at no time through cloth that is clear of it: each vertex goes at most half of its way
 /// to the cloth, then the cloth makes room. Where the cloth is slow to do so the skin waits, but not farther back than LATEST, and less
 /// and less far once the rest of the body is back; then it goes through, and pushes.
@@ -324,22 +273,6 @@ void DrapeRun::add_load() {
   if (active("friction") && m_self_contact) m_self_contact->set_friction(material.friction_self);
 }
 
-/// A flared hem that sewing has dented inwards may stay so: a cone turned in is a state of rest too. Cloth without seams would fly off.
-void DrapeRun::breathe() {
-  if (m_breath || !active("sewing") || m_settings.effects.rfind("auto", 0) != 0 || m_settings.effects.find("-pressure") != std::string::npos) return;
-  if (!active("pressure")) activate("pressure", "for a moment after sewing: it turns out dents");
-  const double weight = material_of(m_garment, "").density_kg_m2 * units::GRAVITY;
-  m_breath = &m_solver->emplace<cloth::PressureEffect>(m_cloth->particle_triangles(), BREATH * weight);
-}
-
-void DrapeRun::stop_breathing() {
-  if (!m_breath) return;
-  const std::unique_ptr<cloth::Effect> taken = m_solver->remove(*m_breath);
-  m_breath = nullptr;
-  for (EffectReport& r : m_report.effects)
-    if (r.name == taken->name()) r.calls += taken->calls, r.wall_s += taken->wall_s;
-}
-
 void DrapeRun::settle() {
   const Phase phase(*this, "settle");
   m_settling = true;
@@ -409,58 +342,6 @@ void DrapeRun::settle() {
     m_report.stop_reason = "at rest";
     break;
   }
-}
-
-void DrapeRun::report_effects() {
-  for (const auto& effect : m_solver->effects())
-    for (EffectReport& r : m_report.effects)
-      if (r.name == effect->name()) {
-        r.calls += effect->calls;
-        r.wall_s += effect->wall_s;
-      }
-  for (EffectReport& r : m_report.effects) // damping and friction live in the terms that they belong to
-    if (r.name == "friction" && m_body_contact) r.calls += m_body_contact->friction_calls;
-    else if (r.name == "layers" && r.active && m_self_contact) r.calls += m_self_contact->calls;
-    else if (r.name == "damping" && r.active) r.calls = m_report.steps;
-}
-
-void DrapeRun::finish() {
-  if (m_solver) {
-    m_garment.position = m_solver->x();
-    report_effects();
-  }
-  const Phase phase(*this, "audit");
-  if (m_mitten) m_collider.emplace(m_body->skin); // the mittens were only a means
-  const Audit a = audit(m_garment, m_collider ? &*m_collider : nullptr);
-  if (!a.clean() && m_report.converged) {
-    m_report.converged = false;
-    m_report.stop_reason = "at rest, but " + std::to_string(a.through.size()) + " faces through the body, " + std::to_string(a.inside.size()) +
-                           " vertices inside it, " + std::to_string(a.self.size()) + " self intersections";
-  }
-  auto triple = [](const double q[3]) { return io::Json{{"p50", q[0]}, {"p99", q[1]}, {"max", q[2]}}; };
-  m_report.quality = {{"max_speed_m_s", m_at.last_h > 0 ? m_at.last.largest_move_m / m_at.last_h : 0},
-                      {"residual_force_ratio", m_at.last.residual_force_ratio},
-                      {"residual_force_ratio_max", m_at.last.residual_force_ratio_max},
-                      {"particles_held", m_at.last.held},
-                      {"strain", {{"warp", triple(a.strain_warp)}, {"weft", triple(a.strain_weft)}, {"bias", triple(a.strain_bias)}}},
-                      {"faces_through_body", a.through.size()},
-                      {"vertices_inside_body", a.inside.size()},
-                      {"deepest_m", a.deepest_m},
-                      {"self_intersections", a.self.size()}};
-  std::vector<int> sorted = m_at.cg_iterations;
-  std::sort(sorted.begin(), sorted.end());
-  double mean = 0;
-  for (int n : sorted) mean += n;
-  const std::size_t n = std::max<std::size_t>(sorted.size(), 1);
-  m_report.solver = {
-      {"cg_iterations",
-       {{"mean", mean / static_cast<double>(n)}, {"p95", sorted.empty() ? 0 : sorted[(n - 1) * 95 / 100]}, {"max", sorted.empty() ? 0 : sorted.back()}}},
-      {"residual", m_at.last.cg.residual},
-      {"newton", 1},
-      {"rejected_steps", m_at.rejected}};
-  if (m_moves) m_report.quality["motion"] = m_motion;
-  m_garment.converged = m_report.converged;
-  m_garment.offset_m = m_settings.contact_gap_m;
 }
 
 DrapeReport DrapeRun::run() {

@@ -1,4 +1,4 @@
-#include <garment/drape.hpp>
+#include <garment/drape_run.hpp>
 #include <garment/scene.hpp>
 #include <io/files.hpp>
 #include <io/json.hpp>
@@ -46,6 +46,58 @@ io::Json report_json(const DrapeReport& report, const std::string& tool) {
   out["repairs"] = report.repairs;
   out["settings"] = settings_json(report.settings);
   return out;
+}
+
+void DrapeRun::report_effects() {
+  for (const auto& effect : m_solver->effects())
+    for (EffectReport& r : m_report.effects)
+      if (r.name == effect->name()) {
+        r.calls += effect->calls;
+        r.wall_s += effect->wall_s;
+      }
+  for (EffectReport& r : m_report.effects) // damping and friction live in the terms that they belong to
+    if (r.name == "friction" && m_body_contact) r.calls += m_body_contact->friction_calls;
+    else if (r.name == "layers" && r.active && m_self_contact) r.calls += m_self_contact->calls;
+    else if (r.name == "damping" && r.active) r.calls = m_report.steps;
+}
+
+void DrapeRun::finish() {
+  if (m_solver) {
+    m_garment.position = m_solver->x();
+    report_effects();
+  }
+  const Phase phase(*this, "audit");
+  if (m_mitten) m_collider.emplace(m_body->skin); // the mittens were only a means
+  const Audit a = audit(m_garment, m_collider ? &*m_collider : nullptr);
+  if (!a.clean() && m_report.converged) {
+    m_report.converged = false;
+    m_report.stop_reason = "at rest, but " + std::to_string(a.through.size()) + " faces through the body, " + std::to_string(a.inside.size()) +
+                           " vertices inside it, " + std::to_string(a.self.size()) + " self intersections";
+  }
+  auto triple = [](const double q[3]) { return io::Json{{"p50", q[0]}, {"p99", q[1]}, {"max", q[2]}}; };
+  m_report.quality = {{"max_speed_m_s", m_at.last_h > 0 ? m_at.last.largest_move_m / m_at.last_h : 0},
+                      {"residual_force_ratio", m_at.last.residual_force_ratio},
+                      {"residual_force_ratio_max", m_at.last.residual_force_ratio_max},
+                      {"particles_held", m_at.last.held},
+                      {"strain", {{"warp", triple(a.strain_warp)}, {"weft", triple(a.strain_weft)}, {"bias", triple(a.strain_bias)}}},
+                      {"faces_through_body", a.through.size()},
+                      {"vertices_inside_body", a.inside.size()},
+                      {"deepest_m", a.deepest_m},
+                      {"self_intersections", a.self.size()}};
+  std::vector<int> sorted = m_at.cg_iterations;
+  std::sort(sorted.begin(), sorted.end());
+  double mean = 0;
+  for (int n : sorted) mean += n;
+  const std::size_t n = std::max<std::size_t>(sorted.size(), 1);
+  m_report.solver = {
+      {"cg_iterations",
+       {{"mean", mean / static_cast<double>(n)}, {"p95", sorted.empty() ? 0 : sorted[(n - 1) * 95 / 100]}, {"max", sorted.empty() ? 0 : sorted.back()}}},
+      {"residual", m_at.last.cg.residual},
+      {"newton", 1},
+      {"rejected_steps", m_at.rejected}};
+  if (m_moves) m_report.quality["motion"] = m_motion;
+  m_garment.converged = m_report.converged;
+  m_garment.offset_m = m_settings.contact_gap_m;
 }
 
 } // namespace sloper::garment

@@ -17,7 +17,10 @@ namespace sloper::garment {
 
 class FollowRun;
 
+inline constexpr double SEW_REACH = 0.05;   ///< m: the pull of a stitch does not grow beyond this gap
 inline constexpr int MOST_PUSH_STEPS = 120; ///< for cloth at rest that is still through the skin
+
+std::string place_text(const Vec3& p); ///< for messages
 
 class DrapeRun {
 public:

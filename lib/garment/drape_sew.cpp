@@ -1,0 +1,84 @@
+/// The part of a drape that draws the panels together, and the breath after it.
+#include <cloth/pressure.hpp>
+#include <garment/drape_run.hpp>
+#include <garment/effects.hpp>
+#include <garment/materials.hpp>
+#include <garment/sewing.hpp>
+
+#include <algorithm>
+#include <base/units.hpp>
+#include <cmath>
+
+namespace sloper::garment {
+
+namespace {
+
+constexpr double SEWN_GAP = 5e-4;  // m: a stitch this short is welded
+constexpr int SEW_STEPS = 600;     // at most
+constexpr double SEW_PULL = 10;    // of a stitch at reach, in weights of a particle
+constexpr double SEW_MOVE = 0.8;   // of the mesh edge: of any particle in one step
+constexpr double SEW_GROWTH = 1.6; // of the pull where seams hardly close on, in five steps by a part of SEW_SLOW
+constexpr double SEW_SLOW = 0.04;
+constexpr double SEW_STEP_S = 0.1;
+constexpr double SEW_STRONGEST = 20; // N at reach: closes seams of garments that fit tightly
+constexpr double BREATH = 1;         // weights of the cloth on its area: pressure from within meanwhile, which turns out dents that sewing left
+
+std::string millimetres(double m) { return std::to_string(std::lround(m * 1e4) / 10) + "." + std::to_string(std::lround(m * 1e4) % 10) + " mm"; }
+
+} // namespace
+
+void DrapeRun::sew() {
+  const Phase phase(*this, "sew");
+  if (m_at.phase != DrapePhase::SEW) { // it begins; else it goes on from a checkpoint
+    build_solver(true);
+    log_crossings("start");
+    double weight = 0;
+    for (double m : m_cloth->mass) weight += m * units::GRAVITY / m_cloth->n_particles;
+    m_at.phase = DrapePhase::SEW;
+    m_at.step = 0;
+    m_at.pull = SEW_PULL * weight;
+  }
+  for (int& k = m_at.step; k < SEW_STEPS; ++k) {
+    checkpoint();
+    m_sewing->set_stiffness(m_at.pull / SEW_REACH);
+    std::vector<double>& gaps = m_at.gaps;
+    gaps.push_back(m_sewing->widest(m_solver->x()).length);
+    m_reporter.progress("sew", 0.4 * k / SEW_STEPS);
+    if (k % 20 == 0)
+      m_reporter.info("sew step " + std::to_string(k) + ": largest gap " + millimetres(gaps.back()) + ", pull " + std::to_string(m_at.pull) + " N");
+    if (gaps.back() < SEWN_GAP) break;
+    const bool slow = k >= m_at.pull_changed + 5 && gaps[k] > (1 - SEW_SLOW) * gaps[k - 5];
+    if (slow && m_at.pull >= SEW_STRONGEST && k >= m_at.pull_changed + 20) break; // it will not come closer
+    if (slow && m_at.pull < SEW_STRONGEST) {
+      m_at.pull = std::min(SEW_GROWTH * m_at.pull, SEW_STRONGEST);
+      m_at.pull_changed = k;
+    }
+    if (!step(SEW_STEP_S, 0, SEW_MOVE * mean_edge())) return;
+  }
+  const auto [gap, where] = m_sewing->widest(m_solver->x());
+  if (gap > 5 * SEWN_GAP) m_report.repairs.push_back("seams were still open by " + millimetres(gap) + " at " + place_text(where) + " when they were welded");
+  m_garment.position = m_solver->x();
+  std::vector<Vec3> vertex_position(m_garment.particle_of.size());
+  for (std::size_t v = 0; v < vertex_position.size(); ++v) vertex_position[v] = m_garment.position[m_garment.particle_of[v]];
+  log_crossings("sewn");
+  weld(m_garment, vertex_position);
+  log_crossings("welded");
+}
+
+/// A flared hem that sewing has dented inwards may stay so: a cone turned in is a state of rest too. Cloth without seams would fly off.
+void DrapeRun::breathe() {
+  if (m_breath || !active("sewing") || m_settings.effects.rfind("auto", 0) != 0 || m_settings.effects.find("-pressure") != std::string::npos) return;
+  if (!active("pressure")) activate("pressure", "for a moment after sewing: it turns out dents");
+  const double weight = material_of(m_garment, "").density_kg_m2 * units::GRAVITY;
+  m_breath = &m_solver->emplace<cloth::PressureEffect>(m_cloth->particle_triangles(), BREATH * weight);
+}
+
+void DrapeRun::stop_breathing() {
+  if (!m_breath) return;
+  const std::unique_ptr<cloth::Effect> taken = m_solver->remove(*m_breath);
+  m_breath = nullptr;
+  for (EffectReport& r : m_report.effects)
+    if (r.name == taken->name()) r.calls += taken->calls, r.wall_s += taken->wall_s;
+}
+
+} // namespace sloper::garment
