@@ -213,9 +213,9 @@ int main_of(const Options& o) {
           << " | " << seconds << " |\n";
   }
   std::ostringstream head;
-  head << cases.size() << " cases, " << points.size() << " points, " << runs << " runs: " << held << " hold; " << whole << " cases hold throughout.\n";
+  head << cases.size() << " cases, " << points.size() << " points, " << runs << " runs: " << held << " hold; " << whole << " cases hold throughout.";
   const std::string tail = failing.str().empty() ? "" : "\n## What does not hold yet\n\n" + failing.str();
-  std::printf("%s\n%s%s", head.str().c_str(), table.str().c_str(), tail.c_str());
+  std::printf("%s\n\n%s%s", head.str().c_str(), table.str().c_str(), tail.c_str());
   if (!o.hashes.empty()) {
     std::ofstream out(o.hashes);
     for (std::size_t i = 0; i < points.size(); ++i) out << points[i].first->file << " [" << points[i].second->name << "] " << results[i].hashes << "\n";
@@ -226,7 +226,7 @@ int main_of(const Options& o) {
            "the\n"
            "count), each run in a process of its own with a limit of CPU time. A case holds when the state is finite, the exit code is right, the\n"
            "report says what happened, and what stands under \"must hold\" is within its bounds.\n\n**"
-        << head.str() << "**\n"
+        << head.str() << "**\n\n"
         << table.str() << tail;
   }
   return wrong ? 1 : 0;
