@@ -5,7 +5,7 @@
 #include <vector>
 namespace sloper::body {
 
-/// Mean position and the 2x2 covariance of horizontal points, each occupied cell counted once.
+/// Mean position and the 2x2 covariance of horizontal points, each occupied cell (of side `cell`, in the points' unit) counted once.
 struct Moments {
   Vec2 mean = Vec2::Zero();
   double xx = 0, xz = 0, zz = 0;

@@ -47,6 +47,7 @@ ClothSolver::ClothSolver(const ClothMesh& mesh, std::vector<Vec3> x) : m_mesh(me
   m_freeze.assign(m_x.size(), 0);
   m_frozen_for = m_freeze;
   for (double e : mesh.shortest_edge) m_mean_edge += e / mesh.n_particles;
+  for (double m : mesh.mass) m_mean_weight += m * units::GRAVITY / mesh.n_particles;
 }
 
 Effect& ClothSolver::add(std::unique_ptr<Effect> effect) {
@@ -150,22 +151,26 @@ void ClothSolver::freeze_held(bool search_failed) {
   }
 }
 
+/// The 95th percentile, which ends up in its place; not of nothing.
+static std::vector<double>::iterator percentile_95(std::vector<double>& values) {
+  const auto at = values.begin() + static_cast<long>(0.95 * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return at;
+}
+
 /// Near rest a few particles in a pinch can have forces a thousand times those of all others, and a residual relative to theirs would
 /// leave the others where they are, for hundreds of steps. There they count as outliers, and the tolerance is relative to the rest.
 double ClothSolver::tolerance(const StepOptions& o) {
   if (!o.line_search) return o.cg_tolerance;
-  double all = 0, capped = 0, weight = 0;
+  double all = 0, capped = 0;
   m_residual.clear();
-  for (std::size_t i = 0; i < m_rhs.size(); ++i) {
-    m_residual.push_back(m_rhs[i].squaredNorm());
+  for (const Vec3& r : m_rhs) {
+    m_residual.push_back(r.squaredNorm());
     all += m_residual.back();
-    weight += m_mesh.mass[i] * units::GRAVITY;
   }
-  weight /= static_cast<double>(m_rhs.size());
-  const auto p95 = m_residual.begin() + static_cast<long>(0.95 * static_cast<double>(m_residual.size() - 1));
-  std::nth_element(m_residual.begin(), p95, m_residual.end());
-  if (!(all > 0) || *p95 > NEAR_REST * NEAR_REST * weight * weight) return o.cg_tolerance;
-  const double most = OUTLIER * OUTLIER * *p95;
+  const double p95 = *percentile_95(m_residual), near = NEAR_REST * m_mean_weight;
+  if (!(all > 0) || p95 > near * near) return o.cg_tolerance;
+  const double most = OUTLIER * OUTLIER * p95;
   for (double r : m_residual) capped += std::min(r, most);
   return o.cg_tolerance * std::max(TIGHTEST, std::sqrt(capped / all));
 }
@@ -235,19 +240,15 @@ StepResult ClothSolver::step(const StepOptions& o) {
     result.halvings = search_along(o.largest_move_m);
     freeze_held(result.halvings > 0);
   }
-  double weight = 0;
   m_residual.clear();
   for (std::size_t i = 0; i < n; ++i) {
-    weight += m_mesh.mass[i] * units::GRAVITY;
     if (m_held[i]) ++result.held;
     else m_residual.push_back(m_force[i].norm());
   }
   if (!m_residual.empty()) {
-    const double mean_weight = weight / static_cast<double>(n);
-    const auto p95 = m_residual.begin() + static_cast<long>(0.95 * static_cast<double>(m_residual.size() - 1));
-    std::nth_element(m_residual.begin(), p95, m_residual.end());
-    result.residual_force_ratio = *p95 / mean_weight;
-    result.residual_force_ratio_max = *std::max_element(p95, m_residual.end()) / mean_weight;
+    const auto p95 = percentile_95(m_residual);
+    result.residual_force_ratio = *p95 / m_mean_weight;
+    result.residual_force_ratio_max = *std::max_element(p95, m_residual.end()) / m_mean_weight;
   }
   for (std::size_t i = 0; i < n; ++i) {
     result.largest_move_m = std::max(result.largest_move_m, m_dx[i].norm());

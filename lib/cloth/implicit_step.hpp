@@ -72,7 +72,7 @@ private:
   std::vector<char> m_held, m_trial_held;
   std::vector<int> m_freeze, m_frozen_for; // #P, steps: of the last freeze; still to go
   std::vector<double> m_residual;
-  double m_mean_edge = 0; // m
+  double m_mean_edge = 0, m_mean_weight = 0; // of a particle; m, N
   BlockMatrix m_matrix;
   bool m_pattern_stale = true;
   std::unique_ptr<Preconditioner> m_preconditioner;

@@ -91,8 +91,13 @@ double dot(const Field& a, const Field& b) {
 Field along(std::size_t n, const Vec3& d) { return Field(n, d); }
 
 /// The damping of an effect at rest is that share of its stiffness, and nothing of its force.
-void expect_damping(Effect& effect, const Field& x, double damping_s) {
+template<class SomeEffect> void expect_damping(double damping_s) {
   constexpr double H = 0.02;
+  Fabric fabric;
+  fabric.damping_s = damping_s;
+  const Grid g = make_grid(5, 0.1, fabric);
+  const Field& x = g.x;
+  SomeEffect effect(g.mesh);
   const Field v = random_field(x.size(), 11);
   const Linearised still = linearised(effect, x, 1e30), damped = linearised(effect, x, H);
   const Field k = still.times(v), d = damped.times(v);
@@ -199,21 +204,12 @@ TEST(Jacobian, of_self_contact_of_edges_that_cross) {
 }
 
 TEST(Jacobian, of_damping_is_its_time_times_the_stiffness_at_rest) {
-  Fabric fabric;
-  fabric.damping_s = 0.03;
-  const Grid g = make_grid(5, 0.1, fabric);
-  EdgeSpringEffect springs(g.mesh);
-  expect_damping(springs, g.x, fabric.damping_s);
-  TriangleStretchEffect stretch(g.mesh);
-  expect_damping(stretch, g.x, fabric.damping_s);
-  ShearEffect shear(g.mesh);
-  expect_damping(shear, g.x, fabric.damping_s);
-  MembraneEffect membrane(g.mesh);
-  expect_damping(membrane, g.x, fabric.damping_s);
-  BendingEffect bending(g.mesh);
-  expect_damping(bending, g.x, fabric.damping_s);
-  DihedralBendingEffect dihedral(g.mesh);
-  expect_damping(dihedral, g.x, fabric.damping_s);
+  expect_damping<EdgeSpringEffect>(0.03);
+  expect_damping<TriangleStretchEffect>(0.03);
+  expect_damping<ShearEffect>(0.03);
+  expect_damping<MembraneEffect>(0.03);
+  expect_damping<BendingEffect>(0.03);
+  expect_damping<DihedralBendingEffect>(0.03);
 }
 
 TEST(Jacobian, of_damping_takes_the_power_with_which_stretched_springs_change_length) {
