@@ -1,5 +1,5 @@
 # Thin: every target is one command that can be typed by hand. `make` builds the programs into build/tools/ and build/samples/, `make test` the tests too.
-.PHONY: all pictures package test demo population check sanitize sanitize-slice install format man bench bench-rivals validation figure4 accuracy fuzz hard soak accuracy-cost presets compare-builds clean
+.PHONY: all pictures package test demo population check sanitize install format man bench bench-rivals validation figure4 accuracy fuzz hard soak accuracy-cost presets compare-builds clean
 
 all:
 	@scripts/build release programs
@@ -20,16 +20,10 @@ check:
 	@scripts/setup
 	@scripts/check
 
+# The tests of the library, hard cases among them, under the address, undefined-behaviour and thread sanitizers.
 sanitize:
-	@scripts/build sanitize
-	@scripts/test build-sanitize
-	@scripts/build threads
-	@scripts/test build-threads
-
-# The same for what indexes and counts most, in a few minutes.
-sanitize-slice:
-	@scripts/build sanitize test_base test_collision test_cloth
-	@for test in base collision cloth; do build-sanitize/tests/$$test/test_$$test --gtest_brief=1 || exit; done
+	@scripts/sanitize address
+	@scripts/sanitize threads
 
 install: all
 	@cmake --install build $(if $(PREFIX),--prefix $(PREFIX))
@@ -56,10 +50,13 @@ bench-rivals:
 	@scripts/build release bench_rivals
 	@scripts/bench-rivals $(SCENES)
 
-# Every physical validation, the slow ones too, with what each measured beside its reference.
+# Every physical validation, the slow ones too, with what each measured beside its reference, and their plots.
 validation:
 	@scripts/build release test_validation
-	@SLOPER_VALIDATION=1 SLOPER_FIGURES=1 build/tests/validation/test_validation
+	@scripts/setup gnuplot-nox
+	@cmake -E rm -rf build/validation-plots && cmake -E make_directory build/validation-plots
+	@SLOPER_VALIDATION=1 SLOPER_FIGURES=1 SLOPER_PLOTS=build/validation-plots build/tests/validation/test_validation
+	@scripts/validation-plots build/validation-plots docs/validation.png
 
 # Every hard case over its sweep and 20 seeds; the table goes to docs/hard-cases.md. Runs are kept in build/hard-runs, which a new build empties.
 hard:

@@ -83,7 +83,7 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.example("drape --body body.json --panels panels.json --report report.json -o shirt.json", "drape a sewn pattern on a scanned body");
   tool.formats("scene, body, panels and garment documents (version 1)", "garment and report documents (version 1), OBJ");
   tool.example("drape --from shirt.json --body body.json --follow edits.jsonl --frames - -o edited.json", "change the pattern and watch the cloth follow");
-  tool.example("drape --body body.json --over shirt.json --panels jacket.json --over-output shirt-below.json -o jacket.json", "a jacket over a shirt");
+  tool.example("drape --body body.json --over shirt.json --panels jacket-panels.json --over-output shirt-below.json -o jacket.json", "a jacket over a shirt");
   tool.example("drape --from shirt.json --body body.json --motion walk.bvh --frames walk -o shirt-walked.json", "let the body walk, cloth frame by frame");
   tool.example("drape --from shirt.json --body body.json --untangle-only -o clean.json", "free a garment of crossings and leave the rest of it as it is");
   tool.example("drape --from run.checkpoint.json --body body.json -o shirt.json", "go on where a run with --checkpoint run.checkpoint.json was killed");
@@ -153,12 +153,6 @@ garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment:
   if (o.untangle_only) {
     garment::DrapeReport report = garment::untangle_only(garment, body, settings, tool.reporter());
     document = garment::report_json(report, tool.name());
-    const io::Json& counts = report.quality["untangled"];
-    for (const char* when : {"before", "after"}) {
-      const io::Json& c = counts[when];
-      tool.reporter().warning(std::string(when) + ": " + c["faces_through_body"].dump() + " faces through the body, " + c["vertices_inside_body"].dump() +
-                              " vertices inside it, " + c["self_intersections"].dump() + " self intersections");
-    }
     return report;
   }
   if (o.follow.empty()) {
@@ -265,16 +259,16 @@ int run(cli::Tool& tool, Options& o) {
   for (const std::string& path : o.over) layers.push_back(garment::read_garment(path));
   body::Body body;
   Result result;
+  if (!o.body.empty()) body = body::read_body(o.body);
+  const std::string skin = o.body.empty() ? "" : body::skin_sha256(o.body);
+  result.findings = garment::start_findings(garment, {source, o.body, skin, !o.from.empty()});
   if (!o.body.empty()) {
-    body = body::read_body(o.body);
-    const std::string skin = body::skin_sha256(o.body);
-    result.findings = garment::start_findings(garment, {source, o.body, skin, !o.from.empty()});
     for (std::size_t k = 0; k < layers.size(); ++k)
       for (const std::string& finding : garment::start_findings(layers[k], {o.over[k], o.body, skin, true})) result.findings.push_back(finding);
-    for (const std::string& finding : result.findings) tool.reporter().warning(finding);
     garment.body_sha256 = skin;
     inputs.push_back(garment::input_entry(o.body));
   }
+  for (const std::string& finding : result.findings) tool.reporter().warning(finding);
   if (!o.motion.empty()) inputs.push_back(garment::input_entry(o.motion));
   for (const std::string& path : o.over) inputs.push_back(garment::input_entry(path));
   const garment::DrapeReport report = drape_or_follow(tool, o, garment, layers, o.body.empty() ? nullptr : &body, scene, settings, result);

@@ -27,8 +27,8 @@ struct Options {
   std::string labels, mask, values, as = "sheet", output;
   bool sheet = false, compare = false;
   int columns = 0;
-  std::optional<cli::Option> seconds_given, columns_given, labels_given, tolerance_given, mask_given;
-  double tolerance = 0.98, seconds = 0.1, range = 0, print_size = 0.1, field_height = 0;
+  std::optional<cli::Option> seconds_given, columns_given, labels_given, tolerance_given, different_given, mask_given;
+  double tolerance = 0.98, different = 0.01, seconds = 0.1, range = 0, print_size = 0.1, field_height = 0;
 };
 
 void add_options(cli::Tool& tool, Options& o) {
@@ -64,6 +64,9 @@ void add_options(cli::Tool& tool, Options& o) {
   o.labels_given = tool.option("--labels", o.labels, "captions of a sheet, joined by commas").type_name("LIST");
   tool.flag("--compare", o.compare, "compare two PNG files: figures to standard output, exit 1 when they differ");
   o.tolerance_given = tool.option("--tolerance", o.tolerance, "with --compare: least structural similarity").check(cli::finite_in(0, 1, "")).show_default();
+  o.different_given = tool.option("--different", o.different, "with --compare: largest share of pixels that may differ by more than 32 of 255")
+                          .check(cli::finite_in(0, 1, ""))
+                          .show_default();
   o.mask_given = tool.option("--mask", o.mask, "with --compare: a PNG, bright where pixels count").check(cli::input_file());
   tool.option("-o,--output", o.output, "the PNG, or a .glb, .obj or .ply of the scene; with --compare the difference picture").check(cli::output_file());
   tool.example("render-png -o shirt.png body.json shirt.json", "a dressed body from the front");
@@ -82,9 +85,11 @@ int run_compare(const Options& o) {
   io::Image mask;
   if (!o.mask.empty()) mask = io::read_png(o.mask);
   const render::Comparison c = render::compare(io::read_png(o.documents[0]), io::read_png(o.documents[1]), o.mask.empty() ? nullptr : &mask);
-  io::write_json("-", {{"ssim", c.ssim}, {"largest_difference", c.largest}, {"different_pixels", c.different}, {"equal", c.ssim >= o.tolerance}});
+  const double share = static_cast<double>(c.far) / static_cast<double>(c.counted);
+  const bool equal = c.ssim >= o.tolerance && share <= o.different;
+  io::write_json("-", {{"ssim", c.ssim}, {"largest_difference", c.largest}, {"different_pixels", c.different}, {"far_share", share}, {"equal", equal}});
   if (!o.output.empty()) io::write_png(o.output, c.picture, {{"Software", "render-png"}});
-  return c.ssim >= o.tolerance ? 0 : 1;
+  return equal ? 0 : 1;
 }
 
 int run_sheet(const Options& o) {
@@ -155,6 +160,7 @@ int run_render(cli::Tool& tool, const Options& o) {
   const std::vector<int> colors = render::parse_colors(o.colors);
   const auto& maps = render::map_names();
   render::Scene scene = render::read_scene(o.documents);
+  for (const std::string& finding : scene.findings) tool.reporter().warning(finding);
   const render::Legend legend = render::apply_map(scene, static_cast<render::Map>(std::find(maps.begin(), maps.end(), o.map) - maps.begin()), o.range);
   render::color_cloth(scene, render::choose_fabric(o.fabric, !o.colors.empty(), scene, options), colors);
   options.map_colors = legend.steps;
@@ -165,15 +171,19 @@ int run_render(cli::Tool& tool, const Options& o) {
   std::vector<render::DrawMesh> meshes = scene.meshes; // the scene keeps its panels' own vertices
   for (render::DrawMesh& mesh : meshes) render::smooth_cloth(mesh);
   if (render::is_export(o.output)) {
-    const std::optional<render::Rig> rig = render::make_rig(scene);
-    render::export_scene(o.output, meshes, legend, rig ? &*rig : nullptr);
+    const std::optional<render::Rig> rig = render::make_rig(scene, meshes);
+    const render::Print print{options.print, options.print_size};
+    render::export_scene(o.output, meshes, legend, rig ? &*rig : nullptr, print.image.rgba.empty() ? nullptr : &print);
     return 0;
   }
   std::optional<render::Renderer> renderer;
   std::vector<io::Image> images;
   const Texts texts = provenance(scene);
   std::size_t drawn = 0;
-  const double legend_share = static_cast<double>(render::legend_width(legend, options.width, options.height)) / options.width;
+  const bool fits = o.camera.empty() && o.field_height == 0; // nobody says how large: labels and legend have room of their own
+  const double left = fits ? render::label_share(scene, show, options.width, options.height) : 0;
+  const int legend_width = render::legend_width(legend, options.width, options.height);
+  const double right = fits ? left + static_cast<double>(legend_width) / options.width : 0;
   if (o.as != "files") render::check_pixels(size, views.size());
   for (const auto& view : views) {
     if (tool.reporter().stop_requested()) throw Error(ErrorKind::FAILED, o.output, "", "stopped by the user; nothing is written");
@@ -182,10 +192,9 @@ int run_render(cli::Tool& tool, const Options& o) {
       images.push_back(render::draw_pattern(scene, options));
     } else {
       if (!renderer) renderer.emplace(meshes, options).keep_depth(show.any());
-      const render::Camera camera = render::frame_beside(meshes, *view, static_cast<double>(options.width) / options.height,
-                                                         view->field_height > 0 || !o.camera.empty() ? 0 : legend_share);
+      const render::Camera camera = render::frame_beside(meshes, *view, static_cast<double>(options.width) / options.height, left, right);
       images.push_back(renderer->draw(camera));
-      if (show.any()) render::draw_show(images.back(), scene, camera, *renderer, show);
+      if (show.any()) render::draw_show(images.back(), scene, camera, *renderer, show, legend_width);
     }
     render::draw_legend(images.back(), legend);
     if (views.size() > 1 && o.as == "files") { // one at a time: there may be hundreds
@@ -207,6 +216,7 @@ int main(int argc, char** argv) {
     const bool several = options.sheet || options.view.find_first_of(",:") != std::string::npos;
     needs("--mask", options.mask_given, options.compare, "says where pictures are compared", "give --compare too");
     needs("--tolerance", options.tolerance_given, options.compare, "says how like compared pictures must be", "give --compare too");
+    needs("--different", options.different_given, options.compare, "says how many pixels of compared pictures may differ", "give --compare too");
     needs("--seconds", options.seconds_given, options.as == "animation", "is for animations", "give --as animation too");
     needs("--labels", options.labels_given, several, "captions the pictures of a sheet, and there is one picture", "ask for several views, or give --sheet");
     needs("--columns", options.columns_given, several, "lays out a sheet, and there is one picture", "ask for several views, or give --sheet");

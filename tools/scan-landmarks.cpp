@@ -89,8 +89,10 @@ int run(cli::Tool& tool, const Options& o) {
 int main(int argc, char** argv) {
   cli::Tool tool("scan-landmarks", "Find landmarks, levels, girths, parts and frames on a raw body scan");
   Options o;
-  tool.option("SCAN", o.scan, "scan of one standing person: OBJ, PLY, STL, 3DS or XYZ, mesh or bare points").required().check(cli::input_file());
-  tool.option("--unit", o.unit, "unit of the scan's coordinates (default: auto, from the stature)").check(cli::one_of({"auto", "m", "cm", "mm"}));
+  tool.option("SCAN", o.scan, "scan of one standing person: OBJ, PLY, STL, 3DS or XYZ, mesh or bare points; glTF, FBX, Collada, OFF, X3D through assimp")
+      .required()
+      .check(cli::input_file());
+  tool.option("--unit", o.unit, "unit of the scan's coordinates (default: auto, from the stature)").check(cli::one_of({"auto", "m", "cm", "mm", "inch"}));
   tool.option("--up", o.up, "axis along which the body stands, taken as it is (default: auto, the vertical is told from the body)")
       .check(cli::one_of({"auto", "x", "y", "z"}));
   tool.flag("--torso-only", o.torso_only, "take a scan without legs too: what it shows is found, stature and floor are estimated from the head");
@@ -113,6 +115,6 @@ int main(int argc, char** argv) {
   tool.example("scan-landmarks -o body.json scan.obj", "measure a scan; unit, up axis and facing are found out");
   tool.example("scan-landmarks --unit mm --parts parts.u8 -o body.json scan.ply", "measure a scan in millimetres and label its vertices");
   tool.example("scan-landmarks --pose walk.bvh -o body.json scan.obj", "also write the body walking: body.0001.obj, body.0002.obj, ...");
-  tool.formats("OBJ, PLY, STL, 3DS, XYZ", "body.json (version 1), OBJ");
+  tool.formats("OBJ, PLY, STL, 3DS, XYZ, glTF, FBX, Collada, OFF, X3D", "body.json (version 1), OBJ");
   return tool.run(argc, argv, [&] { return run(tool, o); });
 }

@@ -193,16 +193,24 @@ void find_arm_landmarks(const Finder& f) {
                                          }},
                                         {"arm_ratio", [&] { return std::optional(by_ratio); }}});
     if (!hand) continue;
-    const Vec3 wrist = arm.at(hand->value);
-    f.put("wrist" + suffix, wrist, 2, *hand->rule);
-    f.also("wrist" + suffix, arm.at(by_ratio));
-    if (hand->rule->name == "arm_ratio" && (joint - arm.tip).norm() < f.number("hand.least_arm") * s) {
-      f.body.scan.findings.push_back({"warning", "the hand is missing or hidden: hand and wrist are put where the arm ends", "hand_tip" + suffix});
-      f.explain("hand_tip" + suffix + ": the arm is too short for a hand and has no wrist");
-      for (const char* name : {"hand_tip", "hand_extreme", "wrist"})
-        if (const auto it = f.body.landmarks.find(name + suffix); it != f.body.landmarks.end()) it->second.confidence = 0.1;
+    const double reach = (joint - arm.tip).norm();
+    if (hand->rule->name != "arm_ratio" || reach >= f.number("hand.least_arm") * s) {
+      const Vec3 wrist = arm.at(hand->value);
+      f.put("wrist" + suffix, wrist, 2, *hand->rule);
+      f.also("wrist" + suffix, arm.at(by_ratio));
+      find_elbow(f, side, hand->value, (joint - wrist).norm() * (1 - f.number("elbow.of_arm")));
+      continue;
     }
-    find_elbow(f, side, hand->value, (joint - wrist).norm() * (1 - f.number("elbow.of_arm")));
+    // no hand: the wrist is where the arm ends, or as far from the shoulder as people's is if that is nearer
+    const double arm_length = std::min(reach, f.number("hand.arm_of_stature") * s);
+    f.body.scan.findings.push_back({"warning", "the hand is missing or hidden: hand and wrist are put where the arm ends", "hand_tip" + suffix});
+    f.explain("hand_tip" + suffix + ": the arm is too short for a hand and has no wrist");
+    f.put("wrist" + suffix, arm_length < reach ? arm.at(reach - arm_length) : arm.tip, 2, *hand->rule);
+    for (const char* name : {"hand_tip", "hand_extreme", "wrist"})
+      if (const auto it = f.body.landmarks.find(name + suffix); it != f.body.landmarks.end()) it->second.confidence = 0.1;
+    find_elbow(f, side, reach - arm_length, arm_length * (1 - f.number("elbow.of_arm")));
+    for (const char* name : {"elbow", "olecranon"})
+      if (const auto it = f.body.landmarks.find(name + suffix); it != f.body.landmarks.end()) it->second.confidence *= 0.5;
   }
 }
 

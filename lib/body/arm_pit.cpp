@@ -12,6 +12,7 @@ constexpr double POCKET = 0.001;   ///< what is thinner is no limb: where faces 
 constexpr double AS_NEAR = 0.0003; ///< m
 constexpr double TRUNK_LEAN = 0.5; ///< of the bisector between arm and trunk
 constexpr double LEAP = 0.008;     ///< the arm's underside bends away by more than this: no longer the pit
+constexpr double FROM_PIT = 0.06;  ///< aside: a level arm's underside meets the trunk's level anywhere along it, and what lies farther off is no arm pit
 constexpr double ROOF = 0.005;     ///< half breadth of the pit's roof at most
 
 /// Crossings of the line q + t e with the outline, sorted.
@@ -97,7 +98,11 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules) {
     std::sort(xs.begin(), xs.end());
     std::sort(ys.begin(), ys.end());
     const std::size_t n = xs.size();
-    auto middle = [&](const std::vector<double>& v) { return n == 3 && v[2] - v[0] < 0.01 * s ? (v[0] + v[1] + v[2]) / 3 : v[n / 2]; };
+    auto middle = [&](const std::vector<double>& v) { // the mean, without what is far off, and nothing jumps where it is a little nearer
+      if (n < 3) return v[n / 2];
+      const auto share = [&](double x) { return std::clamp(1.5 - std::abs(x - v[1]) / (0.01 * s), 0.0, 1.0); };
+      return (v[1] + share(v[0]) * v[0] + share(v[2]) * v[2]) / (1 + share(v[0]) + share(v[2]));
+    };
     arm.axilla = Vec3(middle(xs), middle(ys), depth);
   }
   // arm and trunk touch, a hole was closed there, or a sleeve spans the pit
@@ -181,7 +186,9 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
   double weight = 0;
   for (const Near& near : all)
     if (const double w = (least + AS_NEAR - near.gap) * near.length; w > 0) sum += w * near.middle, weight += w;
-  if (weight > 0) arm.merge = Vec3(sum.x() / weight, low, sum.y() / weight);
+  if (weight <= 0) return;
+  const Vec3 merge(sum.x() / weight, low, sum.y() / weight);
+  if (std::abs(merge.x() - arm.axilla->x()) < FROM_PIT * s) arm.merge = merge;
 }
 
 } // namespace sloper::body

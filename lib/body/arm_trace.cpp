@@ -10,6 +10,9 @@ namespace {
 // all shares of stature
 constexpr double SEED_LEVEL = 0.60;                 ///< trunk level from which arms are the farthest reach
 constexpr double FINGER_END = 0.02, AS_FAR = 0.006; ///< around the point farthest over the skin: of an open hand's end, not of a fist's knuckles
+constexpr double OTHER_FINGER = 0.12;               ///< over the skin to another finger's end at most
+constexpr double ROUND_CLEFT = 1.8;                 ///< of the straight distance
+constexpr double STRETCHED = 0.067;                 ///< straight to the middle of what is 0.11 to 0.13 away over the skin
 constexpr double HAND_SKIP = 0.030;                 ///< fingers: no single section
 constexpr double STEP = 0.005;
 constexpr double ARM_REACH = 0.46; ///< over the skin from finger tip to beyond the shoulder
@@ -73,6 +76,21 @@ std::optional<Vec3> ring_center(const TriangleMesh& skin, const std::vector<doub
     }
   if (n == 0) return std::nullopt;
   return 0.5 * (sum / n + box.center());
+}
+
+/// Of fingers that reach as far over the skin, the one whose end is farthest from the wrist: the middle one; `tip` where there is no other. From a
+/// finger's end to another's the skin leads around through the cleft between them. The folded fingers of a fist are left as they are.
+int middle_finger(const TriangleMesh& skin, const std::vector<double>& reach, const std::vector<double>& from_tip, int tip, double s) {
+  const auto wrist = ring_center(skin, from_tip, 0.11 * s, 0.13 * s);
+  if (!wrist || (skin.positions[tip] - *wrist).norm() < STRETCHED * s) return tip;
+  auto length = [&](int v) { return reach[v] + (skin.positions[v] - *wrist).norm(); }; // over the skin and straight, for each alone may be a tie
+  int best = tip;
+  for (int v = 0; v < static_cast<int>(reach.size()); ++v) {
+    if (from_tip[v] < FINGER_END * s || from_tip[v] > OTHER_FINGER * s || reach[v] > 1e199 || reach[v] < reach[tip] - AS_FAR * s) continue;
+    if (from_tip[v] < ROUND_CLEFT * (skin.positions[v] - skin.positions[tip]).norm()) continue;
+    if (length(v) > length(best)) best = v;
+  }
+  return best;
 }
 
 /// The mean of the three scan points of the hand that are farthest from its wrist: a rebuilt skin rounds the fingers off.
@@ -212,7 +230,11 @@ std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& gr
     }
     if (tip < 0 || reach[tip] < MIN_REACH * s) continue;
     arm.tip = skin.positions[tip];
-    const std::vector<double> from_tip = graph.distances({tip}, ARM_REACH * s, legs);
+    std::vector<double> from_tip = graph.distances({tip}, ARM_REACH * s, legs);
+    if (const int other = middle_finger(skin, reach, from_tip, tip, s); other != tip) {
+      arm.tip = skin.positions[other];
+      from_tip = graph.distances({other}, ARM_REACH * s, legs);
+    }
     for (std::size_t f = 0; f < skin.triangles.size(); ++f) {
       const Triangle& t = skin.triangles[f];
       if (from_tip[t[0]] < 1e199 && from_tip[t[1]] < 1e199 && from_tip[t[2]] < 1e199) arm.triangles.push_back(static_cast<int>(f));

@@ -26,6 +26,8 @@ std::string number_text(const char* format, double x) {
 }
 
 Unit guess_unit(double height, const std::string& wanted, const std::string& file) {
+  const auto named = std::find_if(std::begin(UNITS), std::end(UNITS), [&](const Unit& u) { return wanted == u.name; });
+  if (wanted != "auto" && named == std::end(UNITS)) throw Error(ErrorKind::USAGE, "", "unit", "'" + wanted + "' is none", "give auto, m, cm, mm or inch");
   for (const Unit& unit : UNITS) {
     if (wanted != "auto" && wanted != unit.name) continue;
     const double stature = height * unit.metres;
@@ -38,7 +40,7 @@ Unit guess_unit(double height, const std::string& wanted, const std::string& fil
     }
   }
   if (wanted != "auto") {
-    const double stature = height * (wanted == "m" ? 1 : wanted == "cm" ? 0.01 : 0.001);
+    const double stature = height * named->metres;
     throw input_error(file, "", "the body would be " + number_text("%.3g", stature) + " m tall in " + wanted, "a person is 0.5 to 2.5 m; give another --unit");
   }
   throw input_error(file, "", "the body is " + number_text("%.4g", height) + " units tall, which is no person in m, cm, mm or inch",

@@ -47,13 +47,15 @@ bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, cons
   const double by_stature = rules.number("crotch.of_stature") * s;
   const double expected =
       buttock ? by_stature + rules.number("crotch.buttock_weight") * (*buttock - rules.number("crotch.below_buttocks") * s - by_stature) : by_stature;
-  const bool fused = always || found < expected - rules.number("crotch.too_low") * s;
+  // from one to the other over half of that depth: a coarser mesh must not make it jump
+  const double too_low = (expected - found) / (rules.number("crotch.too_low") * s), doubt = always ? 1 : std::clamp(2 * (too_low - 0.75), 0.0, 1.0);
+  const bool fused = doubt > 0;
   if ((whole || seen >= 3) && !fused) return false;
-  const double y = fused ? expected : 0.5 * (expected + found + SAG * s);
-  double z = levels.crotch_point().y();
-  levels.move_crotch(y, z);
+  const double y = fused ? found + doubt * (expected - found) : 0.5 * (expected + found + SAG * s), moved = fused ? doubt : 1;
+  levels.move_crotch(y, place.z());
   if (const auto l = levels.leg_at(y - 0.01, 0))
-    if (const auto r = levels.leg_at(y - 0.01, 1)) levels.move_crotch(y, 0.5 * (l->centroid.y() + r->centroid.y()) + 0.013 * s);
+    if (const auto r = levels.leg_at(y - 0.01, 1))
+      levels.move_crotch(y, (1 - moved) * place.z() + moved * (0.5 * (l->centroid.y() + r->centroid.y()) + 0.013 * s));
   char text[200];
   std::snprintf(text, sizeof text, "crotch: the slices join at %.3f m, %s; put at %.3f m by the level of the buttocks", found,
                 fused ? "too low: the thighs touch" : "in a hole", y);

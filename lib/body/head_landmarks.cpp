@@ -59,7 +59,7 @@ double neck_middle(const Finder& f) {
 
 /// The highest skin: of a flat crown the middle of what is as high as makes no difference, at the height of the highest point.
 std::optional<Vec3> top_of_head(const TriangleMesh& skin) {
-  constexpr double AS_HIGH = 0.0005; // m
+  constexpr double AS_HIGH = 0.0015; // m
   constexpr int PIECES = 6;          // a face of a coarse mesh is larger than the flat part
   double top = -1e300;
   for (const Vec3& p : skin.positions) top = std::max(top, p.y());

@@ -6,7 +6,7 @@
 namespace sloper::body {
 
 struct ScanOptions {
-  std::string unit = "auto"; ///< auto, m, cm, mm
+  std::string unit = "auto"; ///< auto, m, cm, mm, inch
   std::string up = "auto";   ///< auto, x, y, z
   bool torso_only = false;   ///< a scan without legs is taken too: what it shows is found, the rest is not
   Rules rules = Rules::standard();

@@ -276,7 +276,7 @@ Motion parse_bvh(std::string_view text, const std::string& name, const Body& bod
     if (theirs > 1e-9) scale = ours / theirs;
   }
   Motion motion;
-  const int stride = step_s > 0 ? std::max(1, static_cast<int>(std::lround(step_s / bvh.frame_s))) : 1;
+  const int stride = step_s > 0 ? static_cast<int>(std::clamp(std::round(step_s / bvh.frame_s), 1.0, 1e9)) : 1;
   motion.frame_s = stride * bvh.frame_s;
   const Vec3 hips = bone("spine") ? bone("spine")->head : Vec3::Zero();
   std::optional<Vec3> start;

@@ -19,7 +19,7 @@ constexpr double MAX_BORDER_SHARE = 1e-3; ///< of all edges: more open edges and
 constexpr double SMALL_HOLE = 0.035;      ///< of stature: a hole that a fan closes well enough
 constexpr double MAX_NOISE = 0.45e-3;     ///< m
 /// ... or this share of the edges: between vertices that far apart a smooth body bends by as much, which is no noise.
-constexpr double MAX_NOISE_TO_EDGE = 0.04;
+constexpr double MAX_NOISE_TO_EDGE = 0.055;
 
 /// Edge length of so many equal triangles of the same area, m.
 double usual_edge(const TriangleMesh& mesh) {

@@ -1,3 +1,4 @@
+#include <body/foremost.hpp>
 #include <body/landmark_finder.hpp>
 
 #include <algorithm>
@@ -62,65 +63,12 @@ void find_level(const Finder& f, const std::string& name, std::initializer_list<
   f.body.levels[name].rule = chosen->rule->name;
 }
 
-/// Foremost (or rearmost) point of the trunk between two heights. Where the trunk only runs out towards an end of the range,
-/// the belly under a chest or the chest over a belly, the foremost place inside of it is the better answer, if there is one
-/// and it stands out by no more than INSIDE less.
-std::optional<Vec3> extreme_depth(const Finder& f, double y0, double y1, double sign, double x_low, double x_high) {
-  constexpr double INSIDE = 0.006, FLAT = 0.006, UPRIGHT = 0.00015; // m
-  std::vector<Vec3> outline;                                        // one point per level
-  for (double y = y0; y <= y1; y += 0.002) {
-    const auto loop = f.levels.trunk_at(y);
-    if (!loop) continue;
-    std::optional<Vec3> outer;
-    for (const auto& segment : loop->segments) {
-      const Vec2& q = segment[0];
-      if (q.x() < x_low || q.x() > x_high) continue;
-      if (!outer || sign * q.y() > sign * outer->z()) outer = Vec3(q.x(), y, q.y());
-    }
-    if (!outer) continue;
-    // on a flat front the middle of what is as far out as its vertices can tell
-    double sum = 0, weight = 0;
-    for (const auto& segment : loop->segments)
-      for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) { // a segment is longer than the flat part may be
-        const Vec2 q = (1 - t) * segment[0] + t * segment[1];
-        const double less = sign * (outer->z() - q.y());
-        if (q.x() < x_low || q.x() > x_high || less > FLAT) continue;
-        const double w = (FLAT - less) * (segment[1] - segment[0]).norm();
-        sum += w * q.x(), weight += w;
-      }
-    if (weight > 0) outer->x() = sum / weight;
-    outline.push_back(*outer);
-  }
-  if (outline.empty()) return std::nullopt;
-  auto outwards = [&](const Vec3& a, const Vec3& b) { return sign * a.z() < sign * b.z(); };
-  const auto most = std::max_element(outline.begin(), outline.end(), outwards);
-  const std::ptrdiff_t n = static_cast<std::ptrdiff_t>(outline.size()), margin = 4;
-  const std::ptrdiff_t at = most - outline.begin();
-  if (at >= margin && at < n - margin) { // on an upright front the middle height of what is as far out
-    Vec3 sum = Vec3::Zero();
-    double weight = 0;
-    for (const std::ptrdiff_t step : {std::ptrdiff_t{-1}, std::ptrdiff_t{1}})
-      for (std::ptrdiff_t k = step < 0 ? at : at + 1; k >= 0 && k < n; k += step) {
-        const Vec3& p = outline[static_cast<std::size_t>(k)];
-        const double w = UPRIGHT - sign * (most->z() - p.z());
-        if (w <= 0) break;
-        sum += w * p, weight += w;
-      }
-    return Vec3(sum.x() / weight, sum.y() / weight, most->z());
-  }
-  if (n < 4 * margin) return *most;
-  std::optional<Vec3> inner;
-  for (std::ptrdiff_t k = margin; k < n - margin; ++k) { // a place that is the foremost within 16 mm to both sides
-    const auto top =
-        std::max_element(outline.begin() + std::max<std::ptrdiff_t>(0, k - 2 * margin), outline.begin() + std::min(n, k + 2 * margin + 1), outwards);
-    if (top - outline.begin() == k && (!inner || outwards(*inner, outline[static_cast<std::size_t>(k)]))) inner = outline[static_cast<std::size_t>(k)];
-  }
-  return inner && std::abs(inner->z() - most->z()) < INSIDE ? *inner : *most;
-}
+constexpr double PEAKED = 0.00018; // of stature: as far out as the top of what has one
 
-} // namespace
+std::optional<Vec3> place_of(const std::optional<Foremost>& foremost) { return foremost ? std::optional(foremost->p) : std::nullopt; }
 
-namespace {
+/// From `inner` to `outer` beside the mid-plane on one side.
+Span half_front(int side, double inner, double outer) { return side == 0 ? Span{inner, outer} : Span{-outer, -inner}; }
 
 /// Foremost skin of the trunk at (x, y).
 std::optional<Vec3> front_at(const Finder& f, double x, double y, double half_width) {
@@ -136,8 +84,8 @@ bool is_nipple_pair(const Finder& f) {
   if (std::abs(l->p.y() - r->p.y()) >= 0.015 * f.s || std::abs(l->p.x() + r->p.x()) >= 0.03 * f.s) return false;
   for (int side = 0; side < 2; ++side) {
     const Vec3& p = f.figure.nipple[side]->p;
-    const auto foremost = extreme_depth(f, p.y() - 0.03 * f.s, p.y() + 0.03 * f.s, 1, side == 0 ? 0.002 : -0.14 * f.s, side == 0 ? 0.14 * f.s : -0.002);
-    if (foremost && p.z() < foremost->z() - f.number("bust.bump_behind") * f.s) return false;
+    const auto foremost = foremost_place(f, {p.y() - 0.03 * f.s, p.y() + 0.03 * f.s}, half_front(side, 0.002, 0.14 * f.s), 1, PEAKED);
+    if (foremost && p.z() < foremost->p.z() - f.number("bust.bump_behind") * f.s) return false;
   }
   return true;
 }
@@ -153,8 +101,8 @@ bool bust_at(const Finder& f, double expected, double y, BothSides& points) {
   for (int side = 0; side < 2; ++side) {
     double height = y, x = (side == 0 ? 1 : -1) * f.number("bust.beside") * s;
     if (f.situation.female)
-      if (const auto p = extreme_depth(f, expected - 0.035 * s, expected + 0.035 * s, 1, side == 0 ? a : -b, side == 0 ? b : -a))
-        if (p->y() > expected - 0.033 * s && p->y() < expected + 0.033 * s) {
+      if (const auto place = foremost_place(f, {expected - 0.035 * s, expected + 0.035 * s}, half_front(side, a, b), 1, PEAKED))
+        if (const Vec3* p = &place->p; p->y() > expected - 0.033 * s && p->y() < expected + 0.033 * s) {
           height = 0.5 * (y + p->y()), drawn = true;
           if (const auto between = front_at(f, 0, p->y(), 0.006 * s))
             x += 0.5 * std::clamp((p->z() - between->z()) / (f.number("bust.clear_of_middle") * s), 0.0, 1.0) * (p->x() - x);
@@ -214,10 +162,10 @@ void find_bust(const Finder& f, double pit) {
     if (!point) continue;
     const std::string suffix = side_suffix(side);
     f.put("bust_point" + suffix, *point, 2, *points->rule);
-    f.find("bust_prominent", suffix, 2, {{"foremost_of_chest", [&] {
-                                            return extreme_depth(f, point->y() - 0.024 * s, point->y() + 0.06 * s, 1, side == 0 ? 0.002 : -0.14 * s,
-                                                                 side == 0 ? 0.14 * s : -0.002);
-                                          }}});
+    f.find("bust_prominent", suffix, 2,
+           {{"foremost_of_chest", [&] {
+               return place_of(foremost_place(f, {point->y() - 0.024 * s, point->y() + 0.06 * s}, half_front(side, 0.002, 0.14 * s), 1, PEAKED, 0.006));
+             }}});
     if (const auto p = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected, 0.006 * s)) f.also("bust_point" + suffix, *p);
     sum += point->y(), ++n;
   }
@@ -340,12 +288,27 @@ double find_waist(const Finder& f, const std::optional<double>& navel, double pi
 
 void find_seat_and_belly(const Finder& f, double crotch, double waist) {
   const double s = f.s;
-  if (f.find("abdomen_front", "", 2, {{"foremost_below_waist", [&] { return extreme_depth(f, crotch + 0.004, waist, 1, -0.1 * s, 0.1 * s); }}}))
-    put_level(f, "abdomen", f.at("abdomen_front").y(), "abdomen_front");
+  std::optional<Foremost> belly;
+  auto foremost = [&]() -> std::optional<Vec3> {
+    belly = foremost_place(f, {crotch + 0.004, waist}, {-0.1 * s, 0.1 * s}, 1, f.number("abdomen.flat"));
+    return place_of(belly);
+  };
+  if (f.find("abdomen_front", "", 2, {{"foremost_below_waist", foremost}})) {
+    put_level(f, "abdomen", belly->p.y(), "abdomen_front");
+    Landmark& landmark = f.body.landmarks["abdomen_front"];
+    landmark.spread_m = std::max(landmark.spread_m, belly->spread_m);
+    if (belly->spread_m > f.number("abdomen.unsure") * s) {
+      landmark.confidence *= 0.5;
+      char text[160];
+      std::snprintf(text, sizeof text, "the belly is flat: its foremost place is anywhere between %.3f and %.3f m", belly->low, belly->high);
+      f.body.scan.findings.push_back({"info", text, "abdomen"});
+    }
+  }
   auto rearmost = [&] { // both sides of the seat are nearly level: the left one is taken unless the right one stands out more than people's do
-    auto rear = extreme_depth(f, crotch + 0.004, waist, -1, 0, 0.12 * s);
-    if (const auto right = extreme_depth(f, crotch + 0.004, waist, -1, -0.12 * s, 0); right && (!rear || right->z() < rear->z() - 0.005)) rear = right;
-    return rear;
+    const Span heights{crotch + 0.004, waist};
+    auto rear = foremost_place(f, heights, {0, 0.12 * s}, -1, PEAKED);
+    if (const auto right = foremost_place(f, heights, {-0.12 * s, 0}, -1, PEAKED); right && (!rear || right->p.z() < rear->p.z() - 0.005)) rear = right;
+    return place_of(rear);
   };
   if (f.find("buttock_back", "", 2, {{"rearmost_below_waist", rearmost}})) {
     const double hip = f.at("buttock_back").y();

@@ -11,19 +11,8 @@ namespace sloper::cloth {
 
 namespace {
 
-/// Reach of edges and faces, as a share of the gap: they matter where the skin bulges between the cloth's vertices.
-constexpr double EDGE_REACH = 0.5;
 /// In one step an element uses at most this share of its distance to the skin.
 constexpr double APPROACH = 0.7;
-/// In one part of its way skin uses at most this share of its distance to cloth in front of it. One step of the cloth at most doubles a
-/// distance that is short (Newton's step into the barrier): with half, cloth would never be left the distance that it had.
-constexpr double SKIN_APPROACH = 1.0 / 3;
-/// Carried cloth that the skin would come too near to is pushed away by at most this much at a time, m, in so many rounds: a twist of the
-/// skin under taut cloth is met, a wall that comes is not.
-constexpr double MOST_CLEARED = 0.002;
-constexpr int CLEAR_ROUNDS = 12;
-/// Cloth is searched for again when a particle has used this share of what it may move unseen.
-constexpr double USED = 0.6;
 /// A crossed pair is pushed as if at most this deep, m: a deep start is pushed out, not shot out.
 constexpr double DEEPEST = 0.002;
 /// Each time that crossings are looked for and found, crossed pairs are pushed harder by this factor, up to a limit.
@@ -95,123 +84,6 @@ void BodyContactEffect::recall(const Memory& memory) {
 Vec3 BodyContactEffect::crossing_place() const {
   const auto first = std::find(m_crossing.begin(), m_crossing.end(), 1);
   return first == m_crossing.end() ? Vec3(Vec3::Zero()) : m_searched_at[m_triangles[first - m_crossing.begin()][0]];
-}
-
-std::vector<double> BodyContactEffect::skin_room(const std::vector<Vec3>& x) {
-  search(x);
-  std::vector<double> room(m_body.mesh().positions.size(), 0.5 * (EDGE_REACH * m_options.gap_m + m_options.slack_m));
-  for (const Pair& pair : m_pairs) {
-    if (pair.crossed) continue;
-    const double half = 0.5 * closest(pair, x).distance;
-    for (int k = 0; k < pair.n_body; ++k) room[pair.body[k]] = std::min(room[pair.body[k]], half);
-  }
-  return room;
-}
-
-double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry) {
-  if (m_edge_slot.empty()) return 0; // not bound yet: there was no step
-  double longest = 0, carried = 0;
-  for (const Vec3& d : carry) carried = std::max(carried, d.norm());
-  Vec3 low = Vec3::Constant(1e300), high = -low; // skin that no cloth is near may go as far as it likes
-  const double reach = m_options.gap_m + m_options.slack_m;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    for (const Vec3& p : {x[i], Vec3(x[i] + carry[i])}) {
-      low = low.cwiseMin(p - Vec3::Constant(reach));
-      high = high.cwiseMax(p + Vec3::Constant(reach));
-    }
-  const std::vector<Vec3>& skin = m_body.mesh().positions;
-  for (std::size_t v = 0; v < way.size(); ++v) {
-    const Vec3 to = skin[v] + way[v];
-    const bool near = (skin[v].cwiseMin(to).array() <= high.array()).all() && (skin[v].cwiseMax(to).array() >= low.array()).all();
-    if (near) longest = std::max(longest, way[v].norm());
-  }
-  if (longest <= 0 && carried <= 0) return 1;
-  const double seen = USED * (EDGE_REACH * m_options.gap_m + m_options.slack_m);
-  begin_step(x, 0);
-  double moved = m_body_moved;
-  for (std::size_t i = 0; i < x.size(); ++i) moved = std::max(moved, m_body_moved + (x[i] - m_searched_at[i]).norm());
-  if (moved > 0.5 * seen) {
-    search(x);
-    moved = 0;
-  }
-  double share = std::min(1.0, (seen - moved) / (longest + carried));
-  for (const Pair& pair : m_pairs) {
-    if (pair.crossed) continue;
-    const Closest c = closest(pair, x);
-    if (!c.valid) continue;
-    // At the closest points: what turns with the skin, as carried cloth does, comes no nearer by turning.
-    double skin_toward = 0, cloth_away = 0;
-    for (int k = 0; k < pair.n_body; ++k) skin_toward += c.body_weight[k] * c.normal.dot(way[pair.body[k]]);
-    for (int k = 0; k < pair.n; ++k) cloth_away += c.weight[k] * c.normal.dot(carry[pair.particle[k]]);
-    if (const double nearer = skin_toward - cloth_away; nearer > 0) {
-      share = std::min(share, SKIN_APPROACH * c.distance / nearer);
-    }
-  }
-  return share;
-}
-
-void BodyContactEffect::clear_carry(const std::vector<Vec3>& x, const std::vector<Vec3>& way, std::vector<Vec3>& carry) {
-  if (m_edge_slot.empty()) return;
-  begin_step(x, 0);
-  struct Near {
-    const Pair* pair;
-    Closest c;
-    double skin_toward; // m
-  };
-  std::vector<Near> near;
-  for (const Pair& pair : m_pairs) {
-    if (pair.crossed) continue;
-    const Closest c = closest(pair, x);
-    if (!c.valid) continue;
-    double toward = 0;
-    for (int k = 0; k < pair.n_body; ++k) toward += c.body_weight[k] * c.normal.dot(way[pair.body[k]]);
-    near.push_back({&pair, c, toward});
-  }
-  for (int round = 0; round < CLEAR_ROUNDS; ++round) {
-    bool more = false;
-    for (const Near& n : near) {
-      double away = 0, share = 0;
-      for (int k = 0; k < n.pair->n; ++k) {
-        away += n.c.weight[k] * n.c.normal.dot(carry[n.pair->particle[k]]);
-        share += n.c.weight[k] * n.c.weight[k];
-      }
-      const double lack = n.skin_toward - away - 0.5 * SKIN_APPROACH * n.c.distance;
-      if (lack <= 0 || lack > MOST_CLEARED) continue;
-      for (int k = 0; k < n.pair->n; ++k) carry[n.pair->particle[k]] += n.c.weight[k] / share * lack * n.c.normal;
-      more = true;
-    }
-    if (!more) return;
-  }
-}
-
-/// Anchors go with the nearest skin: it moves as its triangle does, in the barycentric coordinates of the anchor.
-void BodyContactEffect::carry_anchors(const std::vector<Vec3>& positions) {
-  const TriangleMesh& skin = m_body.mesh();
-  for (std::size_t i = 0; i < m_anchor.size(); ++i) {
-    if (!m_has_anchor[i]) continue;
-    const int f = m_clearance[i].triangle;
-    if (f < 0) {
-      m_has_anchor[i] = 0;
-      continue;
-    }
-    const Triangle& t = skin.triangles[f];
-    const auto near = collision::point_triangle(m_anchor[i], skin.positions[t[0]], skin.positions[t[1]], skin.positions[t[2]]);
-    Vec3 way = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) way += near.barycentric[k] * (positions[t[k]] - skin.positions[t[k]]);
-    m_anchor[i] += way;
-    m_carried[i] += way;
-  }
-}
-
-void BodyContactEffect::move_body(const std::vector<Vec3>& positions) {
-  double motion = 0;
-  for (std::size_t i = 0; i < positions.size(); ++i) motion = std::max(motion, (positions[i] - m_body.mesh().positions[i]).squaredNorm());
-  motion = std::sqrt(motion);
-  m_body_moved += motion;
-  carry_anchors(positions);
-  m_body.set_positions(positions);
-  for (Clearance& c : m_clearance)
-    if (c.distance >= 0) c.distance = std::max(0.0, c.distance - motion);
 }
 
 void BodyContactEffect::begin_step(const std::vector<Vec3>& x, double) {
@@ -314,9 +186,11 @@ void BodyContactEffect::collect_pairs() {
 }
 
 void BodyContactEffect::search(const std::vector<Vec3>& x) {
-  if (m_look_for_crossings || m_n_crossing > 0) find_crossed(x);
+  if (m_look_for_crossings || m_n_crossing > 0 || !guarded()) find_crossed(x);
   measure_clearance(x);
   m_body.near_pairs(x, m_triangles, m_topology, m_asked, m_options.gap_m + m_options.slack_m, EDGE_REACH * m_options.gap_m + m_options.slack_m, m_found);
+  if (m_options.level < ContactLevel::EDGE) m_found.edge_edge.clear();
+  if (m_options.level < ContactLevel::FACE) m_found.face_vertex.clear();
   collect_pairs();
   m_searched_at = x;
   m_body_moved = 0;
@@ -403,7 +277,7 @@ void BodyContactEffect::add(StepContext& context) {
     const Closest c = closest(pair, x);
     if (!c.valid) continue;
     if (c.distance < pair.reach) add_pair(pair, c, context);
-    if (pair.crossed || !context.limits) continue;
+    if (pair.crossed || !context.limits || !guarded()) continue;
     double body = 0;
     for (int b = 0; b < pair.n_body; ++b) body += c.body_weight[b] * c.normal.dot(m_body.mesh().positions[pair.body[b]]);
     context.limits->guards.push_back({pair.n,
@@ -417,7 +291,7 @@ void BodyContactEffect::add(StepContext& context) {
     for (int i = 0; i < m_mesh.n_particles; ++i)
       if (m_inside[i]) push_out(i, context);
   for (int i = 0; i < m_mesh.n_particles; ++i) context.force[i] += m_load[i];
-  if (context.limits)
+  if (context.limits && guarded())
     for (std::size_t i = 0; i < x.size(); ++i) {
       double& most = context.limits->most[i];
       most = std::min(most, std::max(0.0, m_reach_now[i] - m_body_moved - (x[i] - m_searched_at[i]).norm()));

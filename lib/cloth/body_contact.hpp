@@ -18,13 +18,22 @@
 
 namespace sloper::cloth {
 
+/// What cloth is compared with the skin by, each with all that stands before it.
+enum class ContactLevel {
+  VERTEX = 1, ///< cloth vertex against body face
+  FACE,       ///< body vertex against cloth face
+  EDGE,       ///< edge against edge
+  CONTINUOUS  ///< and no step passes through: what starts outside stays outside
+};
+
 struct BodyContactOptions {
   double gap_m = 0.003;        ///< distance to the skin at which contact begins
   double stiffness_n_m3 = 3e5; ///< k: pressure per depth; skin gives way about as much
   double friction = 0.0;       ///< mu
   double tangent_ratio = 0.5;  ///< tangent over normal stiffness while sticking
   double slide_ratio = 0.05;   ///< the same while sliding: only steadies the step
-  double slack_m = 0.003;      ///< pairs are kept up to this distance beyond the reach, so that they serve several steps
+  ContactLevel level = ContactLevel::CONTINUOUS;
+  double slack_m = 0.003; ///< pairs are kept up to this distance beyond the reach, so that they serve several steps
 };
 
 class BodyContactEffect : public Effect {
@@ -71,6 +80,10 @@ public:
   long friction_calls = 0;     ///< steps in which friction was computed
 
 private:
+  /// Reach of edges and faces, as a share of the gap: they matter where the skin bulges between the cloth's vertices.
+  static constexpr double EDGE_REACH = 0.5;
+  /// Cloth is searched for again when a particle has used this share of what it may move unseen.
+  static constexpr double USED = 0.6;
   struct Pair {
     std::array<int, 3> slot; // off-diagonal blocks of the particles (0,1), (1,2), (2,0)
     std::array<int, 3> particle;
@@ -88,6 +101,7 @@ private:
     bool valid;
   };
   Closest closest(const Pair& pair, const std::vector<Vec3>& x) const;
+  bool guarded() const { return m_options.level == ContactLevel::CONTINUOUS; }
   void weigh_skin();
   void search(const std::vector<Vec3>& x);
   void find_crossed(const std::vector<Vec3>& x);

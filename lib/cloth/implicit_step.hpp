@@ -41,6 +41,8 @@ public:
   /// Takes an effect out; it costs nothing from then on. Returns it, so that its counts can be reported.
   std::unique_ptr<Effect> remove(const Effect& effect);
   StepResult step(const StepOptions& options);
+  /// Instead of smoothed aggregation. @param preconditioner  not null
+  void set_preconditioner(std::unique_ptr<Preconditioner> preconditioner) { m_preconditioner = std::move(preconditioner); }
 
   const std::vector<Vec3>& x() const { return m_x; }
   const std::vector<Vec3>& v() const { return m_v; }

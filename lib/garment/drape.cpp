@@ -2,6 +2,7 @@
 #include <base/units.hpp>
 #include <cloth/bending.hpp>
 #include <cloth/edge_spring.hpp>
+#include <cloth/factorisation.hpp>
 #include <cloth/gravity.hpp>
 #include <cloth/shear.hpp>
 #include <garment/drape_run.hpp>
@@ -132,6 +133,8 @@ void DrapeRun::build_solver(bool open_seams) {
   if (m_solver) report_effects();
   m_cloth = std::make_unique<cloth::ClothMesh>(cloth_mesh_of(m_garment));
   m_solver = std::make_unique<cloth::ClothSolver>(*m_cloth, m_garment.position);
+  if (m_settings.solver == 1) m_solver->set_preconditioner(std::make_unique<cloth::BlockJacobi>());
+  if (m_settings.solver == 2) m_solver->set_preconditioner(std::make_unique<cloth::Factorisation>());
   m_loaded = false;
   if (!active("damping"))
     for (cloth::EdgeSpring& s : m_cloth->springs) s.damping_s = 0;
@@ -150,6 +153,7 @@ void DrapeRun::build_solver(bool open_seams) {
   if (m_collider && active("body_contact")) {
     cloth::BodyContactOptions options;
     options.gap_m = m_settings.contact_gap_m;
+    options.level = static_cast<cloth::ContactLevel>(m_settings.contact_level);
     m_body_contact = &m_solver->emplace<cloth::BodyContactEffect>(*m_cloth, *m_collider, options);
   }
   cloth::SelfContactOptions options;

@@ -15,6 +15,8 @@ struct DrapeSettings {
   double time_step_s = 1.0 / 30;
   double cg_tolerance = 1e-2; ///< relative residual at which conjugate gradients stop
   int cg_max_iterations = 400;
+  int solver = 0;                  ///< preconditioner of conjugate gradients: 0 smoothed aggregation, 1 block Jacobi, 2 exact factorisation
+  int contact_level = 4;           ///< cloth::ContactLevel with the body: 1 vertex, 2 face, 3 edge, 4 continuous
   double contact_gap_m = 0.003;    ///< distance to the skin at which contact begins
   double self_thickness_m = 0.002; ///< distance at which cloth feels cloth
   double settle_speed_m_s = 0.01;  ///< at rest below this speed
@@ -79,7 +81,7 @@ bool is_checkpoint(const std::string& path);
 DrapeReport resume_drape(const std::string& checkpoint, Garment& garment, const body::Body* body, Reporter& reporter, const std::string& file = "");
 
 /// Draws crossing cloth apart and out of the body without draping: only what crosses moves, by short steps; where that does not do, the body
-/// is drawn in and inflated again under the whole garment, without weight. `quality.untangled` has the counts before and after.
+/// is drawn in and inflated again under the whole garment, without weight. `quality.untangled` has the counts before and after; they are told.
 /// @return converged: nothing crosses any more; a garment that was clean stays as it was, to the bit
 /// @throws Error INPUT for a garment that is not sewn
 DrapeReport untangle_only(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter);

@@ -178,7 +178,18 @@ DrapeReport DrapeRun::run_untangle_only() {
 }
 
 DrapeReport untangle_only(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter) {
-  return DrapeRun(garment, body, settings, reporter).run_untangle_only();
+  DrapeReport report = DrapeRun(garment, body, settings, reporter).run_untangle_only();
+  std::string told;
+  bool crossed = false;
+  for (const char* when : {"before", "after"}) {
+    const io::Json& c = report.quality["untangled"][when];
+    told += (told.empty() ? "" : "; ") + std::string(when) + ": " + c["faces_through_body"].dump() + " faces through the body, " +
+            c["vertices_inside_body"].dump() + " vertices inside it, " + c["self_intersections"].dump() + " self intersections";
+    crossed |= c["faces_through_body"] != 0 || c["vertices_inside_body"] != 0 || c["self_intersections"] != 0;
+  }
+  if (crossed) reporter.warning(told);
+  else reporter.info(told);
+  return report;
 }
 
 } // namespace sloper::garment

@@ -8,6 +8,10 @@ io::Json input_entry(const std::string& path) { return {{"file", io::file_name(p
 
 std::vector<std::string> start_findings(const Garment& garment, const Start& start) {
   const std::string file = io::file_name(start.file), body = io::file_name(start.body);
+  if (start.body.empty()) {
+    if (garment.body_sha256.empty() && garment.panels.body_sha256.empty()) return {};
+    return {file + (start.draped ? " hung on" : " was placed around") + " a body, and none is given: it falls with nothing to hold it; give --body"};
+  }
   if (start.draped) {
     if (garment.body_sha256.empty() || garment.body_sha256 == start.skin_sha256) return {};
     return {file + " hung on another body than " + body + ", which it may lie inside of; retarget-garment --to " + body + " places it"};

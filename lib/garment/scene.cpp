@@ -28,6 +28,8 @@ const std::vector<Knob>& knobs() {
       {"time_step_s", 1e-4, 1, &S::time_step_s, nullptr},
       {"cg_tolerance", 1e-12, 0.5, &S::cg_tolerance, nullptr},
       {"cg_max_iterations", 1, 100000, nullptr, &S::cg_max_iterations},
+      {"solver", 0, 2, nullptr, &S::solver},
+      {"contact_level", 1, 4, nullptr, &S::contact_level},
       {"contact_gap_m", 1e-4, 0.02, &S::contact_gap_m, nullptr},
       {"self_thickness_m", 1e-4, 0.02, &S::self_thickness_m, nullptr},
       {"settle_speed_m_s", 1e-6, 1, &S::settle_speed_m_s, nullptr},

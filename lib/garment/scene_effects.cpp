@@ -183,11 +183,6 @@ std::vector<double> rest_angles_of(const cloth::ClothMesh& mesh, const Garment& 
 
 } // namespace
 
-bool SceneEffects::empty() const {
-  return membrane.empty() && bending.empty() && pins.empty() && bands.empty() && attachments.empty() && shrink.empty() && creases.empty() && !air &&
-         pressure_pa == 0;
-}
-
 std::vector<int> run_vertices(const Garment& garment, const PanelRun& run) {
   const pattern::PanelInfo& panel = panel_named(garment, run.panel);
   const int from = nearest_vertex(garment, panel, run.from), to = nearest_vertex(garment, panel, run.to);

@@ -63,7 +63,10 @@ struct SceneEffects {
   bool air = false; ///< air takes part, still or moving
   Vec3 wind_m_s = Vec3::Zero();
   double pressure_pa = 0; ///< on the inner side
-  bool empty() const;
+  bool empty() const {
+    return membrane.empty() && bending.empty() && pins.empty() && bands.empty() && attachments.empty() && shrink.empty() && creases.empty() && !air &&
+           pressure_pa == 0;
+  }
 };
 
 /// Panel vertices of a run, in order. @throws Error INPUT naming the panels when there is none of that name

@@ -1,5 +1,5 @@
 #pragma once
-/// Our own OBJ files: v and vt stay apart and in file order (assimp cannot do that), faces as v/vt, groups as runs of faces.
+/// Our own OBJ files: v and vt stay apart and in file order, faces as v/vt, groups as runs of faces.
 #include <geometry/types.hpp>
 #include <string>
 #include <vector>

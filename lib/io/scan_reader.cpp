@@ -1,11 +1,8 @@
 #include <base/error.hpp>
+#include <io/assimp_reader.hpp>
 #include <io/files.hpp>
 #include <io/obj.hpp>
 #include <io/scan_reader.hpp>
-
-#include <assimp/Importer.hpp>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 
 #include <algorithm>
 #include <bit>
@@ -294,53 +291,43 @@ TriangleMesh parse_xyz(std::string_view bytes, const std::string& name) {
   return mesh;
 }
 
-TriangleMesh parse_with_assimp(std::string_view bytes, const std::string& extension, const std::string& name) {
-  Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_Triangulate | aiProcess_PreTransformVertices, extension.c_str());
-  if (!scene || scene->mNumMeshes == 0) throw input_error(name, "", std::string("cannot be read as ") + extension + ": " + importer.GetErrorString());
-  TriangleMesh mesh;
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
-    const aiMesh& part = *scene->mMeshes[m];
-    const int first = static_cast<int>(mesh.positions.size());
-    for (unsigned v = 0; v < part.mNumVertices; ++v) {
-      mesh.positions.emplace_back(part.mVertices[v].x, part.mVertices[v].y, part.mVertices[v].z);
-      if (!mesh.positions.back().allFinite()) throw input_error(name, "vertex " + std::to_string(mesh.positions.size() - 1), "a coordinate is not finite");
-    }
-    for (unsigned f = 0; f < part.mNumFaces; ++f) {
-      const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices != 3) continue;
-      mesh.triangles.push_back(
-          {first + static_cast<int>(face.mIndices[0]), first + static_cast<int>(face.mIndices[1]), first + static_cast<int>(face.mIndices[2])});
-    }
-  }
-  return mesh;
+namespace {
+
+constexpr const char* EXPECTED = "expected a scan in OBJ, PLY, STL, 3DS, XYZ, glTF, FBX, Collada, OFF or X3D";
+
+/// By the extension, or by the first bytes where that says nothing.
+std::string format_of(const std::string& path, std::string_view bytes) {
+  std::string extension = path.substr(std::min(path.size(), path.find_last_of("./") == std::string::npos ? path.size() : path.find_last_of("./") + 1));
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const char* points : {"asc", "txt", "pts", "csv"})
+    if (extension == points) return "xyz";
+  for (const char* ours : {"obj", "ply", "stl", "3ds", "xyz"})
+    if (extension == ours) return extension;
+  if (is_read_by_assimp(extension)) return extension;
+  const std::string_view head = bytes.substr(0, 4000);
+  if (head.substr(0, 3) == "ply") return "ply";
+  if (head.find("\nv ") != std::string_view::npos || head.substr(0, 2) == "v ") return "obj";
+  return head.substr(0, 5) == "solid" ? "stl" : "xyz";
 }
+
+} // namespace
 
 Scan read_scan(const std::string& path) {
   const std::string bytes = read_file(path);
-  if (bytes.empty()) throw input_error(path, "", "is empty", "expected a scan in OBJ, PLY, STL, 3DS or XYZ");
-  std::string extension = path.substr(std::min(path.size(), path.find_last_of("./") == std::string::npos ? path.size() : path.find_last_of("./") + 1));
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == "asc" || extension == "txt" || extension == "pts" || extension == "csv") extension = "xyz";
-  if (extension != "obj" && extension != "ply" && extension != "stl" && extension != "3ds" && extension != "xyz") {
-    const std::string_view head = std::string_view(bytes).substr(0, 4000);
-    extension = head.substr(0, 3) == "ply"                                                 ? "ply"
-                : head.find("\nv ") != std::string_view::npos || head.substr(0, 2) == "v " ? "obj"
-                : head.substr(0, 5) == "solid"                                             ? "stl"
-                                                                                           : "xyz";
-  }
+  if (bytes.empty()) throw input_error(path, "", "is empty", EXPECTED);
   Scan scan;
-  scan.format = extension;
+  scan.format = format_of(path, bytes);
   scan.sha256 = sha256(bytes);
-  if (extension == "obj") {
+  if (scan.format == "obj") {
     ObjMesh obj = parse_obj(bytes, path);
     scan.mesh.positions = std::move(obj.positions);
     scan.mesh.triangles = std::move(obj.triangles);
-  } else if (extension == "ply") scan.mesh = parse_ply(bytes, path);
-  else if (extension == "stl") scan.mesh = parse_stl(bytes, path);
-  else if (extension == "3ds") scan.mesh = parse_with_assimp(bytes, extension, path);
-  else scan.mesh = parse_xyz(bytes, path);
-  if (scan.mesh.positions.empty()) throw input_error(path, "", "holds no vertices", "expected a scan in OBJ, PLY, STL, 3DS or XYZ");
+  } else if (scan.format == "ply") scan.mesh = parse_ply(bytes, path);
+  else if (scan.format == "stl") scan.mesh = parse_stl(bytes, path);
+  else if (scan.format == "3ds") scan.mesh = parse_3ds(bytes, path);
+  else if (scan.format == "xyz") scan.mesh = parse_xyz(bytes, path);
+  else scan.mesh = read_with_assimp(path, scan.format);
+  if (scan.mesh.positions.empty()) throw input_error(path, "", "holds no vertices", EXPECTED);
   return scan;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Raw scans in: OBJ, PLY, STL, XYZ by readers of our own that keep the file's vertices, 3DS through assimp.
+/// Raw scans in: OBJ, PLY, STL, 3DS and XYZ by readers of our own that keep the file's vertices, other formats through assimp.
 /// No unit, no axis, no meaning: that is the business of body/.
 #include <geometry/triangle_mesh.hpp>
 #include <string>
@@ -7,9 +7,9 @@
 namespace sloper::io {
 
 struct Scan {
-  std::string format; ///< "obj", "ply", "stl", "3ds", "xyz"
+  std::string format; ///< "obj", "ply", "stl", "3ds", "xyz", or the extension that assimp reads
   std::string sha256; ///< of the file's bytes
-  /// Positions in the file's own order and count and its own unit; triangles may be empty (bare points).
+  /// But for assimp (assimp_reader.hpp): positions in the file's own order and count and its own unit; triangles may be empty (bare points).
   /// STL has no shared vertices: its positions are the three corners of each facet in turn.
   TriangleMesh mesh;
 };
@@ -24,6 +24,7 @@ Scan read_scan(const std::string& path);
 TriangleMesh parse_ply(std::string_view bytes, const std::string& name);
 TriangleMesh parse_stl(std::string_view bytes, const std::string& name);
 TriangleMesh parse_xyz(std::string_view bytes, const std::string& name); ///< x y z [anything] per line; # starts a comment
-TriangleMesh parse_with_assimp(std::string_view bytes, const std::string& extension, const std::string& name);
+/// Every mesh of the file, one after the other, as the coordinates stand in it: 3D Studio's own (0x4110 and 0x4120 in 0x4100 of Autodesk's 3DS chunks).
+TriangleMesh parse_3ds(std::string_view bytes, const std::string& name);
 
 } // namespace sloper::io

@@ -64,6 +64,12 @@ public:
       fail(std::string("'").append(utf8(value.substr(0, 40))).append("' is no number"));
     return x;
   }
+  /// For flags and counts, which DXF keeps in 16 bits; some programs write them as 70.0.
+  int whole() const {
+    const double x = number();
+    if (std::abs(x) > 1e6) fail(std::string("'").append(utf8(value.substr(0, 40))).append("' is no flag or count"));
+    return static_cast<int>(x);
+  }
   [[noreturn]] void fail(const std::string& fact) const { throw input_error(m_file, "line " + std::to_string(m_line), fact, "give a text DXF"); }
 
   int code = 0;
@@ -158,10 +164,10 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
     case 21: entity.y2 = tags.number(); break;
     case 70:
       if (section == "HEADER") {
-        if (variable == "$INSUNITS") out.insunits = static_cast<int>(tags.number());
-        if (variable == "$MEASUREMENT") out.measurement = static_cast<int>(tags.number());
+        if (variable == "$INSUNITS") out.insunits = tags.whole();
+        if (variable == "$MEASUREMENT") out.measurement = tags.whole();
       }
-      entity.flags = static_cast<int>(tags.number());
+      entity.flags = tags.whole();
       break;
     default: break;
     }

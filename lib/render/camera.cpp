@@ -96,10 +96,10 @@ Camera frame_scene(const std::vector<DrawMesh>& meshes, const CameraOptions& opt
   return camera;
 }
 
-Camera frame_beside(const std::vector<DrawMesh>& meshes, const CameraOptions& options, double width_over_height, double share) {
-  Camera camera = frame_scene(meshes, options, width_over_height * (1 - share));
+Camera frame_beside(const std::vector<DrawMesh>& meshes, const CameraOptions& options, double width_over_height, double left, double right) {
+  Camera camera = frame_scene(meshes, options, width_over_height * (1 - left - right));
   camera.half_width = camera.half_height * width_over_height;
-  camera.center += camera.turn.transpose() * Vec3(share * camera.half_width, 0, 0);
+  camera.center += camera.turn.transpose() * Vec3((right - left) * camera.half_width, 0, 0);
   return camera;
 }
 

@@ -31,8 +31,8 @@ struct Camera {
 
 /// Frames everything, or what the options ask for.
 Camera frame_scene(const std::vector<DrawMesh>& meshes, const CameraOptions& options, double width_over_height);
-/// The same with `share` of the picture's width left free on the right, for a legend.
-Camera frame_beside(const std::vector<DrawMesh>& meshes, const CameraOptions& options, double width_over_height, double share);
+/// The same with shares of the picture's width left free on its left and right, for labels and a legend.
+Camera frame_beside(const std::vector<DrawMesh>& meshes, const CameraOptions& options, double width_over_height, double left, double right);
 /// Azimuth and elevation of "front", "back", "left", "right", "iso". @throws Error USAGE
 CameraOptions named_view(const std::string& view);
 /// "front,iso,pattern,turntable:36": a camera for each view, none for the pattern laid flat. @throws Error USAGE

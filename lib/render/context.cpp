@@ -16,7 +16,13 @@ namespace sloper::render {
 
 namespace {
 
-[[noreturn]] void no_context(const std::string& what, const std::string& next_step) { throw Error(ErrorKind::INTERNAL, "", "", what, next_step); }
+/// The machine lacks what draws: no picture, and no mistake of ours. The next step names the other back end only where there is one.
+[[noreturn]] void no_context(ContextKind kind, const std::string& what) {
+  const bool egl = kind == ContextKind::EGL;
+  for (const ContextKind other : built_contexts())
+    if (other != kind) throw Error(ErrorKind::FAILED, "", egl ? "--context egl" : "--context osmesa", what, egl ? "try --context osmesa" : "try --context egl");
+  throw Error(ErrorKind::FAILED, "", egl ? "--context egl" : "--context osmesa", what, "install Mesa's drivers (Debian: libgl1-mesa-dri)");
+}
 
 #ifdef SLOPER_HAVE_OSMESA
 class OsmesaContext : public Context {
@@ -25,13 +31,13 @@ public:
     const int attributes[] = {
         OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
     m_context = OSMesaCreateContextAttribs(attributes, nullptr);
-    if (!m_context) no_context("OSMesa gives no OpenGL 3.3 context", "try --context egl");
+    if (!m_context) no_context(ContextKind::OSMESA, "OSMesa gives no OpenGL 3.3 context");
     make_current();
   }
   ~OsmesaContext() override { OSMesaDestroyContext(m_context); }
   void* function(const char* name) const override { return reinterpret_cast<void*>(OSMesaGetProcAddress(name)); }
   void make_current() override {
-    if (!OSMesaMakeCurrent(m_context, m_pixels.data(), GL_UNSIGNED_BYTE, 16, 16)) no_context("OSMesa cannot make its context current", "");
+    if (!OSMesaMakeCurrent(m_context, m_pixels.data(), GL_UNSIGNED_BYTE, 16, 16)) no_context(ContextKind::OSMESA, "OSMesa cannot make its context current");
   }
 
 private:
@@ -46,7 +52,7 @@ public:
   EglContext() {
     const auto get_display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
     if (get_display) m_display = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    if (m_display == EGL_NO_DISPLAY || !eglInitialize(m_display, nullptr, nullptr)) no_context("EGL gives no surfaceless display", "use --context osmesa");
+    if (m_display == EGL_NO_DISPLAY || !eglInitialize(m_display, nullptr, nullptr)) no_context(ContextKind::EGL, "EGL gives no surfaceless display");
     const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
@@ -56,7 +62,7 @@ public:
       m_context = eglCreateContext(m_display, config, EGL_NO_CONTEXT, version);
     if (m_context == EGL_NO_CONTEXT) {
       eglTerminate(m_display);
-      no_context("EGL gives no OpenGL 3.3 context", "use --context osmesa");
+      no_context(ContextKind::EGL, "EGL gives no OpenGL 3.3 context");
     }
     make_current();
   }
@@ -67,7 +73,7 @@ public:
   }
   void* function(const char* name) const override { return reinterpret_cast<void*>(eglGetProcAddress(name)); }
   void make_current() override {
-    if (!eglMakeCurrent(m_display, EGL_NO_SURFACE, EGL_NO_SURFACE, m_context)) no_context("EGL cannot make its context current", "use --context osmesa");
+    if (!eglMakeCurrent(m_display, EGL_NO_SURFACE, EGL_NO_SURFACE, m_context)) no_context(ContextKind::EGL, "EGL cannot make its context current");
   }
 
 private:

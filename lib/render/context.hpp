@@ -19,7 +19,7 @@ public:
 
 /// A current context. Drawing goes to framebuffer objects. Threads of a processor back end: thread_count(); the picture is the
 /// same for any number of them.
-/// @throws Error USAGE when the kind was not built in, INTERNAL when there is no OpenGL 3.3
+/// @throws Error USAGE when the kind was not built in, FAILED where this machine has no OpenGL 3.3 for it
 std::unique_ptr<Context> make_context(ContextKind kind);
 
 /// The kinds that were built in, OSMESA first.

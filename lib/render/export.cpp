@@ -1,6 +1,5 @@
 #include <base/error.hpp>
 #include <base/version.hpp>
-#include <body/pose.hpp>
 #include <io/files.hpp>
 #include <io/json.hpp>
 #include <render/export.hpp>
@@ -50,19 +49,28 @@ public:
     accessors.push_back({{"bufferView", views.size() - 1}, {"componentType", component}, {"count", count}, {"type", type}});
     return static_cast<int>(accessors.size()) - 1;
   }
+  /// Bytes that are no numbers of the scene. @returns their view
+  std::size_t add_bytes(const std::string& data) {
+    views.push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", data.size()}});
+    bytes += data;
+    bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
+    return views.size() - 1;
+  }
   int add_floats(const std::vector<float>& data, int width, const char* type) {
     return add(data.data(), data.size() * sizeof(float), data.size() / width, 5126, type, 34962);
   }
 };
 
-io::Json add_mesh(GlbBuffer& buffer, const DrawMesh& mesh, const Legend& legend, const Rig* rig) {
+/// @param skin   of the rig, or null   @param print_size  of the printed cloth, or 0
+io::Json add_mesh(GlbBuffer& buffer, const DrawMesh& mesh, const Legend& legend, const Rig::Skin* skin, double print_size) {
+  const bool printed = print_size > 0 && !mesh.uv.empty();
   std::vector<float> positions, normals, colors, uv;
   Eigen::Vector3f low = Eigen::Vector3f::Constant(std::numeric_limits<float>::max()), high = -low;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const Eigen::Vector3f p = mesh.positions[v].cast<float>();
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
-    const Vec3 c = shown_color(mesh, v, legend);
+    const Vec3 c = printed ? Vec3::Ones() : shown_color(mesh, v, legend);          // a texture is multiplied by it
     const Vec3 n = mesh.normals[v].norm() > 0.5 ? mesh.normals[v] : Vec3(0, 1, 0); // glTF wants unit normals
     for (int k = 0; k < 3; ++k) {
       positions.push_back(p[k]);
@@ -70,8 +78,8 @@ io::Json add_mesh(GlbBuffer& buffer, const DrawMesh& mesh, const Legend& legend,
       colors.push_back(static_cast<float>(c[k]));
     }
     if (mesh.uv.empty()) continue;
-    uv.push_back(static_cast<float>(mesh.uv[v].x()));
-    uv.push_back(static_cast<float>(-mesh.uv[v].y()));
+    uv.push_back(static_cast<float>(mesh.uv[v].x() / (printed ? print_size : 1)));
+    uv.push_back(static_cast<float>(-mesh.uv[v].y() / (printed ? print_size : 1)));
   }
   std::vector<std::uint32_t> indices;
   for (const Triangle& t : mesh.triangles) indices.insert(indices.end(), t.begin(), t.end());
@@ -82,19 +90,19 @@ io::Json add_mesh(GlbBuffer& buffer, const DrawMesh& mesh, const Legend& legend,
   attributes["NORMAL"] = buffer.add_floats(normals, 3, "VEC3");
   attributes["COLOR_0"] = buffer.add_floats(colors, 3, "VEC3");
   if (!uv.empty()) attributes["TEXCOORD_0"] = buffer.add_floats(uv, 2, "VEC2");
-  if (rig) {
+  if (skin) {
     std::vector<std::uint16_t> joints;
     std::vector<float> weights;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v)
       for (int k = 0; k < 4; ++k) {
-        joints.push_back(static_cast<std::uint16_t>(rig->joint[v][k]));
-        weights.push_back(static_cast<float>(rig->weight[v][k]));
+        joints.push_back(static_cast<std::uint16_t>(skin->joint[v][k]));
+        weights.push_back(static_cast<float>(skin->weight[v][k]));
       }
     attributes["JOINTS_0"] = buffer.add(joints.data(), joints.size() * sizeof(std::uint16_t), mesh.positions.size(), 5123, "VEC4", 34962);
     attributes["WEIGHTS_0"] = buffer.add_floats(weights, 4, "VEC4");
   }
   const int elements = buffer.add(indices.data(), indices.size() * sizeof(std::uint32_t), indices.size(), 5125, "SCALAR", 34963);
-  return {{"name", mesh.name}, {"primitives", {{{"attributes", attributes}, {"indices", elements}, {"material", mesh.is_cloth ? 1 : 0}}}}};
+  return {{"name", mesh.name}, {"primitives", {{{"attributes", attributes}, {"indices", elements}, {"material", printed ? 2 : mesh.is_cloth ? 1 : 0}}}}};
 }
 
 /// Joint nodes after `nodes`, each placed from its parent's, and the skin that names them. In the bind pose nothing is turned, so
@@ -207,54 +215,8 @@ bool is_export(const std::string& path) {
   return e == "glb" || e == "obj" || e == "ply";
 }
 
-std::optional<Rig> make_rig(const Scene& scene) {
-  if (!scene.body || scene.body_mesh < 0) return {};
-  const body::Body& body = *scene.body;
-  body::SkinWeights weights;
-  try {
-    weights = body::skin_weights(body);
-  } catch (const Error&) {
-    return {}; // a torso, say: it is drawn as it stands
-  }
-  Rig rig;
-  rig.mesh = scene.body_mesh;
-  rig.names = weights.joints;
-  if (scene.meshes[static_cast<std::size_t>(rig.mesh)].positions.size() != weights.joint.size()) return {};
-  const auto bone = [&](const std::string& name) {
-    return std::find_if(body.bones.begin(), body.bones.end(), [&](const body::Bone& b) { return b.name == name; });
-  };
-  for (const std::string& name : rig.names) {
-    const bool root = rig.names.front() == name;
-    const auto own = bone(root ? "spine" : name);
-    if (own == body.bones.end()) return {};
-    rig.head.push_back(own->head);
-    int parent = root ? -1 : 0;
-    for (auto above = root ? body.bones.end() : bone(own->parent); above != body.bones.end() && parent == 0; above = bone(above->parent)) {
-      const auto known = std::find(rig.names.begin(), rig.names.end(), above->name);
-      if (known != rig.names.end()) parent = static_cast<int>(known - rig.names.begin());
-    }
-    if (parent >= static_cast<int>(rig.parent.size())) return {};
-    rig.parent.push_back(parent);
-  }
-  for (std::size_t v = 0; v < weights.joint.size(); ++v) {
-    std::array<int, body::SkinWeights::MOST> order;
-    for (int k = 0; k < body::SkinWeights::MOST; ++k) order[static_cast<std::size_t>(k)] = k;
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weights.share[v][a] > weights.share[v][b]; });
-    std::array<int, 4> joint{};
-    std::array<double, 4> share{};
-    double sum = 0;
-    for (int k = 0; k < 4; ++k) sum += weights.share[v][order[k]];
-    for (int k = 0; k < 4; ++k) {
-      share[k] = weights.share[v][order[k]] / sum;
-      joint[k] = share[k] > 0 ? weights.joint[v][order[k]] : 0;
-    }
-    rig.joint.push_back(joint);
-    rig.weight.push_back(share);
-  }
-  return rig;
-}
-
-std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend, const Rig* rig) {
+std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend, const Rig* rig, const Print* print) {
+  if (!legend.steps.empty()) print = nullptr; // the map's colours are shown
   GlbBuffer buffer;
   io::Json document = {{"asset", {{"version", "2.0"}, {"generator", generator_stamp("render-png")}}}, {"scene", 0}};
   io::Json nodes = io::Json::array(), drawn = io::Json::array(), roots = io::Json::array();
@@ -262,9 +224,9 @@ std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend,
     if (meshes[m].triangles.empty()) continue;
     nodes.push_back({{"name", meshes[m].name}, {"mesh", drawn.size()}});
     roots.push_back(drawn.size());
-    const bool rigged = rig && rig->mesh == static_cast<int>(m);
-    if (rigged) nodes.back()["skin"] = 0;
-    drawn.push_back(add_mesh(buffer, meshes[m], legend, rigged ? rig : nullptr));
+    const Rig::Skin* skin = rig && !rig->skins[m].joint.empty() ? &rig->skins[m] : nullptr;
+    if (skin) nodes.back()["skin"] = 0;
+    drawn.push_back(add_mesh(buffer, meshes[m], legend, skin, print ? print->size : 0));
   }
   if (rig) {
     roots.push_back(nodes.size()); // the root joint
@@ -277,6 +239,12 @@ std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend,
     return io::Json{{"name", name}, {"doubleSided", two_sided}, {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", roughness}}}};
   };
   document["materials"] = {material("skin", 0.7, false), material("cloth", 0.9, true)};
+  if (print) {
+    document["materials"].push_back(material("printed cloth", 0.9, true));
+    document["materials"].back()["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    document["textures"] = {{{"source", 0}}}; // without a sampler it repeats
+    document["images"] = {{{"mimeType", "image/png"}, {"bufferView", buffer.add_bytes(io::png_bytes(print->image, {}))}}};
+  }
   document["accessors"] = buffer.accessors;
   document["bufferViews"] = buffer.views;
   document["buffers"] = {{{"byteLength", buffer.bytes.size()}}};
@@ -292,10 +260,10 @@ std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend,
   return bytes;
 }
 
-void export_scene(const std::string& path, const std::vector<DrawMesh>& meshes, const Legend& legend, const Rig* rig) {
+void export_scene(const std::string& path, const std::vector<DrawMesh>& meshes, const Legend& legend, const Rig* rig, const Print* print) {
   const std::string e = extension(path);
   if (e == "glb") {
-    io::write_file(path, glb_bytes(meshes, legend, rig));
+    io::write_file(path, glb_bytes(meshes, legend, rig, print));
   } else if (e == "ply") {
     io::write_file(path, ply_bytes(meshes, legend));
   } else if (e == "obj") {

@@ -155,23 +155,25 @@ std::vector<double> ease_values(const Garment& g, const body::Body& body, const 
   return values;
 }
 
-void summarise(const std::vector<std::vector<double>>& lists, Legend& legend) {
-  std::vector<double> sizes;
+/// The legend's quantiles. @returns the size that 99 of 100 values do not exceed
+double summarise(const std::vector<std::vector<double>>& lists, Legend& legend) {
+  std::vector<double> all;
   for (const auto& list : lists)
     for (double v : list)
-      if (v != NO_VALUE) sizes.push_back(std::abs(v));
-  if (sizes.empty()) return;
-  std::sort(sizes.begin(), sizes.end());
-  const auto last = static_cast<double>(sizes.size() - 1);
-  legend.p50 = sizes[static_cast<std::size_t>(0.5 * last)];
-  legend.p99 = sizes[static_cast<std::size_t>(0.99 * last)];
-  legend.largest = sizes.back();
+      if (v != NO_VALUE) all.push_back(v);
+  if (all.empty()) return 0;
+  const auto quantile = [&](double q) { return all[static_cast<std::size_t>(q * static_cast<double>(all.size() - 1))]; };
+  std::sort(all.begin(), all.end());
+  legend.least = all.front(), legend.p1 = quantile(0.01), legend.p50 = quantile(0.5), legend.p99 = quantile(0.99), legend.largest = all.back();
+  for (double& v : all) v = std::abs(v);
+  std::sort(all.begin(), all.end());
+  return quantile(0.99);
 }
 
-/// The first of the ranges that holds 99 of 100 values, or the last.
-double choose_range(double p99, std::initializer_list<double> ranges) {
+/// The first of the ranges that holds the value, or the last.
+double choose_range(double most, std::initializer_list<double> ranges) {
   for (double r : ranges)
-    if (p99 <= r) return r;
+    if (most <= r) return r;
   return *(ranges.end() - 1);
 }
 
@@ -250,19 +252,21 @@ Legend apply_map(Scene& scene, Map map, double limit) {
       for (double& v : values.back()) v = 1000 * (map == Map::GAP ? v : std::max(0.0, -v));
     }
   }
-  summarise(values, legend);
+  const double most = summarise(values, legend);
   switch (map) {
-  case Map::GAP: legend.title = "gap to the skin", legend.unit = "mm", legend.high = choose_range(legend.p99, {40, 80, 160, 320}); break;
-  case Map::PENETRATION: legend.title = "depth in the skin", legend.unit = "mm", legend.high = choose_range(legend.largest, {4, 16, 80}); break;
-  case Map::PRESSURE: legend.title = "contact pressure", legend.unit = "Pa", legend.high = choose_range(legend.p99, {400, 1600, 8000, 40000}); break;
-  case Map::EASE:
-    legend.title = "ease at the level", legend.unit = "cm", legend.high = choose_range(legend.p99, {8, 16, 32, 80}), legend.diverging = true;
+  case Map::GAP: legend.title = "gap to the skin", legend.unit = "mm", legend.high = choose_range(most, {40, 80, 120, 160, 240, 320}); break;
+  case Map::PENETRATION: legend.title = "depth in the skin", legend.unit = "mm", legend.high = choose_range(legend.largest, {0.8, 4, 8, 16, 40, 80}); break;
+  case Map::PRESSURE:
+    legend.title = "contact pressure", legend.unit = "Pa", legend.high = choose_range(most, {80, 160, 400, 800, 1600, 4000, 8000, 40000});
     break;
-  case Map::DIFFERENCE: legend.title = "difference", legend.unit = "mm", legend.high = choose_range(legend.p99, {0.8, 4, 8, 40, 160, 800}); break;
-  case Map::LIMIT: legend.title = "share of strain limit", legend.unit = "%", legend.high = choose_range(legend.p99, {80, 160, 400, 1600}); break;
+  case Map::EASE:
+    legend.title = "ease at the level", legend.unit = "cm", legend.high = choose_range(most, {8, 16, 24, 32, 48, 80}), legend.diverging = true;
+    break;
+  case Map::DIFFERENCE: legend.title = "difference", legend.unit = "mm", legend.high = choose_range(most, {0.8, 1.6, 4, 8, 16, 40, 80, 160, 400, 800}); break;
+  case Map::LIMIT: legend.title = "share of strain limit", legend.unit = "%", legend.high = choose_range(most, {8, 16, 40, 80, 160, 400, 1600}); break;
   default:
     legend.title = map == Map::STRAIN ? "strain" : "strain, " + map_names()[static_cast<int>(map)];
-    legend.unit = "%", legend.high = choose_range(legend.p99, {4, 8, 20, 40}), legend.diverging = true;
+    legend.unit = "%", legend.high = choose_range(most, {4, 8, 12, 20, 40}), legend.diverging = true;
   }
   if (limit > 0) legend.high = limit;
   legend.low = legend.diverging ? -legend.high : 0;

@@ -20,7 +20,7 @@ const std::vector<std::string>& map_names();
 struct Legend {
   std::string title, unit;
   double low = 0, high = 0;
-  double p50 = 0, p99 = 0, largest = 0; ///< of the sizes of the values
+  double least = 0, p1 = 0, p50 = 0, p99 = 0, largest = 0; ///< of the values
   bool diverging = false;
   std::vector<Vec3> steps; ///< eight colours, linear, low to high; empty: no colour bar
 };

@@ -135,10 +135,12 @@ void draw_legend(io::Image& image, const Legend& legend) {
   const int right = image.width - font;
   draw_text_halo(image, legend.title, right, top - font * 11 / 4, font, Align::RIGHT);
   draw_text_halo(image, legend.unit, right, top - font * 11 / 8, font, Align::RIGHT);
-  const char* names[] = {"p50  ", "p99  ", "max  "};
-  const double values[] = {legend.p50, legend.p99, legend.largest};
-  for (int k = 0; k < 3; ++k)
-    draw_text_halo(image, names[k] + number(values[k]) + " " + legend.unit, right, top + n * step + (4 + 3 * k) * font / 2 + font / 2, font, Align::RIGHT);
+  const std::pair<const char*, double> all[] = {
+      {"min  ", legend.least}, {"p1  ", legend.p1}, {"p50  ", legend.p50}, {"p99  ", legend.p99}, {"max  ", legend.largest}};
+  int line = 0;
+  for (std::size_t k = legend.diverging ? 0 : 2; k < std::size(all); ++k, ++line) // what has no other side needs no lower end
+    draw_text_halo(image, all[k].first + number(all[k].second) + " " + legend.unit, right, top + n * step + (4 + 3 * line) * font / 2 + font / 2, font,
+                   Align::RIGHT);
 }
 
 io::Image contact_sheet(const std::vector<io::Image>& images, const std::vector<std::string>& captions, int columns) {
@@ -171,6 +173,7 @@ Comparison compare(const io::Image& a, const io::Image& b, const io::Image* mask
                           std::to_string(b.height));
   if (mask && (mask->width != a.width || mask->height != a.height)) throw input_error("", "", "the mask's size is not that of the pictures");
   auto counts = [&](int x, int y) { return !mask || (mask->at(x, y)[0] >= 128 && mask->at(x, y)[3] >= 128); };
+  constexpr int FAR = 32; // of 255: another colour, not another rounding
   Comparison result;
   result.picture = a;
   auto luminance = [](const std::uint8_t* p) { return (0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]) * p[3] / 255.0; };
@@ -180,12 +183,15 @@ Comparison compare(const io::Image& a, const io::Image& b, const io::Image* mask
       for (int k = 0; k < 4 && counts(x, y); ++k) d = std::max(d, std::abs(a.at(x, y)[k] - b.at(x, y)[k]));
       result.largest = std::max(result.largest, d);
       result.different += d > 2;
+      result.far += d > FAR;
+      result.counted += counts(x, y);
       std::uint8_t* out = result.picture.at(x, y);
       const auto grey = static_cast<std::uint8_t>(200 + luminance(a.at(x, y)) / 5);
       out[0] = d > 2 ? 220 : grey;
       out[1] = out[2] = d > 2 ? static_cast<std::uint8_t>(std::max(0, 120 - d)) : grey;
       out[3] = 255;
     }
+  if (result.counted == 0) throw input_error("", "", "the mask is dark everywhere: no pixel counts", "make it bright where pixels are to be compared");
   double sum = 0;
   long blocks = 0;
   for (int y = 0; y + 8 <= a.height; y += 8)

@@ -23,9 +23,11 @@ struct Comparison {
   double ssim = 1;    ///< mean structural similarity of 8 x 8 blocks of the luminance, Wang et al. 2004
   int largest = 0;    ///< largest difference of a channel, 0..255
   long different = 0; ///< pixels that differ by more than 2
+  long far = 0;       ///< pixels that differ by more than 32: similarity knows no hues, and a white ground dilutes it
+  long counted = 0;   ///< pixels
   io::Image picture;  ///< the difference, grey where equal
 };
 /// @param mask  of the same size: only what is bright in it counts; null: everything
-/// @throws Error INPUT when the sizes differ
+/// @throws Error INPUT when the sizes differ, or the mask is dark
 Comparison compare(const io::Image& a, const io::Image& b, const io::Image* mask = nullptr);
 } // namespace sloper::render

@@ -12,7 +12,7 @@ namespace sloper::render {
 
 namespace {
 
-constexpr double GAP = 0.045; // m between panels: room for the names
+constexpr double GAP = 0.06; // m between panels: room for the names
 
 struct Sheet {
   DrawMesh mesh;
@@ -144,20 +144,23 @@ io::Image draw_pattern(const Scene& scene, const DrawOptions& options) {
   const bool mapped = !options.map_colors.empty();
   const double share = mapped ? 0.82 : 1; // of the width: the colour bar stands beside
   const double aspect = static_cast<double>(options.width) / options.height;
+  const double unit = std::max(1.0, options.height / 1000.0);
+  const int font = std::max(9, static_cast<int>(std::lround(13 * unit)));
+  const double name = 1.5 * font / options.height, bar_below = (12 * unit + 0.8 * font) / options.height; // of the height, kept free
   std::vector<DrawMesh> meshes;
-  const Sheet sheet = lay_out(scene, aspect * share * 0.94);
+  const Sheet sheet = lay_out(scene, aspect * share / (1 - name - bar_below));
   meshes.push_back(sheet.mesh);
   CameraOptions view;
   view.field_of_view = 0;
-  Camera camera = frame_scene(meshes, view, aspect * share);
-  camera.half_height *= 1.05;
+  Camera camera = frame_scene(meshes, view, aspect * share / (1 - name - bar_below));
+  camera.half_height /= 1 - name - bar_below;
+  camera.center.y() += (name - bar_below) * camera.half_height;
   camera.half_width = camera.half_height * aspect;
   camera.center.x() += camera.half_width * (1 - share);
   Renderer renderer(meshes, flat);
   io::Image image = renderer.draw(camera);
-  const double unit = std::max(1.0, options.height / 1000.0), pixels_per_m = 0.5 * options.height / camera.half_height;
+  const double pixels_per_m = 0.5 * options.height / camera.half_height;
   draw_seams(image, sheet, camera, unit);
-  const int font = std::max(9, static_cast<int>(std::lround(13 * unit)));
   for (const Sheet::Panel& panel : sheet.panels) {
     const Vec3 at = camera.pixel(middle_of(sheet, panel), options.width, options.height);
     const Vec2 size = panel.high - panel.low;

@@ -1,6 +1,7 @@
 #include <base/error.hpp>
 #include <body/body_json.hpp>
 #include <garment/garment_json.hpp>
+#include <garment/inputs.hpp>
 #include <geometry/triangle_mesh.hpp>
 #include <io/files.hpp>
 #include <io/json.hpp>
@@ -168,11 +169,22 @@ void color_cloth(Scene& scene, ClothColors how, const std::vector<int>& colors) 
 
 Scene read_scene(const std::vector<std::string>& paths) {
   Scene scene;
+  std::string body;
+  std::vector<std::string> draped; // garments' files
+  std::vector<std::size_t> which;  // of the scene's garments
   for (const std::string& path : paths) {
-    const std::size_t before = scene.meshes.size();
+    const std::size_t before = scene.meshes.size(), garments = scene.garments.size();
+    const int body_before = scene.body_mesh;
     read_one(scene, path);
+    if (scene.body_mesh != body_before) body = path;
+    if (scene.garments.size() > garments && !scene.garments.back().body_sha256.empty()) draped.push_back(path), which.push_back(garments);
     scene.names.push_back(io::file_name(path));
     for (std::size_t m = before; m < scene.meshes.size(); ++m) scene.meshes[m].name = scene.names.back().substr(0, scene.names.back().find('.'));
+  }
+  if (!body.empty() && body != "-" && !scene.body->skin.positions.empty() && !draped.empty()) {
+    const std::string skin = body::skin_sha256(body);
+    for (std::size_t k = 0; k < draped.size(); ++k)
+      for (const std::string& finding : garment::start_findings(scene.garments[which[k]], {draped[k], body, skin, true})) scene.findings.push_back(finding);
   }
   std::size_t triangles = 0;
   for (const DrawMesh& m : scene.meshes) triangles += m.triangles.size();

@@ -34,11 +34,12 @@ struct DrawMesh {
 struct Scene {
   std::optional<body::Body> body;
   std::vector<garment::Garment> garments;
-  std::vector<int> garment_mesh;  ///< by garment: its mesh
-  int body_mesh = -1;             ///< of `body`
-  bool draped = false;            ///< there is a garment, not only panels
-  std::vector<DrawMesh> meshes;   ///< in the order of the documents
-  std::vector<std::string> names; ///< file names, for the PNG's text chunk
+  std::vector<int> garment_mesh;     ///< by garment: its mesh
+  int body_mesh = -1;                ///< of `body`
+  bool draped = false;               ///< there is a garment, not only panels
+  std::vector<DrawMesh> meshes;      ///< in the order of the documents
+  std::vector<std::string> names;    ///< file names, for the PNG's text chunk
+  std::vector<std::string> findings; ///< garments that hang on another body than the one beside them
 };
 
 /// Reads body.json, shirt.json, panels.json (by their "format") and bare OBJ, PLY or STL files (in metres). @throws Error INPUT

@@ -15,11 +15,14 @@ constexpr int LANDMARK = 0xc0392b, BONE = 0x1f6f8b, SLICE = 0xb4531a, INK = 0x30
 constexpr int AXES[] = {0xc0392b, 0x2e8b57, 0x2b5fa8};
 constexpr double SLACK_M = 0.012; // a mark may lie this far below the surface that it marks
 
+double fine_line(int height) { return std::max(1.0, height / 1000.0); } // pixels
+int label_font(int height) { return std::max(9, static_cast<int>(std::lround(12.5 * fine_line(height)))); }
+
 /// Projects and draws; sizes follow the picture's height.
 class Pen {
 public:
   Pen(io::Image& image, const Camera& camera, const Renderer& renderer)
-      : m_image(image), m_camera(camera), m_renderer(renderer), m_slack(SLACK_M / (2 * camera.half_depth)), unit(std::max(1.0, image.height / 1000.0)) {}
+      : m_image(image), m_camera(camera), m_renderer(renderer), m_slack(SLACK_M / (2 * camera.half_depth)), unit(fine_line(image.height)) {}
   Vec3 at(const Vec3& p) const { return m_camera.pixel(p, m_image.width, m_image.height); }
   bool sees(const Vec3& p) const { return m_renderer.is_visible(at(p), m_slack); }
   void line(const Vec3& a, const Vec3& b, double width, int color, bool hide) {
@@ -32,7 +35,7 @@ public:
     if (filled) draw_disc(m_image, p.x(), p.y(), (radius + 1.2) * unit, 0xffffff);
     draw_disc(m_image, p.x(), p.y(), radius * unit, color, filled ? 0 : 1.2 * unit, filled ? 1 : 0.45);
   }
-  int font() const { return std::max(9, static_cast<int>(std::lround(12.5 * unit))); }
+  int font() const { return label_font(m_image.height); }
   io::Image& image() { return m_image; }
 
 private:
@@ -76,28 +79,34 @@ std::vector<double> move_apart(const std::vector<double>& wanted, double pitch, 
 }
 
 /// Names in two columns at the sides, each with a line to its point; moved apart so that none covers another.
-void draw_labels(Pen& pen, std::vector<Label> labels) {
+void draw_labels(Pen& pen, std::vector<Label> labels, int right_edge) {
   io::Image& image = pen.image();
   const int font = pen.font(), pitch = font + font / 3;
   std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.at.y() < b.at.y(); });
   for (bool right : {false, true}) {
     std::vector<Label> column;
     for (const Label& l : labels)
-      if ((l.at.x() >= 0.5 * image.width && !l.always_left) == right) column.push_back(l);
+      if ((l.at.x() >= 0.5 * right_edge && !l.always_left) == right) column.push_back(l);
     std::vector<double> wanted;
     for (const Label& l : column) wanted.push_back(l.at.y());
     const std::vector<double> y = move_apart(wanted, pitch, pitch, image.height - 0.4 * font);
     for (std::size_t k = 0; k < column.size(); ++k) {
       const int width = text_width(column[k].text, font), margin = font / 2;
-      const double edge = right ? image.width - margin - width - 4 : margin + width + 4;
+      const double edge = right ? right_edge - margin - width - 4 : margin + width + 4;
       draw_line(image, edge, y[k], column[k].at.x(), column[k].at.y(), 0.8 * pen.unit, column[k].color, 0.55);
-      draw_text_halo(image, column[k].text, right ? image.width - margin - width : margin, static_cast<int>(y[k] + 0.36 * font), font, Align::LEFT, INK);
+      draw_text_halo(image, column[k].text, right ? right_edge - margin - width : margin, static_cast<int>(y[k] + 0.36 * font), font, Align::LEFT, INK);
     }
   }
 }
 
 [[noreturn]] void lacks(const std::string& what, const std::string& needs) {
   throw Error(ErrorKind::USAGE, "", "--show " + what, "needs " + needs, "give it as a document");
+}
+
+std::string slice_label(const std::string& name, const body::Level& level) {
+  char girth[48];
+  std::snprintf(girth, sizeof girth, "  %.1f cm", 100 * level.girth_m);
+  return name + girth;
 }
 
 void show_slices(Pen& pen, const body::Body& body, std::vector<Label>& labels) {
@@ -112,13 +121,11 @@ void show_slices(Pen& pen, const body::Body& body, std::vector<Label>& labels) {
       const Vec3 p = pen.at(a);
       if (p.x() < outermost.x()) outermost = p;
     }
-    char girth[48];
-    std::snprintf(girth, sizeof girth, "  %.1f cm", 100 * level.girth_m);
-    if (!cut.empty()) labels.push_back({outermost, name + girth, SLICE, true});
+    if (!cut.empty()) labels.push_back({outermost, slice_label(name, level), SLICE, true});
   }
 }
 
-void show_frames(Pen& pen, const body::Body& body) {
+void show_frames(Pen& pen, const body::Body& body, std::vector<Label>& labels) {
   for (const auto& [name, part] : body.frames) {
     const PartFrame& f = part.frame;
     const double reach = 0.08;
@@ -127,8 +134,7 @@ void show_frames(Pen& pen, const body::Body& body) {
     pen.line(f.lower, f.lower + (f.mirrored ? -reach : reach) * f.axis().cross(f.theta_zero), 2, AXES[0], false);
     pen.disc(f.lower, 3, AXES[1], true);
     pen.disc(f.upper, 3, AXES[1], true);
-    const Vec3 middle = pen.at(0.5 * (f.lower + f.upper));
-    draw_text_halo(pen.image(), name, static_cast<int>(middle.x() + 6 * pen.unit), static_cast<int>(middle.y()), pen.font(), Align::LEFT, INK);
+    labels.push_back({pen.at(0.7 * f.lower + 0.3 * f.upper), name, AXES[1]});
   }
 }
 
@@ -197,7 +203,25 @@ std::vector<std::array<Vec3, 2>> cut_level(const TriangleMesh& mesh, double heig
   return cut;
 }
 
-void draw_show(io::Image& image, const Scene& scene, const Camera& camera, const Renderer& renderer, const Show& show) {
+double label_share(const Scene& scene, const Show& show, int width, int height) {
+  const int font = label_font(height);
+  int widest = 0;
+  const auto holds = [&](const std::string& text) { widest = std::max(widest, text_width(text, font)); };
+  if (scene.body) {
+    if (show.landmarks)
+      for (const auto& [name, landmark] : scene.body->landmarks) holds(name);
+    if (show.slices)
+      for (const auto& [name, level] : scene.body->levels) holds(slice_label(name, level));
+    if (show.frames)
+      for (const auto& [name, frame] : scene.body->frames) holds(name);
+  }
+  if (show.names)
+    for (const garment::Garment& g : scene.garments)
+      for (const pattern::PanelInfo& panel : g.panels.panels) holds(panel.name);
+  return widest == 0 ? 0 : std::min(0.2, (widest + 1.5 * font) / width);
+}
+
+void draw_show(io::Image& image, const Scene& scene, const Camera& camera, const Renderer& renderer, const Show& show, int legend_width) {
   Pen pen(image, camera, renderer);
   std::vector<Label> labels;
   if (!scene.body && (show.landmarks || show.bones || show.frames || show.slices))
@@ -205,7 +229,7 @@ void draw_show(io::Image& image, const Scene& scene, const Camera& camera, const
   if (scene.garments.empty() && (show.seams || show.names)) lacks(show.seams ? "seams" : "names", "a shirt.json or panels.json");
   if (show.seams) show_seams(pen, scene);
   if (show.slices) show_slices(pen, *scene.body, labels);
-  if (show.frames) show_frames(pen, *scene.body);
+  if (show.frames) show_frames(pen, *scene.body, labels);
   if (show.bones)
     for (const body::Bone& bone : scene.body->bones) {
       pen.line(bone.head, bone.tail, 5, 0xffffff, false);
@@ -220,7 +244,7 @@ void draw_show(io::Image& image, const Scene& scene, const Camera& camera, const
       if (seen) labels.push_back({pen.at(landmark.p), name, LANDMARK});
     }
   if (show.names) show_names(pen, scene, labels);
-  draw_labels(pen, labels);
+  draw_labels(pen, labels, image.width - legend_width);
 }
 
 } // namespace sloper::render

@@ -40,6 +40,11 @@ void Draft::sew(const std::string& panel_a, const std::string& edge_a, const std
   seams.push_back({panel_a + "." + edge_a, panel_a, edge_a, panel_b, edge_b, kind, false, ease});
 }
 
+void Draft::remove(const std::string& panel) {
+  panels.erase(std::remove_if(panels.begin(), panels.end(), [&](const DraftPanel& p) { return p.name == panel; }), panels.end());
+  seams.erase(std::remove_if(seams.begin(), seams.end(), [&](const DraftSeam& s) { return s.panel_a == panel || s.panel_b == panel; }), seams.end());
+}
+
 const DraftPanel& Draft::panel(const std::string& wanted) const {
   for (const DraftPanel& p : panels)
     if (p.name == wanted) return p;

@@ -48,6 +48,7 @@ struct Draft {
   void add(DraftPanel panel) { panels.push_back(std::move(panel)); }
   void sew(const std::string& panel_a, const std::string& edge_a, const std::string& panel_b, const std::string& edge_b, double ease = 0,
            const std::string& kind = "seam");
+  void remove(const std::string& panel);                  ///< with its seams
   const DraftPanel& panel(const std::string& name) const; ///< @throws Error INTERNAL
 };
 

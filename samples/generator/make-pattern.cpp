@@ -56,12 +56,15 @@ int main(int argc, char** argv) {
   for (const auto& [name, member] : samples::measure_names()) names += (names.empty() ? "" : ", ") + name;
   std::string garment, body, preset, output;
   std::vector<std::string> given;
+  bool band_collar = false;
   tool.option("GARMENT", garment, "shirt, tshirt, skirt or trousers").required();
   tool.option("--body", body, "take the measures from a body document (or from a mannequin's truth)").check(cli::input_file());
   tool.option("--preset", preset, "take the measures from a mannequin of the family").type_name("NAME");
   tool.option("--measure", given, "set one measure: " + names).type_name("NAME=METRES");
+  tool.flag("--band-collar", band_collar, "a shirt's collar is its stand alone");
   tool.option("-o,--output", output, "pattern document to write").required().check(cli::output_file());
   tool.example("make-pattern shirt --body body.json -o shirt.pattern.json", "a shirt for a measured body");
+  tool.example("make-pattern shirt --band-collar --body body.json -o shirt.pattern.json", "with a collar that leaves the chin free");
   tool.example("make-pattern skirt --preset f-165-a -o skirt.pattern.json", "a skirt for a mannequin");
   tool.example("make-pattern shirt --measure bust=0.96 --measure waist=0.78 -o shirt.pattern.json", "a shirt for these measures");
   tool.formats("body documents (version 1)", "pattern documents (version 1)");
@@ -71,7 +74,9 @@ int main(int argc, char** argv) {
     if (!body.empty()) measures = samples::measures_from_body(io::read_json(body), body);
     else if (!preset.empty()) measures = samples::measures_from_body(samples::make_mannequin(samples::preset(preset)).truth, preset);
     set_measures(given, measures);
-    const samples::Draft made = draft(garment, measures);
+    samples::Draft made = draft(garment, measures);
+    if (band_collar && garment != "shirt") throw Error(ErrorKind::USAGE, "", "--band-collar", "a " + garment + " has no collar", "leave it out");
+    if (band_collar) made.remove("collar");
     if (body.empty() && preset.empty()) tool.reporter().warning("no --body is given: " + standard_measures(given));
     if (const std::vector<std::string> faults = samples::draft_faults(made); !faults.empty())
       throw Error(ErrorKind::FAILED, body, garment, "these measures give a faulty draft: " + faults.front(), "check the measures");

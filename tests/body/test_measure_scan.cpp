@@ -72,6 +72,8 @@ TEST(MeasureScan, a_missing_hand_is_told) {
   EXPECT_EQ(told(body), 1);
   EXPECT_LT(body.landmarks.at("hand_tip_l").confidence, 0.15);
   EXPECT_GT(body.landmarks.at("hand_tip_r").confidence, 0.5);
+  EXPECT_LT((test::in_scan(body, "wrist_l") - wrist).norm(), 0.035) << "where the arm ends";
+  EXPECT_LT((test::in_scan(body, "elbow_l") - test::in_scan(whole, "elbow_l")).norm(), 0.035) << "not half a hand's length off";
 }
 
 TEST(MeasureScan, finds_a_mannequins_points_where_they_were_built) {
@@ -128,7 +130,7 @@ TEST(MeasureScan, turning_shifting_and_scaling_move_no_landmark_by_5_mm) {
   }
 }
 
-TEST(MeasureScan, dropping_faces_moves_no_landmark_by_more_than_8_mm_and_hardly_any_at_all) {
+TEST(MeasureScan, dropping_faces_moves_no_landmark_by_more_than_6_mm_and_hardly_any_at_all) {
   TriangleMesh scan = test::mannequin("f-165-a").mesh;
   const Body before = measure(scan).body;
   Random random(3);
@@ -139,7 +141,7 @@ TEST(MeasureScan, dropping_faces_moves_no_landmark_by_more_than_8_mm_and_hardly_
   for (const auto& [name, landmark] : before.landmarks) {
     ASSERT_TRUE(measured.body.has_landmark(name)) << name;
     changes.push_back((test::in_scan(before, name) - test::in_scan(measured.body, name)).norm());
-    EXPECT_LT(changes.back(), 0.008) << name;
+    EXPECT_LT(changes.back(), 0.006) << name; // of a mesh this coarse; the bound of 5 mm is for finer ones: test_invariance.cpp
   }
   std::sort(changes.begin(), changes.end());
   EXPECT_LT(changes[changes.size() / 2], 0.001);

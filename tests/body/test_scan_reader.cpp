@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 #include <io/scan_reader.hpp>
 
+#include <cstdio>
 #include <cstring>
+#include <fstream>
 
 using namespace sloper;
 using namespace sloper::io;
@@ -89,6 +91,84 @@ TEST(ScanReader, xyz_takes_comments_a_heading_and_more_columns) {
   EXPECT_EQ(mesh.positions[1], Vec3(4, 5, 6));
   EXPECT_NE(complaint([] { parse_xyz("1 2 3\n4 5\n", "a.xyz"); }).find("line 2"), std::string::npos);
   complaint([] { parse_xyz("1 2 inf\n", "a.xyz"); });
+}
+
+namespace {
+
+std::string chunk(std::uint16_t kind, const std::string& inside) {
+  const std::uint32_t length = static_cast<std::uint32_t>(inside.size()) + 6;
+  std::string bytes(6, '\0');
+  std::memcpy(bytes.data(), &kind, 2);
+  std::memcpy(bytes.data() + 2, &length, 4);
+  return bytes + inside;
+}
+
+template<class T> std::string raw(std::initializer_list<T> values) {
+  return std::string(reinterpret_cast<const char*>(values.begin()), values.size() * sizeof(T));
+}
+
+/// One triangle at x..x+2, its corners in the order 2, 0, 1; behind it lie two vertices that no face names.
+std::string triangle_3ds(float x, std::uint16_t corner = 2) {
+  const std::string vertices = raw<std::uint16_t>({5}) + raw<float>({x, 0, 0, x + 1, 0, 7, x + 2, 3, 0, 9, 9, 9, 8, 8, 8});
+  return chunk(0x4000, std::string("part\0", 5) + chunk(0x4100, chunk(0x4110, vertices) + chunk(0x4120, raw<std::uint16_t>({1, corner, 0, 1, 7}))));
+}
+
+} // namespace
+
+TEST(ScanReader, a_3ds_keeps_the_vertices_of_all_its_meshes_in_order_count_and_place) {
+  const std::string file = chunk(0x4D4D, chunk(0x0002, raw<std::uint32_t>({3})) + chunk(0x3D3D, triangle_3ds(100) + triangle_3ds(200)));
+  const TriangleMesh mesh = parse_3ds(file, "a.3ds");
+  ASSERT_EQ(mesh.positions.size(), 10u);
+  EXPECT_EQ(mesh.positions[1], Vec3(101, 0, 7));
+  EXPECT_EQ(mesh.positions[5], Vec3(200, 0, 0));
+  ASSERT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_EQ(mesh.triangles[1], (Triangle{7, 5, 6}));
+}
+
+/// A file that is gone with the test.
+class Beside {
+public:
+  Beside(const std::string& name, const std::string& bytes) : path(testing::TempDir() + name) { std::ofstream(path, std::ios::binary) << bytes; }
+  ~Beside() { std::remove(path.c_str()); }
+  const std::string path;
+};
+
+TEST(ScanReader, other_formats_come_through_assimp_without_holes_at_seams) {
+  const Beside off("quad.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0.5\n3 0 1 2\n3 0 2 3\n");
+  const Scan scan = read_scan(off.path);
+  EXPECT_EQ(scan.format, "off");
+  ASSERT_EQ(scan.mesh.positions.size(), 4u);
+  EXPECT_EQ(scan.mesh.triangles.size(), 2u);
+  EXPECT_EQ(scan.mesh.positions[3], Vec3(0, 1, 0.5));
+  // two triangles of a glTF that share places, not vertices; the node moves them 2 up
+  const float corners[18] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0};
+  const std::string bytes(reinterpret_cast<const char*>(corners), sizeof corners);
+  const Beside buffer("split.bin", bytes);
+  const Beside gltf("split.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "translation": [0, 2, 0]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "buffers": [{"uri": "split.bin", "byteLength": 72}],
+    "bufferViews": [{"buffer": 0, "byteLength": 72}], "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}]})");
+  const TriangleMesh split = read_scan(gltf.path).mesh;
+  EXPECT_EQ(split.positions.size(), 4u);
+  EXPECT_EQ(split.triangles.size(), 2u);
+  for (const Vec3& p : split.positions) EXPECT_GE(p.y(), 2);
+}
+
+TEST(ScanReader, what_assimp_cannot_read_is_refused_with_what_to_do) {
+  for (const char* name : {"bad.glb", "bad.gltf", "bad.fbx", "bad.dae", "bad.off"}) {
+    const Beside bad(name, "glTF{ no such thing <COLLADA");
+    EXPECT_NE(complaint([&] { read_scan(bad.path); }).find("export it as OBJ or PLY"), std::string::npos) << name;
+  }
+}
+
+TEST(ScanReader, a_broken_3ds_is_refused) {
+  const std::string file = chunk(0x4D4D, chunk(0x3D3D, triangle_3ds(1)));
+  EXPECT_NE(complaint([&] { parse_3ds(file.substr(0, file.size() - 9), "a.3ds"); }).find("truncated"), std::string::npos);
+  EXPECT_NE(complaint([&] { parse_3ds(chunk(0x4D4D, chunk(0x3D3D, triangle_3ds(1, 5))), "a.3ds"); }).find("vertex 5"), std::string::npos);
+  EXPECT_NE(complaint([&] { parse_3ds(chunk(0x4D4D, chunk(0x3D3D, triangle_3ds(std::nanf("")))), "a.3ds"); }).find("finite"), std::string::npos);
+  EXPECT_NE(complaint([] { parse_3ds("v 0 0 0\nv 1 0 0\n", "a.3ds"); }).find("3DS"), std::string::npos);
+  std::string nested;
+  for (int k = 0; k < 2000; ++k) nested = chunk(0x4D4D, nested);
+  complaint([&] { parse_3ds(nested, "a.3ds"); });
 }
 
 TEST(ScanReader, a_missing_file_is_bad_input) {

@@ -44,8 +44,11 @@ TEST(TouchingSkin, TwoLegsThatTouchOrOverlapALittleArePartedAndTheRestStays) {
     EXPECT_GT(least_gap(mesh, n_first), 0.0035) << gap;
     EXPECT_LE(opened.largest_m, 0.003 + 1e-12);
     EXPECT_GT(opened.vertices, 50);
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-      if (std::abs(before.positions[v].x()) > 0.03) EXPECT_EQ(mesh.positions[v], before.positions[v]);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      if (std::abs(before.positions[v].x()) > 0.03) {
+        EXPECT_EQ(mesh.positions[v], before.positions[v]);
+      }
+    }
   }
 }
 

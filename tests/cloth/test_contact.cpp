@@ -59,6 +59,20 @@ Filled fill(Effect& effect, int n, const std::vector<Vec3>& x, BlockMatrix& matr
   return f;
 }
 
+Filled fill_alone(Effect& effect, const Grid& grid) {
+  std::vector<std::array<int, 2>> pairs;
+  effect.declare(pairs);
+  BlockMatrix matrix(grid.mesh.n_particles, pairs);
+  effect.bind(matrix);
+  return fill(effect, grid.mesh.n_particles, grid.x, matrix);
+}
+
+double upward(const Filled& filled) {
+  double sum = 0;
+  for (const Vec3& f : filled.force) sum += f.y();
+  return sum;
+}
+
 /// Force against central differences of the energy over the pairs of the last search, relative to the largest force.
 double gradient_error(Effect& effect, const ClothMesh& mesh, std::vector<Vec3> x) {
   std::vector<std::array<int, 2>> pairs;
@@ -102,6 +116,39 @@ TEST(Contact, ForceOfTheBodyIsTheGradientOfItsEnergy) {
   BodyContactEffect contact(grid.mesh, body, {});
   EXPECT_LT(gradient_error(contact, grid.mesh, grid.x), 2e-3);
   EXPECT_EQ(contact.n_crossing(), 0u);
+}
+
+TEST(Contact, EachLevelSeesWhatTheOneBeforeSeesAndMore) {
+  Grid grid = make_grid(6, 0.15);
+  for (Vec3& p : grid.x) p += Vec3(0.023, 0.0004, -0.0231);
+  const TriangleMesh fine = table(40, 0.2);
+  double last = 0;
+  for (const ContactLevel level : {ContactLevel::VERTEX, ContactLevel::FACE, ContactLevel::CONTINUOUS}) { // flat skin has no edge to see
+    collision::BodyCollider body(fine);
+    BodyContactOptions options;
+    options.level = level;
+    BodyContactEffect contact(grid.mesh, body, options);
+    const Filled filled = fill_alone(contact, grid);
+    const double up = upward(filled);
+    if (level == ContactLevel::CONTINUOUS) EXPECT_GE(up, last);
+    else EXPECT_GT(up, 1.01 * last) << static_cast<int>(level);
+    EXPECT_EQ(filled.limits.guards.empty(), level != ContactLevel::CONTINUOUS);
+    last = up;
+  }
+}
+
+TEST(Contact, EdgesOfAnEdgedBodyAreSeenAtTheEdgeLevelOnly) {
+  Grid grid = make_grid(6, 0.15); // the table's own edge runs under the middle of the cloth's
+  for (Vec3& p : grid.x) p += Vec3(-0.0647, 0.0004, -0.0231);
+  std::vector<double> up;
+  for (const ContactLevel level : {ContactLevel::FACE, ContactLevel::EDGE}) {
+    collision::BodyCollider body(table(7, 0.2));
+    BodyContactOptions options;
+    options.level = level;
+    BodyContactEffect contact(grid.mesh, body, options);
+    up.push_back(upward(fill_alone(contact, grid)));
+  }
+  EXPECT_GT(up[1], 1.01 * up[0]);
 }
 
 TEST(Contact, ForceOfClothOnItselfIsTheGradientOfItsEnergy) {

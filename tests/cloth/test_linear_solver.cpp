@@ -4,6 +4,7 @@
 #include <cloth/aggregation.hpp>
 #include <cloth/bending.hpp>
 #include <cloth/edge_spring.hpp>
+#include <cloth/factorisation.hpp>
 #include <gtest/gtest.h>
 
 using namespace sloper;
@@ -67,19 +68,22 @@ TEST(BlockMatrix, multiplies_as_the_dense_matrix_does) {
   EXPECT_EQ(y[2], 2 * a.transpose() * x[1]);
 }
 
+/// The system solved with a preconditioner fresh for it.
+template<class Preconditioner> CgResult solve_with(const LinearSystem& system, const std::vector<Vec3>& rhs, double tolerance, std::vector<Vec3>& x) {
+  Preconditioner preconditioner;
+  preconditioner.update(system);
+  CgWork work;
+  return conjugate_gradient(system, preconditioner, rhs, tolerance, 5000, x, work);
+}
+
 TEST(Aggregation, solves_the_same_system_as_block_jacobi_in_far_fewer_iterations) {
   System s = make_system(40, 0.1);
   ContactIndex index;
   index.build(s.elements, s.matrix.size());
   const LinearSystem system{s.matrix, s.elements, index};
-  CgWork work;
   std::vector<Vec3> x_jacobi, x_aggregation;
-  BlockJacobi jacobi;
-  jacobi.update(system);
-  const CgResult plain = conjugate_gradient(system, jacobi, s.rhs, 1e-8, 5000, x_jacobi, work);
-  Aggregation aggregation;
-  aggregation.update(system);
-  const CgResult fast = conjugate_gradient(system, aggregation, s.rhs, 1e-8, 5000, x_aggregation, work);
+  const CgResult plain = solve_with<BlockJacobi>(system, s.rhs, 1e-8, x_jacobi);
+  const CgResult fast = solve_with<Aggregation>(system, s.rhs, 1e-8, x_aggregation);
   ASSERT_TRUE(plain.converged && fast.converged);
   EXPECT_LT(fast.iterations * 4, plain.iterations) << fast.iterations << " against " << plain.iterations;
   double difference = 0, scale = 0;
@@ -88,6 +92,31 @@ TEST(Aggregation, solves_the_same_system_as_block_jacobi_in_far_fewer_iterations
     scale = std::max(scale, x_jacobi[i].norm());
   }
   EXPECT_LT(difference, 1e-5 * scale);
+}
+
+TEST(Factorisation, solves_the_same_system_contacts_too_at_once) {
+  System s = make_system(40, 0.1);
+  Random random(3);
+  for (int k = 0; k < 200; ++k) { // some tie a particle to itself, as sewing springs between merged ones do
+    ContactElement e;
+    e.n = 3;
+    for (int i = 0; i < e.n; ++i) e.particle[i] = static_cast<int>(random.uniform(0, 1) * (s.matrix.size() - 1));
+    if (k % 10 == 0) e.particle[2] = e.particle[0];
+    e.weight = {0.5, 0.3, -0.8, 0};
+    e.normal = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 2).normalized();
+    e.normal_stiffness = 300;
+    e.tangent_stiffness = 20;
+    s.elements.push_back(e);
+  }
+  ContactIndex index;
+  index.build(s.elements, s.matrix.size());
+  const LinearSystem system{s.matrix, s.elements, index};
+  std::vector<Vec3> x_jacobi, x_exact;
+  ASSERT_TRUE(solve_with<BlockJacobi>(system, s.rhs, 1e-10, x_jacobi).converged);
+  const CgResult once = solve_with<Factorisation>(system, s.rhs, 1e-10, x_exact);
+  EXPECT_TRUE(once.converged);
+  EXPECT_LE(once.iterations, 2);
+  for (std::size_t i = 0; i < x_jacobi.size(); ++i) EXPECT_LT((x_jacobi[i] - x_exact[i]).norm(), 1e-6 * (1e-3 + x_exact[i].norm()));
 }
 
 TEST(Aggregation, particles_that_contacts_all_but_pin_do_not_fill_the_coarse_levels) {

@@ -32,7 +32,7 @@ void read_scan_bytes(std::string_view bytes) {
       must_be_sound({obj.positions, obj.triangles});
     } else if (kind == 'p') must_be_sound(io::parse_ply(bytes, "fuzz.ply"));
     else if (kind == 's') must_be_sound(io::parse_stl(bytes, "fuzz.stl"));
-    else if (kind == '3') must_be_sound(io::parse_with_assimp(bytes, "3ds", "fuzz.3ds"));
+    else if (kind == '3') must_be_sound(io::parse_3ds(bytes, "fuzz.3ds"));
     else must_be_sound(io::parse_xyz(bytes, "fuzz.xyz"));
   } catch (const Error& e) {
     if (e.kind() != ErrorKind::INPUT) std::abort();

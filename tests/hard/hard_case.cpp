@@ -33,6 +33,12 @@ std::vector<std::string> Parameters::unused() const {
 
 namespace {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr double SLOWER = 30; // than a release
+#else
+constexpr double SLOWER = 1;
+#endif
+
 std::string short_text(const io::Json& value) {
   if (value.is_string()) return value.get<std::string>();
   char text[32];
@@ -93,7 +99,7 @@ Outcome run_scene(const Case& c, const io::Json& parameters, std::uint64_t seed)
 
 /// In the child: the outcome as text, to the pipe.
 [[noreturn]] void work_in_child(const Case& c, const io::Json& parameters, std::uint64_t seed, int threads, int pipe) {
-  const auto seconds = static_cast<rlim_t>(std::ceil(c.cpu_s * threads));
+  const auto seconds = static_cast<rlim_t>(std::ceil(SLOWER * c.cpu_s * threads));
   const rlimit limit{seconds, seconds + 2};
   setrlimit(RLIMIT_CPU, &limit);
   const rlimit no_core{0, 0};

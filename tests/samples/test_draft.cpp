@@ -12,7 +12,13 @@ struct Garment {
   const char* name;
   Drafter draft;
 };
-const Garment GARMENTS[] = {{"shirt", draft_shirt}, {"tshirt", draft_tshirt}, {"skirt", draft_skirt}, {"trousers", draft_trousers}};
+Draft draft_band_shirt(const Measures& m) {
+  Draft d = draft_shirt(m);
+  d.remove("collar");
+  return d;
+}
+const Garment GARMENTS[] = {
+    {"shirt", draft_shirt}, {"band_shirt", draft_band_shirt}, {"tshirt", draft_tshirt}, {"skirt", draft_skirt}, {"trousers", draft_trousers}};
 
 class EveryGarment : public testing::TestWithParam<Garment> {};
 

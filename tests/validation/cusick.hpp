@@ -21,6 +21,7 @@ struct Cusick {
   int steps = 0;          ///< -1: not at rest
   std::size_t particles = 0;
   double largest_strain = 0;
+  std::vector<Vec2> rim; ///< from above, m
 };
 
 constexpr double CUSICK_DISC = 0.09, CUSICK_SPECIMEN = 0.15; // m, radii
@@ -112,7 +113,10 @@ inline Cusick drape_cusick(const Fabric& fabric, int rings, const std::string& m
   out.coefficient = 100 * ring_shadow(mesh, y) / (specimen - disc);
   double mean = 0;
   std::vector<double> radius;
-  for (int i : ring.back()) radius.push_back(std::hypot(y[i].x(), y[i].z()));
+  for (int i : ring.back()) {
+    out.rim.emplace_back(y[i].x(), y[i].z());
+    radius.push_back(out.rim.back().norm());
+  }
   for (double r : radius) mean += r / static_cast<double>(radius.size());
   bool out_there = radius.back() > mean;
   for (double r : radius) { // a fold counts when it swings 2 mm to either side

@@ -83,6 +83,10 @@ TEST(Convergence, in_the_time_step_is_of_first_order) {
     error.push_back(std::abs(dropped<EdgeSpringEffect>(size.back()) - exact));
     error_fem.push_back(std::abs(dropped<MembraneEffect>(size.back()) - exact_fem));
   }
+  for (std::size_t i = 0; i < size.size(); ++i) {
+    plot_point("order-time", "springs", size[i], error[i]);
+    plot_point("order-time", "finite elements", size[i], error_fem[i]);
+  }
   print_figure("order in the time step, edge springs", order(size, error), 1);
   print_figure("order in the time step, finite elements", order(size, error_fem), 1);
   EXPECT_NEAR(order(size, error), 1, 0.25);
@@ -96,6 +100,7 @@ TEST(Convergence, in_the_mesh_is_of_second_order) {
     size.push_back(1.0 / n);
     error.push_back(std::abs(sag(n) - finest));
   }
+  for (std::size_t i = 0; i < size.size(); ++i) plot_point("order-mesh", "springs", size[i], error[i]);
   print_figure("order in the mesh, sag of a hanging strip", order(size, error), 2);
   EXPECT_NEAR(order(size, error), 2, 0.35);
 }
@@ -124,6 +129,7 @@ TEST(Convergence, in_the_tolerance_of_conjugate_gradients_is_of_first_order) {
     size.push_back(tolerance);
     error.push_back(std::sqrt(sum));
   }
+  for (std::size_t i = 0; i < size.size(); ++i) plot_point("order-cg", "finite elements", size[i], error[i]);
   print_figure("order in the CG tolerance", order(size, error), 1);
   EXPECT_NEAR(order(size, error), 1, 0.3);
 }

@@ -52,6 +52,9 @@ TEST(Cusick, presets_lie_in_the_bands_of_the_literature) {
   for (const Case& c : {Case{"silk", 14, 20, 40}, {"cotton-poplin", 8, 60, 76}, {"wool-suiting", 8, 40, 70}, {"denim", 8, 70, 90}}) {
     const Cusick d = drape_cusick(preset(c.name), c.rings, "fem");
     print_figure(std::string("drape coefficient, %, fem, ") + c.name + ", nodes " + std::to_string(d.nodes), d.coefficient, 0.5 * (c.low + c.high));
+    for (std::size_t i = 0; i <= d.rim.size(); ++i) plot_point("cusick-rim", c.name, d.rim[i % d.rim.size()].x(), d.rim[i % d.rim.size()].y());
+    plot_point("cusick", c.name, c.low, c.high);
+    plot_point("cusick-measured", c.name, d.coefficient, d.nodes);
     EXPECT_GT(d.steps, 0) << c.name;
     EXPECT_GE(d.coefficient, c.low) << c.name;
     EXPECT_LE(d.coefficient, c.high) << c.name;
@@ -99,6 +102,7 @@ TEST(Cusick, coefficient_rises_with_the_logarithm_of_the_bending_rigidity) {
   double mx = 0, my = 0, sxx = 0, sxy = 0, syy = 0;
   for (std::size_t i = 0; i < x.size(); ++i) mx += x[i] / 4, my += y[i] / 4;
   for (std::size_t i = 0; i < x.size(); ++i) sxx += (x[i] - mx) * (x[i] - mx), sxy += (x[i] - mx) * (y[i] - my), syy += (y[i] - my) * (y[i] - my);
+  for (std::size_t i = 0; i < x.size(); ++i) plot_point("linear", "wool, mean of three", std::pow(10, x[i]), y[i]);
   const double r2 = sxy * sxy / (sxx * syy);
   print_figure("slope of the drape coefficient, points a decade of B", sxy / sxx, sxy / sxx);
   print_figure("its R2", r2, 1);

@@ -108,6 +108,7 @@ Buckled buckled(double eps) {
 }
 
 enum class Model { SPRINGS, TRIANGLES, FEM, FEM_DIHEDRAL };
+const char* const MODEL_NAMES[] = {"springs", "triangles", "finite elements", "with dihedral bending"};
 
 /// H/W of a clamped sheet of n cells along its length of 0.1 m and m across. `rigidity`: of the bent sheet over that of the fabric, B.
 double cantilever(double gamma, int n, int m, double rigidity, Model model) {
@@ -145,6 +146,7 @@ const std::vector<double> ALL = {1, 3, 10, 30, 100};
 void expect_curve(Model model, int n, int m, double rigidity, const std::vector<double>& gammas) {
   for (double gamma : gammas) {
     const double exact = reference(gamma), ours = cantilever(gamma, n, m, rigidity, model);
+    plot_point("elastica", MODEL_NAMES[static_cast<int>(model)] + std::string(rigidity < 1 ? ", strip" : ""), gamma, ours);
     print_figure("H/W at Gamma " + std::to_string(static_cast<int>(gamma)), ours, exact);
     EXPECT_NEAR(ours / exact, 1, 0.03) << "gamma " << gamma;
   }
@@ -158,6 +160,8 @@ constexpr double STRIP = 1 - 1.0 / 9;
 } // namespace
 
 TEST(Elastica, the_references_agree_with_an_independent_solver) {
+  for (double gamma = 0.7; gamma < 150; gamma *= 1.2) plot_point("elastica", "Romero et al. 2021", gamma, reference(gamma));
+  for (double eps = 0.02; eps < 0.36; eps += 0.02) plot_point("stick-slip", "Romero et al. 2021", eps, buckled(eps).friction);
   EXPECT_NEAR(reference(0.01), 0.01 / 8, 1e-7); // a beam under its own weight: w L^4 / 8 B
   const char* shared = std::getenv("SLOPER_SHARED");
   if (!shared) GTEST_SKIP() << "SLOPER_SHARED is not set";
@@ -212,6 +216,7 @@ TEST(StickSlip, the_friction_that_holds_a_buckled_sheet_s_end_is_within_5_percen
     }
     const Buckled exact = buckled(1 - (end - 0.5 * dx) / length);
     const double thrust = -force.x() / width * length * length / fabric.bend_n_m, friction = std::abs(force.y() / force.x());
+    plot_point("stick-slip", "finite elements", eps, friction);
     print_figure("friction at eps " + std::to_string(eps), friction, exact.friction);
     print_figure("thrust N L^2 / B at eps " + std::to_string(eps), thrust, exact.thrust);
     EXPECT_NEAR(friction / exact.friction, 1, 0.05) << "eps " << eps;

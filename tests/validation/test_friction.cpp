@@ -95,6 +95,7 @@ TEST(Friction, the_angle_at_which_cloth_starts_to_slide_is_atan_mu_within_5_perc
       const double mu = 0.5 * (slips + holds);
       (comes_to_rest(angle, mu, held) ? holds : slips) = mu;
     }
+    plot_point("friction", "cloth holds", degrees, holds);
     print_figure("friction at which cloth holds on " + std::to_string(static_cast<int>(degrees)) + " degrees", holds, exact);
     EXPECT_NEAR(holds / exact, 1, 0.05) << degrees << " degrees";
   }

@@ -54,6 +54,7 @@ TEST(Catenary, a_strip_between_two_points_hangs_as_a_chain_within_1_percent) {
     (2 * a * std::sinh(span / (2 * a)) > length ? low : high) = a;
   }
   const double sag = low * (std::cosh(span / (2 * low)) - 1);
+  for (double x = -0.5 * span; x <= 0.5 * span + 1e-9; x += span / 40) plot_point("catenary", "chain", x, low * (std::cosh(x / low) - 1) - sag);
   for (Model model : MODELS) {
     const int n = 50;
     Sheet s = make_sheet(n, 2, length / n, length / n, plain(5000));
@@ -70,6 +71,7 @@ TEST(Catenary, a_strip_between_two_points_hangs_as_a_chain_within_1_percent) {
     solver.emplace<PinsEffect>(pins);
     EXPECT_GT(go_to_rest(solver), 0);
     const double ours = -solver.x()[s.at(n / 2, 1)].y();
+    for (int c = 0; c <= n; c += 2) plot_point("catenary", name_of(model), solver.x()[s.at(c, 1)].x() - 0.5 * span, solver.x()[s.at(c, 1)].y());
     print_figure(std::string("catenary sag, m, ") + name_of(model), ours, sag);
     EXPECT_NEAR(ours / sag, 1, 0.01) << name_of(model);
   }
@@ -94,6 +96,12 @@ TEST(HangingSquare, grows_under_its_own_weight_by_rho_g_L2_over_2Y) {
     EXPECT_GT(go_to_rest(solver), 0);
     const auto& hem = s.columns.back();
     const double ours = -side - solver.x()[hem[hem.size() / 2]].y(), exact = fabric.density_kg_m2 * G * side * side / (2 * stretch);
+    for (std::size_t c = 0; c < s.columns.size(); c += 2) { // the middle of each row, and how far it sank
+      const int p = s.columns[c][s.columns[c].size() / 2];
+      const double below = -s.x[p].y();
+      plot_point("hanging", name_of(model), below, 1000 * (s.x[p].y() - solver.x()[p].y()));
+      if (model == Model::FEM) plot_point("hanging", "exact", below, 1000 * fabric.density_kg_m2 * G * (side * below - 0.5 * below * below) / stretch);
+    }
     print_figure(std::string("own-weight stretch, m, ") + name_of(model), ours, exact);
     EXPECT_NEAR(ours / exact, 1, 0.02) << name_of(model);
   }
@@ -136,6 +144,8 @@ TEST(Drum, under_pressure_bulges_as_hencky_s_membrane_within_3_percent) {
   solver.emplace<PinsEffect>(pins);
   EXPECT_GT(go_to_rest(solver), 0);
   const double exact = 0.662 * a * std::cbrt(pressure * a / stretch);
+  for (int ring = 0; ring <= rings; ++ring) plot_point("drum", "finite elements", 1000 * flat[id(ring, 0)].norm(), 1000 * solver.x()[id(ring, 0)].y());
+  plot_point("drum", "Hencky 1915", 0, 1000 * exact);
   print_figure("drum's height, m", solver.x()[0].y(), exact);
   EXPECT_NEAR(solver.x()[0].y() / exact, 1, 0.03);
 }
@@ -177,6 +187,7 @@ TEST(Energy, never_grows_without_input) {
           double total = potential();
           for (std::size_t i = 0; i < s.x.size(); ++i) total += 0.5 * s.mesh.mass[i] * solver.v()[i].squaredNorm();
           worst = std::max(worst, (total - before) / start);
+          if (scale < 1) plot_point("energy", std::string(name_of(model)) + ", h = 1/" + std::to_string(std::lround(1 / h)) + " s", (k + 1) * h, total / start);
           before = total;
         }
         EXPECT_LT(worst, 1e-6) << name_of(model) << ", h " << h << ", scale " << scale;

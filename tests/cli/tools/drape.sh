@@ -73,6 +73,10 @@ case_untangling_and_motion_say_what_they_need() {
   says "numbered"
   run "0|4" "$program" "${skirt[@]}" --untangle-only --report report.json -o out.json
   says "before:"
+  if [[ $(grep -c ' 0 faces through the body, 0 vertices inside it, 0 self' stderr) -eq 1 ]]; then # freed: nothing to tell of it any more
+    run 0 "$program" --from out.json --body a.body.json --untangle-only -o freed.json
+    [[ ! -s stderr ]] || fail "warns of nothing"
+  fi
   grep -q '"untangled"' report.json || fail "the report has no counts"
   mkdir skins
   for k in 1 2 3; do cp a.body.obj "skins/s.000$k.obj"; done
@@ -92,6 +96,8 @@ case_what_belongs_to_another_body_is_told() {
   cp a.body.json renamed.json # the same skin
   run 4 "$program" --body renamed.json --panels panels.json "${two[@]}"
   if grep -q "another body" stderr; then fail "told of the same body"; fi
+  run 4 "$program" --panels panels.json "${two[@]}"
+  says "panels.json was placed around a body, and none is given: it falls with nothing to hold it; give --body"
   "$(dirname "$program")/scan-landmarks" -q --anonymise -o bare.json "$data/a.obj"
   run 3 "$program" --body bare.json --panels panels.json "${two[@]}"
   says "the body was written without its skin"

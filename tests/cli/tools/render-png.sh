@@ -30,6 +30,13 @@ case_what_cannot_be_drawn_is_told_with_a_next_step() {
   [[ ! -e out.png ]] || fail "a picture was written"
 }
 
+case_a_garment_beside_another_body_is_told() {
+  run 0 "$program" --size 64x64 -o out.png a.body.json skirt.json
+  [[ ! -s stderr ]] || fail "tells of its own body"
+  run 0 "$program" --size 64x64 -o out.png "$data/b.body.json" skirt.json
+  says "skirt.json hung on another body than b.body.json"
+}
+
 case_options_that_would_do_nothing_are_refused() {
   local option
   printf 'no document' > text.txt
@@ -40,12 +47,21 @@ case_options_that_would_do_nothing_are_refused() {
   run 2 "$program" --size 8192x8192 --view turntable:100 -o out.png skirt.json
   says "million pixels"
   says "--as files"
-  for option in "--mask small.png" "--tolerance 0.9" "--seconds 1" "--labels a,b" "--columns 2"; do
+  for option in "--mask small.png" "--tolerance 0.9" "--different 0.5" "--seconds 1" "--labels a,b" "--columns 2"; do
     # shellcheck disable=SC2086
     run 2 "$program" --size 64x64 $option -o out.png skirt.json
     says "${option%% *}: "
     [[ ! -e out.png ]] || fail "a picture was written"
   done
+}
+
+case_compare_sees_another_colour_of_the_same_brightness() {
+  run 0 "$program" -q --size 200x250 --color 4f7396 -o blue.png a.body.json skirt.json
+  run 0 "$program" -q --size 200x250 --color 96694f -o brown.png a.body.json skirt.json
+  run 0 "$program" --compare blue.png blue.png
+  run 1 "$program" --compare -o difference.png blue.png brown.png
+  [[ -s difference.png ]] || fail "no picture of the difference"
+  run 0 "$program" --compare --different 1 blue.png brown.png # similarity alone
 }
 
 case_ctrl_c_ends_a_turntable() {
@@ -93,11 +109,87 @@ for k, joint in enumerate(skin["joints"]):
     if names[k] != "root":
         assert max(abs(p - q) for p, q in zip(place[joint], bones[names[k]])) < 1e-6, names[k]
     assert max(abs(p + q) for p, q in zip(place[joint], inverse[16 * k + 12:16 * k + 15])) < 1e-6, names[k]
-body, = [n for n in nodes if n.get("skin") == 0]
+body, garment = [n for n in nodes if n.get("skin") == 0] # which it wears
 attributes = gltf["meshes"][body["mesh"]]["primitives"][0]["attributes"]
 position, joints, weights = (values(attributes[key]) for key in ("POSITION", "JOINTS_0", "WEIGHTS_0"))
 assert all(abs(sum(weights[k:k + 4]) - 1) < 1e-5 for k in range(0, len(weights), 4)) and max(joints) < len(names)
 tip = max(range(len(position) // 3), key=lambda v: position[3 * v]) # on the left hand
 assert names[joints[4 * tip]] in ("hand_l", "forearm_l"), names[joints[4 * tip]]
+cloth = gltf["meshes"][garment["mesh"]]["primitives"][0]["attributes"]
+position, joints, weights = (values(cloth[key]) for key in ("POSITION", "JOINTS_0", "WEIGHTS_0"))
+assert all(abs(sum(weights[k:k + 4]) - 1) < 1e-5 for k in range(0, len(weights), 4))
+
+def with_leg(v, side): # of a vertex of the skirt
+    return sum(w for j, w in zip(joints[4 * v:4 * v + 4], weights[4 * v:4 * v + 4]) if names[j] in ("thigh_" + side, "shin_" + side))
+
+vertices = range(len(position) // 3)
+left, right = max(vertices, key=lambda v: position[3 * v] - position[3 * v + 1]), min(vertices, key=lambda v: position[3 * v] + position[3 * v + 1])
+low = min(position[1::3])
+middle = min((v for v in vertices if position[3 * v + 1] < low + 0.05 and position[3 * v + 2] > 0), key=lambda v: abs(position[3 * v]))
+assert with_leg(left, "l") > 0.9 and with_leg(right, "r") > 0.9, "its sides go with the legs"
+assert 0.2 < with_leg(middle, "l") < 0.8 and 0.2 < with_leg(middle, "r") < 0.8, "its front goes half with each"
 PYTHON
+}
+
+# The rules of glTF 2.0 that its validator knows, for what we write.
+case_a_glb_keeps_the_rules_of_its_format() {
+  run 0 "$program" -q --size 64x64 -o print.png a.body.json
+  run 0 "$program" -o plain.glb --map strain a.body.json skirt.json
+  run 0 "$program" -o printed.glb --fabric print.png a.body.json skirt.json
+  python3 - << 'PYTHON' || fail "the GLB's rules"
+import json, struct
+SIZE, WIDTH = {5123: 2, 5125: 4, 5126: 4}, {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+for name in ("plain.glb", "printed.glb"):
+    data = open(name, "rb").read()
+    magic, version, total, length, kind = struct.unpack_from("<4sIII4s", data)
+    assert (magic, version, total, kind, length % 4) == (b"glTF", 2, len(data), b"JSON", 0)
+    gltf = json.loads(data[20:20 + length])
+    size, kind = struct.unpack_from("<I4s", data, 20 + length)
+    binary = data[28 + length:]
+    assert kind == b"BIN\0" and size == len(binary) == gltf["buffers"][0]["byteLength"] and size % 4 == 0
+    end = 0
+    for view in gltf["bufferViews"]: # one after the other, aligned
+        assert view["byteOffset"] % 4 == 0 and end <= view["byteOffset"] < end + 4, name
+        end = view["byteOffset"] + view["byteLength"]
+    assert end <= size
+    def values(index):
+        a = gltf["accessors"][index]
+        view, n = gltf["bufferViews"][a["bufferView"]], a["count"] * WIDTH[a["type"]]
+        assert n * SIZE[a["componentType"]] == view["byteLength"]
+        return struct.unpack_from("<%d%s" % (n, {5123: "H", 5125: "I", 5126: "f"}[a["componentType"]]), binary, view["byteOffset"])
+    used = set()
+    for mesh in gltf["meshes"]:
+        part, = mesh["primitives"]
+        attributes = part["attributes"]
+        used.add(part["material"])
+        count = {gltf["accessors"][k]["count"] for k in attributes.values()}
+        assert len(count) == 1 and max(values(part["indices"])) < min(count)
+        position, accessor = values(attributes["POSITION"]), gltf["accessors"][attributes["POSITION"]]
+        for k in range(3):
+            assert accessor["min"][k] == min(position[k::3]) and accessor["max"][k] == max(position[k::3])
+        normal, color, weight = (values(attributes[key]) for key in ("NORMAL", "COLOR_0", "WEIGHTS_0"))
+        assert all(abs(sum(x * x for x in normal[k:k + 3]) - 1) < 1e-3 for k in range(0, len(normal), 3)) and 0 <= min(color) and max(color) <= 1
+        joint = values(attributes["JOINTS_0"])
+        assert max(joint) < len(gltf["skins"][0]["joints"]) and all(w > 0 or j == 0 for j, w in zip(joint, weight)) and min(weight) >= 0
+        for k in range(0, len(weight), 4): # no joint twice
+            own = [j for j, w in zip(joint[k:k + 4], weight[k:k + 4]) if w > 0]
+            assert len(own) == len(set(own))
+    for child in (c for node in gltf["nodes"] for c in node.get("children", ())):
+        assert child not in gltf["scenes"][0]["nodes"]
+    if name == "printed.glb":
+        texture = gltf["materials"][2]["pbrMetallicRoughness"]["baseColorTexture"]["index"]
+        image = gltf["images"][gltf["textures"][texture]["source"]]
+        at = gltf["bufferViews"][image["bufferView"]]["byteOffset"]
+        assert used == {0, 2} and image["mimeType"] == "image/png" and binary[at:at + 8] == b"\x89PNG\r\n\x1a\n"
+        assert set(color) == {1.0}, "the texture's colours are the cloth's"
+    else:
+        assert used == {0, 1} and len(set(color)) > 3, "the map's colours"
+PYTHON
+}
+
+case_where_nothing_can_draw_is_told() {
+  "$program" --help | grep -q 'context.*egl' || { echo "SKIPPED: built without EGL"; return 0; }
+  export __EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent
+  asks 4 "--context egl: EGL gives no surfaceless display" "" --context egl -o out.png a.body.json
+  says "; " # and what to do instead
 }

@@ -19,3 +19,14 @@ case_rules_of_another_kind_are_told_as_such() {
   says 'is a "body" document; give rules as'
   [[ ! -e out.json ]] || fail "something was written"
 }
+
+case_inches_are_taken_by_their_name_and_by_themselves() {
+  local unit
+  awk '/^v /{printf "v %.6f %.6f %.6f\n", $2 / 0.0254, $3 / 0.0254, $4 / 0.0254; next} {print}' "$data/a.obj" > inches.obj
+  for unit in auto inch; do
+    run 0 "$program" --unit "$unit" -o out.json inches.obj
+    grep -q '"unit": "inch"' out.json || fail "--unit $unit took another unit"
+  done
+  run 3 "$program" --unit inch -o out.json "$data/a.obj"
+  says "m tall in inch"
+}
