@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace sloper::garment {
 namespace {
+
+constexpr double MEETS = 5e-4;    // m: free edges nearer than this lie on each other
+constexpr double PARTED = 1.2e-3; // m, that each goes back: together more than the thickness at which cloth feels cloth
 
 /// A panel of the old mesh, and how its drawing lies in the new panel's.
 struct Source {
@@ -65,6 +70,39 @@ Vec3 nearest_weights(const std::array<Vec2, 3>& t, const Vec2& p, double& square
   return best;
 }
 
+/// Where an edit opens cloth, both sides of the opening start in one place, and nothing could tell which is which. Each goes back a little
+/// into its own cloth. Cost: free edges squared.
+void part_free_edges(const std::vector<Triangle>& triangles, std::vector<Vec3>& position) {
+  std::map<std::array<int, 2>, int> uses;
+  std::vector<Vec3> around(position.size(), Vec3::Zero());
+  std::vector<int> count(position.size(), 0);
+  for (const Triangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      ++uses[{std::min(a, b), std::max(a, b)}];
+      around[static_cast<std::size_t>(a)] += position[static_cast<std::size_t>(b)], ++count[static_cast<std::size_t>(a)];
+      around[static_cast<std::size_t>(b)] += position[static_cast<std::size_t>(a)], ++count[static_cast<std::size_t>(b)];
+    }
+  std::vector<std::array<int, 2>> free;
+  std::set<int> ends;
+  for (const auto& [edge, n] : uses)
+    if (n == 1) free.push_back(edge), ends.insert(edge.begin(), edge.end());
+  std::vector<std::pair<std::size_t, Vec3>> moved;
+  for (int p : ends) {
+    const auto v = static_cast<std::size_t>(p);
+    const Vec3& x = position[v];
+    const bool meets = std::any_of(free.begin(), free.end(), [&](const std::array<int, 2>& e) {
+      if (e[0] == p || e[1] == p) return false;
+      const Vec3 &a = position[static_cast<std::size_t>(e[0])], along = position[static_cast<std::size_t>(e[1])] - a;
+      const double s = along.squaredNorm() > 0 ? std::clamp((x - a).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0.0;
+      return (x - a - s * along).squaredNorm() < MEETS * MEETS;
+    });
+    const Vec3 inwards = around[v] / count[v] - x;
+    if (meets && inwards.norm() > 0) moved.push_back({v, x + std::min(PARTED / inwards.norm(), 0.25) * inwards});
+  }
+  for (const auto& [v, x] : moved) position[v] = x;
+}
+
 } // namespace
 
 void carry_to(Garment& garment, pattern::PanelMesh mesh) {
@@ -109,6 +147,7 @@ void carry_to(Garment& garment, pattern::PanelMesh mesh) {
   garment.rest_scale.clear();
   garment.bind = {};
   weld(garment, position);
+  part_free_edges(garment.particle_triangles(), garment.position);
 }
 
 } // namespace sloper::garment

@@ -23,9 +23,12 @@ constexpr double LEAST_ANGLE = 15;   // degrees: a mesh that follows an edit is 
 constexpr double OFF_OUTLINE = 1e-4; // m: vertices further off are not of this pattern
 constexpr int IDLE_MS = 20;          // between looks for a line, while at rest
 constexpr int CALM_STEPS = 3;
-constexpr double LARGEST_MOVE = 0.02; // m, of a particle in one frame
+constexpr double LARGEST_MOVE = 0.02;    // m, of a particle in one frame
+constexpr double ANSWER_TOLERANCE = 0.1; // relative residual; see FOLLOW_ANSWER_ITERATIONS
 
 using Clock = std::chrono::steady_clock;
+
+enum class Finish { WARM, REPLAY, COLD };
 
 } // namespace
 
@@ -43,10 +46,8 @@ public:
                         "the panels are no longer those of the garment's pattern: a vertex lies " + pattern::centimetres(m_follower->off_outline()) +
                             " off its outline",
                         "edits can follow a garment that drape made, not one that was regraded");
-    m_untaped = m_garment.rest_scale;
-    if (const auto scale = pattern::tape_scales(m_garment.panels); !scale.empty())
-      for (std::size_t f = 0; f < m_untaped.size(); ++f)
-        for (std::size_t k = 0; k < 3; ++k) m_untaped[f][k] /= scale[f][k];
+    note_untaped();
+    m_start = m_garment;
     m_log = {{"format", "edits"}, {"version", 1}, {"length_unit", "m"}, {"edits", io::Json::array()}};
   }
 
@@ -56,6 +57,7 @@ public:
     m_run.build_solver(false);
     m_run.inflate();
     go_live();
+    warm_up();
     while (!m_run.m_stopped && !m_end) {
       const auto line = m_session.next_line(m_at_rest ? IDLE_MS : 0);
       if (line) take(*line);
@@ -70,10 +72,38 @@ public:
   }
 
 private:
+  void note_untaped() {
+    m_untaped = m_garment.rest_scale;
+    if (const auto scale = pattern::tape_scales(m_garment.panels); !scale.empty())
+      for (std::size_t f = 0; f < m_untaped.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k) m_untaped[f][k] /= scale[f][k];
+  }
+
   /// Weight and friction from the first frame on.
   void go_live() {
     m_run.add_load();
     m_run.m_settling = true;
+  }
+
+  /// The first step makes what all later ones go on with: the matrix and its hierarchy, near pairs, friction's anchors. It is made before
+  /// an edit waits for it, and taken back.
+  void warm_up() {
+    const std::vector<Vec3> hung = m_run.m_solver->x();
+    answer();
+    m_run.m_solver->set_positions(hung);
+    m_run.m_at.cg_iterations.clear();
+    m_run.m_report.simulated_s = 0;
+  }
+
+  /// One step, however long, on the budget of an answer. @return false when the run must end
+  bool answer() {
+    const DrapeSettings settings = m_run.m_settings;
+    m_run.m_settings.cg_tolerance = std::max(settings.cg_tolerance, ANSWER_TOLERANCE);
+    m_run.m_settings.cg_max_iterations = std::min(settings.cg_max_iterations, FOLLOW_ANSWER_ITERATIONS);
+    m_run.m_settling = false;
+    const bool goes_on = m_run.step(settings.time_step_s, 0, LARGEST_MOVE);
+    m_run.m_settings = settings;
+    return goes_on;
   }
 
   void settle() {
@@ -82,8 +112,9 @@ private:
       m_run.m_report.wall_s = m_run.elapsed();
       return;
     }
-    if (m_cold) return drape_cold();
+    if (m_finish == Finish::COLD) return drape_cold();
     m_garment.position = m_run.m_solver->x();
+    if (m_finish == Finish::REPLAY) change_from_start();
     m_run.build_solver(false);
     m_run.m_report.steps = 0;     // the limit is for the way to rest
     m_run.m_at.disturbed = false; // it hangs: without weight it would ride up
@@ -97,6 +128,16 @@ private:
     pattern::place_panels(m_pattern, *m_run.m_body, m_garment.panels);
     m_garment.particle_of.clear(), m_garment.position.clear();
     m_run.m_report = drape(m_garment, m_run.m_body, m_run.m_settings, m_reporter);
+  }
+
+  /// As if all edits had come at once: the rest is then one of the first state and of the last pattern, whatever came between and when.
+  void change_from_start() {
+    const pattern::Pattern last = std::move(m_pattern);
+    m_garment = m_start;
+    m_pattern = *m_start.panels.source;
+    m_follower.emplace(m_pattern, m_garment.panels);
+    note_untaped();
+    adopt(last);
   }
 
   void take(const std::string& line) {
@@ -118,9 +159,9 @@ private:
       } else {
         if (node.at("edit").string() == "end") {
           const std::string finish = node.string("finish", "warm");
-          if (finish != "warm" && finish != "cold") node.fail("there is no finish '" + finish + "'", "known are warm and cold");
+          if (finish != "warm" && finish != "replay" && finish != "cold") node.fail("there is no finish '" + finish + "'", "known are warm, replay and cold");
           if (finish == "cold" && !m_run.m_body) node.fail("without a body the panels cannot be placed for a cold finish", "give --body, or finish warm");
-          m_end = true, m_cold = finish == "cold";
+          m_end = true, m_finish = finish == "cold" ? Finish::COLD : finish == "replay" ? Finish::REPLAY : Finish::WARM;
           return;
         }
         if (m_head.is_null()) node.fail("there is no head line before the first edit", R"(begin with {"format": "edits", "version": 1, "length_unit": "cm"})");
@@ -146,22 +187,27 @@ private:
   /// The garment has this pattern from now on.
   void change(pattern::Pattern next) {
     m_garment.position = m_run.m_solver->x();
-    if (m_follower->follow(next, m_garment.panels, LEAST_ANGLE)) {
-      m_garment.panels.source = std::make_shared<pattern::Pattern>(next);
-      tape();
-      rest_changed();
-    } else {
-      carry_to(m_garment, pattern::mesh_pattern(next, m_garment.panels.edge_length, "edits", m_garment.panels.seam_length));
-      m_follower.emplace(next, m_garment.panels);
-      m_untaped.clear(); // it counted old triangles
-      tape();
+    if (adopt(std::move(next))) rest_changed();
+    else {
       m_run.build_solver(false);
       go_live();
       m_remeshed = true, ++m_report.remeshed;
       m_reporter.info("the edit asks for another mesh: vertex ids are new, the draped state is carried across");
     }
+  }
+
+  /// @return whether particles are as before
+  bool adopt(pattern::Pattern next) {
+    const bool follows = m_follower->follow(next, m_garment.panels, LEAST_ANGLE);
+    if (!follows) {
+      carry_to(m_garment, pattern::mesh_pattern(next, m_garment.panels.edge_length, "edits", m_garment.panels.seam_length));
+      m_follower.emplace(next, m_garment.panels);
+      m_untaped.clear(); // it counted old triangles
+    }
     m_pattern = std::move(next);
     m_garment.panels.source = std::make_shared<pattern::Pattern>(m_pattern);
+    tape();
+    return follows;
   }
 
   /// Elastic tapes on top of the rest lengths that the garment came with.
@@ -195,11 +241,11 @@ private:
   void frame(double since_edit_ms, bool edited = false, std::clock_t cpu = 0) {
     const auto began = Clock::now();
     const double h = m_run.m_settings.time_step_s;
-    m_run.m_report.steps = 0;   // a session has no step limit
-    m_run.m_settling = !edited; // the answer to an edit is one step, however long; the way to rest is searched
-    if (!m_run.step(h, 0, LARGEST_MOVE)) return;
+    m_run.m_report.steps = 0; // a session has no step limit
+    m_run.m_settling = true;  // the way to rest is searched
+    if (!(edited ? answer() : m_run.step(h, 0, LARGEST_MOVE))) return;
     FollowFrame f;
-    f.number = ++m_report.frames, f.edits = m_report.edits, f.remeshed = m_remeshed;
+    f.number = ++m_report.frames, f.edits = m_report.edits, f.remeshed = m_remeshed, f.cg_iterations = m_run.m_at.last.cg.iterations;
     f.speed_m_s = m_run.m_at.last.largest_move_m / h;
     const bool still = f.speed_m_s < m_run.m_settings.settle_speed_m_s && m_run.m_at.last.residual_force_ratio < m_run.m_settings.settle_force_ratio;
     m_calm = still ? m_calm + 1 : 0;
@@ -222,9 +268,11 @@ private:
   std::optional<pattern::MeshFollower> m_follower;
   std::vector<std::array<double, 3>> m_untaped; ///< rest_scale without the tapes, or empty
   io::Json m_head, m_log;
+  Garment m_start; ///< as it came
   FollowReport m_report;
   int m_line = 0, m_calm = 0;
-  bool m_end = false, m_cold = false, m_at_rest = false, m_remeshed = false;
+  Finish m_finish = Finish::WARM;
+  bool m_end = false, m_at_rest = false, m_remeshed = false;
 };
 
 FollowReport follow(Garment& garment, const body::Body* body, const DrapeSettings& settings, const FollowSession& session, Reporter& reporter) {

@@ -8,6 +8,10 @@
 
 namespace sloper::garment {
 
+/// The frame that answers an edit is a state on the way to rest, so its solve has a fixed budget: conjugate gradients go down in energy
+/// from the first iteration on, and the frames after it go on from there. A budget of iterations, not of time: same lines, same bytes.
+inline constexpr int FOLLOW_ANSWER_ITERATIONS = 12;
+
 /// One step of the cloth that follows.
 struct FollowFrame {
   int number = 0;         ///< from 1
@@ -16,6 +20,7 @@ struct FollowFrame {
   double cpu_ms = 0;      ///< of all threads, over that time: what a machine with nothing else to do needs
   bool remeshed = false;  ///< particles are not those of the frame before
   double speed_m_s = 0;   ///< of the fastest particle
+  int cg_iterations = 0;  ///< of the step; at most FOLLOW_ANSWER_ITERATIONS where it answers an edit
   bool at_rest = false;
 };
 
@@ -38,7 +43,9 @@ struct FollowReport {
 /// Lines: a head {"format": "edits", "version": 1, "length_unit": "cm"} (with "edits" too where some are to be taken at once), then one
 /// edit a line, as pattern::apply_edits() knows them; {"edit": "end"} ends the session where nothing else does. Blank lines are skipped.
 /// What it ends in is the cloth's own rest, which remembers the way that it came (by friction and folds: some millimetres). {"edit": "end",
-/// "finish": "cold"} drapes the edited pattern anew instead: to the bytes of pattern-mesh --edits and drape, while no edit asked for a mesh.
+/// "finish": "replay"} goes back to where the session began and makes all edits at once: the same bytes for the same last pattern, whatever
+/// came between and however fast. "finish": "cold" drapes the edited pattern anew: to the bytes of pattern-mesh --edits and drape, while no
+/// edit asked for a mesh.
 /// After each edit the cloth makes at least one step before the next line is looked at; when no line comes, it goes on to rest.
 /// @param garment  sewn, with the pattern it was meshed from (panels.source); left at rest, with that pattern edited
 /// @throws Error INPUT for a garment without its pattern, or whose panels are no longer its pattern's

@@ -55,6 +55,7 @@ Json seam_json(const pattern::MeshSeam& seam) {
   j["length_b_m"] = seam.length_b;
   j["a"] = Json(seam.a);
   j["b"] = Json(seam.b);
+  if (seam.open) j["open"] = true;
   return j;
 }
 
@@ -164,8 +165,13 @@ void read_seams(const Node& node, pattern::PanelMesh& mesh) {
   const int n = static_cast<int>(mesh.pattern.size());
   for (std::size_t k = 0; k < node.size(); ++k) {
     const Node s = node.at(k);
-    pattern::MeshSeam seam{s.at("name").string(),      s.at("kind").string(),       read_indices(s.at("a"), n),
-                           read_indices(s.at("b"), n), s.at("length_a_m").number(), s.at("length_b_m").number()};
+    pattern::MeshSeam seam{s.at("name").string(),
+                           s.at("kind").string(),
+                           read_indices(s.at("a"), n),
+                           read_indices(s.at("b"), n),
+                           s.at("length_a_m").number(),
+                           s.at("length_b_m").number(),
+                           s.has("open") && s.at("open").boolean()};
     if (seam.a.size() != seam.b.size() || seam.a.size() < 2) s.fail("the two runs of the seam do not pair up");
     mesh.seams.push_back(std::move(seam));
   }

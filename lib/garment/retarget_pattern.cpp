@@ -135,7 +135,7 @@ pattern::Pattern pattern_of(const Garment& garment, const Garment& shape) {
       continue;
     }
     pattern::Seam seam;
-    seam.name = from.name, seam.kind = from.kind;
+    seam.name = from.name, seam.kind = from.kind, seam.open = from.open;
     for (const Stretch& stretch : sides[s][0]) add_runs(outlines[stretch.panel], stretch, seam.a);
     for (const Stretch& stretch : sides[s][1]) add_runs(outlines[stretch.panel], stretch, seam.b);
     result.seams.push_back(std::move(seam));

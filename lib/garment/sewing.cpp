@@ -15,7 +15,7 @@ std::vector<int> weld_classes(const pattern::PanelMesh& panels) {
     return v;
   };
   for (const pattern::MeshSeam& seam : panels.seams)
-    for (std::size_t k = 0; k < seam.a.size(); ++k) {
+    for (std::size_t k = 0; k < seam.a.size() && !seam.open; ++k) {
       const int a = root(seam.a[k]), b = root(seam.b[k]);
       if (a != b) parent[std::max(a, b)] = std::min(a, b);
     }
@@ -51,7 +51,7 @@ void weld(Garment& garment, const std::vector<Vec3>& position) {
 std::vector<std::array<int, 2>> open_stitches(const Garment& garment) {
   std::vector<std::array<int, 2>> stitches;
   for (const pattern::MeshSeam& seam : garment.panels.seams)
-    for (std::size_t k = 0; k < seam.a.size(); ++k) {
+    for (std::size_t k = 0; k < seam.a.size() && !seam.open; ++k) {
       const int a = garment.particle_of[seam.a[k]], b = garment.particle_of[seam.b[k]];
       if (a != b) stitches.push_back({std::min(a, b), std::max(a, b)});
     }
@@ -78,7 +78,7 @@ static void gather_seams(const Garment& garment, cloth::ClothMesh& mesh) {
   };
   const auto& pattern = garment.panels.pattern;
   for (const pattern::MeshSeam& seam : garment.panels.seams)
-    for (std::size_t k = 0; k + 1 < seam.a.size(); ++k) {
+    for (std::size_t k = 0; k + 1 < seam.a.size() && !seam.open; ++k) {
       cloth::EdgeSpring* a = spring(garment.particle_of[seam.a[k]], garment.particle_of[seam.a[k + 1]]);
       cloth::EdgeSpring* b = spring(garment.particle_of[seam.b[k]], garment.particle_of[seam.b[k + 1]]);
       if (!a || !b) continue;

@@ -264,6 +264,13 @@ private:
     piece.n = static_cast<int>(inner.size()) + 1, piece.inner = std::move(inner);
   }
 
+  /// Whether anything is sewn to the edges [first, end) of panel p.
+  bool sewn(int p, int first, int end) const {
+    const auto& edges = m_pieces[static_cast<std::size_t>(p)];
+    return std::any_of(edges.begin() + first, edges.begin() + end,
+                       [](const std::vector<Piece>& pieces) { return std::any_of(pieces.begin(), pieces.end(), [](const Piece& o) { return o.sewn; }); });
+  }
+
   void sample_panel(int p) {
     const Panel& panel = m_pattern.panels[static_cast<std::size_t>(p)];
     Boundary::PanelBoundary out;
@@ -293,10 +300,17 @@ private:
         }
         ++e;
       }
-      const int n = static_cast<int>(points.size());
-      if (n < 3)
-        throw input_error(m_file, panel.name, "the outline is too small: " + std::to_string(n) + " vertices at an edge length of " + centimetres(m_h),
-                          "give a smaller --edge-length");
+      const int n = static_cast<int>(points.size()), n_kept = n - (merged ? 1 : 0);
+      if (n_kept < 3) {
+        if (first_edge == 0 || sewn(p, first_edge, e))
+          throw input_error(m_file, panel.name, "the outline is too small: " + std::to_string(n_kept) + " vertices at an edge length of " + centimetres(m_h),
+                            "give a smaller --edge-length");
+        // An eyelet or a drill hole that the mesh is too coarse for; nothing is sewn to it.
+        m_out.findings.push_back(panel.name + ": the hole at " + loop.front().name + " is smaller than the mesh's edges (" + centimetres(m_h) +
+                                 ") and is left out; a smaller --edge-length keeps it");
+        out.edge_of.resize(out.edge_of.size() - points.size());
+        continue;
+      }
       // Ends: the end of each edge is the start of the next; the last edge ends at the loop's first vertex.
       for (int k = first_edge; k < e; ++k) {
         EdgeVertices& ev = vertices[static_cast<std::size_t>(k)];

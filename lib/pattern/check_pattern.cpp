@@ -15,6 +15,7 @@ namespace {
 constexpr double SAMPLE = 0.004; // m between points on curves
 constexpr double SPIKE = 10;     // degrees
 constexpr double TINY = 0.002;   // m
+constexpr double LEAST = 0.12;   // m: a garment whose largest panel is smaller was drawn in another unit than it states, or is a doll's
 
 struct Sampled {
   std::vector<Vec2> points;
@@ -64,6 +65,7 @@ public:
   explicit Check(const Pattern& pattern) : m_pattern(with_folds(pattern, "")) {} // lengths are those that are sewn
   std::vector<PatternFinding> run() {
     for (const Panel& p : m_pattern.panels) check_outline(p);
+    check_unit();
     check_runs();
     for (const Seam& s : m_pattern.seams)
       if (s.kind != "pleat") check_seam(s);
@@ -73,6 +75,21 @@ public:
 
 private:
   void add(const char* severity, const char* rule, const std::string& place, const std::string& fact) { m_out.push_back({severity, rule, place, fact}); }
+
+  /// What can be no garment at all is refused when it is read; this is what can be one, of the wrong size.
+  void check_unit() {
+    double largest = 0;
+    const Panel* which = nullptr;
+    for (const Panel& panel : m_pattern.panels) {
+      Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+      for (const Vec2& q : sample(panel).points) low = low.cwiseMin(q), high = high.cwiseMax(q);
+      if (const double size = (high - low).maxCoeff(); size > largest) largest = size, which = &panel;
+    }
+    if (which && largest < LEAST)
+      add("warning", "wrong-unit", which->name,
+          "the largest panel measures " + centimetres(largest) + ": too small for a garment; in a unit ten times larger it would be " +
+              centimetres(10 * largest));
+  }
 
   void check_outline(const Panel& panel) {
     const Sampled s = sample(panel);

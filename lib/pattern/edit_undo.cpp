@@ -132,6 +132,7 @@ io::Json seams_state(const Pattern& pattern) {
   io::Json out = io::Json::array();
   for (const Seam& s : pattern.seams) {
     io::Json seam = {{"name", s.name}, {"kind", s.kind}, {"ease", s.ease}};
+    if (s.open) seam["open"] = true;
     for (const auto* side : {&s.a, &s.b}) {
       io::Json runs = io::Json::array();
       for (const Run& r : *side) runs.push_back({r.panel, r.edge, r.from, r.to});
@@ -169,6 +170,10 @@ io::Json opposite(const io::Json& edit) {
     out["edit"] = what == "take-in" ? "let-out" : "take-in";
     return out;
   }
+  if (what == "open" || what == "close") {
+    out["edit"] = what == "open" ? "close" : "open";
+    return out;
+  }
   return nullptr;
 }
 
@@ -192,7 +197,7 @@ void restore(Pattern& pattern, const io::Node& node) {
     seams.clear();
     for (std::size_t k = 0; k < node.at("seams").size(); ++k) {
       const io::Node item = node.at("seams").at(k);
-      Seam seam{item.at("name").string(), item.string("kind", "seam"), {}, {}, item.string("ease", "")};
+      Seam seam{item.at("name").string(), item.string("kind", "seam"), {}, {}, item.string("ease", ""), item.has("open") && item.at("open").boolean()};
       for (const char* side : {"a", "b"})
         for (std::size_t r = 0; r < item.at(side).size(); ++r) {
           const io::Node run = item.at(side).at(r);

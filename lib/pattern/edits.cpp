@@ -121,6 +121,16 @@ const Seam& seam_named(const Pattern& pattern, const io::Node& node) {
   node.fail("there is no seam '" + name + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)"));
 }
 
+/// Opens a seam, or closes one that is open. An edit that changes nothing is a mistake, and would have no opposite.
+void open_seam(Pattern& pattern, const io::Node& node, bool open) {
+  node.allow_only({"edit", "seam"});
+  const Seam& found = seam_named(pattern, node.at("seam"));
+  Seam& seam = pattern.seams[static_cast<std::size_t>(&found - pattern.seams.data())];
+  if (seam.kind == "dart" || seam.kind == "pleat") node.at("seam").fail(seam.name + " is a " + seam.kind + " and cannot be opened", "name a seam or a closure");
+  if (seam.open == open) node.at("seam").fail("seam " + seam.name + " is " + (open ? "open" : "closed") + " already");
+  seam.open = open;
+}
+
 double factor(const io::Node& node, const char* key) {
   const double f = node.number(key, 1);
   if (!(f > 0.05 && f < 20)) node.at(key).fail("a factor of " + std::to_string(f) + " is no edit", "give 0.05 to 20");
@@ -143,6 +153,7 @@ void apply(Pattern& pattern, const io::Node& node, double unit) {
   if (what == "add-dart") return add_dart(pattern, node, unit);
   if (what == "rotate-dart") return rotate_dart(pattern, node);
   if (what == "restore") return restore(pattern, node);
+  if (what == "open" || what == "close") return open_seam(pattern, node, what == "open");
   if (what == "move-point") {
     node.allow_only({"edit", "panel", "edge", "end", "by"});
     Panel& p = panel();
@@ -271,13 +282,13 @@ void apply(Pattern& pattern, const io::Node& node, double unit) {
     const Vec2 c = middle(p), u = p.grain, v(-u.y(), u.x());
     map_panel(p, [&](const Vec2& q) { return Vec2(c + warp * (q - c).dot(u) * u + weft * (q - c).dot(v) * v); });
   } else {
-    const std::string known[] = {"move-point", "move-edge", "bend",   "add-point", "set-length", "take-in", "let-out",  "lengthen",    "shorten",
-                                 "scale",      "grade",     "shrink", "split",     "cut",        "join",    "add-dart", "rotate-dart", "restore"};
+    const std::string known[] = {"move-point", "move-edge", "bend",  "add-point", "set-length", "take-in",  "let-out",     "lengthen", "shorten", "scale",
+                                 "grade",      "shrink",    "split", "cut",       "join",       "add-dart", "rotate-dart", "open",     "close",   "restore"};
     const std::string near = nearest_word(what, std::begin(known), std::end(known));
     node.at("edit").fail(
         "unknown edit '" + what + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)"),
         "known are move-point, move-edge, bend, add-point, set-length, take-in, let-out, lengthen, shorten, scale, grade, shrink, split, cut, join, add-dart, "
-        "rotate-dart and restore");
+        "rotate-dart, open, close and restore");
   }
 }
 

@@ -31,8 +31,10 @@ namespace sloper::pattern {
 ///   add-dart    {panel, edge, at, width, tip: [x, y], name?}      cut out of an edge about the fraction `at` of it, legs sewn;
 ///               {panel, center: [x, y], length, width, along?, name?}   a fisheye
 ///   rotate-dart {dart, edge, at}                                  closes a dart and opens it at another place of the outline
+///   open        {seam}                                            a closure (or any seam) is left undone: placed together, not sewn; close
 ///   restore     {order, panels, seams?}                           panels to the last bit, as inverse_edits() writes them
-/// Add-point, split, cut, join, darts and restore change what edges there are, so the mesh has to be made anew; the others keep it.
+/// Add-point, split, cut, join, darts, open, close and restore change what edges or particles there are, so the mesh has to be made anew;
+/// the others keep it.
 /// Coordinates are kept on a grid of 2^-30 m, so that move-point, move-edge, take-in and let-out are undone exactly by their opposite.
 /// @throws Error INPUT naming the edit and what it names wrongly
 void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file);

@@ -145,6 +145,7 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool) {
       seam[side == &s.a ? "a" : "b"] = runs;
     }
     if (!s.ease.empty()) seam["ease"] = s.ease;
+    if (s.open) seam["open"] = true;
     seams.push_back(seam);
   }
   doc["panels"] = panels, doc["seams"] = seams;

@@ -12,7 +12,22 @@
 namespace sloper::pattern {
 namespace {
 
-constexpr double COARSE = 0.02; // m, mesh edges: arcs lose less than 0.1 % to their chords
+constexpr double COARSE = 0.02;    // m, mesh edges: arcs lose less than 0.1 % to their chords
+constexpr double PER_PIECE = 0.25; // of the smallest panel's extent: pockets and belt loops have three vertices too
+constexpr double FINEST = 0.002;   // m
+
+/// Coarse, but no coarser than the smallest piece can be meshed with.
+double coarse_for(const Pattern& pattern) {
+  double edge = COARSE;
+  for (const Panel& panel : pattern.panels) {
+    Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+    for (const PanelEdge& e : panel.loops[0])
+      for (const Segment& s : e.path)
+        for (double t : {0.0, 0.5, 1.0}) low = low.cwiseMin(s.at(t)), high = high.cwiseMax(s.at(t));
+    edge = std::min(edge, PER_PIECE * (high - low).maxCoeff());
+  }
+  return std::max(edge, FINEST);
+}
 
 int root(std::vector<int>& parent, int v) {
   while (parent[static_cast<std::size_t>(v)] != v)
@@ -75,7 +90,7 @@ std::vector<Opening> openings_of(const Pattern& pattern, const PanelMesh& mesh) 
 } // namespace
 
 FinishedMeasures finished_measures(const Pattern& pattern, const std::string& file) {
-  const PanelMesh mesh = mesh_pattern(pattern, COARSE, file);
+  const PanelMesh mesh = mesh_pattern(pattern, coarse_for(pattern), file);
   FinishedMeasures out;
   out.openings = openings_of(pattern, mesh);
   out.named = named_measures(pattern, mesh, out.openings);

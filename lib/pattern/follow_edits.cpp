@@ -61,7 +61,7 @@ bool same_edges(const Pattern& a, const Pattern& b) {
     }
   }
   for (std::size_t s = 0; s < a.seams.size(); ++s) {
-    if (a.seams[s].name != b.seams[s].name) return false;
+    if (a.seams[s].name != b.seams[s].name || a.seams[s].open != b.seams[s].open) return false;
     for (const auto& [one, two] : {std::pair(&a.seams[s].a, &b.seams[s].a), std::pair(&a.seams[s].b, &b.seams[s].b)}) {
       if (one->size() != two->size()) return false;
       for (std::size_t k = 0; k < one->size(); ++k)

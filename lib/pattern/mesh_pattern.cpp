@@ -143,7 +143,7 @@ PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::stri
   }
   for (std::size_t s = 0; s < pattern.seams.size(); ++s) {
     const Seam& seam = pattern.seams[s];
-    MeshSeam out{seam.name, seam.kind, {}, {}, side_length(pattern, seam.a), side_length(pattern, seam.b)};
+    MeshSeam out{seam.name, seam.kind, {}, {}, side_length(pattern, seam.a), side_length(pattern, seam.b), seam.open};
     for (std::size_t k = 0; k < boundary.seams[s].a.size(); ++k) {
       const auto &a = boundary.seams[s].a[k], &b = boundary.seams[s].b[k];
       out.a.push_back(mesh.panels[static_cast<std::size_t>(a[0])].first_vertex + a[1]);

@@ -35,6 +35,7 @@ struct MeshSeam {
   std::string name, kind;            ///< kind: "seam", "dart", "gather", "closure"
   std::vector<int> a, b;             ///< global vertex indices in sewing order, |a| = |b| >= 2
   double length_a = 0, length_b = 0; ///< m, in the pattern
+  bool open = false;                 ///< where the panels are placed together and not sewn: a closure left undone
 };
 
 /// How the start positions came about.
@@ -56,7 +57,7 @@ struct PanelMesh {
   std::string body_sha256;               ///< of the skin that they were placed around, or empty
   std::vector<StableId> ids;             ///< #V
   std::vector<Triangle> triangles;       ///< #F by 3, global
-  std::vector<MeshSeam> seams;           ///< stitches are the pairs (a[i], b[i])
+  std::vector<MeshSeam> seams;           ///< stitches are the pairs (a[i], b[i]) of those that are not open
   std::vector<std::string> findings;     ///< what a user should know: merged edges, small angles, length mismatches
   std::shared_ptr<const Pattern> source; ///< what it was made from, so that edits can be followed; null where unknown
 };

@@ -70,7 +70,7 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
   }
   doc["panels"] = panels;
   io::Json seams = io::Json::array();
-  for (const MeshSeam& s : mesh.seams)
+  for (const MeshSeam& s : mesh.seams) {
     seams.push_back({{"name", s.name},
                      {"kind", s.kind},
                      {"length_a", s.length_a},
@@ -78,6 +78,8 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
                      {"ease", s.length_b > 0 ? s.length_a / s.length_b - 1 : 0.0},
                      {"a", numbers(s.a)},
                      {"b", numbers(s.b)}});
+    if (s.open) seams.back()["open"] = true;
+  }
   doc["seams"] = seams;
   doc["findings"] = mesh.findings;
   if (mesh.source) doc["pattern"] = pattern_json(*mesh.source, tool);
@@ -129,8 +131,13 @@ PanelMesh read_panel_mesh(const std::string& path) {
   const io::Node seams = doc.at("seams");
   for (std::size_t k = 0; k < seams.size(); ++k) {
     const io::Node node = seams.at(k);
-    MeshSeam s{node.string("name", ""),      node.string("kind", "seam"), vertex_list(node.at("a"), n),
-               vertex_list(node.at("b"), n), node.number("length_a", 0),  node.number("length_b", 0)};
+    MeshSeam s{node.string("name", ""),
+               node.string("kind", "seam"),
+               vertex_list(node.at("a"), n),
+               vertex_list(node.at("b"), n),
+               node.number("length_a", 0),
+               node.number("length_b", 0),
+               node.has("open") && node.at("open").boolean()};
     if (s.a.size() != s.b.size() || s.a.size() < 2)
       node.fail("seam " + s.name + " has " + std::to_string(s.a.size()) + " and " + std::to_string(s.b.size()) + " vertices");
     mesh.seams.push_back(std::move(s));

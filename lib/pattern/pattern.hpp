@@ -78,7 +78,8 @@ struct Run {
 struct Seam {
   std::string name, kind = "seam"; ///< "seam", "dart", "gather", "closure", "pleat"
   std::vector<Run> a, b;
-  std::string ease; ///< why the sides differ in length, or empty
+  std::string ease;  ///< why the sides differ in length, or empty
+  bool open = false; ///< not sewn: a closure left undone. The panels lie as if it were closed, and its sides have vertices alike
 };
 
 struct Pattern {

@@ -172,9 +172,10 @@ Pattern read_pattern_json(const io::Json& json, const std::string& file) {
   if (root.has("seams"))
     for (std::size_t k = 0; k < root.at("seams").size(); ++k) {
       const io::Node node = root.at("seams").at(k);
-      node.allow_only({"name", "kind", "a", "b", "ease"});
+      node.allow_only({"name", "kind", "a", "b", "ease", "open"});
       Seam seam;
       seam.name = node.string("name", "seam " + std::to_string(k)), seam.kind = node.string("kind", "seam"), seam.ease = node.string("ease", "");
+      if (node.has("open")) seam.open = node.at("open").boolean();
       if (seam.kind != "seam" && seam.kind != "dart" && seam.kind != "gather" && seam.kind != "closure")
         node.at("kind").fail("unknown kind '" + seam.kind + "'", "known are seam, dart, gather and closure");
       seam.a = read_side(node.at("a"), pattern, false), seam.b = read_side(node.at("b"), pattern, true);

@@ -142,6 +142,40 @@ TEST(Follow, a_cold_finish_gives_the_bytes_of_a_cold_drape_of_the_edited_pattern
   EXPECT_EQ(play(other, pillar, {HEAD, R"({"edit": "end", "finish": "luke"})"}).refused.size(), 1u);
 }
 
+TEST(Follow, a_replay_ends_in_the_same_bytes_whatever_came_between) {
+  const body::Body pillar = make_pillar();
+  const Garment start = draped_skirt(pillar);
+  const std::string hem = R"({"edit": "move-edge", "panel": "front", "edge": "hem", "by": [0, -1]})", end = R"({"edit": "end", "finish": "replay"})",
+                    there = R"({"edit": "take-in", "seam": "left", "by": 0.3})", back = R"({"edit": "let-out", "seam": "left", "by": 0.3})";
+  Garment one = start, two = start, three = start, none = start;
+  EXPECT_TRUE(play(one, pillar, {HEAD, hem, end}).drape.converged);
+  play(two, pillar, {HEAD, there, hem, back, end});
+  EXPECT_EQ(strict_hash(one), strict_hash(two));
+  // Over a mesh of its own and back, too.
+  play(three, pillar, {HEAD, R"({"edit": "open", "seam": "left"})", hem, R"({"edit": "close", "seam": "left"})", end});
+  EXPECT_EQ(strict_hash(one), strict_hash(three));
+  play(none, pillar, {HEAD, there, back, end});
+  double most = 0;
+  for (std::size_t i = 0; i < none.position.size(); ++i) most = std::max(most, (none.position[i] - start.position[i]).norm());
+  EXPECT_LT(most, 0.003) << "no edit leaves the drape where it is";
+}
+
+TEST(Follow, the_frame_that_answers_an_edit_has_a_fixed_budget_however_large_the_edit) {
+  const body::Body pillar = make_pillar();
+  Garment skirt = draped_skirt(pillar);
+  std::vector<FollowFrame> frames;
+  const FollowReport report =
+      play(skirt, pillar, {HEAD, R"({"edit": "take-in", "seam": "left", "by": 4})", R"({"edit": "move-edge", "panel": "front", "edge": "hem", "by": [0, -4]})"},
+           &frames);
+  ASSERT_EQ(frames.size(), 2u);
+  for (const FollowFrame& f : frames) {
+    EXPECT_GT(f.cg_iterations, 0);
+    EXPECT_LE(f.cg_iterations, FOLLOW_ANSWER_ITERATIONS);
+    EXPECT_GT(f.speed_m_s, 0.05) << "the cloth answers at once";
+  }
+  EXPECT_TRUE(report.drape.converged) << "what the budget left over is solved on the way to rest: " << report.drape.stop_reason;
+}
+
 TEST(Follow, an_edit_that_asks_for_another_mesh_carries_the_draped_state_across) {
   const body::Body pillar = make_pillar();
   Garment skirt = draped_skirt(pillar);
@@ -165,6 +199,23 @@ TEST(Follow, an_edit_that_asks_for_another_mesh_carries_the_draped_state_across)
   EXPECT_EQ(joined.remeshed, 1) << (joined.refused.empty() ? "" : joined.refused[0]);
   EXPECT_EQ(skirt.panels.panels.size(), 2u);
   EXPECT_EQ(joined.drape.quality["faces_through_body"], 0);
+}
+
+TEST(Follow, a_closure_opens_and_closes_while_the_cloth_hangs) {
+  const body::Body pillar = make_pillar();
+  Garment skirt = draped_skirt(pillar);
+  const std::size_t closed = skirt.position.size();
+  const FollowReport opened = play(skirt, pillar, {HEAD, R"({"edit": "open", "seam": "left"})"}, nullptr, 250);
+  EXPECT_EQ(opened.edits, 1) << (opened.refused.empty() ? "" : opened.refused[0]);
+  ASSERT_EQ(skirt.panels.seams.size(), 2u);
+  EXPECT_TRUE(skirt.panels.seams[0].open);
+  EXPECT_EQ(skirt.position.size(), closed + skirt.panels.seams[0].a.size()) << "each side of the opening has its own particles";
+  EXPECT_EQ(opened.drape.quality["faces_through_body"], 0);
+  EXPECT_EQ(opened.drape.quality["self_intersections"], 0);
+  const FollowReport twice = play(skirt, pillar, {HEAD, R"({"edit": "open", "seam": "left"})", R"({"edit": "close", "seam": "left"})"}, nullptr, 250);
+  ASSERT_EQ(twice.refused.size(), 1u);
+  EXPECT_NE(twice.refused[0].find("open already"), std::string::npos) << twice.refused[0];
+  EXPECT_EQ(skirt.position.size(), closed);
 }
 
 TEST(Follow, an_elastic_tape_draws_the_cloth_in_along_it_and_nowhere_else) {

@@ -32,6 +32,20 @@ TEST(Boundary, ACornerWithinALongEdgeGetsAVertexThere) {
   EXPECT_TRUE(found);
 }
 
+TEST(Boundary, AHoleTooSmallForTheMeshIsLeftOutAndTold) {
+  const std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "eyelet", "panels": [{"name": "p", "outline": [
+    {"edge": "b", "path": [["M", 0, 0], ["L", 20, 0]]}, {"edge": "r", "path": [["L", 20, 30]]}, {"edge": "t", "path": [["L", 0, 30]]}, {"edge": "l", "path": [["L", 0, 0]]}],
+    "holes": [[{"edge": "h1", "path": [["M", 10, 10], ["L", 10, 10.3]]}, {"edge": "h2", "path": [["L", 10.3, 10.15]]}, {"edge": "h3", "path": [["L", 10, 10]]}]]}]})";
+  const PanelMesh coarse = mesh_pattern(own(text), 0.02, "test.json"), fine = mesh_pattern(own(text), 0.002, "test.json");
+  EXPECT_EQ(sew(coarse).boundary_loops, 1);
+  EXPECT_EQ(sew(fine).boundary_loops, 2);
+  const auto told = [](const PanelMesh& m) {
+    return std::any_of(m.findings.begin(), m.findings.end(), [](const std::string& f) { return f.find("p: the hole at h1") == 0; });
+  };
+  EXPECT_TRUE(told(coarse));
+  EXPECT_FALSE(told(fine));
+}
+
 TEST(Boundary, SewnOneToNIsAnOrientedManifold) {
   const Sewn sewn = sew(mesh_pattern(own(ONE_TO_N), 0.015, "test.json"));
   EXPECT_EQ(sewn.degenerate, 0);

@@ -150,6 +150,27 @@ TEST(EditTopology, AFisheyeDartIsAHoleSewnShut) {
             std::string::npos);
 }
 
+TEST(Edits, AClosureLeftOpenIsPlacedAndNotSewn) {
+  Pattern tube = own(tube_text());
+  const PanelMesh closed = mesh_pattern(tube, 0.02, "t");
+  const auto edit = [&](const std::string& text) {
+    apply_edits(tube, io::parse_json(R"({"format": "edits", "version": 1, "length_unit": "cm", "edits": [)" + text + "]}", "e"), "e");
+  };
+  edit(R"({"edit": "open", "seam": "left"})");
+  const PanelMesh open = mesh_pattern(tube, 0.02, "t");
+  ASSERT_EQ(open.pattern.size(), closed.pattern.size()) << "its sides have vertices alike, so that it can be closed again";
+  for (std::size_t v = 0; v < open.pattern.size(); ++v) EXPECT_LT((open.pattern[v] - closed.pattern[v]).norm(), 1e-8);
+  ASSERT_EQ(open.seams.size(), 2u);
+  EXPECT_TRUE(open.seams[0].open);
+  EXPECT_FALSE(open.seams[1].open);
+  const Pattern again = own(io::to_text(pattern_json(tube, "test")));
+  EXPECT_TRUE(again.seams[0].open) << "the own format says so";
+  EXPECT_THROW(edit(R"({"edit": "open", "seam": "left"})"), Error);
+  edit(R"({"edit": "close", "seam": "left"})");
+  EXPECT_FALSE(tube.seams[0].open);
+  EXPECT_THROW(edit(R"({"edit": "close", "seam": "nowhere"})"), Error);
+}
+
 TEST(Edits, ShrinkAlongAnEdgeAndAcrossAStrip) {
   const Pattern tube = own(tube_text());
   EXPECT_NEAR(length(edited(tube, R"({"edit": "shrink", "panel": "front", "edge": "hem", "factor": 0.75})").panels[0].edge(0).path), 0.3, 1e-8);
@@ -238,6 +259,7 @@ TEST(Edits, EveryKindIsTakenBackToTheLastByte) {
       R"({"edit": "split", "panel": "front", "from": [-30, 25], "to": [30, 28]})",
       R"({"edit": "cut", "panel": "front", "from": [-30, 25], "to": [30, 28]})",
       R"({"edit": "join", "seam": "top-skirt", "name": "back"})",
+      R"({"edit": "open", "seam": "left"})",
       R"({"edit": "add-dart", "panel": "front", "edge": "side_l", "at": 0.4, "width": 2, "tip": [8, 27]})",
       R"({"edit": "add-dart", "panel": "front", "center": [-8, 30], "length": 12, "width": 2})",
       R"({"edit": "rotate-dart", "dart": "dart", "edge": "side_r", "at": 0.8})",
