@@ -12,13 +12,15 @@ namespace sloper::cloth {
 namespace {
 
 constexpr int MOST_HALVINGS = 10;
-constexpr int GUARD_ROUNDS = 4;    // in which new limits are looked for; then those of the last round stop everything
-constexpr double MOST_CUT = 0.5;   // of an edge
-constexpr int LONGEST_FREEZE = 16; // steps
-constexpr double FROZEN = 1e4;     // times a particle's own stiffness
-constexpr double NEAR_REST = 1;    // weights, of the 95th percentile of the forces
-constexpr double OUTLIER = 10;     // times that percentile
-constexpr double TIGHTEST = 0.01;  // of the tolerance
+constexpr int GUARD_ROUNDS = 4;        // in which new limits are looked for; then those of the last round stop everything
+constexpr double MOST_CUT = 0.5;       // of an edge
+constexpr int LONGEST_FREEZE = 16;     // steps
+constexpr double FROZEN = 1e4;         // times a particle's own stiffness
+constexpr double NEAR_REST = 1;        // weights, of the 95th percentile of the forces
+constexpr double OUTLIER = 10;         // times that percentile
+constexpr double TIGHTEST = 0.01;      // of the tolerance
+constexpr std::size_t REMEMBERED = 20; // energies of the steps before: a step may end as high as the highest of them
+constexpr double MOST_CARRIED = 0.9;   // share of the last step's way
 
 /// Adds the wall seconds of its own life to a counter.
 class Stopwatch {
@@ -52,6 +54,7 @@ ClothSolver::ClothSolver(const ClothMesh& mesh, std::vector<Vec3> x) : m_mesh(me
 
 Effect& ClothSolver::add(std::unique_ptr<Effect> effect) {
   m_pattern_stale = true;
+  forget();
   m_effects.push_back(std::move(effect));
   return *m_effects.back();
 }
@@ -62,6 +65,7 @@ std::unique_ptr<Effect> ClothSolver::remove(const Effect& effect) {
   std::unique_ptr<Effect> taken = std::move(*found);
   m_effects.erase(found);
   m_pattern_stale = true;
+  forget();
   return taken;
 }
 
@@ -102,12 +106,40 @@ void ClothSolver::limit(std::vector<Vec3>& dx, std::vector<char>& held) {
   }
 }
 
+void ClothSolver::forget() {
+  m_energies.clear();
+  m_carried_for = 0;
+}
+
+/// Cloth that hardly stretches comes to rest along narrow, winding valleys, of which a step sees the tangent: a part of the last step's
+/// way goes on top, more with each step that goes the same way, none after one that turns back or that the line search shortened
+/// (momentum with restarts, O'Donoghue and Candes 2015; turning is judged by ways, since forces are those of the stretch that leaving
+/// the valley's ground costs, whichever way).
+void ClothSolver::carry_on() {
+  double same_way = 0, falls = 0;
+  for (std::size_t i = 0; i < m_dx.size(); ++i) same_way += m_dx[i].dot(m_last_dx[i]);
+  if (same_way < 0) m_carried_for = 0;
+  if (m_carried_for == 0) return;
+  const double share = std::min(MOST_CARRIED, m_carried_for / (m_carried_for + 3.0));
+  for (std::size_t i = 0; i < m_dx.size(); ++i) falls += m_force[i].dot(m_dx[i] + share * m_last_dx[i]);
+  if (falls <= 0) {
+    m_carried_for = 0;
+    return;
+  }
+  for (std::size_t i = 0; i < m_dx.size(); ++i) m_dx[i] += share * m_last_dx[i];
+}
+
 /// Halves the step until the energy falls, or doubles it while it keeps falling: where cloth buckles the definite part is far stiffer
-/// than the cloth, and whole steps are much too short. A look ahead costs a fraction of a solve. Each length is limited anew: what
-/// limits cut from a long step bends it away from where the energy falls, and a short one they leave alone.
-int ClothSolver::search_along(double largest_move_m) {
+/// than the cloth, and whole steps are much too short. With momentum one step may cost energy which the next ones regain (Grippo,
+/// Lampariello and Lucidi 1986). A look ahead costs a fraction of a solve. Each length is limited anew: what limits cut from a long step
+/// bends it away from where the energy falls, and a short one they leave alone.
+int ClothSolver::search_along(const StepOptions& o) {
   const Stopwatch watch(search_s);
   double best = energy(m_x);
+  if (!o.momentum) m_energies.clear();
+  m_energies.push_back(best);
+  if (m_energies.size() > REMEMBERED) m_energies.erase(m_energies.begin());
+  const double allowed = *std::max_element(m_energies.begin(), m_energies.end());
   double largest = 0;
   for (const Vec3& d : m_step) largest = std::max(largest, d.norm());
   const auto try_length = [&](double share) { // keeps the step when it is better
@@ -125,9 +157,10 @@ int ClothSolver::search_along(double largest_move_m) {
   const double after = energy_after(m_dx);
   if (after <= best) {
     best = after;
-    for (double share = 2; share * largest <= largest_move_m && try_length(share);) share *= 2;
-    return 0;
+    for (double share = 2; share * largest <= o.largest_move_m && try_length(share);) share *= 2;
   }
+  if (after <= allowed) return 0;
+  best = allowed;
   double share = 0.5;
   for (int halvings = 1; halvings <= MOST_HALVINGS; ++halvings, share *= 0.5)
     if (try_length(share)) return halvings;
@@ -212,6 +245,7 @@ StepResult ClothSolver::step(const StepOptions& o) {
     result.cg = conjugate_gradient(system, *m_preconditioner, m_rhs, tolerance(o), o.cg_max_iterations, m_dx, m_work);
     m_preconditioner->report_iterations(result.cg.since_renewal);
   }
+  if (o.line_search && o.momentum && m_carried_for > 0) carry_on();
   double largest2 = 0;
   for (const Vec3& d : m_dx) largest2 = std::max(largest2, d.squaredNorm());
   if (largest2 > o.largest_move_m * o.largest_move_m) { // the whole step is shortened: cut one by one, neighbours would crumple
@@ -237,8 +271,10 @@ StepResult ClothSolver::step(const StepOptions& o) {
     return result;
   }
   if (o.line_search) {
-    result.halvings = search_along(o.largest_move_m);
+    result.halvings = search_along(o);
     freeze_held(result.halvings > 0);
+    m_carried_for = result.halvings > 0 ? 0 : m_carried_for + 1;
+    m_last_dx = m_dx;
   }
   m_residual.clear();
   for (std::size_t i = 0; i < n; ++i) {

@@ -110,7 +110,7 @@ void run(const std::string& folder, const std::string& name, bool self, bool to_
 
   const int frames = scene.at("frames"), substeps = std::atoi(environment("SLOPER_BENCH_SUBSTEPS", "1"));
   StepOptions options;
-  options.cg_tolerance = std::atof(environment("SLOPER_BENCH_TOLERANCE", "0.01"));
+  options.cg_tolerance = std::atof(environment("SLOPER_BENCH_TOLERANCE", to_rest ? "0.03" : "0.2"));
   options.largest_move_m = 0.5;
   std::vector<double> frame_ms;
   long iterations = 0, steps = 0;
@@ -130,7 +130,7 @@ void run(const std::string& folder, const std::string& name, bool self, bool to_
   } else {
     const double target = 0.01; // of a particle's weight
     options.h = 1.0 / 30;
-    options.line_search = true;
+    options.line_search = options.momentum = true;
     options.largest_move_m = 0.05;
     for (; steps < 3000; ++steps) {
       last = solver.step(options);
