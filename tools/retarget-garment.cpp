@@ -117,6 +117,7 @@ int run(cli::Tool& tool, const Options& o) {
     io::Json document = garment::report_json(report, tool.name());
     document["mode"] = o.mode;
     document["placement"] = garment::placement_json(placed.report);
+    document["findings"] = placed.report.findings;
     document["inputs"] = inputs;
     document["hash"] = {{"strict", garment::strict_hash(garment)}, {"quantised_10um", garment::quantised_hash(garment)}};
     io::write_json(o.report, document);

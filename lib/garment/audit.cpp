@@ -1,44 +1,27 @@
 #include <collision/intersections.hpp>
 #include <garment/audit.hpp>
+#include <garment/cloth_strain.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace sloper::garment {
 
-static void quantiles(std::vector<double>& values, double out[3]) {
-  if (values.empty()) return;
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  out[0] = values[static_cast<std::size_t>(0.5 * last)];
-  out[1] = values[static_cast<std::size_t>(0.99 * last)];
-  out[2] = values.back();
-}
-
 static void measure_strain(const Garment& garment, Audit& result) {
-  std::vector<double> warp, weft, bias, all;
-  std::set<std::array<int, 2>> seen;
-  const pattern::PanelMesh& panels = garment.panels;
-  for (const pattern::PanelInfo& panel : panels.panels)
-    for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f)
-      for (int k = 0; k < 3; ++k) {
-        const int a = panels.triangles[f][k], b = panels.triangles[f][(k + 1) % 3];
-        const int pa = garment.particle_of[a], pb = garment.particle_of[b];
-        if (!seen.insert({std::min(pa, pb), std::max(pa, pb)}).second) continue;
-        const Vec2 d = panels.pattern[b] - panels.pattern[a];
-        const double scale = garment.rest_scale.empty() ? 1 : garment.rest_scale[f][k], rest = d.norm() * scale;
-        if (rest <= 0) continue;
-        const double strain = (garment.position[pb] - garment.position[pa]).norm() / rest - 1;
-        const double along = std::abs(d.normalized().dot(panel.grain));
-        (along > 0.924 ? warp : along < 0.383 ? weft : bias).push_back(strain); // within 22.5 degrees of an axis
-        all.push_back(strain);
-      }
+  std::vector<Weighted> warp, weft, bias, thread;
+  for (const TriangleStrain& s : triangle_strains(garment, garment.position)) {
+    if (!(s.area > 0)) continue;
+    warp.push_back({s.warp, s.area}), weft.push_back({s.weft, s.area}), bias.push_back({s.bias, s.area}), thread.push_back({s.thread(), s.area});
+  }
+  const auto quantiles = [](std::vector<Weighted>& values, double out[3]) {
+    if (values.empty()) return;
+    out[0] = area_quantile(values, 0.5), out[1] = area_quantile(values, 0.99), out[2] = values.back().value;
+  };
   quantiles(warp, result.strain_warp);
   quantiles(weft, result.strain_weft);
   quantiles(bias, result.strain_bias);
   double of_all[3] = {};
-  quantiles(all, of_all);
+  quantiles(thread, of_all);
   result.strain_p99 = of_all[1];
   result.strain_max = of_all[2];
 }

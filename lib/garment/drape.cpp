@@ -5,6 +5,7 @@
 #include <cloth/factorisation.hpp>
 #include <cloth/gravity.hpp>
 #include <cloth/shear.hpp>
+#include <garment/cloth_strain.hpp>
 #include <garment/drape_run.hpp>
 #include <garment/effects.hpp>
 #include <garment/materials.hpp>
@@ -255,9 +256,10 @@ void DrapeRun::judge_fit() {
     if (quantile(values, 0.5) > m_bounds.slip_m) m_report.unfit = "slides down";
   }
   if (m_bounds.strain_p99 > 0 && m_report.unfit.empty()) {
-    values.clear();
-    for (const cloth::EdgeSpring& s : m_cloth->springs) values.push_back((x[s.i] - x[s.j]).norm() / s.rest_length - 1);
-    const double strain = quantile(values, 0.99);
+    std::vector<Weighted> strains;
+    for (const TriangleStrain& s : triangle_strains(m_garment, x))
+      if (s.area > 0) strains.push_back({s.thread(), s.area});
+    const double strain = area_quantile(strains, 0.99);
     if (strain < 0.9 * m_at.least_strain) m_at.least_strain = strain, m_at.strain_fell_at = m_report.steps;
     if (strain > m_bounds.strain_p99 && m_report.steps >= m_at.strain_fell_at + STRAINED_STEPS) m_report.unfit = "stays stretched";
   }

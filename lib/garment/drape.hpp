@@ -31,7 +31,7 @@ struct DrapeSettings {
 /// Where a garment that is not yet at rest stands when it is plain that it will not fit; 0: never.
 struct FitBounds {
   double slip_m = 0;     ///< half of the particles have sunk farther than this since the start
-  double strain_p99 = 0; ///< of all edges, and it no longer falls
+  double strain_p99 = 0; ///< along the threads (cloth_strain.hpp), and it no longer falls
 };
 
 struct EffectReport {

@@ -3,12 +3,13 @@
 ///
 /// Trunk levels are cut level, without what hangs on the arms, as the body's own girths are; limb girths are cut square to the
 /// limb. A garment's girth is the length of the line of cloth in the cut: `lying` as it hangs, `rest` as it would be
-/// unstretched; ease = rest - body girth, so a garment that only goes on by stretching has negative ease. Contact pressure
-/// is estimated by Laplace's law, tension / radius, with the fabric's stretch modulus and radius = body girth / 2 pi.
+/// unstretched; ease = rest - body girth, so a garment that only goes on by stretching has negative ease. Free edges
+/// (neck, sleeves, legs, the top of what hangs from the waist) are measured along themselves, against the skin in their plane. Strain and
+/// contact pressure are those of cloth_strain.hpp.
 /// Uncertainties: of the body's girth its spread, or what the next level tells of its slope; of the garment's the change within the error of the level's height
-/// and the chord's shortfall against its arc; of strain the change when half the band is taken; of the gap the sagitta of an edge; of pressure that of strain.
-/// A drape that did not come to rest adds `convergence_m` to lengths and gaps, and its strain and slip decide nothing (only the ease of its girths does),
-/// unless it was ended for them.
+/// and the chord's shortfall against its arc; of strain the change when half the band is taken; of the gap the sagitta of an edge; of pressure as of the
+/// strain. A drape that did not come to rest adds `convergence_m` to lengths and gaps, and its strain and slip decide nothing (only the ease of its girths
+/// does), unless it was ended for them.
 #include <body/body.hpp>
 #include <collision/body_collider.hpp>
 #include <garment/drape.hpp>
@@ -20,21 +21,22 @@
 namespace sloper::garment {
 
 struct FitRow {
-  std::string name;                    ///< "bust", "upper_arm_l", ...: as in the body document
-  std::string kind;                    ///< "level", "limb" or "neck"
+  std::string name;                    ///< "bust", "upper_arm_l", ...: as in the body document, or a free edge: "neck_edge", "sleeve_hem_l", ...
+  std::string kind;                    ///< "level", "limb", "neck" or "edge"
   double height_m = 0;                 ///< of the cut's centre
   double body_m = 0;                   ///< body girth
   double lying_m = 0, rest_m = 0;      ///< garment girth as it hangs and unstretched
   double ease_m = 0;                   ///< rest_m - body_m
   double bridged_m = 0;                ///< of the girth, where there is no trunk cloth: openings, under the arms
   bool open = false;                   ///< something is bridged
-  double strain_p99 = 0;               ///< of the edges within 2 cm of the cut
+  double strain_p99 = 0;               ///< of the triangles within 2 cm of the cut, or along the edge
   double strain_girth = 0;             ///< lying_m / rest_m - 1: how far the girth as a whole is stretched
-  std::string strain_direction;        ///< "warp", "weft" or "bias": of the edges beyond the 99th percentile
+  std::string strain_direction;        ///< "warp" or "weft": of the triangles beyond the 99th percentile
   double gap_p05_m = 0, gap_p50_m = 0; ///< cloth to skin, signed
   double pressure_p95_pa = 0;
   double body_uncertainty_m = 0, garment_uncertainty_m = 0, ease_uncertainty_m = 0;
   double strain_uncertainty = 0, gap_uncertainty_m = 0, pressure_uncertainty_pa = 0;
+  FitLimits limits;    ///< of the policy, for this girth
   double margin_m = 0; ///< ease to the nearer limit of "ok"; negative when it is not ok
   FitVerdict verdict = FitVerdict::OK;
   std::string reason; ///< of a verdict that is not OK
@@ -43,7 +45,7 @@ struct FitRow {
 /// Strain over one region of the garment: where it is stretched though no girth says so (across the shoulders, over a sleeve).
 struct FitRegion {
   std::string name; ///< "shoulders", "trunk", "left sleeve", "left leg", "skirt", "collar" (or a hood)
-  int edges = 0;
+  int triangles = 0;
   double strain_p50 = 0, strain_p99 = 0, strain_max = 0;
   std::string strain_direction;
 };
@@ -54,7 +56,7 @@ struct FitReport {
   std::vector<FitRow> rows;
   std::vector<FitRegion> regions;
   FitLines lines;                                            ///< hems, coverage, balance
-  double strain_p99 = 0, strain_max = 0;                     ///< over all edges
+  double strain_p99 = 0, strain_max = 0;                     ///< over all cloth
   double slip_m = 0;                                         ///< how far the garment as a whole sank from where it was placed
   double margin_m = 0;                                       ///< least of the rows'
   std::string margin_at;                                     ///< its girth

@@ -1,6 +1,7 @@
 #include <garment/fit.hpp>
 #include <io/json.hpp>
 
+#include <cmath>
 #include <cstdio>
 
 namespace sloper::garment {
@@ -33,6 +34,8 @@ io::Json fit_json(const FitReport& report, const std::string& tool) {
     j["strain"] = {{"girth", r.strain_girth}, {"p99", r.strain_p99}, {"direction", r.strain_direction}, {"uncertainty", r.strain_uncertainty}};
     j["gap_m"] = {{"p05", r.gap_p05_m}, {"p50", r.gap_p50_m}, {"uncertainty", r.gap_uncertainty_m}};
     j["pressure_p95_pa"] = {{"value", r.pressure_p95_pa}, {"uncertainty", r.pressure_uncertainty_pa}};
+    j["limits_percent"] = {{"too_small", 100 * r.limits.too_small_ease}, {"tight", 100 * r.limits.tight_ease}, {"loose", 100 * r.limits.loose_ease}};
+    if (std::isfinite(r.limits.too_large_ease)) j["limits_percent"]["too_large"] = 100 * r.limits.too_large_ease;
     j["margin_cm"] = 100 * r.margin_m;
     j["verdict"] = verdict_name(r.verdict);
     j["reason"] = r.reason;
@@ -40,7 +43,7 @@ io::Json fit_json(const FitReport& report, const std::string& tool) {
   }
   document["regions"] = io::Json::object();
   for (const FitRegion& r : report.regions)
-    document["regions"][r.name] = {{"edges", r.edges},
+    document["regions"][r.name] = {{"triangles", r.triangles},
                                    {"strain", {{"p50", r.strain_p50}, {"p99", r.strain_p99}, {"max", r.strain_max}, {"direction", r.strain_direction}}}};
   document["hems"] = io::Json::object();
   for (const FitHem& h : report.lines.hems)

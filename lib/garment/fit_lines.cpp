@@ -95,6 +95,7 @@ FitLines fit_lines(const Garment& garment, const body::Body& body) {
     Vec3 center = Vec3::Zero();
     for (const auto& e : loop) center += garment.position[e[0]] / static_cast<double>(loop.size());
     FitHem hem = measure_hem(garment, loop, center);
+    hem.edges = loop;
     if (hem.length_m < SHORTEST_HEM) continue;
     hem.name = owner(garment, loop);
     if (hem.name == "head") hem.name = "neck";

@@ -3,6 +3,8 @@
 #include <body/body.hpp>
 #include <garment/garment.hpp>
 
+#include <array>
+
 namespace sloper::garment {
 
 struct FitHem {
@@ -11,7 +13,8 @@ struct FitHem {
   double length_m = 0;           ///< along the edge, as it lies
   double front_minus_back_m = 0; ///< mean height of its front half less that of its back half
   double left_minus_right_m = 0;
-  double uncertainty_m = 0; ///< half a mesh edge
+  double uncertainty_m = 0;              ///< half a mesh edge
+  std::vector<std::array<int, 2>> edges; ///< its particles, in no order
 };
 
 struct FitLines {

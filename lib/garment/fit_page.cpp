@@ -21,7 +21,12 @@ h1{font-size:1.4rem;margin:.2rem 0}h2{font-size:1.05rem;margin:1.6rem 0 .4rem}.p
 .wide{overflow-x:auto}table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums;font-size:.9rem}
 th,td{padding:.35rem .6rem;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}
 th:first-child,td:first-child,td.words{text-align:left}th{cursor:pointer;color:var(--pale);font-weight:600}th[aria-sort]{color:var(--ink)}
-svg{width:100%;height:auto;max-width:46rem}text{font:12px system-ui,sans-serif;fill:var(--ink)}
+.bars{display:grid;grid-template-columns:minmax(6rem,max-content) minmax(8rem,1fr) max-content;gap:.2rem .7rem;align-items:center;font-size:.9rem}
+.bars b{font-weight:400}.bars .n{text-align:right;font-variant-numeric:tabular-nums}.track,.axis{position:relative;height:1.25rem;overflow:hidden}
+.track i{position:absolute;top:0;bottom:0}.axis i{position:absolute;transform:translateX(-50%);font-style:normal;font-size:.75rem;color:var(--pale)}
+.okay{background:#dcefe3}.grid{border-left:1px solid #eceef3}.zero{border-left:1px solid #667}
+.track .bar{top:.3rem;bottom:.3rem;background:currentColor}.track .error{top:.58rem;bottom:.58rem;background:var(--ink)}
+.track .limit{width:3px;margin-left:-1.5px;background:var(--bad)}
 </style>)";
 
 const char* SCRIPT = R"(<script>
@@ -71,23 +76,52 @@ std::string table(const std::vector<std::string>& heads, const std::string& rows
   return text + "</tr></thead><tbody>" + rows + "</tbody></table></div>\n";
 }
 
-/// Bars of ease in per cent of the body girth, with the uncertainty as a whisker.
-std::string ease_bars(const std::vector<FitRow>& rows) {
-  double most = 0.05;
-  for (const FitRow& r : rows) most = std::max(most, std::min(std::abs(r.ease_m / r.body_m), 1.0));
-  const double left = 130, width = 380, row_height = 22, zero = left + 0.3 * width, scale = 0.7 * width / most,
-               height = row_height * static_cast<double>(rows.size()) + 8;
-  std::string svg = "<svg viewBox=\"0 0 600 " + number(height, 0) + "\" role=\"img\" aria-label=\"ease per girth\">";
-  double y = 4;
-  for (const FitRow& r : rows) {
-    const double share = std::clamp(r.ease_m / r.body_m, -0.3 * width / scale, most), x = zero + scale * share, error = scale * r.ease_uncertainty_m / r.body_m;
-    svg += "<text x=\"0\" y=\"" + number(y + 15, 1) + "\">" + escaped(spoken_girth(r.name)) + "</text><g class=\"" + css_class(r.verdict) +
-           "\"><rect fill=\"currentColor\" x=\"" + number(std::min(zero, x), 1) + "\" y=\"" + number(y + 3, 1) + "\" width=\"" + number(std::abs(x - zero), 1) +
-           "\" height=\"14\"/></g><path stroke=\"#1d2433\" d=\"M" + number(x - error, 1) + " " + number(y + 10, 1) + "H" + number(x + error, 1) +
-           "\"/><text x=\"" + number(std::max(zero, x + error) + 6, 1) + "\" y=\"" + number(y + 15, 1) + "\">" + number(100 * r.ease_m, 1) + " cm</text>";
-    y += row_height;
+/// Shares of the body girth that the bars show, and where they lie on the track.
+struct Scale {
+  double low = -0.06, high = 0.2;
+  void show(double share) { low = std::max(-0.5, std::min(low, share)), high = std::min(1.2, std::max(high, share)); }
+  bool shows(double share) const { return share >= low && share <= high; }
+  double at(double share) const { return 100 * (std::clamp(share, low, high) - low) / (high - low); } ///< per cent of the track
+  double step() const {
+    for (const double s : {0.05, 0.1, 0.2})
+      if ((high - low) / s <= 7) return s;
+    return 0.25;
   }
-  return svg + "<path stroke=\"#667\" d=\"M" + number(zero, 1) + " 0V" + number(height, 0) + "\"/></svg>\n";
+};
+
+std::string mark(const char* what, double left, double width = -1) {
+  return std::string("<i class=\"") + what + "\" style=\"left:" + number(left, 2) + "%" + (width >= 0 ? ";width:" + number(width, 2) + "%" : "") + "\"></i>";
+}
+
+/// Bars of ease with their uncertainty and the policy's limits, all in per cent of the body girth, on one scale.
+std::string ease_bars(const std::vector<FitRow>& rows) {
+  Scale scale;
+  for (const FitRow& r : rows) {
+    const double share = r.ease_m / r.body_m, error = r.ease_uncertainty_m / r.body_m;
+    scale.show(share - error), scale.show(share + error + 0.02);
+    if (r.limits.loose_ease <= 0.65) scale.show(r.limits.loose_ease);
+    if (r.limits.too_large_ease <= 0.65) scale.show(r.limits.too_large_ease + 0.01);
+    scale.show(r.limits.too_small_ease - 0.01);
+  }
+  std::string axis, lines;
+  for (double t = std::ceil(scale.low / scale.step()) * scale.step(); t <= scale.high; t += scale.step()) {
+    axis += "<i style=\"left:" + number(scale.at(t), 2) + "%\">" + number(100 * t, 0) + "</i>";
+    lines += mark(std::abs(t) < 1e-9 ? "zero" : "grid", scale.at(t));
+  }
+  std::string bars = "<div class=\"bars\"><b></b><span class=\"axis\">" + axis + "</span><b class=\"n\">ease %</b>\n";
+  for (const FitRow& r : rows) {
+    const double share = r.ease_m / r.body_m, error = r.ease_uncertainty_m / r.body_m, tight = scale.at(r.limits.tight_ease);
+    bars += "<b>" + escaped(spoken_girth(r.name)) + "</b><span class=\"track " + css_class(r.verdict) + "\">" +
+            mark("okay", tight, scale.at(r.limits.loose_ease) - tight) + lines +
+            mark("bar", scale.at(std::min(0.0, share)), std::abs(scale.at(share) - scale.at(0))) +
+            mark("error", scale.at(share - error), scale.at(share + error) - scale.at(share - error));
+    for (const double limit : {r.limits.too_small_ease, r.limits.too_large_ease})
+      if (scale.shows(limit)) bars += mark("limit", scale.at(limit));
+    bars += "</span><b class=\"n\">" + number(100 * share, 1) + " &plusmn; " + number(100 * error, 1) + "</b>\n";
+  }
+  return bars +
+         "</div>\n<p class=\"pale\">Ease in per cent of the body's girth, with its uncertainty. Pale green: what the policy calls well fitting, from tight to "
+         "loose. Red marks: below, too small; above, too large.</p>\n";
 }
 
 } // namespace
@@ -107,10 +141,10 @@ std::string fit_page(const FitReport& report, const std::string& garment, const 
               cell(r.rest_m * 100, 1, r.garment_uncertainty_m * 100) + cell(r.ease_m * 100, 1, r.ease_uncertainty_m * 100) +
               cell(100 * r.ease_m / r.body_m, 1) + cell(100 * r.strain_p99, 1, 100 * r.strain_uncertainty) + "<td class=\"words\">" + r.strain_direction +
               "</td>" + cell(1000 * r.gap_p05_m, 1) + cell(1000 * r.gap_p50_m, 1, 1000 * r.gap_uncertainty_m) +
-              cell(r.pressure_p95_pa / 1000, 2, r.pressure_uncertainty_pa / 1000) + "<td class=\"words " + css_class(r.verdict) + "\">" +
-              verdict_name(r.verdict) + "</td></tr>\n";
+              cell(r.pressure_p95_pa, 0, r.pressure_uncertainty_pa) + "<td class=\"words " + css_class(r.verdict) + "\">" + verdict_name(r.verdict) +
+              "</td></tr>\n";
     page += "<h2>Ease</h2>\n" + ease_bars(report.rows) + "<h2>Girths</h2>\n" +
-            table({"girth", "height cm", "body cm", "garment cm", "ease cm", "ease %", "strain p99 %", "along", "gap p05 mm", "gap p50 mm", "pressure p95 kPa",
+            table({"girth", "height cm", "body cm", "garment cm", "ease cm", "ease %", "strain p99 %", "along", "gap p05 mm", "gap p50 mm", "pressure p95 Pa",
                    "verdict"},
                   rows);
   }

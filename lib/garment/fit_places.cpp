@@ -1,3 +1,4 @@
+#include <body/section.hpp>
 #include <garment/fit_places.hpp>
 
 #include <algorithm>
@@ -9,6 +10,8 @@ namespace sloper::garment {
 namespace {
 
 constexpr double HEIGHT_ERROR = 0.005; // m, least uncertainty of a level's height
+constexpr double NECK_REACH = 0.10;    // m above its base in which the neck's girth is
+constexpr double STRIDE = 0.005;       // m between sections in search of a girth
 constexpr double LEAST_SPREAD = 0.002; // m of a trunk girth: the mesh of the scan
 
 bool is_arm(const std::string& frame) { return frame.find("arm") != std::string::npos; }
@@ -50,6 +53,38 @@ void add_levels(const body::Body& body, std::vector<FitPlace>& places) {
   }
 }
 
+std::vector<int> faces_of(const body::Body& body, const std::vector<body::Part>& parts) {
+  std::vector<int> faces;
+  for (std::size_t f = 0; f < body.face_part.size(); ++f)
+    if (std::find(parts.begin(), parts.end(), body.face_part[f]) != parts.end()) faces.push_back(static_cast<int>(f));
+  return faces;
+}
+
+/// Taut girth of the outline whose middle is nearest to the plane's origin; 0 where there is none.
+double girth_in(const body::Body& body, const body::Plane& plane, const std::vector<int>& faces) {
+  const std::vector<body::Loop> loops = body::cut(body.skin, plane, &faces);
+  const body::Loop* best = nullptr;
+  for (const body::Loop& loop : loops)
+    if (loop.area > 0 && (!best || loop.centroid.norm() < best->centroid.norm())) best = &loop;
+  return best ? body::taut_girth(*best) : 0;
+}
+
+/// Where along a way from `from` the section square to it is as long as `girth`, within a tenth: of those the nearest in length.
+std::optional<Vec3> like_girth(const body::Body& body, const std::vector<body::Part>& parts, const Vec3& from, const Vec3& direction, double reach,
+                               double girth) {
+  const std::vector<int> faces = faces_of(body, parts);
+  body::TriangleSpheres spheres(body.skin, faces);
+  std::optional<Vec3> best;
+  double least = 0.1 * girth;
+  for (double way = 0; way <= reach; way += STRIDE) {
+    const Vec3 at = from + way * direction.normalized();
+    const body::Plane plane = body::cross_plane(at, direction);
+    const double difference = std::abs(girth_in(body, plane, spheres.near(plane)) - girth);
+    if (difference < least) least = difference, best = at;
+  }
+  return best;
+}
+
 void add_neck(const body::Body& body, std::vector<FitPlace>& places) {
   const auto girth = body.girths.find("neck_base");
   if (girth == body.girths.end() || !(girth->second.value_m > 0)) return;
@@ -58,10 +93,21 @@ void add_neck(const body::Body& body, std::vector<FitPlace>& places) {
   const Vec3 front = body.landmark("neck_front"), back = body.landmark("neck_back"), left = body.landmark("neck_side_l"), right = body.landmark("neck_side_r");
   const Vec3 normal = (front - back).cross(left - right).normalized(); // z cross x: up
   if (!(normal.y() > 0.3)) return;                                     // landmarks that lie in no plane of a neck
-  places.push_back({"neck_base", "neck", 0.25 * (front + back + left + right), normal, girth->second.value_m, girth->second.spread_m, HEIGHT_ERROR, {}, {}});
+  const Vec3 center = 0.25 * (front + back + left + right);
+  places.push_back({"neck_base", "neck", center, normal, girth->second.value_m, girth->second.spread_m, HEIGHT_ERROR, {}, {}});
+  const auto neck = body.girths.find("neck");
+  if (neck == body.girths.end() || !(neck->second.value_m > 0)) return;
+  // A neck leans forward, between the plane of its base and the head above it.
+  const Vec3 up = body.has_landmark("head_tip") ? Vec3((body.landmark("head_tip") - center).normalized()) : normal, axis = (normal + up).normalized();
+  if (const auto at = like_girth(body, {body::Part::HEAD, body::Part::TORSO}, center, axis, NECK_REACH, neck->second.value_m))
+    places.push_back({"neck", "neck", *at, axis, neck->second.value_m, neck->second.spread_m, HEIGHT_ERROR, {}, {}});
 }
 
 } // namespace
+
+double skin_girth(const body::Body& body, const std::vector<body::Part>& parts, const Vec3& center, const Vec3& normal) {
+  return girth_in(body, body::cross_plane(center, normal), faces_of(body, parts));
+}
 
 std::vector<FitPlace> fit_places(const body::Body& body) {
   std::vector<FitPlace> places;
@@ -94,6 +140,14 @@ std::vector<FitPlace> fit_places(const body::Body& body) {
     };
     if (body.has_landmark("crotch")) add_leg("thigh", body.landmark("crotch").y() - 0.01);
     if (has("knee")) add_leg("knee", at("knee").y());
+    if (!has("knee") || !has("ankle")) continue;
+    const body::Part leg = side == "l" ? body::Part::LEG_L : body::Part::LEG_R;
+    for (const char* name : {"calf", "ankle_min"}) {
+      const auto girth = body.girths.find(name + std::string("_") + side);
+      if (girth == body.girths.end()) continue;
+      const Vec3 knee = at("knee"), ankle = at("ankle");
+      if (const auto there = like_girth(body, {leg}, ankle, Vec3::UnitY(), knee.y() - ankle.y(), girth->second.value_m)) add_leg(name, there->y());
+    }
   }
   return places;
 }

@@ -14,8 +14,12 @@ struct FitPlace {
   std::vector<Vec3> outside;       ///< axes that the line must not go round
 };
 
-/// Trunk levels are cut level, limbs square to the limb, legs level, the neck base through its four landmarks.
+/// Trunk levels are cut level, limbs square to the limb, legs level, the neck base through its four landmarks, the neck where a section beside
+/// that plane is as long as its girth, calf and ankle likewise.
 std::vector<FitPlace> fit_places(const body::Body& body);
+
+/// Taut girth of the skin of some parts in a plane, of the outline whose middle is nearest to `center`, m; 0 where there is none.
+double skin_girth(const body::Body& body, const std::vector<body::Part>& parts, const Vec3& center, const Vec3& normal);
 
 /// #F: triangles of the garment that belong to a place. @param garment bound
 std::vector<char> cloth_of(const Garment& garment, const FitPlace& place);

@@ -1,5 +1,6 @@
 #pragma once
 /// What counts as fitting: thresholds per girth, garment class and fabric, from a document that people write.
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,15 +13,16 @@ enum class FitVerdict { OK, LOOSE, TIGHT, TOO_LARGE, TOO_SMALL, IMPOSSIBLE }; //
 const char* verdict_name(FitVerdict verdict);                                 ///< "ok", "loose", "tight", "too large", "too small", "impossible"
 
 struct FitLimits {
-  double too_small_ease = -0.03;  ///< of the body girth: below, the cloth does not go round
-  double too_small_strain = 0.08; ///< girth stretched further than this does not hold, whatever the ease
-  double tight_ease = 0.01;       ///< of the body girth: below, it is tight
-  double loose_ease = 0.50;       ///< of the body girth: above, it is loose
+  double too_small_ease = -0.03;                                   ///< of the body girth: below, the cloth does not go round
+  double too_small_strain = 0.08;                                  ///< girth stretched further than this does not hold, whatever the ease
+  double tight_ease = 0.01;                                        ///< of the body girth: below, it is tight
+  double loose_ease = 0.50;                                        ///< of the body girth: above, it is loose
+  double too_large_ease = std::numeric_limits<double>::infinity(); ///< of the body girth: above, it is another size; infinite: there is no such limit
 };
 
 /// Limits of which some are said.
 struct FitOverride {
-  std::optional<double> too_small_ease, too_small_strain, tight_ease, loose_ease;
+  std::optional<double> too_small_ease, too_small_strain, tight_ease, loose_ease, too_large_ease;
   void apply(FitLimits& limits) const;
 };
 
@@ -31,14 +33,20 @@ struct FitRules {
   std::optional<double> strain_p99, strain_max, slip_m;
 };
 
+/// Rules for all garments, and those that go before them.
+struct FitRuleSet {
+  FitRules all;
+  std::map<std::string, FitRules> classes, fabrics;
+};
+
 /// policy.json: {"format": "fit-policy", "version": 1, "name", "refuse": ["too small", ...], RULES, "classes": {CLASS: {RULES}},
 /// "fabrics": {MATERIAL: {RULES}}}; RULES: "default": {limits}, "girths": {NAME: {limits}}, "strain_p99", "strain_max", "slip_m".
 /// NAME is a girth or level of the body document, without _l or _r; CLASS is top, dress, skirt, trousers or whole. What is said
-/// for a fabric goes before a class, a class before all garments, a girth before the default. Unknown keys are errors.
+/// for a fabric goes before a class, a class before all garments, a girth before the default; all of it before the standard policy's.
+/// Unknown keys are errors.
 struct FitPolicy {
   std::string name = "woven";
-  FitRules all;
-  std::map<std::string, FitRules> classes, fabrics;
+  FitRuleSet standard, own;                        ///< what Sloper says, and what the document says
   bool refuse_loose = false, refuse_tight = false; ///< "too small" and "too large" are always refused
 
   FitLimits limits(const std::string& girth, const std::string& garment_class = {}, const std::string& fabric = {}) const;
@@ -47,7 +55,8 @@ struct FitPolicy {
   double slip_m(const std::string& garment_class, const std::string& fabric) const;     ///< m that it may sink before it counts as falling off
 };
 
-/// For woven cloth that gives little; skirts and sleeves may be loose.
+/// For woven cloth that gives little. Loose and too large are by class: what hangs from the waist must hold there, what hangs from the
+/// shoulders may stand off; skirts flare. The figures are in the man page.
 FitPolicy standard_fit_policy();
 FitPolicy read_fit_policy(const std::string& path); ///< @throws Error INPUT
 

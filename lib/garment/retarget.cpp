@@ -5,6 +5,7 @@
 #include <garment/bind.hpp>
 #include <garment/bind_frames.hpp>
 #include <garment/bind_laplacian.hpp>
+#include <garment/body_sides.hpp>
 #include <garment/retarget_grade.hpp>
 #include <geometry/rotation.hpp>
 #include <geometry/sparse_solver.hpp>
@@ -123,6 +124,7 @@ io::Json placement_json(const PlacementReport& r) {
           {"cleared", state_json(r.cleared)},
           {"clear_rounds", r.clear_rounds},
           {"largest_move_m", r.largest_move_m},
+          {"mirrored_panels", r.mirrored_panels},
           {"stretch", {{"p01", r.stretch_p01}, {"p50", r.stretch_p50}, {"p99", r.stretch_p99}}},
           {"settled_stretch", {{"p01", r.settled_p01}, {"p50", r.settled_p50}, {"p99", r.settled_p99}}}};
 }
@@ -194,7 +196,13 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
   PlacementReport& report = result.report;
   measure(report.stretch_p01, report.stretch_p50, report.stretch_p99);
   report.placed = state_of(g.position, triangles, skin);
-  if (mode == RetargetMode::KEEP_FIT) regrade(g, garment.position, g.position);
+  if (mode == RetargetMode::KEEP_FIT) {
+    GradeSides sides;
+    for (const SideDifference& d : uneven_sides(to)) sides.apart[d.limb] += (sides.apart[d.limb].empty() ? "" : ", ") + d.text;
+    const GradeReport grade = regrade(g, garment.position, g.position, sides);
+    report.mirrored_panels = grade.mirrored_panels, report.findings = grade.findings;
+    for (const std::string& finding : grade.findings) reporter.warning(finding);
+  }
   const std::vector<Vec3>& placed = result.placed = g.position;
   // keep-fabric: the cloth wants the shape it had; keep-fit: the regraded cloth wants the shape it was placed in.
   report.clear_rounds = settle_shape(g.position, mode == RetargetMode::KEEP_FIT ? placed : garment.position, triangles, skin, g.offset_m);

@@ -30,6 +30,8 @@ struct PlacementReport {
   double stretch_p01 = 0, stretch_p50 = 0, stretch_p99 = 0; ///< edge length after / before - 1, placed against the source
   double settled_p01 = 0, settled_p50 = 0, settled_p99 = 0; ///< the same after settle_shape()
   double largest_move_m = 0;                                ///< of settle_shape()
+  int mirrored_panels = 0;                                  ///< keep-fit: graded together with their mirror images
+  std::vector<std::string> findings;                        ///< keep-fit: of regrade()
 };
 io::Json placement_json(const PlacementReport& report);
 

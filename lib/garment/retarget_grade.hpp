@@ -2,15 +2,33 @@
 /// Regrading: the flat pattern made over for another body.
 #include <garment/garment.hpp>
 
+#include <map>
+
 namespace sloper::garment {
+
+/// Limbs ("arm", "leg", "torso") whose two sides the body has so unlike that their panels are graded apart, and why.
+struct GradeSides {
+  std::map<std::string, std::string> apart;
+};
+
+struct GradeReport {
+  int mirrored_panels = 0;           ///< graded together with their mirror images
+  double largest_seam_change_m = 0;  ///< by which the sides of a seam fit each other worse than before
+  std::vector<std::string> findings; ///< limbs graded apart, seams that no longer match as they did
+};
 
 /// Changes the pattern coordinates of every panel so that the cloth has the strain at `after` that it had at `before`.
 ///
 /// Each triangle's map from `before` to `after` gives a stretch along warp and along weft in the pattern plane; both are
-/// smoothed over the panel (a pattern is graded, not moulded), and the panel is laid out again by least squares:
+/// smoothed over the panel (a pattern is graded, not moulded) and averaged with those of its mirror image on the other side of the body
+/// (panel_mirrors), since a pattern that was alike left and right stays so; the panel is laid out again by least squares:
 /// minimise sum of area |grad u' - S grad u|^2 per coordinate, S = diag(weft, warp) in the grain's axes. The panel keeps its
-/// centroid and grain. Rest length edits (rest_scale) stay as factors. Both sides of a seam are then brought back to the ratio of
-/// lengths that they had, mesh edge by mesh edge, each giving way half; the seams' stated lengths are measured again.
-void regrade(Garment& garment, const std::vector<Vec3>& before, const std::vector<Vec3>& after);
+/// centroid and grain. Rest length edits (rest_scale) stay as factors. Both sides of a seam keep the ratio of lengths that they had, mesh
+/// edge by mesh edge, each giving way as little as it must; the seams' stated lengths are measured again.
+/// @param before, after  #P by 3, m; `before` on a body that faces +z with its left at +x
+GradeReport regrade(Garment& garment, const std::vector<Vec3>& before, const std::vector<Vec3>& after, const GradeSides& sides = {});
+
+/// "arm", "leg" or "torso": where most of a panel hangs.
+std::string limb_of(const Garment& garment, const pattern::PanelInfo& panel);
 
 } // namespace sloper::garment

@@ -1,5 +1,7 @@
 #include <base/error.hpp>
+#include <garment/cloth_strain.hpp>
 #include <garment/fit.hpp>
+#include <garment/materials.hpp>
 #include <render/maps.hpp>
 
 #include <algorithm>
@@ -11,52 +13,9 @@ namespace sloper::render {
 namespace {
 
 using garment::Garment;
-using Flat = Eigen::Matrix2d;
-using Deformation = Eigen::Matrix<double, 3, 2>;
 
-constexpr double TOUCHING = 0.003;       // m beyond the drape's contact gap at which cloth still presses
 constexpr double E100_TENSION = 98.0665; // N/m, 100 gf/cm
 constexpr double FAR = 0.3;              // m: gaps are measured up to here
-
-const garment::Material& material_of(const Garment& g, int panel) {
-  static const garment::Material standard;
-  auto found = g.materials.find(g.panels.panels[panel].material);
-  if (found == g.materials.end()) found = g.materials.find("");
-  return found == g.materials.end() ? standard : found->second;
-}
-
-/// A triangle's sides as columns, relaxed lengths taken into account: where they lie in the plane spanned by weft and warp.
-Flat rest_to_fabric(const Flat& sides, const std::array<double, 3>* scale) {
-  if (!scale) return Flat::Identity();
-  const double a = sides.col(0).norm() * (*scale)[0], b = (sides.col(1) - sides.col(0)).norm() * (*scale)[1], c = sides.col(1).norm() * (*scale)[2];
-  if (!(a > 0 && c > 0)) return Flat::Identity();
-  const double x = (a * a + c * c - b * b) / (2 * a);
-  Flat scaled;
-  scaled << a, x, 0, std::sqrt(std::max(1e-18, c * c - x * x));
-  return scaled * sides.inverse(); // its turn does not matter: only lengths are asked
-}
-
-/// Calls visit(triangle, panel, deformation, relaxed shape, area) for each triangle that has an area in the pattern.
-template<class F> void for_triangles(const Garment& g, F&& visit) {
-  for (std::size_t p = 0; p < g.panels.panels.size(); ++p) {
-    const pattern::PanelInfo& panel = g.panels.panels[p];
-    const Vec2 warp = panel.grain.normalized(), weft(warp.y(), -warp.x());
-    for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
-      const Triangle& t = g.panels.triangles[f];
-      Flat sides;
-      Deformation moved;
-      for (int k = 0; k < 2; ++k) {
-        const Vec2 e = g.panels.pattern[t[k + 1]] - g.panels.pattern[t[0]];
-        sides.col(k) << e.dot(weft), e.dot(warp);
-        moved.col(k) = g.position[g.particle_of[t[k + 1]]] - g.position[g.particle_of[t[0]]];
-      }
-      const double area = 0.5 * std::abs(sides.determinant());
-      if (area < 1e-12) continue;
-      visit(f, static_cast<int>(p), Deformation(moved * sides.inverse()), rest_to_fabric(sides, g.rest_scale.empty() ? nullptr : &g.rest_scale[f]),
-            Flat(sides.inverse()), area);
-    }
-  }
-}
 
 /// Area-weighted means at panel vertices.
 struct VertexMean {
@@ -74,22 +33,32 @@ struct VertexMean {
   }
 };
 
-double strain_along(const Deformation& f, const Flat& rest, const Vec2& d) { return (f * d).norm() / std::max((rest * d).norm(), 1e-12) - 1; }
-double larger(double a, double b) { return std::abs(a) >= std::abs(b) ? a : b; }
+double strain_value(const Garment& g, int panel, const garment::TriangleStrain& s, Map map) {
+  switch (map) {
+  case Map::WARP: return s.warp;
+  case Map::WEFT: return s.weft;
+  case Map::BIAS: return s.bias;
+  case Map::LIMIT: {
+    const garment::Material& m = garment::material_of(g, g.panels.panels[panel].material);
+    return std::max({s.warp * m.stretch_warp_n_m, s.weft * m.stretch_weft_n_m, 0.0}) / E100_TENSION;
+  }
+  default: return s.thread();
+  }
+}
 
-std::vector<double> strain_values(const Garment& g, Map map) {
+/// Values of triangles at panel vertices; the triangles' own, by area, for the legend.
+std::vector<double> strain_values(const Garment& g, Map map, std::vector<garment::Weighted>& by_area) {
   VertexMean mean(g.panels.pattern.size());
-  const double r = std::sqrt(0.5);
-  for_triangles(g, [&](int f, int panel, const Deformation& d, const Flat& rest, const Flat&, double area) {
-    const double weft = strain_along(d, rest, {1, 0}), warp = strain_along(d, rest, {0, 1});
-    const garment::Material& m = material_of(g, panel);
-    const double value = map == Map::LIMIT  ? std::max({warp * m.stretch_warp_n_m, weft * m.stretch_weft_n_m, 0.0}) / E100_TENSION
-                         : map == Map::WARP ? warp
-                         : map == Map::WEFT ? weft
-                         : map == Map::BIAS ? larger(strain_along(d, rest, {r, r}), strain_along(d, rest, {r, -r}))
-                                            : larger(warp, weft);
-    mean.add(g.panels.triangles[f], 100 * value, area);
-  });
+  const std::vector<garment::TriangleStrain> strains = garment::triangle_strains(g, g.position);
+  for (std::size_t p = 0; p < g.panels.panels.size(); ++p) {
+    const pattern::PanelInfo& panel = g.panels.panels[p];
+    for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
+      if (!(strains[f].area > 0)) continue;
+      const double value = 100 * strain_value(g, static_cast<int>(p), strains[f], map);
+      mean.add(g.panels.triangles[f], value, strains[f].area);
+      by_area.push_back({value, strains[f].area});
+    }
+  }
   return mean.result();
 }
 
@@ -105,29 +74,16 @@ std::vector<double> gaps(const Garment& g, const collision::BodyCollider& body) 
   return by_vertex;
 }
 
-std::vector<double> pressure_values(const Garment& g, const collision::BodyCollider& body) {
-  const std::vector<Vec3> normals = vertex_normals({g.position, g.particle_triangles()});
+std::vector<double> pressure_values(const Garment& g, const collision::BodyCollider& body, std::vector<garment::Weighted>& by_area) {
+  const std::vector<garment::TriangleStrain> strains = garment::triangle_strains(g, g.position);
+  const std::vector<double> pressures = garment::contact_pressures(g, strains, body);
   VertexMean mean(g.panels.pattern.size());
-  for_triangles(g, [&](int f, int panel, const Deformation& d, const Flat& rest, const Flat& inverse, double area) {
-    const garment::Material& m = material_of(g, panel);
-    const Triangle& t = g.panels.triangles[f];
-    Deformation turned;
-    for (int k = 0; k < 2; ++k) turned.col(k) = normals[g.particle_of[t[k + 1]]] - normals[g.particle_of[t[0]]];
-    turned = turned * inverse;
-    double pressure = 0;
-    const double stiffness[] = {m.stretch_weft_n_m, m.stretch_warp_n_m};
-    for (int k = 0; k < 2; ++k) {
-      const Vec2 e = k == 0 ? Vec2(1, 0) : Vec2(0, 1);
-      const double curvature = (turned * e).dot(d * e) / std::max((d * e).squaredNorm(), 1e-12);
-      pressure += stiffness[k] * std::max(strain_along(d, rest, e), 0.0) * std::max(curvature, 0.0);
-    }
-    mean.add(t, pressure, area);
-  });
-  std::vector<double> values = mean.result();
-  const std::vector<double> gap = gaps(g, body);
-  for (std::size_t v = 0; v < values.size(); ++v)
-    if (gap[v] > g.offset_m + TOUCHING && values[v] != NO_VALUE) values[v] = 0;
-  return values;
+  for (std::size_t f = 0; f < strains.size(); ++f) {
+    if (!(strains[f].area > 0)) continue;
+    mean.add(g.panels.triangles[f], pressures[f], strains[f].area);
+    by_area.push_back({pressures[f], strains[f].area});
+  }
+  return mean.result();
 }
 
 std::vector<double> ease_values(const Garment& g, const body::Body& body, const collision::BodyCollider& skin) {
@@ -155,19 +111,13 @@ std::vector<double> ease_values(const Garment& g, const body::Body& body, const 
   return values;
 }
 
-/// The legend's quantiles. @returns the size that 99 of 100 values do not exceed
-double summarise(const std::vector<std::vector<double>>& lists, Legend& legend) {
-  std::vector<double> all;
-  for (const auto& list : lists)
-    for (double v : list)
-      if (v != NO_VALUE) all.push_back(v);
+/// The legend's quantiles, by area. @returns the size that 99 of 100 parts do not exceed
+double summarise(std::vector<garment::Weighted> all, Legend& legend) {
   if (all.empty()) return 0;
-  const auto quantile = [&](double q) { return all[static_cast<std::size_t>(q * static_cast<double>(all.size() - 1))]; };
-  std::sort(all.begin(), all.end());
-  legend.least = all.front(), legend.p1 = quantile(0.01), legend.p50 = quantile(0.5), legend.p99 = quantile(0.99), legend.largest = all.back();
-  for (double& v : all) v = std::abs(v);
-  std::sort(all.begin(), all.end());
-  return quantile(0.99);
+  legend.p50 = garment::area_quantile(all, 0.5), legend.p1 = garment::area_quantile(all, 0.01), legend.p99 = garment::area_quantile(all, 0.99);
+  legend.least = all.front().value, legend.largest = all.back().value;
+  for (garment::Weighted& v : all) v.value = std::abs(v.value);
+  return garment::area_quantile(all, 0.99);
 }
 
 /// The first of the ranges that holds the value, or the last.
@@ -228,6 +178,7 @@ Legend apply_map(Scene& scene, Map map, double limit) {
   const std::string option = "--map " + map_names()[static_cast<int>(map)];
   if (scene.garments.empty()) throw Error(ErrorKind::USAGE, "", option, "needs a garment with pattern coordinates", "give shirt.json as a document");
   std::vector<std::vector<double>> values;
+  std::vector<garment::Weighted> by_area; // of maps whose values are the triangles' own
   if (map == Map::DIFFERENCE) {
     if (scene.garments.size() != 2)
       throw Error(ErrorKind::USAGE, "", option, "compares two garments, not " + std::to_string(scene.garments.size()), "give two shirt.json of one pattern");
@@ -240,19 +191,23 @@ Legend apply_map(Scene& scene, Map map, double limit) {
     for (int* mesh : {&scene.garment_mesh[0], &scene.body_mesh})
       if (*mesh > hidden) --*mesh;
   } else if (map == Map::STRAIN || map == Map::WARP || map == Map::WEFT || map == Map::BIAS || map == Map::LIMIT) {
-    for (const Garment& g : scene.garments) values.push_back(strain_values(g, map));
+    for (const Garment& g : scene.garments) values.push_back(strain_values(g, map, by_area));
   } else {
     if (!scene.body) throw Error(ErrorKind::USAGE, "", option, "needs the body too", "give body.json as a document");
     const collision::BodyCollider body(scene.body->skin);
     for (const Garment& g : scene.garments) {
-      if (map == Map::PRESSURE) values.push_back(pressure_values(g, body));
+      if (map == Map::PRESSURE) values.push_back(pressure_values(g, body, by_area));
       if (map == Map::EASE) values.push_back(ease_values(g, *scene.body, body));
       if (map != Map::GAP && map != Map::PENETRATION) continue;
       values.push_back(gaps(g, body));
       for (double& v : values.back()) v = 1000 * (map == Map::GAP ? v : std::max(0.0, -v));
     }
   }
-  const double most = summarise(values, legend);
+  if (by_area.empty())
+    for (const auto& list : values)
+      for (const double v : list)
+        if (v != NO_VALUE) by_area.push_back({v, 1});
+  const double most = summarise(std::move(by_area), legend);
   switch (map) {
   case Map::GAP: legend.title = "gap to the skin", legend.unit = "mm", legend.high = choose_range(most, {40, 80, 120, 160, 240, 320}); break;
   case Map::PENETRATION: legend.title = "depth in the skin", legend.unit = "mm", legend.high = choose_range(legend.largest, {0.8, 4, 8, 16, 40, 80}); break;

@@ -3,12 +3,11 @@
 #include <render/scene.hpp>
 namespace sloper::render {
 
-/// Strains are l/l0 - 1 with edited rest lengths, from the deformation of each triangle, area-weighted at vertices:
+/// Strains and PRESSURE are those of the reports (garment/cloth_strain.hpp), area-weighted at vertices, the legend's quantiles by area:
 /// STRAIN the larger in size of warp and weft; WARP, WEFT along the threads; BIAS the larger in size of the two diagonals.
 /// LIMIT: warp or weft strain, whichever is more of its fabric's limit, in per cent of it. A fabric's limit is its extension under
 /// 100 gf/cm, FAST's E100 (De Boos and Tester 1994): 98.07 N/m over its stretch stiffness; what is shortened has none.
-/// GAP: distance to the skin, mm. PENETRATION: depth inside the skin, mm. PRESSURE: contact pressure by Laplace's law
-/// p = T_warp k_warp + T_weft k_weft where cloth touches, T tension per width, k curvature along the thread, Pa.
+/// GAP: distance to the skin, mm. PENETRATION: depth inside the skin, mm. PRESSURE: contact pressure by Laplace's law, Pa.
 /// EASE: garment girth - body girth, cm, of the trunk levels, linear in height between them; none on sleeves.
 /// DIFFERENCE: distance of two drapes of one pattern at equal stable ids, mm; shown on the first one.
 /// PARTS: the body's parts.

@@ -82,13 +82,34 @@ TEST(fit, cloth_stretched_by_a_tenth_is_too_small_and_presses) {
   EXPECT_NEAR(r->strain_girth, 1 / 0.9 - 1, 0.002);
   EXPECT_NEAR(r->strain_p99, 1 / 0.9 - 1, 0.002);
   EXPECT_LT(r->ease_m, -0.03);
-  // Laplace: tension = least modulus of the default fabric times strain, over girth / 2 pi.
-  const Material& fabric = material_of(d.garment, "");
-  const double expected = std::min(fabric.stretch_warp_n_m, fabric.stretch_weft_n_m) * (1 / 0.9 - 1) / (r->body_m / (2 * M_PI));
-  EXPECT_NEAR(r->pressure_p95_pa, expected, 0.25 * expected);
+  // Tension over the mean radius of the waist; where a trunk curves most, twice as much and more (test_cloth_strain.cpp has the exact case).
+  const double mean = material_of(d.garment, "").stretch_weft_n_m * (1 / 0.9 - 1) / (r->body_m / (2 * M_PI));
+  EXPECT_GT(r->pressure_p95_pa, mean);
+  EXPECT_LT(r->pressure_p95_pa, 3 * mean);
   EXPECT_FALSE(d.report.fits);
   EXPECT_EQ(d.report.verdict, FitVerdict::TOO_SMALL);
   EXPECT_NE(d.report.reason.find("does not close at the"), std::string::npos) << d.report.reason;
+}
+
+TEST(fit, free_edges_around_neck_and_arms_are_measured_against_the_skin_in_their_plane) {
+  const body::Body body = measured("f-165-a");
+  const Dressed d = dressed(body, skin_shirt(body, 0.01));
+  for (const char* name : {"sleeve_hem_l", "sleeve_hem_r"}) {
+    const FitRow* r = row(d.report, name);
+    ASSERT_TRUE(r) << name;
+    EXPECT_EQ(r->kind, "edge");
+    EXPECT_NEAR(r->ease_m, 2 * M_PI * 0.01, 0.05) << name; // an edge along the scan's faces is a zigzag
+    EXPECT_NEAR(r->gap_p50_m, 0.01, 0.002) << name;
+    EXPECT_NEAR(r->body_m, body.girths.at("wrist_l").value_m, 0.04) << name;
+    EXPECT_GT(r->ease_uncertainty_m, 0) << name;
+  }
+  for (const char* name : {"calf_l", "ankle_min_l"}) EXPECT_FALSE(row(d.report, name)) << name; // a shirt has no legs
+}
+
+TEST(fit, trousers_are_measured_down_to_their_hems) {
+  const body::Body body = measured("f-165-a");
+  const Dressed d = dressed(body, skin_trousers(body, 0.01));
+  for (const char* name : {"top_edge", "leg_hem_l", "leg_hem_r", "calf_l", "calf_r"}) EXPECT_TRUE(row(d.report, name)) << name;
 }
 
 TEST(fit, strain_that_no_girth_shows_is_told_by_its_region) {
@@ -176,7 +197,7 @@ TEST(fit, every_figure_is_in_the_document_the_csv_and_the_page) {
   EXPECT_NE(page.find("a &lt;shirt&gt; on body &amp; soul"), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos); // nothing from a network
   EXPECT_EQ(page.find("nan"), std::string::npos);
-  for (const char* tag : {"table", "tr", "svg", "div", "script"}) {
+  for (const char* tag : {"table", "tr", "span", "div", "script"}) {
     std::size_t opened = 0, closed = 0;
     for (std::size_t at = 0; (at = page.find(std::string("<") + tag, at)) != std::string::npos; ++at) ++opened;
     for (std::size_t at = 0; (at = page.find(std::string("</") + tag, at)) != std::string::npos; ++at) ++closed;
@@ -213,6 +234,36 @@ TEST(fit_policy, a_girth_goes_before_the_default_and_a_fabric_before_a_class) {
   EXPECT_DOUBLE_EQ(p.limits("hip", "skirt", "jersey").tight_ease, -0.1);
   EXPECT_DOUBLE_EQ(p.strain_p99("skirt", "jersey"), 0.25);
   EXPECT_DOUBLE_EQ(p.strain_p99("skirt", "poplin"), 0.05);
+}
+
+TEST(fit_policy, what_hangs_from_the_waist_may_not_be_far_wider_than_it) {
+  const FitPolicy woven = standard_fit_policy();
+  EXPECT_LT(woven.limits("waist_semantic", "trousers").too_large_ease, 0.42);
+  EXPECT_LT(woven.limits("top_edge", "skirt").too_large_ease, 0.42);
+  EXPECT_LT(woven.limits("waist_semantic", "top").loose_ease, 0.42);
+  EXPECT_GT(woven.limits("hip", "skirt").loose_ease, 1);
+  EXPECT_TRUE(std::isinf(woven.limits("hip", "skirt").too_large_ease));
+}
+
+TEST(fit_policy, a_limit_that_is_said_pushes_those_that_are_not) {
+  const FitPolicy p = read_fit_policy(policy_file(R"("default": {"too_large_ease": 0.1}, "girths": {"bust": {"loose_ease": 0.9}})"));
+  EXPECT_DOUBLE_EQ(p.limits("waist_semantic", "top").too_large_ease, 0.1); // before the standard policy's own word on the waist
+  EXPECT_DOUBLE_EQ(p.limits("waist_semantic", "top").loose_ease, 0.1);
+  EXPECT_DOUBLE_EQ(p.limits("bust", "top").loose_ease, 0.9);
+  EXPECT_DOUBLE_EQ(p.limits("bust", "top").too_large_ease, 0.9);
+  EXPECT_THROW(read_fit_policy(policy_file(R"("default": {"loose_ease": 0.5, "too_large_ease": 0.1})")), Error);
+}
+
+TEST(fit_policy, a_girth_above_its_limit_is_too_large_and_refused) {
+  const body::Body body = measured("f-165-a");
+  FitPolicy policy = read_fit_policy(policy_file(R"("girths": {"bust": {"loose_ease": 0.01, "too_large_ease": 0.02}})"));
+  const Dressed d = dressed(body, skin_shirt(body, 0.01), policy);
+  EXPECT_FALSE(d.report.fits);
+  EXPECT_EQ(d.report.verdict, FitVerdict::TOO_LARGE);
+  EXPECT_EQ(d.report.reason.rfind("is too large at the bust: ", 0), 0u) << d.report.reason;
+  const io::Json document = fit_json(d.report, "test");
+  EXPECT_NEAR(document["girths"]["bust"]["limits_percent"]["too_large"].get<double>(), 2, 1e-9);
+  EXPECT_NE(fit_page(d.report, "a", "b").find("class=\"limit\""), std::string::npos);
 }
 
 TEST(fit_policy, what_it_does_not_know_is_refused) {

@@ -2,7 +2,9 @@
 
 #include <base/error.hpp>
 #include <garment/bind.hpp>
+#include <garment/body_sides.hpp>
 #include <garment/fit.hpp>
+#include <garment/pattern_mirror.hpp>
 #include <garment/retarget.hpp>
 #include <garment/retarget_grade.hpp>
 #include <garment/retarget_pattern.hpp>
@@ -164,8 +166,73 @@ TEST(regrade, seams_stay_as_long_on_both_sides) {
   Garment graded = g;
   std::vector<Vec3> after = g.position;
   for (Vec3& p : after) p.x() *= 1 + 0.5 * (p.y() - 0.6); // a flare
+  const GradeReport report = regrade(graded, g.position, after);
+  for (const pattern::MeshSeam& seam : graded.panels.seams) EXPECT_NEAR(seam.length_a, seam.length_b, 5e-5);
+  EXPECT_LT(report.largest_seam_change_m, 5e-5);
+  EXPECT_TRUE(report.findings.empty());
+}
+
+TEST(regrade, a_gathered_seam_keeps_its_ratio_where_the_body_is_lopsided) {
+  Garment g = sewn_tube(0.15, 0.4, 0.6);
+  for (int v = g.panels.panels[1].first_vertex; v < static_cast<int>(g.panels.pattern.size()); ++v) g.panels.pattern[v].y() *= 1.25; // gathered
+  Garment graded = g;
+  std::vector<Vec3> after = g.position;
+  for (Vec3& p : after) p.y() = 0.6 + (p.y() - 0.6) * (1.1 + p.x()), p.x() *= p.x() > 0 ? 1.3 : 1.05;
   regrade(graded, g.position, after);
-  for (const pattern::MeshSeam& seam : graded.panels.seams) EXPECT_NEAR(seam.length_a, seam.length_b, 0.001);
+  for (const pattern::MeshSeam& seam : graded.panels.seams) {
+    EXPECT_NEAR(seam.length_b / seam.length_a, 1.25, 2e-4) << seam.name;
+    EXPECT_GT(seam.length_a, 0.41) << seam.name;
+  }
+}
+
+TEST(regrade, mirror_images_are_found_by_shape_and_place) {
+  const Garment g = sewn_tube(0.15, 0.4, 0.6);
+  std::vector<Vec3> position;
+  for (const int p : g.particle_of) position.push_back(g.position[p]);
+  const std::vector<PanelMirror> mirrors = panel_mirrors(g.panels, position);
+  ASSERT_EQ(mirrors.size(), 2u);
+  EXPECT_EQ(mirrors[0].partner, 1); // the halves of the tube lie at x > 0 and x < 0
+  EXPECT_EQ(mirrors[1].partner, 0);
+  const Vec2 corner = mirrors[0].linear * Vec2(0, 0) + mirrors[0].shift;
+  EXPECT_LT((corner - Vec2(M_PI * 0.15, 0)).norm(), 1e-6); // turned over left to right, and not upside down
+  // The other way about, each half is its own mirror image.
+  for (Vec3& p : position) p = Vec3(-p.z(), p.y(), p.x());
+  const std::vector<PanelMirror> own = panel_mirrors(g.panels, position);
+  EXPECT_EQ(own[0].partner, 0);
+  EXPECT_EQ(own[1].partner, 1);
+}
+
+TEST(regrade, what_was_alike_left_and_right_stays_so_on_a_lopsided_body) {
+  const Garment g = sewn_tube(0.15, 0.4, 0.6);
+  std::vector<Vec3> after = g.position;
+  for (Vec3& p : after) p.y() = 0.6 + (p.y() - 0.6) * (1 + 0.2 * p.x()), p.x() *= p.x() > 0 ? 1.3 : 1.1;
+  Garment graded = g;
+  EXPECT_EQ(regrade(graded, g.position, after).mirrored_panels, 2);
+  const pattern::Pattern p = pattern_of(graded, g);
+  const auto edge = [&](int panel, int e) { return pattern::length(p.panels[panel].edge(e).path); };
+  for (const int e : {0, 2}) EXPECT_NEAR(edge(0, e), edge(1, e), 2e-5) << e;
+  EXPECT_NEAR(edge(0, 1), edge(1, 3), 2e-5);
+  EXPECT_NEAR(edge(0, 3), edge(1, 1), 2e-5);
+  EXPECT_GT(edge(0, 0), 1.05 * M_PI * 0.15);
+  // Beyond what is graded alike the halves go apart, and that is said.
+  graded = g;
+  const GradeReport apart = regrade(graded, g.position, after, {{{"torso", "the left shoulder is 4.0 cm longer than the right one"}}});
+  EXPECT_EQ(apart.mirrored_panels, 0);
+  ASSERT_EQ(apart.findings.size(), 1u);
+  EXPECT_NE(apart.findings[0].find("graded apart"), std::string::npos) << apart.findings[0];
+  EXPECT_GT(graded.panels.seams.size(), 0u);
+  const pattern::Pattern q = pattern_of(graded, g);
+  EXPECT_GT(pattern::length(q.panels[0].edge(0).path), pattern::length(q.panels[1].edge(0).path) + 0.03);
+}
+
+TEST(regrade, a_longer_arm_is_told_and_an_even_body_is_not) {
+  body::Body body = measured("f-165-a");
+  EXPECT_TRUE(uneven_sides(body).empty()) << uneven_sides(body)[0].text;
+  body.landmarks.at("wrist_l").p += 0.08 * (body.landmark("wrist_l") - body.landmark("elbow_l")).normalized();
+  const std::vector<SideDifference> uneven = uneven_sides(body);
+  ASSERT_EQ(uneven.size(), 1u);
+  EXPECT_EQ(uneven[0].limb, "arm");
+  EXPECT_EQ(uneven[0].text.rfind("the left arm is ", 0), 0u) << uneven[0].text;
 }
 
 TEST(retarget_pattern, outlines_and_seams_come_back_from_the_mesh) {
