@@ -16,9 +16,9 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double REACH_BEYOND = 0.03; // m above and below a level that cloth must reach, or it may slide to where it is wide enough
+constexpr double REACH_BEYOND = 0.03;  // m above and below a level that cloth must reach, or it may slide to where it is wide enough
 constexpr double OVER_THE_HAND = 0.02; // m beyond the wrist from which a cuff lies on the hand
-constexpr double NOT_AT_REST = 0.01;  // m that a drape which did not come to rest may still move
+constexpr double NOT_AT_REST = 0.01;   // m that a drape which did not come to rest may still move
 
 std::string centimetres(double m) {
   char text[32];
@@ -125,7 +125,8 @@ void tell_long_sleeve(const FitLines& lines, FitRow& row) {
   const auto share = lines.coverage.find(sleeve);
   if (share == lines.coverage.end() || share->second <= 1) return;
   const double beyond = lines.coverage_m.at(sleeve) * (1 - 1 / share->second);
-  if (beyond > OVER_THE_HAND) row.reason = "has the " + spoken_girth(row.name) + " " + centimetres(beyond) + " beyond the wrist, on the hand, where it does not close";
+  if (beyond > OVER_THE_HAND)
+    row.reason = "has the " + spoken_girth(row.name) + " " + centimetres(beyond) + " beyond the wrist, on the hand, where it does not close";
 }
 
 /// The verdict of all rows, the strain and the slip.

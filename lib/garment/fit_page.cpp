@@ -20,7 +20,7 @@ h1{font-size:1.4rem;margin:.2rem 0}h2{font-size:1.05rem;margin:1.6rem 0 .4rem}.p
 .ok{color:var(--ok)}.loose{color:var(--loose)}.tight{color:var(--tight)}.bad{color:var(--bad)}
 .wide{overflow-x:auto}table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums;font-size:.9rem}
 th,td{padding:.35rem .6rem;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}
-th:first-child,td:first-child,td.words{text-align:left}th{cursor:pointer;color:var(--pale);font-weight:600}th[aria-sort]{color:var(--ink)}
+th:first-child,td:first-child,th.words,td.words{text-align:left}th{cursor:pointer;color:var(--pale);font-weight:600}th[aria-sort]{color:var(--ink)}
 .bars{display:grid;grid-template-columns:minmax(6rem,max-content) minmax(8rem,1fr) max-content;gap:.2rem .7rem;align-items:center;font-size:.9rem}
 .bars b{font-weight:400}.bars .n{text-align:right;font-variant-numeric:tabular-nums}.track,.axis{position:relative;height:1.25rem;overflow:hidden}
 .track i{position:absolute;top:0;bottom:0}.axis i{position:absolute;transform:translateX(-50%);font-style:normal;font-size:.75rem;color:var(--pale)}
@@ -72,7 +72,7 @@ const char* css_class(FitVerdict verdict) {
 
 std::string table(const std::vector<std::string>& heads, const std::string& rows) {
   std::string text = "<div class=\"wide\"><table><thead><tr>";
-  for (const std::string& head : heads) text += "<th>" + head + "</th>";
+  for (const std::string& head : heads) text += (head == "along" || head == "verdict" ? "<th class=\"words\">" : "<th>") + head + "</th>";
   return text + "</tr></thead><tbody>" + rows + "</tbody></table></div>\n";
 }
 
@@ -104,9 +104,10 @@ std::string ease_bars(const std::vector<FitRow>& rows) {
     scale.show(r.limits.too_small_ease - 0.01);
   }
   std::string axis, lines;
-  for (double t = std::ceil(scale.low / scale.step()) * scale.step(); t <= scale.high; t += scale.step()) {
-    axis += "<i style=\"left:" + number(scale.at(t), 2) + "%\">" + number(100 * t, 0) + "</i>";
-    lines += mark(std::abs(t) < 1e-9 ? "zero" : "grid", scale.at(t));
+  for (int k = static_cast<int>(std::ceil(scale.low / scale.step())); k * scale.step() <= scale.high; ++k) {
+    const double at = scale.at(k * scale.step());
+    axis += "<i style=\"left:" + number(at, 2) + "%\">" + number(100 * scale.step() * k, 0) + "</i>";
+    lines += mark(k == 0 ? "zero" : "grid", at);
   }
   std::string bars = "<div class=\"bars\"><b></b><span class=\"axis\">" + axis + "</span><b class=\"n\">ease %</b>\n";
   for (const FitRow& r : rows) {
@@ -139,13 +140,12 @@ std::string fit_page(const FitReport& report, const std::string& garment, const 
     for (const FitRow& r : report.rows)
       rows += "<tr><td>" + escaped(spoken_girth(r.name)) + "</td>" + cell(r.height_m * 100, 1) + cell(r.body_m * 100, 1, r.body_uncertainty_m * 100) +
               cell(r.rest_m * 100, 1, r.garment_uncertainty_m * 100) + cell(r.ease_m * 100, 1, r.ease_uncertainty_m * 100) +
-              cell(100 * r.ease_m / r.body_m, 1) + cell(100 * r.strain_p99, 1, 100 * r.strain_uncertainty) + "<td class=\"words\">" + r.strain_direction +
-              "</td>" + cell(1000 * r.gap_p05_m, 1) + cell(1000 * r.gap_p50_m, 1, 1000 * r.gap_uncertainty_m) +
-              cell(r.pressure_p95_pa, 0, r.pressure_uncertainty_pa) + "<td class=\"words " + css_class(r.verdict) + "\">" + verdict_name(r.verdict) +
-              "</td></tr>\n";
+              cell(100 * r.ease_m / r.body_m, 1) + "<td class=\"words " + css_class(r.verdict) + "\">" + verdict_name(r.verdict) + "</td>" +
+              cell(100 * r.strain_p99, 1, 100 * r.strain_uncertainty) + "<td class=\"words\">" + r.strain_direction + "</td>" + cell(1000 * r.gap_p05_m, 1) +
+              cell(1000 * r.gap_p50_m, 1, 1000 * r.gap_uncertainty_m) + cell(r.pressure_p95_pa, 0, r.pressure_uncertainty_pa) + "</tr>\n";
     page += "<h2>Ease</h2>\n" + ease_bars(report.rows) + "<h2>Girths</h2>\n" +
-            table({"girth", "height cm", "body cm", "garment cm", "ease cm", "ease %", "strain p99 %", "along", "gap p05 mm", "gap p50 mm", "pressure p95 Pa",
-                   "verdict"},
+            table({"girth", "height cm", "body cm", "garment cm", "ease cm", "ease %", "verdict", "strain p99 %", "along", "gap p05 mm", "gap p50 mm",
+                   "pressure p95 Pa"},
                   rows);
   }
   if (!report.regions.empty()) {

@@ -24,6 +24,8 @@ constexpr double CONTACT_STIFFNESS = 200;  // of a push against the spreading
 constexpr double SEARCH_DEPTH = 0.15;      // m, deeper is not looked for
 constexpr double FINAL_GAP_SHARE = 0.5;    // of the gap: near enough to stop
 constexpr int LEAST_ROUNDS = 6;            // before which the shape has not found its rest
+constexpr double LONGEST_MOVE = 0.008;     // m of a particle in one round
+constexpr double STILL = 0.003;            // m that no particle moves any more in a round
 
 using Field = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
@@ -48,22 +50,32 @@ io::Json state_json(const PlacementState& s) {
           {"self_intersections", s.self_intersections}};
 }
 
-/// Pushes of one round: for each particle that is in contact the largest wanted move, which may be zero.
+/// A move that stays where the skin is still what it was seen as.
+Vec3 shortened(const Vec3& move) {
+  const double length = move.norm();
+  return length > LONGEST_MOVE ? Vec3(LONGEST_MOVE / length * move) : move;
+}
+
+/// Contacts of one round: for each particle that is near the skin the plane that wants it farthest out.
 class Pushes {
 public:
-  Pushes(std::size_t n, double nearest) : m_push(n, Vec3::Zero()), m_active(n, 0), m_nearest(nearest) {}
-  void add(int particle, const Vec3& push, double distance) {
-    if (push.squaredNorm() > m_push[particle].squaredNorm()) m_push[particle] = push;
-    m_active[particle] = 1;
+  Pushes(std::size_t n, double nearest) : m_normal(n, Vec3::Zero()), m_amount(n, -1), m_nearest(nearest) {}
+  /// @param amount  m along the unit normal, 0 for what is only not to come nearer
+  void add(int particle, const Vec3& normal, double amount, double distance) {
+    if (amount > m_amount[particle]) m_normal[particle] = normal, m_amount[particle] = amount;
     m_nearest = std::min(m_nearest, distance);
   }
-  const Vec3& operator[](std::size_t i) const { return m_push[i]; }
-  bool active(std::size_t i) const { return m_active[i] != 0; }
+  bool active(std::size_t i) const { return m_amount[i] >= 0; }
+  /// Where the shape alone wants a particle, brought to its side of the plane: what slides along the skin is free to.
+  Vec3 admitted(std::size_t i, const Vec3& now, const Vec3& wanted) const {
+    const Vec3 move = shortened(wanted - now);
+    return now + move + std::max(0.0, m_amount[i] - m_normal[i].dot(move)) * m_normal[i];
+  }
   double nearest() const { return m_nearest; } ///< smallest distance to the skin, m
 
 private:
-  std::vector<Vec3> m_push;
-  std::vector<char> m_active;
+  std::vector<Vec3> m_normal;
+  std::vector<double> m_amount;
   double m_nearest;
 };
 
@@ -74,13 +86,13 @@ Pushes pushes_of(const std::vector<Vec3>& x, const std::vector<Triangle>& triang
     const collision::SignedDistance d = body.signed_distance(x[i], SEARCH_DEPTH, hint[i]);
     if (d.triangle >= 0) hint[i] = d.triangle;
     // What lies just outside the gap is held too, or it would fall in while its neighbours are pushed.
-    if (d.distance < 1.5 * gap) pushes.add(static_cast<int>(i), std::max(0.0, gap - d.distance) * d.normal, d.distance);
+    if (d.distance < 1.5 * gap) pushes.add(static_cast<int>(i), d.normal, std::max(0.0, gap - d.distance), d.distance);
   }
   for (const collision::FaceContact& c : body.face_contacts(x, triangles, topology, std::max(gap, 0.01))) {
     if (c.distance >= gap) continue;
     const double share = c.barycentric.squaredNorm();
     for (int k = 0; k < 3; ++k)
-      if (c.barycentric[k] > 0) pushes.add(triangles[c.triangle][k], (gap - c.distance) * c.barycentric[k] / share * c.normal, c.distance);
+      if (c.barycentric[k] > 0) pushes.add(triangles[c.triangle][k], c.normal, (gap - c.distance) * c.barycentric[k] / share, c.distance);
   }
   return pushes;
 }
@@ -137,23 +149,37 @@ int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, c
   const SurfaceOperators ops = surface_operators(shape, triangles);
   const Rotations rotations(shape, ops);
   const double attraction = 1 / (ATTRACTION_LENGTH * ATTRACTION_LENGTH), push_stiffness = CONTACT_STIFFNESS / (CONTACT_LENGTH * CONTACT_LENGTH);
+  Eigen::SparseMatrix<double> free_system = ops.stiffness;
+  for (std::size_t i = 0; i < n; ++i)
+    free_system.coeffRef(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += attraction * ops.mass[static_cast<Eigen::Index>(i)];
+  const SparseSolver free_solver(free_system);
   SparseSolver solver;
   solver.analyse(ops.stiffness);
   std::vector<int> hint(n, -1);
+  double largest_move = 0;
   for (int round = 0; round < max_rounds; ++round) {
     const Pushes pushes = pushes_of(positions, triangles, topology, body, gap, hint);
-    if (round >= LEAST_ROUNDS && pushes.nearest() >= FINAL_GAP_SHARE * gap && body.faces_through(positions, triangles).empty()) return round;
+    if (round >= LEAST_ROUNDS && largest_move < STILL && pushes.nearest() >= FINAL_GAP_SHARE * gap && body.faces_through(positions, triangles).empty())
+      return round;
     Field right = rotations.right_side(positions);
-    Eigen::SparseMatrix<double> system = ops.stiffness;
+    for (std::size_t i = 0; i < n; ++i)
+      right.row(static_cast<Eigen::Index>(i)) += (attraction * ops.mass[static_cast<Eigen::Index>(i)] * placed[i]).transpose();
+    const Field wanted = free_solver.solve(right);
+    Eigen::SparseMatrix<double> system = free_system;
     for (std::size_t i = 0; i < n; ++i) {
+      if (!pushes.active(i)) continue;
       const auto row = static_cast<Eigen::Index>(i);
-      const double pull = attraction * ops.mass[row], push = pushes.active(i) ? push_stiffness * ops.mass[row] : 0;
-      system.coeffRef(row, row) += pull + push;
-      right.row(row) += (pull * placed[i] + push * (positions[i] + pushes[i])).transpose();
+      system.coeffRef(row, row) += push_stiffness * ops.mass[row];
+      right.row(row) += (push_stiffness * ops.mass[row] * pushes.admitted(i, positions[i], wanted.row(row).transpose())).transpose();
     }
     solver.factorise(system);
     const Field solved = solver.solve(right);
-    for (std::size_t i = 0; i < n; ++i) positions[i] = solved.row(static_cast<Eigen::Index>(i)).transpose();
+    largest_move = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec3 move = shortened(Vec3(solved.row(static_cast<Eigen::Index>(i)).transpose()) - positions[i]);
+      largest_move = std::max(largest_move, move.norm());
+      positions[i] += move;
+    }
   }
   return max_rounds;
 }

@@ -1,3 +1,5 @@
+#include "cylinder.hpp"
+
 #include <collision/body_collider.hpp>
 #include <garment/audit.hpp>
 #include <garment/cloth_strain.hpp>
@@ -35,24 +37,6 @@ Garment tube(double radius, double around, double along) {
   g.panels.panels.push_back(p);
   g.panels.placed = g.position;
   return g;
-}
-
-/// A closed cylinder for a body.
-TriangleMesh cylinder(double radius) {
-  TriangleMesh mesh;
-  const int n = 96;
-  for (const double y : {-0.2, 0.6})
-    for (int c = 0; c < n; ++c) mesh.positions.emplace_back(radius * std::sin(2 * M_PI * c / n), y, radius * std::cos(2 * M_PI * c / n));
-  mesh.positions.emplace_back(0, -0.2, 0);
-  mesh.positions.emplace_back(0, 0.6, 0);
-  for (int c = 0; c < n; ++c) {
-    const int d = (c + 1) % n;
-    mesh.triangles.push_back({c, d, n + d});
-    mesh.triangles.push_back({c, n + d, n + c});
-    mesh.triangles.push_back({2 * n, d, c});
-    mesh.triangles.push_back({2 * n + 1, n + c, n + d});
-  }
-  return mesh;
 }
 
 } // namespace

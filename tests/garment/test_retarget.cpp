@@ -1,3 +1,4 @@
+#include "cylinder.hpp"
 #include "skin_garment.hpp"
 
 #include <base/error.hpp>
@@ -88,6 +89,20 @@ TEST(retarget, on_its_own_body_nothing_moves_but_out_of_the_contact_gap) {
   const Retargeted r = retarget(g, body, skin, RetargetMode::KEEP_FABRIC, silent_reporter());
   EXPECT_EQ(r.report.placed.vertices_inside, r.report.cleared.vertices_inside);
   EXPECT_LT(r.report.largest_move_m, 0.01);
+}
+
+TEST(retarget, cloth_that_was_placed_too_long_slides_along_the_skin_to_its_own_length) {
+  const Garment g = sewn_tube(0.15, 0.4, 0.6);
+  const collision::BodyCollider skin(cylinder(0.148, 1.6));
+  std::vector<Vec3> x = g.position;
+  for (Vec3& p : x) p.y() = 0.8 + 1.1 * (p.y() - 0.8); // as on a longer limb, everywhere within reach of the skin
+  settle_shape(x, g.position, g.particle_triangles(), skin, 0.003);
+  double low = 1e300, high = -1e300;
+  for (const Vec3& p : x) {
+    low = std::min(low, p.y()), high = std::max(high, p.y());
+    EXPECT_GT(std::hypot(p.x(), p.z()), 0.148);
+  }
+  EXPECT_LT((high - low) / 0.4 - 1, 0.04); // a tenth, where the skin holds what is near it
 }
 
 TEST(retarget, a_childs_shirt_on_a_large_man_does_not_close) {
