@@ -210,7 +210,9 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
 }
 
 FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before) {
-  return {1.5 * policy.slip_m(before.garment_class, before.fabric), 1.5 * policy.strain_p99(before.garment_class, before.fabric)};
+  // Cloth with ease all around is not too small, whatever strain it starts with: it gets rid of that by sliding, and may be slow.
+  const double strain = before.margin_m < 0 ? 1.5 * policy.strain_p99(before.garment_class, before.fabric) : 0;
+  return {1.5 * policy.slip_m(before.garment_class, before.fabric), strain};
 }
 
 FitReport fit_before_drape(const Garment& placed, const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy) {
@@ -236,7 +238,10 @@ FitReport fit_before_drape(const Garment& placed, const std::vector<Vec3>& sourc
       missing = std::min(missing, place.body_m - place.body_spread_m - reach);
     }
     if (!line) continue;
-    if (missing <= 0) continue;
+    if (missing <= 0) {
+      if (worst == 0) report.margin_m = std::min(report.margin_m, line->rest - (1 + limits.tight_ease) * place.body_m);
+      continue;
+    }
     FitRow row;
     row.name = place.name, row.kind = place.kind, row.height_m = place.center.y(), row.body_m = place.body_m;
     row.rest_m = line->rest, row.lying_m = line->lying, row.ease_m = row.rest_m - row.body_m;

@@ -76,13 +76,14 @@ struct FitReport {
 FitReport fit_garment(const Garment& garment, const body::Body& body, const collision::BodyCollider& skin, const FitPolicy& policy,
                       const std::vector<Vec3>* placed = nullptr, bool beyond_bounds = false);
 
-/// Bounds for a drape beyond which the garment will not fit by the policy: one and a half times the slip and the strain that it bears.
-/// @param before  of fit_before_drape(), for the class and the fabric
+/// Bounds for a drape beyond which the garment will not fit by the policy: one and a half times the slip that it bears, and the strain where a
+/// girth is tight; strain alone, of sleeves that slide along an arm, says nothing before the cloth is at rest.
+/// @param before  of fit_before_drape(), for the class, the fabric and the least ease
 FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before);
 
 /// Whether a garment can go on at all, before any drape: only girths that the cloth does not reach round even when it is stretched by
 /// all that the policy bears, or as far as it was on the first body where that is further (an elastic band). Only `fits`, `verdict`,
-/// `reason` and the refused rows are told.
+/// `reason`, the refused rows and, where it may go on, a `margin_m` below zero for a tight girth are told.
 /// @param placed on `body`, bound to any body   @param source_position #P: where it hung when it was at rest
 FitReport fit_before_drape(const Garment& placed, const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy);
 

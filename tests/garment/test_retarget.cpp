@@ -105,6 +105,13 @@ TEST(retarget, cloth_that_was_placed_too_long_slides_along_the_skin_to_its_own_l
   EXPECT_LT((high - low) / 0.4 - 1, 0.04); // a tenth, where the skin holds what is near it
 }
 
+TEST(retarget, strain_ends_a_drape_only_where_a_girth_is_tight) {
+  const body::Body body = measured("f-165-a");
+  const FitPolicy policy = standard_fit_policy();
+  EXPECT_EQ(hopeless_beyond(policy, before_drape(bound(skin_shirt(body, 0.03), body), body)).strain_p99, 0);
+  EXPECT_GT(hopeless_beyond(policy, before_drape(bound(skin_shirt(body, 0.004, 0.05), body), body)).strain_p99, 0);
+}
+
 TEST(retarget, a_childs_shirt_on_a_large_man_does_not_close) {
   samples::Mannequin child, man;
   child.sex = "m", child.stature_m = 1.3, child.bmi = 17;
