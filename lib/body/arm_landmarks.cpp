@@ -9,7 +9,7 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double FLAT = 0.002; ///< m
+constexpr double REAR_FLAT = 0.002; ///< m
 
 /// The skin straight above (x, z), below the head.
 std::optional<Vec3> top_of_shoulder(const TriangleMesh& skin, double stature, double x, double z) {
@@ -131,12 +131,12 @@ Vec3 rear_of_section(const ArmTrace& arm, const TriangleMesh& skin, double along
   for (const auto& seg : loop->segments)
     for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
       const Vec3 p = plane.point((1 - t) * seg[0] + t * seg[1]);
-      const double w = std::max(0.0, rear + FLAT - p.z()) * (seg[1] - seg[0]).norm();
+      const double w = std::max(0.0, rear + REAR_FLAT - p.z()) * (seg[1] - seg[0]).norm();
       back += w * p, weight += w;
     }
   if (weight > 0) back /= weight;
   else back = plane.point(loop->centroid);
-  back.z() = std::min(back.z(), rear + 0.25 * FLAT);
+  back.z() = std::min(back.z(), rear + 0.25 * REAR_FLAT);
   return back;
 }
 

@@ -14,7 +14,7 @@ constexpr double OTHER_FINGER = 0.12;               ///< over the skin to anothe
 constexpr double ROUND_CLEFT = 1.8;                 ///< of the straight distance
 constexpr double STRETCHED = 0.067;                 ///< straight to the middle of what is 0.11 to 0.13 away over the skin
 constexpr double HAND_SKIP = 0.030;                 ///< fingers: no single section
-constexpr double STEP = 0.005;
+constexpr double TRACE_STEP = 0.005;
 constexpr double ARM_REACH = 0.46; ///< over the skin from finger tip to beyond the shoulder
 constexpr double MAX_ARM_GIRTH = 0.36;
 constexpr double JUMP = 1.35;      ///< of the girth, where the section runs into the trunk
@@ -175,7 +175,7 @@ void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& 
       const Vec3 chord = arm.sections.back().center - arm.sections[n - 8].center;
       if (chord.norm() > 1e-6) axis = (0.5 * axis + 0.5 * chord.normalized()).normalized();
     }
-    center = arm.sections.back().center + STEP * s * axis;
+    center = arm.sections.back().center + TRACE_STEP * s * axis;
   }
   // the last sections lean into the shoulder
   while (arm.sections.size() > 30 && arm.sections.back().girth > 1.12 * arm.sections[arm.sections.size() - 5].girth) arm.sections.pop_back();

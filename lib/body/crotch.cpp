@@ -9,8 +9,8 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double FLAT = 0.003; ///< m: as far back as makes no difference
-constexpr double SAG = 0.015;  ///< a closed hole hangs this much lower than the skin that was there
+constexpr double CROTCH_FLAT = 0.003; ///< m: as far back as makes no difference
+constexpr double SAG = 0.015;         ///< a closed hole hangs this much lower than the skin that was there
 /// Half sizes of the box in which points of the scan show the crotch: thin, for the thighs beside a hole are near.
 const Vec3 SEEN(0.004, 0.012, 0.025);
 
@@ -23,7 +23,7 @@ std::optional<double> buttock_level(const LevelStack& levels) {
     if (slice.trunk >= 0) backs.emplace_back(slice.y, slice.loops[slice.trunk].low.y());
   }
   if (backs.empty()) return std::nullopt;
-  const Lowest rearmost = lowest_of(backs, FLAT);
+  const Lowest rearmost = lowest_of(backs, CROTCH_FLAT);
   if (rearmost.least > top - 0.025 * s) return std::nullopt;
   return rearmost.middle;
 }

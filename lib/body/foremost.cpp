@@ -7,14 +7,14 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double STEP = 0.0012, ACROSS_FLAT = 0.0036; // of stature
-constexpr std::ptrdiff_t MARGIN = 4;                  // levels at an end of the heights
+constexpr double LEVEL_STEP = 0.0012, ACROSS_FLAT = 0.0036; // of stature
+constexpr std::ptrdiff_t MARGIN = 4;                        // levels at an end of the heights
 
 /// The farthest skin of each level; on a flat front the middle of what is as far out as its vertices can tell.
 std::vector<Vec3> outline_of(const Finder& f, Span heights, Span across, double sign) {
   std::vector<Vec3> outline;
   const double across_flat = ACROSS_FLAT * f.s;
-  for (double y = heights.low; y <= heights.high; y += STEP * f.s) {
+  for (double y = heights.low; y <= heights.high; y += LEVEL_STEP * f.s) {
     const auto loop = f.levels.trunk_at(y);
     if (!loop) continue;
     std::optional<Vec3> outer;

@@ -9,7 +9,7 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double FLAT = 0.001; ///< m: as far out as makes no difference
+constexpr double LEG_FLAT = 0.001; ///< m: as far out as makes no difference
 
 /// Height of the hollow behind the knee: where the back of the leg comes furthest forward.
 std::optional<double> hollow_of_knee(const Finder& f, int side, double around) {
@@ -17,7 +17,7 @@ std::optional<double> hollow_of_knee(const Finder& f, int side, double around) {
   for (double y = around - 0.03 * f.s; y <= around + 0.06 * f.s; y += 0.0025 * f.s)
     if (const auto loop = f.levels.leg_at(y, side)) backs.emplace_back(y, -loop->low.y());
   if (backs.empty()) return std::nullopt;
-  const Lowest deepest = lowest_of(backs, FLAT);
+  const Lowest deepest = lowest_of(backs, LEG_FLAT);
   if (deepest.least < around - 0.027 * f.s || deepest.least > around + 0.057 * f.s) return std::nullopt; // at the end of the search there is no hollow
   return deepest.middle;
 }
@@ -70,7 +70,7 @@ void find_knee(const Finder& f, int side, double ankle_y, double hip_y) {
   if (!height) return;
   const auto section = f.levels.leg_at(height->value, side);
   if (!section) return;
-  const Vec2 cap = outermost(*section, Vec2::UnitY(), FLAT);
+  const Vec2 cap = outermost(*section, Vec2::UnitY(), LEG_FLAT);
   f.find("patella", suffix, 2, {{"foremost_at_knee", [&] { return std::optional(Vec3(cap.x(), height->value, cap.y())); }}});
   const Vec3 joint(section->center().x(), height->value, cap.y() - f.number("knee.behind_patella") * f.s);
   f.put("knee" + suffix, joint, 2, *height->rule);
@@ -104,7 +104,7 @@ void find_leg(const Finder& f, int side) {
   // the section at this height holds the heel's upper rim: its middle in x, the joint lies nearer to the heel
   const Vec3 joint(ankle->center().x() - sign * 0.0015 * s, ankle_y, ankle->low.y() + f.number("ankle.from_behind") * ankle->size().y());
   f.find("ankle", suffix, 2, {{"height_ratio", [&] { return std::optional(joint); }}});
-  const Vec2 outer = outermost(*ankle, Vec2(sign, 0), FLAT);
+  const Vec2 outer = outermost(*ankle, Vec2(sign, 0), LEG_FLAT);
   f.find("malleolus", suffix, 2, {{"outermost_at_ankle", [&] { return std::optional(Vec3(outer.x(), ankle_y, outer.y())); }}});
   find_knee(f, side, ankle_y, hip.y());
 }

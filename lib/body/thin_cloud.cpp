@@ -12,7 +12,7 @@ namespace sloper::body {
 
 namespace {
 
-constexpr int ROUNDS = 3, COMPANY = 8;                                        ///< points that a plane is laid through
+constexpr int FILL_ROUNDS = 3, COMPANY = 8;                                   ///< points that a plane is laid through
 constexpr std::array<double, 7> REACH = {1.5, 2.1, 3.0, 4.2, 6.0, 8.5, 12.0}; ///< of the spacing wanted
 constexpr double DENSE = 2.1;                                                 ///< eight points within so many spacings: nothing to add
 constexpr double AGREE = 0.55;                                                ///< cosine of two normals on one side of the body
@@ -57,7 +57,7 @@ std::vector<Neighbourhood> neighbourhoods(const std::vector<Vec3>& points, doubl
 }
 
 /// The middle of the curve between two points of one surface; none when they are on two.
-std::optional<Vec3> between(const Vec3& p, const Vec3& n, const Vec3& q, Vec3 m) {
+std::optional<Vec3> middle_between(const Vec3& p, const Vec3& n, const Vec3& q, Vec3 m) {
   const Vec3 way = q - p;
   const double length = way.norm();
   double agree = n.dot(m);
@@ -70,7 +70,7 @@ std::optional<Vec3> between(const Vec3& p, const Vec3& n, const Vec3& q, Vec3 m)
 
 std::vector<Vec3> fill_thin_cloud(const std::vector<Vec3>& points, double spacing) {
   std::vector<Vec3> cloud = points;
-  for (int round = 0; round < ROUNDS; ++round) {
+  for (int round = 0; round < FILL_ROUNDS; ++round) {
     const std::vector<Neighbourhood> around = neighbourhoods(cloud, spacing);
     std::vector<Vec3> added;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -80,7 +80,7 @@ std::vector<Vec3> fill_thin_cloud(const std::vector<Vec3>& points, double spacin
         const Neighbourhood& b = around[j];
         const bool both = b.reach > DENSE * spacing && std::binary_search(b.near.begin(), b.near.end(), static_cast<int>(i));
         if (b.reach <= 0 || (both && j < static_cast<int>(i)) || (cloud[j] - cloud[i]).squaredNorm() < spacing * spacing) continue;
-        if (const auto middle = between(cloud[i], a.normal, cloud[j], b.normal)) added.push_back(*middle);
+        if (const auto middle = middle_between(cloud[i], a.normal, cloud[j], b.normal)) added.push_back(*middle);
       }
     }
     if (added.empty()) break;

@@ -10,7 +10,7 @@ namespace sloper::body {
 
 namespace {
 
-constexpr int ROUNDS = 6, SMOOTHINGS = 3;
+constexpr int PARTING_ROUNDS = 6, SMOOTHINGS = 3;
 constexpr double OPPOSED = -0.5;      ///< cosine of the two normals
 constexpr double DEEPEST = 0.006;     ///< m: skin that passes farther into other skin is left alone
 constexpr double LARGEST_WAY = 0.003; ///< m
@@ -120,7 +120,7 @@ OpenedSkin open_touching_skin(TriangleMesh& skin, const std::vector<char>& may_m
   std::vector<char> wants;
   const std::vector<Triangle> near = triangles_around(skin, candidate, 0);
   std::vector<std::array<int, 2>> edges; // of what a way can spread to
-  for (int round = 0; round < ROUNDS; ++round) {
+  for (int round = 0; round < PARTING_ROUNDS; ++round) {
     std::vector<Vec3> way = wanted_ways(skin, candidate, near, gap_m, wants);
     if (std::find(wants.begin(), wants.end(), 1) == wants.end()) break;
     if (edges.empty()) edges = edges_of(triangles_around(skin, candidate, SMOOTHINGS));

@@ -13,16 +13,13 @@ namespace {
 constexpr double OWN_LEAN = 5;   ///< degrees by which the line from calves to head leans in upright people, at most
 constexpr double FOOT_LEAN = 12; ///< degrees between that line and the normal of the plane below the feet: more, and the feet do not rest on it
 constexpr double NEAR_AXIS = 3;  ///< degrees: so near to the axis that was read, the axis is meant
-constexpr int ROUNDS = 6;
+constexpr int STANDING_ROUNDS = 6;
 constexpr double CLEAR = 0.9, CLEARLY_BETTER = 0.1; ///< scores of readings
-constexpr double FOOT_HEIGHT = 0.06;                ///< of stature
 constexpr std::size_t THINNED = 20000;
 constexpr int COARSE_CELLS = 72; ///< along the longest side, to read many directions
 constexpr int DIRECTIONS = 110;  ///< over half the sphere: about 14 degrees apart
 constexpr std::size_t CANDIDATES = 4;
 constexpr double SAME = 25; ///< degrees: directions that near lead to the same
-
-double degrees_between(const Vec3& a, const Vec3& b) { return units::degrees(std::acos(std::clamp(a.dot(b) / (a.norm() * b.norm()), -1.0, 1.0))); }
 
 /// From the middle of the calves to the middle of the head; nothing where either is missing.
 std::optional<Vec3> body_line(const std::vector<Vec3>& positions, const SortedScan& sorted) {
@@ -78,7 +75,7 @@ struct Standing {
 /// From a rough direction to that of the body's line, then of the normal of the plane below the feet.
 std::optional<Standing> stand_up(const std::vector<Vec3>& points, Vec3 up) {
   double score = 0;
-  for (int round = 0; round < ROUNDS; ++round) {
+  for (int round = 0; round < STANDING_ROUNDS; ++round) {
     const Eigen::Matrix3d turn = turn_to_y(up);
     TriangleMesh cloud;
     cloud.positions = turned(turn, points);
@@ -97,7 +94,7 @@ std::optional<Standing> stand_up(const std::vector<Vec3>& points, Vec3 up) {
       Box3 box;
       for (std::size_t v = 0; v < points.size(); ++v)
         if (stands.is_body[v])
-          if (const Vec3 p = along * cloud.positions[v]; p.y() < lowest + FOOT_HEIGHT * (stands.high - stands.low)) feet.push_back(p), box.add(p);
+          if (const Vec3 p = along * cloud.positions[v]; p.y() < lowest + SOLE_HEIGHT * (stands.high - stands.low)) feet.push_back(p), box.add(p);
       if (const auto plane = resting_plane(feet, Vec2(box.center().x(), box.center().z()))) {
         const Vec3 normal = Vec3(-plane->x(), 1, -plane->y()).normalized();
         if (degrees_between(normal, Vec3::UnitY()) < FOOT_LEAN) next = along.transpose() * normal;

@@ -4,6 +4,8 @@
 #include <body/scan_sorting.hpp>
 namespace sloper::body {
 
+inline constexpr double SOLE_HEIGHT = 0.06; ///< of stature: the feet below it are what a person rests on
+
 /// The turn that makes +y the direction in which a person stands up in the scan; nothing where one of the file's axes is that
 /// direction (`sorted` reads them), or where no direction shows a person. The line from the calves to the head tells the direction
 /// roughly, the plane on which both feet rest exactly; a person who only leans by less than 5 degrees is left as it is.

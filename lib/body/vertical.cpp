@@ -15,9 +15,8 @@ namespace {
 constexpr double HEAD_BEFORE_CALVES = 2.0; ///< degrees by which the line from the calves to the head leans forward in upright people
 constexpr double FAR_APART = 4;            ///< degrees between posture and soles: so far, the soles are not believed at all
 constexpr double NEAR_FILE = 1.5;          ///< degrees from the file's vertical to the body's: so near, the body's is taken
-constexpr int ROUNDS = 2, HEADINGS = 2;
-constexpr double SETTLED = 1e-4;     ///< rad
-constexpr double FOOT_HEIGHT = 0.06; ///< of stature
+constexpr int SHAPE_ROUNDS = 2, HEADINGS = 2;
+constexpr double SETTLED = 1e-4; ///< rad
 
 /// A direction that is nearly +y, rad from it: `forward` to +z, `left` to +x.
 struct Lean {
@@ -43,7 +42,7 @@ std::optional<Lean> lean_of_soles(const std::vector<Vec3>& points, double statur
   std::vector<Vec3> feet;
   Box3 box;
   for (const Vec3& p : points)
-    if (p.y() < FOOT_HEIGHT * stature) feet.push_back(p), box.add(p);
+    if (p.y() < SOLE_HEIGHT * stature) feet.push_back(p), box.add(p);
   const auto plane = resting_plane(feet, Vec2(box.center().x(), box.center().z()));
   if (!plane) return std::nullopt;
   return Lean{-std::atan(plane->y()), -std::atan(plane->x())};
@@ -55,8 +54,6 @@ double drawn(double own, double other) {
   return own + 0.5 * std::max(0.0, 1 - off * off) * (other - own);
 }
 
-double degrees_between(const Vec3& a, const Vec3& b) { return units::degrees(std::acos(std::clamp(a.dot(b), -1.0, 1.0))); }
-
 } // namespace
 
 std::optional<ShapeVertical> vertical_of_shape(std::vector<Vec3> points, const CanonicalFrame& frame) {
@@ -66,7 +63,7 @@ std::optional<ShapeVertical> vertical_of_shape(std::vector<Vec3> points, const C
   ShapeVertical vertical{Vec3::UnitY(), Vec3::UnitY(), std::nullopt};
   Vec3 up = Vec3::UnitY(); // in `frame`
   turned.resize(points.size());
-  for (int round = 0; round < ROUNDS; ++round) {
+  for (int round = 0; round < SHAPE_ROUNDS; ++round) {
     Eigen::Matrix3d turn = rotation_between(up, Vec3::UnitY()).toRotationMatrix();
     double low = 1e300, high = -1e300;
     for (std::size_t k = 0; k < points.size(); ++k) {

@@ -4,7 +4,7 @@ namespace sloper::cli {
 
 static constexpr std::size_t WIDTH = 80, COLUMN = 28;
 
-static std::string row_text(const OptionRow& row) {
+static std::string help_row(const OptionRow& row) {
   std::string head = "  " + row.spelling();
   std::string text = row.description;
   if (!row.range.empty()) text += " [" + row.range + "]";
@@ -19,7 +19,7 @@ std::string help_text(const ToolDescription& tool) {
   if (!tool.examples.empty()) out += "\nExamples:\n";
   for (const Example& example : tool.examples) out += "  " + example.command_line + "\n      " + wrap(example.what, WIDTH, 6) + "\n";
   std::string operands, own, common;
-  for (const OptionRow& row : tool.rows) (!row.operand.empty() ? operands : row.group == "Common options" ? common : own) += row_text(row);
+  for (const OptionRow& row : tool.rows) (!row.operand.empty() ? operands : row.group == "Common options" ? common : own) += help_row(row);
   if (!operands.empty()) out += "\nOperands:\n" + operands;
   if (!own.empty()) out += "\nOptions:\n" + own;
   out += "\nCommon options:\n" + common;

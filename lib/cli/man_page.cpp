@@ -15,12 +15,7 @@ static std::string roff(const std::string& text) {
   return out;
 }
 
-static std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
-  return text;
-}
-
-static std::string row_text(const OptionRow& row) {
+static std::string man_row(const OptionRow& row) {
   std::string head;
   if (!row.operand.empty()) head = "\\fI" + roff(row.operand) + "\\fR";
   for (const std::string& s : row.shorts) head += (head.empty() ? "" : ", ") + ("\\fB\\-" + roff(s)) + "\\fR";
@@ -45,7 +40,7 @@ std::string man_page(const ToolDescription& tool) {
          "Outputs are written to a temporary file and renamed, so that a failed run never touches a file that is there.\n"
          "Ctrl\\-C stops within a step and leaves the last good state; a second one ends the program at once.\n";
   std::string own, common;
-  for (const OptionRow& row : tool.rows) (row.group == "Common options" ? common : own) += row_text(row);
+  for (const OptionRow& row : tool.rows) (row.group == "Common options" ? common : own) += man_row(row);
   out += ".SH OPTIONS\n" + own + ".SS Common options\n" + common;
   out += ".SH EXIT STATUS\n";
   for (const auto& [code, meaning] : exit_codes()) out += ".TP\n.B " + std::to_string(code) + "\n" + roff(meaning) + "\n";

@@ -35,6 +35,11 @@ const std::vector<std::pair<int, std::string>>& exit_codes() {
   return codes;
 }
 
+std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+  return text;
+}
+
 std::string wrap(const std::string& text, std::size_t width, std::size_t indent) {
   std::string out;
   std::size_t column = indent;

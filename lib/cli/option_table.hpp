@@ -43,6 +43,8 @@ const std::vector<std::pair<int, std::string>>& exit_codes();
 /// Words of a text broken into lines of at most `width`, continuation lines indented by `indent`.
 std::string wrap(const std::string& text, std::size_t width, std::size_t indent);
 
+std::string upper(std::string text); ///< its letters a to z as capitals, in any locale
+
 std::string help_text(const ToolDescription& tool);
 std::string man_page(const ToolDescription& tool);                             ///< groff, section 1
 std::string completion(const ToolDescription& tool, const std::string& shell); ///< shell: bash, zsh or fish

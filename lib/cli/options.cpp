@@ -45,11 +45,6 @@ static std::vector<std::string> split(const std::string& text, char separator) {
   return out;
 }
 
-static std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
-  return text;
-}
-
 static OptionRow row_of(CLI::Option& option) {
   OptionRow row;
   row.shorts = option.get_snames();

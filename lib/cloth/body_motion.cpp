@@ -16,7 +16,6 @@ constexpr double SHORTEST_PART = 2e-4;
 constexpr double LEAST_TIME = 0.02;
 /// Cloth this near is carried whole, then less and less, m.
 constexpr double CARRIED_WHOLE = 0.006, NOT_CARRIED = 0.03;
-constexpr int GUARD_ROUNDS = 4;
 
 double longest_of(const std::vector<Vec3>& way) {
   double longest = 0;

@@ -12,7 +12,6 @@ namespace sloper::cloth {
 namespace {
 
 constexpr int MOST_HALVINGS = 10;
-constexpr int GUARD_ROUNDS = 4;        // in which new limits are looked for; then those of the last round stop everything
 constexpr double MOST_CUT = 0.5;       // of an edge
 constexpr int LONGEST_FREEZE = 16;     // steps
 constexpr double FROZEN = 1e4;         // times a particle's own stiffness

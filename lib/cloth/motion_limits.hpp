@@ -10,6 +10,8 @@
 
 namespace sloper::cloth {
 
+inline constexpr int GUARD_ROUNDS = 4; ///< in which new limits are looked for; then those of the last round stop everything
+
 /// Particles 0 .. n_above - 1 keep normal . x >= above, the others normal . x <= below.
 struct PlaneGuard {
   int n = 0, n_above = 0;

@@ -5,7 +5,7 @@
 namespace sloper::cloth {
 
 /// A direction squeezed below this share of its length has no direction; it gives no force. 1
-static constexpr double SHORTEST = 1e-9;
+static constexpr double LEAST_STRETCH = 1e-9;
 
 TriangleStretchEffect::TriangleStretchEffect(const ClothMesh& mesh, std::vector<Shrink> shrink)
     : m_mesh(mesh), m_maps(make_triangle_maps(mesh)), m_shrink(std::move(shrink)) {
@@ -34,7 +34,7 @@ void TriangleStretchEffect::add(StepContext& c) {
       const double k = m.area * (side ? fabric.stretch_warp_n_m : fabric.stretch_weft_n_m);
       const Vec3 w = side ? m.v(c.x) : m.u(c.x);
       const double length = w.norm();
-      if (length < SHORTEST) {
+      if (length < LEAST_STRETCH) {
         block[side] = k * Mat3::Identity();
         continue;
       }

@@ -1,14 +1,12 @@
 /// BodyCollider::near_pairs(): which elements of a cloth are near which elements of the skin.
-#include <base/parallel.hpp>
 #include <collision/body_collider.hpp>
+#include <collision/chunks.hpp>
 
 #include <algorithm>
 
 namespace sloper::collision {
 
 namespace {
-
-constexpr std::size_t GRAIN = 512;
 
 bool apart(const Box3& a, const Vec3& low, const Vec3& high) { return (low.array() > a.high.array()).any() || (high.array() < a.low.array()).any(); }
 
@@ -20,7 +18,7 @@ void BodyCollider::near_pairs(const std::vector<Vec3>& x, const std::vector<Tria
                               double vertex_radius, double edge_radius, BodyPairs& pairs) const {
   const double vertex_radius2 = vertex_radius * vertex_radius, edge_radius2 = edge_radius * edge_radius;
   const double widest = std::max(vertex_radius, edge_radius);
-  std::vector<BodyPairs> chunks((triangles.size() + GRAIN - 1) / GRAIN);
+  std::vector<BodyPairs> chunks(n_chunks(triangles.size()));
   const auto search = [&](int f, BodyPairs& found) {
     const Triangle& t = triangles[f];
     const Vec3* c[3] = {&x[t[0]], &x[t[1]], &x[t[2]]};
@@ -55,9 +53,9 @@ void BodyCollider::near_pairs(const std::vector<Vec3>& x, const std::vector<Tria
       }
     });
   };
-  parallel_for(triangles.size(), GRAIN, [&](std::size_t begin, std::size_t end) {
+  parallel_for(triangles.size(), SEARCH_GRAIN, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f)
-      if (asked[f]) search(static_cast<int>(f), chunks[begin / GRAIN]);
+      if (asked[f]) search(static_cast<int>(f), chunks[begin / SEARCH_GRAIN]);
   });
   pairs.vertex_face.clear();
   pairs.edge_edge.clear();

@@ -1,6 +1,6 @@
 #include <collision/closing_pairs.hpp>
 
-#include <base/parallel.hpp>
+#include <collision/chunks.hpp>
 
 #include <algorithm>
 
@@ -8,7 +8,6 @@ namespace sloper::collision {
 
 namespace {
 
-constexpr std::size_t GRAIN = 512;
 /// Elements whose boxes stay this far apart do not count, m: more than rounding to float costs.
 constexpr float CLEAR = 1e-4f;
 
@@ -69,9 +68,9 @@ template<std::size_t N, std::size_t M> double closing2(const std::array<int, N>&
 
 /// find(index, found) for 0 .. n - 1 on all threads; what is found, sorted.
 template<class Find> void collect(std::size_t n, Pairs& out, const Find& find) {
-  std::vector<Pairs> chunks((n + GRAIN - 1) / GRAIN);
-  parallel_for(n, GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) find(static_cast<int>(i), chunks[begin / GRAIN]);
+  std::vector<Pairs> chunks(n_chunks(n));
+  parallel_for(n, SEARCH_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) find(static_cast<int>(i), chunks[begin / SEARCH_GRAIN]);
   });
   out.clear();
   for (const Pairs& chunk : chunks) out.insert(out.end(), chunk.begin(), chunk.end());

@@ -1,6 +1,6 @@
 /// BodyCollider::face_contacts(): contacts that cloth vertices alone do not see.
-#include <base/parallel.hpp>
 #include <collision/body_collider.hpp>
+#include <collision/chunks.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,6 @@ namespace {
 /// A closest pair counts for a side of the skin only if it lies within 60 degrees of the skin's normal: cloth that stands
 /// on the skin like a fin is no contact of this kind, and its sign would be noise.
 constexpr double CONE = 0.5;
-constexpr std::size_t GRAIN = 512;
 
 /// Fills distance and normal of a contact from body point to cloth point; false where the pair has no clear side.
 bool set_side(FaceContact& contact, const Vec3& cloth_point, const Vec3& skin_normal) {
@@ -47,7 +46,7 @@ std::vector<FaceContact> BodyCollider::face_contacts(const std::vector<Vec3>& po
   struct Found {
     std::vector<FaceContact> face, edge;
   };
-  std::vector<Found> chunks((triangles.size() + GRAIN - 1) / GRAIN);
+  std::vector<Found> chunks(n_chunks(triangles.size()));
   const auto search = [&](int f, Found& found) {
     const Triangle& t = triangles[f];
     const Vec3* c[3] = {&positions[t[0]], &positions[t[1]], &positions[t[2]]};
@@ -97,8 +96,8 @@ std::vector<FaceContact> BodyCollider::face_contacts(const std::vector<Vec3>& po
     for (const auto& edge : edges)
       if (edge) found.edge.push_back(*edge);
   };
-  parallel_for(triangles.size(), GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) search(static_cast<int>(f), chunks[begin / GRAIN]);
+  parallel_for(triangles.size(), SEARCH_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) search(static_cast<int>(f), chunks[begin / SEARCH_GRAIN]);
   });
   std::vector<FaceContact> contacts;
   for (const Found& found : chunks) contacts.insert(contacts.end(), found.face.begin(), found.face.end());

@@ -1,6 +1,6 @@
 #include <collision/intersections.hpp>
 
-#include <base/parallel.hpp>
+#include <collision/chunks.hpp>
 #include <collision/predicates.hpp>
 
 #include <algorithm>
@@ -8,17 +8,6 @@
 namespace sloper::collision {
 
 namespace {
-
-constexpr std::size_t GRAIN = 1024;
-
-/// Runs find(begin, end, out) over chunks of [0, n) and joins what they found in chunk order.
-template<class Item, class Find> std::vector<Item> gather(std::size_t n, const Find& find) {
-  std::vector<std::vector<Item>> found((n + GRAIN - 1) / GRAIN);
-  parallel_for(n, GRAIN, [&](std::size_t begin, std::size_t end) { find(begin, end, found[begin / GRAIN]); });
-  std::vector<Item> all;
-  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-  return all;
-}
 
 bool share_vertex(const Triangle& a, const Triangle& b) {
   for (int u : a)

@@ -1,6 +1,6 @@
 #include <collision/self_proximity.hpp>
 
-#include <base/parallel.hpp>
+#include <collision/chunks.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace sloper::collision {
 
 namespace {
 
-constexpr std::size_t GRAIN = 512, PAIR_GRAIN = 8192;
+constexpr std::size_t PAIR_GRAIN = 8192;
 /// Candidates are kept up to this fraction beyond the radius; none beyond it while the cloth moves too fast for that to pay.
 constexpr double MARGIN = 0.25;
 
@@ -197,11 +197,11 @@ void SelfProximity::find_candidates(const std::vector<Vec3>& x, double radius) {
       m_float_edges[s].p[3] = m_float_edges[s].d[3] = 0;
     }
   });
-  std::vector<std::vector<Candidate>> chunks((m_particles + GRAIN - 1) / GRAIN);
-  parallel_for(m_particles, GRAIN, [&](std::size_t begin, std::size_t end) { search_vertices(begin, end, chunks[begin / GRAIN]); });
+  std::vector<std::vector<Candidate>> chunks(n_chunks(m_particles));
+  parallel_for(m_particles, SEARCH_GRAIN, [&](std::size_t begin, std::size_t end) { search_vertices(begin, end, chunks[begin / SEARCH_GRAIN]); });
   join_sorted(m_particles, m_vertex_face_candidates, chunks);
-  chunks.assign((m_slot_edges.size() + GRAIN - 1) / GRAIN, {});
-  parallel_for(m_slot_edges.size(), GRAIN, [&](std::size_t begin, std::size_t end) { search_edges(begin, end, chunks[begin / GRAIN]); });
+  chunks.assign(n_chunks(m_slot_edges.size()), {});
+  parallel_for(m_slot_edges.size(), SEARCH_GRAIN, [&](std::size_t begin, std::size_t end) { search_edges(begin, end, chunks[begin / SEARCH_GRAIN]); });
   join_sorted(m_topology.edges.size(), m_edge_edge_candidates, chunks);
 }
 

@@ -44,14 +44,14 @@ std::vector<Vec3> sample_skin(const Body& body, std::initializer_list<Part> part
   return points;
 }
 
-std::optional<Vec3> find(const Body& body, const std::string& name) {
+std::optional<Vec3> landmark_of(const Body& body, const std::string& name) {
   if (!body.has_landmark(name)) return std::nullopt;
   return body.landmark(name);
 }
 
 /// Mean of a landmark of both sides, or of the one that is there.
 std::optional<Vec3> find_middle(const Body& body, const std::string& stem) {
-  const auto l = find(body, stem + "_l"), r = find(body, stem + "_r");
+  const auto l = landmark_of(body, stem + "_l"), r = landmark_of(body, stem + "_r");
   if (l && r) return Vec3(0.5 * (*l + *r));
   return l ? l : r;
 }
@@ -73,15 +73,15 @@ struct ArmJoints {
 };
 
 std::optional<ArmJoints> arm_joints(const Body& body, const std::string& side, const std::vector<Vec3>& skin) {
-  const auto acromion = find(body, "acromion_" + side), axilla = find(body, "axilla_" + side);
-  auto tip = find(body, "hand_tip_" + side);
-  if (!tip) tip = find(body, "hand_extreme_" + side);
+  const auto acromion = landmark_of(body, "acromion_" + side), axilla = landmark_of(body, "axilla_" + side);
+  auto tip = landmark_of(body, "hand_tip_" + side);
+  if (!tip) tip = landmark_of(body, "hand_extreme_" + side);
   if (!acromion || !tip || skin.empty()) return std::nullopt;
   ArmJoints joints;
   // The acromion lies on the skin; the middle between it and the arm pit is inside the shoulder.
   joints.shoulder = axilla ? Vec3(0.5 * (*acromion + *axilla)) : Vec3(*acromion - Vec3(0, 0.05, 0));
-  if (const auto joint = find(body, "shoulder_joint_" + side)) joints.shoulder = *joint;
-  const auto elbow = find(body, "elbow_" + side), wrist = find(body, "wrist_" + side);
+  if (const auto joint = landmark_of(body, "shoulder_joint_" + side)) joints.shoulder = *joint;
+  const auto elbow = landmark_of(body, "elbow_" + side), wrist = landmark_of(body, "wrist_" + side);
   joints.elbow = elbow ? *elbow : center_of_slab(skin, joints.shoulder, *tip, ELBOW_FRACTION);
   joints.wrist = wrist ? *wrist : center_of_slab(skin, joints.shoulder, *tip, WRIST_FRACTION);
   if ((joints.shoulder - joints.elbow).norm() < 0.08 || (joints.elbow - joints.wrist).norm() < 0.05) return std::nullopt;
@@ -109,7 +109,7 @@ std::map<std::string, double> torso_marks(const Body& body, const PartFrame& fra
     const double at = (found->second.y - frame.lower.y()) / (frame.upper.y() - frame.lower.y()); // where the level crosses the axis
     if (std::isfinite(at)) marks[name] = at;
   };
-  set("crotch", find(body, "crotch"));
+  set("crotch", landmark_of(body, "crotch"));
   set("axilla", find_middle(body, "axilla"));
   set("acromion", find_middle(body, "acromion"));
   set("neck_side", find_middle(body, "neck_side"));
@@ -190,7 +190,7 @@ BindFrames make_bind_frames(const Body& body) {
   BindFrames all;
   if (body.face_part.size() != body.skin.triangles.size())
     throw input_error("", "", "the body's faces have no parts", "make the body document again with scan-landmarks");
-  const auto hip = find(body, "hip_center"), neck = find(body, "neck_center"), tip = find(body, "head_tip");
+  const auto hip = landmark_of(body, "hip_center"), neck = landmark_of(body, "neck_center"), tip = landmark_of(body, "head_tip");
   const bool has_torso = body.frames.count("torso") || (hip && neck);
   if (!has_torso)
     throw input_error("", "/landmarks", "the body has no torso frame: hip_center or neck_center was not found", "a garment cannot be hung on this body");
@@ -212,20 +212,20 @@ BindFrames make_bind_frames(const Body& body) {
     add_frame(all, "forearm_" + side, make_part_frame(joints->wrist, joints->elbow, Vec3::UnitZ(), mirrored), skin, -1.5, 1.3);
   }
   for (const auto& [part, side] : {std::pair{Part::LEG_L, std::string("l")}, std::pair{Part::LEG_R, std::string("r")}}) {
-    const auto ankle = find(body, "ankle_" + side), joint = find(body, "hip_joint_" + side);
+    const auto ankle = landmark_of(body, "ankle_" + side), joint = landmark_of(body, "hip_joint_" + side);
     const std::vector<Vec3> skin = sample_skin(body, {part});
     if (skin.empty() || !(body.frames.count("leg_" + side) || (ankle && joint))) continue;
     const PartFrame frame = body_frame(body, "leg_" + side, ankle.value_or(Vec3::Zero()), joint.value_or(Vec3::UnitY()));
     add_frame(all, "leg_" + side, frame, skin, -0.5, 1.5);
-    if (const auto knee = find(body, "knee_" + side)) all.frames.back().marks["knee"] = frame.coordinates(*knee).z;
-    if (const auto crotch = find(body, "crotch")) all.frames.back().marks["crotch"] = frame.coordinates(*crotch).z;
+    if (const auto knee = landmark_of(body, "knee_" + side)) all.frames.back().marks["knee"] = frame.coordinates(*knee).z;
+    if (const auto crotch = landmark_of(body, "crotch")) all.frames.back().marks["crotch"] = frame.coordinates(*crotch).z;
   }
   const int leg_l = all.index("leg_l"), leg_r = all.index("leg_r");
   if (leg_l >= 0 && leg_r >= 0) {
     const Vec3 ankles = 0.5 * (all.frames[leg_l].frame.lower + all.frames[leg_r].frame.lower);
     const PartFrame frame = body_frame(body, "lower_body", ankles, torso.lower);
     add_frame(all, "lower_body", frame, sample_skin(body, {Part::LEG_L, Part::LEG_R, Part::TORSO}), -0.5, 1.4);
-    if (const auto crotch = find(body, "crotch")) all.frames.back().marks["crotch"] = frame.coordinates(*crotch).z;
+    if (const auto crotch = landmark_of(body, "crotch")) all.frames.back().marks["crotch"] = frame.coordinates(*crotch).z;
   }
 
   all.frame_of_face.reserve(body.face_part.size());

@@ -13,7 +13,6 @@ constexpr double AROUND = 0.75;         // turns about the axis from which a lin
 constexpr double LARGEST_OPEN = 0.4;    // turns that arms and openings may leave bare of a trunk level
 constexpr double BAND = 0.02;           // m on both sides of the cut in which strain is taken
 constexpr double EDGE_HEIGHT = 0.005;   // m by which the plane of a free edge is uncertain
-constexpr double LEAST_SPREAD = 0.002;  // m of a section of the skin: the mesh of the scan
 constexpr double SLANT = 0.05;          // of a neck line that it may change within the error of its height
 constexpr double WIDER_THAN_NECK = 1.2; // of the neck base: a section this long goes through the shoulders
 
@@ -237,7 +236,7 @@ std::optional<FitRow> measure_edge(const ClothState& cloth, const body::Body& bo
   const auto base = body.girths.find("neck_base");
   if (hem.name == "neck" && base != body.girths.end() && place.body_m > WIDER_THAN_NECK * base->second.value_m)
     return why = "it lies on the shoulders, wider than a neck", std::nullopt;
-  place.body_spread_m = LEAST_SPREAD;
+  place.body_spread_m = LEAST_GIRTH_SPREAD;
   for (const double shift : {-EDGE_HEIGHT, EDGE_HEIGHT})
     if (const double moved = skin_girth(body, kind->parts, place.center + shift * place.normal, place.normal); moved > 0)
       place.body_spread_m = std::max(place.body_spread_m, std::abs(moved - place.body_m));

@@ -12,7 +12,6 @@ namespace {
 constexpr double HEIGHT_ERROR = 0.005; // m, least uncertainty of a level's height
 constexpr double NECK_REACH = 0.10;    // m above its base in which the neck's girth is
 constexpr double STRIDE = 0.005;       // m between sections in search of a girth
-constexpr double LEAST_SPREAD = 0.002; // m of a trunk girth: the mesh of the scan
 
 bool is_arm(const std::string& frame) { return frame.find("arm") != std::string::npos; }
 
@@ -35,7 +34,7 @@ double level_girth_spread(const body::Body& body, const std::string& name, doubl
     if (other_name == name || !(other.girth_m > 0) || distance < 0.02 || distance > nearest) continue;
     nearest = distance, slope = std::abs(other.girth_m - level.girth_m) / distance;
   }
-  return std::hypot(LEAST_SPREAD, slope * height_error);
+  return std::hypot(LEAST_GIRTH_SPREAD, slope * height_error);
 }
 
 void add_levels(const body::Body& body, std::vector<FitPlace>& places) {

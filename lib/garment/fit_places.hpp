@@ -5,6 +5,8 @@
 
 namespace sloper::garment {
 
+inline constexpr double LEAST_GIRTH_SPREAD = 0.002; ///< m, of a girth of the skin: the mesh of the scan
+
 /// A plane, the axis that its girth goes round, and the body's own figure there.
 struct FitPlace {
   std::string name, kind; ///< as in the body document; "level", "limb" or "neck"

@@ -46,7 +46,7 @@ FitRules read_rules(const io::Node& node) {
   return rules;
 }
 
-const FitRules* find(const std::map<std::string, FitRules>& rules, const std::string& name) {
+const FitRules* rules_of(const std::map<std::string, FitRules>& rules, const std::string& name) {
   const auto found = rules.find(name);
   return found == rules.end() ? nullptr : &found->second;
 }
@@ -55,7 +55,7 @@ const FitRules* find(const std::map<std::string, FitRules>& rules, const std::st
 double last_said(const FitPolicy& policy, std::optional<double> FitRules::*value, double fallback, const std::string& garment_class,
                  const std::string& fabric) {
   for (const FitRuleSet* set : {&policy.standard, &policy.own})
-    for (const FitRules* rules : {&set->all, find(set->classes, garment_class), find(set->fabrics, fabric)})
+    for (const FitRules* rules : {&set->all, rules_of(set->classes, garment_class), rules_of(set->fabrics, fabric)})
       if (rules && rules->*value) fallback = *(rules->*value);
   return fallback;
 }
@@ -131,7 +131,7 @@ FitLimits FitPolicy::limits(const std::string& girth, const std::string& garment
   FitLimits limits;
   const std::string both_sides = girth.size() > 2 && girth[girth.size() - 2] == '_' ? girth.substr(0, girth.size() - 2) : girth;
   for (const FitRuleSet* set : {&standard, &own}) {
-    const std::array<const FitRules*, 3> layers = {&set->all, find(set->classes, garment_class), find(set->fabrics, fabric)};
+    const std::array<const FitRules*, 3> layers = {&set->all, rules_of(set->classes, garment_class), rules_of(set->fabrics, fabric)};
     for (const FitRules* rules : layers)
       if (rules) rules->standard.apply(limits);
     for (const FitRules* rules : layers) {

@@ -17,6 +17,8 @@
 #include <ctime>
 
 namespace sloper::garment {
+enum class Finish { WARM, REPLAY, COLD };
+
 namespace {
 
 constexpr double LEAST_ANGLE = 15;   // degrees: a mesh that follows an edit is kept while it is no worse
@@ -27,8 +29,6 @@ constexpr double LARGEST_MOVE = 0.02;    // m, of a particle in one frame
 constexpr double ANSWER_TOLERANCE = 0.1; // relative residual; see FOLLOW_ANSWER_ITERATIONS
 
 using Clock = std::chrono::steady_clock;
-
-enum class Finish { WARM, REPLAY, COLD };
 
 } // namespace
 

@@ -14,7 +14,7 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double AROUND = 0.5;     // m: cloth farther from the skin has no order
+constexpr double NEAR_SKIN = 0.5;  // m: cloth farther from the skin has no order
 constexpr double LEAST_GAP = 5e-4; // m: inner cloth is not tucked nearer to the skin
 constexpr double PUSH = 5e-4;      // m: apart, of an edge and the face that it crosses, in one round
 constexpr int ROUNDS = 200;
@@ -50,7 +50,7 @@ void tuck(std::vector<Vec3>& inner, const std::vector<Vec3>& outer, const std::v
   std::vector<double> moved(inner.size(), 0);
   parallel_for(inner.size(), 128, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const collision::SignedDistance d = body.signed_distance(inner[i], AROUND);
+      const collision::SignedDistance d = body.signed_distance(inner[i], NEAR_SKIN);
       if (d.triangle < 0 || d.distance <= 0) continue;
       const double seen = d.distance + thickness, hit = first_hit(tree, outer, triangles, d.point, d.point + seen * d.normal) * seen;
       if (!(hit < seen)) continue;
@@ -76,7 +76,7 @@ std::size_t part_layers(std::vector<Vec3>& x, const std::vector<int>& layer, con
     const int of_edge = layer[e[0]], of_face = layer[t[0]];
     if (of_edge == of_face) continue;
     ++count;
-    const collision::SignedDistance d = body.signed_distance(hit.point, AROUND);
+    const collision::SignedDistance d = body.signed_distance(hit.point, NEAR_SKIN);
     if (d.triangle < 0) continue;
     const Vec3 push = (of_edge > of_face ? PUSH : -PUSH) * d.normal; // of the edge
     move[e[0]] += push, move[e[1]] += push;
@@ -86,7 +86,7 @@ std::size_t part_layers(std::vector<Vec3>& x, const std::vector<int>& layer, con
     const double length = move[i].norm();
     if (length <= 0) continue;
     x[i] += std::min(1.0, PUSH / length) * move[i];
-    const collision::SignedDistance d = body.signed_distance(x[i], AROUND);
+    const collision::SignedDistance d = body.signed_distance(x[i], NEAR_SKIN);
     if (d.triangle >= 0 && d.distance < LEAST_GAP) x[i] = d.point + LEAST_GAP * d.normal;
   }
   return count;
@@ -214,7 +214,7 @@ std::vector<std::size_t> order_violations(const std::vector<Garment>& garments, 
     const collision::TriangleTree tree(outer, triangles);
     for (std::size_t i = 0; i < k; ++i)
       for (const Vec3& p : garments[i].position) {
-        const collision::SignedDistance d = body.signed_distance(p, AROUND);
+        const collision::SignedDistance d = body.signed_distance(p, NEAR_SKIN);
         count[i] += d.triangle >= 0 && d.distance > 0 && first_hit(tree, outer, triangles, d.point, p) < 1;
       }
   }

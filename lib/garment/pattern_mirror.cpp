@@ -20,7 +20,7 @@ struct Ring {
   std::vector<Vec3> body;
 };
 
-struct Outline {
+struct WornOutline {
   std::vector<Vec2> flat;
   std::vector<Vec3> body;
   double perimeter = 0;
@@ -51,8 +51,8 @@ struct Outline {
   }
 };
 
-Outline outline_of(const pattern::PanelMesh& panels, const pattern::PanelInfo& info, const std::vector<Vec3>& position) {
-  Outline o;
+WornOutline outline_of(const pattern::PanelMesh& panels, const pattern::PanelInfo& info, const std::vector<Vec3>& position) {
+  WornOutline o;
   for (const int v : info.outline) o.flat.push_back(panels.pattern[v]), o.body.push_back(position[v]);
   double sharpest = 2;
   for (int i = 0; i < o.n(); ++i) {
@@ -90,7 +90,7 @@ bool grain_agrees(const pattern::PanelInfo& from, const pattern::PanelInfo& to, 
 
 std::vector<PanelMirror> panel_mirrors(const pattern::PanelMesh& panels, const std::vector<Vec3>& position) {
   const int n = static_cast<int>(panels.panels.size());
-  std::vector<Outline> outlines;
+  std::vector<WornOutline> outlines;
   for (const pattern::PanelInfo& info : panels.panels) outlines.push_back(outline_of(panels, info, position));
   struct Pair {
     double apart; ///< mean distance of mirrored places on the body, m

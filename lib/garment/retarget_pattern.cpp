@@ -13,7 +13,7 @@ namespace {
 constexpr double CORNER = 25 * units::PI / 180; // rad, of the outline at one mesh point
 
 /// Outline of one panel with the points at which its edges end.
-struct Outline {
+struct EdgedOutline {
   std::vector<int> vertices;    ///< counter-clockwise
   std::map<int, int> position;  ///< of a vertex in `vertices`
   std::vector<char> ends;       ///< by position: an edge ends here
@@ -43,7 +43,7 @@ int panel_at(const Garment& garment, int vertex) {
 }
 
 /// The stretches of a seam side; empty when part of it lies inside a panel.
-std::vector<Stretch> stretches_of(const Garment& garment, const std::vector<Outline>& outlines, const std::vector<int>& run) {
+std::vector<Stretch> stretches_of(const Garment& garment, const std::vector<EdgedOutline>& outlines, const std::vector<int>& run) {
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i + 1 < run.size(); ++i) {
     if (run[i] == run[i + 1]) continue;
@@ -59,7 +59,7 @@ std::vector<Stretch> stretches_of(const Garment& garment, const std::vector<Outl
 }
 
 /// Whole edges along a stretch, in its direction.
-void add_runs(const Outline& outline, const Stretch& stretch, std::vector<pattern::Run>& runs) {
+void add_runs(const EdgedOutline& outline, const Stretch& stretch, std::vector<pattern::Run>& runs) {
   const int from = outline.position.at(stretch.first), to = outline.position.at(stretch.last);
   const auto edge_from = [&](int start) {
     return static_cast<int>(std::lower_bound(outline.edge_starts.begin(), outline.edge_starts.end(), start) - outline.edge_starts.begin());
@@ -74,7 +74,7 @@ void add_runs(const Outline& outline, const Stretch& stretch, std::vector<patter
   } while (at != to);
 }
 
-void mark_corners(const Garment& shape, Outline& outline) {
+void mark_corners(const Garment& shape, EdgedOutline& outline) {
   for (int i = 0; i < outline.n(); ++i) {
     const Vec2 &p = shape.panels.pattern[outline.vertices[i]], &before = shape.panels.pattern[outline.vertices[outline.next(i, -1)]],
                &after = shape.panels.pattern[outline.vertices[outline.next(i, 1)]];
@@ -89,9 +89,9 @@ pattern::Pattern pattern_of(const Garment& garment, const Garment& shape) {
   pattern::Pattern result;
   result.name = garment.panels.name;
   result.source_format = "pattern";
-  std::vector<Outline> outlines;
+  std::vector<EdgedOutline> outlines;
   for (const pattern::PanelInfo& info : garment.panels.panels) {
-    Outline outline;
+    EdgedOutline outline;
     outline.vertices = info.outline;
     for (int i = 0; i < outline.n(); ++i) outline.position[outline.vertices[i]] = i;
     outline.ends.assign(outline.vertices.size(), 0);
@@ -106,7 +106,7 @@ pattern::Pattern pattern_of(const Garment& garment, const Garment& shape) {
         outlines[s.panel].ends[outlines[s.panel].position.at(s.first)] = outlines[s.panel].ends[outlines[s.panel].position.at(s.last)] = 1;
   }
   for (std::size_t k = 0; k < outlines.size(); ++k) {
-    Outline& outline = outlines[k];
+    EdgedOutline& outline = outlines[k];
     const pattern::PanelInfo& info = garment.panels.panels[k];
     pattern::Panel panel;
     panel.name = info.name, panel.grain = info.grain, panel.material = info.material, panel.layer = info.layer, panel.label = info.part;
@@ -117,7 +117,7 @@ pattern::Pattern pattern_of(const Garment& garment, const Garment& shape) {
     panel.loops.emplace_back();
     for (std::size_t e = 0; e < outline.edge_starts.size(); ++e) {
       pattern::PanelEdge edge;
-      edge.name = "e" + std::to_string(e);
+      edge.name = std::string("e").append(std::to_string(e));
       int at = outline.edge_starts[e];
       do {
         const int to = outline.next(at, 1);

@@ -1,6 +1,10 @@
 #include <geometry/rotation.hpp>
 
+#include <base/units.hpp>
+
 #include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
 
 namespace sloper {
 
@@ -12,5 +16,7 @@ Mat3 nearest_rotation(const Mat3& covariance) {
   if ((v * svd.matrixU().transpose()).determinant() < 0) v.col(2) *= -1;
   return v * svd.matrixU().transpose();
 }
+
+double degrees_between(const Vec3& a, const Vec3& b) { return units::degrees(std::acos(std::clamp(a.dot(b) / (a.norm() * b.norm()), -1.0, 1.0))); }
 
 } // namespace sloper

@@ -1,15 +1,13 @@
 #include <base/error.hpp>
 #include <base/units.hpp>
 #include <pattern/arm_tube.hpp>
+#include <pattern/panel_role.hpp>
 
 #include <cmath>
 
 namespace sloper::pattern {
 
 using body::Part;
-
-static constexpr int N = RING_ANGLES;
-static constexpr double CLEAR = 0.01; // m between the two edges of a piece
 
 ArmTube::ArmTube(const BodySpace& space, const Axis& axis, bool left, double low, double high) : m_high(high) {
   const std::size_t n = static_cast<std::size_t>(std::ceil((high - low) / ROW)) + 2;
@@ -27,18 +25,18 @@ ArmTube::ArmTube(const BodySpace& space, const Axis& axis, bool left, double low
     throw input_error("", "body", std::string("the ") + (left ? "left" : "right") + " arm has no skin where the sleeve lies",
                       "scan the arms, or leave the sleeves out");
   m_section = smooth(joined(filled(std::move(skin)), 2), 2);
-  for (const Ring& r : m_section) m_center.push_back(0.5 * Vec2(r[N / 4] - r[3 * N / 4], r[0] - r[N / 2]));
+  for (const Ring& r : m_section) m_center.push_back(0.5 * Vec2(r[RING_ANGLES / 4] - r[3 * RING_ANGLES / 4], r[0] - r[RING_ANGLES / 2]));
   m_center = averaged(m_center, 4);
 }
 
 ArmTube::Curve ArmTube::trace(std::size_t row, double grown) const {
   const Ring radius = radii(m_section[row], m_center[row], grown);
   Curve c;
-  for (int k = -N / 2; k <= N / 2; ++k) {
-    c.points.push_back(m_center[row] + radius[static_cast<std::size_t>((k + N) % N)] * direction(k));
+  for (int k = -RING_ANGLES / 2; k <= RING_ANGLES / 2; ++k) {
+    c.points.push_back(m_center[row] + radius[static_cast<std::size_t>((k + RING_ANGLES) % RING_ANGLES)] * direction(k));
     c.s.push_back(c.s.empty() ? 0 : c.s.back() + (c.points.back() - c.points[c.points.size() - 2]).norm());
   }
-  c.middle = c.s[N / 2];
+  c.middle = c.s[RING_ANGLES / 2];
   return c;
 }
 
@@ -47,7 +45,7 @@ void ArmTube::shape(const std::vector<double>& widths, double gap) {
   std::vector<double> less(n, -gap); // than the skin, so that the least is the most grown
   for (std::size_t j = 0; j < n; ++j)
     for (int round = 0; round < 6; ++round) {
-      const double missing = widths[j] + CLEAR - trace(j, -less[j]).s.back();
+      const double missing = widths[j] + PANEL_GAP - trace(j, -less[j]).s.back();
       if (missing < 1e-3) break;
       less[j] -= missing / (2 * units::PI);
     }

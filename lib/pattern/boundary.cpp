@@ -11,7 +11,7 @@ namespace {
 constexpr double SAME = 1e-9; ///< fractions nearer than this are one
 
 /// One stretch of seam between two breaks, or of a free edge.
-struct Piece {
+struct EdgePiece {
   int panel, edge;
   double from, to; ///< from < to, along the outline
   int n = 0;       ///< segments; 0 when merged away
@@ -154,8 +154,8 @@ private:
 
   void add_piece(const Run& run, int n) {
     auto& pieces = m_pieces[static_cast<std::size_t>(run.panel)][static_cast<std::size_t>(run.edge)];
-    const Piece piece{run.panel, run.edge, std::min(run.from, run.to), std::max(run.from, run.to), n, true, {}};
-    for (const Piece& other : pieces)
+    const EdgePiece piece{run.panel, run.edge, std::min(run.from, run.to), std::max(run.from, run.to), n, true, {}};
+    for (const EdgePiece& other : pieces)
       if (piece.from < other.to - 1e-7 && other.from < piece.to - 1e-7)
         throw input_error(m_file, place_of(m_pattern, run),
                           centimetres((std::min(piece.to, other.to) - std::max(piece.from, other.from)) *
@@ -186,20 +186,20 @@ private:
   void cut_pleat(std::size_t s) {
     const Run &layer = m_pattern.seams[s].a[0], &upper = m_pattern.seams[s].b[0];
     auto& pieces = m_pieces[static_cast<std::size_t>(upper.panel)][static_cast<std::size_t>(upper.edge)];
-    std::sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) { return x.from < y.from; });
+    std::sort(pieces.begin(), pieces.end(), [](const EdgePiece& x, const EdgePiece& y) { return x.from < y.from; });
     const double total = length(m_pattern.panels[static_cast<std::size_t>(upper.panel)].edge(upper.edge).path);
     std::vector<std::pair<double, double>> gaps;
     double at = 0;
-    for (const Piece& piece : pieces) {
+    for (const EdgePiece& piece : pieces) {
       if (piece.from - at > 1e-7) gaps.push_back({at, piece.from});
       at = piece.to;
     }
     if (1 - at > 1e-7) gaps.push_back({at, 1});
     for (const auto& [from, to] : gaps)
       pieces.push_back({upper.panel, upper.edge, from, to, std::max(1, segments_for((to - from) * total, (to - from) * total, m_seam_h)), true, {}});
-    std::sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) { return x.from < y.from; });
+    std::sort(pieces.begin(), pieces.end(), [](const EdgePiece& x, const EdgePiece& y) { return x.from < y.from; });
     const bool turned = (layer.from < layer.to) != (upper.from < upper.to);
-    for (const Piece& piece : std::vector<Piece>(pieces)) {
+    for (const EdgePiece& piece : std::vector<EdgePiece>(pieces)) {
       Run a{layer.panel, layer.edge, turned ? 1 - piece.from : piece.from, turned ? 1 - piece.to : piece.to};
       m_pairs[s].push_back({a, {upper.panel, upper.edge, piece.from, piece.to}, piece.n});
       add_piece(a, piece.n);
@@ -215,12 +215,12 @@ private:
     for (std::size_t e = 0; e < edges.size(); ++e) {
       auto& pieces = edges[e];
       const double total = length(m_pattern.panels[static_cast<std::size_t>(p)].edge(static_cast<int>(e)).path);
-      std::sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) { return x.from < y.from; });
-      std::vector<Piece> all;
+      std::sort(pieces.begin(), pieces.end(), [](const EdgePiece& x, const EdgePiece& y) { return x.from < y.from; });
+      std::vector<EdgePiece> all;
       double at = 0;
       const auto free_to = [&](double to) {
         if (to - at < 1e-7) return;
-        Piece piece{p, static_cast<int>(e), at, to, segments_for((to - at) * total, (to - at) * total, m_h), false, {}};
+        EdgePiece piece{p, static_cast<int>(e), at, to, segments_for((to - at) * total, (to - at) * total, m_h), false, {}};
         if (piece.n > 0) piece.n = std::max(piece.n, segments_for_bends({p, static_cast<int>(e), at, to}));
         if (piece.n > 0 && m_seam_h < m_h) grade(piece, (to - at) * total);
         if (piece.n == 0)
@@ -228,7 +228,7 @@ private:
                                    " is merged into its neighbours");
         all.push_back(piece);
       };
-      for (const Piece& piece : pieces) {
+      for (const EdgePiece& piece : pieces) {
         free_to(piece.from);
         all.push_back(piece);
         at = piece.to;
@@ -239,7 +239,7 @@ private:
   }
 
   /// Whether a seam ends where this piece begins (or begins where it ends).
-  bool meets_seam(const Piece& piece, bool at_start) const {
+  bool meets_seam(const EdgePiece& piece, bool at_start) const {
     const Panel& panel = m_pattern.panels[static_cast<std::size_t>(piece.panel)];
     int edge = piece.edge, first = 0;
     if (at_start ? piece.from > 1e-7 : piece.to < 1 - 1e-7) return true; // free stretches end within an edge only where a seam begins
@@ -252,11 +252,11 @@ private:
       first += n;
     }
     const auto& pieces = m_pieces[static_cast<std::size_t>(piece.panel)][static_cast<std::size_t>(edge)];
-    return std::any_of(pieces.begin(), pieces.end(), [&](const Piece& o) { return o.sewn && (at_start ? o.to > 1 - 1e-7 : o.from < 1e-7); });
+    return std::any_of(pieces.begin(), pieces.end(), [&](const EdgePiece& o) { return o.sewn && (at_start ? o.to > 1 - 1e-7 : o.from < 1e-7); });
   }
 
   /// Edges of a free piece grow away from the seams at its ends, if that makes more of them than its bends ask for.
-  void grade(Piece& piece, double piece_length) const {
+  void grade(EdgePiece& piece, double piece_length) const {
     const bool start = meets_seam(piece, true), end = meets_seam(piece, false);
     if (!start && !end) return;
     std::vector<double> inner = graded_fractions(piece_length, m_h, m_seam_h, start, end);
@@ -267,8 +267,9 @@ private:
   /// Whether anything is sewn to the edges [first, end) of panel p.
   bool sewn(int p, int first, int end) const {
     const auto& edges = m_pieces[static_cast<std::size_t>(p)];
-    return std::any_of(edges.begin() + first, edges.begin() + end,
-                       [](const std::vector<Piece>& pieces) { return std::any_of(pieces.begin(), pieces.end(), [](const Piece& o) { return o.sewn; }); });
+    return std::any_of(edges.begin() + first, edges.begin() + end, [](const std::vector<EdgePiece>& pieces) {
+      return std::any_of(pieces.begin(), pieces.end(), [](const EdgePiece& o) { return o.sewn; });
+    });
   }
 
   void sample_panel(int p) {
@@ -291,7 +292,7 @@ private:
           }
           ev.at.push_back(f), ev.vertex.push_back(first_of_loop + static_cast<int>(points.size()) - 1);
         };
-        for (const Piece& piece : m_pieces[static_cast<std::size_t>(p)][static_cast<std::size_t>(e)]) {
+        for (const EdgePiece& piece : m_pieces[static_cast<std::size_t>(p)][static_cast<std::size_t>(e)]) {
           if (ev.at.empty() || !merged) put(piece.from);
           else ev.at.push_back(piece.from), ev.vertex.push_back(ev.vertex.back());
           merged = piece.n == 0;
@@ -359,10 +360,10 @@ private:
   const Pattern& m_pattern;
   double m_h, m_seam_h;
   std::string m_file;
-  std::vector<std::vector<std::vector<Piece>>> m_pieces; ///< by panel, edge
-  std::vector<std::vector<Pair>> m_pairs;                ///< by seam
-  std::vector<std::vector<EdgeVertices>> m_vertices;     ///< by panel, edge
-  std::vector<double> m_chord;                           ///< by panel, m
+  std::vector<std::vector<std::vector<EdgePiece>>> m_pieces; ///< by panel, edge
+  std::vector<std::vector<Pair>> m_pairs;                    ///< by seam
+  std::vector<std::vector<EdgeVertices>> m_vertices;         ///< by panel, edge
+  std::vector<double> m_chord;                               ///< by panel, m
   Boundary m_out;
 };
 

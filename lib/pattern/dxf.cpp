@@ -36,7 +36,7 @@ std::string find_value(const std::vector<DxfText>& texts, const std::string& key
   return {};
 }
 
-double distance_to(const Path& path, const Vec2& p) {
+double distance_to_path(const Path& path, const Vec2& p) {
   double best = 1e300;
   for (const Segment& s : path) {
     const Vec2 along = s.p[3] - s.p[0];
@@ -51,7 +51,7 @@ int edge_near(const Panel& panel, const Vec2& p) {
   int best = -1;
   double least = 1e300;
   for (int k = 0; k < panel.n_edges(); ++k) {
-    const double to_curve = distance_to(panel.edge(k).path, p);
+    const double to_curve = distance_to_path(panel.edge(k).path, p);
     const ArcLength arc(panel.edge(k).path);
     const double score = to_curve + 1e-3 * (arc.at(0.5 * arc.length()) - p).norm();
     if (score < least) least = score, best = k;
@@ -64,9 +64,9 @@ struct SewText {
   bool with_outline;
 };
 
-class Reader {
+class PieceReader {
 public:
-  Reader(const DxfFile& dxf, const DxfChoice& choice, const std::string& file) : m_dxf(dxf), m_choice(choice), m_file(file) {}
+  PieceReader(const DxfFile& dxf, const DxfChoice& choice, const std::string& file) : m_dxf(dxf), m_choice(choice), m_file(file) {}
 
   Pattern run() {
     m_pattern.source_format = "dxf";
@@ -158,7 +158,7 @@ private:
   }
 
   /// Moves a ring to the size asked for by the rule numbers written at its points ("# 7").
-  void grade(const DxfBlock& block, Ring& ring, const std::string& panel) {
+  void grade(const DxfBlock& block, PointRing& ring, const std::string& panel) {
     if (!m_choice.rules || m_size == m_choice.rules->sample) return;
     constexpr double AT_POINT = 1e-3, AT_CORNER = 0.07; // m: on the ring, or on the cut line beside a corner of the sew line
     std::vector<int> rule(ring.size(), 0);
@@ -187,7 +187,7 @@ private:
   }
 
   /// Notches, as points or as short lines into the piece; lines side by side are one notch.
-  void read_notches(const DxfBlock& block, const Ring& cut, Panel& panel) const {
+  void read_notches(const DxfBlock& block, const PointRing& cut, Panel& panel) const {
     constexpr double REACH = 0.01, SIDE_BY_SIDE = 0.004; // m
     const auto is_notch = [](int layer) { return layer == 4 || (layer >= 80 && layer <= 83); };
     std::vector<std::pair<Vec2, int>> marks;
@@ -228,9 +228,9 @@ private:
       panel.name = base + "#" + std::to_string(k);
     }
     const double join = 1e-3;
-    std::vector<Ring> outer = rings_of(block, 14, m_unit, join), cut = rings_of(block, 1, m_unit, join);
+    std::vector<PointRing> outer = rings_of(block, 14, m_unit, join), cut = rings_of(block, 1, m_unit, join);
     if (outer.empty()) { // Valentina writes the sew line on layer 8, where others keep internal lines
-      const std::vector<Ring> inner = rings_of(block, 8, m_unit, join);
+      const std::vector<PointRing> inner = rings_of(block, 8, m_unit, join);
       if (!inner.empty() && !cut.empty() && follows(inner[0], cut[0])) outer = {inner[0]};
     } else if (!cut.empty() && !follows(outer[0], cut[0])) {                                                     // some programs write broken sew lines
       const double percent = 100 * std::abs(ring_area(outer[0])) / std::max(std::abs(ring_area(cut[0])), 1e-12); // an outline may have no area
@@ -246,14 +246,14 @@ private:
       m_pattern.findings.push_back("block " + block.name + " has no closed outline and is left out");
       return;
     }
-    Ring ring = outer[0];
+    PointRing ring = outer[0];
     if (ring_area(ring) < 0) std::reverse(ring.begin(), ring.end());
     std::vector<Vec2> turns;
     for (const DxfPoint& p : block.points)
       if (p.layer == 2) turns.push_back(p.p * m_unit);
     const std::vector<std::size_t> corners = corners_of(ring, turns);
     panel.loops.push_back(edges_of(ring, corners, "edge"));
-    for (Ring hole : rings_of(block, 11, m_unit, join)) {
+    for (PointRing hole : rings_of(block, 11, m_unit, join)) {
       if (ring_area(hole) > 0) std::reverse(hole.begin(), hole.end());
       panel.loops.push_back(edges_of(hole, corners_of(hole, turns), "hole" + std::to_string(panel.loops.size()) + "_"));
     }
@@ -299,7 +299,7 @@ private:
         const Vec2 a = line.points[k] * m_unit, b = line.points[k + 1] * m_unit;
         if ((a - b).norm() > 1e-6) mark.path.push_back(Segment::straight(a, b));
         double near = 1e300;
-        for (int e = 0; e < panel.n_edges(); ++e) near = std::min(near, distance_to(panel.edge(e).path, 0.5 * (a + b)));
+        for (int e = 0; e < panel.n_edges(); ++e) near = std::min(near, distance_to_path(panel.edge(e).path, 0.5 * (a + b)));
         off = std::max(off, near);
       }
       if (off > LINE_ON_EDGE && length(mark.path) > SHORTEST) panel.lines.push_back(std::move(mark));
@@ -310,7 +310,7 @@ private:
   int fold_edge(const Panel& panel, const DxfLine& line) {
     const Vec2 middle = 0.5 * (line.points.front() + line.points.back()) * m_unit;
     const int e = edge_near(panel, middle);
-    if (e < static_cast<int>(panel.loops[0].size()) && distance_to(panel.edge(e).path, middle) < 1e-3) return e;
+    if (e < static_cast<int>(panel.loops[0].size()) && distance_to_path(panel.edge(e).path, middle) < 1e-3) return e;
     m_pattern.findings.push_back(panel.name + ": its mirror line lies on no straight edge; the piece is taken as whole");
     return -1;
   }
@@ -390,7 +390,7 @@ private:
 
 Pattern read_dxf(const std::string& text, const std::string& file, const DxfChoice& choice) {
   if (text.find('\0') != std::string::npos) throw input_error(file, "", "this is a binary file", "give a pattern JSON or a text DXF");
-  return Reader(parse_dxf(text, file), choice, file).run();
+  return PieceReader(parse_dxf(text, file), choice, file).run();
 }
 
 } // namespace sloper::pattern

@@ -6,18 +6,18 @@
 
 namespace sloper::pattern {
 
-double ring_area(const Ring& r) {
+double ring_area(const PointRing& r) {
   double a = 0;
   for (std::size_t k = 0; k < r.size(); ++k) a += 0.5 * (r[k].x() * r[(k + 1) % r.size()].y() - r[k].y() * r[(k + 1) % r.size()].x());
   return a;
 }
 
-std::vector<Ring> rings_of(const DxfBlock& block, int layer, double unit, double join) {
-  std::vector<Ring> rings;
-  std::vector<Ring> open;
+std::vector<PointRing> rings_of(const DxfBlock& block, int layer, double unit, double join) {
+  std::vector<PointRing> rings;
+  std::vector<PointRing> open;
   for (const DxfLine& line : block.lines) {
     if (line.layer != layer) continue;
-    Ring points;
+    PointRing points;
     for (const Vec2& p : line.points)
       if (points.empty() || (points.back() - p * unit).norm() > 1e-6) points.push_back(p * unit);
     if (points.size() < 2) continue;
@@ -25,13 +25,13 @@ std::vector<Ring> rings_of(const DxfBlock& block, int layer, double unit, double
     else open.push_back(points);
   }
   while (!open.empty()) {
-    Ring chain = open.front();
+    PointRing chain = open.front();
     open.erase(open.begin());
     for (bool grown = true; grown && (chain.front() - chain.back()).norm() >= join;) {
       grown = false;
       for (std::size_t k = 0; k < open.size() && !grown; ++k)
         for (bool turn : {false, true}) {
-          Ring next = open[k];
+          PointRing next = open[k];
           if (turn) std::reverse(next.begin(), next.end());
           if ((next.front() - chain.back()).norm() >= join) continue;
           chain.insert(chain.end(), next.begin() + 1, next.end());
@@ -42,14 +42,14 @@ std::vector<Ring> rings_of(const DxfBlock& block, int layer, double unit, double
     }
     if (chain.size() > 3 && (chain.front() - chain.back()).norm() < join) rings.push_back(chain);
   }
-  for (Ring& r : rings)
+  for (PointRing& r : rings)
     while (r.size() > 1 && (r.front() - r.back()).norm() < 1e-6) r.pop_back();
-  rings.erase(std::remove_if(rings.begin(), rings.end(), [](const Ring& r) { return r.size() < 3; }), rings.end());
-  std::sort(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) { return std::abs(ring_area(a)) > std::abs(ring_area(b)); });
+  rings.erase(std::remove_if(rings.begin(), rings.end(), [](const PointRing& r) { return r.size() < 3; }), rings.end());
+  std::sort(rings.begin(), rings.end(), [](const PointRing& a, const PointRing& b) { return std::abs(ring_area(a)) > std::abs(ring_area(b)); });
   return rings;
 }
 
-double distance_to_ring(const Ring& ring, const Vec2& p) {
+double distance_to_ring(const PointRing& ring, const Vec2& p) {
   double best = 1e300;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Vec2 a = ring[k], along = ring[(k + 1) % ring.size()] - a;
@@ -59,14 +59,14 @@ double distance_to_ring(const Ring& ring, const Vec2& p) {
   return best;
 }
 
-bool follows(const Ring& sew, const Ring& cut) {
+bool follows(const PointRing& sew, const PointRing& cut) {
   constexpr double WIDEST_ALLOWANCE = 0.07; // m
   if (std::abs(ring_area(sew)) > 1.02 * std::abs(ring_area(cut)) || std::abs(ring_area(sew)) < 0.15 * std::abs(ring_area(cut))) return false;
   return std::all_of(sew.begin(), sew.end(), [&](const Vec2& p) { return distance_to_ring(cut, p) < WIDEST_ALLOWANCE; }) &&
          std::all_of(cut.begin(), cut.end(), [&](const Vec2& p) { return distance_to_ring(sew, p) < WIDEST_ALLOWANCE; });
 }
 
-std::vector<std::size_t> corners_of(const Ring& ring, const std::vector<Vec2>& turn_points) {
+std::vector<std::size_t> corners_of(const PointRing& ring, const std::vector<Vec2>& turn_points) {
   std::vector<std::size_t> corners;
   for (std::size_t k = 0; k < ring.size(); ++k)
     for (const Vec2& p : turn_points)
@@ -83,7 +83,7 @@ std::vector<std::size_t> corners_of(const Ring& ring, const std::vector<Vec2>& t
   return corners;
 }
 
-std::vector<PanelEdge> edges_of(const Ring& ring, const std::vector<std::size_t>& corners, const std::string& prefix) {
+std::vector<PanelEdge> edges_of(const PointRing& ring, const std::vector<std::size_t>& corners, const std::string& prefix) {
   std::vector<PanelEdge> loop;
   const std::size_t n = ring.size();
   for (std::size_t c = 0; c < corners.size(); ++c) {

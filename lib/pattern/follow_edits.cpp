@@ -8,18 +8,28 @@
 #include <cmath>
 
 namespace sloper::pattern {
-namespace {
 
 /// The panel edge and fraction of its length where a boundary point of `panel` lies.
-struct OnEdge {
+struct PlaceOnEdge {
   int edge;
   double fraction;
   double off = 0; ///< m, of the point from there
 };
 
+/// One panel of a mesh, ready to follow its outline.
+struct FollowedPanel {
+  std::vector<std::array<int, 2>> edges; ///< of the mesh, global vertices
+  std::vector<int> row;                  ///< by local vertex: of the system, -1 on the boundary
+  std::vector<PlaceOnEdge> on;           ///< by local vertex: boundary only
+  SparseSolver solver;
+  int n_free = 0;
+};
+
+namespace {
+
 /// Projects a boundary vertex to the nearest edge. Vertices lie on their edges exactly, so the nearest is theirs; at corners either does.
-OnEdge locate(const Panel& panel, const std::vector<ArcLength>& arcs, const Vec2& p) {
-  OnEdge best{0, 0, 0};
+PlaceOnEdge locate(const Panel& panel, const std::vector<ArcLength>& arcs, const Vec2& p) {
+  PlaceOnEdge best{0, 0, 0};
   double least = 1e300;
   for (int e = 0; e < panel.n_edges(); ++e) {
     const ArcLength& arc = arcs[static_cast<std::size_t>(e)];
@@ -82,17 +92,8 @@ bool same_paths(const Panel& a, const Panel& b) {
   return true;
 }
 
-/// One panel of a mesh, ready to follow its outline.
-struct PanelState {
-  std::vector<std::array<int, 2>> edges; ///< of the mesh, global vertices
-  std::vector<int> row;                  ///< by local vertex: of the system, -1 on the boundary
-  std::vector<OnEdge> on;                ///< by local vertex: boundary only
-  SparseSolver solver;
-  int n_free = 0;
-};
-
 /// Interior displacements are each the mean of their neighbours' (uniform weights on a quality mesh).
-void prepare(PanelState& state, const Panel& panel, const PanelInfo& info, const PanelMesh& mesh) {
+void prepare(FollowedPanel& state, const Panel& panel, const PanelInfo& info, const PanelMesh& mesh) {
   std::vector<ArcLength> arcs;
   for (int e = 0; e < panel.n_edges(); ++e) arcs.emplace_back(panel.edge(e).path);
   auto& edges = state.edges;
@@ -112,7 +113,7 @@ void prepare(PanelState& state, const Panel& panel, const PanelInfo& info, const
   }
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   state.row.assign(boundary.size(), -1);
-  state.on.assign(boundary.size(), OnEdge{0, 0, 0});
+  state.on.assign(boundary.size(), PlaceOnEdge{0, 0, 0});
   for (std::size_t v = 0; v < boundary.size(); ++v)
     if (boundary[v]) state.on[v] = locate(panel, arcs, mesh.pattern[static_cast<std::size_t>(info.first_vertex) + v]);
     else state.row[v] = state.n_free++;
@@ -136,12 +137,12 @@ void prepare(PanelState& state, const Panel& panel, const PanelInfo& info, const
 struct MeshFollower::State {
   Pattern before;
   std::vector<Vec2> original;
-  std::vector<PanelState> panels;
+  std::vector<FollowedPanel> panels;
 };
 
 MeshFollower::MeshFollower(const Pattern& before, const PanelMesh& mesh) : m_state(std::make_unique<State>()) {
   m_state->before = before, m_state->original = mesh.pattern;
-  m_state->panels = std::vector<PanelState>(mesh.panels.size());
+  m_state->panels = std::vector<FollowedPanel>(mesh.panels.size());
   if (before.panels.size() != mesh.panels.size()) throw input_error("", "pattern", "the mesh is of another pattern", "mesh the pattern again");
   for (std::size_t p = 0; p < mesh.panels.size(); ++p) prepare(m_state->panels[p], before.panels[p], mesh.panels[p], mesh);
 }
@@ -150,8 +151,8 @@ MeshFollower::MeshFollower(MeshFollower&&) noexcept = default;
 
 double MeshFollower::off_outline() const {
   double most = 0;
-  for (const PanelState& s : m_state->panels)
-    for (const OnEdge& on : s.on) most = std::max(most, on.off);
+  for (const FollowedPanel& s : m_state->panels)
+    for (const PlaceOnEdge& on : s.on) most = std::max(most, on.off);
   return most;
 }
 
@@ -161,7 +162,7 @@ bool MeshFollower::follow(const Pattern& after, PanelMesh& mesh, double least_an
   std::vector<Vec2> moved = original;
   for (std::size_t p = 0; p < mesh.panels.size(); ++p) {
     const PanelInfo& info = mesh.panels[p];
-    const PanelState& state = m_state->panels[p];
+    const FollowedPanel& state = m_state->panels[p];
     const Panel& panel = after.panels[p];
     if (same_paths(m_state->before.panels[p], panel)) continue;
     std::vector<ArcLength> arcs;

@@ -19,7 +19,7 @@ Mat4 placement_of(const io::Node& panel, double unit) {
   return m;
 }
 
-struct Reader {
+struct EdgeReader {
   double unit = 0.01; ///< m per unit
   bool relative = true;
 
@@ -55,7 +55,7 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
   const io::Node source = root.at("pattern"), panels = source.at("panels");
   Pattern pattern;
   pattern.source_format = "garmentcode";
-  Reader reader;
+  EdgeReader reader;
   if (root.has("properties")) {
     const io::Node properties = root.at("properties");
     const double per_meter = properties.number("units_in_meter", 100);

@@ -10,13 +10,13 @@
 namespace sloper::pattern {
 namespace {
 
-std::string upper(std::string s) {
+std::string upper_case(std::string s) {
   std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return s;
 }
 
 /// Words parted by blanks, commas or semicolons.
-std::vector<std::string> words_of(const std::string& text) {
+std::vector<std::string> split_words(const std::string& text) {
   std::vector<std::string> out;
   std::string word;
   for (char c : text + " ") {
@@ -57,23 +57,24 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
   for (std::string line; std::getline(lines, line);) {
     ++line_number;
     const std::size_t colon = line.find(':');
-    const std::string key = colon == std::string::npos ? "" : upper(line.substr(0, colon)), value = colon == std::string::npos ? line : line.substr(colon + 1);
-    const std::vector<std::string> words = words_of(value);
+    const std::string key = colon == std::string::npos ? "" : upper_case(line.substr(0, colon)),
+                      value = colon == std::string::npos ? line : line.substr(colon + 1);
+    const std::vector<std::string> words = split_words(value);
     if (key == "UNITS" && !words.empty()) {
-      const std::string word = upper(words[0]);
+      const std::string word = upper_case(words[0]);
       unit = word.rfind("ENGL", 0) == 0 || word.rfind("INCH", 0) == 0 || word.rfind("IMPERIAL", 0) == 0 ? units::INCH : word == "CM" ? units::CM : units::MM;
     } else if (key == "SIZE LIST") rules.sizes = words;
     else if (key == "SAMPLE SIZE" && !words.empty()) sample = words[0];
     else if (key == "GRADE RULE TABLE" && !words.empty()) rules.table = words[0];
     else if (key == "RULE") {
       finish();
-      if (words.size() < 2 || upper(words[0]) != "DELTA") fail(line_number, "'" + value + "' is no rule", "write RULE: DELTA <number>");
+      if (words.size() < 2 || upper_case(words[0]) != "DELTA") fail(line_number, "'" + value + "' is no rule", "write RULE: DELTA <number>");
       const auto [end, error] = std::from_chars(words[1].data(), words[1].data() + words[1].size(), number_of_rule);
       if (error != std::errc() || end != words[1].data() + words[1].size() || number_of_rule <= 0)
         fail(line_number, "'" + words[1] + "' is no rule number", "give a positive whole number");
       first_line = line_number;
     } else if (key.empty() && number_of_rule > 0) {
-      if (words.size() == 1 && upper(words[0]) == "END") break;
+      if (words.size() == 1 && upper_case(words[0]) == "END") break;
       for (const std::string& word : words) {
         double x = 0;
         const char* begin = word.data() + (word[0] == '+');

@@ -8,7 +8,6 @@
 namespace sloper::pattern {
 namespace {
 
-constexpr double CLEAR = 0.01;       // m between an upper and a lower panel
 constexpr double TOP_ZONE = 0.06;    // m below a panel's top where its waist may slant
 constexpr double BOTTOM_ZONE = 0.03; // m above its end where the hem may
 constexpr double SLANT = 1.5;        // across per up: what leans more is an end and no side
@@ -76,7 +75,7 @@ void level_trunk(const PanelMesh& mesh, const SeamGraph& graph, const std::vecto
         if (along.x() > along.y()) { // a level seam: the panel that has it at its bottom lies above
           const bool above = own / count - middle_height(mesh, roles[p], spots[p], p) < other / count - middle_height(mesh, roles[q], spots[q], q);
           for (const auto& s : seam) least = std::min(least, (above ? 1 : -1) * (v(p, s[0]).y() - v(q, s[1]).y()));
-          wanted = (above ? 1 : -1) * (CLEAR - least) + mean;
+          wanted = (above ? 1 : -1) * (PANEL_GAP - least) + mean;
         }
         const long i = static_cast<long>(p), j = static_cast<long>(q);
         const double off = wanted - mean; // of x_i - x_j

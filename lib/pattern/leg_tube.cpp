@@ -10,9 +10,7 @@ namespace {
 
 using body::Part;
 
-constexpr int N = RING_ANGLES;
 constexpr double BIN = 0.01;           // m of height
-constexpr double CLEAR = 0.01;         // m between the ends of front and back
 constexpr double MIDDLE_CLEAR = 0.006; // m from the plane between the legs
 constexpr double SKIN_CLEAR = 0.006;   // m: least distance from the skin
 constexpr double INTO_LEGS = 0.15;     // m below the crotch over which the hips' curve turns into the leg's
@@ -37,7 +35,7 @@ LegTube::LegTube(const BodySpace& space, bool left) : m_left(left) {
     const bool own = part == (left ? Part::LEG_L : Part::LEG_R), leg = own || part == Part::LEG_L || part == Part::LEG_R;
     if (part == Part::ARM_L || part == Part::ARM_R) m_arms[k].push_back(q);
     if (!leg && part != Part::TORSO) continue;
-    for (int d = 0; d < N; ++d) {
+    for (int d = 0; d < RING_ANGLES; ++d) {
       const double h = q.dot(direction(d));
       m_trunk[k][static_cast<std::size_t>(d)] = std::max(m_trunk[k][static_cast<std::size_t>(d)], h);
       if (own) m_skin[k][static_cast<std::size_t>(d)] = std::max(m_skin[k][static_cast<std::size_t>(d)], h);
@@ -57,10 +55,10 @@ LegTube::LegTube(const BodySpace& space, bool left) : m_left(left) {
   m_leg = smooth(m_skin, 2);
   for (std::size_t k = 0; k < n; ++k) {
     const double y = m_low + BIN * static_cast<double>(k), t = std::clamp((y - (m_crotch - INTO_LEGS)) / INTO_LEGS, 0.0, 1.0), w = t * t * (3 - 2 * t);
-    for (std::size_t d = 0; d < N; ++d) m_leg[k][d] += w * std::max(m_trunk[k][d] - m_leg[k][d], 0.0);
+    for (std::size_t d = 0; d < RING_ANGLES; ++d) m_leg[k][d] += w * std::max(m_trunk[k][d] - m_leg[k][d], 0.0);
     const auto extent = [&](const Ring& h, int d) { return h[static_cast<std::size_t>(d)]; };
-    const double high = extent(m_leg[k], N / 4), low = std::max(-extent(m_leg[k], 3 * N / 4), m_middle);
-    m_center.push_back(Vec2(0.5 * (low + high), 0.5 * (extent(m_leg[k], 0) - extent(m_leg[k], N / 2))));
+    const double high = extent(m_leg[k], RING_ANGLES / 4), low = std::max(-extent(m_leg[k], 3 * RING_ANGLES / 4), m_middle);
+    m_center.push_back(Vec2(0.5 * (low + high), 0.5 * (extent(m_leg[k], 0) - extent(m_leg[k], RING_ANGLES / 2))));
   }
   m_center = averaged(m_center, 4);
 }
@@ -76,21 +74,21 @@ void LegTube::outline(Curve& curve, double grown) const {
   const std::size_t k = static_cast<std::size_t>(x);
   const double f = x - static_cast<double>(k);
   Ring support;
-  for (std::size_t d = 0; d < N; ++d) support[d] = (1 - f) * m_leg[k][d] + f * m_leg[k + 1][d];
+  for (std::size_t d = 0; d < RING_ANGLES; ++d) support[d] = (1 - f) * m_leg[k][d] + f * m_leg[k + 1][d];
   curve.center = (1 - f) * m_center[k] + f * m_center[k + 1];
   curve.radius = radii(support, curve.center, grown);
   const Ring skin = radii(support, curve.center, SKIN_CLEAR);
   for (const std::size_t row : {k, k + 1}) // hands beside the hips are not to be passed through
     for (const Vec2& p : m_arms[row]) {
       const Vec2 q = p - curve.center;
-      const int at = static_cast<int>(std::lround(std::atan2(q.x(), q.y()) / (2 * units::PI) * N));
+      const int at = static_cast<int>(std::lround(std::atan2(q.x(), q.y()) / (2 * units::PI) * RING_ANGLES));
       for (int o = -3; o <= 3; ++o) {
-        const std::size_t d = static_cast<std::size_t>((at + o + 2 * N) % N);
+        const std::size_t d = static_cast<std::size_t>((at + o + 2 * RING_ANGLES) % RING_ANGLES);
         curve.radius[d] = std::max(std::min(curve.radius[d], q.norm() - 0.01), std::min(skin[d], curve.radius[d]));
       }
     }
   const double side = curve.center.x() - m_middle - MIDDLE_CLEAR;
-  for (int d = 0; d < N; ++d) {
+  for (int d = 0; d < RING_ANGLES; ++d) {
     const double across = -direction(d).x();
     if (across > 1e-6) curve.radius[static_cast<std::size_t>(d)] = std::min(curve.radius[static_cast<std::size_t>(d)], side / across);
   }
@@ -109,8 +107,8 @@ void LegTube::shape(const std::vector<double>& heights, const std::vector<LegRow
     const Ring skin = radii(m_skin[bin(c.y)], c.center, SKIN_CLEAR);
     for (const bool back : {false, true}) {
       int reach = 0;
-      for (; reach < N / 4; ++reach) {
-        const std::size_t d = static_cast<std::size_t>(((back ? N / 2 + reach + 1 : -reach - 1) + N) % N);
+      for (; reach < RING_ANGLES / 4; ++reach) {
+        const std::size_t d = static_cast<std::size_t>(((back ? RING_ANGLES / 2 + reach + 1 : -reach - 1) + RING_ANGLES) % RING_ANGLES);
         const bool clipped = c.radius[d] * -direction(static_cast<int>(d)).x() > c.center.x() - m_middle - MIDDLE_CLEAR - 1e-9;
         if (clipped && (c.y > m_crotch - 0.01 || c.radius[d] < skin[d])) break;
       }
@@ -122,17 +120,17 @@ void LegTube::shape(const std::vector<double>& heights, const std::vector<LegRow
     Curve& c = m_curves[j];
     outline(c, grown[j]);
     c.points.clear(), c.s.clear();
-    const double from = -front_reach[j], to = 0.5 * N + back_reach[j];
+    const double from = -front_reach[j], to = 0.5 * RING_ANGLES + back_reach[j];
     const int steps = 160;
     for (int k = 0; k <= steps; ++k) {
       const double x = from + (to - from) * k / steps, whole = std::floor(x), f = x - whole;
-      const std::size_t a = static_cast<std::size_t>((static_cast<int>(whole) + N) % N), b = (a + 1) % N;
-      const double angle = 2 * units::PI * x / N;
+      const std::size_t a = static_cast<std::size_t>((static_cast<int>(whole) + RING_ANGLES) % RING_ANGLES), b = (a + 1) % RING_ANGLES;
+      const double angle = 2 * units::PI * x / RING_ANGLES;
       c.points.push_back(c.center + ((1 - f) * c.radius[a] + f * c.radius[b]) * Vec2(std::sin(angle), std::cos(angle)));
       c.s.push_back(k ? c.s.back() + (c.points[static_cast<std::size_t>(k)] - c.points[static_cast<std::size_t>(k) - 1]).norm() : 0);
     }
   };
-  const auto wanted = [&](std::size_t j) { return std::max(rows[j].front.width() + rows[j].back.width(), rows[j].ring.width()) + CLEAR; };
+  const auto wanted = [&](std::size_t j) { return std::max(rows[j].front.width() + rows[j].back.width(), rows[j].ring.width()) + PANEL_GAP; };
   for (std::size_t j = 0; j < n; ++j)
     for (int round = 0; round < 6; ++round) {
       trace(j);
@@ -148,11 +146,11 @@ void LegTube::shape(const std::vector<double>& heights, const std::vector<LegRow
   for (std::size_t j = 0; j < n; ++j) {
     trace(j);
     Curve& c = m_curves[j];
-    const double length = c.s.back(), cloth = wanted(j) - CLEAR;
-    c.scale = cloth > 0 ? std::min(1.0, (length - CLEAR) / cloth) : 1;
-    const double open = std::max(length - CLEAR - c.scale * cloth, 0.0);
+    const double length = c.s.back(), cloth = wanted(j) - PANEL_GAP;
+    c.scale = cloth > 0 ? std::min(1.0, (length - PANEL_GAP) / cloth) : 1;
+    const double open = std::max(length - PANEL_GAP - c.scale * cloth, 0.0);
     const double share = 0.25 * std::clamp((m_crotch - c.y) / INTO_LEGS, 0.0, 1.0); // the middle seams of the hips stay in the middle
-    c.inner_gap = share * open, c.outer_gap = CLEAR + (1 - 2 * share) * open;
+    c.inner_gap = share * open, c.outer_gap = PANEL_GAP + (1 - 2 * share) * open;
     c.seam = c.inner_gap + c.scale * rows[j].front.width() + 0.5 * c.outer_gap;
   }
 }

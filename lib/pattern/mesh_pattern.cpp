@@ -48,7 +48,7 @@ SizeField size_field(const Pattern& pattern, std::size_t p, const Boundary::Pane
   return SizeField(mesh.edge_length, mesh.seam_length, std::move(lines));
 }
 
-double distance_to(const std::vector<Vec2>& loop, bool closed, const Vec2& p) {
+double distance_to_line(const std::vector<Vec2>& loop, bool closed, const Vec2& p) {
   double least = 1e300;
   for (std::size_t k = 0; k + (closed ? 0 : 1) < loop.size(); ++k) {
     const Vec2 a = loop[k], along = loop[(k + 1) % loop.size()] - a;
@@ -77,9 +77,9 @@ std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel, const Boundary:
           p = *on;
           break;
         }
-        fits = fits && distance_to(loop, true, p) > CLEAR * h;
+        fits = fits && distance_to_line(loop, true, p) > CLEAR * h;
       }
-      for (const auto& other : out) fits = fits && distance_to(other, false, p) > CLEAR * h;
+      for (const auto& other : out) fits = fits && distance_to_line(other, false, p) > CLEAR * h;
       if (fits) chains.back().push_back(p);
       else ++n_left_out, chains.push_back({});
     }

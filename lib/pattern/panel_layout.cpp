@@ -6,8 +6,6 @@
 namespace sloper::pattern {
 namespace {
 
-constexpr double CLEAR = 0.01; // m between neighbours
-
 class Layout {
 public:
   Layout(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph, std::vector<PanelRole>& roles)
@@ -77,7 +75,7 @@ private:
     if (trunk) close_level_seams();
   }
 
-  /// Hints may leave panels above each other far apart, or overlapping: along level seams the lower one is brought to CLEAR below.
+  /// Hints may leave panels above each other far apart, or overlapping: along level seams the lower one is brought to PANEL_GAP below.
   void close_level_seams() {
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < count(); ++k)
@@ -94,7 +92,7 @@ private:
         for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q))) along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
         if (along.x() <= along.y() || along.x() < 0.05) continue; // no seam, an upright or a small one
         const double clearance = m_roles[p].side == m_roles[q].side ? column_clearance(p, q) : bounds(q)[0].y() - bounds(p)[1].y();
-        shift = std::min(shift, clearance - CLEAR);
+        shift = std::min(shift, clearance - PANEL_GAP);
       }
       if (shift < 1e299) m_spots[p].offset.y() += shift;
     }
@@ -156,7 +154,7 @@ private:
     return 0.5 * (b[0] + b[1]);
   }
 
-  /// Moves p along an axis until it is CLEAR of q on every line across.
+  /// Moves p along an axis until it is PANEL_GAP of q on every line across.
   void part(std::size_t p, std::size_t q, long axis, double sense) {
     const long across = 1 - axis;
     double need = 0;
@@ -177,7 +175,7 @@ private:
       double pl, ph, ql, qh;
       extent(p, line, pl, ph), extent(q, line, ql, qh);
       if (pl > ph || ql > qh) continue;
-      need = std::max(need, sense > 0 ? qh + CLEAR - pl : ph + CLEAR - ql);
+      need = std::max(need, sense > 0 ? qh + PANEL_GAP - pl : ph + PANEL_GAP - ql);
     }
     if (need > 0) m_spots[p].offset[axis] += sense * need;
   }
@@ -208,7 +206,7 @@ private:
         }
         double shift = -0.5 * (low.x() + high.x());
         const double sense = (left ? 1 : right ? -1 : 0) * (side == Side::BACK ? -1.0 : 1.0);
-        if (region == Region::TRUNK && side != Side::RING && sense != 0) shift = sense > 0 ? 0.5 * CLEAR - low.x() : -0.5 * CLEAR - high.x();
+        if (region == Region::TRUNK && side != Side::RING && sense != 0) shift = sense > 0 ? 0.5 * PANEL_GAP - low.x() : -0.5 * PANEL_GAP - high.x();
         for (std::size_t k = 0; k < count(); ++k)
           if (m_block[k] == block) m_spots[k].offset.x() += shift;
       }

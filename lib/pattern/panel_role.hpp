@@ -6,6 +6,8 @@
 
 namespace sloper::pattern {
 
+inline constexpr double PANEL_GAP = 0.01; ///< m: between neighbouring edges when panels are placed
+
 enum class Region { TRUNK, ARM_L, ARM_R, NECK }; ///< TRUNK is everything about the vertical axis: bodice, skirt, trouser legs
 enum class Side { FRONT, BACK, RING };           ///< RING goes around: a one-piece sleeve, a waistband in one piece, side gores
 

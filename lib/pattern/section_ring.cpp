@@ -5,10 +5,8 @@
 
 namespace sloper::pattern {
 
-static constexpr int N = RING_ANGLES;
-
 Vec2 direction(int k) {
-  const double a = 2 * units::PI * k / N;
+  const double a = 2 * units::PI * k / RING_ANGLES;
   return {std::sin(a), std::cos(a)}; // 0 forwards, a quarter outwards
 }
 
@@ -19,7 +17,7 @@ Ring empty_ring() {
 }
 
 void include(Ring& ring, const Vec2& p) {
-  for (int d = 0; d < N; ++d) ring[static_cast<std::size_t>(d)] = std::max(ring[static_cast<std::size_t>(d)], p.dot(direction(d)));
+  for (int d = 0; d < RING_ANGLES; ++d) ring[static_cast<std::size_t>(d)] = std::max(ring[static_cast<std::size_t>(d)], p.dot(direction(d)));
 }
 
 std::vector<Ring> filled(std::vector<Ring> rows) {
@@ -36,14 +34,14 @@ std::vector<Ring> joined(const std::vector<Ring>& rows, int reach) {
   const int n = static_cast<int>(rows.size());
   for (int k = 0; k < n; ++k)
     for (int o = std::max(0, k - reach); o <= std::min(n - 1, k + reach); ++o)
-      for (std::size_t d = 0; d < N; ++d)
+      for (std::size_t d = 0; d < RING_ANGLES; ++d)
         out[static_cast<std::size_t>(k)][d] = std::max(out[static_cast<std::size_t>(k)][d], rows[static_cast<std::size_t>(o)][d]);
   return out;
 }
 
 std::vector<Ring> smooth(const std::vector<Ring>& rows, int reach) {
   std::vector<Ring> out = rows;
-  for (std::size_t d = 0; d < N; ++d) {
+  for (std::size_t d = 0; d < RING_ANGLES; ++d) {
     std::vector<double> column;
     for (const Ring& r : rows) column.push_back(r[d]);
     column = averaged(column, reach);
@@ -55,15 +53,16 @@ std::vector<Ring> smooth(const std::vector<Ring>& rows, int reach) {
 Ring radii(const Ring& support, const Vec2& center, double grown) {
   static const std::vector<double> cosine = [] {
     std::vector<double> c;
-    for (int k = 0; k < N; ++k) c.push_back(std::cos(2 * units::PI * k / N));
+    for (int k = 0; k < RING_ANGLES; ++k) c.push_back(std::cos(2 * units::PI * k / RING_ANGLES));
     return c;
   }();
   Ring own, out;
-  for (int k = 0; k < N; ++k) own[static_cast<std::size_t>(k)] = std::max(support[static_cast<std::size_t>(k)] - center.dot(direction(k)) + grown, 1e-3);
-  for (int k = 0; k < N; ++k) {
+  for (int k = 0; k < RING_ANGLES; ++k)
+    own[static_cast<std::size_t>(k)] = std::max(support[static_cast<std::size_t>(k)] - center.dot(direction(k)) + grown, 1e-3);
+  for (int k = 0; k < RING_ANGLES; ++k) {
     double r = 1e300;
-    for (int o = -N / 4 + 4; o <= N / 4 - 4; ++o)
-      r = std::min(r, own[static_cast<std::size_t>((k + o + N) % N)] / cosine[static_cast<std::size_t>(std::abs(o))]);
+    for (int o = -RING_ANGLES / 4 + 4; o <= RING_ANGLES / 4 - 4; ++o)
+      r = std::min(r, own[static_cast<std::size_t>((k + o + RING_ANGLES) % RING_ANGLES)] / cosine[static_cast<std::size_t>(std::abs(o))]);
     out[static_cast<std::size_t>(k)] = r;
   }
   return out;

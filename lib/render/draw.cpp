@@ -11,14 +11,15 @@
 
 namespace sloper::render {
 
-namespace {
-
 struct SurfaceVertex {
   float position[3], normal[3], color[4], cloth[4], value[2];
 };
 struct LineVertex {
   float position[3], other[3], color[4];
 };
+
+namespace {
+
 constexpr int GROUND_RINGS = 28, GROUND_SPOKES = 56;
 constexpr double SMOOTHED_IN = 0.0006; // m, as far as smooth_cloth() moves cloth inwards
 enum Kind { BODY = 0, CLOTH = 1, FLAT = 2, GROUND = 3 };

@@ -3,6 +3,7 @@
 #include <io/files.hpp>
 #include <io/json.hpp>
 #include <render/export.hpp>
+#include <render/srgb.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -26,8 +27,6 @@ Vec3 shown_color(const DrawMesh& mesh, std::size_t v, const Legend& legend) {
   const double t = std::clamp((mesh.values[v] - legend.low) / (legend.high - legend.low), 0.0, 0.9999);
   return legend.steps[static_cast<std::size_t>(t * static_cast<double>(legend.steps.size()))];
 }
-
-double to_srgb(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055; }
 
 template<class T> void append(std::string& bytes, const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
 

@@ -1,5 +1,6 @@
 #include <base/error.hpp>
 #include <render/overlay.hpp>
+#include <render/srgb.hpp>
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
@@ -52,11 +53,6 @@ template<class F> void cover(io::Image& image, double x0, double y0, double x1, 
       const double alpha = std::clamp(coverage(x + 0.5, y + 0.5), 0.0, 1.0);
       if (alpha > 0) blend(image.at(x, y), color, alpha);
     }
-}
-
-std::uint8_t to_srgb(double linear) {
-  const double s = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(s, 0.0, 1.0)));
 }
 
 std::string number(double x) {
@@ -127,7 +123,7 @@ void draw_legend(io::Image& image, const Legend& legend) {
   for (int y = 0; y < n * step; ++y)
     for (int x = left; x < std::min(left + bar_width, image.width); ++x) {
       std::uint8_t* pixel = image.at(x, std::min(top + y, image.height - 1));
-      for (int k = 0; k < 3; ++k) pixel[k] = to_srgb(legend.steps[n - 1 - y / step][k]);
+      for (int k = 0; k < 3; ++k) pixel[k] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(to_srgb(legend.steps[n - 1 - y / step][k]), 0.0, 1.0)));
       pixel[3] = 255;
     }
   for (int k = 0; k <= n; k += 2)

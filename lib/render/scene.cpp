@@ -11,6 +11,7 @@
 #include <pattern/panel_mesh_json.hpp>
 #include <pattern/read_pattern.hpp>
 #include <render/scene.hpp>
+#include <render/srgb.hpp>
 #include <render/words.hpp>
 
 #include <cmath>
@@ -144,10 +145,7 @@ DrawMesh cloth_mesh(const garment::Garment& g) {
 }
 
 Vec3 linear_color(int hex) {
-  auto channel = [](int c) {
-    const double s = c / 255.0;
-    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-  };
+  auto channel = [](int c) { return from_srgb(c / 255.0); };
   return {channel(hex >> 16 & 255), channel(hex >> 8 & 255), channel(hex & 255)};
 }
 

@@ -1,3 +1,4 @@
+#include "has.hpp"
 #include "scratch_folder.hpp"
 
 #include <io/json.hpp>
@@ -33,8 +34,6 @@ static std::string complaint(const std::function<void()>& deed, ErrorKind kind =
   }
   return {};
 }
-
-static bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Json, refuses_a_key_that_stands_twice_in_one_object_and_names_it) {
   EXPECT_TRUE(has(complaint(R"({"a": 1, "bcd": 2, "a": 3})"), "\"a\""));

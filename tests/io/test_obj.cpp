@@ -1,3 +1,4 @@
+#include "has.hpp"
 #include "scratch_folder.hpp"
 
 #include <base/error.hpp>
@@ -10,7 +11,7 @@
 using namespace sloper;
 using namespace sloper::test;
 
-static std::string complaint(const std::string& text) {
+static std::string obj_complaint(const std::string& text) {
   try {
     io::parse_obj(text, "a.obj");
   } catch (const Error& e) {
@@ -20,8 +21,6 @@ static std::string complaint(const std::string& text) {
   }
   return {};
 }
-
-static bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Obj, keeps_the_order_and_count_of_vertices_also_of_those_that_no_face_names) {
   const io::ObjMesh mesh = io::parse_obj("v 3 0 0\nv 1 0 0\nv 1 0 0\nv 0 2 0\nf 4 1 2\n", "a.obj");
@@ -45,20 +44,20 @@ TEST(Obj, counts_negative_indices_back_from_the_line_they_stand_on) {
 }
 
 TEST(Obj, names_the_line_of_a_bad_index) {
-  EXPECT_TRUE(has(complaint("v 0 0 0\nv 1 0 0\nv 0 1 0\n# remark\nf 1 2 4\n"), "line 5"));
+  EXPECT_TRUE(has(obj_complaint("v 0 0 0\nv 1 0 0\nv 0 1 0\n# remark\nf 1 2 4\n"), "line 5"));
   for (const char* face : {"f 1 2 0", "f 1 2 -4", "f 1 2 99999999999999999999", "f 1 2 x", "f 1 2 3.5", "f 1 2", "f", "f 1/1 2/1 3/1", "f 1/ 2 /3"})
-    EXPECT_TRUE(has(complaint(std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\n") + face + "\n"), "line 4")) << face;
+    EXPECT_TRUE(has(obj_complaint(std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\n") + face + "\n"), "line 4")) << face;
 }
 
 TEST(Obj, refuses_coordinates_that_are_no_finite_numbers) {
   for (const char* line : {"v nan 0 0", "v 0 inf 0", "v 0 0 -inf", "v 1e400 0 0", "v 0 0", "v", "v 1,5 0 0", "v 0x10 0 0", "v a b c", "vt nan 0"})
-    EXPECT_TRUE(has(complaint(std::string("# first\n") + line + "\n"), "line 2")) << line;
+    EXPECT_TRUE(has(obj_complaint(std::string("# first\n") + line + "\n"), "line 2")) << line;
 }
 
 TEST(Obj, refuses_binary_bytes) {
-  EXPECT_TRUE(has(complaint(std::string("v 0 0 0\n\x7f"
-                                        "ELF\0\1\2",
-                                        15)),
+  EXPECT_TRUE(has(obj_complaint(std::string("v 0 0 0\n\x7f"
+                                            "ELF\0\1\2",
+                                            15)),
                   "line 2"));
 }
 

@@ -107,11 +107,11 @@ Buckled buckled(double eps) {
   return {std::abs(t) / n, n};
 }
 
-enum class Model { SPRINGS, TRIANGLES, FEM, FEM_DIHEDRAL };
-const char* const MODEL_NAMES[] = {"springs", "triangles", "finite elements", "with dihedral bending"};
+enum class BentModel { SPRINGS, TRIANGLES, FEM, FEM_DIHEDRAL };
+const char* const BENT_MODEL_NAMES[] = {"springs", "triangles", "finite elements", "with dihedral bending"};
 
 /// H/W of a clamped sheet of n cells along its length of 0.1 m and m across. `rigidity`: of the bent sheet over that of the fabric, B.
-double cantilever(double gamma, int n, int m, double rigidity, Model model) {
+double cantilever(double gamma, int n, int m, double rigidity, BentModel model) {
   const double length = 0.1, dx = length / (n + 0.5), density = 0.2;
   Fabric fabric;
   fabric.density_kg_m2 = density;
@@ -124,11 +124,11 @@ double cantilever(double gamma, int n, int m, double rigidity, Model model) {
   // clamp lies half a cell before that column: length = (n + 1/2) dx.
   const HexSheet s = make_hex_sheet(n + 1, dx, m, fabric);
   ClothSolver solver(s.mesh, s.x);
-  if (model == Model::SPRINGS) solver.emplace<EdgeSpringEffect>(s.mesh);
-  else if (model == Model::TRIANGLES) solver.emplace<TriangleStretchEffect>(s.mesh);
+  if (model == BentModel::SPRINGS) solver.emplace<EdgeSpringEffect>(s.mesh);
+  else if (model == BentModel::TRIANGLES) solver.emplace<TriangleStretchEffect>(s.mesh);
   else solver.emplace<MembraneEffect>(s.mesh);
-  if (model == Model::SPRINGS || model == Model::TRIANGLES) solver.emplace<ShearEffect>(s.mesh);
-  if (model == Model::FEM_DIHEDRAL) solver.emplace<DihedralBendingEffect>(s.mesh);
+  if (model == BentModel::SPRINGS || model == BentModel::TRIANGLES) solver.emplace<ShearEffect>(s.mesh);
+  if (model == BentModel::FEM_DIHEDRAL) solver.emplace<DihedralBendingEffect>(s.mesh);
   else solver.emplace<BendingEffect>(s.mesh);
   solver.emplace<GravityEffect>(s.mesh, Vec3(0, -9.80665, 0));
   std::vector<Pin> pins;
@@ -143,10 +143,10 @@ double cantilever(double gamma, int n, int m, double rigidity, Model model) {
 
 const std::vector<double> ALL = {1, 3, 10, 30, 100};
 
-void expect_curve(Model model, int n, int m, double rigidity, const std::vector<double>& gammas) {
+void expect_curve(BentModel model, int n, int m, double rigidity, const std::vector<double>& gammas) {
   for (double gamma : gammas) {
     const double exact = reference(gamma), ours = cantilever(gamma, n, m, rigidity, model);
-    plot_point("elastica", MODEL_NAMES[static_cast<int>(model)] + std::string(rigidity < 1 ? ", strip" : ""), gamma, ours);
+    plot_point("elastica", BENT_MODEL_NAMES[static_cast<int>(model)] + std::string(rigidity < 1 ? ", strip" : ""), gamma, ours);
     print_figure("H/W at Gamma " + std::to_string(static_cast<int>(gamma)), ours, exact);
     EXPECT_NEAR(ours / exact, 1, 0.03) << "gamma " << gamma;
   }
@@ -224,8 +224,8 @@ TEST(StickSlip, the_friction_that_holds_a_buckled_sheet_s_end_is_within_5_percen
   }
 }
 
-TEST(Elastica, a_wide_sheet_with_springs_is_within_3_percent) { expect_curve(Model::SPRINGS, 16, 42, 1, ALL); }
-TEST(Elastica, a_wide_sheet_with_triangles_is_within_3_percent) { expect_curve(Model::TRIANGLES, 16, 42, 1, ALL); }
-TEST(Elastica, a_wide_sheet_with_finite_elements_is_within_3_percent) { expect_curve(Model::FEM, 16, 42, 1, ALL); }
-TEST(Elastica, a_wide_sheet_with_dihedral_bending_is_within_3_percent) { expect_curve(Model::FEM_DIHEDRAL, 16, 42, 1, ALL); }
-TEST(Elastica, a_narrow_strip_is_softer_by_a_ninth) { expect_curve(Model::FEM, 40, 4, STRIP, {1.0, 3.0}); }
+TEST(Elastica, a_wide_sheet_with_springs_is_within_3_percent) { expect_curve(BentModel::SPRINGS, 16, 42, 1, ALL); }
+TEST(Elastica, a_wide_sheet_with_triangles_is_within_3_percent) { expect_curve(BentModel::TRIANGLES, 16, 42, 1, ALL); }
+TEST(Elastica, a_wide_sheet_with_finite_elements_is_within_3_percent) { expect_curve(BentModel::FEM, 16, 42, 1, ALL); }
+TEST(Elastica, a_wide_sheet_with_dihedral_bending_is_within_3_percent) { expect_curve(BentModel::FEM_DIHEDRAL, 16, 42, 1, ALL); }
+TEST(Elastica, a_narrow_strip_is_softer_by_a_ninth) { expect_curve(BentModel::FEM, 40, 4, STRIP, {1.0, 3.0}); }
