@@ -1,21 +1,14 @@
 /// drape: placed panels or a kept garment to cloth at rest on a body.
-#include <base/version.hpp>
 #include <body/body_json.hpp>
 #include <cli/run_tool.hpp>
-#include <garment/accuracy.hpp>
 #include <garment/bind.hpp>
-#include <garment/drape.hpp>
-#include <garment/follow.hpp>
-#include <garment/frame_writer.hpp>
+#include <garment/drape_job.hpp>
 #include <garment/garment_json.hpp>
 #include <garment/inputs.hpp>
 #include <garment/kes.hpp>
-#include <garment/layers.hpp>
-#include <garment/motion.hpp>
 #include <garment/scene.hpp>
 #include <io/files.hpp>
 #include <io/json.hpp>
-#include <io/line_follower.hpp>
 #include <io/obj.hpp>
 #include <pattern/folds.hpp>
 #include <pattern/panel_mesh_json.hpp>
@@ -113,62 +106,18 @@ bool has_goal(const Options& o, const garment::Scene& scene) {
   return o.max_error_mm > 0 || (o.max_seconds > 0 && !preset);
 }
 
-struct Result {
-  io::Json document;                 ///< the report
-  std::size_t refused = 0;           ///< lines that were no edits
-  std::vector<std::string> findings; ///< what does not belong together
-};
-
-/// Drapes, to a goal when there is one, or goes on with a draped garment while edits come.
-garment::DrapeReport drape_or_follow(cli::Tool& tool, const Options& o, garment::Garment& garment, std::vector<garment::Garment>& layers,
-                                     const body::Body* body, const garment::Scene& scene, const garment::DrapeSettings& settings, Result& result) {
-  io::Json& document = result.document;
-  if (o.follow.empty() && o.motion.empty() && layers.empty() && !o.untangle_only && has_goal(o, scene)) {
-    const garment::AccuracyGoal goal{1e-3 * o.max_error_mm, settings.max_seconds};
-    garment::AccuracyReport report = garment::drape_to_goal(
-        garment, body, goal, [&](garment::DrapeSettings& s) { set_knobs(s, o, scene); }, tool.reporter());
-    document = garment::report_json(report.drape, tool.name());
-    document["accuracy"] = report.achieved;
-    return std::move(report.drape);
-  }
-  if (!layers.empty()) {
-    layers.push_back(std::move(garment));
-    garment::DrapeReport report = garment::drape_layers(layers, body, settings, tool.reporter());
-    garment = std::move(layers.back());
-    layers.pop_back();
-    document = garment::report_json(report, tool.name());
-    return report;
-  }
-  if (!o.motion.empty()) {
-    const garment::BodyMoves moves = garment::read_moves(*body, o.motion, 1 / o.motion_fps);
-    garment::FrameWriter write(o.frames, "frame of " + generator_stamp(tool.name()), std::cout);
-    garment::DrapeReport report = garment::drape_in_motion(
-        garment, *body, moves, settings, [&](const garment::MotionFrame& f, const garment::Garment& g) { write(f, g); }, tool.reporter());
-    garment.body_sha256.clear(); // it hangs on the last skin
-    if (moves.end) garment::bind_garment(garment, *moves.end);
-    else garment.bind = {};
-    document = garment::report_json(report, tool.name());
-    return report;
-  }
-  if (o.untangle_only) {
-    garment::DrapeReport report = garment::untangle_only(garment, body, settings, tool.reporter());
-    document = garment::report_json(report, tool.name());
-    return report;
-  }
-  if (o.follow.empty()) {
-    garment::DrapeReport report = garment::drape(garment, body, settings, tool.reporter(), {}, {o.checkpoint, o.checkpoint_steps});
-    document = garment::report_json(report, tool.name());
-    return report;
-  }
-  io::LineFollower lines(o.follow);
-  garment::FrameWriter write(o.frames, "frame of " + generator_stamp(tool.name()), std::cout);
-  const garment::FollowSession session{[&](int wait_ms) { return lines.next(wait_ms); }, [&] { return lines.ended(); },
-                                       [&](const garment::FollowFrame& f, const garment::Garment& g) { write(f, g); }};
-  garment::FollowReport report = garment::follow(garment, body, settings, session, tool.reporter());
-  if (!o.edit_log.empty()) io::write_json(o.edit_log, report.log);
-  document = garment::follow_report_json(report, tool.name());
-  result.refused = report.refused.size();
-  return std::move(report.drape);
+/// The way that the options ask for.
+garment::DrapeJob job_of(const cli::Tool& tool, const Options& o, const garment::Scene& scene, const garment::DrapeSettings& settings) {
+  garment::DrapeJob job;
+  job.tool = tool.name();
+  if (o.follow.empty() && o.motion.empty() && !o.untangle_only && has_goal(o, scene))
+    job.goal = garment::AccuracyGoal{1e-3 * o.max_error_mm, settings.max_seconds};
+  job.adjust = [&o, &scene](garment::DrapeSettings& s) { set_knobs(s, o, scene); };
+  job.motion = o.motion, job.motion_fps = o.motion_fps;
+  job.untangle_only = o.untangle_only;
+  job.follow = o.follow, job.frames = o.frames, job.edit_log = o.edit_log;
+  job.checkpoints = {o.checkpoint, o.checkpoint_steps};
+  return job;
 }
 
 void check_options(const Options& o) {
@@ -189,23 +138,24 @@ void check_options(const Options& o) {
 }
 
 /// Writes the report; the exit code.
-int write_report(cli::Tool& tool, const Options& o, const garment::Garment& garment, const garment::DrapeReport& report, const io::Json& inputs,
-                 Result& result) {
-  io::Json& document = result.document;
+int write_report(cli::Tool& tool, const Options& o, const garment::Garment& garment, garment::DrapeOutcome& outcome, const io::Json& inputs,
+                 const std::vector<std::string>& findings) {
+  io::Json& document = outcome.document;
+  const garment::DrapeReport& report = outcome.report;
   if (!o.report.empty()) {
-    document["findings"] = result.findings;
+    document["findings"] = findings;
     document["inputs"] = inputs;
     document["hash"] = {{"strict", garment::strict_hash(garment)}, {"quantised_10um", garment::quantised_hash(garment)}};
     io::write_json(o.report, document);
   }
-  if (result.refused > 0)
-    tool.reporter().warning(std::to_string(result.refused) + (result.refused == 1 ? " line was no edit" : " lines were no edits") +
+  if (outcome.refused_lines > 0)
+    tool.reporter().warning(std::to_string(outcome.refused_lines) + (outcome.refused_lines == 1 ? " line was no edit" : " lines were no edits") +
                             " of this pattern and changed nothing");
   if (document.contains("accuracy") && report.converged && !document["accuracy"]["met"].get<bool>()) {
     tool.reporter().warning("at rest, but not within --max-error-mm; see \"accuracy\" in the report; the state reached is in " + o.output);
     return static_cast<int>(ErrorKind::FAILED);
   }
-  if (report.converged) return result.refused > 0 ? static_cast<int>(ErrorKind::FAILED) : 0;
+  if (report.converged) return outcome.refused_lines > 0 ? static_cast<int>(ErrorKind::FAILED) : 0;
   tool.reporter().warning("not done: " + report.stop_reason + " after " + std::to_string(report.steps) + " steps; the state reached is in " + o.output);
   return static_cast<int>(ErrorKind::FAILED);
 }
@@ -226,11 +176,12 @@ int resume(cli::Tool& tool, const Options& o) {
     garment.body_sha256 = body::skin_sha256(o.body);
     inputs.push_back(garment::input_entry(o.body));
   }
-  const garment::DrapeReport report = garment::resume_drape(o.from, garment, o.body.empty() ? nullptr : &body, tool.reporter(), o.checkpoint);
+  garment::DrapeOutcome outcome;
+  outcome.report = garment::resume_drape(o.from, garment, o.body.empty() ? nullptr : &body, tool.reporter(), o.checkpoint);
+  outcome.document = garment::report_json(outcome.report, tool.name());
   if (!o.body.empty()) garment::bind_garment(garment, body);
   garment::write_garment(o.output, garment, tool.name());
-  Result result{garment::report_json(report, tool.name()), 0, {}};
-  return write_report(tool, o, garment, report, inputs, result);
+  return write_report(tool, o, garment, outcome, inputs, {});
 }
 
 int run(cli::Tool& tool, Options& o) {
@@ -258,20 +209,20 @@ int run(cli::Tool& tool, Options& o) {
   std::vector<garment::Garment> layers;
   for (const std::string& path : o.over) layers.push_back(garment::read_garment(path));
   body::Body body;
-  Result result;
   if (!o.body.empty()) body = body::read_body(o.body);
   const std::string skin = o.body.empty() ? "" : body::skin_sha256(o.body);
-  result.findings = garment::start_findings(garment, {source, o.body, skin, !o.from.empty()});
+  std::vector<std::string> findings = garment::start_findings(garment, {source, o.body, skin, !o.from.empty()});
   if (!o.body.empty()) {
     for (std::size_t k = 0; k < layers.size(); ++k)
-      for (const std::string& finding : garment::start_findings(layers[k], {o.over[k], o.body, skin, true})) result.findings.push_back(finding);
+      for (const std::string& finding : garment::start_findings(layers[k], {o.over[k], o.body, skin, true})) findings.push_back(finding);
     garment.body_sha256 = skin;
     inputs.push_back(garment::input_entry(o.body));
   }
-  for (const std::string& finding : result.findings) tool.reporter().warning(finding);
+  for (const std::string& finding : findings) tool.reporter().warning(finding);
   if (!o.motion.empty()) inputs.push_back(garment::input_entry(o.motion));
   for (const std::string& path : o.over) inputs.push_back(garment::input_entry(path));
-  const garment::DrapeReport report = drape_or_follow(tool, o, garment, layers, o.body.empty() ? nullptr : &body, scene, settings, result);
+  garment::DrapeOutcome outcome =
+      garment::do_drape(job_of(tool, o, scene, settings), garment, layers, o.body.empty() ? nullptr : &body, settings, std::cout, tool.reporter());
   if (!o.body.empty() && o.motion.empty()) garment::bind_garment(garment, body);
 
   garment::write_garment(o.output, garment, tool.name());
@@ -279,7 +230,7 @@ int run(cli::Tool& tool, Options& o) {
     garment::bind_garment(layers[k], body);
     garment::write_garment(o.over_output[k], layers[k], tool.name());
   }
-  return write_report(tool, o, garment, report, inputs, result);
+  return write_report(tool, o, garment, outcome, inputs, findings);
 }
 
 } // namespace
