@@ -45,10 +45,12 @@ std::vector<Triangle> triangles_around(const TriangleMesh& skin, std::vector<cha
 
 /// Vertices with skin that looks the other way somewhere within about a cell: by a grid of the directions that skin faces.
 std::vector<char> facing_candidates(const TriangleMesh& skin, const std::vector<char>& may_move) {
-  constexpr double CELL = 0.008; // m
+  constexpr double POINT_CELL = 0.008; // m
   const std::vector<Vec3> normals = rough_normals(skin, skin.triangles);
   const auto key = [](long x, long y, long z) { return ((x + 100000) << 40) + ((y + 100000) << 20) + (z + 100000); };
-  const auto cell = [](const Vec3& p) { return std::array<long, 3>{std::lround(p.x() / CELL), std::lround(p.y() / CELL), std::lround(p.z() / CELL)}; };
+  const auto cell = [](const Vec3& p) {
+    return std::array<long, 3>{std::lround(p.x() / POINT_CELL), std::lround(p.y() / POINT_CELL), std::lround(p.z() / POINT_CELL)};
+  };
   std::vector<std::pair<long, int>> faced; // cell, six bits: which way its skin faces
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
     if (!may_move[v]) continue;
