@@ -12,7 +12,7 @@
 namespace sloper::render {
 
 struct SurfaceVertex {
-  float position[3], normal[3], color[4], cloth[4], value[2];
+  float position[3], normal[3], color[4], cloth[4], value[3]; // of the map, light of the key, whether the map has a value
 };
 struct LineVertex {
   float position[3], other[3], color[4];
@@ -102,6 +102,19 @@ struct Renderer::Impl {
                   "ask for a smaller --size");
   }
 
+  /// Vertices without a value take the mean of their neighbours' and stay marked: half-way between them and the others the map ends, in
+  /// colours that were there, not in those of a value far outside.
+  void carry_values_over_the_border(const std::vector<Triangle>& triangles, int base) {
+    std::vector<std::array<float, 2>> sum(vertices.size() - static_cast<std::size_t>(base)); // of values, their number
+    for (const Triangle& t : triangles)
+      for (int v : t)
+        for (int w : t)
+          if (const SurfaceVertex& from = vertices[static_cast<std::size_t>(base + w)]; from.value[2] > 0)
+            sum[static_cast<std::size_t>(v)][0] += from.value[0], sum[static_cast<std::size_t>(v)][1] += 1;
+    for (std::size_t v = 0; v < sum.size(); ++v)
+      if (SurfaceVertex& to = vertices[static_cast<std::size_t>(base) + v]; to.value[2] == 0 && sum[v][1] > 0) to.value[0] = sum[v][0] / sum[v][1];
+  }
+
   void append(const DrawMesh& mesh, int kind, std::vector<GLuint>& indices, std::vector<LineVertex>& lines, std::vector<GLuint>& line_indices) {
     const int base = static_cast<int>(vertices.size());
     const bool mapped = !options.map_colors.empty() && !mesh.values.empty();
@@ -121,14 +134,16 @@ struct Renderer::Impl {
         out.cloth[2] = static_cast<float>(mesh.seam[v]);
         out.cloth[3] = static_cast<float>(mesh.hem[v]);
       }
-      out.value[0] =
-          mapped && mesh.values[v] != NO_VALUE ? static_cast<float>((mesh.values[v] - options.map_low) / (options.map_high - options.map_low)) : -10.f;
-      if (out.value[0] > -9.f) out.value[0] = std::clamp(out.value[0], 0.f, 1.f);
       out.value[1] = 1;
+      if (mapped && mesh.values[v] != NO_VALUE) {
+        out.value[0] = static_cast<float>(std::clamp((mesh.values[v] - options.map_low) / (options.map_high - options.map_low), 0.0, 1.0));
+        out.value[2] = 1;
+      }
       vertices.push_back(out);
       points.push_back(mesh.positions[v]);
       normals.push_back(mesh.normals[v]);
     }
+    if (mapped) carry_values_over_the_border(mesh.triangles, base);
     for (const Triangle& t : mesh.triangles)
       for (int v : t) indices.push_back(static_cast<GLuint>(base + v));
     if (options.border_lines)
@@ -181,7 +196,7 @@ struct Renderer::Impl {
       }
     };
     if (!lines.empty()) upload(line_array, line_buffer, lines, line_indices, {3, 3, 4});
-    upload(surface_array, surface_buffer, vertices, indices, {3, 3, 4, 4, 2});
+    upload(surface_array, surface_buffer, vertices, indices, {3, 3, 4, 4, 3});
   }
 
   /// The few directions of the sky would show as rays on the floor.
@@ -252,6 +267,8 @@ struct Renderer::Impl {
       float scale[24];
       for (int k = 0; k < 8; ++k) put(scale + 3 * k, options.map_colors[k]);
       gl.Uniform3fv(at("scale"), 8, scale);
+      const Vec3 none = no_value_color();
+      gl.Uniform3f(at("no_value"), static_cast<float>(none.x()), static_cast<float>(none.y()), static_cast<float>(none.z()));
     }
   }
 

@@ -23,7 +23,7 @@ std::string extension(const std::string& path) {
 
 Vec3 shown_color(const DrawMesh& mesh, std::size_t v, const Legend& legend) {
   if (mesh.values.empty() || legend.steps.empty()) return mesh.colors[v];
-  if (mesh.values[v] == NO_VALUE) return Vec3::Constant(0.55);
+  if (mesh.values[v] == NO_VALUE) return no_value_color();
   const double t = std::clamp((mesh.values[v] - legend.low) / (legend.high - legend.low), 0.0, 0.9999);
   return legend.steps[static_cast<std::size_t>(t * static_cast<double>(legend.steps.size()))];
 }

@@ -15,6 +15,7 @@ namespace {
 using garment::Garment;
 
 constexpr double E100_TENSION = 98.0665; // N/m, 100 gf/cm
+constexpr double NEARLY_NONE = 0.2;      // share of a panel's vertices
 constexpr double FAR = 0.3;              // m: gaps are measured up to here
 
 /// Area-weighted means at panel vertices.
@@ -86,6 +87,24 @@ std::vector<double> pressure_values(const Garment& g, const collision::BodyColli
   return mean.result();
 }
 
+/// By panel vertex: whether it is a sleeve's. A panel that lies nearly all on the arm or off it is taken as a whole, so that the border is the
+/// armhole; one that goes on from the trunk into the sleeve is parted where the arm has the greater weight.
+std::vector<char> on_sleeves(const Garment& g) {
+  std::vector<char> sleeve;
+  for (int particle : g.particle_of) {
+    double arm = 0;
+    for (const garment::BindWeight& w : g.bind.particles[particle])
+      if (g.bind.frames[w.frame].find("arm") != std::string::npos) arm += w.weight;
+    sleeve.push_back(arm > 0.5);
+  }
+  for (const pattern::PanelInfo& panel : g.panels.panels) {
+    const auto first = sleeve.begin() + panel.first_vertex, last = first + panel.n_vertices;
+    const double share = panel.n_vertices > 0 ? static_cast<double>(std::count(first, last, 1)) / panel.n_vertices : 0;
+    if (share < NEARLY_NONE || share > 1 - NEARLY_NONE) std::fill(first, last, share > 0.5);
+  }
+  return sleeve;
+}
+
 std::vector<double> ease_values(const Garment& g, const body::Body& body, const collision::BodyCollider& skin) {
   if (g.bind.empty())
     throw Error(ErrorKind::USAGE, "", "--map ease", "needs a garment that hangs on a body", "give the shirt.json that drape or retarget-garment wrote");
@@ -93,14 +112,12 @@ std::vector<double> ease_values(const Garment& g, const body::Body& body, const 
   for (const garment::FitRow& row : garment::fit_garment(g, body, skin, garment::standard_fit_policy()).rows)
     if (row.kind == "level") ease[row.height_m] = 100 * row.ease_m;
   if (ease.empty()) throw Error(ErrorKind::USAGE, "", "--map ease", "no trunk level goes through this garment");
+  const std::vector<char> sleeve = on_sleeves(g);
   std::vector<double> values;
-  for (int particle : g.particle_of) {
-    double arm = 0;
-    for (const garment::BindWeight& w : g.bind.particles[particle])
-      if (g.bind.frames[w.frame].find("arm") != std::string::npos) arm += w.weight;
-    const double y = g.position[particle].y();
+  for (std::size_t v = 0; v < g.particle_of.size(); ++v) {
+    const double y = g.position[g.particle_of[v]].y();
     const auto above = ease.lower_bound(y);
-    if (arm > 0.5) values.push_back(NO_VALUE);
+    if (sleeve[v]) values.push_back(NO_VALUE);
     else if (above == ease.end()) values.push_back(ease.rbegin()->second);
     else if (above == ease.begin()) values.push_back(above->second);
     else {
@@ -118,6 +135,20 @@ double summarise(std::vector<garment::Weighted> all, Legend& legend) {
   legend.least = all.front().value, legend.largest = all.back().value;
   for (garment::Weighted& v : all) v.value = std::abs(v.value);
   return garment::area_quantile(all, 0.99);
+}
+
+/// How much lies beyond the ends of the scale or has no value.
+void count_outside(const std::vector<std::vector<double>>& lists, Legend& legend) {
+  std::size_t n = 0, below = 0, beyond = 0;
+  const double slack = 1e-9 * (legend.high - legend.low);
+  for (const auto& list : lists)
+    for (double v : list) {
+      legend.has_gaps |= v == NO_VALUE;
+      if (v == NO_VALUE) continue;
+      ++n, below += v<legend.low - slack, beyond += v> legend.high + slack;
+    }
+  if (n == 0) return;
+  legend.below = static_cast<double>(below) / static_cast<double>(n), legend.beyond = static_cast<double>(beyond) / static_cast<double>(n);
 }
 
 /// The first of the ranges that holds the value, or the last.
@@ -167,6 +198,8 @@ Vec3 scale_color(double t, bool diverging) {
   const int k = std::min(static_cast<int>(s), 3);
   return anchors[k] + (s - k) * (anchors[k + 1] - anchors[k]);
 }
+
+Vec3 no_value_color() { return Vec3::Constant(0.24); }
 
 Legend apply_map(Scene& scene, Map map, double limit) {
   Legend legend;
@@ -225,6 +258,7 @@ Legend apply_map(Scene& scene, Map map, double limit) {
   }
   if (limit > 0) legend.high = limit;
   legend.low = legend.diverging ? -legend.high : 0;
+  count_outside(values, legend);
   for (int k = 0; k < 8; ++k) legend.steps.push_back(scale_color(legend.diverging ? (k - 3.5) / 3.5 : k / 7.0, legend.diverging));
   for (std::size_t g = 0; g < values.size(); ++g) scene.meshes[scene.garment_mesh[g]].values = values[g];
   return legend;

@@ -21,13 +21,18 @@ struct Legend {
   double low = 0, high = 0;
   double least = 0, p1 = 0, p50 = 0, p99 = 0, largest = 0; ///< of the values
   bool diverging = false;
-  std::vector<Vec3> steps; ///< eight colours, linear, low to high; empty: no colour bar
+  bool has_gaps = false;        ///< some cloth has no value: it is drawn in no_value_color()
+  double below = 0, beyond = 0; ///< share of the values under `low` and over `high`, 0..1: they are drawn in the end colours
+  std::vector<Vec3> steps;      ///< eight colours, linear, low to high; empty: no colour bar
 };
 
 /// Fills the values of the scene's cloth (for PARTS the body's colours) and says their legend.
 /// @param limit top of the scale in the map's unit; 0 picks one of a few fixed ranges, so that pictures can be compared
 /// @throws Error USAGE when the scene lacks what the map needs
 Legend apply_map(Scene& scene, Map map, double limit = 0);
+
+/// The grey of cloth on which a map has no value, linear RGB: darker than the middle of the diverging scale, without its hues.
+Vec3 no_value_color();
 
 /// Colour of a value scaled to 0..1 (or -1..1 for diverging), linear RGB; scales that colour-blind people can read.
 Vec3 scale_color(double t, bool diverging);

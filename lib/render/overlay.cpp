@@ -61,6 +61,31 @@ std::string number(double x) {
   return buffer;
 }
 
+std::string share(double of_one) {
+  if (of_one < 0.001) return "< 0.1 %";
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.1f %%", 100 * of_one);
+  return buffer;
+}
+
+void fill(io::Image& image, int x0, int y0, int x1, int y1, const Vec3& linear) {
+  for (int y = std::max(y0, 0); y < std::min(y1, image.height); ++y)
+    for (int x = std::max(x0, 0); x < std::min(x1, image.width); ++x) {
+      std::uint8_t* pixel = image.at(x, y);
+      for (int k = 0; k < 3; ++k) pixel[k] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(to_srgb(linear[k]), 0.0, 1.0)));
+      pixel[3] = 255;
+    }
+}
+
+/// The end of a colour bar: pointed where values lie beyond it. @param way -1 up, 1 down @param linear null: nothing does
+void draw_tip(io::Image& image, int left, int end, int width, int way, const Vec3* linear) {
+  if (!linear) return;
+  for (int k = 0; k < width / 2; ++k) {
+    const int y = way > 0 ? end + k : end - 1 - k;
+    fill(image, left + k, y, left + width - k, y + 1, *linear);
+  }
+}
+
 } // namespace
 
 int text_width(const std::string& text, int size) {
@@ -120,44 +145,54 @@ void draw_legend(io::Image& image, const Legend& legend) {
   const int n = static_cast<int>(legend.steps.size());
   const int font = legend_font(image.width, image.height), step = std::max(2, image.height / 22), bar_width = 2 * font;
   const int left = image.width - 6 * font, top = image.height / 8 + 2 * font;
-  for (int y = 0; y < n * step; ++y)
-    for (int x = left; x < std::min(left + bar_width, image.width); ++x) {
-      std::uint8_t* pixel = image.at(x, std::min(top + y, image.height - 1));
-      for (int k = 0; k < 3; ++k) pixel[k] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(to_srgb(legend.steps[n - 1 - y / step][k]), 0.0, 1.0)));
-      pixel[3] = 255;
-    }
+  for (int k = 0; k < n; ++k) fill(image, left, top + k * step, left + bar_width, top + (k + 1) * step, legend.steps[static_cast<std::size_t>(n - 1 - k)]);
+  draw_tip(image, left, top, bar_width, -1, legend.beyond > 0 ? &legend.steps.back() : nullptr);
+  draw_tip(image, left, top + n * step, bar_width, 1, legend.below > 0 ? &legend.steps.front() : nullptr);
   for (int k = 0; k <= n; k += 2)
     draw_text_halo(image, number(legend.high - k * (legend.high - legend.low) / n), left + bar_width + font / 2, top + step * k + font * 3 / 8, font);
   const int right = image.width - font;
-  draw_text_halo(image, legend.title, right, top - font * 11 / 4, font, Align::RIGHT);
-  draw_text_halo(image, legend.unit, right, top - font * 11 / 8, font, Align::RIGHT);
+  draw_text_halo(image, legend.title, right, top - font * 15 / 4, font, Align::RIGHT);
+  draw_text_halo(image, legend.unit, right, top - font * 19 / 8, font, Align::RIGHT);
   const std::pair<const char*, double> all[] = {
       {"min  ", legend.least}, {"p1  ", legend.p1}, {"p50  ", legend.p50}, {"p99  ", legend.p99}, {"max  ", legend.largest}};
   int line = 0;
   for (std::size_t k = legend.diverging ? 0 : 2; k < std::size(all); ++k, ++line) // what has no other side needs no lower end
     draw_text_halo(image, all[k].first + number(all[k].second) + " " + legend.unit, right, top + n * step + (4 + 3 * line) * font / 2 + font / 2, font,
                    Align::RIGHT);
+  const auto note = [&](const std::string& text) {
+    draw_text_halo(image, text, right, top + n * step + (4 + 3 * line++) * font / 2 + font / 2, font, Align::RIGHT);
+  };
+  if (legend.beyond > 0) note("above " + share(legend.beyond));
+  if (legend.below > 0) note("below " + share(legend.below));
+  if (legend.has_gaps) {
+    const int y0 = top + n * step + (4 + 3 * line) * font / 2 + font / 2 - font, x0 = right - text_width("no value", font) - 3 * font / 2;
+    fill(image, x0, y0, x0 + font, y0 + font, no_value_color());
+    note("no value");
+  }
 }
 
 io::Image contact_sheet(const std::vector<io::Image>& images, const std::vector<std::string>& captions, int columns) {
-  int cell_w = 1, cell_h = 1;
-  for (const io::Image& i : images) {
-    cell_w = std::max(cell_w, i.width);
-    cell_h = std::max(cell_h, i.height);
+  const std::size_t n = images.size(), across = static_cast<std::size_t>(std::max(columns, 1)), rows = (n + across - 1) / across;
+  std::vector<int> left(std::min(n, across) + 1, 0), top(rows + 1, 0);
+  std::vector<int> width(left.size(), 1), height(rows, 1);
+  for (std::size_t k = 0; k < n; ++k) {
+    width[k % across] = std::max(width[k % across], images[k].width);
+    height[k / across] = std::max(height[k / across], images[k].height);
   }
   const bool captioned = std::any_of(captions.begin(), captions.end(), [](const std::string& c) { return !c.empty(); });
-  const int font = std::max(10, cell_h / 40), strip = captioned ? 2 * font : 0;
-  const int rows = (static_cast<int>(images.size()) + columns - 1) / columns;
+  const int font = std::max(10, *std::max_element(height.begin(), height.end()) / 40), strip = captioned ? 2 * font : 0;
+  for (std::size_t c = 0; c + 1 < left.size(); ++c) left[c + 1] = left[c] + width[c];
+  for (std::size_t r = 0; r < rows; ++r) top[r + 1] = top[r] + height[r] + strip;
   io::Image sheet;
-  sheet.width = cell_w * columns;
-  sheet.height = (cell_h + strip) * rows;
+  sheet.width = left.back();
+  sheet.height = top.back();
   if (sheet.width > 16384 || sheet.height > 16384) throw Error(ErrorKind::USAGE, "", "--sheet", "the sheet would be larger than 16384 pixels");
-  sheet.rgba.assign(4 * static_cast<std::size_t>(sheet.width) * sheet.height, 255);
-  for (std::size_t k = 0; k < images.size(); ++k) {
-    const int column = static_cast<int>(k) % columns, row = static_cast<int>(k) / columns;
-    const int x0 = column * cell_w + (cell_w - images[k].width) / 2, y0 = row * (cell_h + strip);
+  sheet.rgba.assign(4 * static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height), 255);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t column = k % across, row = k / across;
+    const int x0 = left[column] + (width[column] - images[k].width) / 2, y0 = top[row];
     for (int y = 0; y < images[k].height; ++y) std::copy_n(images[k].at(0, y), 4 * images[k].width, sheet.at(x0, y0 + y));
-    if (captioned && k < captions.size()) draw_text(sheet, captions[k], column * cell_w + cell_w / 2, y0 + cell_h + font, font, Align::CENTER);
+    if (captioned && k < captions.size()) draw_text(sheet, captions[k], left[column] + width[column] / 2, y0 + height[row] + font, font, Align::CENTER);
   }
   return sheet;
 }

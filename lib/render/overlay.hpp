@@ -17,7 +17,7 @@ void draw_disc(io::Image& image, double x, double y, double radius, int color, d
 void draw_legend(io::Image& image, const Legend& legend);
 /// Pixels that the colour bar takes along the right edge of a picture of this size; 0 without one.
 int legend_width(const Legend& legend, int width, int height);
-/// Pictures side by side, row by row, each with a caption below (captions may be empty).
+/// Pictures side by side, row by row, each column as wide and each row as high as its largest; a caption below each (captions may be empty).
 io::Image contact_sheet(const std::vector<io::Image>& images, const std::vector<std::string>& captions, int columns);
 struct Comparison {
   double ssim = 1;    ///< mean structural similarity of 8 x 8 blocks of the luminance, Wang et al. 2004

@@ -96,6 +96,43 @@ void draw_seams(io::Image& image, const Sheet& sheet, const Camera& camera, doub
   }
 }
 
+/// The number of each seam on both its sides, just inside the panel: colours repeat after a dozen. Left out where there is no room.
+void number_seams(io::Image& image, const Sheet& sheet, const Camera& camera, int font) {
+  const garment::Garment* done = nullptr;
+  for (const Sheet::Panel& panel : sheet.panels) {
+    if (panel.garment == done) continue;
+    done = panel.garment;
+    const int base = panel.first - panel.info->first_vertex;
+    const auto& seams = panel.garment->panels.seams;
+    const auto at = [&](int v) -> Vec2 { return camera.pixel(sheet.mesh.positions[static_cast<std::size_t>(base + v)], image.width, image.height).head<2>(); };
+    for (std::size_t s = 0; s < seams.size(); ++s)
+      for (const std::vector<int>* run : {&seams[s].a, &seams[s].b}) {
+        if (run->size() < 2) continue;
+        const std::size_t k = (run->size() - 1) / 2;
+        const Vec2 a = at((*run)[k]), b = at((*run)[k + 1]);
+        double length = 0;
+        for (std::size_t i = 0; i + 1 < run->size(); ++i) length += (at((*run)[i + 1]) - at((*run)[i])).norm();
+        if (!((b - a).norm() > 0) || length < 2 * font) continue; // no room in a small picture
+        Vec2 aside = Vec2(a.y() - b.y(), b.x() - a.x()).normalized();
+        const auto& info = *std::find_if(panel.garment->panels.panels.begin(), panel.garment->panels.panels.end(),
+                                         [&](const pattern::PanelInfo& p) { return (*run)[k] >= p.first_vertex && (*run)[k] < p.first_vertex + p.n_vertices; });
+        double low = 1e9, high = -1e9;
+        for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) low = std::min(low, at(v).y()), high = std::max(high, at(v).y());
+        if (high - low < 1.2 * font) continue;
+        // the panel lies on the side of the triangle that the segment belongs to
+        for (int f = info.first_triangle; f < info.first_triangle + info.n_triangles; ++f) {
+          const Triangle& t = panel.garment->panels.triangles[static_cast<std::size_t>(f)];
+          if (std::count(t.begin(), t.end(), (*run)[k]) + std::count(t.begin(), t.end(), (*run)[k + 1]) < 2) continue;
+          if (aside.dot((at(t[0]) + at(t[1]) + at(t[2])) / 3 - a) < 0) aside = -aside;
+          break;
+        }
+        const Vec2 middle = 0.5 * (a + b) + 0.75 * font * aside;
+        draw_text_halo(image, std::to_string(s + 1), static_cast<int>(std::lround(middle.x())), static_cast<int>(std::lround(middle.y() + 0.36 * font)), font,
+                       Align::CENTER, seam_color(static_cast<int>(s)) >> 1 & 0x7f7f7f);
+      }
+  }
+}
+
 } // namespace
 
 std::vector<Vec2> pack_panels(const std::vector<Vec2>& sizes, double gap, double width_over_height) {
@@ -161,13 +198,14 @@ io::Image draw_pattern(const Scene& scene, const DrawOptions& options) {
   io::Image image = renderer.draw(camera);
   const double pixels_per_m = 0.5 * options.height / camera.half_height;
   draw_seams(image, sheet, camera, unit);
+  number_seams(image, sheet, camera, font - 2);
   for (const Sheet::Panel& panel : sheet.panels) {
     const Vec3 at = camera.pixel(middle_of(sheet, panel), options.width, options.height);
     const Vec2 size = panel.high - panel.low;
     const double arrow = std::min(0.28 * size.y() * pixels_per_m, 60 * unit);
     const auto draw_name = mapped ? draw_text_halo : draw_text;
     const int color = mapped ? 0x101010 : 0x404040;
-    const bool narrow = size.y() * pixels_per_m < 4.5 * font;
+    const bool narrow = size.y() * pixels_per_m < 6 * font; // no room for the name between the numbers of seams
     char text[64];
     std::snprintf(text, sizeof text, "%.1f x %.1f cm", 100 * size.x(), 100 * size.y());
     const Vec3 above = camera.pixel(Vec3(0.5 * (panel.low.x() + panel.high.x()), panel.high.y(), 0), options.width, options.height);

@@ -7,20 +7,20 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal_in;
 layout(location = 2) in vec4 color_in;
 layout(location = 3) in vec4 cloth_in;
-layout(location = 4) in vec2 value_in;
+layout(location = 4) in vec3 value_in;
 uniform mat4 clip;
 uniform mat3 turn;
 uniform vec3 center;
 out vec3 view, normal, color;
 out vec4 cloth;
-out vec3 light; // sky, key, map value
+out vec4 light; // sky, key, map value, whether there is one
 void main() {
   gl_Position = clip * vec4(position, 1.0);
   view = turn * (position - center);
   normal = turn * normal_in;
   color = color_in.rgb;
   cloth = cloth_in;
-  light = vec3(color_in.a, value_in.y, value_in.x);
+  light = vec4(color_in.a, value_in.y, value_in.x, value_in.z);
 })";
 
 // Two-sided. Sky from above, a warm key light from the upper left that throws soft shadows, a cool fill from the right, a rim
@@ -31,9 +31,9 @@ void main() {
 const char* const SURFACE_FRAGMENT_SHADER = R"(
 in vec3 view, normal, color;
 in vec4 cloth;
-in vec3 light;
+in vec4 light;
 uniform float eye;    // distance of the viewer from the centre, 0: infinite
-uniform vec3 scale[8];
+uniform vec3 scale[8], no_value;
 uniform vec3 accent;
 uniform float print_size; // m
 uniform sampler2D print;
@@ -84,7 +84,7 @@ void main() {
   float pixel_size = 0.5 * (length(dFdx(cloth.xy)) + length(dFdy(cloth.xy)));
   vec3 base = color;
   if (kind == 1 || kind == 2) {
-    if (steps > 0 && light.z > -9.0) {
+    if (steps > 0 && light.w >= 0.5) {
       float t = clamp(light.z, 0.0, 0.9999) * 8.0;
       float width = max(fwidth(t), 1e-4), at = fract(t);
       int k = int(t);
@@ -92,7 +92,7 @@ void main() {
       if (k < 7) base = mix(base, scale[k + 1], smoothstep(1.0 - 0.5 * width, 1.0, at) * 0.5);
       if (k > 0) base = mix(base, scale[k - 1], (1.0 - smoothstep(0.0, 0.5 * width, at)) * 0.5);
     } else if (steps > 0) {
-      base = vec3(0.55);
+      base = no_value;
     } else if (fabric == 5) {
       base = texture(print, vec2(cloth.x, -cloth.y) / print_size).rgb;
     } else if (kind == 1) {

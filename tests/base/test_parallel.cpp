@@ -8,13 +8,11 @@
 
 using namespace sloper;
 
-namespace {
 class Parallel : public ::testing::TestWithParam<int> {
 protected:
   void SetUp() override { set_thread_count(GetParam()); }
   void TearDown() override { set_thread_count(1); }
 };
-} // namespace
 
 TEST_P(Parallel, visits_every_item_once_for_any_grain) {
   for (const std::size_t n : {0u, 1u, 7u, 1000u})

@@ -39,6 +39,8 @@ Case drawn_in() { // starts inside the body
   return c;
 }
 
+} // namespace
+
 class CheckpointTest : public testing::Test {
 protected:
   CheckpointTest() : m_folder(std::filesystem::temp_directory_path() / ("sloper-checkpoint-" + std::to_string(::getpid()))) {
@@ -54,8 +56,6 @@ protected:
 private:
   std::filesystem::path m_folder;
 };
-
-} // namespace
 
 TEST_F(CheckpointTest, a_run_killed_at_any_step_goes_on_to_the_bytes_of_one_that_was_not) {
   DrapeSettings settings;

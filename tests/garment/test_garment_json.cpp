@@ -57,6 +57,8 @@ Garment two_squares() {
   return g;
 }
 
+} // namespace
+
 class GarmentJson : public ::testing::Test {
 protected:
   void SetUp() override {
@@ -86,8 +88,6 @@ protected:
 private:
   std::filesystem::path m_folder;
 };
-
-} // namespace
 
 TEST_F(GarmentJson, ReadingAndWritingAgainGivesTheSameBytes) {
   write_garment(path("a.json"), two_squares(), "test");

@@ -15,7 +15,11 @@ const std::vector<Case>& all_cases() {
   return cases;
 }
 
+} // namespace
+
 class Hard : public testing::TestWithParam<std::size_t> {};
+
+namespace {
 
 Case fault(const std::string& kind) {
   Case c;

@@ -6,6 +6,7 @@
 #include <render/maps.hpp>
 #include <render/pattern_view.hpp>
 #include <render/show.hpp>
+#include <render/srgb.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -112,6 +113,48 @@ TEST(Maps, gap_and_penetration_are_signed_distances_to_the_skin) {
   const Legend legend = apply_map(scene, Map::PENETRATION);
   for (double v : scene.meshes[0].values) EXPECT_NEAR(v, 3, 1e-9);
   EXPECT_EQ(legend.high, 4);
+}
+
+TEST(Maps, what_lies_beyond_the_scale_or_has_no_value_is_counted) {
+  Scene scene = scene_of({make_sheet(4, [](const Vec2& p) { return Vec3(p.x() * (p.x() < 0.16 ? 1.02 : 1.06), p.y(), 0); })});
+  Legend legend = apply_map(scene, Map::WEFT, 4);
+  EXPECT_GT(legend.beyond, 0.2);
+  EXPECT_LT(legend.beyond, 0.8);
+  EXPECT_EQ(legend.below, 0);
+  EXPECT_FALSE(legend.has_gaps);
+  scene = scene_of({make_sheet(4, flat)});
+  scene.garments[0].panels.triangles.resize(8); // vertices that no triangle names have no strain
+  scene.garments[0].panels.panels[0].n_triangles = 8;
+  legend = apply_map(scene, Map::WEFT, 4);
+  EXPECT_TRUE(legend.has_gaps);
+  EXPECT_EQ(legend.beyond, 0);
+}
+
+// Between a vertex with a high value and one without any, the colours of all lower values had been drawn.
+TEST(Maps, cloth_without_a_value_has_a_border_of_two_colours) {
+  Scene scene = scene_of({make_sheet(8, flat)});
+  Legend legend = apply_map(scene, Map::STRAIN, 1);
+  std::vector<double>& values = scene.meshes[0].values;
+  for (std::size_t v = 0; v < values.size(); ++v) values[v] = scene.garments[0].panels.pattern[v].x() < 0.15 ? 0.9 : NO_VALUE;
+  DrawOptions options;
+  options.width = options.height = 200;
+  options.map_colors = legend.steps, options.map_low = legend.low, options.map_high = legend.high;
+  options.border_lines = false;
+  const io::Image image = draw_pattern(scene, options);
+  const auto srgb = [](double linear) { return 255 * to_srgb(linear); };
+  const Vec3 high = legend.steps.back().unaryExpr(srgb), none = no_value_color().unaryExpr(srgb);
+  int highs = 0, nones = 0, strange = 0;
+  for (int y = 130; y < 140; ++y) // below the name
+    for (int x = 30; x < 140; ++x) {
+      const std::uint8_t* p = image.at(x, y);
+      const Vec3 c(p[0], p[1], p[2]);
+      const double t = std::clamp((c - none).dot(high - none) / (high - none).squaredNorm(), 0.0, 1.0); // mixed where the two meet in a pixel
+      highs += (c - high).norm() < 6, nones += (c - none).norm() < 6;
+      strange += (c - none - t * (high - none)).norm() > 30 && c.minCoeff() < 235;
+    }
+  EXPECT_GT(highs, 100);
+  EXPECT_GT(nones, 100);
+  EXPECT_EQ(strange, 0);
 }
 
 TEST(Maps, what_a_map_needs_is_named) {

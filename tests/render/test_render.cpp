@@ -221,6 +221,19 @@ TEST(Maps, scales_run_from_dark_to_light_and_from_blue_over_white_to_red) {
   EXPECT_GT(scale_color(1, true).x(), scale_color(1, true).z());
 }
 
+TEST(Overlay, a_sheet_gives_each_column_the_width_of_its_widest_picture) {
+  io::Image wide, narrow;
+  wide.width = 60, narrow.width = 20, wide.height = narrow.height = 40;
+  wide.rgba.assign(4 * 60 * 40, 1), narrow.rgba.assign(4 * 20 * 40, 2);
+  const io::Image sheet = contact_sheet({wide, narrow, narrow, wide}, {}, 2);
+  EXPECT_EQ(sheet.width, 120);
+  EXPECT_EQ(sheet.height, 80);
+  const io::Image row = contact_sheet({wide, narrow}, {}, 2);
+  EXPECT_EQ(row.width, 80);
+  EXPECT_EQ(row.at(59, 0)[0], 1);
+  EXPECT_EQ(row.at(60, 0)[0], 2);
+}
+
 TEST(Scene, what_cannot_be_drawn_is_refused_with_a_reason) {
   EXPECT_THROW(read_scene({"no-such-file.json"}), Error);
   const std::string path = std::string(SLOPER_BINARY_DIR) + "/fit.json";

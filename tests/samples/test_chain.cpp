@@ -10,12 +10,8 @@
 using namespace sloper;
 using namespace sloper::samples;
 
-namespace {
-
 class EveryDraft : public testing::TestWithParam<Draft (*)(const Measures&)> {};
 class EveryScan : public testing::TestWithParam<std::string> {};
-
-} // namespace
 
 TEST_P(EveryDraft, is_read_and_meshed_with_equal_vertex_counts_on_both_sides_of_every_seam) {
   const Draft draft = GetParam()(Measures{});

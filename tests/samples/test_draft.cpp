@@ -5,22 +5,27 @@
 using namespace sloper;
 using namespace sloper::samples;
 
-namespace {
-
 using Drafter = Draft (*)(const Measures&);
-struct Garment {
+struct DraftedGarment {
   const char* name;
   Drafter draft;
 };
+
+namespace {
+
 Draft draft_band_shirt(const Measures& m) {
   Draft d = draft_shirt(m);
   d.remove("collar");
   return d;
 }
-const Garment GARMENTS[] = {
+const DraftedGarment GARMENTS[] = {
     {"shirt", draft_shirt}, {"band_shirt", draft_band_shirt}, {"tshirt", draft_tshirt}, {"skirt", draft_skirt}, {"trousers", draft_trousers}};
 
-class EveryGarment : public testing::TestWithParam<Garment> {};
+} // namespace
+
+class EveryGarment : public testing::TestWithParam<DraftedGarment> {};
+
+namespace {
 
 std::string joined(const std::vector<std::string>& lines) {
   std::string text;
@@ -107,5 +112,5 @@ TEST(measures, a_mannequin_gives_its_own_measures) {
   EXPECT_NEAR(m.bust, 0.93, 0.03);
   EXPECT_GT(m.arm_length, 0.45);
   EXPECT_LT(m.arm_length, 0.65);
-  for (const Garment& g : GARMENTS) EXPECT_TRUE(draft_faults(g.draft(m)).empty()) << g.name;
+  for (const DraftedGarment& g : GARMENTS) EXPECT_TRUE(draft_faults(g.draft(m)).empty()) << g.name;
 }

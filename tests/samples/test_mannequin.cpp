@@ -35,9 +35,9 @@ double volume(const TriangleMesh& mesh) {
   return v;
 }
 
-class EveryFigure : public testing::TestWithParam<std::string> {};
-
 } // namespace
+
+class EveryFigure : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryFigure, is_one_closed_outward_manifold_of_its_stature) {
   const MadeMannequin& m = made(GetParam());
