@@ -14,6 +14,8 @@ constexpr double LARGEST_OPEN = 0.4;    // turns that arms and openings may leav
 constexpr double BAND = 0.02;           // m on both sides of the cut in which strain is taken
 constexpr double EDGE_HEIGHT = 0.005;   // m by which the plane of a free edge is uncertain
 constexpr double SLANT = 0.05;          // of a neck line that it may change within the error of its height
+constexpr double LEAST_ROUND = 0.3;     // of a circle's area at the same length: less is the rim of a flat piece or crumpled cloth
+constexpr double STEEPEST = 0.5;        // upward part of the normal of an edge round the trunk: a panel that nothing is sewn to stands upright
 constexpr double WIDER_THAN_NECK = 1.2; // of the neck base: a section this long goes through the shoulders
 
 double quantile(std::vector<double>& values, double q) {
@@ -229,8 +231,12 @@ std::optional<FitRow> measure_edge(const ClothState& cloth, const body::Body& bo
   for (const int p : loop) place.center += garment.position[p] / static_cast<double>(loop.size());
   for (std::size_t i = 0; i < loop.size(); ++i)
     place.normal += (garment.position[loop[i]] - place.center).cross(garment.position[loop[(i + 1) % loop.size()]] - place.center);
-  if (!(place.normal.norm() > 1e-6)) return std::nullopt;
+  const SectionLine line = line_of(garment, loop);
+  const double round = 2 * units::PI * place.normal.norm() / (line.lying * line.lying); // 4 pi area / length^2: 1 for a circle
+  if (!(round > LEAST_ROUND)) return why = "its edge goes round nothing", std::nullopt;
   place.normal = (place.normal.y() < 0 ? Vec3(-place.normal) : place.normal).normalized();
+  const bool of_limb = kind->parts.size() == 1;
+  if (!of_limb && place.normal.y() < STEEPEST) return why = "its edge does not go round the trunk", std::nullopt;
   place.body_m = skin_girth(body, kind->parts, place.center, place.normal);
   if (!(place.body_m > 0)) return why = "the skin has no section in its plane", std::nullopt;
   const auto base = body.girths.find("neck_base");
@@ -240,7 +246,6 @@ std::optional<FitRow> measure_edge(const ClothState& cloth, const body::Body& bo
   for (const double shift : {-EDGE_HEIGHT, EDGE_HEIGHT})
     if (const double moved = skin_girth(body, kind->parts, place.center + shift * place.normal, place.normal); moved > 0)
       place.body_spread_m = std::max(place.body_spread_m, std::abs(moved - place.body_m));
-  const SectionLine line = line_of(garment, loop);
   FitRow row = row_of(place, line);
   std::vector<char> in(garment.position.size(), 0);
   for (const int p : loop) in[p] = 1;

@@ -238,9 +238,9 @@ void measure_seams(Garment& garment, const std::vector<std::array<double, 2>>& b
     const double apart = std::abs(seam.length_a - seam.length_b * before[s][0] / before[s][1]);
     report.largest_seam_change_m = std::max(report.largest_seam_change_m, apart);
     if (apart <= SEAM_FINDING) continue;
-    char text[96];
-    std::snprintf(text, sizeof text, "the sides of seam \"%.32s\" fit each other %.1f mm worse than before grading", seam.name.c_str(), 1000 * apart);
-    report.findings.push_back(text);
+    char length[32];
+    std::snprintf(length, sizeof length, "%.1f", 1000 * apart);
+    report.findings.push_back("the sides of seam \"" + seam.name + "\" fit each other " + length + " mm worse than before grading");
   }
 }
 
