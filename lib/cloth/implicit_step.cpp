@@ -134,11 +134,12 @@ void ClothSolver::carry_on() {
 /// bends it away from where the energy falls, and a short one they leave alone.
 int ClothSolver::search_along(const StepOptions& o) {
   const Stopwatch watch(search_s);
-  double best = energy(m_x);
-  if (!o.momentum) m_energies.clear();
-  m_energies.push_back(best);
-  if (m_energies.size() > REMEMBERED) m_energies.erase(m_energies.begin());
-  const double allowed = *std::max_element(m_energies.begin(), m_energies.end());
+  double best = energy(m_x), allowed = best;
+  if (o.momentum) {
+    m_energies.push_back(best);
+    if (m_energies.size() > REMEMBERED) m_energies.erase(m_energies.begin());
+    allowed = *std::max_element(m_energies.begin(), m_energies.end());
+  }
   double largest = 0;
   for (const Vec3& d : m_step) largest = std::max(largest, d.norm());
   const auto try_length = [&](double share) { // keeps the step when it is better
@@ -272,8 +273,12 @@ StepResult ClothSolver::step(const StepOptions& o) {
   if (o.line_search) {
     result.halvings = search_along(o);
     freeze_held(result.halvings > 0);
-    m_carried_for = result.halvings > 0 ? 0 : m_carried_for + 1;
-    m_last_dx = m_dx;
+    if (o.momentum) {
+      m_carried_for = result.halvings > 0 ? 0 : m_carried_for + 1;
+      m_last_dx = m_dx;
+    } else {
+      forget();
+    }
   }
   m_residual.clear();
   for (std::size_t i = 0; i < n; ++i) {

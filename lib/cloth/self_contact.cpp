@@ -25,9 +25,11 @@ SelfContactEffect::SelfContactEffect(const ClothMesh& mesh, const SelfContactOpt
     : m_mesh(mesh), m_options(options), m_proximity(mesh.n_particles, mesh.particle_triangles()), m_closing(m_proximity.triangles(), m_proximity.topology()),
       m_seam_class(std::move(seam_class)), m_thickness(mesh.n_particles), m_last_dx(mesh.n_particles, Vec3::Zero()) {
   for (int i = 0; i < mesh.n_particles; ++i) m_thickness[i] = std::min(options.thickness_m, THICKNESS_PER_EDGE * mesh.shortest_edge[i]);
+  if (!m_thickness.empty()) m_reach = *std::max_element(m_thickness.begin(), m_thickness.end());
   double mean_edge = 0;
   for (const EdgeSpring& s : mesh.springs) mean_edge += s.rest_length / static_cast<double>(mesh.springs.size());
   if (mean_edge > 0) m_options.search_m = std::min(m_options.search_m, SEARCH_PER_EDGE * mean_edge);
+  m_reach = std::min(m_reach, m_options.search_m);
   m_closed.assign(m_seam_class.empty() ? 0 : 1 + std::max(-1, *std::max_element(m_seam_class.begin(), m_seam_class.end())), 0);
 }
 
@@ -56,10 +58,11 @@ void SelfContactEffect::find_closed_seams(const std::vector<Vec3>& x) {
 }
 
 void SelfContactEffect::search(const std::vector<Vec3>& x) {
-  m_proximity.update(x, m_options.search_m, m_crossings);
+  m_radius = m_fast && !m_look_for_crossings ? m_reach : m_options.search_m;
+  m_proximity.update(x, m_radius, m_crossings);
   if (m_look_for_crossings) {
     m_crossings = collision::self_intersections(x, m_proximity.triangles(), m_proximity.tree());
-    if (!m_crossings.empty()) m_proximity.update(x, m_options.search_m, m_crossings);
+    if (!m_crossings.empty()) m_proximity.update(x, m_radius, m_crossings);
     m_look_for_crossings = !m_crossings.empty();
   }
   if (!m_seam_class.empty()) find_closed_seams(x);
@@ -92,7 +95,7 @@ const std::vector<std::array<int, 2>>& SelfContactEffect::find_crossings(const s
 }
 
 void SelfContactEffect::begin_step(const std::vector<Vec3>& x, double) {
-  const double used = USED * GAMMA * m_options.search_m;
+  const double used = USED * GAMMA * m_radius;
   m_stale = m_stale || !m_crossings.empty();
   for (std::size_t i = 0; !m_stale && i < x.size(); ++i) m_stale = (x[i] - m_searched_at[i]).squaredNorm() > used * used;
   if (m_stale) search(x);
@@ -177,7 +180,7 @@ void SelfContactEffect::guard(const Near& near, const Closest& c, MotionLimits& 
 
 /// How far a particle may go whatever the others do, m.
 double SelfContactEffect::safe_move(std::size_t particle, const std::vector<Vec3>& x) const {
-  return std::max(0.0, GAMMA * m_options.search_m - (x[particle] - m_searched_at[particle]).norm());
+  return std::max(0.0, GAMMA * m_radius - (x[particle] - m_searched_at[particle]).norm());
 }
 
 bool SelfContactEffect::guard_closing(const std::vector<std::array<int, 2>>& pairs, bool is_edge, const std::vector<Vec3>& x, MotionLimits& limits) {
@@ -245,7 +248,13 @@ double SelfContactEffect::energy(const std::vector<Vec3>& x) const {
 }
 
 void SelfContactEffect::end_step(const std::vector<Vec3>& x) {
-  for (std::size_t i = 0; i < x.size(); ++i) m_last_dx[i] = x[i] - m_x_before[i];
+  double farthest2 = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    m_last_dx[i] = x[i] - m_x_before[i];
+    farthest2 = std::max(farthest2, m_last_dx[i].squaredNorm());
+  }
+  const double safe = GAMMA * m_options.search_m;
+  m_fast = farthest2 > safe * safe;
 }
 
 } // namespace sloper::cloth

@@ -4,9 +4,9 @@
 ///
 /// Every step keeps each element of a near pair on its side of the plane half way between them (MotionLimits). While no particle
 /// goes farther than just under half the search radius from where it was searched, no other pair can cross. Where one does, pairs
-/// that close in on each other are looked for and guarded too (collision/closing_pairs.hpp): what moves together may move far. So a
-/// state free of crossings stays free of them. Pairs that can neither repel each other nor meet in the step are not measured.
-/// Repulsion: see contact_potential.hpp; friction between layers is viscous.
+/// that close in on each other are looked for and guarded too (collision/closing_pairs.hpp): what moves together may move far. Cloth that
+/// outruns its search in each step is searched only for what repels, since the rest is looked for anyway. So a state free of crossings stays free of them.
+/// Pairs that can neither repel each other nor meet in the step are not measured. Repulsion: see contact_potential.hpp; friction between layers is viscous.
 #include <cloth/cloth_mesh.hpp>
 #include <cloth/contact_potential.hpp>
 #include <cloth/effect.hpp>
@@ -19,7 +19,7 @@ namespace sloper::cloth {
 
 struct SelfContactOptions {
   double thickness_m = 0.003;  ///< distance at which cloth feels cloth; less where the mesh is finer
-  double search_m = 0.008;     ///< pairs up to this distance are kept; less where the mesh is finer
+  double search_m = 0.008;     ///< pairs up to this distance are kept while cloth moves little; less where the mesh is finer
   double stiffness_n_m3 = 1e6; ///< pressure per depth
   double friction = 0.0;
 };
@@ -60,6 +60,9 @@ private:
   std::vector<int> m_seam_class;                     // #P or empty
   std::vector<char> m_closed;                        // by seam class
   std::vector<double> m_thickness;                   // #P
+  double m_reach = 0;                                // m, at which any pair may begin to repel
+  double m_radius = 0;                               // m, of the last search
+  bool m_fast = false;                               // the last step outran what a search covers
   struct Near {
     std::array<int, 4> particle; // vertex and face, or edge and edge
     bool is_edge;

@@ -36,16 +36,27 @@ template<std::size_t N> Moving bounds_of(const std::array<int, N>& particles, co
   return m;
 }
 
+/// Of every node, the children below which a slot is listed: bits by lane.
+template<class Listed> void mark_nodes(const TriangleTree& tree, std::vector<std::uint8_t>& lanes, const Listed& listed) {
+  lanes.assign(tree.nodes().size(), 0);
+  for (std::size_t index = tree.nodes().size(); index-- > 0;) // children come after their parents
+    for (int i = 0; i < 4; ++i) {
+      const int child = tree.nodes()[index].child[i];
+      if (child != TriangleTree::EMPTY && (child >= 0 ? lanes[child] != 0 : listed(-2 - child))) lanes[index] |= static_cast<std::uint8_t>(1 << i);
+    }
+}
+
 /// Calls visit(slot) for every slot >= first that could meet the element if all moved 1 / SHARE times as far.
-template<class Visit> void visit_meeting(const TriangleTree& tree, const TriangleTree& motion, const Moving& e, int first, Visit&& visit) {
-  if (tree.nodes().empty()) return;
+/// @param lanes  null, or those children of every node that are looked at
+template<class Visit>
+void visit_meeting(const TriangleTree& tree, const TriangleTree& motion, const Moving& e, int first, const std::uint8_t* lanes, Visit&& visit) {
   const Float4 zero = Float4::all(0), stretch = Float4::all(static_cast<float>(1 / ClosingPairs::SHARE));
   int stack[128], top = 0;
   stack[top++] = 0;
   while (top > 0) {
     const int index = stack[--top];
     const TriangleTree::Node &node = tree.nodes()[index], &moves = motion.nodes()[index];
-    int mask = 15;
+    int mask = lanes ? lanes[index] : 15;
     for (int a = 0; a < 3 && mask; ++a) { // the node's way as the element sees it
       const Float4 back = min(zero, Float4::load(moves.low[a]) - e.fast[a]) * stretch, on = max(zero, Float4::load(moves.high[a]) - e.slow[a]) * stretch;
       mask &= both_less_equal(Float4::load(node.low[a]) + back, e.high[a], e.low[a], Float4::load(node.high[a]) + on);
@@ -79,7 +90,7 @@ template<class Find> void collect(std::size_t n, Pairs& out, const Find& find) {
 
 } // namespace
 
-void ClosingPairs::refit(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool same_x) {
+void ClosingPairs::refit(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool again) {
   if (m_faces.n_slots() == 0 && !m_triangles.empty()) {
     m_faces = TriangleTree(x, m_triangles);
     std::vector<Triangle> flat;
@@ -87,21 +98,40 @@ void ClosingPairs::refit(const std::vector<Vec3>& x, const std::vector<Vec3>& dx
     m_edges = TriangleTree(x, flat);
     m_face_motion = m_faces;
     m_edge_motion = m_edges;
-  } else if (!same_x) {
-    m_faces.refit(x);
-    m_edges.refit(x);
+  } else if (!again) {
+    m_faces.refit(x, false);
+    m_edges.refit(x, false);
   }
-  m_face_motion.refit(dx);
-  m_edge_motion.refit(dx);
+  m_face_motion.refit(dx, false);
+  m_edge_motion.refit(dx, false);
 }
 
-void ClosingPairs::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool same_x) {
-  refit(x, dx, same_x);
+void ClosingPairs::mark_changes(const std::vector<Vec3>& dx, bool again) {
+  m_changed.assign(dx.size(), 1);
+  for (std::size_t i = 0; again && i < dx.size(); ++i) m_changed[i] = dx[i] != m_last_dx[i];
+  m_last_dx = dx;
+  if (!again) return;
+  mark_nodes(m_faces, m_changed_faces, [&](int slot) {
+    const Triangle& t = m_triangles[m_faces.triangle_of_slot(slot)];
+    return m_changed[t[0]] || m_changed[t[1]] || m_changed[t[2]];
+  });
+  mark_nodes(m_edges, m_changed_edges, [&](int slot) {
+    const std::array<int, 2>& e = m_topology.edges[m_edges.triangle_of_slot(slot)];
+    return m_changed[e[0]] || m_changed[e[1]];
+  });
+}
+
+void ClosingPairs::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool again) {
+  m_vertex_face.clear();
+  m_edge_edge.clear();
+  if (m_triangles.empty()) return;
+  refit(x, dx, again);
+  mark_changes(dx, again);
   const double share2 = SHARE * SHARE;
   collect(x.size(), m_vertex_face, [&](int v, Pairs& found) {
-    if (m_topology.triangles_of_vertex(v).empty()) return;
+    if (m_topology.triangles_of_vertex(v).empty() || (!m_changed[v] && !m_changed_faces[0])) return;
     const std::array<int, 1> own{v};
-    visit_meeting(m_faces, m_face_motion, bounds_of(own, x, dx), 0, [&](int slot) {
+    visit_meeting(m_faces, m_face_motion, bounds_of(own, x, dx), 0, m_changed[v] ? nullptr : m_changed_faces.data(), [&](int slot) {
       const int f = m_faces.triangle_of_slot(slot);
       const Triangle& t = m_triangles[f];
       if (v == t[0] || v == t[1] || v == t[2]) return;
@@ -111,7 +141,9 @@ void ClosingPairs::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx,
   collect(m_topology.edges.size(), m_edge_edge, [&](int slot, Pairs& found) {
     const int e = m_edges.triangle_of_slot(slot);
     const std::array<int, 2>& a = m_topology.edges[e];
-    visit_meeting(m_edges, m_edge_motion, bounds_of(a, x, dx), slot + 1, [&](int other) {
+    const bool changed = m_changed[a[0]] || m_changed[a[1]];
+    if (!changed && !m_changed_edges[0]) return;
+    visit_meeting(m_edges, m_edge_motion, bounds_of(a, x, dx), slot + 1, changed ? nullptr : m_changed_edges.data(), [&](int other) {
       const int f = m_edges.triangle_of_slot(other);
       const std::array<int, 2>& b = m_topology.edges[f];
       if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) return;

@@ -7,6 +7,7 @@
 /// Test: tests/collision/test_closing_pairs.cpp
 #include <collision/topology.hpp>
 #include <collision/triangle_tree.hpp>
+#include <cstdint>
 namespace sloper::collision {
 
 class ClosingPairs {
@@ -19,19 +20,24 @@ public:
 
   /// Every pair that straight motion from x to x + dx, or the same part of it for all, could close by more than SHARE of its
   /// distance and to within 0.1 mm. Pairs that share a particle never count.
-  /// @param x, dx  #particles by 3, m   @param same_x  x has not changed since the last call: spares the refit
-  /// Cost: about that of a search for pairs in contact.
-  void find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool same_x);
+  /// @param x, dx  #particles by 3, m
+  /// @param again  x is that of the last call: only pairs with a particle whose displacement is another one than in that call are looked for
+  /// Cost: about that of a search for pairs in contact; again, in proportion to what has changed.
+  void find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool again);
 
   const std::vector<std::array<int, 2>>& vertex_face() const { return m_vertex_face; } ///< vertex, triangle; sorted
   const std::vector<std::array<int, 2>>& edge_edge() const { return m_edge_edge; }     ///< edges of the topology, the lower first; sorted
 
 private:
-  void refit(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool same_x);
+  void refit(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool again);
+  void mark_changes(const std::vector<Vec3>& dx, bool again);
 
   const std::vector<Triangle>& m_triangles;
   const Topology& m_topology;
   TriangleTree m_faces, m_face_motion, m_edges, m_edge_motion; ///< the motion trees hold displacements where the others hold positions
+  std::vector<Vec3> m_last_dx;                                 // of the last call
+  std::vector<char> m_changed;                                 // #particles: to be looked at
+  std::vector<std::uint8_t> m_changed_faces, m_changed_edges;  // by node of the trees, a bit for each child
   std::vector<std::array<int, 2>> m_vertex_face, m_edge_edge;
 };
 

@@ -181,7 +181,7 @@ void SelfProximity::find_candidates(const std::vector<Vec3>& x, double radius) {
     for (int s = 0; s < m_edge_tree.n_slots(); ++s) m_slot_edges.push_back(m_topology.edges[m_edge_tree.triangle_of_slot(s)]);
     m_float_edges.resize(m_slot_edges.size());
   } else {
-    m_edge_tree.refit(x);
+    m_edge_tree.refit(x, false);
   }
   double size = 0;
   for (const Vec3& p : x)
@@ -207,7 +207,7 @@ void SelfProximity::find_candidates(const std::vector<Vec3>& x, double radius) {
 
 void SelfProximity::update(const std::vector<Vec3>& x, double radius, const std::vector<std::array<int, 2>>& intersecting) {
   if (m_tree.n_slots() == 0 && !m_triangles.empty()) m_tree = TriangleTree(x, m_triangles, m_k);
-  else m_tree.refit(x);
+  else m_tree.refit(x, false);
   ++m_updates;
   if (!candidates_hold(x, radius)) find_candidates(x, radius);
   const double radius2 = radius * radius, reach = (radius + 2 * m_moved) * (1 + 1e-9);

@@ -165,7 +165,7 @@ void TriangleTree::refit_node(int index) {
   }
 }
 
-void TriangleTree::refit(const std::vector<Vec3>& positions) {
+void TriangleTree::refit(const std::vector<Vec3>& positions, bool for_points) {
   parallel_for(m_corners.size(), SUBTREE_SLOTS, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s)
       for (int k = 0; k < 3; ++k) m_corners[s][k] = positions[m_slot_vertices[s][k]];
@@ -175,7 +175,8 @@ void TriangleTree::refit(const std::vector<Vec3>& positions) {
       for (int node = m_subtrees[s][1] - 1; node >= m_subtrees[s][0]; --node) refit_node(node);
   });
   for (auto node = m_top_nodes.rbegin(); node != m_top_nodes.rend(); ++node) refit_node(*node);
-  fill_leaves();
+  m_leaves_hold = for_points;
+  if (for_points) fill_leaves();
 }
 
 void TriangleTree::fill_leaves() {
@@ -309,7 +310,7 @@ ClosestPoint TriangleTree::closest_point(const Vec3& p, double max_distance, int
     const Entry entry = stack[--top];
     if (entry.squared > near) continue;
     const Node& node = m_nodes[entry.node];
-    if (m_leaves_of_node[entry.node] >= 0) {
+    if (m_leaves_hold && m_leaves_of_node[entry.node] >= 0) {
       int mask = less_equal(squared_distances(m_leaves[m_leaves_of_node[entry.node]], point), Float4::all(near_leaf));
       const double before = bound;
       while (mask) {

@@ -42,7 +42,8 @@ public:
   TriangleTree(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, int k = 6);
 
   /// New bounds for moved vertices; same triangles. O(#F), parallel.
-  void refit(const std::vector<Vec3>& positions);
+  /// @param for_points  false spares what makes closest_point() fast: it answers the same, some times slower
+  void refit(const std::vector<Vec3>& positions, bool for_points = true);
 
   /// Closest point of the mesh within max_distance (may be infinite), the lowest triangle index where distances tie.
   /// @param hint_triangle a triangle that may be near (the last answer), or -1; it changes the cost, never the answer.
@@ -85,6 +86,7 @@ private:
   std::vector<std::array<float, 8>> m_extra;  ///< (m_axes - 3) per node: low and high of four lanes
   std::vector<Leaves> m_leaves;               ///< of the nodes whose children are all triangles
   std::vector<int> m_leaves_of_node;          ///< -1 for other nodes
+  bool m_leaves_hold = false;                 ///< m_leaves are of the last refit
   float m_leaf_slack = 0;                     ///< m, how far a distance by Leaves may be above the true one
   std::vector<std::array<int, 2>> m_subtrees; ///< node ranges that refit independently
   std::vector<int> m_top_nodes;               ///< the nodes above those

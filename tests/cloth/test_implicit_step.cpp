@@ -47,22 +47,28 @@ Rest come_to_rest(double inset, bool momentum) {
   return rest;
 }
 
+struct Rests {
+  Rest without, with;
+};
+
+Rests compare(double inset) {
+  const Rests rests{come_to_rest(inset, false), come_to_rest(inset, true)};
+  EXPECT_TRUE(rests.without.reached && rests.with.reached);
+  testing::Test::RecordProperty("steps_without", rests.without.steps);
+  testing::Test::RecordProperty("steps_with", rests.with.steps);
+  return rests;
+}
+
 } // namespace
 
 TEST(Momentum, takes_cloth_that_folds_to_rest_in_fewer_steps_and_no_worse_a_rest) {
-  const Rest without = come_to_rest(0.05, false), with = come_to_rest(0.05, true);
-  ASSERT_TRUE(without.reached && with.reached);
-  RecordProperty("steps_without", without.steps);
-  RecordProperty("steps_with", with.steps);
+  const auto [without, with] = compare(0.05);
   EXPECT_LT(with.steps, 0.8 * without.steps) << with.steps << " against " << without.steps;
   EXPECT_LT(with.energy, without.energy + 0.02 * std::abs(without.energy)) << "folds may come to lie otherwise";
 }
 
 TEST(Momentum, is_let_go_where_newton_steps_alone_go_straight_to_rest) {
-  const Rest without = come_to_rest(0, false), with = come_to_rest(0, true);
-  ASSERT_TRUE(without.reached && with.reached);
-  RecordProperty("steps_without", without.steps);
-  RecordProperty("steps_with", with.steps);
+  const auto [without, with] = compare(0);
   EXPECT_LE(with.steps, 2 * without.steps) << with.steps << " against " << without.steps;
   EXPECT_NEAR(with.energy, without.energy, 1e-3 * std::abs(without.energy)) << "both leave up to a hundredth of the weight";
 }

@@ -82,6 +82,39 @@ TEST(ClosingPairs, WhatMovesTogetherIsNotFound) {
   EXPECT_TRUE(closing.edge_edge().empty());
 }
 
+TEST(ClosingPairs, AgainLooksForPairsOfWhatMovesOtherwise) {
+  const Sheets s = two_sheets(12);
+  const Topology topology = make_topology(s.x.size(), s.triangles);
+  Random random(10);
+  std::vector<Vec3> dx(s.x.size());
+  for (Vec3& d : dx) d = 0.01 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  ClosingPairs closing(s.triangles, topology), fresh(s.triangles, topology);
+  closing.find(s.x, dx, false);
+  closing.find(s.x, dx, true);
+  EXPECT_TRUE(closing.vertex_face().empty());
+  EXPECT_TRUE(closing.edge_edge().empty());
+  std::vector<char> other(dx.size(), 0);
+  for (std::size_t i = 0; i < dx.size(); i += 17) {
+    dx[i] *= -1.5;
+    other[i] = 1;
+  }
+  closing.find(s.x, dx, true);
+  fresh.find(s.x, dx, false);
+  std::vector<std::array<int, 2>> vertex_face, edge_edge;
+  for (const auto& [v, f] : fresh.vertex_face()) {
+    const Triangle& t = s.triangles[f];
+    if (other[v] || other[t[0]] || other[t[1]] || other[t[2]]) vertex_face.push_back({v, f});
+  }
+  for (const auto& [e, f] : fresh.edge_edge()) {
+    const auto &a = topology.edges[e], &b = topology.edges[f];
+    if (other[a[0]] || other[a[1]] || other[b[0]] || other[b[1]]) edge_edge.push_back({e, f});
+  }
+  EXPECT_FALSE(vertex_face.empty());
+  EXPECT_LT(edge_edge.size(), fresh.edge_edge().size());
+  EXPECT_EQ(closing.vertex_face(), vertex_face);
+  EXPECT_EQ(closing.edge_edge(), edge_edge);
+}
+
 TEST(ClosingPairs, TheSameForAnyNumberOfThreads) {
   const Sheets s = two_sheets(30);
   const Topology topology = make_topology(s.x.size(), s.triangles);

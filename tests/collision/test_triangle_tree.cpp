@@ -45,6 +45,14 @@ TEST_P(TreeOfEachK, ClosestPointEqualsBruteForceOnASphereWhateverTheHint) {
   expect_like_brute_force(TriangleTree(mesh.positions, mesh.triangles, GetParam()), mesh, 11, 300);
 }
 
+TEST_P(TreeOfEachK, ClosestPointEqualsBruteForceAfterARefitThatWasNotForPoints) {
+  TriangleMesh mesh = shapes::sphere(3);
+  TriangleTree tree(mesh.positions, mesh.triangles, GetParam());
+  for (Vec3& p : mesh.positions) p.y() *= 0.5;
+  tree.refit(mesh.positions, false);
+  expect_like_brute_force(tree, mesh, 13, 100);
+}
+
 TEST_P(TreeOfEachK, ClosestPointEqualsBruteForceOnASoupWithSliversAndZeroAreas) {
   const TriangleMesh mesh = shapes::soup(500, 0.2, 5);
   expect_like_brute_force(TriangleTree(mesh.positions, mesh.triangles, GetParam()), mesh, 12, 300);
