@@ -2,6 +2,7 @@
 #include <base/units.hpp>
 #include <render/draw.hpp>
 #include <render/gl.hpp>
+#include <render/maps.hpp>
 #include <render/occlusion.hpp>
 
 #include <algorithm>
