@@ -1,6 +1,7 @@
 #include <base/error.hpp>
 #include <garment/materials.hpp>
 #include <garment/sewing.hpp>
+#include <pattern/folds.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -93,6 +94,22 @@ static void gather_seams(const Garment& garment, cloth::ClothMesh& mesh) {
     }
 }
 
+/// A pleat is pressed: along its folds cloth does not spring back to flat. Where the scene has creases, these say how folds are pressed.
+static void press_pleats(const Garment& garment, cloth::ClothMesh& mesh) {
+  if (!garment.scene.creases.empty()) return;
+  std::vector<std::array<int, 2>> folds;
+  for (const auto& [a, b] : pattern::pleat_edges(garment.panels)) {
+    const int i = garment.particle_of[static_cast<std::size_t>(a)], j = garment.particle_of[static_cast<std::size_t>(b)];
+    folds.push_back({std::min(i, j), std::max(i, j)});
+  }
+  if (folds.empty()) return;
+  std::sort(folds.begin(), folds.end());
+  for (cloth::Hinge& hinge : mesh.hinges)
+    if (std::binary_search(folds.begin(), folds.end(),
+                           std::array{std::min(hinge.particle[0], hinge.particle[1]), std::max(hinge.particle[0], hinge.particle[1])}))
+      hinge.stiffness = 0;
+}
+
 cloth::ClothMesh cloth_mesh_of(const Garment& garment) {
   const pattern::PanelMesh& panels = garment.panels;
   std::vector<cloth::RestTriangle> triangles(panels.triangles.size());
@@ -116,6 +133,7 @@ cloth::ClothMesh cloth_mesh_of(const Garment& garment) {
   }
   cloth::ClothMesh mesh = cloth::make_cloth_mesh(static_cast<int>(garment.position.size()), std::move(triangles), std::move(fabrics), garment.rest_scale);
   gather_seams(garment, mesh);
+  press_pleats(garment, mesh);
   return mesh;
 }
 

@@ -20,7 +20,8 @@ std::vector<std::array<int, 2>> open_stitches(const Garment& garment);
 /// For each particle the weld class that it will belong to, -1 where no seam meets it.
 std::vector<int> seam_classes(const Garment& garment);
 
-/// Rest state for the solver. Materials by panel; rest lengths scaled by garment.rest_scale. @throws Error INPUT
+/// Rest state for the solver. Materials by panel; rest lengths scaled by garment.rest_scale; folds of pleats without bending stiffness,
+/// unless the scene has creases. @throws Error INPUT
 cloth::ClothMesh cloth_mesh_of(const Garment& garment);
 
 } // namespace sloper::garment

@@ -154,7 +154,7 @@ bool Node::is_null() const { return m_value->is_null(); }
 Node Node::at(const std::string& key) const {
   if (!m_value->is_object()) fail("expected an object");
   const auto found = m_value->find(key);
-  if (found == m_value->end()) fail("\"" + key + "\" is missing");
+  if (found == m_value->end()) fail("\"" + key + "\" is missing", "add it, or write the file again with the program that makes it");
   return {*found, m_file, m_pointer + "/" + key};
 }
 

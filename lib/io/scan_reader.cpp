@@ -305,6 +305,8 @@ std::string format_of(const std::string& path, std::string_view bytes) {
     if (extension == ours) return extension;
   if (is_read_by_assimp(extension)) return extension;
   const std::string_view head = bytes.substr(0, 4000);
+  if (const std::size_t first = head.find_first_not_of(" \t\r\n"); first != std::string_view::npos && head[first] == '{')
+    throw input_error(path, "", "is a JSON document, not a scan", std::string(EXPECTED) + "; a document's mesh is the .obj beside it");
   if (head.substr(0, 3) == "ply") return "ply";
   if (head.find("\nv ") != std::string_view::npos || head.substr(0, 2) == "v ") return "obj";
   return head.substr(0, 5) == "solid" ? "stl" : "xyz";

@@ -67,6 +67,24 @@ Path halfway(const Path& a, const Path& b) {
   return {Segment::straight(at(0), at(1))};
 }
 
+/// Which vertices of a panel lie on a line, by their place in the panel.
+std::vector<char> vertices_on(const Path& line, const PanelMesh& mesh, const PanelInfo& info) {
+  const ArcLength arc(line);
+  const int n = std::clamp(static_cast<int>(arc.length() / 0.001), 16, 2000);
+  std::vector<Vec2> points;
+  for (int k = 0; k <= n; ++k) points.push_back(arc.at(arc.length() * k / n));
+  std::vector<char> on(static_cast<std::size_t>(info.n_vertices), 0);
+  for (std::size_t v = 0; v < on.size(); ++v) {
+    const Vec2& x = mesh.pattern[static_cast<std::size_t>(info.first_vertex) + v];
+    for (std::size_t i = 0; i + 1 < points.size() && !on[v]; ++i) {
+      const Vec2 d = points[i + 1] - points[i];
+      const double s = std::clamp((x - points[i]).dot(d) / d.squaredNorm(), 0.0, 1.0);
+      on[v] = (x - points[i] - s * d).norm() < LINE_ON_EDGE;
+    }
+  }
+  return on;
+}
+
 void fold_panel(Pattern& pattern, int p, const std::string& file) {
   Panel& panel = pattern.panels[static_cast<std::size_t>(p)];
   panel.lines.erase(std::remove_if(panel.lines.begin(), panel.lines.end(), [](const InnerLine& l) { return l.kind == "tape"; }), panel.lines.end());
@@ -175,6 +193,29 @@ Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh) {
       }
     }
   }
+  return out;
+}
+
+std::vector<std::array<int, 2>> pleat_edges(const PanelMesh& mesh) {
+  std::vector<std::array<int, 2>> out;
+  for (std::size_t p = 0; mesh.source && p < std::min(mesh.panels.size(), mesh.source->panels.size()); ++p) {
+    const Panel& panel = mesh.source->panels[p];
+    const PanelInfo& info = mesh.panels[p];
+    for (const Pleat& pleat : panel.pleats) {
+      const Path &fold = panel.lines[static_cast<std::size_t>(pleat.fold)].path, &target = panel.lines[static_cast<std::size_t>(pleat.target)].path;
+      for (const Path& line : {fold, halfway(fold, target)}) {
+        const std::vector<char> on = vertices_on(line, mesh, info);
+        for (int f = info.first_triangle; f < info.first_triangle + info.n_triangles; ++f)
+          for (std::size_t k = 0; k < 3; ++k) {
+            const Triangle& t = mesh.triangles[static_cast<std::size_t>(f)];
+            const int a = std::min(t[k], t[(k + 1) % 3]), b = std::max(t[k], t[(k + 1) % 3]);
+            if (on[static_cast<std::size_t>(a - info.first_vertex)] && on[static_cast<std::size_t>(b - info.first_vertex)]) out.push_back({a, b});
+          }
+      }
+    }
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 

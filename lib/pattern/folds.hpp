@@ -30,6 +30,10 @@ struct Folding {
 };
 Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh);
 
+/// Edges of a mesh along which its pleats are folded, as vertex pairs in rising order: on their folds and on the lines halfway to their
+/// targets. Empty where no panel has a pleat, or the mesh does not know its pattern. Cost: pleats times vertices.
+std::vector<std::array<int, 2>> pleat_edges(const PanelMesh& mesh);
+
 /// Rest length factors that elastic tapes (lines of kind "tape") give to the edges near them, by how far these run along: #F by 3, edge
 /// k -> k+1 of each triangle; empty where no panel has a tape.
 std::vector<std::array<double, 3>> tape_scales(const PanelMesh& mesh);

@@ -2,6 +2,7 @@
 #include <base/units.hpp>
 #include <io/json.hpp>
 #include <render/camera.hpp>
+#include <render/words.hpp>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -18,10 +19,11 @@ CameraOptions read_camera(const std::string& path) {
   const io::Json document = io::read_json(path);
   const io::Node node(document, path);
   if (!node.is_object()) node.fail("a camera is an object", R"(write for example {"azimuth_deg": 30, "elevation_deg": 10})");
-  if (node.has("format"))
+  if (node.string("format", "camera") != "camera")
     throw input_error(path, "/format", "is a \"" + node.string("format", "") + "\" document, not a camera",
                       R"(write for example {"azimuth_deg": 30, "elevation_deg": 10})");
-  node.allow_only({"azimuth_deg", "elevation_deg", "field_of_view_deg", "orthographic", "field_height_m", "target"});
+  if (node.has("version") && node.at("version").integer() != 1) node.at("version").fail("is not version 1 of a camera", "leave it out, or update Sloper");
+  node.allow_only({"format", "version", "azimuth_deg", "elevation_deg", "field_of_view_deg", "orthographic", "field_height_m", "target"});
   CameraOptions options;
   options.azimuth = units::radians(node.number("azimuth_deg", 0));
   const double elevation = node.number("elevation_deg", 0), view = node.number("field_of_view_deg", units::degrees(options.field_of_view));
@@ -116,7 +118,8 @@ CameraOptions named_view(const std::string& view) {
   options.azimuth = units::radians(35);
   options.elevation = units::radians(14);
   if (view == "iso") return options;
-  throw Error(ErrorKind::USAGE, "", "--view " + view, "is not known", "known are front, back, left, right, iso, pattern and turntable:N");
+  refuse_word("--view", view, {"front", "back", "left", "right", "iso", "pattern", "turntable:8"},
+              "known are front, back, left, right, iso, pattern and turntable:N");
 }
 
 std::vector<std::optional<CameraOptions>> parse_views(const std::string& list) {

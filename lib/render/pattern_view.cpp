@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <optional>
 
 namespace sloper::render {
 
@@ -79,58 +80,100 @@ Vec3 middle_of(const Sheet& sheet, const Sheet::Panel& panel) {
   return best;
 }
 
-void draw_seams(io::Image& image, const Sheet& sheet, const Camera& camera, double unit) {
+/// One of the two sides of a seam, as it lies on the sheet.
+struct SeamSide {
+  int seam; ///< its place among the garment's
+  const pattern::PanelMesh* panels;
+  const std::vector<int>* run; ///< vertices of `panels`, two at least
+  std::vector<Vec2> at;        ///< pixels, of all vertices of `panels`
+};
+
+/// Both sides of every seam, in the garments' order.
+template<class Visit> void for_each_seam_side(const Sheet& sheet, const Camera& camera, const io::Image& image, const Visit& visit) {
   const garment::Garment* done = nullptr;
   for (const Sheet::Panel& panel : sheet.panels) {
     if (panel.garment == done) continue;
     done = panel.garment;
+    const pattern::PanelMesh& panels = panel.garment->panels;
+    SeamSide side{0, &panels, nullptr, {}};
     const int base = panel.first - panel.info->first_vertex;
-    const auto& seams = panel.garment->panels.seams;
-    for (std::size_t s = 0; s < seams.size(); ++s)
-      for (const std::vector<int>* run : {&seams[s].a, &seams[s].b})
-        for (std::size_t k = 0; k + 1 < run->size(); ++k) {
-          const Vec3 a = camera.pixel(sheet.mesh.positions[base + (*run)[k]], image.width, image.height);
-          const Vec3 b = camera.pixel(sheet.mesh.positions[base + (*run)[k + 1]], image.width, image.height);
-          draw_line(image, a.x(), a.y(), b.x(), b.y(), 3 * unit, seam_color(static_cast<int>(s)));
-        }
+    for (std::size_t v = 0; v < panels.pattern.size(); ++v)
+      side.at.push_back(camera.pixel(sheet.mesh.positions[static_cast<std::size_t>(base) + v], image.width, image.height).head<2>());
+    for (const pattern::MeshSeam& seam : panels.seams) {
+      for (const std::vector<int>* run : {&seam.a, &seam.b}) {
+        side.run = run;
+        if (run->size() > 1) visit(side);
+      }
+      ++side.seam;
+    }
   }
 }
 
-/// The number of each seam on both its sides, just inside the panel: colours repeat after a dozen. Left out where there is no room.
-void number_seams(io::Image& image, const Sheet& sheet, const Camera& camera, int font) {
-  const garment::Garment* done = nullptr;
-  for (const Sheet::Panel& panel : sheet.panels) {
-    if (panel.garment == done) continue;
-    done = panel.garment;
-    const int base = panel.first - panel.info->first_vertex;
-    const auto& seams = panel.garment->panels.seams;
-    const auto at = [&](int v) -> Vec2 { return camera.pixel(sheet.mesh.positions[static_cast<std::size_t>(base + v)], image.width, image.height).head<2>(); };
-    for (std::size_t s = 0; s < seams.size(); ++s)
-      for (const std::vector<int>* run : {&seams[s].a, &seams[s].b}) {
-        if (run->size() < 2) continue;
-        const std::size_t k = (run->size() - 1) / 2;
-        const Vec2 a = at((*run)[k]), b = at((*run)[k + 1]);
-        double length = 0;
-        for (std::size_t i = 0; i + 1 < run->size(); ++i) length += (at((*run)[i + 1]) - at((*run)[i])).norm();
-        if (!((b - a).norm() > 0) || length < 2 * font) continue; // no room in a small picture
-        Vec2 aside = Vec2(a.y() - b.y(), b.x() - a.x()).normalized();
-        const auto& info = *std::find_if(panel.garment->panels.panels.begin(), panel.garment->panels.panels.end(),
-                                         [&](const pattern::PanelInfo& p) { return (*run)[k] >= p.first_vertex && (*run)[k] < p.first_vertex + p.n_vertices; });
-        double low = 1e9, high = -1e9;
-        for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) low = std::min(low, at(v).y()), high = std::max(high, at(v).y());
-        if (high - low < 1.2 * font) continue;
-        // the panel lies on the side of the triangle that the segment belongs to
-        for (int f = info.first_triangle; f < info.first_triangle + info.n_triangles; ++f) {
-          const Triangle& t = panel.garment->panels.triangles[static_cast<std::size_t>(f)];
-          if (std::count(t.begin(), t.end(), (*run)[k]) + std::count(t.begin(), t.end(), (*run)[k + 1]) < 2) continue;
-          if (aside.dot((at(t[0]) + at(t[1]) + at(t[2])) / 3 - a) < 0) aside = -aside;
-          break;
-        }
-        const Vec2 middle = 0.5 * (a + b) + 0.75 * font * aside;
-        draw_text_halo(image, std::to_string(s + 1), static_cast<int>(std::lround(middle.x())), static_cast<int>(std::lround(middle.y() + 0.36 * font)), font,
-                       Align::CENTER, seam_color(static_cast<int>(s)) >> 1 & 0x7f7f7f);
-      }
+void draw_seam(io::Image& image, const SeamSide& side, double width) {
+  for (std::size_t k = 0; k + 1 < side.run->size(); ++k) {
+    const Vec2 &a = side.at[(*side.run)[k]], &b = side.at[(*side.run)[k + 1]];
+    draw_line(image, a.x(), a.y(), b.x(), b.y(), width, seam_color(side.seam));
   }
+}
+
+/// Where the number of a seam's side is written: beside its middle, inside the panel. None where there is no room, in a small picture.
+std::optional<Vec2> number_place(const SeamSide& side, int font) {
+  const std::vector<int>& run = *side.run;
+  const std::vector<Vec2>& at = side.at;
+  double length = 0;
+  for (std::size_t i = 0; i + 1 < run.size(); ++i) length += (at[run[i + 1]] - at[run[i]]).norm();
+  const int first = run[(run.size() - 1) / 2], second = run[(run.size() - 1) / 2 + 1];
+  const Vec2 &a = at[first], &b = at[second];
+  if (!((b - a).norm() > 0) || length < 2 * font) return {};
+  const auto owns = [&](const pattern::PanelInfo& p) { return first >= p.first_vertex && first < p.first_vertex + p.n_vertices; };
+  const pattern::PanelInfo& info = *std::find_if(side.panels->panels.begin(), side.panels->panels.end(), owns);
+  double low = 1e9, high = -1e9;
+  for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) low = std::min(low, at[v].y()), high = std::max(high, at[v].y());
+  if (high - low < 1.2 * font) return {};
+  // the panel lies on the side of the triangle that the segment belongs to
+  Vec2 aside = Vec2(a.y() - b.y(), b.x() - a.x()).normalized();
+  for (int f = info.first_triangle; f < info.first_triangle + info.n_triangles; ++f) {
+    const Triangle& t = side.panels->triangles[f];
+    if (std::count(t.begin(), t.end(), first) + std::count(t.begin(), t.end(), second) < 2) continue;
+    if (aside.dot((at[t[0]] + at[t[1]] + at[t[2]]) / 3 - a) < 0) aside = -aside;
+    break;
+  }
+  return 0.5 * (a + b) + 0.75 * font * aside;
+}
+
+/// Seams in colours, and with numbers on both their sides: colours repeat after a dozen.
+void draw_seams(io::Image& image, const Sheet& sheet, const Camera& camera, double unit, int font) {
+  for_each_seam_side(sheet, camera, image, [&](const SeamSide& side) { draw_seam(image, side, 3 * unit); });
+  for_each_seam_side(sheet, camera, image, [&](const SeamSide& side) {
+    if (const std::optional<Vec2> place = number_place(side, font))
+      draw_text_halo(image, std::to_string(side.seam + 1), static_cast<int>(std::lround(place->x())), static_cast<int>(std::lround(place->y() + 0.36 * font)),
+                     font, Align::CENTER, seam_color(side.seam) >> 1 & 0x7f7f7f);
+  });
+}
+
+/// Name, size and grain of a panel, on it or, where it has no room, above it. @param mapped colours of a map lie below: text has a halo
+void draw_name(io::Image& image, const Sheet& sheet, const Sheet::Panel& panel, const Camera& camera, double unit, int font, bool mapped) {
+  const Vec3 at = camera.pixel(middle_of(sheet, panel), image.width, image.height);
+  const Vec2 size = panel.high - panel.low;
+  const double pixels_per_m = 0.5 * image.height / camera.half_height, arrow = std::min(0.28 * size.y() * pixels_per_m, 60 * unit);
+  const auto write = mapped ? draw_text_halo : draw_text;
+  const int color = mapped ? 0x101010 : 0x404040;
+  const bool narrow = size.y() * pixels_per_m < 6 * font; // no room for the name between the numbers of seams
+  char text[64];
+  std::snprintf(text, sizeof text, "%.1f x %.1f cm", 100 * size.x(), 100 * size.y());
+  const bool outside = narrow || std::max(text_width(panel.info->name, font), text_width(text, font - 2)) > 0.8 * size.x() * pixels_per_m;
+  if (outside) {
+    const Vec3 above = camera.pixel(Vec3(0.5 * (panel.low.x() + panel.high.x()), panel.high.y(), 0), image.width, image.height);
+    draw_text(image, panel.info->name, static_cast<int>(above.x()), static_cast<int>(above.y() - 0.45 * font), font, Align::CENTER, color);
+  } else {
+    write(image, panel.info->name, static_cast<int>(at.x()), static_cast<int>(at.y()), font, Align::CENTER, color);
+    write(image, text, static_cast<int>(at.x()), static_cast<int>(at.y() + 1.3 * font), font - 2, Align::CENTER, color);
+  }
+  if (narrow) return;
+  const double base = outside ? at.y() + 0.5 * arrow : at.y() - 1.6 * font; // the grain: warp runs upwards
+  if (mapped) draw_line(image, at.x(), base, at.x(), base - arrow, 3 * unit, 0xffffff);
+  draw_line(image, at.x(), base, at.x(), base - arrow, 1.2 * unit, color);
+  for (double side : {-1.0, 1.0}) draw_line(image, at.x(), base - arrow, at.x() + side * 4 * unit, base - arrow + 7 * unit, 1.2 * unit, color);
 }
 
 } // namespace
@@ -197,31 +240,8 @@ io::Image draw_pattern(const Scene& scene, const DrawOptions& options) {
   Renderer renderer(meshes, flat);
   io::Image image = renderer.draw(camera);
   const double pixels_per_m = 0.5 * options.height / camera.half_height;
-  draw_seams(image, sheet, camera, unit);
-  number_seams(image, sheet, camera, font - 2);
-  for (const Sheet::Panel& panel : sheet.panels) {
-    const Vec3 at = camera.pixel(middle_of(sheet, panel), options.width, options.height);
-    const Vec2 size = panel.high - panel.low;
-    const double arrow = std::min(0.28 * size.y() * pixels_per_m, 60 * unit);
-    const auto draw_name = mapped ? draw_text_halo : draw_text;
-    const int color = mapped ? 0x101010 : 0x404040;
-    const bool narrow = size.y() * pixels_per_m < 6 * font; // no room for the name between the numbers of seams
-    char text[64];
-    std::snprintf(text, sizeof text, "%.1f x %.1f cm", 100 * size.x(), 100 * size.y());
-    const Vec3 above = camera.pixel(Vec3(0.5 * (panel.low.x() + panel.high.x()), panel.high.y(), 0), options.width, options.height);
-    const bool outside = narrow || std::max(text_width(panel.info->name, font), text_width(text, font - 2)) > 0.8 * size.x() * pixels_per_m;
-    if (outside) {
-      draw_text(image, panel.info->name, static_cast<int>(above.x()), static_cast<int>(above.y() - 0.45 * font), font, Align::CENTER, color);
-    } else {
-      draw_name(image, panel.info->name, static_cast<int>(at.x()), static_cast<int>(at.y()), font, Align::CENTER, color);
-      draw_name(image, text, static_cast<int>(at.x()), static_cast<int>(at.y() + 1.3 * font), font - 2, Align::CENTER, color);
-    }
-    if (narrow) continue;
-    const double base = outside ? at.y() + 0.5 * arrow : at.y() - 1.6 * font; // the grain: warp runs upwards
-    if (mapped) draw_line(image, at.x(), base, at.x(), base - arrow, 3 * unit, 0xffffff);
-    draw_line(image, at.x(), base, at.x(), base - arrow, 1.2 * unit, color);
-    for (double side : {-1.0, 1.0}) draw_line(image, at.x(), base - arrow, at.x() + side * 4 * unit, base - arrow + 7 * unit, 1.2 * unit, color);
-  }
+  draw_seams(image, sheet, camera, unit, font - 2);
+  for (const Sheet::Panel& panel : sheet.panels) draw_name(image, sheet, panel, camera, unit, font, mapped);
   const double bar = 0.1 * pixels_per_m, y = options.height - 12 * unit;
   draw_line(image, 12 * unit, y, 12 * unit + bar, y, 2 * unit, 0x303030);
   draw_text(image, "10 cm", static_cast<int>(16 * unit + bar), static_cast<int>(y + 0.35 * font), font);

@@ -1,6 +1,7 @@
 #include <base/error.hpp>
 #include <render/overlay.hpp>
 #include <render/show.hpp>
+#include <render/words.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -176,8 +177,11 @@ Show parse_show(const std::string& list) {
   std::stringstream stream(list);
   for (std::string word; std::getline(stream, word, ',');) {
     const auto found = std::find_if(std::begin(words), std::end(words), [&](const auto& w) { return word == w.first; });
-    if (found == std::end(words))
-      throw Error(ErrorKind::USAGE, "", "--show " + word, "is not known", "known are landmarks, bones, frames, slices, seams and names, joined by commas");
+    if (found == std::end(words)) {
+      std::vector<std::string> names;
+      for (const auto& w : words) names.emplace_back(w.first);
+      refuse_word("--show", word, names, "known are landmarks, bones, frames, slices, seams and names, joined by commas");
+    }
     show.*found->second = true;
   }
   return show;

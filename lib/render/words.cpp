@@ -17,6 +17,11 @@ std::vector<std::string> split_words(const std::string& text) {
   return parts;
 }
 
+void refuse_word(const std::string& option, const std::string& word, const std::vector<std::string>& known, const std::string& next_step) {
+  const std::string near = nearest_word(word, known.data(), known.data() + known.size());
+  throw Error(ErrorKind::USAGE, "", option + " " + word, "is not known" + (near.empty() ? "" : " (did you mean '" + near + "'?)"), next_step);
+}
+
 std::array<int, 2> parse_size(const std::string& text) {
   int w = 0, h = 0;
   char end = 0;
@@ -68,9 +73,11 @@ ClothColors choose_fabric(const std::string& fabric, bool colors_given, const Sc
   for (const auto& [name, kind] : known)
     if (fabric == name) return options.fabric = kind, ClothColors::GARMENTS;
   if (fabric == "auto") return ClothColors::GARMENTS;
-  if (ending_of(fabric) != ".png")
-    throw Error(ErrorKind::USAGE, "", "--fabric " + fabric, "is not known",
-                "known are auto, panels, plain, woven, twill, stripes, checks and files ending in .png");
+  if (ending_of(fabric) != ".png") {
+    std::vector<std::string> names{"auto", "panels"};
+    for (const auto& [name, kind] : known) names.emplace_back(name);
+    refuse_word("--fabric", fabric, names, "known are auto, panels, plain, woven, twill, stripes, checks and files ending in .png");
+  }
   options.fabric = Fabric::PRINT;
   options.print = io::read_png(fabric);
   return ClothColors::GARMENTS;

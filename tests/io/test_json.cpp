@@ -132,7 +132,7 @@ TEST(Node, says_file_and_pointer_of_what_is_wrong) {
   const Json value = io::parse_json(R"({"a": [{"b": "x"}], "n": 1.5, "v": [1, 2], "big": 3e9})", "s.json");
   const Node node(value, "s.json");
   EXPECT_EQ(complaint([&] { node.at("a").at(std::size_t{0}).at("b").number(); }), "s.json: /a/0/b: expected a number");
-  EXPECT_TRUE(has(complaint([&] { node.at("c"); }), "\"c\" is missing"));
+  EXPECT_TRUE(has(complaint([&] { node.at("c"); }), "\"c\" is missing; add it"));
   EXPECT_TRUE(has(complaint([&] { node.at("a").at(std::size_t{1}); }), "/a"));
   EXPECT_NE(complaint([&] { node.at("n").integer(); }), "");
   EXPECT_NE(complaint([&] { node.at("big").integer(); }), "");

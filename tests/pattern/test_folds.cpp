@@ -100,6 +100,19 @@ TEST(Pleats, FoldLinesAreEdgesOfTheMeshAndItsAnglesAreGood) {
   }
 }
 
+TEST(Pleats, EdgesOfTheirFoldsAreKnown) {
+  const PanelMesh mesh = mesh_pattern(own(pleated_text()), 0.008, "t");
+  std::map<long, double> length; // by place across, 0.1 mm
+  for (const auto& [a, b] : pleat_edges(mesh)) {
+    const Vec2 &p = mesh.pattern[static_cast<std::size_t>(a)], &q = mesh.pattern[static_cast<std::size_t>(b)];
+    EXPECT_LT(a, b);
+    EXPECT_NEAR(p.x(), q.x(), 1e-6);
+    length[std::lround(1e4 * p.x())] += (q - p).norm();
+  }
+  ASSERT_EQ(length.size(), 6U) << "three folds, and the three lines halfway to their targets";
+  for (long x : {200L, 400L, -1800L, -1650L, -1200L, -1350L}) EXPECT_NEAR(length[x], 0.5, 1e-6) << x;
+}
+
 TEST(Pleats, TheyStartFoldedAroundTheBodyWithoutCrossing) {
   const Pattern pattern = own(pleated_text());
   PanelMesh mesh = mesh_pattern(pattern, 0.012, "t");

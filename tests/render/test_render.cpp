@@ -116,7 +116,10 @@ TEST(Camera, a_document_with_an_unknown_key_or_an_absurd_angle_is_refused) {
   io::write_file(path, R"({"azimuth_deg": 90, "orthographic": true})");
   EXPECT_NEAR(read_camera(path).azimuth, M_PI / 2, 1e-12);
   EXPECT_EQ(read_camera(path).field_of_view, 0);
-  for (const char* bad : {R"({"azimut_deg": 90})", R"({"elevation_deg": 90})", R"({"field_of_view_deg": 0})", "[]"}) {
+  io::write_file(path, R"({"format": "camera", "version": 1, "azimuth_deg": 90})");
+  EXPECT_NEAR(read_camera(path).azimuth, M_PI / 2, 1e-12) << "a head as other documents have one is no mistake";
+  for (const char* bad : {R"({"azimut_deg": 90})", R"({"elevation_deg": 90})", R"({"field_of_view_deg": 0})", "[]", R"({"format": "scene", "version": 1})",
+                          R"({"format": "camera", "version": 2})"}) {
     io::write_file(path, bad);
     EXPECT_THROW(read_camera(path), Error) << bad;
   }

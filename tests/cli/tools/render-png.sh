@@ -30,6 +30,12 @@ case_what_cannot_be_drawn_is_told_with_a_next_step() {
   [[ ! -e out.png ]] || fail "a picture was written"
 }
 
+case_a_mistyped_word_of_a_list_is_told_with_the_nearest() {
+  asks 2 "--view frnt: is not known (did you mean 'front'?)" "known are front, back" --view left,frnt -o out.png skirt.json
+  asks 2 "--show landmark: is not known (did you mean 'landmarks'?)" "known are landmarks, bones" --show landmark -o out.png a.body.json
+  asks 2 "--fabric twil: is not known (did you mean 'twill'?)" "known are auto, panels" --fabric twil -o out.png skirt.json
+}
+
 case_a_garment_beside_another_body_is_told() {
   run 0 "$program" --size 64x64 -o out.png a.body.json skirt.json
   [[ ! -s stderr ]] || fail "tells of its own body"

@@ -20,6 +20,12 @@ case_rules_of_another_kind_are_told_as_such() {
   [[ ! -e out.json ]] || fail "something was written"
 }
 
+case_a_document_is_no_scan_and_told_so() {
+  run 3 "$program" -o out.json "$data/a.body.json"
+  says "a.body.json: is a JSON document, not a scan; expected a scan in OBJ"
+  [[ ! -e out.json ]] || fail "something was written"
+}
+
 case_inches_are_taken_by_their_name_and_by_themselves() {
   local unit
   awk '/^v /{printf "v %.6f %.6f %.6f\n", $2 / 0.0254, $3 / 0.0254, $4 / 0.0254; next} {print}' "$data/a.obj" > inches.obj
