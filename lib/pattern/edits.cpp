@@ -143,153 +143,204 @@ double positive_length(const io::Node& node, double unit) {
   return length;
 }
 
-void apply(Pattern& pattern, const io::Node& node, double unit) {
-  const std::string what = node.at("edit").string();
-  const auto panel = [&]() -> Panel& { return pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("panel")))]; };
-  const auto edge = [&](Panel& p) { return edge_named(p, node.at("edge")); };
-  if (what == "split" || what == "cut") return split_panel(pattern, node, unit);
-  if (what == "add-point") return add_point(pattern, node);
-  if (what == "join") return join_panels(pattern, node);
-  if (what == "add-dart") return add_dart(pattern, node, unit);
-  if (what == "rotate-dart") return rotate_dart(pattern, node);
-  if (what == "restore") return restore(pattern, node);
-  if (what == "open" || what == "close") return open_seam(pattern, node, what == "open");
-  if (what == "move-point") {
-    node.allow_only({"edit", "panel", "edge", "end", "by"});
-    Panel& p = panel();
-    const std::string end = node.string("end", "start");
-    if (end != "start" && end != "end") node.at("end").fail("'" + end + "' is no end of an edge", "give start or end");
-    const Vec2 by = snapped(Vec2(node.at("by").vec2() * unit)), none(0, 0);
-    move_ends(place_of_edge(p, edge(p)), end == "start" ? by : none, end == "end" ? by : none);
-  } else if (what == "move-edge") {
-    node.allow_only({"edit", "panel", "edge", "by"});
-    Panel& p = panel();
-    const Vec2 by = snapped(Vec2(node.at("by").vec2() * unit));
-    const Place place = place_of_edge(p, edge(p));
-    drag(place.edge().path, by, 1, 1);
-    if (place.loop->size() > 1) drag(place.before().path, by, 0, 1), drag(place.after().path, by, 1, 0);
-  } else if (what == "take-in" || what == "let-out") {
-    node.allow_only({"edit", "panel", "edge", "seam", "by"});
-    const double by = (what == "take-in" ? 1 : -1) * node.at("by").number() * unit;
-    if (!node.has("seam")) {
-      Panel& p = panel();
-      move_inward(node, p, edge(p), by);
-      return;
-    }
-    const Seam& seam = seam_named(pattern, node.at("seam"));
-    for (const auto* side : {&seam.a, &seam.b})
-      for (const Run& run : *side) move_inward(node, pattern.panels[static_cast<std::size_t>(run.panel)], run.edge, 0.5 * by);
-  } else if (what == "bend") {
-    node.allow_only({"edit", "panel", "edge", "by"});
-    Panel& p = panel();
-    // The middle of a cubic lies three quarters of the way from its chord to its two handles.
-    const Vec2 by = node.at("by").vec2() * (unit * 4 / 3);
-    Path& path = place_of_edge(p, edge(p)).edge().path;
-    const double n = static_cast<double>(path.size());
-    if (path.size() == 1) {
-      if (path[0].line) path[0] = Segment::cubic(path[0].p[0], path[0].at(1.0 / 3), path[0].at(2.0 / 3), path[0].p[3]);
-      path[0].p[1] += by, path[0].p[2] += by;
-    } else
-      for (std::size_t s = 0; s < path.size(); ++s) // along a chain the middle moves by `by`, the ends not at all
-        for (std::size_t k = 0; k < 4; ++k) {
-          const double t = (static_cast<double>(s) + static_cast<double>(k) / 3) / n;
-          path[s].p[k] += 3 * t * (1 - t) * by;
-        }
-  } else if (what == "set-length") {
-    node.allow_only({"edit", "panel", "edge", "seam", "length", "fixed"});
-    const double length = positive_length(node, unit);
-    const std::string fixed = node.string("fixed", "start");
-    if (fixed != "start" && fixed != "end" && fixed != "middle") node.at("fixed").fail("'" + fixed + "' cannot be fixed", "give start, end or middle");
-    if (!node.has("seam")) {
-      Panel& p = panel();
-      set_length(p, edge(p), length, fixed);
-      return;
-    }
-    const Seam& seam = seam_named(pattern, node.at("seam"));
-    for (const auto* side : {&seam.a, &seam.b}) {
-      const double ratio = length / side_length(pattern, *side);
-      for (const Run& run : *side) {
-        Panel& p = pattern.panels[static_cast<std::size_t>(run.panel)];
-        set_length(p, run.edge, ratio * pattern::length(p.edge(run.edge).path), fixed);
-      }
-    }
-  } else if (what == "lengthen" || what == "shorten") {
-    node.allow_only({"edit", "panel", "at", "along", "by"});
-    const Vec2 at = node.at("at").vec2() * unit, way = node.at("along").vec2();
-    if (!(way.norm() > 0)) node.at("along").fail("there is no direction");
-    const Vec2 along = way.normalized(), by = snapped(Vec2(along * node.at("by").number() * unit * (what == "shorten" ? -1 : 1)));
-    map_panel(panel(), [&](const Vec2& p) { return (p - at).dot(along) > 0 ? Vec2(p + by) : p; });
-  } else if (what == "scale") {
-    node.allow_only({"edit", "panel", "x", "y"});
-    const double x = factor(node, "x"), y = factor(node, "y");
-    for (Panel& p : pattern.panels) {
-      if (node.has("panel") && &p != &panel()) continue;
-      const Vec2 c = middle(p);
-      map_panel(p, [&](const Vec2& q) { return Vec2(c.x() + x * (q.x() - c.x()), c.y() + y * (q.y() - c.y())); });
-    }
-  } else if (what == "grade") {
-    node.allow_only({"edit", "panel", "width", "height"});
-    const double width = node.number("width", 0) * unit, height = node.number("height", 0) * unit;
-    for (Panel& p : pattern.panels) {
-      if (node.has("panel") && &p != &panel()) continue;
-      const auto [low, high] = extent(p);
-      const Vec2 c = 0.5 * (low + high), size = high - low, factor((size.x() + width) / size.x(), (size.y() + height) / size.y());
-      if (!(factor.minCoeff() > 0.2))
-        node.fail("panel " + p.name + " is " + centimetres(size.x()) + " by " + centimetres(size.y()) + ": too small to grade by that much");
-      map_panel(p, [&](const Vec2& q) { return Vec2(c + factor.cwiseProduct(q - c)); });
-    }
-  } else if (what == "shrink") {
-    node.allow_only({"edit", "panel", "warp", "weft", "edge", "factor", "strip", "curve", "width", "name"});
-    Panel& p = panel();
-    if (node.has("curve")) { // elastic tape: rest lengths change along it, the outline does not
-      InnerLine tape{"", "tape", read_path(node.at("curve"), unit, nullptr), factor(node, "factor"), node.number("width", 0.01 / unit) * unit};
-      for (Segment& s : tape.path)
-        for (Vec2& q : s.p) q = snapped(q);
-      const auto [low, high] = extent(p);
-      for (const Segment& s : tape.path)
-        for (const Vec2& q : s.p)
-          if (!((low - q).maxCoeff() < 0.1 && (q - high).maxCoeff() < 0.1)) node.at("curve").fail("the tape leaves panel " + p.name, "draw it inside");
-      if (!(pattern::length(tape.path) > 0.005)) node.at("curve").fail("a tape of " + centimetres(pattern::length(tape.path)) + " is none");
-      if (!(tape.width > 0 && tape.width < 1)) node.at("width").fail("a width of " + centimetres(tape.width) + " is none");
-      const auto taken = [&](const std::string& name) {
-        return std::any_of(p.lines.begin(), p.lines.end(), [&](const InnerLine& l) { return l.name == name; });
-      };
-      tape.name = node.string("name", "tape");
-      if (node.has("name") && taken(tape.name)) node.at("name").fail("panel " + p.name + " has a line '" + tape.name + "' already");
-      for (int k = 2; taken(tape.name); ++k) tape.name = "tape" + std::to_string(k);
-      p.lines.push_back(std::move(tape));
-      return;
-    }
-    if (node.has("edge")) { // elastic tape along an edge
-      const int e = edge(p);
-      set_length(p, e, factor(node, "factor") * pattern::length(p.edge(e).path), "middle");
-      return;
-    }
-    if (node.has("strip")) { // between two parallel lines, across them
-      const io::Node strip = node.at("strip");
-      strip.allow_only({"from", "to"});
-      const Vec2 from = strip.at("from").vec2() * unit, way = strip.at("to").vec2() * unit - from;
-      const double width = way.norm(), f = factor(node, "factor");
-      if (!(width > 1e-4)) strip.fail("a strip of " + centimetres(width) + " is none");
-      const Vec2 along = way / width, c = from + 0.5 * way;
-      map_panel(p, [&](const Vec2& q) {
-        const double s = (q - c).dot(along), inside = std::clamp(s, -0.5 * width, 0.5 * width);
-        return Vec2(q + (f - 1) * inside * along);
-      });
-      return;
-    }
-    const double warp = factor(node, "warp"), weft = factor(node, "weft");
-    const Vec2 c = middle(p), u = p.grain, v(-u.y(), u.x());
-    map_panel(p, [&](const Vec2& q) { return Vec2(c + warp * (q - c).dot(u) * u + weft * (q - c).dot(v) * v); });
-  } else {
-    const std::string known[] = {"move-point", "move-edge", "bend",  "add-point", "set-length", "take-in",  "let-out",     "lengthen", "shorten", "scale",
-                                 "grade",      "shrink",    "split", "cut",       "join",       "add-dart", "rotate-dart", "open",     "close",   "restore"};
-    const std::string near = nearest_word(what, std::begin(known), std::end(known));
-    node.at("edit").fail(
-        "unknown edit '" + what + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)"),
-        "known are move-point, move-edge, bend, add-point, set-length, take-in, let-out, lengthen, shorten, scale, grade, shrink, split, cut, join, add-dart, "
-        "rotate-dart, open, close and restore");
+Panel& panel_of(Pattern& pattern, const io::Node& node) { return pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("panel")))]; }
+int edge_of(const Panel& panel, const io::Node& node) { return edge_named(panel, node.at("edge")); }
+
+void move_point(Pattern& pattern, const io::Node& node, double unit) {
+  node.allow_only({"edit", "panel", "edge", "end", "by"});
+  Panel& p = panel_of(pattern, node);
+  const std::string end = node.string("end", "start");
+  if (end != "start" && end != "end") node.at("end").fail("'" + end + "' is no end of an edge", "give start or end");
+  const Vec2 by = snapped(Vec2(node.at("by").vec2() * unit)), none(0, 0);
+  move_ends(place_of_edge(p, edge_of(p, node)), end == "start" ? by : none, end == "end" ? by : none);
+}
+
+void move_edge(Pattern& pattern, const io::Node& node, double unit) {
+  node.allow_only({"edit", "panel", "edge", "by"});
+  Panel& p = panel_of(pattern, node);
+  const Vec2 by = snapped(Vec2(node.at("by").vec2() * unit));
+  const Place place = place_of_edge(p, edge_of(p, node));
+  drag(place.edge().path, by, 1, 1);
+  if (place.loop->size() > 1) drag(place.before().path, by, 0, 1), drag(place.after().path, by, 1, 0);
+}
+
+/// Inwards along one edge, or half of it along each side of a seam. @param way 1 takes in, -1 lets out
+void take_in(Pattern& pattern, const io::Node& node, double unit, double way) {
+  node.allow_only({"edit", "panel", "edge", "seam", "by"});
+  const double by = way * node.at("by").number() * unit;
+  if (!node.has("seam")) {
+    Panel& p = panel_of(pattern, node);
+    move_inward(node, p, edge_of(p, node), by);
+    return;
   }
+  const Seam& seam = seam_named(pattern, node.at("seam"));
+  for (const auto* side : {&seam.a, &seam.b})
+    for (const Run& run : *side) move_inward(node, pattern.panels[static_cast<std::size_t>(run.panel)], run.edge, 0.5 * by);
+}
+
+void bend(Pattern& pattern, const io::Node& node, double unit) {
+  node.allow_only({"edit", "panel", "edge", "by"});
+  Panel& p = panel_of(pattern, node);
+  // The middle of a cubic lies three quarters of the way from its chord to its two handles.
+  const Vec2 by = node.at("by").vec2() * (unit * 4 / 3);
+  Path& path = place_of_edge(p, edge_of(p, node)).edge().path;
+  const double n = static_cast<double>(path.size());
+  if (path.size() == 1) {
+    if (path[0].line) path[0] = Segment::cubic(path[0].p[0], path[0].at(1.0 / 3), path[0].at(2.0 / 3), path[0].p[3]);
+    path[0].p[1] += by, path[0].p[2] += by;
+    return;
+  }
+  for (std::size_t s = 0; s < path.size(); ++s) // along a chain the middle moves by `by`, the ends not at all
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double t = (static_cast<double>(s) + static_cast<double>(k) / 3) / n;
+      path[s].p[k] += 3 * t * (1 - t) * by;
+    }
+}
+
+/// Of one edge, or of both sides of a seam, their edges in proportion.
+void set_lengths(Pattern& pattern, const io::Node& node, double unit) {
+  node.allow_only({"edit", "panel", "edge", "seam", "length", "fixed"});
+  const double length = positive_length(node, unit);
+  const std::string fixed = node.string("fixed", "start");
+  if (fixed != "start" && fixed != "end" && fixed != "middle") node.at("fixed").fail("'" + fixed + "' cannot be fixed", "give start, end or middle");
+  if (!node.has("seam")) {
+    Panel& p = panel_of(pattern, node);
+    set_length(p, edge_of(p, node), length, fixed);
+    return;
+  }
+  const Seam& seam = seam_named(pattern, node.at("seam"));
+  for (const auto* side : {&seam.a, &seam.b}) {
+    const double ratio = length / side_length(pattern, *side);
+    for (const Run& run : *side) {
+      Panel& p = pattern.panels[static_cast<std::size_t>(run.panel)];
+      set_length(p, run.edge, ratio * pattern::length(p.edge(run.edge).path), fixed);
+    }
+  }
+}
+
+/// What lies beyond a line goes along. @param way 1 lengthens, -1 shortens
+void lengthen(Pattern& pattern, const io::Node& node, double unit, double way) {
+  node.allow_only({"edit", "panel", "at", "along", "by"});
+  const Vec2 at = node.at("at").vec2() * unit, direction = node.at("along").vec2();
+  if (!(direction.norm() > 0)) node.at("along").fail("there is no direction");
+  const Vec2 along = direction.normalized(), by = snapped(Vec2(along * node.at("by").number() * unit * way));
+  map_panel(panel_of(pattern, node), [&](const Vec2& p) { return (p - at).dot(along) > 0 ? Vec2(p + by) : p; });
+}
+
+/// The panel that an edit names, or all.
+template<class Change> void change_panels(Pattern& pattern, const io::Node& node, const Change& change) {
+  if (node.has("panel")) return change(panel_of(pattern, node));
+  for (Panel& p : pattern.panels) change(p);
+}
+
+void scale(Pattern& pattern, const io::Node& node, double) {
+  node.allow_only({"edit", "panel", "x", "y"});
+  const double x = factor(node, "x"), y = factor(node, "y");
+  change_panels(pattern, node, [&](Panel& p) {
+    const Vec2 c = middle(p);
+    map_panel(p, [&](const Vec2& q) { return Vec2(c.x() + x * (q.x() - c.x()), c.y() + y * (q.y() - c.y())); });
+  });
+}
+
+void grade(Pattern& pattern, const io::Node& node, double unit) {
+  node.allow_only({"edit", "panel", "width", "height"});
+  const double width = node.number("width", 0) * unit, height = node.number("height", 0) * unit;
+  change_panels(pattern, node, [&](Panel& p) {
+    const auto [low, high] = extent(p);
+    const Vec2 c = 0.5 * (low + high), size = high - low, factor((size.x() + width) / size.x(), (size.y() + height) / size.y());
+    if (!(factor.minCoeff() > 0.2))
+      node.fail("panel " + p.name + " is " + centimetres(size.x()) + " by " + centimetres(size.y()) + ": too small to grade by that much");
+    map_panel(p, [&](const Vec2& q) { return Vec2(c + factor.cwiseProduct(q - c)); });
+  });
+}
+
+/// Elastic tape along a curve: rest lengths change along it, the outline does not.
+void add_tape(Panel& p, const io::Node& node, double unit) {
+  InnerLine tape{"", "tape", read_path(node.at("curve"), unit, nullptr), factor(node, "factor"), node.number("width", 0.01 / unit) * unit};
+  for (Segment& s : tape.path)
+    for (Vec2& q : s.p) q = snapped(q);
+  const auto [low, high] = extent(p);
+  for (const Segment& s : tape.path)
+    for (const Vec2& q : s.p)
+      if (!((low - q).maxCoeff() < 0.1 && (q - high).maxCoeff() < 0.1)) node.at("curve").fail("the tape leaves panel " + p.name, "draw it inside");
+  if (!(pattern::length(tape.path) > 0.005)) node.at("curve").fail("a tape of " + centimetres(pattern::length(tape.path)) + " is none");
+  if (!(tape.width > 0 && tape.width < 1)) node.at("width").fail("a width of " + centimetres(tape.width) + " is none");
+  const auto taken = [&](const std::string& name) { return std::any_of(p.lines.begin(), p.lines.end(), [&](const InnerLine& l) { return l.name == name; }); };
+  tape.name = node.string("name", "tape");
+  if (node.has("name") && taken(tape.name)) node.at("name").fail("panel " + p.name + " has a line '" + tape.name + "' already");
+  for (int k = 2; taken(tape.name); ++k) tape.name = "tape" + std::to_string(k);
+  p.lines.push_back(std::move(tape));
+}
+
+/// Cloth between two parallel lines, across them.
+void shrink_strip(Panel& p, const io::Node& node, double unit) {
+  const io::Node strip = node.at("strip");
+  strip.allow_only({"from", "to"});
+  const Vec2 from = strip.at("from").vec2() * unit, way = strip.at("to").vec2() * unit - from;
+  const double width = way.norm(), f = factor(node, "factor");
+  if (!(width > 1e-4)) strip.fail("a strip of " + centimetres(width) + " is none");
+  const Vec2 along = way / width, c = from + 0.5 * way;
+  map_panel(p, [&](const Vec2& q) {
+    const double s = (q - c).dot(along), inside = std::clamp(s, -0.5 * width, 0.5 * width);
+    return Vec2(q + (f - 1) * inside * along);
+  });
+}
+
+/// Along a curve, along an edge, in a strip, or all of a panel along warp and weft.
+void shrink(Pattern& pattern, const io::Node& node, double unit) {
+  node.allow_only({"edit", "panel", "warp", "weft", "edge", "factor", "strip", "curve", "width", "name"});
+  Panel& p = panel_of(pattern, node);
+  if (node.has("curve")) return add_tape(p, node, unit);
+  if (node.has("edge")) {
+    const int e = edge_of(p, node);
+    return set_length(p, e, factor(node, "factor") * pattern::length(p.edge(e).path), "middle");
+  }
+  if (node.has("strip")) return shrink_strip(p, node, unit);
+  const double warp = factor(node, "warp"), weft = factor(node, "weft");
+  const Vec2 c = middle(p), u = p.grain, v(-u.y(), u.x());
+  map_panel(p, [&](const Vec2& q) { return Vec2(c + warp * (q - c).dot(u) * u + weft * (q - c).dot(v) * v); });
+}
+
+struct Edit {
+  const char* name;
+  void (*apply)(Pattern& pattern, const io::Node& node, double unit);
+  bool drags_edges = false; ///< lines that end on an edge go with it
+};
+
+const Edit EDITS[] = {
+    {"move-point", move_point, true},
+    {"move-edge", move_edge, true},
+    {"bend", bend, true},
+    {"add-point", [](Pattern& p, const io::Node& n, double) { add_point(p, n); }},
+    {"set-length", set_lengths, true},
+    {"take-in", [](Pattern& p, const io::Node& n, double unit) { take_in(p, n, unit, 1); }, true},
+    {"let-out", [](Pattern& p, const io::Node& n, double unit) { take_in(p, n, unit, -1); }, true},
+    {"lengthen", [](Pattern& p, const io::Node& n, double unit) { lengthen(p, n, unit, 1); }},
+    {"shorten", [](Pattern& p, const io::Node& n, double unit) { lengthen(p, n, unit, -1); }},
+    {"scale", scale},
+    {"grade", grade},
+    {"shrink", shrink, true},
+    {"split", split_panel},
+    {"cut", split_panel},
+    {"join", [](Pattern& p, const io::Node& n, double) { join_panels(p, n); }},
+    {"add-dart", add_dart},
+    {"rotate-dart", [](Pattern& p, const io::Node& n, double) { rotate_dart(p, n); }},
+    {"open", [](Pattern& p, const io::Node& n, double) { open_seam(p, n, true); }},
+    {"close", [](Pattern& p, const io::Node& n, double) { open_seam(p, n, false); }},
+    {"restore", [](Pattern& p, const io::Node& n, double) { restore(p, n); }},
+};
+
+const Edit& edit_named(const io::Node& node) {
+  const std::string what = node.at("edit").string();
+  std::vector<std::string> names;
+  std::string known;
+  for (const Edit& edit : EDITS) {
+    if (what == edit.name) return edit;
+    known += (names.empty() ? "" : &edit == std::end(EDITS) - 1 ? " and " : ", ") + std::string(edit.name);
+    names.emplace_back(edit.name);
+  }
+  const std::string near = nearest_word(what, names.data(), names.data() + names.size());
+  node.at("edit").fail("unknown edit '" + what + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)"), "known are " + known);
 }
 
 } // namespace
@@ -312,11 +363,11 @@ void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file
     std::vector<Panel> lined;
     for (const Panel& p : pattern.panels)
       if (!p.lines.empty()) lined.push_back(p);
-    apply(pattern, edits.at(k), unit);
-    for (const char* what : {"move-point", "move-edge", "bend", "set-length", "take-in", "let-out", "shrink"})
-      if (edits.at(k).at("edit").string() == what && !edits.at(k).has("warp") && !edits.at(k).has("strip"))
-        for (const Panel& before : lined)
-          if (const int p = pattern.find_panel(before.name); p >= 0) carry_lines(before, pattern.panels[static_cast<std::size_t>(p)]);
+    const Edit& edit = edit_named(edits.at(k));
+    edit.apply(pattern, edits.at(k), unit);
+    if (edit.drags_edges && !edits.at(k).has("warp") && !edits.at(k).has("strip"))
+      for (const Panel& before : lined)
+        if (const int p = pattern.find_panel(before.name); p >= 0) carry_lines(before, pattern.panels[static_cast<std::size_t>(p)]);
     onto_grid();
     for (const Panel& p : pattern.panels) {
       std::vector<Path> loop;

@@ -137,18 +137,16 @@ double summarise(std::vector<garment::Weighted> all, Legend& legend) {
   return garment::area_quantile(all, 0.99);
 }
 
-/// How much lies beyond the ends of the scale or has no value.
-void count_outside(const std::vector<std::vector<double>>& lists, Legend& legend) {
-  std::size_t n = 0, below = 0, beyond = 0;
+/// How much lies beyond the ends of the scale, by the weights of the quantiles, so that both say the same.
+void count_outside(const std::vector<garment::Weighted>& values, Legend& legend) {
+  double all = 0, below = 0, beyond = 0;
   const double slack = 1e-9 * (legend.high - legend.low);
-  for (const auto& list : lists)
-    for (double v : list) {
-      legend.has_gaps |= v == NO_VALUE;
-      if (v == NO_VALUE) continue;
-      ++n, below += v<legend.low - slack, beyond += v> legend.high + slack;
-    }
-  if (n == 0) return;
-  legend.below = static_cast<double>(below) / static_cast<double>(n), legend.beyond = static_cast<double>(beyond) / static_cast<double>(n);
+  for (const auto& [value, weight] : values) {
+    all += weight;
+    if (value < legend.low - slack) below += weight;
+    if (value > legend.high + slack) beyond += weight;
+  }
+  if (all > 0) legend.below = below / all, legend.beyond = beyond / all;
 }
 
 /// The first of the ranges that holds the value, or the last.
@@ -156,6 +154,25 @@ double choose_range(double most, std::initializer_list<double> ranges) {
   for (double r : ranges)
     if (most <= r) return r;
   return *(ranges.end() - 1);
+}
+
+/// Title, unit and range of a map. @param most of the values that the range should hold
+void choose_scale(Map map, double most, Legend& legend) {
+  switch (map) {
+  case Map::GAP: legend.title = "gap to the skin", legend.unit = "mm", legend.high = choose_range(most, {40, 80, 120, 160, 240, 320}); break;
+  case Map::PENETRATION: legend.title = "depth in the skin", legend.unit = "mm", legend.high = choose_range(legend.largest, {0.8, 4, 8, 16, 40, 80}); break;
+  case Map::PRESSURE:
+    legend.title = "contact pressure", legend.unit = "Pa", legend.high = choose_range(most, {80, 160, 400, 800, 1600, 4000, 8000, 40000});
+    break;
+  case Map::EASE:
+    legend.title = "ease at the level", legend.unit = "cm", legend.high = choose_range(most, {8, 16, 24, 32, 48, 80}), legend.diverging = true;
+    break;
+  case Map::DIFFERENCE: legend.title = "difference", legend.unit = "mm", legend.high = choose_range(most, {0.8, 1.6, 4, 8, 16, 40, 80, 160, 400, 800}); break;
+  case Map::LIMIT: legend.title = "share of strain limit", legend.unit = "%", legend.high = choose_range(most, {8, 16, 40, 80, 160, 400, 1600}); break;
+  default:
+    legend.title = map == Map::STRAIN ? "strain" : "strain, " + map_names()[static_cast<int>(map)];
+    legend.unit = "%", legend.high = choose_range(most, {4, 8, 12, 20, 40}), legend.diverging = true;
+  }
 }
 
 void color_parts(Scene& scene) {
@@ -240,25 +257,12 @@ Legend apply_map(Scene& scene, Map map, double limit) {
     for (const auto& list : values)
       for (const double v : list)
         if (v != NO_VALUE) by_area.push_back({v, 1});
-  const double most = summarise(std::move(by_area), legend);
-  switch (map) {
-  case Map::GAP: legend.title = "gap to the skin", legend.unit = "mm", legend.high = choose_range(most, {40, 80, 120, 160, 240, 320}); break;
-  case Map::PENETRATION: legend.title = "depth in the skin", legend.unit = "mm", legend.high = choose_range(legend.largest, {0.8, 4, 8, 16, 40, 80}); break;
-  case Map::PRESSURE:
-    legend.title = "contact pressure", legend.unit = "Pa", legend.high = choose_range(most, {80, 160, 400, 800, 1600, 4000, 8000, 40000});
-    break;
-  case Map::EASE:
-    legend.title = "ease at the level", legend.unit = "cm", legend.high = choose_range(most, {8, 16, 24, 32, 48, 80}), legend.diverging = true;
-    break;
-  case Map::DIFFERENCE: legend.title = "difference", legend.unit = "mm", legend.high = choose_range(most, {0.8, 1.6, 4, 8, 16, 40, 80, 160, 400, 800}); break;
-  case Map::LIMIT: legend.title = "share of strain limit", legend.unit = "%", legend.high = choose_range(most, {8, 16, 40, 80, 160, 400, 1600}); break;
-  default:
-    legend.title = map == Map::STRAIN ? "strain" : "strain, " + map_names()[static_cast<int>(map)];
-    legend.unit = "%", legend.high = choose_range(most, {4, 8, 12, 20, 40}), legend.diverging = true;
-  }
+  const double most = summarise(by_area, legend);
+  choose_scale(map, most, legend);
   if (limit > 0) legend.high = limit;
   legend.low = legend.diverging ? -legend.high : 0;
-  count_outside(values, legend);
+  count_outside(by_area, legend);
+  for (const auto& list : values) legend.has_gaps |= std::count(list.begin(), list.end(), NO_VALUE) > 0;
   for (int k = 0; k < 8; ++k) legend.steps.push_back(scale_color(legend.diverging ? (k - 3.5) / 3.5 : k / 7.0, legend.diverging));
   for (std::size_t g = 0; g < values.size(); ++g) scene.meshes[scene.garment_mesh[g]].values = values[g];
   return legend;

@@ -22,7 +22,7 @@ struct Legend {
   double least = 0, p1 = 0, p50 = 0, p99 = 0, largest = 0; ///< of the values
   bool diverging = false;
   bool has_gaps = false;        ///< some cloth has no value: it is drawn in no_value_color()
-  double below = 0, beyond = 0; ///< share of the values under `low` and over `high`, 0..1: they are drawn in the end colours
+  double below = 0, beyond = 0; ///< share under `low` and over `high`, 0..1, weighted as the quantiles are
   std::vector<Vec3> steps;      ///< eight colours, linear, low to high; empty: no colour bar
 };
 

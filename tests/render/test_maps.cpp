@@ -122,6 +122,14 @@ TEST(Maps, what_lies_beyond_the_scale_or_has_no_value_is_counted) {
   EXPECT_LT(legend.beyond, 0.8);
   EXPECT_EQ(legend.below, 0);
   EXPECT_FALSE(legend.has_gaps);
+  // One triangle in a corner, whose vertices' means stay within the scale: the bar says what the quantiles say.
+  scene = scene_of({make_sheet(12, [](const Vec2& p) { return Vec3(p.x() + (p.x() + p.y() < 0.001 ? -0.0012 : 0), p.y(), 0); })});
+  legend = apply_map(scene, Map::WEFT, 4);
+  const std::vector<double>& drawn = scene.meshes[0].values;
+  ASSERT_LE(*std::max_element(drawn.begin(), drawn.end()), 4);
+  ASSERT_GT(legend.largest, 4);
+  EXPECT_GT(legend.beyond, 0);
+  EXPECT_LT(legend.beyond, 0.02);
   scene = scene_of({make_sheet(4, flat)});
   scene.garments[0].panels.triangles.resize(8); // vertices that no triangle names have no strain
   scene.garments[0].panels.panels[0].n_triangles = 8;
