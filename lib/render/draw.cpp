@@ -67,6 +67,7 @@ struct Renderer::Impl {
   std::vector<SurfaceVertex> vertices; ///< of all meshes, then the ground
   struct Part {
     int kind, first_index, n_indices, first_vertex, first_line, n_lines;
+    bool is_closed;
   };
   std::vector<Part> parts; ///< cloth first: it hides most of the body
   std::vector<Vec3> points, normals;
@@ -119,7 +120,8 @@ struct Renderer::Impl {
   void append(const DrawMesh& mesh, int kind, std::vector<GLuint>& indices, std::vector<LineVertex>& lines, std::vector<GLuint>& line_indices) {
     const int base = static_cast<int>(vertices.size());
     const bool mapped = !options.map_colors.empty() && !mesh.values.empty();
-    Part part{kind, static_cast<int>(indices.size()), static_cast<int>(mesh.triangles.size() * 3), base, static_cast<int>(line_indices.size()), 0};
+    Part part{kind,          static_cast<int>(indices.size()), static_cast<int>(mesh.triangles.size() * 3), base, static_cast<int>(line_indices.size()), 0,
+              mesh.is_closed};
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
       SurfaceVertex out{};
       put(out.position, mesh.positions[v]);
@@ -292,9 +294,11 @@ struct Renderer::Impl {
         gl.Enable(GL_BLEND);
         gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
       }
+      if (part.is_closed) gl.Enable(GL_CULL_FACE);
       gl.DrawElements(GL_TRIANGLES, part.n_indices, GL_UNSIGNED_INT,
                       reinterpret_cast<const void*>(static_cast<std::size_t>(part.first_index) * sizeof(GLuint)));
       gl.Disable(GL_BLEND);
+      gl.Disable(GL_CULL_FACE);
       if (part.n_lines == 0) continue;
       gl.UseProgram(line_program);
       gl.BindVertexArray(line_array);
@@ -302,22 +306,30 @@ struct Renderer::Impl {
     }
   }
 
-  /// Means of squares, laid over the ground colour, rows from the top.
   io::Image resolve(const std::vector<std::uint8_t>& pixels) const {
+    switch (options.supersample) {
+    case 1: return resolve_by<1>(pixels);
+    case 2: return resolve_by<2>(pixels);
+    case 3: return resolve_by<3>(pixels);
+    default: return resolve_by<4>(pixels);
+    }
+  }
+
+  /// Means of squares of S pixels, laid over the ground colour, rows from the top.
+  template<int S> io::Image resolve_by(const std::vector<std::uint8_t>& pixels) const {
     io::Image image;
     image.width = options.width;
     image.height = options.height;
     image.rgba.resize(4 * static_cast<std::size_t>(image.width) * image.height);
-    const int s = options.supersample;
-    const unsigned n = static_cast<unsigned>(s * s);
-    const std::size_t row = 4 * static_cast<std::size_t>(image.width) * s;
+    constexpr unsigned n = S * S;
+    const std::size_t row = 4 * static_cast<std::size_t>(image.width) * S;
     const unsigned color = static_cast<unsigned>(options.background.value_or(0)), behind[] = {color >> 16 & 255, color >> 8 & 255, color & 255};
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x) {
         unsigned sum[4] = {};
-        const std::uint8_t* corner = pixels.data() + row * static_cast<std::size_t>((image.height - 1 - y) * s) + 4 * static_cast<std::size_t>(x * s);
-        for (int dy = 0; dy < s; ++dy)
-          for (int dx = 0; dx < s; ++dx)
+        const std::uint8_t* corner = pixels.data() + row * static_cast<std::size_t>((image.height - 1 - y) * S) + 4 * static_cast<std::size_t>(x * S);
+        for (int dy = 0; dy < S; ++dy)
+          for (int dx = 0; dx < S; ++dx)
             for (int k = 0; k < 4; ++k) sum[k] += corner[row * static_cast<std::size_t>(dy) + 4 * static_cast<std::size_t>(dx) + k];
         std::uint8_t* out = image.at(x, y);
         if (!options.background) { // colours are multiplied by coverage: undo that

@@ -12,7 +12,7 @@ enum class Fabric { PLAIN, WOVEN, TWILL, STRIPES, CHECKS, PRINT };
 
 struct DrawOptions {
   int width = 800, height = 1000;
-  int supersample = 2;                      ///< each pixel is the mean of its square
+  int supersample = 2;                      ///< 1 to 4: each pixel is the mean of its square
   int occlusion_directions = 32;            ///< of the ambient light; 0 leaves everything unshadowed
   std::optional<int> background = 0xffffff; ///< 0xRRGGBB; none: transparent
   bool ground = true;                       ///< a soft shadow on the floor, seen from above the horizon

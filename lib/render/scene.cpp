@@ -14,7 +14,9 @@
 #include <render/srgb.hpp>
 #include <render/words.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
 namespace sloper::render {
@@ -82,6 +84,7 @@ void read_one(Scene& scene, const std::string& path) {
     scene.body = body::read_body(path);
     scene.body_mesh = static_cast<int>(scene.meshes.size());
     scene.meshes.push_back(plain_mesh(scene.body->skin, linear_color(SKIN)));
+    scene.meshes.back().is_closed = is_closed(scene.body->skin);
   } else if (format == "garment") {
     scene.garments.push_back(garment::read_garment(path));
     const garment::Garment& g = scene.garments.back();
@@ -163,6 +166,28 @@ void color_cloth(Scene& scene, ClothColors how, const std::vector<int>& colors) 
     for (std::size_t v = 0; v < mesh.colors.size(); ++v) mesh.colors[v] = how == ClothColors::PANELS ? panel_color(mesh.panel_of[v]) : one;
     ++k;
   }
+}
+
+// Edges are told apart by a hash that changes its sign with their direction: a sum of nothing left over is chance once in 2^64.
+bool is_closed(const TriangleMesh& mesh) {
+  const auto mixed = [](std::uint64_t x) { // splitmix64
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+    return x ^ (x >> 31);
+  };
+  std::uint64_t left = 0;
+  double volume = 0;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = static_cast<std::uint64_t>(t[k]), b = static_cast<std::uint64_t>(t[(k + 1) % 3]);
+      const std::uint64_t h = mixed((std::min(a, b) << 32 | std::max(a, b)) + 0x9e3779b97f4a7c15ULL);
+      left += a < b ? h : std::uint64_t{0} - h;
+    }
+    const Vec3 &a = mesh.positions[static_cast<std::size_t>(t[0])], &b = mesh.positions[static_cast<std::size_t>(t[1])],
+               &c = mesh.positions[static_cast<std::size_t>(t[2])];
+    volume += a.dot(b.cross(c));
+  }
+  return left == 0 && volume > 0;
 }
 
 Scene read_scene(const std::vector<std::string>& paths) {

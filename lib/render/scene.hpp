@@ -22,6 +22,7 @@ struct DrawMesh {
   std::vector<std::array<int, 2>> lines;  ///< borders of panels, drawn darker
   std::vector<char> is_hem;               ///< by line: a free border, not a seam
   bool is_cloth = false, is_flat = false; ///< flat: drawn unlit
+  bool is_closed = false;                 ///< a body without a hole, seen from outside: its far side never shows
   // Cloth only; empty elsewhere.
   std::vector<Vec2> uv;            ///< m, across and along the warp: the fabric's pattern lies on it
   std::vector<double> seam, hem;   ///< m, pattern distance to the nearest sewn and free border, at most BORDER_REACH
@@ -30,6 +31,9 @@ struct DrawMesh {
   std::vector<std::string> panels; ///< their names
   double thickness = 0;            ///< m
 };
+
+/// Whether each edge is walked as often one way as the other by the triangles beside it, and these look outwards. Cost: O(#F).
+bool is_closed(const TriangleMesh& mesh);
 
 struct Scene {
   std::optional<body::Body> body;

@@ -125,6 +125,29 @@ TEST(Camera, a_document_with_an_unknown_key_or_an_absurd_angle_is_refused) {
   }
 }
 
+TEST(Render, the_far_side_of_a_closed_body_is_left_out_and_never_missed) {
+  TriangleMesh pyramid{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  EXPECT_TRUE(is_closed(pyramid));
+  const std::vector<Triangle> outwards = pyramid.triangles;
+  for (Triangle& t : pyramid.triangles) std::swap(t[0], t[1]);
+  EXPECT_FALSE(is_closed(pyramid)) << "inside out";
+  pyramid.triangles = outwards;
+  pyramid.triangles.pop_back();
+  EXPECT_FALSE(is_closed(pyramid)) << "a hole shows the far side";
+  pyramid.triangles.push_back(outwards[0]);
+  EXPECT_FALSE(is_closed(pyramid)) << "as many triangles, one of them twice";
+  std::vector<DrawMesh> meshes{make_ball()};
+  DrawOptions options;
+  options.width = 120, options.height = 160;
+  const Camera camera = frame_scene(meshes, named_view("iso"), 0.75);
+  const io::Image whole = Renderer(meshes, options).draw(camera);
+  meshes[0].is_closed = true;
+  const io::Image front = Renderer(meshes, options).draw(camera);
+  const Comparison c = compare(whole, front);
+  EXPECT_LE(c.largest, 2);
+  EXPECT_GT(c.ssim, 0.9999);
+}
+
 TEST(Render, a_ball_throws_its_shadow_on_the_floor) {
   const std::vector<DrawMesh> meshes{make_ball()};
   DrawOptions options;
