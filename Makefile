@@ -100,6 +100,7 @@ clean:
 	@$(MAKE) --no-print-directory -C samples/demo clean
 
 pictures: all
+	@scripts/setup gnuplot-nox
 	@scripts/make-pictures build
 
 package: all
