@@ -143,23 +143,23 @@ double positive_length(const io::Node& node, double unit) {
   return length;
 }
 
-Panel& panel_of(Pattern& pattern, const io::Node& node) { return pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("panel")))]; }
-int edge_of(const Panel& panel, const io::Node& node) { return edge_named(panel, node.at("edge")); }
+Panel& edited_panel(Pattern& pattern, const io::Node& node) { return pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("panel")))]; }
+int edited_edge(const Panel& panel, const io::Node& node) { return edge_named(panel, node.at("edge")); }
 
 void move_point(Pattern& pattern, const io::Node& node, double unit) {
   node.allow_only({"edit", "panel", "edge", "end", "by"});
-  Panel& p = panel_of(pattern, node);
+  Panel& p = edited_panel(pattern, node);
   const std::string end = node.string("end", "start");
   if (end != "start" && end != "end") node.at("end").fail("'" + end + "' is no end of an edge", "give start or end");
   const Vec2 by = snapped(Vec2(node.at("by").vec2() * unit)), none(0, 0);
-  move_ends(place_of_edge(p, edge_of(p, node)), end == "start" ? by : none, end == "end" ? by : none);
+  move_ends(place_of_edge(p, edited_edge(p, node)), end == "start" ? by : none, end == "end" ? by : none);
 }
 
 void move_edge(Pattern& pattern, const io::Node& node, double unit) {
   node.allow_only({"edit", "panel", "edge", "by"});
-  Panel& p = panel_of(pattern, node);
+  Panel& p = edited_panel(pattern, node);
   const Vec2 by = snapped(Vec2(node.at("by").vec2() * unit));
-  const Place place = place_of_edge(p, edge_of(p, node));
+  const Place place = place_of_edge(p, edited_edge(p, node));
   drag(place.edge().path, by, 1, 1);
   if (place.loop->size() > 1) drag(place.before().path, by, 0, 1), drag(place.after().path, by, 1, 0);
 }
@@ -169,8 +169,8 @@ void take_in(Pattern& pattern, const io::Node& node, double unit, double way) {
   node.allow_only({"edit", "panel", "edge", "seam", "by"});
   const double by = way * node.at("by").number() * unit;
   if (!node.has("seam")) {
-    Panel& p = panel_of(pattern, node);
-    move_inward(node, p, edge_of(p, node), by);
+    Panel& p = edited_panel(pattern, node);
+    move_inward(node, p, edited_edge(p, node), by);
     return;
   }
   const Seam& seam = seam_named(pattern, node.at("seam"));
@@ -180,10 +180,10 @@ void take_in(Pattern& pattern, const io::Node& node, double unit, double way) {
 
 void bend(Pattern& pattern, const io::Node& node, double unit) {
   node.allow_only({"edit", "panel", "edge", "by"});
-  Panel& p = panel_of(pattern, node);
+  Panel& p = edited_panel(pattern, node);
   // The middle of a cubic lies three quarters of the way from its chord to its two handles.
   const Vec2 by = node.at("by").vec2() * (unit * 4 / 3);
-  Path& path = place_of_edge(p, edge_of(p, node)).edge().path;
+  Path& path = place_of_edge(p, edited_edge(p, node)).edge().path;
   const double n = static_cast<double>(path.size());
   if (path.size() == 1) {
     if (path[0].line) path[0] = Segment::cubic(path[0].p[0], path[0].at(1.0 / 3), path[0].at(2.0 / 3), path[0].p[3]);
@@ -204,8 +204,8 @@ void set_lengths(Pattern& pattern, const io::Node& node, double unit) {
   const std::string fixed = node.string("fixed", "start");
   if (fixed != "start" && fixed != "end" && fixed != "middle") node.at("fixed").fail("'" + fixed + "' cannot be fixed", "give start, end or middle");
   if (!node.has("seam")) {
-    Panel& p = panel_of(pattern, node);
-    set_length(p, edge_of(p, node), length, fixed);
+    Panel& p = edited_panel(pattern, node);
+    set_length(p, edited_edge(p, node), length, fixed);
     return;
   }
   const Seam& seam = seam_named(pattern, node.at("seam"));
@@ -224,12 +224,12 @@ void lengthen(Pattern& pattern, const io::Node& node, double unit, double way) {
   const Vec2 at = node.at("at").vec2() * unit, direction = node.at("along").vec2();
   if (!(direction.norm() > 0)) node.at("along").fail("there is no direction");
   const Vec2 along = direction.normalized(), by = snapped(Vec2(along * node.at("by").number() * unit * way));
-  map_panel(panel_of(pattern, node), [&](const Vec2& p) { return (p - at).dot(along) > 0 ? Vec2(p + by) : p; });
+  map_panel(edited_panel(pattern, node), [&](const Vec2& p) { return (p - at).dot(along) > 0 ? Vec2(p + by) : p; });
 }
 
 /// The panel that an edit names, or all.
 template<class Change> void change_panels(Pattern& pattern, const io::Node& node, const Change& change) {
-  if (node.has("panel")) return change(panel_of(pattern, node));
+  if (node.has("panel")) return change(edited_panel(pattern, node));
   for (Panel& p : pattern.panels) change(p);
 }
 
@@ -289,10 +289,10 @@ void shrink_strip(Panel& p, const io::Node& node, double unit) {
 /// Along a curve, along an edge, in a strip, or all of a panel along warp and weft.
 void shrink(Pattern& pattern, const io::Node& node, double unit) {
   node.allow_only({"edit", "panel", "warp", "weft", "edge", "factor", "strip", "curve", "width", "name"});
-  Panel& p = panel_of(pattern, node);
+  Panel& p = edited_panel(pattern, node);
   if (node.has("curve")) return add_tape(p, node, unit);
   if (node.has("edge")) {
-    const int e = edge_of(p, node);
+    const int e = edited_edge(p, node);
     return set_length(p, e, factor(node, "factor") * pattern::length(p.edge(e).path), "middle");
   }
   if (node.has("strip")) return shrink_strip(p, node, unit);
