@@ -140,34 +140,44 @@ static int legend_font(int width, int height) { return std::max(10, std::min(hei
 
 int legend_width(const Legend& legend, int width, int height) { return legend.steps.empty() ? 0 : std::min(width / 2, 8 * legend_font(width, height)); }
 
+/// What stands below a colour bar, line by line.
+static std::vector<std::string> legend_notes(const Legend& legend) {
+  const std::pair<const char*, double> all[] = {
+      {"min  ", legend.least}, {"p1  ", legend.p1}, {"p50  ", legend.p50}, {"p99  ", legend.p99}, {"max  ", legend.largest}};
+  std::vector<std::string> notes;
+  for (std::size_t k = legend.diverging ? 0 : 2; k < std::size(all); ++k) // what has no other side needs no lower end
+    notes.push_back(all[k].first + number(all[k].second) + " " + legend.unit);
+  if (legend.beyond > 0) notes.push_back("above " + share(legend.beyond));
+  if (legend.below > 0) notes.push_back("below " + share(legend.below));
+  if (legend.has_gaps) notes.emplace_back("no value");
+  return notes;
+}
+
 void draw_legend(io::Image& image, const Legend& legend) {
   if (legend.steps.empty()) return;
-  const int n = static_cast<int>(legend.steps.size());
-  const int font = legend_font(image.width, image.height), step = std::max(2, image.height / 22), bar_width = 2 * font;
-  const int left = image.width - 6 * font, top = image.height / 8 + 2 * font;
+  const std::vector<std::string> notes = legend_notes(legend);
+  const int n = static_cast<int>(legend.steps.size()), lines = static_cast<int>(notes.size());
+  const int font = legend_font(image.width, image.height), bar_width = 2 * font;
+  const int left = image.width - 6 * font, right = image.width - font, top = image.height / 8 + 2 * font;
+  const auto below_bar = [&](int line) { return (4 + 3 * line) * font / 2 + font / 2; };
+  // In a small picture the bar leaves room for what stands below it.
+  const int step = std::max(2, std::min(image.height / 22, (image.height - font / 2 - below_bar(lines - 1) - top) / n));
   for (int k = 0; k < n; ++k) fill(image, left, top + k * step, left + bar_width, top + (k + 1) * step, legend.steps[static_cast<std::size_t>(n - 1 - k)]);
   draw_tip(image, left, top, bar_width, -1, legend.beyond > 0 ? &legend.steps.back() : nullptr);
   draw_tip(image, left, top + n * step, bar_width, 1, legend.below > 0 ? &legend.steps.front() : nullptr);
-  for (int k = 0; k <= n; k += 2)
+  const int every = 2 * step < font ? n / 2 : 2; // numbers do not cover each other
+  for (int k = 0; k <= n; k += every)
     draw_text_halo(image, number(legend.high - k * (legend.high - legend.low) / n), left + bar_width + font / 2, top + step * k + font * 3 / 8, font);
-  const int right = image.width - font;
   draw_text_halo(image, legend.title, right, top - font * 15 / 4, font, Align::RIGHT);
   draw_text_halo(image, legend.unit, right, top - font * 19 / 8, font, Align::RIGHT);
-  const std::pair<const char*, double> all[] = {
-      {"min  ", legend.least}, {"p1  ", legend.p1}, {"p50  ", legend.p50}, {"p99  ", legend.p99}, {"max  ", legend.largest}};
-  int line = 0;
-  for (std::size_t k = legend.diverging ? 0 : 2; k < std::size(all); ++k, ++line) // what has no other side needs no lower end
-    draw_text_halo(image, all[k].first + number(all[k].second) + " " + legend.unit, right, top + n * step + (4 + 3 * line) * font / 2 + font / 2, font,
-                   Align::RIGHT);
-  const auto note = [&](const std::string& text) {
-    draw_text_halo(image, text, right, top + n * step + (4 + 3 * line++) * font / 2 + font / 2, font, Align::RIGHT);
-  };
-  if (legend.beyond > 0) note("above " + share(legend.beyond));
-  if (legend.below > 0) note("below " + share(legend.below));
-  if (legend.has_gaps) {
-    const int y0 = top + n * step + (4 + 3 * line) * font / 2 + font / 2 - font, x0 = right - text_width("no value", font) - 3 * font / 2;
-    fill(image, x0, y0, x0 + font, y0 + font, no_value_color());
-    note("no value");
+  for (int line = 0; line < lines; ++line) {
+    const std::string& text = notes[static_cast<std::size_t>(line)];
+    const int y = top + n * step + below_bar(line);
+    draw_text_halo(image, text, right, y, font, Align::RIGHT);
+    if (legend.has_gaps && line == lines - 1) {
+      const int x0 = right - text_width(text, font) - 3 * font / 2;
+      fill(image, x0, y - font, x0 + font, y, no_value_color());
+    }
   }
 }
 

@@ -247,6 +247,28 @@ TEST(Maps, scales_run_from_dark_to_light_and_from_blue_over_white_to_red) {
   EXPECT_GT(scale_color(1, true).x(), scale_color(1, true).z());
 }
 
+// In a picture of 200 x 250 the last line of a long legend had run off the lower edge.
+TEST(Overlay, a_legend_has_room_for_all_its_lines_in_a_small_picture) {
+  Legend legend;
+  legend.title = "strain", legend.unit = "%", legend.low = -4, legend.high = 4, legend.diverging = legend.has_gaps = true;
+  legend.below = legend.beyond = 0.1;
+  legend.steps.assign(8, Vec3(0.9, 0.1, 0.1));
+  io::Image image;
+  image.width = 200, image.height = 250;
+  image.rgba.assign(4 * 200 * 250, 255);
+  draw_legend(image, legend);
+  int swatch = 0, last = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* p = image.at(x, y);
+      if (p[0] == 255) continue;
+      last = y;
+      swatch += x < 140 && y > 200 && p[0] == p[1] && p[0] > 120 && p[0] < 150; // of "no value", left of its words
+    }
+  EXPECT_GT(swatch, 60) << "of 100, less the halo of words";
+  EXPECT_LT(last, 248);
+}
+
 TEST(Overlay, a_sheet_gives_each_column_the_width_of_its_widest_picture) {
   io::Image wide, narrow;
   wide.width = 60, narrow.width = 20, wide.height = narrow.height = 40;
