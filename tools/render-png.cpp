@@ -140,11 +140,8 @@ void write_pictures(const Options& o, const std::vector<io::Image>& images, cons
   }
 }
 
-int run_render(cli::Tool& tool, const Options& o) {
-  check_output(o.output);
-  const bool values_as_ply = wants_ply(o);
-  if (o.as == "files" && (o.output == "-" || o.output.rfind("/dev/", 0) == 0))
-    throw Error(ErrorKind::USAGE, "", "--as files", "needs a file name to number", "say for example -o turn.png");
+/// What the command line alone says of the drawing.
+render::DrawOptions drawing_options(const Options& o) {
   render::DrawOptions options;
   const auto size = render::parse_size(o.size);
   options.print_size = o.print_size;
@@ -153,9 +150,25 @@ int run_render(cli::Tool& tool, const Options& o) {
   options.supersample = render::samples_for(size);
   options.background = render::parse_background(o.background);
   options.context = o.context == "egl" ? render::ContextKind::EGL : render::ContextKind::OSMESA;
-  auto views = o.camera.empty() ? render::parse_views(o.view) : std::vector<std::optional<render::CameraOptions>>{render::read_camera(o.camera)};
+  return options;
+}
+
+/// The cameras asked for; none where the pattern is to be laid flat.
+std::vector<std::optional<render::CameraOptions>> views_of(const Options& o) {
+  if (!o.camera.empty()) return {render::read_camera(o.camera)};
+  auto views = render::parse_views(o.view);
   for (auto& v : views)
-    if (v && o.camera.empty() && o.field_height > 0) v->field_height = o.field_height;
+    if (v && o.field_height > 0) v->field_height = o.field_height;
+  return views;
+}
+
+int run_render(cli::Tool& tool, const Options& o) {
+  check_output(o.output);
+  const bool values_as_ply = wants_ply(o);
+  if (o.as == "files" && (o.output == "-" || o.output.rfind("/dev/", 0) == 0))
+    throw Error(ErrorKind::USAGE, "", "--as files", "needs a file name to number", "say for example -o turn.png");
+  render::DrawOptions options = drawing_options(o);
+  const auto views = views_of(o);
   const render::Show show = render::parse_show(o.show);
   const std::vector<int> colors = render::parse_colors(o.colors);
   const auto& maps = render::map_names();
@@ -184,7 +197,7 @@ int run_render(cli::Tool& tool, const Options& o) {
   const double left = fits ? render::label_share(scene, show, options.width, options.height) : 0;
   const int legend_width = render::legend_width(legend, options.width, options.height);
   const double right = fits ? left + static_cast<double>(legend_width) / options.width : 0;
-  if (o.as != "files") render::check_pixels(size, views.size());
+  if (o.as != "files") render::check_pixels({options.width, options.height}, views.size());
   for (const auto& view : views) {
     if (tool.reporter().stop_requested()) throw Error(ErrorKind::FAILED, o.output, "", "stopped by the user; nothing is written");
     tool.reporter().progress("draw", static_cast<double>(drawn + images.size()) / static_cast<double>(views.size()));

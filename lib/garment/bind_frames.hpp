@@ -41,7 +41,6 @@ class MarkMap {
 public:
   MarkMap(const std::map<std::string, double>& from, double from_length, const std::map<std::string, double>& to, double to_length);
   double operator()(double z) const;
-  std::size_t n_marks() const { return m_x.size(); }
 
 private:
   std::vector<double> m_x, m_y, m_slope;
