@@ -1,3 +1,4 @@
+#include <base/units.hpp>
 #include <body/arm_trace.hpp>
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace {
 constexpr double POCKET = 0.001;   ///< what is thinner is no limb: where faces were dropped and closed again, skin has pockets
 constexpr double AS_NEAR = 0.0003; ///< m
 constexpr double TRUNK_LEAN = 0.5; ///< of the bisector between arm and trunk
-constexpr double LEAP = 0.008;     ///< the arm's underside bends away by more than this: no longer the pit
+constexpr double LEAP = 0.008;     ///< the skin bends away from the arm by more than this between two lines
 constexpr double FROM_PIT = 0.06;  ///< aside: a level arm's underside meets the trunk's level anywhere along it, and what lies farther off is no arm pit
 constexpr double ROOF = 0.005;     ///< half breadth of the pit's roof at most
 
@@ -31,8 +32,10 @@ std::vector<double> crossings(const std::vector<Loop>& loops, const Vec2& q, con
 }
 
 /// Apex of the gap between arm and trunk in the plane z = depth: walks along the arm towards the shoulder and watches the
-/// gap close. Lines are square to the bisector of arm and hanging direction.
-std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm, double s) {
+/// gap close. Lines are square to the bisector of arm and hanging direction. Where the skin between arm and trunk runs along the lines,
+/// or bends away to a fold of the trunk's side, the pit is at most as far below the arm's axis as pits usually are.
+/// @param usual distance of the pit from the arm's axis, m
+std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm, double s, double usual) {
   Vec2 out(arm.out.x(), arm.out.y());
   if (out.norm() < 0.2) return std::nullopt;
   out.normalize();
@@ -40,6 +43,7 @@ std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm
   const Vec2 bisector = ((out + Vec2(0, -1)).normalized() + Vec2(arm.left ? TRUNK_LEAN : -TRUNK_LEAN, 0)).normalized();
   Vec2 e(-bisector.y(), bisector.x()); // square to the bisector, from the arm to the trunk
   if (e.dot(Vec2(arm.left ? -1 : 1, -1)) < 0) e = -e;
+  const double leave_usual = usual / std::abs(e.x() * out.y() - e.y() * out.x());
   std::optional<Vec2> apex;
   double last_leave = 0, last_enter = 0;
   const double end = arm.length();
@@ -59,10 +63,14 @@ std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm
     }
     const double enter = *(first + 1);
     // another gap than that of the last line, or a fold of the trunk's side below the pit
-    if (apex && (leave > last_enter || enter < last_leave || leave > last_leave + LEAP * s)) break;
-    last_leave = leave, last_enter = enter;
+    if (apex && (leave > last_enter || enter < last_leave)) break;
     // a gap that ends while it is wide has its roof on the arm's side: below it the trunk falls away
-    apex = q + (leave + std::min(0.5 * (enter - leave), ROOF * s)) * e;
+    const Vec2 next = q + (leave + std::min(0.5 * (enter - leave), ROOF * s)) * e;
+    if (apex && leave > last_leave + LEAP * s && leave > leave_usual) {
+      *apex += std::clamp((leave_usual - last_leave) / (leave - last_leave), 0.0, 1.0) * (next - *apex);
+      break;
+    }
+    last_leave = leave, last_enter = enter, apex = next;
     if (enter - leave < 0.0008 * s) break;
   }
   return apex;
@@ -84,9 +92,12 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules) {
   // of and behind the arm, at distances that go with the arm's radius
   const double radius = arm.sections[arm.sections.size() * 3 / 4].girth / (2 * 3.14159265358979);
   const double depth = arm.at(arm.length() + 0.01 * s).z() + 0.009 * s;
+  const double raised = units::degrees(std::acos(std::clamp(-arm.out.y(), -1.0, 1.0))); // 0 hanging, 90 level
+  const double usual = (rules.number("axilla.below_level_arm") - rules.number("axilla.below_arm_per_degree") * (90 - raised)) * s +
+                       rules.number("axilla.below_arm_of_radius") * radius;
   auto apex_at = [&](double z) {
     const std::vector<Loop> loops = cut(skin, {Vec3(0, 0, z), Vec3::UnitX(), Vec3::UnitY()}, &near);
-    return gap_apex(loops, arm, s);
+    return gap_apex(loops, arm, s, usual);
   };
   arm.axilla = std::nullopt;
   std::vector<double> xs, ys; // the middle of three planes, for a single one may run along a fold
