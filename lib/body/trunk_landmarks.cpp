@@ -348,8 +348,13 @@ void find_trunk_landmarks(const Finder& f) {
   const auto navel = find_navel(f);
   const double waist = find_waist(f, navel, pit);
   find_seat_and_belly(f, crotch, waist);
-  // the first level above the crotch that has one loop
-  for (double y = crotch + 0.004; y < crotch + 0.02 && !f.body.levels.count("crotch"); y += 0.002) put_level(f, "crotch", y, "crotch");
+  // the first level above the crotch whose outline goes around both legs: skin that hangs between them is lower than where they join
+  const auto left = f.levels.leg_at(crotch - 0.010, 0), right = f.levels.leg_at(crotch - 0.010, 1);
+  for (double y = crotch + 0.004; y < crotch + 0.02 && !f.body.levels.count("crotch"); y += 0.002) {
+    const auto loop = f.levels.trunk_at(y);
+    if (loop && left && right && (loop->high.x() < left->centroid.x() || loop->low.x() > right->centroid.x())) continue;
+    put_level(f, "crotch", y, "crotch");
+  }
   if (f.body.levels.count("crotch")) f.body.levels["crotch"].y = crotch;
   double under = waist + 0.055 * s;
   if (f.body.levels.count("bust")) {
