@@ -55,7 +55,7 @@ bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, cons
   levels.move_crotch(y, place.z());
   if (const auto l = levels.leg_at(y - 0.01, 0))
     if (const auto r = levels.leg_at(y - 0.01, 1))
-      levels.move_crotch(y, (1 - moved) * place.z() + moved * (0.5 * (l->centroid.y() + r->centroid.y()) + 0.013 * s));
+      levels.move_crotch(y, (1 - moved) * place.z() + moved * (0.5 * (l->centroid.y() + r->centroid.y()) + CROTCH_BEFORE_LEGS * s));
   char text[200];
   std::snprintf(text, sizeof text, "crotch: the slices join at %.3f m, %s; put at %.3f m by the level of the buttocks", found,
                 fused ? "too low: the thighs touch" : "in a hole", y);

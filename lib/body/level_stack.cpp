@@ -10,6 +10,7 @@ namespace {
 
 constexpr double CALF = 0.08;         ///< of stature: from here up two legs are looked for
 constexpr double LEVEL = 0.0003;      ///< m: as low as makes no difference
+constexpr double FAVOUR = 0.0004;     ///< m: a crotch that is lowest in front and behind has its place in front, unless it is lower behind by more
 constexpr double MIN_LEG_AREA = 6e-4; ///< of stature squared, below it a loop at the calf is no leg
 
 double overlap(const Loop& a, const Loop& b) {
@@ -175,16 +176,23 @@ void LevelStack::follow_legs() {
     const double y = m_skin->positions[m_skin->triangles[f][0]].y();
     if (y > low - 0.04 * m_stature && y < low + 0.04 * m_stature) near.push_back(static_cast<int>(f));
   }
-  double lowest = high;
+  const double between = 0.5 * (left.centroid.y() + right.centroid.y()), favour = FAVOUR + 2 * m_roughness;
+  auto favoured = [&](const Vec2& q) { // its height, less towards where crotches usually are: half a degree or roughness makes either end the lower one
+    return q.y() - favour * std::clamp((q.x() - between) / (CROTCH_BEFORE_LEGS * m_stature), 0.0, 1.0);
+  };
+  double lowest = high, best = 1e300;
   std::vector<std::array<Vec2, 2>> bottom;
   for (const Loop& loop : cut(*m_skin, {Vec3(middle, 0, 0), Vec3::UnitZ(), Vec3::UnitY()}, &near)) {
     // the trunk's outline, however deep it hangs; what does not reach up into the trunk is a thigh that crosses the middle
     const double deepest = low - (loop.high.y() > high + 0.02 * m_stature ? 0.02 : 0.006) * m_stature;
     for (const auto& segment : loop.segments)
-      if (const auto piece = clipped(segment, 1, deepest, high + LEVEL + m_roughness)) {
+      if (const auto piece = clipped(segment, 1, deepest, high + LEVEL + m_roughness + favour)) {
         bottom.push_back(*piece);
-        for (const Vec2& q : *piece)
-          if (q.y() < lowest && q.y() > deepest) lowest = q.y(), m_crotch_point.y() = q.x();
+        for (const Vec2& q : *piece) {
+          if (q.y() <= deepest) continue;
+          lowest = std::min(lowest, q.y());
+          if (q.y() < high && favoured(q) < best) best = favoured(q), m_crotch_point.y() = q.x();
+        }
       }
   }
   m_crotch = std::min(low, lowest);
@@ -193,7 +201,7 @@ void LevelStack::follow_legs() {
   for (const auto& segment : bottom)
     for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
       const Vec2 q = (1 - t) * segment[0] + t * segment[1];
-      const double w = std::max(0.0, lowest + LEVEL + m_roughness - q.y()) * std::abs(segment[1].x() - segment[0].x());
+      const double w = std::max(0.0, best + LEVEL + m_roughness - favoured(q)) * std::abs(segment[1].x() - segment[0].x());
       sum += w * q.x(), weight += w;
     }
   if (weight > 0) m_crotch_point.y() = sum / weight;

@@ -5,6 +5,8 @@
 #include <optional>
 namespace sloper::body {
 
+constexpr double CROTCH_BEFORE_LEGS = 0.0235; ///< crotch in front of the middles of the legs just below it, share of stature (sd 0.0075)
+
 /// What stands in one level.
 struct Slice {
   double y = 0;
