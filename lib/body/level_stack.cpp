@@ -11,6 +11,7 @@ namespace {
 constexpr double CALF = 0.08;         ///< of stature: from here up two legs are looked for
 constexpr double LEVEL = 0.0003;      ///< m: as low as makes no difference
 constexpr double FAVOUR = 0.0004;     ///< m: a crotch that is lowest in front and behind has its place in front, unless it is lower behind by more
+constexpr double NECK = 0.08;         ///< of stature beside the middle plane: the neck is in it
 constexpr double MIN_LEG_AREA = 6e-4; ///< of stature squared, below it a loop at the calf is no leg
 
 double overlap(const Loop& a, const Loop& b) {
@@ -19,6 +20,7 @@ double overlap(const Loop& a, const Loop& b) {
   return size.x() * size.y();
 }
 
+/// The loop that most of `from` goes on in; -1 where none does.
 int best_overlap(const std::vector<Loop>& loops, const Loop& from) {
   int best = -1;
   double most = 0;
@@ -57,6 +59,15 @@ Loop half_of(const Loop& loop, double middle, double sign) {
 
 } // namespace
 
+/// Where raised arms leave the trunk's loop, they are larger than the neck: what goes on near the middle plane is the trunk.
+int LevelStack::trunk_of(const std::vector<Loop>& loops, const Loop& from) const {
+  Loop middle;
+  middle.low = Vec2(std::max(from.low.x(), m_crotch_point.x() - NECK * m_stature), from.low.y());
+  middle.high = Vec2(std::min(from.high.x(), m_crotch_point.x() + NECK * m_stature), from.high.y());
+  const int found = best_overlap(loops, middle);
+  return found >= 0 ? found : best_overlap(loops, from);
+}
+
 void LevelStack::move_crotch(double y, double z) {
   m_crotch = y;
   m_crotch_point.y() = z;
@@ -86,7 +97,7 @@ std::optional<Loop> LevelStack::trunk_at(double y) const {
   const auto known = m_trunk_at.find(y);
   if (known != m_trunk_at.end()) return known->second;
   std::vector<Loop> loops = exact(y);
-  const int i = best_overlap(loops, slice.loops[slice.trunk]);
+  const int i = trunk_of(loops, slice.loops[slice.trunk]);
   std::optional<Loop> trunk;
   if (i >= 0) trunk = std::move(loops[i]);
   return m_trunk_at.emplace(y, std::move(trunk)).first->second;
@@ -214,7 +225,7 @@ void LevelStack::follow_trunk() {
   for (++k; k < static_cast<int>(m_slices.size()); ++k) {
     const int from = m_slices[k - 1].trunk;
     if (from < 0) return;
-    m_slices[k].trunk = best_overlap(m_slices[k].loops, m_slices[k - 1].loops[from]);
+    m_slices[k].trunk = trunk_of(m_slices[k].loops, m_slices[k - 1].loops[from]);
   }
 }
 

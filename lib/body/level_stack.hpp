@@ -42,6 +42,7 @@ public:
 private:
   void follow_legs();
   void follow_trunk();
+  int trunk_of(const std::vector<Loop>& loops, const Loop& from) const;
   const TriangleMesh* m_skin;
   double m_stature, m_spacing, m_roughness;
   std::vector<Slice> m_slices;

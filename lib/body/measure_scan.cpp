@@ -89,6 +89,23 @@ void add_findings(Body& body, const SortedScan& sorted, const SkinSurface& skin)
   add("info", "arms");
 }
 
+/// Where the scan's faces have holes: by the landmark that is nearest, and the place.
+/// @param origin what the body was moved by since the holes were found
+void add_holes(Body& body, const std::vector<Hole>& holes, const Vec3& origin) {
+  constexpr double WIDE = 0.03; // m: there the skin is made up
+  for (const Hole& hole : holes) {
+    const Vec3 p = hole.center + origin;
+    std::string near;
+    double nearest = 1e300;
+    for (const auto& [name, landmark] : body.landmarks)
+      if (const double d = (landmark.p - p).norm(); d < nearest) nearest = d, near = " near " + name;
+    char text[160], place[80];
+    std::snprintf(text, sizeof text, "a hole %.0f mm wide (%d open edges)%s", 1000 * hole.width, hole.edges, near.c_str());
+    std::snprintf(place, sizeof place, "(%.3f, %.3f, %.3f)", p.x(), p.y(), p.z());
+    body.scan.findings.push_back({hole.width > WIDE ? "warning" : "info", text, place});
+  }
+}
+
 /// Which unit was taken and how sure that is: the statures that other units would give.
 void add_unit_finding(Body& body, bool given) {
   const std::pair<const char*, double> units[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"inch", 0.0254}};
@@ -322,6 +339,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   phases.done("parts and frames");
   add_unit_finding(body, options.unit != "auto");
   add_findings(body, sorted, skin);
+  add_holes(body, skin.holes, origin);
   for (const char* name : ESSENTIAL)
     if (!body.has_landmark(name) && !(is_torso && may_lack(name))) {
       result.missing.push_back(name);

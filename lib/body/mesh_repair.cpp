@@ -1,6 +1,8 @@
 #include <body/mesh_repair.hpp>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -233,6 +235,34 @@ void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
     if (volume < 0)
       for (const int f : piece) std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
   }
+}
+
+std::vector<Hole> holes_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& list, double least, std::size_t most) {
+  const std::vector<std::array<int, 2>> border = border_of(mesh, list);
+  std::vector<int> root(mesh.positions.size());
+  std::iota(root.begin(), root.end(), 0);
+  auto find = [&](int v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (const auto& [a, b] : border) root[std::max(find(a), find(b))] = std::min(find(a), find(b));
+  std::map<int, std::pair<Hole, Box3>> pieces; // by the lowest vertex
+  for (const auto& [a, b] : border) {
+    auto& [hole, box] = pieces[find(a)];
+    hole.center += 0.5 * (mesh.positions[a] + mesh.positions[b]);
+    ++hole.edges;
+    box.add(mesh.positions[a]), box.add(mesh.positions[b]);
+  }
+  std::vector<Hole> holes;
+  for (auto& [vertex, piece] : pieces) {
+    Hole& hole = piece.first;
+    hole.width = piece.second.size().norm();
+    hole.center /= hole.edges;
+    if (hole.width >= least) holes.push_back(hole);
+  }
+  std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) { return a.width > b.width; });
+  if (holes.size() > most) holes.resize(most);
+  return holes;
 }
 
 bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double widest) {

@@ -29,6 +29,14 @@ std::vector<HalfEdge> half_edges(const TriangleMesh& mesh);
 EdgeCounts count_edges(const std::vector<HalfEdge>& list);
 /// Turns faces so that neighbours agree, piece by piece, and each piece so that its volume is positive.
 void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list);
+/// A place where the border of the faces goes around.
+struct Hole {
+  Vec3 center = Vec3::Zero();
+  double width = 0; ///< diagonal of the box around its border, m
+  int edges = 0;
+};
+/// Every connected piece of the border of at least `least` width, m; the widest first, at most `most` of them.
+std::vector<Hole> holes_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& list, double least, std::size_t most);
 /// Closes every hole with a fan around its middle. @return false, with the mesh untouched, where one is wider than `widest`, m, and
 /// more than a few edges long, or where the border does not close
 bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double widest);

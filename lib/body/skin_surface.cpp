@@ -13,8 +13,10 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double CELL = 1.0 / 180;        ///< of stature: grid spacing of a rebuilt skin
-constexpr double SAMPLE = 1.0 / 260;      ///< of stature: spacing of the samples
+constexpr double CELL = 1.0 / 180;   ///< of stature: grid spacing of a rebuilt skin
+constexpr double SAMPLE = 1.0 / 260; ///< of stature: spacing of the samples
+constexpr double LEAST_HOLE = 0.006; ///< of stature: narrower holes are told as a number only
+constexpr std::size_t MOST_HOLES = 12;
 constexpr double MAX_BORDER_SHARE = 1e-3; ///< of all edges: more open edges and the skin is rebuilt
 constexpr double SMALL_HOLE = 0.035;      ///< of stature: a hole that a fan closes well enough
 constexpr double MAX_NOISE = 0.45e-3;     ///< m
@@ -162,6 +164,7 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
       list = half_edges(skin.mesh);
       keep(count_edges(list));
     }
+    if (skin.border_edges > 0) skin.holes = holes_of(skin.mesh, list, LEAST_HOLE * stature, MOST_HOLES);
     orient_faces(skin.mesh, list);
     if (skin.flipped_edges)
       skin.findings.push_back({"warning", std::to_string(skin.flipped_edges) + " edges whose faces disagree about outside; turned", "faces"});

@@ -1,6 +1,7 @@
 #pragma once
 /// The skin on which cloth lies: the scan's own faces where they are sound, else a closed surface rebuilt from samples.
 #include <body/body.hpp>
+#include <body/mesh_repair.hpp>
 namespace sloper::body {
 
 struct SkinSurface {
@@ -10,6 +11,7 @@ struct SkinSurface {
   bool whole = false;                                         ///< the scan's own faces, and no hole had to be closed
   double noise_m = 0;                                         ///< roughness of the scan, m
   int border_edges = 0, crowded_edges = 0, flipped_edges = 0; ///< of the scan's own faces: one face, more than two, two that disagree
+  std::vector<Hole> holes;                                    ///< of the scan's own faces, where they were asked: the widest ones, frame of `positions`
   std::vector<Finding> findings;
 };
 

@@ -102,8 +102,8 @@ private:
     pair("hand_tip", tip, "high");
     pair("hand_extreme", tip, "high");
     const auto foot = [&](int i) { return m_mesh.positions[i].x() > 0 && m_mesh.positions[i].y() < 0.06 * h; };
-    pair("foot_tip", farthest(Vec3::UnitZ(), foot), "high");
-    pair("heel", farthest(-Vec3::UnitZ(), foot), "high", "xz");
+    pair("foot_tip", farthest(Vec3::UnitZ(), foot), "high", "yz"); // toes are of one length: which of them is foremost is no matter
+    pair("heel", farthest(-Vec3::UnitZ(), foot), "high", "z");
     // The crotch is the lowest point of the mid-plane section.
     const Section2 middle = mesh_section(m_mesh, Vec3::Zero(), Vec3::UnitX(), [](const Triangle&) { return true; });
     m_crotch = middle.low.y();

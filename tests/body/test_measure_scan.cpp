@@ -317,3 +317,19 @@ TEST(MeasureScan, an_arm_that_touches_the_trunk_hides_the_pit_and_the_waist) {
   for (const char* place : {"axilla_l", "axilla_r", "waist"}) EXPECT_TRUE(told.count(place)) << place;
   EXPECT_TRUE(body.has_landmark("shoulder_joint_l"));
 }
+
+TEST(MeasureScan, each_wide_hole_is_told_with_its_place) {
+  TriangleMesh mesh = test::mannequin("f-165-a").mesh;
+  const Body whole = measure(mesh).body;
+  for (const char* name : {"head_tip", "crotch", "heel_l"}) {
+    const Vec3 at = test::in_scan(whole, name);
+    std::erase_if(mesh.triangles, [&](const Triangle& t) { return (mesh.positions[t[0]] - at).norm() < 0.035; });
+  }
+  const Body body = measure(mesh).body;
+  for (const char* name : {"head_tip", "crotch", "heel_l"}) {
+    int told = 0;
+    for (const Finding& f : body.scan.findings)
+      told += f.severity == "warning" && f.what.find("a hole ") == 0 && f.what.find(std::string("near ") + name) != std::string::npos && f.place[0] == '(';
+    EXPECT_EQ(told, 1) << name;
+  }
+}
