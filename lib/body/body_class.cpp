@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 namespace sloper::body {
 
@@ -26,9 +27,9 @@ void breadths(const LevelStack& levels, double low, double high, double& least, 
   }
 }
 
-double front_of(const LevelStack& levels, double y) {
+std::optional<double> front_of(const LevelStack& levels, double y) {
   const auto loop = levels.trunk_at(y);
-  return loop ? loop->high.y() : 0.0;
+  return loop ? std::optional(loop->high.y()) : std::nullopt;
 }
 
 } // namespace
@@ -45,8 +46,11 @@ FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace,
   double score = 0;
   const double waist_to_hip = least / std::max(hip, 1e-6);
   score += std::clamp((rules.number("figure.waist_to_hip") - waist_to_hip) / 0.04, -2.5, 2.0);
-  // the front just above the crotch
-  const double rise = (front_of(levels, crotch + 0.030 * s) - front_of(levels, crotch + 0.012 * s)) / s;
+  // the front just above the crotch, from where the legs are one: skin between them may hang lower
+  double joined = crotch + 0.012 * s;
+  while (joined < crotch + 0.030 * s && !levels.trunk_at(joined)) joined += 0.002 * s;
+  const auto groin = front_of(levels, joined), above = front_of(levels, joined + 0.018 * s);
+  const double rise = groin && above ? (*above - *groin) / s : rules.number("figure.groin_rise");
   score += std::clamp((rules.number("figure.groin_rise") - rise) / 0.002, -1.5, 1.5);
   // bumps of the chest
   for (int side = 0; side < 2; ++side) {

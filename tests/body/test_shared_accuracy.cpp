@@ -77,3 +77,15 @@ void expect_accuracy(const std::string& folder, double median_bound, double p95_
 
 TEST(SharedAccuracy, of_plain_bodies) { expect_accuracy("plain", 0.005, 0.018, 2); }
 TEST(SharedAccuracy, of_corrupted_scans) { expect_accuracy("corrupted", 0.0065, 0.024, 5); }
+
+/// Skin between these legs hangs lower than where they join, so that no trunk is in the first levels above the crotch.
+TEST(SharedAccuracy, tells_the_average_figures_of_another_source_apart) {
+  const char* shared = std::getenv("SLOPER_SHARED");
+  const std::filesystem::path folder = std::filesystem::path(shared ? shared : "") / "data/bodies/smpl";
+  if (!shared || !std::filesystem::exists(folder)) GTEST_SKIP() << "SLOPER_SHARED names no folder with data/bodies/smpl";
+  for (const char* sex : {"f", "m"}) {
+    const io::Scan scan = io::read_scan((folder / (std::string(sex) + "_smpl_average_A40.obj")).string());
+    const Body body = test::measure(scan.mesh).body;
+    EXPECT_EQ(body.body_class.rfind(*sex == 'f' ? "female figure" : "male figure", 0), 0u) << body.body_class;
+  }
+}
