@@ -14,6 +14,9 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Quaterniond;
 
+/// A raised arm lifts its shoulder: of 180 degrees about 30 are the clavicle's (Inman, Saunders and Abbott 1944), most of them late.
+constexpr double LIFT_FROM = units::PI / 3, LIFT_SHARE = 0.25;
+
 /// Unit dual quaternion of a rigid motion: x -> real x real* + translation, with dual = translation * real / 2.
 struct DualQuaternion {
   Quaterniond real = Quaterniond::Identity(), dual = Quaterniond(0, 0, 0, 0);
@@ -47,6 +50,18 @@ Vec3 blend(const std::vector<DualQuaternion>& motions, const std::array<int, Ski
   return r * p + 2 * (d * r.conjugate()).vec();
 }
 
+/// How far the clavicle goes up with an arm that a pose turns, against where the scan has it.
+Quaterniond clavicle_lift(const Body& body, bool left, const Quaterniond& arm_turn) {
+  for (const Bone& b : body.bones)
+    if (b.name == (left ? "upper_arm_l" : "upper_arm_r")) {
+      const Vec3 out = (b.tail - b.head).normalized();
+      const auto beyond = [](const Vec3& way) { return std::max(0.0, std::acos(std::clamp(-way.y(), -1.0, 1.0)) - LIFT_FROM); };
+      const double lift = LIFT_SHARE * (beyond(arm_turn * out) - beyond(out));
+      return Quaterniond(Eigen::AngleAxisd(left ? lift : -lift, Vec3::UnitZ()));
+    }
+  return Quaterniond::Identity();
+}
+
 std::vector<DualQuaternion> motions_of(const Body& body, const SkinWeights& weights, const Pose& pose) {
   const std::map<std::string, Isometry3d> motion = joint_motions(body, pose);
   std::vector<DualQuaternion> list;
@@ -77,10 +92,19 @@ std::map<std::string, Isometry3d> joint_motions(const Body& body, const Pose& po
   for (const Bone& b : body.bones)
     if (b.name == "spine") hips = b.head;
   motion["root"] = Isometry3d(Eigen::Translation3d(pose.shift)) * about(turn("root"), hips);
+  std::map<std::string, Quaterniond> own;
+  for (const std::string& name : names) own[name] = turn(name);
+  for (const bool left : {true, false}) { // the clavicle rises with the arm, which keeps its direction
+    const std::string arm = left ? "upper_arm_l" : "upper_arm_r", clavicle = left ? "clavicle_l" : "clavicle_r";
+    if (pose.turn.count(clavicle) || !pose.turn.count(arm) || !own.count(clavicle)) continue;
+    own[clavicle] = clavicle_lift(body, left, own[arm]);
+    own[arm] = own[clavicle].conjugate() * own[arm];
+  }
   for (const Bone& b : body.bones) { // parents come first
     const bool of_root = b.parent.empty() || b.name.starts_with("pelvis");
     const auto parent = motion.find(of_root ? "root" : b.parent);
-    motion[b.name] = (parent == motion.end() ? motion["root"] : parent->second) * about(turn(b.name), b.head);
+    const auto turned = own.find(b.name);
+    motion[b.name] = (parent == motion.end() ? motion["root"] : parent->second) * about(turned == own.end() ? Quaterniond::Identity() : turned->second, b.head);
   }
   return motion;
 }

@@ -7,7 +7,8 @@
 namespace sloper::body {
 
 /// The chain that poses turn: "root" (all), then the bones of body.bones by name. Pelvis bones go with the root; "spine" bends
-/// the trunk above the hips, and head, clavicles and arms go with it.
+/// the trunk above the hips, and head, clavicles and arms go with it. A clavicle that a pose does not turn rises with its arm, a quarter of
+/// what the arm is raised beyond 60 degrees from hanging; the arm's own direction is what the pose says.
 struct SkinWeights {
   static constexpr int MOST = 5;
   std::vector<std::string> joints;             ///< names; 0 is "root"

@@ -12,6 +12,8 @@ namespace {
 /// To both sides of a border, share of stature.
 constexpr double SHOULDER = 0.040, GROIN = 0.045, NECK = 0.025;
 constexpr double BEND_LOW = 0.10, BEND_HIGH = 0.60; ///< the trunk bends between these shares of hip centre to neck
+/// The shoulder goes with the clavicle: from this share of it outwards to all, and from so far below the joint, of stature, up to all.
+constexpr double CLAVICLE_NEAR = 0.20, CLAVICLE_FAR = 0.95, CLAVICLE_LOW = 0.13, CLAVICLE_HIGH = 0.02;
 
 double smooth_step(double x) {
   const double t = std::clamp(x, 0.0, 1.0);
@@ -106,6 +108,13 @@ SkinWeights skin_weights(const Body& body) {
       }
     }
   }
+  const auto of_clavicle = [&](const char* name, const Vec3& p) {
+    const Bone* b = bone(name);
+    if (!b || joint(name) < 0) return 0.0;
+    const Vec3 way = b->tail - b->head;
+    const double along = (p.x() - b->head.x()) * way.x() / std::max(way.x() * way.x(), 1e-12), below = (b->tail.y() - p.y()) / s;
+    return smooth_step((along - CLAVICLE_NEAR) / (CLAVICLE_FAR - CLAVICLE_NEAR)) * smooth_step((CLAVICLE_LOW - below) / (CLAVICLE_LOW - CLAVICLE_HIGH));
+  };
   const Vec3 axis = spine->tail - spine->head;
   for (std::size_t v = 0; v < n; ++v) {
     if (limbs[v] > 1)
@@ -113,7 +122,12 @@ SkinWeights skin_weights(const Body& body) {
     const double trunk = std::max(0.0, 1 - limbs[v]);
     const double z = (body.skin.positions[v] - spine->head).dot(axis) / axis.squaredNorm();
     const double upper = smooth_step((z - BEND_LOW) / (BEND_HIGH - BEND_LOW));
-    if (trunk > 0) share[v][joint("spine")] += trunk * upper, share[v][0] += trunk * (1 - upper);
+    if (trunk <= 0) continue;
+    share[v][0] += trunk * (1 - upper);
+    double on_spine = trunk * upper;
+    for (const char* name : {"clavicle_l", "clavicle_r"})
+      if (const double w = of_clavicle(name, body.skin.positions[v]) * trunk * upper; w > 0) share[v][joint(name)] += w, on_spine -= w;
+    share[v][joint("spine")] += on_spine;
   }
   out.joint.assign(n, {});
   out.share.assign(n, {});

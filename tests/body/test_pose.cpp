@@ -137,6 +137,23 @@ TEST(Pose, shoulders_and_crotch_do_not_collapse) {
   EXPECT_LT(squeezed, 0.005 * static_cast<double>(figure().skin.triangles.size()));
 }
 
+TEST(Pose, a_raised_arm_lifts_its_shoulder_and_goes_where_it_is_told) {
+  Pose up;
+  up.turn["upper_arm_l"] = arm_turn(figure(), true, 170 * 3.14159265358979 / 180);
+  const auto motion = joint_motions(figure(), up);
+  EXPECT_NEAR(direction(figure(), motion, "upper_arm_l").y(), std::cos(10 * 3.14159265358979 / 180), 0.02);
+  const Body posed = posed_body(figure(), weights(), up);
+  const double rise = posed.landmark("shoulder_joint_l").y() - figure().landmark("shoulder_joint_l").y();
+  EXPECT_GT(rise, 0.03);
+  EXPECT_LT(rise, 0.10);
+  EXPECT_EQ(posed.landmark("shoulder_joint_r"), figure().landmark("shoulder_joint_r"));
+  TriangleMesh after = figure().skin;
+  after.positions = posed.skin.positions;
+  EXPECT_NEAR(test::volume(after) / test::volume(figure().skin), 1, 0.04);
+  up.turn["clavicle_l"] = Eigen::Quaterniond::Identity(); // told to stay
+  EXPECT_LT((joint_motions(figure(), up).at("clavicle_l").matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-12);
+}
+
 TEST(Pose, a_file_names_joints_and_angles_and_a_wrong_name_is_refused_with_a_suggestion) {
   const std::string good = temporary("good.json", R"({"format": "pose", "version": 1, "arms_deg": 30, "turn_deg": {"shin_l": [50, 0, 0]}})");
   const Pose pose = read_pose(good, figure());
