@@ -156,7 +156,7 @@ DrapeReport read_progress(const Node& node, const Node& settings) {
   for (const std::string& name : settings.keys())
     if (name == "accuracy") r.settings.accuracy = settings.at(name).string();
     else if (name == "effects") r.settings.effects = settings.at(name).string();
-    else set_knob(r.settings, name, settings.at(name).number());
+    else set_knob(r.settings, name, settings.at(name));
   return r;
 }
 

@@ -96,12 +96,7 @@ Scene read_scene(const std::string& path) {
     for (const std::string& name : root.at("settings").keys()) {
       const io::Node value = root.at("settings").at(name);
       DrapeSettings probe;
-      try {
-        set_knob(probe, name, value.number());
-      } catch (const Error& e) {
-        if (e.kind() == ErrorKind::INPUT) throw;
-        value.fail(e.what());
-      }
+      set_knob(probe, name, value);
       scene.settings.emplace_back(name, value.number());
     }
   return scene;
@@ -161,6 +156,15 @@ void set_knob(DrapeSettings& settings, const std::string& name, double value) {
   }
   const std::string near = nearest_word(name, words.data(), words.data() + words.size());
   throw Error(ErrorKind::USAGE, "", name, "is no knob" + (near.empty() ? std::string() : " (did you mean \"" + near + "\"?)"), "knobs are " + names);
+}
+
+void set_knob(DrapeSettings& settings, const std::string& name, const io::Node& value) {
+  const double number = value.number();
+  try {
+    set_knob(settings, name, number);
+  } catch (const Error& e) {
+    value.fail(e.what());
+  }
 }
 
 void set_knob(DrapeSettings& settings, const std::string& assignment) {

@@ -1,6 +1,7 @@
 #pragma once
 /// What a drape is asked for: accuracy presets, knobs by name, and the scene document that people write.
 #include <garment/drape.hpp>
+#include <io/json_fwd.hpp>
 
 namespace sloper::garment {
 
@@ -30,6 +31,8 @@ std::vector<std::string> accuracy_names();
 
 /// Sets one knob by its name in report.json's `settings`. @throws Error USAGE naming the knobs, or the range
 void set_knob(DrapeSettings& settings, const std::string& name, double value);
+/// From a document. @throws Error INPUT at the value
+void set_knob(DrapeSettings& settings, const std::string& name, const io::Node& value);
 /// "name=value"
 void set_knob(DrapeSettings& settings, const std::string& assignment);
 

@@ -120,6 +120,16 @@ TEST_F(CheckpointTest, a_checkpoint_of_another_body_or_a_damaged_one_is_refused)
     resumed = {};
     EXPECT_THROW(resume_drape(file("damaged.json"), resumed, &pillar, silent_reporter()), Error) << from;
   }
+  std::string unknown = whole;
+  unknown.replace(unknown.find("settle_force_ratio"), 1, "n");
+  std::ofstream(file("damaged.json")) << unknown;
+  try {
+    read_checkpoint(file("damaged.json"));
+    FAIL() << "a knob that nobody knows was read";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::INPUT);
+    EXPECT_NE(std::string(e.what()).find("/settings/nettle_force_ratio"), std::string::npos) << e.what();
+  }
   std::ofstream(file("damaged.json")) << whole.substr(0, whole.size() / 2);
   EXPECT_THROW(resume_drape(file("damaged.json"), resumed, &pillar, silent_reporter()), Error);
 }
