@@ -14,7 +14,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Quaterniond;
 
-/// A raised arm lifts its shoulder: of 180 degrees about 30 are the clavicle's (Inman, Saunders and Abbott 1944), most of them late.
+/// A raised arm lifts its shoulder: of 180 degrees about 30 are the clavicle's (pose.hpp).
 constexpr double LIFT_FROM = units::PI / 3, LIFT_SHARE = 0.25;
 
 /// Unit dual quaternion of a rigid motion: x -> real x real* + translation, with dual = translation * real / 2.

@@ -108,11 +108,12 @@ SkinWeights skin_weights(const Body& body) {
       }
     }
   }
-  const auto of_clavicle = [&](const char* name, const Vec3& p) {
-    const Bone* b = bone(name);
-    if (!b || joint(name) < 0) return 0.0;
-    const Vec3 way = b->tail - b->head;
-    const double along = (p.x() - b->head.x()) * way.x() / std::max(way.x() * way.x(), 1e-12), below = (b->tail.y() - p.y()) / s;
+  std::vector<std::pair<const Bone*, int>> clavicles; // with their joints
+  for (const char* name : {"clavicle_l", "clavicle_r"})
+    if (const int j = joint(name); j >= 0) clavicles.emplace_back(bone(name), j);
+  const auto of_clavicle = [&](const Bone& b, const Vec3& p) {
+    const Vec3 way = b.tail - b.head;
+    const double along = (p.x() - b.head.x()) * way.x() / std::max(way.x() * way.x(), 1e-12), below = (b.tail.y() - p.y()) / s;
     return smooth_step((along - CLAVICLE_NEAR) / (CLAVICLE_FAR - CLAVICLE_NEAR)) * smooth_step((CLAVICLE_LOW - below) / (CLAVICLE_LOW - CLAVICLE_HIGH));
   };
   const Vec3 axis = spine->tail - spine->head;
@@ -125,8 +126,8 @@ SkinWeights skin_weights(const Body& body) {
     if (trunk <= 0) continue;
     share[v][0] += trunk * (1 - upper);
     double on_spine = trunk * upper;
-    for (const char* name : {"clavicle_l", "clavicle_r"})
-      if (const double w = of_clavicle(name, body.skin.positions[v]) * trunk * upper; w > 0) share[v][joint(name)] += w, on_spine -= w;
+    for (const auto& [clavicle, j] : clavicles)
+      if (const double w = of_clavicle(*clavicle, body.skin.positions[v]) * trunk * upper; w > 0) share[v][j] += w, on_spine -= w;
     share[v][joint("spine")] += on_spine;
   }
   out.joint.assign(n, {});

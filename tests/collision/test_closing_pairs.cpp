@@ -33,6 +33,14 @@ Sheets two_sheets(int n) {
   return s;
 }
 
+/// Up to 1 cm along each axis, every particle its own way.
+std::vector<Vec3> random_motion(const Sheets& s, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Vec3> dx(s.x.size());
+  for (Vec3& d : dx) d = 0.01 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  return dx;
+}
+
 /// The least distance of the pair on the way, by trying.
 template<class Distance> double least_on_the_way(const Sheets& s, const std::vector<Vec3>& dx, const Distance& distance) {
   double least = 1e300;
@@ -85,9 +93,7 @@ TEST(ClosingPairs, WhatMovesTogetherIsNotFound) {
 TEST(ClosingPairs, AgainLooksForPairsOfWhatMovesOtherwise) {
   const Sheets s = two_sheets(12);
   const Topology topology = make_topology(s.x.size(), s.triangles);
-  Random random(10);
-  std::vector<Vec3> dx(s.x.size());
-  for (Vec3& d : dx) d = 0.01 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  std::vector<Vec3> dx = random_motion(s, 10);
   ClosingPairs closing(s.triangles, topology), fresh(s.triangles, topology);
   closing.find(s.x, dx, false);
   closing.find(s.x, dx, true);
@@ -118,9 +124,7 @@ TEST(ClosingPairs, AgainLooksForPairsOfWhatMovesOtherwise) {
 TEST(ClosingPairs, TheSameForAnyNumberOfThreads) {
   const Sheets s = two_sheets(30);
   const Topology topology = make_topology(s.x.size(), s.triangles);
-  Random random(9);
-  std::vector<Vec3> dx(s.x.size());
-  for (Vec3& d : dx) d = 0.01 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  const std::vector<Vec3> dx = random_motion(s, 9);
   ClosingPairs one(s.triangles, topology), many(s.triangles, topology);
   set_thread_count(1);
   one.find(s.x, dx, false);
