@@ -121,7 +121,8 @@ private:
       } else if (key == "element") {
         PlyElement element{std::string(next_word(line)), 0, {}};
         double count = -1;
-        if (!parse_number(next_word(line), count) || count < 0 || count > static_cast<double>(MAX_ELEMENTS)) fail(m_lines.place(), "not a count of elements");
+        const bool is_count = parse_number(next_word(line), count) && count >= 0 && count <= static_cast<double>(MAX_ELEMENTS); // false for nan
+        if (!is_count) fail(m_lines.place(), "not a count of elements");
         element.count = static_cast<std::size_t>(count);
         m_elements.push_back(element);
       } else if (key == "property") {
