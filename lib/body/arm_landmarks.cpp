@@ -80,7 +80,7 @@ Vec3 find_shoulder(const Finder& f, int side) {
   auto pit_if = [&](bool hidden) -> std::optional<Vec3> {
     if (!arm.axilla || hidden != arm.pit_hidden) return std::nullopt;
     if (hidden) return arm.axilla;
-    const auto belly = f.levels.trunk_at(0.60 * s);
+    const auto& belly = f.levels.trunk_at(0.60 * s);
     const double stout = belly ? std::clamp(belly->size().y() / s - 0.165, 0.0, 0.1) : 0;
     return Vec3(*arm.axilla + s * Vec3(0, f.number("axilla.above_roof"), f.number("axilla.before_stout") * stout));
   };

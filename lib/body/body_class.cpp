@@ -28,7 +28,7 @@ void breadths(const LevelStack& levels, double low, double high, double& least, 
 }
 
 std::optional<double> front_of(const LevelStack& levels, double y) {
-  const auto loop = levels.trunk_at(y);
+  const auto& loop = levels.trunk_at(y);
   return loop ? std::optional(loop->high.y()) : std::nullopt;
 }
 

@@ -15,7 +15,7 @@ std::vector<Vec3> outline_of(const Finder& f, Span heights, Span across, double 
   std::vector<Vec3> outline;
   const double across_flat = ACROSS_FLAT * f.s;
   for (double y = heights.low; y <= heights.high; y += LEVEL_STEP * f.s) {
-    const auto loop = f.levels.trunk_at(y);
+    const auto& loop = f.levels.trunk_at(y);
     if (!loop) continue;
     std::optional<Vec3> outer;
     for (const auto& segment : loop->segments) {

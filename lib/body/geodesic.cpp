@@ -6,7 +6,7 @@
 namespace sloper::body {
 
 EdgeGraph::EdgeGraph(const TriangleMesh& mesh) : m_mesh(&mesh), m_first(mesh.positions.size() + 1, 0) {
-  // every triangle gives each corner its next corner; an inner edge is met from both sides, a border edge is added twice
+  // every triangle gives each corner its other two: a neighbour over an inner edge stands twice, which costs less than to look for it
   for (const Triangle& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) ++m_first[t[k] + 1], ++m_first[t[(k + 1) % 3] + 1];
   for (std::size_t v = 1; v < m_first.size(); ++v) m_first[v] += m_first[v - 1];
@@ -34,7 +34,7 @@ std::vector<double> EdgeGraph::distances(const std::vector<int>& sources, double
     if (d > distance[v]) continue;
     for (int i = m_first[v]; i < m_first[v + 1]; ++i) {
       const int w = m_neighbour[i];
-      if (!blocked.empty() && blocked[w]) continue;
+      if (distance[w] <= d || (!blocked.empty() && blocked[w])) continue;
       const double next = d + (m_mesh->positions[w] - m_mesh->positions[v]).norm();
       if (next < distance[w] && next <= limit) {
         distance[w] = next;

@@ -111,7 +111,7 @@ void find_girths(const Finder& f) {
   const Vec3 back = f.at("neck_back"), front = f.at("neck_front"), center = f.at("neck_center");
   const double rise = f.number("neck.girth_up") * s, side_rise = f.number("neck.girth_up_side") * s;
   const auto fore = midline(f.levels, front.y() + rise, center.x(), 0.006 * s), rear = midline(f.levels, back.y() + rise, center.x(), 0.008 * s);
-  const auto sides = f.levels.trunk_at(center.y() + side_rise);
+  const auto& sides = f.levels.trunk_at(center.y() + side_rise);
   if (fore && rear && sides) {
     double left = -1e300, right = 1e300;
     for (const auto& seg : sides->segments)
@@ -121,7 +121,7 @@ void find_girths(const Finder& f) {
       // the slope of the shoulders makes this breadth uncertain; the narrowest breadth of the neck is not
       double narrowest = 1e300;
       for (double y = 0.84 * s; y < 0.90 * s; y += 0.004 * s)
-        if (const auto loop = f.levels.trunk_at(y)) narrowest = std::min(narrowest, loop->size().x());
+        if (const auto& loop = f.levels.trunk_at(y)) narrowest = std::min(narrowest, loop->size().x());
       const double middle = 0.5 * (left + right), half = 0.5 * f.number("neck.breadth_to_narrowest") * narrowest;
       const double measured = std::min(0.5 * (left - right), 1.12 * half);
       left = middle + 0.5 * (measured + half), right = middle - 0.5 * (measured + half);

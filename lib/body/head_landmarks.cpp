@@ -8,7 +8,7 @@
 namespace sloper::body {
 
 std::optional<Profile> midline(const LevelStack& levels, double y, double x, double half_width) {
-  const auto loop = levels.trunk_at(y);
+  const auto& loop = levels.trunk_at(y);
   if (!loop) return std::nullopt;
   Profile profile{-1e300, 1e300};
   for (const auto& segment : loop->segments)
@@ -40,7 +40,7 @@ std::optional<double> hollow_of_throat(const Finder& f, double x) {
 std::optional<double> shoulder_turn(const Finder& f) {
   const double s = f.s, step = 0.002 * s;
   for (double y = 0.885 * s; y > 0.80 * s; y -= step) {
-    const auto above = f.levels.trunk_at(y + 1.5 * step), below = f.levels.trunk_at(y - 1.5 * step);
+    const auto &above = f.levels.trunk_at(y + 1.5 * step), &below = f.levels.trunk_at(y - 1.5 * step);
     if (!above || !below) continue;
     const double widening = 0.5 * (below->size().x() - above->size().x()) / (3 * step);
     if (widening > f.number("neck_side.widening") && below->size().x() > 0.07 * s) return y;
@@ -53,7 +53,7 @@ double neck_middle(const Finder& f) {
   double sum = 0;
   int n = 0;
   for (double y = 0.855 * f.s; y < 0.875 * f.s; y += 0.005 * f.s)
-    if (const auto loop = f.levels.trunk_at(y); loop && loop->size().x() < 0.12 * f.s) sum += loop->center().x(), ++n;
+    if (const auto& loop = f.levels.trunk_at(y); loop && loop->size().x() < 0.12 * f.s) sum += loop->center().x(), ++n;
   return n ? sum / n : 0.0;
 }
 
@@ -96,7 +96,7 @@ void find_neck_sides(const Finder& f, double x, double back_y, const std::option
   auto outer_at = [&](double y, int side, double near) {
     const double sign = side == 0 ? 1 : -1;
     std::optional<Vec2> outer;
-    if (const auto loop = f.levels.trunk_at(y))
+    if (const auto& loop = f.levels.trunk_at(y))
       for (const auto& seg : loop->segments)
         if (const auto piece = clipped(seg, 1, depth - near * s, depth + near * s))
           for (const Vec2& q : *piece)

@@ -74,13 +74,11 @@ void LevelStack::move_crotch(double y, double z) {
 }
 
 LevelStack::LevelStack(const TriangleMesh& skin, double stature, double spacing, double roughness)
-    : m_skin(&skin), m_stature(stature), m_spacing(spacing), m_roughness(roughness) {
-  const int n = static_cast<int>(stature * 1.02 / spacing) + 2;
-  m_triangles = triangles_by_level(skin, 0.5 * spacing, spacing, n);
-  m_slices.resize(static_cast<std::size_t>(n));
-  for (int k = 0; k < n; ++k) {
+    : m_skin(&skin), m_stature(stature), m_spacing(spacing), m_roughness(roughness), m_slices(static_cast<std::size_t>(stature * 1.02 / spacing) + 2),
+      m_levelled(skin, 0.5 * spacing, spacing, static_cast<int>(m_slices.size())) {
+  for (int k = 0; k < static_cast<int>(m_slices.size()); ++k) {
     m_slices[k].y = (k + 0.5) * spacing;
-    m_slices[k].loops = cut(skin, level_plane(m_slices[k].y), &m_triangles[k]);
+    m_slices[k].loops = m_levelled.cut(k, m_slices[k].y);
   }
   follow_legs();
   follow_trunk();
@@ -89,11 +87,12 @@ LevelStack::LevelStack(const TriangleMesh& skin, double stature, double spacing,
 int LevelStack::index(double y) const { return std::clamp(static_cast<int>(std::floor(y / m_spacing)), 0, static_cast<int>(m_slices.size()) - 1); }
 const Slice& LevelStack::at(double y) const { return m_slices[static_cast<std::size_t>(index(y))]; }
 
-std::vector<Loop> LevelStack::exact(double y) const { return cut(*m_skin, level_plane(y), &m_triangles[static_cast<std::size_t>(index(y))]); }
+std::vector<Loop> LevelStack::exact(double y) const { return m_levelled.cut(index(y), y); }
 
-std::optional<Loop> LevelStack::trunk_at(double y) const {
+const std::optional<Loop>& LevelStack::trunk_at(double y) const {
+  static const std::optional<Loop> none;
   const Slice& slice = at(y);
-  if (slice.trunk < 0) return std::nullopt;
+  if (slice.trunk < 0) return none;
   const auto known = m_trunk_at.find(y);
   if (known != m_trunk_at.end()) return known->second;
   std::vector<Loop> loops = exact(y);
@@ -107,7 +106,7 @@ std::optional<Loop> LevelStack::leg_at(double y, int side) const {
   const Slice& slice = at(y);
   if (slice.leg[side] < 0) { // thighs that touch are one loop
     if (!m_crotch || y > *m_crotch) return std::nullopt;
-    auto both = trunk_at(y);
+    const auto& both = trunk_at(y);
     if (!both) return std::nullopt;
     return half_of(*both, m_crotch_point.x(), side == 0 ? 1 : -1);
   }
@@ -153,14 +152,10 @@ void LevelStack::follow_legs() {
   if (k > last) return;
   // bisect between the last level with two legs and the first with one
   double low = m_slices[k - 1].y, high = m_slices[k].y;
-  std::vector<int> both = m_triangles[k - 1];
-  both.insert(both.end(), m_triangles[k].begin(), m_triangles[k].end());
-  std::sort(both.begin(), both.end());
-  both.erase(std::unique(both.begin(), both.end()), both.end());
   Loop left = m_slices[k - 1].loops[m_slices[k - 1].leg[0]], right = m_slices[k - 1].loops[m_slices[k - 1].leg[1]];
   while (high - low > 2e-4) {
     const double y = 0.5 * (low + high);
-    std::vector<Loop> loops = cut(*m_skin, level_plane(y), &both);
+    std::vector<Loop> loops = exact(y);
     const int a = best_overlap(loops, left), b = best_overlap(loops, right);
     if (a < 0 || b < 0 || a == b) high = y;
     else low = y, left = loops[a], right = loops[b];
@@ -168,7 +163,7 @@ void LevelStack::follow_legs() {
   m_crotch = low;
   // just above, the two legs are one loop that is thinnest between them: there lies the saddle
   const double middle = 0.5 * (left.low.x() > right.high.x() ? left.low.x() + right.high.x() : left.centroid.x() + right.centroid.x());
-  std::vector<Loop> merged = cut(*m_skin, level_plane(high), &both);
+  std::vector<Loop> merged = exact(high);
   const int i = best_overlap(merged, left);
   m_crotch_point = Vec2(middle, 0.5 * (left.centroid.y() + right.centroid.y()));
   if (i < 0) return;

@@ -29,8 +29,8 @@ public:
   const TriangleMesh& skin() const { return *m_skin; }
   /// Loops of an exact cut at any height (only the triangles of that level are visited).
   std::vector<Loop> exact(double y) const;
-  /// The trunk (neck, head) loop of an exact cut; empty when there is none.
-  std::optional<Loop> trunk_at(double y) const;
+  /// The trunk (neck, head) loop of an exact cut; empty when there is none. Stays as long as the stack.
+  const std::optional<Loop>& trunk_at(double y) const;
   std::optional<Loop> leg_at(double y, int side) const;
   /// Height at which the two leg loops become one, m, by bisection to 0.2 mm; empty when the legs are never apart.
   std::optional<double> crotch() const { return m_crotch; }
@@ -46,7 +46,7 @@ private:
   const TriangleMesh* m_skin;
   double m_stature, m_spacing, m_roughness;
   std::vector<Slice> m_slices;
-  std::vector<std::vector<int>> m_triangles;
+  LevelledMesh m_levelled;
   mutable std::map<double, std::optional<Loop>> m_trunk_at; ///< cuts made before: several rules ask for the same heights
   std::optional<double> m_crotch;
   Vec2 m_crotch_point = Vec2::Zero();

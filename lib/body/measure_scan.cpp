@@ -199,7 +199,7 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
     double rms() const { return n ? std::sqrt(squares / n) : 0; }
   };
   std::map<std::string, Sum> landmarks, girths, heights, level_girths;
-  const std::vector<Vec3> normals = vertex_normals(body.skin);
+  const std::vector<Vec3> normals = runs > 0 ? vertex_normals(body.skin) : std::vector<Vec3>{};
   const double sigma = std::clamp(noise_m, 0.0004, 0.001);
   for (int run = 0; run < runs && !reporter.stop_requested(); ++run) {
     Random random(static_cast<std::uint64_t>(run) + 1);

@@ -198,43 +198,47 @@ EdgeCounts count_edges(const std::vector<HalfEdge>& list) {
 
 void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
   const std::size_t n = mesh.triangles.size();
-  std::vector<std::array<int, 3>> neighbour(n, {-1, -1, -1});
-  std::vector<std::array<char, 3>> agrees(n, {1, 1, 1});
-  std::vector<int> degree(n, 0);
+  // pieces of faces that neighbour over an edge of two, each face turned or not against the piece's lowest: a disjoint-set forest with parity
+  std::vector<int> parent(n);
+  std::vector<char> against(n, 0); // the parent
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int f) {
+    int top = f;
+    char turned = 0;
+    for (; parent[top] != top; top = parent[top]) turned ^= against[top];
+    for (int next; parent[f] != top && f != top; f = next) {
+      next = parent[f];
+      const char rest = turned ^ against[f];
+      parent[f] = top, against[f] = turned, turned = rest;
+    }
+    return top;
+  };
   for (std::size_t i = 0; i + 1 < list.size(); ++i) {
     if (list[i].key != list[i + 1].key) continue;
     if ((i > 0 && list[i - 1].key == list[i].key) || (i + 2 < list.size() && list[i + 2].key == list[i].key)) continue; // crowded
-    const int a = list[i].face, b = list[i + 1].face;
-    const char agree = list[i].forward != list[i + 1].forward;
-    agrees[a][degree[a]] = agree, neighbour[a][degree[a]++] = b;
-    agrees[b][degree[b]] = agree, neighbour[b][degree[b]++] = a;
+    const int a = root(list[i].face), b = root(list[i + 1].face);
+    if (a == b) continue;
+    const char turned_a = a == list[i].face ? 0 : against[list[i].face], turned_b = b == list[i + 1].face ? 0 : against[list[i + 1].face];
+    parent[std::max(a, b)] = std::min(a, b);
+    against[std::max(a, b)] = turned_a ^ turned_b ^ (list[i].forward == list[i + 1].forward);
   }
-  std::vector<int> turned(n, -1), piece;
-  for (std::size_t seed = 0; seed < n; ++seed) {
-    if (turned[seed] >= 0) continue;
-    piece.assign(1, static_cast<int>(seed));
-    turned[seed] = 0;
-    for (std::size_t head = 0; head < piece.size(); ++head) {
-      const int f = piece[head];
-      for (int k = 0; k < degree[f]; ++k) {
-        const int g = neighbour[f][k];
-        if (turned[g] >= 0) continue;
-        turned[g] = agrees[f][k] ? turned[f] : 1 - turned[f];
-        piece.push_back(g);
-      }
-    }
-    Vec3 middle = Vec3::Zero();
-    for (const int f : piece) middle += mesh.positions[mesh.triangles[f][0]];
-    middle /= static_cast<double>(piece.size());
-    double volume = 0;
-    for (const int f : piece) {
-      Triangle& t = mesh.triangles[f];
-      if (turned[f]) std::swap(t[1], t[2]);
-      volume += (mesh.positions[t[0]] - middle).dot((mesh.positions[t[1]] - middle).cross(mesh.positions[t[2]] - middle));
-    }
-    if (volume < 0)
-      for (const int f : piece) std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
+  std::vector<Vec3> middle(n, Vec3::Zero());
+  std::vector<int> count(n, 0);
+  std::vector<double> volume(n, 0);
+  for (std::size_t f = 0; f < n; ++f) {
+    const int piece = root(static_cast<int>(f));
+    if (piece != static_cast<int>(f) && against[f]) std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
+    middle[piece] += mesh.positions[mesh.triangles[f][0]];
+    ++count[piece];
   }
+  for (std::size_t f = 0; f < n; ++f) {
+    const int piece = parent[f];
+    const Vec3 o = middle[piece] / count[piece];
+    const Triangle& t = mesh.triangles[f];
+    volume[piece] += (mesh.positions[t[0]] - o).dot((mesh.positions[t[1]] - o).cross(mesh.positions[t[2]] - o));
+  }
+  for (std::size_t f = 0; f < n; ++f)
+    if (volume[parent[f]] < 0) std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
 }
 
 std::vector<Hole> holes_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& list, double least, std::size_t most) {

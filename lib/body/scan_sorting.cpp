@@ -375,12 +375,13 @@ std::vector<Vec3> points_of_body(const TriangleMesh& scan, const std::vector<cha
     if (is_body[v]) points.push_back(scan.positions[v]);
   auto is_of_body = [&](const Triangle& t) { return is_body[t[0]] && is_body[t[1]] && is_body[t[2]]; };
   auto area_of = [&](const Triangle& t) { return area_normal(scan.positions[t[0]], scan.positions[t[1]], scan.positions[t[2]]).norm(); };
-  double area = 0;
-  for (const Triangle& t : scan.triangles)
-    if (is_of_body(t)) area += area_of(t);
-  for (const Triangle& t : scan.triangles) {
-    if (!is_of_body(t)) continue;
-    const int n = static_cast<int>(std::min(30.0, std::sqrt(static_cast<double>(wanted) * area_of(t) / std::max(area, 1e-300))));
+  std::vector<double> areas;
+  areas.reserve(scan.triangles.size());
+  for (const Triangle& t : scan.triangles) areas.push_back(is_of_body(t) ? area_of(t) : 0);
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+  for (std::size_t f = 0; f < scan.triangles.size(); ++f) {
+    const Triangle& t = scan.triangles[f];
+    const int n = static_cast<int>(std::min(30.0, std::sqrt(static_cast<double>(wanted) * areas[f] / std::max(area, 1e-300))));
     for (int i = 0; i < n; ++i)
       for (int j = 0; i + j < n; ++j) {
         const double u = (i + 1.0 / 3) / n, v = (j + 1.0 / 3) / n;

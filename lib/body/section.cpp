@@ -64,6 +64,40 @@ std::vector<int> loop_numbers(const std::vector<Cut>& cuts, std::vector<char>& i
   return number;
 }
 
+/// The triangle (corners at `p`, numbered `t`) in the plane, where it crosses it.
+void cut_triangle(const Triangle& t, const std::array<const Vec3*, 3>& p, const Plane& plane, const Vec3& n, double offset, std::vector<Cut>& cuts) {
+  // Which corners lie above is random to the processor: numbers instead of branches.
+  constexpr int LONE[8] = {0, 0, 1, 2, 2, 1, 0, 0}; // the corner alone on its side, by the bits of those above
+  const double d[3] = {n.dot(*p[0]) - offset, n.dot(*p[1]) - offset, n.dot(*p[2]) - offset};
+  const int above = (d[0] >= 0) | (d[1] >= 0) << 1 | (d[2] >= 0) << 2;
+  if (above == 0 || above == 7) return;
+  const int lone = LONE[above], two_above = above != 1 << lone;
+  auto crossing = [&](int k) {
+    const int swapped = t[lone] > t[k]; // the same bits from both triangles of an edge
+    const int ends[3] = {lone, k, lone}, a = ends[swapped], b = ends[swapped + 1];
+    const double w = d[a] / (d[a] - d[b]);
+    return plane.flat(*p[a] + w * (*p[b] - *p[a]));
+  };
+  const int from = (lone + 1 + two_above) % 3, to = (lone + 2 - two_above) % 3;
+  cuts.push_back({edge_key(t[lone], t[from]), edge_key(t[lone], t[to]), crossing(from), crossing(to)});
+}
+
+std::vector<Loop> joined(const std::vector<Cut>& cuts) {
+  if (cuts.empty()) return {};
+  std::vector<char> is_open;
+  const std::vector<int> number = loop_numbers(cuts, is_open);
+  std::vector<Loop> loops(is_open.size());
+  for (std::size_t k = 0; k < loops.size(); ++k) loops[k].closed = !is_open[k];
+  std::vector<std::size_t> sizes(loops.size(), 0);
+  for (const int loop : number) ++sizes[loop];
+  for (std::size_t k = 0; k < loops.size(); ++k) loops[k].segments.reserve(sizes[k]);
+  for (std::size_t i = 0; i < cuts.size(); ++i) loops[number[i]].segments.push_back({cuts[i].a, cuts[i].b});
+  for (Loop& loop : loops) measure_loop(loop);
+  std::erase_if(loops, [](const Loop& loop) { return std::abs(loop.area) < 1e-6; });
+  std::stable_sort(loops.begin(), loops.end(), [](const Loop& a, const Loop& b) { return std::abs(a.area) > std::abs(b.area); });
+  return loops;
+}
+
 } // namespace
 
 void measure_loop(Loop& loop) {
@@ -105,44 +139,9 @@ std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane, const std::v
   const std::size_t total = subset ? subset->size() : mesh.triangles.size();
   for (std::size_t i = 0; i < total; ++i) {
     const Triangle& t = mesh.triangles[subset ? (*subset)[i] : i];
-    double d[3];
-    int above = 0;
-    for (int k = 0; k < 3; ++k) {
-      d[k] = n.dot(mesh.positions[t[k]]) - offset;
-      above += d[k] >= 0;
-    }
-    if (above == 0 || above == 3) continue;
-    // the corner alone on its side
-    int lone = 0;
-    for (int k = 0; k < 3; ++k)
-      if ((d[k] >= 0) == (above == 1)) lone = k;
-    const int next = (lone + 1) % 3, last = (lone + 2) % 3;
-    auto crossing = [&](int a, int b) {
-      if (t[a] > t[b]) std::swap(a, b); // the same bits from both triangles of an edge
-      const double w = d[a] / (d[a] - d[b]);
-      const Vec3 p = mesh.positions[t[a]] + w * (mesh.positions[t[b]] - mesh.positions[t[a]]);
-      return plane.flat(p);
-    };
-    Cut c{edge_key(t[lone], t[next]), edge_key(t[lone], t[last]), crossing(lone, next), crossing(lone, last)};
-    if (above != 1) {
-      std::swap(c.from, c.to);
-      std::swap(c.a, c.b);
-    }
-    cuts.push_back(c);
+    cut_triangle(t, {&mesh.positions[t[0]], &mesh.positions[t[1]], &mesh.positions[t[2]]}, plane, n, offset, cuts);
   }
-  if (cuts.empty()) return {};
-  std::vector<char> is_open;
-  const std::vector<int> number = loop_numbers(cuts, is_open);
-  std::vector<Loop> loops(is_open.size());
-  for (std::size_t k = 0; k < loops.size(); ++k) loops[k].closed = !is_open[k];
-  std::vector<std::size_t> sizes(loops.size(), 0);
-  for (const int loop : number) ++sizes[loop];
-  for (std::size_t k = 0; k < loops.size(); ++k) loops[k].segments.reserve(sizes[k]);
-  for (std::size_t i = 0; i < cuts.size(); ++i) loops[number[i]].segments.push_back({cuts[i].a, cuts[i].b});
-  for (Loop& loop : loops) measure_loop(loop);
-  std::erase_if(loops, [](const Loop& loop) { return std::abs(loop.area) < 1e-6; });
-  std::stable_sort(loops.begin(), loops.end(), [](const Loop& a, const Loop& b) { return std::abs(a.area) > std::abs(b.area); });
-  return loops;
+  return joined(cuts);
 }
 
 TriangleSpheres::TriangleSpheres(const TriangleMesh& mesh, const std::vector<int>& subset) {
@@ -164,16 +163,42 @@ const std::vector<int>& TriangleSpheres::near(const Plane& plane) {
   return m_near;
 }
 
-std::vector<std::vector<int>> triangles_by_level(const TriangleMesh& mesh, double y0, double dy, int count) {
-  std::vector<std::vector<int>> at(static_cast<std::size_t>(count));
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    const Triangle& t = mesh.triangles[f];
-    const double a = mesh.positions[t[0]].y(), b = mesh.positions[t[1]].y(), c = mesh.positions[t[2]].y();
-    const int first = std::max(0, static_cast<int>(std::floor((std::min({a, b, c}) - y0) / dy)));
-    const int last = std::min(count - 1, static_cast<int>(std::ceil((std::max({a, b, c}) - y0) / dy)));
-    for (int k = first; k <= last; ++k) at[k].push_back(static_cast<int>(f));
+LevelledMesh::LevelledMesh(const TriangleMesh& mesh, double y0, double dy, int count) : m_bands(static_cast<std::size_t>(count)) {
+  constexpr float OUTWARDS = 1e-6f; // m: more than what a float rounds at the height of a person
+  auto band_of = [&](double y) { return std::clamp(static_cast<int>(std::floor((y - y0) / dy)), 0, count - 1); };
+  std::vector<std::size_t> first(static_cast<std::size_t>(count) + 1, 0);
+  for (const Vec3& p : mesh.positions) ++first[static_cast<std::size_t>(band_of(p.y())) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  m_vertices.resize(mesh.positions.size());
+  std::vector<int> place(mesh.positions.size());
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    const std::size_t at = first[static_cast<std::size_t>(band_of(mesh.positions[v].y()))]++;
+    m_vertices[at] = {mesh.positions[v], static_cast<int>(v)};
+    place[v] = static_cast<int>(at);
   }
-  return at;
+  for (const Triangle& t : mesh.triangles) {
+    const double a = mesh.positions[t[0]].y(), b = mesh.positions[t[1]].y(), c = mesh.positions[t[2]].y();
+    const double low = std::min({a, b, c}), high = std::max({a, b, c});
+    const int from = std::max(0, static_cast<int>(std::floor((low - y0) / dy)));
+    const int to = std::min(count - 1, static_cast<int>(std::ceil((high - y0) / dy)));
+    const Reach reach{static_cast<float>(low) - OUTWARDS, static_cast<float>(high) + OUTWARDS, {place[t[0]], place[t[1]], place[t[2]]}};
+    for (int k = from; k <= to; ++k) m_bands[static_cast<std::size_t>(k)].push_back(reach);
+  }
+}
+
+std::vector<Loop> LevelledMesh::cut(int band, double y) const {
+  const Plane plane = level_plane(y);
+  const Vec3 n = plane.normal();
+  const double offset = n.dot(plane.origin);
+  const float level = static_cast<float>(y);
+  std::vector<Cut> cuts;
+  cuts.reserve(512);
+  for (const Reach& r : m_bands[static_cast<std::size_t>(band)]) {
+    if (r.low > level || r.high < level) continue;
+    const Vertex &a = m_vertices[r.vertices[0]], &b = m_vertices[r.vertices[1]], &c = m_vertices[r.vertices[2]];
+    cut_triangle({a.number, b.number, c.number}, {&a.position, &b.position, &c.position}, plane, n, offset, cuts);
+  }
+  return joined(cuts);
 }
 
 std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
@@ -239,6 +264,7 @@ Vec2 outermost(const Loop& loop, const Vec2& direction, double flat) {
 }
 
 bool encloses(const Loop& loop, const Vec2& q) {
+  if ((q - loop.low).minCoeff() < 0 || (loop.high - q).minCoeff() < 0) return false;
   int winding = 0;
   for (const auto& s : loop.segments) {
     const Vec2 a = s[0] - q, b = s[1] - q;

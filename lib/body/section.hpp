@@ -55,8 +55,26 @@ private:
   std::vector<int> m_near;
 };
 
-/// Which triangles each of `count` level planes y0, y0 + dy, ... meets.
-std::vector<std::vector<int>> triangles_by_level(const TriangleMesh& mesh, double y0, double dy, int count);
+/// A mesh sorted by height, so that level cuts of a large one read little memory and in order.
+class LevelledMesh {
+public:
+  /// @param y0 height of the middle of the lowest of `count` bands that are `dy` apart, m
+  LevelledMesh(const TriangleMesh& mesh, double y0, double dy, int count);
+  /// The loops of sloper::body::cut() at the level `y`, m, which is within `dy` of the middle of `band`.
+  std::vector<Loop> cut(int band, double y) const;
+
+private:
+  struct Vertex {
+    Vec3 position;
+    int number; ///< in the mesh
+  };
+  struct Reach {
+    float low, high; ///< m, rounded outwards
+    Triangle vertices;
+  };
+  std::vector<Vertex> m_vertices;          ///< by height
+  std::vector<std::vector<Reach>> m_bands; ///< what each may meet, in mesh order
+};
 
 /// Convex hull, counter-clockwise, without its collinear points.
 std::vector<Vec2> convex_hull(std::vector<Vec2> points);

@@ -76,6 +76,9 @@ SkinProfile skin_profile(const PartFrame& frame, const TriangleMesh& skin, const
               last = std::min(N_Z - 1, static_cast<int>(std::ceil((high - z_low) / step)));
     for (int k = first; k <= last; ++k) rows[k].push_back(t);
   }
+  constexpr double column = 2 * units::PI / N_THETA;
+  std::array<Vec2, N_THETA> rays;
+  for (int k = 0; k < N_THETA; ++k) rays[static_cast<std::size_t>(k)] = Vec2(std::cos(-units::PI + k * column), std::sin(-units::PI + k * column));
   std::vector<char> filled(N_Z, 0);
   const Vec3 side = (frame.mirrored ? -1.0 : 1.0) * a.cross(frame.theta_zero);
   for (int z = 0; z < N_Z; ++z) {
@@ -95,15 +98,13 @@ SkinProfile skin_profile(const PartFrame& frame, const TriangleMesh& skin, const
       if (t1 - t0 > units::PI) t1 -= 2 * units::PI;
       if (t0 - t1 > units::PI) t1 += 2 * units::PI;
       if (t1 < t0) std::swap(t0, t1);
-      const double column = 2 * units::PI / N_THETA;
       for (int k = static_cast<int>(std::ceil((t0 + units::PI) / column)); k <= static_cast<int>(std::floor((t1 + units::PI) / column)); ++k) {
-        const double theta = -units::PI + k * column;
-        const Vec2 ray(std::cos(theta), std::sin(theta)), d = s[1] - s[0];
+        const int at = (k % N_THETA + N_THETA) % N_THETA;
+        const Vec2 &ray = rays[static_cast<std::size_t>(at)], d = s[1] - s[0];
         const double cross = ray.x() * d.y() - ray.y() * d.x();
         if (std::abs(cross) < 1e-12) continue;
         const double r = (s[0].x() * d.y() - s[0].y() * d.x()) / cross;
-        double& entry = row[((k % N_THETA) + N_THETA) % N_THETA];
-        entry = std::max(entry, r);
+        row[at] = std::max(row[at], r);
       }
     }
     filled[z] = fill_row(row, N_THETA);

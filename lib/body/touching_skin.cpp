@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <unordered_map>
 #include <utility>
 
 namespace sloper::body {
@@ -48,23 +50,25 @@ std::vector<char> facing_candidates(const TriangleMesh& skin, const std::vector<
   constexpr double POINT_CELL = 0.008; // m
   const std::vector<Vec3> normals = rough_normals(skin, skin.triangles);
   const auto key = [](long x, long y, long z) { return ((x + 100000) << 40) + ((y + 100000) << 20) + (z + 100000); };
-  const auto cell = [](const Vec3& p) {
-    return std::array<long, 3>{std::lround(p.x() / POINT_CELL), std::lround(p.y() / POINT_CELL), std::lround(p.z() / POINT_CELL)};
-  };
   std::vector<std::pair<long, int>> faced; // cell, six bits: which way its skin faces
+  std::unordered_map<long, int> number;    // of a cell in `faced`, while it is not yet sorted
+  number.reserve(skin.positions.size() / 4);
+  std::vector<int> cell_of(skin.positions.size(), -1);
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
     if (!may_move[v]) continue;
-    int bits = 0;
-    for (int a = 0; a < 3; ++a) bits |= normals[v][a] > 0.5 ? 1 << a : normals[v][a] < -0.5 ? 8 << a : 0;
-    const auto c = cell(skin.positions[v]);
-    faced.emplace_back(key(c[0], c[1], c[2]), bits);
+    const Vec3 p = skin.positions[v] / POINT_CELL;
+    const auto [at, is_new] = number.try_emplace(key(std::lround(p.x()), std::lround(p.y()), std::lround(p.z())), static_cast<int>(faced.size()));
+    if (is_new) faced.emplace_back(at->first, 0);
+    cell_of[v] = at->second;
+    for (int a = 0; a < 3; ++a) faced[at->second].second |= normals[v][a] > 0.5 ? 1 << a : normals[v][a] < -0.5 ? 8 << a : 0;
   }
-  std::sort(faced.begin(), faced.end());
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < faced.size(); ++i)
-    if (n > 0 && faced[n - 1].first == faced[i].first) faced[n - 1].second |= faced[i].second;
-    else faced[n++] = faced[i];
-  faced.resize(n);
+  const std::size_t n = faced.size();
+  std::vector<int> order(n), place(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return faced[a].first < faced[b].first; });
+  std::vector<std::pair<long, int>> sorted;
+  for (std::size_t i = 0; i < n; ++i) place[order[i]] = static_cast<int>(i), sorted.push_back(faced[order[i]]);
+  faced = std::move(sorted);
   std::vector<int> around(n, 0); // the same over the neighbour cells
   for (long x = -1; x <= 1; ++x)
     for (long y = -1; y <= 1; ++y)
@@ -76,11 +80,9 @@ std::vector<char> facing_candidates(const TriangleMesh& skin, const std::vector<
   std::vector<char> candidate(skin.positions.size(), 0);
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
     if (!may_move[v]) continue;
-    const auto c = cell(skin.positions[v]);
-    const auto at = std::lower_bound(faced.begin(), faced.end(), std::pair<long, int>(key(c[0], c[1], c[2]), 0));
     int against = 0;
     for (int a = 0; a < 3; ++a) against |= normals[v][a] > 0.25 ? 8 << a : normals[v][a] < -0.25 ? 1 << a : 0;
-    candidate[v] = (around[at - faced.begin()] & against) != 0;
+    candidate[v] = (around[place[cell_of[v]]] & against) != 0;
   }
   return candidate;
 }

@@ -12,7 +12,7 @@ namespace {
 
 /// The trunk's outline without arms that hang on it: clipped at the arm pits.
 std::optional<Level> measure_level(const Finder& f, double y) {
-  const auto loop = f.levels.trunk_at(y);
+  const auto& loop = f.levels.trunk_at(y);
   if (!loop) return std::nullopt;
   double limit[2] = {1e300, 1e300}; // x of the left and (negated) of the right arm pit
   for (int side = 0; side < 2; ++side)
@@ -39,7 +39,7 @@ std::optional<Level> measure_level(const Finder& f, double y) {
 
 /// An arm that touches the trunk below the pit is part of this level's outline, which tells no breadth of the trunk then.
 bool arm_hangs_on(const Finder& f, double y) {
-  const auto loop = f.levels.trunk_at(y);
+  const auto& loop = f.levels.trunk_at(y);
   if (!loop) return false;
   for (const ArmTrace& arm : f.arms) {
     if (arm.sections.empty() || (!arm.pit_hidden && arm.axilla && y > arm.axilla->y() - 0.02 * f.s)) continue;
@@ -269,7 +269,7 @@ double find_waist(const Finder& f, const std::optional<double>& navel, double pi
   if (!height) return by_ratio;
   const double waist = height->value;
   put_level(f, "waist_semantic", waist, height->rule->name);
-  const auto loop = f.levels.trunk_at(waist);
+  const auto& loop = f.levels.trunk_at(waist);
   if (!loop) return waist;
   const double depth = f.has("hip_center") ? f.at("hip_center").z() + f.number("waist.side_depth") * s : loop->centroid.y();
   for (int side = 0; side < 2; ++side)
@@ -314,7 +314,7 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
     const double hip = f.at("buttock_back").y();
     put_level(f, "hip", hip, "buttock_back");
     f.find("hip_section_center", "", 2, {{"section_at_hip", [&]() -> std::optional<Vec3> {
-                                            const auto loop = f.levels.trunk_at(hip);
+                                            const auto& loop = f.levels.trunk_at(hip);
                                             if (!loop) return std::nullopt;
                                             return Vec3(loop->centroid.x(), hip, loop->centroid.y());
                                           }}});
@@ -351,7 +351,7 @@ void find_trunk_landmarks(const Finder& f) {
   // the first level above the crotch whose outline goes around both legs: skin that hangs between them is lower than where they join
   const auto left = f.levels.leg_at(crotch - 0.010, 0), right = f.levels.leg_at(crotch - 0.010, 1);
   for (double y = crotch + 0.004; y < crotch + 0.02 && !f.body.levels.count("crotch"); y += 0.002) {
-    const auto loop = f.levels.trunk_at(y);
+    const auto& loop = f.levels.trunk_at(y);
     if (loop && left && right && (loop->high.x() < left->centroid.x() || loop->low.x() > right->centroid.x())) continue;
     put_level(f, "crotch", y, "crotch");
   }

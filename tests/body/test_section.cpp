@@ -78,6 +78,23 @@ TEST(Section, knows_when_the_skin_ends) {
   EXPECT_FALSE(loops[0].closed);
 }
 
+TEST(LevelledMesh, gives_the_same_bits_as_a_cut_of_the_whole_mesh) {
+  TriangleMesh mesh = cylinder(0.1, 0, 1, 60, 0.3);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) mesh.positions[v].y() += 0.07 * std::sin(5.0 * static_cast<double>(v)); // no level ends
+  constexpr double SPACING = 0.05;
+  const LevelledMesh levelled(mesh, 0.5 * SPACING, SPACING, 24);
+  int n = 0;
+  for (double y = 0.001; y < 1.2; y += 0.0137) {
+    const std::vector<Loop> all = cut(mesh, level_plane(y)), quick = levelled.cut(static_cast<int>(y / SPACING), y);
+    ASSERT_EQ(all.size(), quick.size()) << y;
+    for (std::size_t k = 0; k < all.size(); ++k, ++n) {
+      EXPECT_EQ(all[k].segments, quick[k].segments) << y;
+      EXPECT_EQ(all[k].area, quick[k].area) << y;
+    }
+  }
+  EXPECT_GT(n, 70);
+}
+
 TEST(ConvexHull, of_a_square_with_points_inside_and_on_its_sides_has_four_corners) {
   std::vector<Vec2> points;
   for (int i = 0; i <= 4; ++i)
