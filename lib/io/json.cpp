@@ -173,7 +173,7 @@ double Node::number() const {
 
 int Node::integer() const {
   const double x = number();
-  if (x != std::floor(x) || std::abs(x) > 2e9) fail("expected a whole number");
+  if (!(x == std::floor(x) && std::abs(x) <= 2e9)) fail("expected a whole number");
   return static_cast<int>(x);
 }
 

@@ -31,7 +31,7 @@ Sampled sample(const Panel& panel) {
     const std::size_t first = out.points.size();
     for (const PanelEdge& edge : loop) {
       for (const Segment& s : edge.path) {
-        const int n = s.line ? 1 : static_cast<int>(std::clamp(std::ceil(s.length(0, 1) / SAMPLE), 8.0, 400.0));
+        const int n = s.line ? 1 : static_cast<int>(std::ceil(std::max(8.0, std::min(400.0, s.length(0, 1) / SAMPLE))));
         for (int k = 0; k < n; ++k) out.points.push_back(s.at(static_cast<double>(k) / n)), out.edge.push_back(e), out.loop.push_back(l);
       }
       ++e;

@@ -4,6 +4,7 @@
 #include <base/units.hpp>
 #include <pattern/dxf_blocks.hpp>
 #include <pattern/dxf_rings.hpp>
+#include <pattern/dxf_sewing.hpp>
 #include <pattern/folds.hpp>
 #include <pattern/grade_rules.hpp>
 #include <pattern/outline_json.hpp>
@@ -59,11 +60,6 @@ int edge_near(const Panel& panel, const Vec2& p) {
   return best;
 }
 
-struct SewText {
-  int panel, edge, order;
-  bool with_outline;
-};
-
 class PieceReader {
 public:
   PieceReader(const DxfFile& dxf, const DxfChoice& choice, const std::string& file) : m_dxf(dxf), m_choice(choice), m_file(file) {}
@@ -80,7 +76,7 @@ public:
     }
     for (const DxfBlock* block : chosen_blocks()) read_piece(*block);
     if (m_pattern.panels.empty()) throw input_error(m_file, "", "no block has a closed outline on layer 14 or 1", "export the pieces as AAMA or ASTM DXF");
-    make_seams();
+    m_sewing.make_seams(m_pattern, m_file);
     return std::move(m_pattern);
   }
 
@@ -320,11 +316,8 @@ private:
     std::vector<std::pair<std::string, Notch>> notches;
     for (const Notch& n : panel.notches) notches.push_back({panel.edge(n.edge).name, n});
     const int index = static_cast<int>(m_pattern.panels.size());
-    std::vector<std::pair<SewText*, std::string>> sewn;
-    for (auto& [name, sides] : m_sewing)
-      for (auto& side : sides)
-        for (SewText& t : side)
-          if (t.panel == index) sewn.push_back({&t, panel.edge(t.edge).name});
+    std::vector<std::pair<DxfSewing::Text*, std::string>> sewn;
+    for (DxfSewing::Text* t : m_sewing.texts_of(index)) sewn.push_back({t, panel.edge(t->edge).name});
     if (!unfold(panel, fold, "", "_mirror")) {
       m_pattern.findings.push_back(panel.name + ": its mirror line lies on no straight edge; the piece is taken as whole");
       return;
@@ -338,42 +331,8 @@ private:
   }
 
   void read_sewing(const DxfBlock& block, Panel& panel, int index) {
-    for (const DxfText& t : block.texts) {
-      if (t.layer != 15) continue;
-      std::istringstream words(t.text);
-      std::string what, seam, side, direction, run;
-      int order = 0;
-      words >> what;
-      const int e = edge_near(panel, t.p * m_unit);
-      if (what == "RUN" && words >> run) panel.edge(e).name = run;
-      else if (what == "SEW" && words >> seam >> side >> order >> direction >> run) {
-        panel.edge(e).name = run;
-        if ((side != "a" && side != "b") || (direction != "+" && direction != "-"))
-          throw input_error(m_file, panel.name, "'" + t.text + "' is no sewing text", "write SEW <seam> <a|b> <order> <+|-> <run>");
-        auto& sides = m_sewing[seam];
-        if (std::find(m_seam_order.begin(), m_seam_order.end(), seam) == m_seam_order.end()) m_seam_order.push_back(seam);
-        sides[side == "b"].push_back({index, e, order, direction == "+"});
-      }
-    }
-  }
-
-  void make_seams() {
-    for (const std::string& name : m_seam_order) {
-      auto& sides = m_sewing[name];
-      Seam seam;
-      seam.name = name;
-      for (std::size_t s = 0; s < 2; ++s) {
-        std::stable_sort(sides[s].begin(), sides[s].end(), [](const SewText& a, const SewText& b) { return a.order < b.order; });
-        for (const SewText& t : sides[s]) (s == 0 ? seam.a : seam.b).push_back({t.panel, t.edge, t.with_outline ? 0.0 : 1.0, t.with_outline ? 1.0 : 0.0});
-      }
-      if (seam.a.empty() || seam.b.empty())
-        throw input_error(m_file, "seam " + name, std::string("side ") + (seam.a.empty() ? "a" : "b") + " has no run", "add its SEW text");
-      if (seam.a.size() == 1 && seam.b.size() == 1 && seam.a[0].panel == seam.b[0].panel && name.find("dart") != std::string::npos) seam.kind = "dart";
-      const double ratio = side_length(m_pattern, seam.a) / side_length(m_pattern, seam.b);
-      if (ratio > 1.08 || ratio < 1 / 1.08) seam.kind = "gather";
-      if (name.find("clos") != std::string::npos) seam.kind = "closure";
-      m_pattern.seams.push_back(std::move(seam));
-    }
+    for (const DxfText& t : block.texts)
+      if (t.layer == 15) m_sewing.read(t.text, panel, index, edge_near(panel, t.p * m_unit), m_file);
   }
 
   const DxfFile& m_dxf;
@@ -382,8 +341,7 @@ private:
   std::string m_file;
   double m_unit = units::MM;
   Pattern m_pattern;
-  std::map<std::string, std::array<std::vector<SewText>, 2>> m_sewing;
-  std::vector<std::string> m_seam_order;
+  DxfSewing m_sewing;
 };
 
 } // namespace

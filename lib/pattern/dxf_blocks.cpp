@@ -67,7 +67,7 @@ public:
   /// For flags and counts, which DXF keeps in 16 bits; some programs write them as 70.0.
   int whole() const {
     const double x = number();
-    if (std::abs(x) > 1e6) fail(std::string("'").append(utf8(value.substr(0, 40))).append("' is no flag or count"));
+    if (!(std::abs(x) <= 1e6)) fail(std::string("'").append(utf8(value.substr(0, 40))).append("' is no flag or count"));
     return static_cast<int>(x);
   }
   [[noreturn]] void fail(const std::string& fact) const { throw input_error(m_file, "line " + std::to_string(m_line), fact, "give a text DXF"); }
@@ -111,9 +111,9 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
 
   constexpr double FARTHEST = 1e9; // file units: a thousand kilometres of millimetres
   const auto finish = [&] {
-    for (const auto* list : {&entity.x, &entity.y})
-      for (double x : *list)
-        if (block && std::abs(x) > FARTHEST) tags.fail("a coordinate is out of all bounds");
+    for (const auto& list : {entity.x, entity.y, {entity.x2, entity.y2}})
+      for (double x : list)
+        if (block && !(std::abs(x) <= FARTHEST)) tags.fail("a coordinate is out of all bounds");
     const auto point = [&](std::size_t k) { return Vec2(entity.x[k], k < entity.y.size() ? entity.y[k] : 0.0); };
     if (entity.kind == "VERTEX" && in_polyline && !entity.x.empty()) polyline.points.push_back(point(0));
     else if (entity.kind == "POLYLINE") polyline = {entity.layer, (entity.flags & 1) != 0, {}}, in_polyline = true;

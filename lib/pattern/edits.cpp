@@ -3,6 +3,7 @@
 #include <pattern/edits.hpp>
 #include <pattern/folds.hpp>
 #include <pattern/outline_json.hpp>
+#include <pattern/read_pattern.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -373,8 +374,10 @@ void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file
       std::vector<Path> loop;
       for (const PanelEdge& e : p.loops[0]) loop.push_back(e.path);
       if (const double area = signed_area(loop); !(area > 0))
-        edits.at(k).fail("panel " + p.name + " is turned inside out: its outline now goes clockwise around " + std::to_string(std::lround(-1e4 * area)) +
-                         " cm2");
+        edits.at(k).fail("panel " + p.name + " is turned inside out: its outline now goes clockwise around " +
+                         std::to_string(std::lround(std::min(1e9, -1e4 * area))) + " cm2");
+      if (const auto fault = fault_of(p))
+        edits.at(k).fail("panel " + p.name + (fault->place.empty() ? "" : ": " + fault->place) + ": " + fault->fact, fault->next);
     }
   }
 }

@@ -70,6 +70,21 @@ std::string word(const std::string& name) { // names of seams and runs are singl
   return out;
 }
 
+/// What readers cannot see from the sides: kind, whether it is left open, and why the sides differ. Last, for that is free text.
+std::string about_seam(const Seam& seam) {
+  std::string why = seam.ease;
+  std::replace_if(
+      why.begin(), why.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return " " + seam.kind + (seam.open ? " open" : "") + (why.empty() ? "" : " ease " + why);
+}
+
+/// Notches read from a DXF keep their layer, which tells their shape.
+int notch_layer(const Notch& notch) {
+  for (int layer : {80, 81, 82, 83})
+    if (notch.kind == "layer " + std::to_string(layer)) return layer;
+  return 4;
+}
+
 std::string escaped(const std::string& text) {
   std::string out;
   for (char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
@@ -186,7 +201,8 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
                 left_out.push_back("seam " + seam.name + ": only part of " + place_of(pattern, run) + " is sewn, which layer 15 cannot say");
                 continue;
               }
-              said = "SEW " + word(seam.name) + (side == &seam.a ? " a " : " b ") + std::to_string(k) + (run.from < run.to ? " + " : " - ") + word(edge.name);
+              said = "SEW " + word(seam.name) + (side == &seam.a ? " a " : " b ") + std::to_string(k) + (run.from < run.to ? " + " : " - ") + word(edge.name) +
+                     about_seam(seam);
             }
         texts.push_back({arc.at(0.5 * arc.length()), said});
         ++e;
@@ -199,8 +215,11 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
     }
     for (const Notch& n : panel.notches) {
       const ArcLength arc(panel.edge(n.edge).path);
-      out.mark(4, arc.at(n.at * arc.length()));
+      out.mark(notch_layer(n), arc.at(n.at * arc.length()));
     }
+    if (panel.layer) left_out.push_back(panel.name + ": that it lies in layer " + std::to_string(panel.layer) + " is not written");
+    if (!panel.hint.part.empty() || panel.hint.theta || panel.hint.anchor || panel.hint.height || panel.hint.rigid)
+      left_out.push_back(panel.name + ": where it is to be placed is not written");
     for (const InnerLine& line : panel.lines) {
       const ArcLength arc(line.path);
       const bool bent = line.path.size() > 1 || !line.path[0].line;
@@ -208,6 +227,9 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
       std::vector<Vec2> points;
       for (int k = 0; k <= n; ++k) points.push_back(arc.at(arc.length() * k / n));
       out.chain(8, points);
+      const auto uses = [&](const Pleat& pleat) { return &panel.lines[static_cast<std::size_t>(pleat.fold)] == &line; }; // pleats are told below
+      if (line.kind == "fold" && std::none_of(panel.pleats.begin(), panel.pleats.end(), uses))
+        left_out.push_back(panel.name + ": line " + line.name + " is written without saying that it is a fold");
       if (line.kind == "tape") left_out.push_back(panel.name + ": line " + line.name + " is written without saying that it is a tape");
     }
     for (const Pleat& pleat : panel.pleats) left_out.push_back(panel.name + ": pleat " + pleat.name + " is written as two lines");

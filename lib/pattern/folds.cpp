@@ -70,7 +70,7 @@ Path halfway(const Path& a, const Path& b) {
 /// Which vertices of a panel lie on a line, by their place in the panel.
 std::vector<char> vertices_on(const Path& line, const PanelMesh& mesh, const PanelInfo& info) {
   const ArcLength arc(line);
-  const int n = std::clamp(static_cast<int>(arc.length() / 0.001), 16, 2000);
+  const int n = static_cast<int>(std::max(16.0, std::min(2000.0, arc.length() / 0.001)));
   std::vector<Vec2> points;
   for (int k = 0; k <= n; ++k) points.push_back(arc.at(arc.length() * k / n));
   std::vector<char> on(static_cast<std::size_t>(info.n_vertices), 0);
@@ -154,7 +154,7 @@ OnOutline on_outline(const Panel& panel, const Vec2& p) {
   double least = LINE_ON_EDGE;
   for (std::size_t e = 0; e < panel.loops[0].size(); ++e) {
     const ArcLength arc(panel.loops[0][e].path);
-    const int n = std::clamp(static_cast<int>(arc.length() / 0.001), 16, 2000);
+    const int n = static_cast<int>(std::max(16.0, std::min(2000.0, arc.length() / 0.001)));
     for (int k = 0; k < n; ++k) { // on the chord between two points of the curve
       const Vec2 a = arc.at(arc.length() * k / n), along = arc.at(arc.length() * (k + 1) / n) - a;
       const double t = along.squaredNorm() > 0 ? std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0.0;

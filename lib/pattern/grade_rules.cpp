@@ -10,6 +10,8 @@
 namespace sloper::pattern {
 namespace {
 
+constexpr double LARGEST_MOVE = 1e6; // file units
+
 std::string upper_case(std::string s) {
   std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return s;
@@ -79,7 +81,8 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
         double x = 0;
         const char* begin = word.data() + (word[0] == '+');
         const auto [end, error] = std::from_chars(begin, word.data() + word.size(), x);
-        if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(x)) fail(line_number, "'" + word + "' is no number", "give x,y pairs");
+        if (error != std::errc() || end != word.data() + word.size() || !(std::abs(x) <= LARGEST_MOVE))
+          fail(line_number, "'" + word + "' is no number, or out of all bounds", "give x,y pairs");
         numbers.push_back(x);
       }
     }

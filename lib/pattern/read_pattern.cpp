@@ -9,41 +9,50 @@
 namespace sloper::pattern {
 namespace {
 
-bool all_finite(const Panel& panel) {
-  for (const auto& loop : panel.loops)
-    for (const PanelEdge& e : loop)
-      for (const Segment& s : e.path)
-        for (const Vec2& p : s.p)
-          if (!p.allFinite()) return false;
-  for (const InnerLine& line : panel.lines)
-    for (const Segment& s : line.path)
-      for (const Vec2& p : s.p)
-        if (!p.allFinite()) return false;
-  return true;
-}
+constexpr double LARGEST_PANEL = 20, SMALLEST_PANEL = 0.05; // m, of the largest panel of a garment
+constexpr double FARTHEST_CONTROL = 2 * LARGEST_PANEL;      // m, from where its curve begins
+constexpr int HIGHEST_LAYER = 1000;
 
-/// Lines belong to their panel: no control point lies further than its own size outside of it.
-void check_lines(const Panel& panel, const std::string& file) {
-  Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
-  for (const PanelEdge& e : panel.loops[0])
-    for (const Segment& s : e.path) low = low.cwiseMin(s.p[0]), high = high.cwiseMax(s.p[0]);
-  const double size = (high - low).maxCoeff();
-  for (const InnerLine& line : panel.lines)
-    for (const Segment& s : line.path)
-      for (const Vec2& p : s.p)
-        if (const double off = std::max((low - p).maxCoeff(), (p - high).maxCoeff()); off > size)
-          throw input_error(file, panel.name + ": " + line.name, "the line leaves the panel by " + centimetres(off), "draw it inside");
+bool finite_path(const Path& path) {
+  return std::all_of(path.begin(), path.end(),
+                     [](const Segment& s) { return s.p[0].allFinite() && s.p[1].allFinite() && s.p[2].allFinite() && s.p[3].allFinite(); });
 }
 
 } // namespace
+
+std::optional<PanelFault> fault_of(const Panel& panel) {
+  Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+  for (std::size_t l = 0; l < panel.loops.size(); ++l)
+    for (const PanelEdge& e : panel.loops[l]) {
+      if (!finite_path(e.path)) return PanelFault{e.name, "a coordinate is no finite number", "write it anew"};
+      for (const Segment& s : e.path) {
+        if (l == 0) low = low.cwiseMin(s.p[0]), high = high.cwiseMax(s.p[0]);
+        for (const Vec2& p : {s.p[1], s.p[2]})
+          if (const double off = (p - s.p[0]).norm(); !s.line && !(off <= FARTHEST_CONTROL))
+            return PanelFault{e.name, "a control point of the curve lies " + centimetres(off) + " from its start", "check its coordinates and their unit"};
+      }
+    }
+  const double size = (high - low).maxCoeff();
+  for (const InnerLine& line : panel.lines) {
+    if (!finite_path(line.path)) return PanelFault{line.name, "a coordinate is no finite number", "write it anew"};
+    for (const Segment& s : line.path)
+      for (const Vec2& p : s.p)
+        if (const double off = std::max((low - p).maxCoeff(), (p - high).maxCoeff()); !(off <= size))
+          return PanelFault{line.name, "the line leaves the panel by " + centimetres(off), "draw it inside"};
+  }
+  if (std::abs(static_cast<double>(panel.layer)) > HIGHEST_LAYER)
+    return PanelFault{"layer", std::to_string(panel.layer) + " is no layer", "number layers from 0, the innermost"};
+  if (!(size <= LARGEST_PANEL)) return PanelFault{"", "the panel measures " + centimetres(size), "check its coordinates and their unit"};
+  return std::nullopt;
+}
 
 void finish_pattern(Pattern& pattern, const std::string& file) {
   double largest = 0;
   std::string largest_name;
   for (std::size_t k = 0; k < pattern.panels.size(); ++k) {
     Panel& panel = pattern.panels[k];
-    if (!all_finite(panel)) throw input_error(file, panel.name, "a coordinate is no finite number");
-    check_lines(panel, file);
+    if (const auto fault = fault_of(panel); fault && !fault->place.empty()) // sizes are told of the largest panel
+      throw input_error(file, panel.name + ": " + fault->place, fault->fact, fault->next);
     for (std::size_t l = 0; l < panel.loops.size(); ++l) {
       std::vector<Path> paths;
       Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
@@ -53,9 +62,9 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
         if (!(length(e.path) > 1e-6))
           throw input_error(file, panel.name + ": " + e.name, "the edge is 0.00 cm long (duplicate points)", "take it out of the outline");
       }
-      if (const double size = (high - low).maxCoeff(); size > largest) largest = size, largest_name = panel.name;
+      if (const double size = (high - low).maxCoeff(); !(size <= largest)) largest = size, largest_name = panel.name;
       const double area = signed_area(paths);
-      if (std::abs(area) < 1e-6)
+      if (!(std::abs(area) >= 1e-6))
         throw input_error(file, panel.name, "the outline encloses " + std::to_string(std::abs(area) * 1e4) + " cm2", "give the panel an area");
       if ((area > 0) == (l == 0)) continue;
       if (l > 0) throw input_error(file, panel.name, "hole " + std::to_string(l) + " is drawn counter-clockwise", "draw holes clockwise");
@@ -83,7 +92,7 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
       break;
     }
   }
-  if (largest > 20 || largest < 0.05)
+  if (!(largest <= LARGEST_PANEL && largest >= SMALLEST_PANEL))
     throw input_error(file, largest_name, "the largest panel measures " + centimetres(largest) + ", so the unit is wrong",
                       "check the unit that the file states, and the outline of this panel");
 }

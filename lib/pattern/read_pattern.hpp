@@ -36,6 +36,15 @@ Pattern read_dxf(const std::string& text, const std::string& file, const DxfChoi
 /// Seams of a "sewing-seams" sidecar, added to a pattern whose panels and edges have names.
 void read_sewing_seams(Pattern& pattern, const io::Json& json, const std::string& file);
 
+/// Why a panel cannot be worked with, at all: `place` is an edge or a line of it, or empty.
+struct PanelFault {
+  std::string place, fact, next;
+};
+
+/// Numbers that no later step could bear: coordinates that are not finite, control points and sizes of more than metres, lines that
+/// leave the panel. Holds for what readers make and for what edits make of it. Nothing where all is well.
+std::optional<PanelFault> fault_of(const Panel& panel);
+
 /// What every reader ends with: finite, closed, non-empty outlines of a plausible size; a panel drawn clockwise is one seen from
 /// inside and is mirrored. @throws Error INPUT
 void finish_pattern(Pattern& pattern, const std::string& file);

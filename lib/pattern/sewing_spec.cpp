@@ -34,6 +34,7 @@ void read_sewing_seams(Pattern& pattern, const io::Json& json, const std::string
     const io::Node node = seams.at(k);
     Seam seam;
     seam.name = node.string("name", "seam " + std::to_string(k)), seam.kind = node.string("kind", "seam"), seam.ease = node.string("ease", "");
+    seam.open = node.boolean("open", false);
     seam.a = read_side(node.at("a"), pattern), seam.b = read_side(node.at("b"), pattern);
     pattern.seams.push_back(std::move(seam));
   }

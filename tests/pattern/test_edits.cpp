@@ -92,6 +92,17 @@ TEST(Edits, AnEditTooWildForTheMeshIsToldSo) {
   EXPECT_FALSE(follow_edits(before, after, mesh, 15));
 }
 
+TEST(Edits, NumbersBeyondAllBoundsAreRefusedBeforeTheyAreMeshed) {
+  for (const char* edit : {R"({"edit": "scale", "x": 1e6, "y": 1})", R"({"edit": "bend", "panel": "front", "edge": "top", "by": [0, 1e300]})",
+                           R"({"edit": "grade", "width": 1e200})",
+                           R"({"edit": "shrink", "panel": "front", "curve": [["M", 0, 0], ["L", 1e250, 1e250]], "factor": 0.5, "width": 1})"}) {
+    Pattern p = own(tube_text());
+    EXPECT_THROW(apply_edits(p, io::parse_json(R"({"format": "edits", "version": 1, "length_unit": "cm", "edits": [)" + std::string(edit) + "]}", "e"), "e"),
+                 Error)
+        << edit;
+  }
+}
+
 TEST(Edits, WrongNamesAreRefusedWithASuggestion) {
   Pattern pattern = own(tube_text());
   for (const char* wrong :

@@ -145,6 +145,40 @@ TEST(Dxf, BadBytesAreRefused) {
     EXPECT_THROW(read_dxf(text, "p.dxf"), Error);
 }
 
+/// Numbers that a conversion to an integer would not bear further on: curves are cut by their length, layers are counted from the lowest.
+TEST(Readers, NumbersBeyondAllBoundsAreRefusedWithTheirPlace) {
+  const auto fact = [](const std::string& text) -> std::string {
+    try {
+      own(text);
+    } catch (const Error& e) {
+      return e.place() + ": " + e.fact();
+    }
+    return "read";
+  };
+  const auto panel = [](const std::string& curve, const std::string& more = "") {
+    return R"({"format": "pattern", "version": 1, "length_unit": "cm", "panels": [{"name": "p", "outline": [{"edge": "a", "path": [["M", 0, 0], )" + curve +
+           R"(]}, {"edge": "b", "path": [["L", 40, 60], ["L", 0, 0]]}])" + more + "}]}";
+  };
+  EXPECT_EQ(fact(panel(R"(["L", 40, 0])")), "read");
+  for (const char* far : {"1e308", "-1e200", "1e9"}) {
+    EXPECT_NE(fact(panel(std::string(R"(["C", 10, )") + far + ", 30, 0, 40, 0]")).find("p: a: a control point"), std::string::npos) << far;
+    EXPECT_NE(fact(panel(R"(["L", 40, 0])", std::string(R"(, "lines": [{"name": "l", "path": [["M", 10, 10], ["L", )") + far + R"(, 20]]}])")).find("p: l"),
+              std::string::npos)
+        << far;
+    EXPECT_NE(fact(panel(std::string("[\"L\", 40, ") + far + "]")).find("so the unit is wrong"), std::string::npos) << far;
+  }
+  EXPECT_NE(fact(panel(R"(["L", 40, 0])", R"(, "layer": -2000000000)")).find("is no layer"), std::string::npos);
+}
+
+TEST(Readers, ASidecarMayLeaveASeamOpen) {
+  Pattern p = own(tube_text());
+  const std::string side = R"([{"panel": "front", "run": "top"}], "b": [{"panel": "back", "run": "top", "dir": "-"}])";
+  read_sewing_seams(p, io::parse_json(R"({"seams": [{"name": "neck", "open": true, "a": )" + side + R"(}, {"name": "hem", "a": )" + side + "}]}", "s"), "s");
+  ASSERT_EQ(p.seams.size(), 4u);
+  EXPECT_TRUE(p.seams[2].open);
+  EXPECT_FALSE(p.seams[3].open);
+}
+
 TEST(Readers, CutTextsNeverCrash) { // a truncated or damaged file is refused or read, never more
   const std::string texts[] = {tube_text(), GARMENTCODE, dxf("METRIC", "14", false)};
   int kind = 0;

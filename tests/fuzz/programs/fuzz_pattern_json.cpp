@@ -1,4 +1,4 @@
-/// Any bytes as a pattern JSON of each kind, and as edits of a small pattern: read or refused with an Error, never a crash.
+/// Any bytes as a pattern JSON of each kind, and as edits and as a sidecar of a small pattern: read or refused with an Error, never a crash.
 #include <base/error.hpp>
 #include <io/json.hpp>
 #include <pattern/check_pattern.hpp>
@@ -35,6 +35,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   attempt([&] { return pattern::read_pattern_json(json, "fuzz.json"); });
   attempt([&] { return pattern::read_garmentcode(json, "fuzz.json"); });
   attempt([&] { return pattern::read_sewing_spec(json, "fuzz.json"); });
+  attempt([&] {
+    pattern::Pattern pattern = pattern::read_pattern_json(io::parse_json(TUBE, "tube"), "tube");
+    pattern::read_sewing_seams(pattern, json, "fuzz.json");
+    return pattern;
+  });
   attempt([&] {
     pattern::Pattern pattern = pattern::read_pattern_json(io::parse_json(TUBE, "tube"), "tube");
     pattern::apply_edits(pattern, json, "fuzz.json");
