@@ -208,6 +208,14 @@ double ClothSolver::tolerance(const StepOptions& o) {
   return o.cg_tolerance * std::max(TIGHTEST, std::sqrt(capped / all));
 }
 
+void ClothSolver::look_ahead(double h) {
+  if (m_pattern_stale) return; // pairs hold places in the matrix
+  for (const auto& e : m_effects) {
+    const Stopwatch watch(e->wall_s);
+    e->begin_step(m_x, h);
+  }
+}
+
 StepResult ClothSolver::step(const StepOptions& o) {
   if (m_pattern_stale) rebuild_pattern();
   const std::size_t n = m_x.size();

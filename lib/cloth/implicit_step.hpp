@@ -45,6 +45,9 @@ public:
   /// Takes an effect out; it costs nothing from then on. Returns it, so that its counts can be reported.
   std::unique_ptr<Effect> remove(const Effect& effect);
   StepResult step(const StepOptions& options);
+  /// Searches now for what the next step of h seconds would search for first: for callers that have time now and none later. The step
+  /// is the same with and without.
+  void look_ahead(double h);
   /// Instead of smoothed aggregation. @param preconditioner  not null
   void set_preconditioner(std::unique_ptr<Preconditioner> preconditioner) { m_preconditioner = std::move(preconditioner); }
 

@@ -70,6 +70,46 @@ Vec3 nearest_weights(const std::array<Vec2, 3>& t, const Vec2& p, double& square
   return best;
 }
 
+/// The triangles of a panel by square cells of its drawing.
+class PanelCells {
+public:
+  PanelCells(const pattern::PanelMesh& mesh, const pattern::PanelInfo& panel) : m_low(Vec2::Constant(1e300)), m_cell(std::max(mesh.edge_length, 1e-4)) {
+    Vec2 high = Vec2::Constant(-1e300);
+    for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
+      const Vec2& p = mesh.pattern[static_cast<std::size_t>(v)];
+      m_low = m_low.cwiseMin(p), high = high.cwiseMax(p);
+    }
+    m_cell = std::max(m_cell, (high - m_low).maxCoeff() / MOST_CELLS);
+    m_nx = cell_at(high.x() - m_low.x()) + 1, m_ny = cell_at(high.y() - m_low.y()) + 1;
+    m_triangles.resize(static_cast<std::size_t>(m_nx) * static_cast<std::size_t>(m_ny));
+    for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
+      Vec2 least = Vec2::Constant(1e300), most = Vec2::Constant(-1e300);
+      for (int v : mesh.triangles[static_cast<std::size_t>(f)]) {
+        const Vec2 p = mesh.pattern[static_cast<std::size_t>(v)] - m_low;
+        least = least.cwiseMin(p), most = most.cwiseMax(p);
+      }
+      for (int y = cell_at(least.y()); y <= cell_at(most.y()); ++y)
+        for (int x = cell_at(least.x()); x <= cell_at(most.x()); ++x) m_triangles[index(x, y)].push_back(f);
+    }
+  }
+  /// Those that may hold p, in their order; none outside the panel's box.
+  const std::vector<int>& near(const Vec2& p) const {
+    static const std::vector<int> none;
+    const Vec2 at = (p - m_low) / m_cell;
+    if (!(at.x() >= 0 && at.y() >= 0 && at.x() < m_nx && at.y() < m_ny)) return none;
+    return m_triangles[index(static_cast<int>(at.x()), static_cast<int>(at.y()))];
+  }
+
+private:
+  static constexpr double MOST_CELLS = 2000; // in a row
+  int cell_at(double offset) const { return static_cast<int>(offset / m_cell); }
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(m_nx) + static_cast<std::size_t>(x); }
+  Vec2 m_low;
+  double m_cell;
+  int m_nx = 0, m_ny = 0;
+  std::vector<std::vector<int>> m_triangles;
+};
+
 /// Where an edit opens cloth, both sides of the opening start in one place, and nothing could tell which is which. Each goes back a little
 /// into its own cloth. Cost: free edges squared.
 void part_free_edges(const std::vector<Triangle>& triangles, std::vector<Vec3>& position) {
@@ -120,23 +160,32 @@ void carry_to(Garment& garment, pattern::PanelMesh mesh) {
     if (sources.empty())
       for (const pattern::PanelInfo& p : old.panels) sources.push_back({&p});
     std::vector<double> votes(sources.size(), 0);
+    std::vector<PanelCells> cells;
+    for (const Source& s : sources) cells.emplace_back(old, *s.panel);
     for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
       double least = 1e300;
       std::size_t voted = 0;
+      const auto look_at = [&](std::size_t s, const Vec2& p, int f) {
+        const Triangle& t = old.triangles[static_cast<std::size_t>(f)];
+        double off = 0;
+        const Vec3 w = nearest_weights(
+            {old.pattern[static_cast<std::size_t>(t[0])], old.pattern[static_cast<std::size_t>(t[1])], old.pattern[static_cast<std::size_t>(t[2])]}, p, off);
+        if (off >= least) return;
+        least = off, voted = s;
+        Vec3 at = Vec3::Zero();
+        for (int k = 0; k < 3; ++k)
+          at += w[k] * garment.position[static_cast<std::size_t>(garment.particle_of[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])])];
+        position[static_cast<std::size_t>(v)] = at;
+      };
+      const auto place_in = [&](std::size_t s) { return Vec2(sources[s].turn.transpose() * (mesh.pattern[static_cast<std::size_t>(v)] - sources[s].shift)); };
       for (std::size_t s = 0; s < sources.size() && least > 0; ++s) {
-        const Vec2 p = sources[s].turn.transpose() * (mesh.pattern[static_cast<std::size_t>(v)] - sources[s].shift);
-        for (int f = sources[s].panel->first_triangle; f < sources[s].panel->first_triangle + sources[s].panel->n_triangles && least > 0; ++f) {
-          const Triangle& t = old.triangles[static_cast<std::size_t>(f)];
-          double off = 0;
-          const Vec3 w = nearest_weights(
-              {old.pattern[static_cast<std::size_t>(t[0])], old.pattern[static_cast<std::size_t>(t[1])], old.pattern[static_cast<std::size_t>(t[2])]}, p, off);
-          if (off >= least) continue;
-          least = off, voted = s;
-          Vec3 at = Vec3::Zero();
-          for (int k = 0; k < 3; ++k)
-            at += w[k] * garment.position[static_cast<std::size_t>(garment.particle_of[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])])];
-          position[static_cast<std::size_t>(v)] = at;
-        }
+        const Vec2 p = place_in(s);
+        const std::vector<int>& near = cells[s].near(p);
+        for (std::size_t k = 0; k < near.size() && least > 0; ++k) look_at(s, p, near[k]);
+      }
+      for (std::size_t s = 0; s < sources.size() && least > 0; ++s) { // beside all of them: the nearest
+        const Vec2 p = place_in(s);
+        for (int f = sources[s].panel->first_triangle; f < sources[s].panel->first_triangle + sources[s].panel->n_triangles && least > 0; ++f) look_at(s, p, f);
       }
       ++votes[voted];
     }

@@ -8,7 +8,7 @@ namespace sloper::garment {
 /// (with what was sewn to it and is now part of it, as joining does), else those that are gone (as splitting does). Body parts and
 /// materials of panels are kept; rest_scale and bind, which count old vertices, are emptied.
 /// Where the new mesh is open and the old one was not, both sides go back by a millimetre, so that they do not start in one place.
-/// Cost: new vertices times triangles of their panel, and free edges squared.
+/// Cost: new vertices; those beside the old panel times its triangles, and free edges squared.
 void carry_to(Garment& garment, pattern::PanelMesh mesh);
 
 } // namespace sloper::garment

@@ -40,7 +40,7 @@ public:
     if (garment.particle_of.empty()) throw input_error("", "", "the garment is not sewn yet", "drape it first, then let it follow edits");
     if (!garment.panels.source) throw input_error("", "", "the garment does not know the pattern it was made from", "mesh and drape the pattern again");
     m_pattern = *garment.panels.source;
-    m_follower.emplace(m_pattern, garment.panels);
+    ready_follower();
     if (m_follower->off_outline() > OFF_OUTLINE)
       throw input_error("", "",
                         "the panels are no longer those of the garment's pattern: a vertex lies " + pattern::centimetres(m_follower->off_outline()) +
@@ -62,7 +62,7 @@ public:
       const auto line = m_session.next_line(m_at_rest ? IDLE_MS : 0);
       if (line) take(*line);
       else if (m_session.ended()) break;
-      else if (!m_at_rest) frame(-1);
+      else if (!m_at_rest) frame();
       m_run.m_stopped = m_run.m_stopped || m_reporter.stop_requested();
     }
     settle();
@@ -85,12 +85,20 @@ private:
     m_run.m_settling = true;
   }
 
+  void ready_follower() {
+    if (!m_follower) m_follower.emplace(m_pattern, m_garment.panels);
+  }
+
   /// The first step makes what all later ones go on with: the matrix and its hierarchy, near pairs, friction's anchors. It is made before
-  /// an edit waits for it, and taken back.
+  /// an edit waits for it, and taken back. So are the panels' triangles, for the first edit that asks for another mesh.
   void warm_up() {
     const std::vector<Vec3> hung = m_run.m_solver->x();
     answer();
     m_run.m_solver->set_positions(hung);
+    m_run.m_solver->look_ahead(m_run.m_settings.time_step_s);
+    pattern::Pattern on_grid = m_pattern; // as after any edit
+    pattern::apply_edits(on_grid, io::Json{{"format", "edits"}, {"length_unit", "m"}, {"edits", io::Json::array()}}, "");
+    pattern::mesh_pattern(on_grid, m_garment.panels.edge_length, "edits", m_garment.panels.seam_length, &m_memory);
     m_run.m_at.cg_iterations.clear();
     m_run.m_report.simulated_s = 0;
   }
@@ -112,6 +120,7 @@ private:
       m_run.m_report.wall_s = m_run.elapsed();
       return;
     }
+    if (!m_finish) m_finish = m_report.edits == 0 ? Finish::WARM : m_run.m_body ? Finish::COLD : Finish::REPLAY;
     if (m_finish == Finish::COLD) return drape_cold();
     m_garment.position = m_run.m_solver->x();
     if (m_finish == Finish::REPLAY) change_from_start();
@@ -123,21 +132,32 @@ private:
     m_run.m_report.wall_s = m_run.elapsed();
   }
 
-  /// As if nothing had hung before: friction and folds remember the way that cloth came, so only the same way gives the same drape.
+  /// As if nothing had hung before: friction and folds remember the way that cloth came, so only the same way gives the same drape. The
+  /// panels are those of pattern-mesh --edits: of the first mesh while it can follow, else meshed anew.
   void drape_cold() {
-    pattern::place_panels(m_pattern, *m_run.m_body, m_garment.panels);
-    m_garment.particle_of.clear(), m_garment.position.clear();
+    const pattern::Pattern last = to_start();
+    if (!m_follower->follow(last, m_garment.panels, LEAST_ANGLE)) {
+      m_garment.panels = pattern::mesh_pattern(last, m_garment.panels.edge_length, "edits", m_garment.panels.seam_length, &m_memory);
+      m_untaped.clear();
+    }
+    m_garment.panels.source = std::make_shared<pattern::Pattern>(last);
+    tape();
+    pattern::place_panels(last, *m_run.m_body, m_garment.panels);
+    m_garment.particle_of.clear(), m_garment.position.clear(), m_garment.bind = {};
     m_run.m_report = drape(m_garment, m_run.m_body, m_run.m_settings, m_reporter);
   }
 
   /// As if all edits had come at once: the rest is then one of the first state and of the last pattern, whatever came between and when.
-  void change_from_start() {
-    const pattern::Pattern last = std::move(m_pattern);
+  void change_from_start() { adopt(to_start()); }
+
+  /// The garment as it came. @return the last pattern
+  pattern::Pattern to_start() {
+    pattern::Pattern last = std::move(m_pattern);
     m_garment = m_start;
     m_pattern = *m_start.panels.source;
-    m_follower.emplace(m_pattern, m_garment.panels);
+    m_follower.reset(), ready_follower();
     note_untaped();
-    adopt(last);
+    return last;
   }
 
   void take(const std::string& line) {
@@ -158,7 +178,11 @@ private:
         if (!node.has("edits")) document["edits"] = io::Json::array();
       } else {
         if (node.at("edit").string() == "end") {
-          const std::string finish = node.string("finish", "warm");
+          if (!node.has("finish")) {
+            m_end = true;
+            return;
+          }
+          const std::string finish = node.at("finish").string();
           if (finish != "warm" && finish != "replay" && finish != "cold") node.fail("there is no finish '" + finish + "'", "known are warm, replay and cold");
           if (finish == "cold" && !m_run.m_body) node.fail("without a body the panels cannot be placed for a cold finish", "give --body, or finish warm");
           m_end = true, m_finish = finish == "cold" ? Finish::COLD : finish == "replay" ? Finish::REPLAY : Finish::WARM;
@@ -181,7 +205,28 @@ private:
       m_reporter.warning(m_report.refused.back());
       return;
     }
-    frame(std::chrono::duration<double, std::milli>(Clock::now() - arrived).count(), true, cpu);
+    const auto since = [&] { return std::chrono::duration<double, std::milli>(Clock::now() - arrived).count(); };
+    if (!m_remeshed) return frame(since(), cpu);
+    FollowFrame f = next_frame();
+    answered(f, since(), cpu);
+    if (m_session.on_frame) m_session.on_frame(f, m_garment);
+    m_remeshed = false;
+    m_run.build_solver(false);
+    go_live();
+    frame(-1, 0, true);
+    ready_follower();
+  }
+
+  FollowFrame next_frame() {
+    FollowFrame f;
+    f.number = ++m_report.frames, f.edits = m_report.edits, f.remeshed = m_remeshed;
+    return f;
+  }
+
+  void answered(FollowFrame& f, double latency_ms, std::clock_t cpu) {
+    f.latency_ms = latency_ms;
+    f.cpu_ms = 1e3 * static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+    m_report.latency_ms.push_back(f.latency_ms), m_report.cpu_ms.push_back(f.cpu_ms);
   }
 
   /// The garment has this pattern from now on.
@@ -189,20 +234,19 @@ private:
     m_garment.position = m_run.m_solver->x();
     if (adopt(std::move(next))) rest_changed();
     else {
-      m_run.build_solver(false);
-      go_live();
       m_remeshed = true, ++m_report.remeshed;
       m_reporter.info("the edit asks for another mesh: vertex ids are new, the draped state is carried across");
-    }
+    } // the solver is made once the mesh was shown
   }
 
   /// @return whether particles are as before
   bool adopt(pattern::Pattern next) {
+    ready_follower();
     const bool follows = m_follower->follow(next, m_garment.panels, LEAST_ANGLE);
     if (!follows) {
-      carry_to(m_garment, pattern::mesh_pattern(next, m_garment.panels.edge_length, "edits", m_garment.panels.seam_length));
-      m_follower.emplace(next, m_garment.panels);
-      m_untaped.clear(); // it counted old triangles
+      carry_to(m_garment, pattern::mesh_pattern(next, m_garment.panels.edge_length, "edits", m_garment.panels.seam_length, &m_memory));
+      m_follower.reset(); // made when there is time
+      m_untaped.clear();  // it counted old triangles
     }
     m_pattern = std::move(next);
     m_garment.panels.source = std::make_shared<pattern::Pattern>(m_pattern);
@@ -238,26 +282,24 @@ private:
       if (effect->name() == std::string("shear")) static_cast<cloth::ShearEffect&>(*effect).set_rest(*m_run.m_cloth);
   }
 
-  void frame(double since_edit_ms, bool edited = false, std::clock_t cpu = 0) {
+  /// One step on the way to rest, or, where an edit came `since_edit_ms` ago, the one that answers it. @param wide  not searched, as an answer is not
+  void frame(double since_edit_ms = -1, std::clock_t cpu = 0, bool wide = false) {
     const auto began = Clock::now();
     const double h = m_run.m_settings.time_step_s;
+    const bool edited = since_edit_ms >= 0;
     m_run.m_report.steps = 0; // a session has no step limit
     m_run.m_settling = true;  // the way to rest is searched
-    if (!(edited ? answer() : m_run.step(h, 0, LARGEST_MOVE))) return;
-    FollowFrame f;
-    f.number = ++m_report.frames, f.edits = m_report.edits, f.remeshed = m_remeshed, f.cg_iterations = m_run.m_at.last.cg.iterations;
+    if (!(edited || wide ? answer() : m_run.step(h, 0, LARGEST_MOVE))) return;
+    FollowFrame f = next_frame();
+    f.cg_iterations = m_run.m_at.last.cg.iterations;
     f.speed_m_s = m_run.m_at.last.largest_move_m / h;
     const bool still = f.speed_m_s < m_run.m_settings.settle_speed_m_s && m_run.m_at.last.residual_force_ratio < m_run.m_settings.settle_force_ratio;
     m_calm = still ? m_calm + 1 : 0;
     f.at_rest = m_at_rest = m_calm >= CALM_STEPS;
     m_garment.position = m_run.m_solver->x();
-    if (edited) {
-      f.latency_ms = since_edit_ms + std::chrono::duration<double, std::milli>(Clock::now() - began).count();
-      f.cpu_ms = 1e3 * static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
-      m_report.latency_ms.push_back(f.latency_ms), m_report.cpu_ms.push_back(f.cpu_ms);
-    }
-    m_remeshed = false;
+    if (edited) answered(f, since_edit_ms + std::chrono::duration<double, std::milli>(Clock::now() - began).count(), cpu);
     if (m_session.on_frame) m_session.on_frame(f, m_garment);
+    m_run.m_solver->look_ahead(h); // while no edit waits
   }
 
   Garment& m_garment;
@@ -265,13 +307,14 @@ private:
   Reporter& m_reporter;
   DrapeRun m_run;
   pattern::Pattern m_pattern;
-  std::optional<pattern::MeshFollower> m_follower;
+  std::optional<pattern::MeshFollower> m_follower; ///< none: of m_pattern and the panels as they are
+  pattern::MeshMemory m_memory;
   std::vector<std::array<double, 3>> m_untaped; ///< rest_scale without the tapes, or empty
   io::Json m_head, m_log;
   Garment m_start; ///< as it came
   FollowReport m_report;
   int m_line = 0, m_calm = 0;
-  Finish m_finish = Finish::WARM;
+  std::optional<Finish> m_finish; ///< as asked for
   bool m_end = false, m_at_rest = false, m_remeshed = false;
 };
 

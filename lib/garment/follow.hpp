@@ -20,7 +20,7 @@ struct FollowFrame {
   double cpu_ms = 0;      ///< of all threads, over that time: what a machine with nothing else to do needs
   bool remeshed = false;  ///< particles are not those of the frame before
   double speed_m_s = 0;   ///< of the fastest particle
-  int cg_iterations = 0;  ///< of the step; at most FOLLOW_ANSWER_ITERATIONS where it answers an edit
+  int cg_iterations = 0;  ///< of the step; at most FOLLOW_ANSWER_ITERATIONS where it answers an edit, 0 where that shows another mesh
   bool at_rest = false;
 };
 
@@ -42,11 +42,13 @@ struct FollowReport {
 
 /// Lines: a head {"format": "edits", "version": 1, "length_unit": "cm"} (with "edits" too where some are to be taken at once), then one
 /// edit a line, as pattern::apply_edits() knows them; {"edit": "end"} ends the session where nothing else does. Blank lines are skipped.
-/// What it ends in is the cloth's own rest, which remembers the way that it came (by friction and folds: some millimetres). {"edit": "end",
-/// "finish": "replay"} goes back to where the session began and makes all edits at once: the same bytes for the same last pattern, whatever
-/// came between and however fast. "finish": "cold" drapes the edited pattern anew: to the bytes of pattern-mesh --edits and drape, while no
-/// edit asked for a mesh.
-/// After each edit the cloth makes at least one step before the next line is looked at; when no line comes, it goes on to rest.
+/// What a session ends in is a cold drape of the edited pattern, to the bytes of pattern-mesh --edits and drape with the same settings:
+/// what cloth comes to rest in remembers the way that it came (by friction and folds: millimetres), and only that way is in no file.
+/// {"edit": "end", "finish": "warm"} leaves the cloth in its own rest; "finish": "replay" goes back to where the session began and makes all
+/// edits at once: the same bytes for the same last pattern, whatever came between and however fast. Without a body the panels cannot
+/// be placed anew, and a session ends in a replay; without an edit the garment stays as it hangs.
+/// After each edit the cloth makes at least one step before the next line is looked at; when no line comes, it goes on to rest. An edit
+/// that asks for another mesh is answered by that mesh where the cloth hangs, and the step is the frame after it.
 /// @param garment  sewn, with the pattern it was meshed from (panels.source); left at rest, with that pattern edited
 /// @throws Error INPUT for a garment without its pattern, or whose panels are no longer its pattern's
 FollowReport follow(Garment& garment, const body::Body* body, const DrapeSettings& settings, const FollowSession& session, Reporter& reporter);

@@ -345,7 +345,7 @@ GarmentText garment_text(const Garment& garment, const std::string& mesh_name, c
   document["seams"] = Json::array();
   for (const pattern::MeshSeam& seam : garment.panels.seams) document["seams"].push_back(seam_json(seam));
   document["findings"] = garment.panels.findings;
-  if (garment.panels.source) document["pattern"] = pattern::pattern_json(*garment.panels.source, tool);
+  if (garment.panels.source) document["pattern"] = pattern::pattern_json(*garment.panels.source, tool, pattern::PatternNumbers::EXACT);
   document["rest_scale"] = rest_scale_json(garment);
   Json s = Json::array(), t = Json::array();
   for (const pattern::StableId& id : garment.panels.ids) {

@@ -75,6 +75,12 @@ Axis BodySpace::arm(bool left, int facing, double sleeve_length) const {
   return axis;
 }
 
+bool BodySpace::has_arm(bool left) const {
+  const std::string side = left ? "_l" : "_r";
+  const auto has = [&](const char* name) { return m_body.has_landmark(name + side); };
+  return (has("shoulder_joint") || has("acromion")) && (has("elbow") || has("wrist") || has("hand_tip")) && (has("wrist") || has("hand_tip"));
+}
+
 double BodySpace::shoulder_height(double x) const {
   double top = -1e300;
   for (std::size_t k = 0; k < m_part.size(); ++k)

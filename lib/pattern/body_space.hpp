@@ -29,6 +29,8 @@ public:
   /// @param facing 0 front, 1 back, 2 the outer, upper side
   Axis arm(bool left, int facing, double sleeve_length) const;
 
+  bool has_arm(bool left) const; ///< whether arm() has the landmarks that it needs
+
   double shoulder_height(double x) const; ///< of the skin at |x| from the middle, m
   double girth(double y) const;           ///< taut, of the trunk (torso and, below it, both legs) with 2 mm of cloth around; 0 where there is none
   /// Height at which the top edge of a skirt or trousers comes to sit, m: slid down from the narrowest place between bust and hip as

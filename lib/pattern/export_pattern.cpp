@@ -11,10 +11,10 @@ namespace {
 
 constexpr double DXF_CHORD = 0.002; // m
 
+/// In metres to the last bit; else edits keep coordinates on a grid of a nanometre: ten of them are rounded away, so that 20 cm are written as 20.
 io::Json path_json(const Path& path, double unit) {
   io::Json out = io::Json::array();
-  // Edits keep coordinates on a grid of a nanometre: ten of them are rounded away, so that 20 cm are written as 20.
-  const auto rounded = [&](double x) { return std::nearbyint(x / unit * 1e6) / 1e6 + 0.0; };
+  const auto rounded = [&](double x) { return unit == 1 ? x + 0.0 : std::nearbyint(x / unit * 1e6) / 1e6 + 0.0; };
   const auto point = [&](io::Json& item, const Vec2& p) { item.push_back(rounded(p.x())), item.push_back(rounded(p.y())); };
   io::Json start = io::Json::array({"M"});
   point(start, path.front().p[0]);
@@ -26,6 +26,14 @@ io::Json path_json(const Path& path, double unit) {
     out.push_back(item);
   }
   return out;
+}
+
+/// Degrees that are read back as the same angle, where there are any.
+double exact_degrees(double angle) {
+  const double d = units::degrees(angle);
+  for (double near : {d, std::nextafter(d, 1e9), std::nextafter(d, -1e9)})
+    if (units::radians(near) == angle) return near;
+  return d;
 }
 
 io::Json loop_json(const std::vector<PanelEdge>& loop, double unit) {
@@ -99,17 +107,17 @@ std::string number(double x) {
 
 } // namespace
 
-io::Json pattern_json(const Pattern& pattern, const std::string& tool) {
-  constexpr double UNIT = units::CM;
+io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNumbers numbers) {
+  const double unit = numbers == PatternNumbers::EXACT ? 1 : units::CM;
   io::Json doc = io::new_document("pattern", 1, tool);
-  doc["length_unit"] = "cm";
+  doc["length_unit"] = numbers == PatternNumbers::EXACT ? "m" : "cm";
   doc["name"] = pattern.name;
   io::Json panels = io::Json::array(), seams = io::Json::array();
   for (const Panel& p : pattern.panels) {
-    io::Json panel = {{"name", p.name}, {"outline", loop_json(p.loops[0], UNIT)}, {"grain", io::to_json(p.grain)}};
+    io::Json panel = {{"name", p.name}, {"outline", loop_json(p.loops[0], unit)}, {"grain", io::to_json(p.grain)}};
     if (p.loops.size() > 1) {
       io::Json holes = io::Json::array();
-      for (std::size_t k = 1; k < p.loops.size(); ++k) holes.push_back(loop_json(p.loops[k], UNIT));
+      for (std::size_t k = 1; k < p.loops.size(); ++k) holes.push_back(loop_json(p.loops[k], unit));
       panel["holes"] = holes;
     }
     if (!p.material.empty()) panel["material"] = p.material;
@@ -123,8 +131,8 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool) {
     if (!p.lines.empty()) {
       io::Json lines = io::Json::array();
       for (const InnerLine& line : p.lines) {
-        lines.push_back({{"name", line.name}, {"kind", line.kind}, {"path", path_json(line.path, UNIT)}});
-        if (line.kind == "tape") lines.back()["factor"] = line.factor, lines.back()["width"] = line.width / UNIT;
+        lines.push_back({{"name", line.name}, {"kind", line.kind}, {"path", path_json(line.path, unit)}});
+        if (line.kind == "tape") lines.back()["factor"] = line.factor, lines.back()["width"] = line.width / unit;
       }
       panel["lines"] = lines;
     }
@@ -142,10 +150,16 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool) {
     }
     io::Json place = io::Json::object();
     if (!p.hint.part.empty()) place["part"] = p.hint.part;
-    if (p.hint.theta) place["theta_deg"] = units::degrees(*p.hint.theta);
-    if (p.hint.radius) place["radius"] = *p.hint.radius / UNIT;
-    if (p.hint.anchor) place["anchor"] = io::to_json(Vec2(*p.hint.anchor / UNIT));
-    if (p.hint.height) place["height"] = *p.hint.height / UNIT;
+    if (p.hint.theta) place["theta_deg"] = exact_degrees(*p.hint.theta);
+    if (p.hint.radius) place["radius"] = *p.hint.radius / unit;
+    if (p.hint.anchor) place["anchor"] = io::to_json(Vec2(*p.hint.anchor / unit));
+    if (p.hint.height) place["height"] = *p.hint.height / unit;
+    if (p.hint.rigid) {
+      io::Json rigid = io::Json::array();
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 4; ++c) rigid.push_back((*p.hint.rigid)(r, c) / (c == 3 ? unit : 1));
+      place["rigid"] = rigid;
+    }
     if (!place.empty()) panel["place"] = place;
     panels.push_back(panel);
   }

@@ -5,8 +5,12 @@
 
 namespace sloper::pattern {
 
-/// Our own pattern document, centimetres, curves as cubic Beziers; read_pattern_json() gives the same panels and seams back.
-io::Json pattern_json(const Pattern& pattern, const std::string& tool);
+/// How a pattern document says lengths: for people, centimetres rounded to ten nanometres, or for programs, metres to the last bit, so
+/// that what is meshed and placed from it again has the same bytes.
+enum class PatternNumbers { ROUNDED, EXACT };
+
+/// Our own pattern document, curves as cubic Beziers; read_pattern_json() gives the same panels and seams back.
+io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNumbers numbers = PatternNumbers::ROUNDED);
 
 /// AAMA DXF R12, millimetres: one block per panel, sew line on layer 14 (curves as chords of 2 mm), turn points on 2, curve points
 /// on 3, notches on 4 (those read from 80 to 83 there), grain on 7, cut-outs on 11. Sewing as layer-15 texts

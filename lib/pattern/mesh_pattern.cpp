@@ -92,9 +92,41 @@ std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel, const Boundary:
   return out;
 }
 
+/// More vertices than any drape could bear come of a unit that is none, and would fill the memory first.
+void require_few_vertices(const Pattern& pattern, const PanelMesh& mesh, const std::string& file) {
+  constexpr double MOST_VERTICES = 5e6;
+  double area = 0;
+  for (const Panel& p : pattern.panels) {
+    std::vector<Path> outline;
+    for (const PanelEdge& e : p.loops[0]) outline.push_back(e.path);
+    area += std::abs(signed_area(outline));
+  }
+  const double n = area / (mesh.edge_length * mesh.edge_length * std::sqrt(0.75));
+  if (!(n <= MOST_VERTICES))
+    throw input_error(file, pattern.name,
+                      "would have " + std::to_string(std::lround(std::min(n, 1e15))) + " vertices at an edge length of " + centimetres(mesh.edge_length),
+                      "give a larger --edge-length, or check the pattern's unit");
+}
+
+/// What the triangles of a panel depend on.
+struct PanelTask {
+  std::vector<std::vector<Vec2>> loops, lines;
+  std::vector<char> must_split;
+  SizeField size;
+  bool operator==(const PanelTask&) const = default;
+};
+
 } // namespace
 
-PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::string& file, double seam_length) {
+struct MeshMemory::Panels {
+  std::vector<PanelTask> tasks;
+  std::vector<FlatMesh> flat; ///< of each task
+};
+MeshMemory::MeshMemory() : m_panels(std::make_unique<Panels>()) {}
+MeshMemory::~MeshMemory() = default;
+MeshMemory::MeshMemory(MeshMemory&&) noexcept = default;
+
+PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::string& file, double seam_length, MeshMemory* memory) {
   const Pattern pattern = with_folds(drawn, file);
   PanelMesh mesh;
   mesh.name = pattern.name;
@@ -107,13 +139,22 @@ PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::stri
 
   std::vector<FlatMesh> flat(pattern.panels.size());
   std::vector<std::string> failed(pattern.panels.size());
-  std::vector<std::vector<std::vector<Vec2>>> lines;
-  for (std::size_t p = 0; p < pattern.panels.size(); ++p) lines.push_back(sampled_lines(pattern.panels[p], boundary.panels[p], edge_length, mesh.findings));
+  std::vector<PanelTask> tasks;
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
+    const Boundary::PanelBoundary& b = boundary.panels[p];
+    tasks.push_back({b.loops, sampled_lines(pattern.panels[p], b, edge_length, mesh.findings), b.must_split, size_field(pattern, p, b, mesh)});
+  }
+  require_few_vertices(pattern, mesh, file);
   parallel_for(pattern.panels.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       try {
-        flat[p] = triangulate(boundary.panels[p].loops, size_field(pattern, p, boundary.panels[p], mesh), boundary.panels[p].must_split, pattern.panels[p].name,
-                              lines[p]);
+        const PanelTask& task = tasks[p];
+        if (memory)
+          if (const auto same = std::find(memory->m_panels->tasks.begin(), memory->m_panels->tasks.end(), task); same != memory->m_panels->tasks.end()) {
+            flat[p] = memory->m_panels->flat[static_cast<std::size_t>(same - memory->m_panels->tasks.begin())];
+            continue;
+          }
+        flat[p] = triangulate(task.loops, task.size, task.must_split, pattern.panels[p].name, task.lines);
       } catch (const Error& e) {
         failed[p] = e.fact();
       }
@@ -141,6 +182,7 @@ PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::stri
     mesh.panels.push_back(info);
     list_small_angles(mesh, mesh.panels.back());
   }
+  if (memory) *memory->m_panels = {std::move(tasks), std::move(flat)};
   for (std::size_t s = 0; s < pattern.seams.size(); ++s) {
     const Seam& seam = pattern.seams[s];
     MeshSeam out{seam.name, seam.kind, {}, {}, side_length(pattern, seam.a), side_length(pattern, seam.b), seam.open};

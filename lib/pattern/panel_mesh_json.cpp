@@ -82,7 +82,7 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
   }
   doc["seams"] = seams;
   doc["findings"] = mesh.findings;
-  if (mesh.source) doc["pattern"] = pattern_json(*mesh.source, tool);
+  if (mesh.source) doc["pattern"] = pattern_json(*mesh.source, tool, PatternNumbers::EXACT);
   const std::string text = io::to_text(doc); // before anything is written
   io::write_obj(mesh_path, obj, generator_stamp(tool));
   io::write_json(path, doc);

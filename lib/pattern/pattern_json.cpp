@@ -33,7 +33,7 @@ void read_fold(const io::Node& node, Panel& panel) {
 }
 
 void read_place(const io::Node& node, Panel& panel, double unit) {
-  node.allow_only({"part", "theta_deg", "radius", "anchor", "height"});
+  node.allow_only({"part", "theta_deg", "radius", "anchor", "height", "rigid"});
   panel.hint.part = node.string("part", "");
   const char* parts[] = {"", "torso", "neck", "arm_l", "arm_r", "leg_l", "leg_r", "lower_body", "head"};
   if (std::find(std::begin(parts), std::end(parts), panel.hint.part) == std::end(parts))
@@ -42,6 +42,15 @@ void read_place(const io::Node& node, Panel& panel, double unit) {
   if (node.has("radius")) panel.hint.radius = node.at("radius").number() * unit;
   if (node.has("anchor")) panel.hint.anchor = node.at("anchor").vec2() * unit;
   if (node.has("height")) panel.hint.height = node.at("height").number() * unit;
+  if (node.has("rigid")) {
+    const io::Node rigid = node.at("rigid");
+    if (rigid.size() != 12) rigid.fail("is no rigid motion", "give three rows of four numbers: a rotation and a shift");
+    Mat4 m = Mat4::Identity();
+    for (std::size_t k = 0; k < 12; ++k) m(static_cast<long>(k / 4), static_cast<long>(k % 4)) = rigid.at(k).number() * (k % 4 == 3 ? unit : 1);
+    if (!((m.topLeftCorner<3, 3>() * m.topLeftCorner<3, 3>().transpose() - Mat3::Identity()).cwiseAbs().maxCoeff() < 1e-6))
+      rigid.fail("its first three columns are no rotation");
+    panel.hint.rigid = m;
+  }
 }
 
 int line_named(const Panel& panel, const io::Node& node) {
@@ -118,7 +127,7 @@ void read_panel(const io::Node& node, Pattern& pattern, double unit) {
   if (node.has("grain")) {
     panel.grain = node.at("grain").vec2();
     if (!(panel.grain.norm() > 0)) node.at("grain").fail("panel " + panel.name + ": the grain has no direction");
-    panel.grain.normalize();
+    if (!(std::abs(panel.grain.squaredNorm() - 1) < 1e-15)) panel.grain.normalize(); // what is of unit length stays to the bit
   }
   panel.material = node.string("material", panel.material), panel.layer = node.integer("layer", panel.layer), panel.label = node.string("label", panel.label);
   if (node.has("place")) read_place(node.at("place"), panel, unit);

@@ -8,6 +8,8 @@
 #include <pattern/leg_tube.hpp>
 #include <pattern/panel_layout.hpp>
 #include <pattern/place_panels.hpp>
+#include <pattern/sleeve_bend.hpp>
+#include <pattern/wrap_curve.hpp>
 
 namespace sloper::pattern {
 
@@ -67,6 +69,8 @@ private:
   /// z in front of which (or behind which, for backs) the wings must stay: past the arms that hang within the panels' reach.
   double wing_limit(const PanelGroup& group, const Axis& axis, const std::array<Vec2, 2>& b, const std::vector<Vec2>& hull) const;
   void place_trunk(const PanelGroup& group);
+  /// Of sleeves cut in one with the panels of a group that lies on this curve.
+  std::vector<SleeveBend> sleeve_bends(const PanelGroup& group, const Axis& axis, const WrapCurve& curve) const;
   /// Gores that widen downwards stand on a cone: each is a sector of it, so that neighbours' sides lie along each other. Not where they
   /// differ: in where their tops are, as gores and godets do, or in how far off the tip of their cone would be.
   bool place_on_cone(const PanelGroup& group, const std::vector<std::size_t>& row, const std::vector<Vec2>& hull);

@@ -18,6 +18,7 @@ public:
   double fine() const { return m_fine; }
   bool uniform() const { return m_lines.empty() || m_fine >= m_usual; }
   double at(const Vec2& p) const; ///< m. Cost: the number of lines
+  bool operator==(const SizeField&) const = default;
 
 private:
   double m_usual, m_fine;

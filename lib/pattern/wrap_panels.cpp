@@ -3,7 +3,6 @@
 #include <pattern/leg_layout.hpp>
 #include <pattern/leg_roles.hpp>
 #include <pattern/placer.hpp>
-#include <pattern/wrap_curve.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -139,8 +138,35 @@ void Placer::place_trunk(const PanelGroup& group) {
       curves.emplace(depth, WrapCurve::front_of(hull, GAP + out, wing + out, FILLET, axis.plane(Vec3(0, 0, 0)).x()));
     }
     const WrapCurve& curve = curves.at(depth);
-    put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x()), p.y()); });
+    const std::vector<SleeveBend> bends = sleeve_bends(group, axis, curve);
+    put(k, [&](const Vec2& p) {
+      Vec2 q = p;
+      for (const SleeveBend& bend : bends) q = bend.at(q);
+      return axis.point(curve.at(q.x()), q.y());
+    });
   }
+}
+
+std::vector<SleeveBend> Placer::sleeve_bends(const PanelGroup& group, const Axis& axis, const WrapCurve& curve) const {
+  std::vector<SleeveBend> out;
+  std::vector<std::vector<Vec2>> outlines;
+  for (std::size_t k : group.panels) {
+    outlines.emplace_back();
+    for (int v : m_mesh.panels[k].outline) outlines.back().push_back(uv(k, v));
+  }
+  const double reach = std::max(std::abs(bounds(group)[0].x()), std::abs(bounds(group)[1].x()));
+  for (const double sign : {1.0, -1.0}) {
+    const bool left = sign * axis.right().x() > 0;
+    if (!m_space.has_arm(left)) continue;
+    const Axis arm = m_space.arm(left, 0, reach - std::abs(axis.plane(m_space.arm(left, 0, 0).origin).x()));
+    const double out_to = sign * axis.plane(arm.origin).x();
+    double u = 0; // along the cloth to above the joint
+    while (u < reach && sign * curve.at(sign * u).x() < out_to) u += 0.002;
+    const Vec3 along = -arm.up;
+    const auto bend = SleeveBend::find(outlines, sign, Vec2(sign * u, arm.origin.y()), std::atan2(along.y(), std::abs(along.x())));
+    if (bend) out.push_back(*bend);
+  }
+  return out;
 }
 
 bool Placer::place_on_cone(const PanelGroup& group, const std::vector<std::size_t>& row, const std::vector<Vec2>& hull) {

@@ -53,7 +53,10 @@ Garment draped_skirt(const body::Body& pillar, double edge_length = 0.03, const 
   return skirt;
 }
 
+/// The lines, and where they do not end the session, an end in the rest that the cloth comes to by itself.
 FollowReport play(Garment& garment, const body::Body& body, std::vector<std::string> lines, std::vector<FollowFrame>* frames = nullptr, int max_steps = 1500) {
+  if (std::none_of(lines.begin(), lines.end(), [](const std::string& line) { return line.find(R"("end")") != std::string::npos; }))
+    lines.emplace_back(R"({"edit": "end", "finish": "warm"})");
   std::size_t at = 0;
   const FollowSession session{[&](int) { return at < lines.size() ? std::optional<std::string>(lines[at++]) : std::nullopt; },
                               [&] { return at == lines.size(); },
@@ -120,26 +123,73 @@ TEST(Follow, the_same_lines_give_the_same_bytes_and_no_edit_leaves_the_drape_whe
   EXPECT_EQ(strict_hash(one), strict_hash(two));
 }
 
-TEST(Follow, a_cold_finish_gives_the_bytes_of_a_cold_drape_of_the_edited_pattern) {
-  const body::Body pillar = make_pillar();
-  const Garment start = draped_skirt(pillar);
-  Garment live = start;
-  const FollowReport report = play(live, pillar,
-                                   {HEAD, R"({"edit": "move-edge", "panel": "front", "edge": "hem", "by": [0, -1]})",
-                                    R"({"edit": "take-in", "seam": "left", "by": 0.3})", R"({"edit": "end", "finish": "cold"})", "never read"});
-  EXPECT_TRUE(report.drape.converged) << report.drape.stop_reason;
-  EXPECT_EQ(report.edits, 2);
+namespace {
+
+/// What pattern-mesh --edits and drape make of the pattern and a log.
+Garment cold_drape(const Garment& start, const io::Json& log, const body::Body& body) {
   Garment cold;
   pattern::Pattern edited = *start.panels.source;
   cold.materials = start.materials;
-  cold.panels = pattern::mesh_pattern(edited, 0.03, "skirt");
-  pattern::apply_edits(edited, report.log, "edits");
-  ASSERT_TRUE(pattern::follow_edits(*start.panels.source, edited, cold.panels, 15));
-  pattern::place_panels(edited, pillar, cold.panels);
-  drape(cold, &pillar, {}, silent_reporter());
-  EXPECT_EQ(strict_hash(live), strict_hash(cold));
+  cold.panels = pattern::mesh_pattern(edited, start.panels.edge_length, "skirt");
+  pattern::apply_edits(edited, log, "edits");
+  if (!pattern::follow_edits(*start.panels.source, edited, cold.panels, 15)) cold.panels = pattern::mesh_pattern(edited, start.panels.edge_length, "skirt");
+  pattern::place_panels(edited, body, cold.panels);
+  drape(cold, &body, {}, silent_reporter());
+  return cold;
+}
+
+} // namespace
+
+TEST(Follow, a_session_ends_in_the_bytes_of_a_cold_drape_of_the_edited_pattern) {
+  const body::Body pillar = make_pillar();
+  const Garment start = draped_skirt(pillar);
+  const std::string hem = R"({"edit": "move-edge", "panel": "front", "edge": "hem", "by": [0, -1]})",
+                    side = R"({"edit": "take-in", "seam": "left", "by": 0.3})", open = R"({"edit": "open", "seam": "left"})",
+                    close = R"({"edit": "close", "seam": "left"})",
+                    split = R"({"edit": "split", "panel": "front", "from": [0, -1], "to": [0, 41], "names": ["west", "east"], "sew": true})",
+                    asked = R"({"edit": "end", "finish": "cold"})", end = R"({"edit": "end"})";
+  // Asked for and by itself; in place, over another mesh, and over another mesh and back.
+  for (const std::vector<std::string>& edits :
+       {std::vector<std::string>{hem, side, asked, "never read"}, {hem, side, end}, {hem, split, end}, {open, hem, close, side, end}}) {
+    Garment live = start;
+    std::vector<std::string> lines = {HEAD};
+    lines.insert(lines.end(), edits.begin(), edits.end());
+    const FollowReport report = play(live, pillar, lines);
+    EXPECT_TRUE(report.drape.converged) << report.drape.stop_reason;
+    EXPECT_TRUE(report.refused.empty());
+    const Garment cold = cold_drape(start, report.log, pillar);
+    EXPECT_EQ(live.panels.pattern, cold.panels.pattern) << edits[1];
+    EXPECT_EQ(strict_hash(live), strict_hash(cold)) << edits[1];
+  }
   Garment other = start;
   EXPECT_EQ(play(other, pillar, {HEAD, R"({"edit": "end", "finish": "luke"})"}).refused.size(), 1u);
+}
+
+TEST(Follow, a_garment_read_from_its_document_ends_in_the_same_bytes) { // the pattern within is kept to the last bit
+  const body::Body pillar = make_pillar();
+  Garment start = draped_skirt(pillar);
+  auto source = std::make_shared<pattern::Pattern>(*start.panels.source);
+  source->panels[0].hint.rigid = Mat4(Mat4::Identity() * 1.0);
+  (*source->panels[0].hint.rigid)(2, 3) = 0.2 / 3;
+  source->panels[1].hint.part = "torso", source->panels[1].hint.theta = std::acos(-1.0) / 3, source->panels[1].hint.height = 1.0 / 3;
+  source->panels[1].grain = Vec2(1, 3).normalized();
+  start.panels.source = source;
+  const auto folder = std::filesystem::temp_directory_path() / ("sloper_exact_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  write_garment((folder / "skirt.json").string(), start, "test");
+  const Garment back = read_garment((folder / "skirt.json").string());
+  std::filesystem::remove_all(folder);
+  const pattern::Pattern &a = *start.panels.source, &b = *back.panels.source;
+  for (std::size_t p = 0; p < 2; ++p) {
+    EXPECT_EQ(a.panels[p].grain, b.panels[p].grain);
+    EXPECT_EQ(a.panels[p].hint.theta, b.panels[p].hint.theta);
+    EXPECT_EQ(a.panels[p].hint.height, b.panels[p].hint.height);
+    ASSERT_EQ(a.panels[p].hint.rigid.has_value(), b.panels[p].hint.rigid.has_value());
+    if (p == 0) EXPECT_EQ(*a.panels[p].hint.rigid, *b.panels[p].hint.rigid);
+    for (int e = 0; e < a.panels[p].n_edges(); ++e)
+      for (std::size_t s = 0; s < a.panels[p].edge(e).path.size(); ++s)
+        for (std::size_t k : {0, 3}) EXPECT_EQ(a.panels[p].edge(e).path[s].p[k], b.panels[p].edge(e).path[s].p[k]);
+  }
 }
 
 TEST(Follow, a_replay_ends_in_the_same_bytes_whatever_came_between) {
@@ -186,10 +236,14 @@ TEST(Follow, an_edit_that_asks_for_another_mesh_carries_the_draped_state_across)
                                     R"({"edit": "move-edge", "panel": "back", "edge": "hem", "by": [0, -1]})"},
                                    &frames, 150);
   EXPECT_EQ(report.remeshed, 1);
-  ASSERT_EQ(frames.size(), 2u);
+  ASSERT_EQ(frames.size(), 3u);
   EXPECT_TRUE(frames[0].remeshed);
-  EXPECT_LT(frames[0].speed_m_s, 0.3) << "the cloth starts where it hung";
+  EXPECT_EQ(frames[0].speed_m_s, 0) << "the new mesh is shown at once, where the cloth hung";
+  EXPECT_GE(frames[0].latency_ms, 0);
   EXPECT_FALSE(frames[1].remeshed);
+  EXPECT_LT(frames[1].latency_ms, 0) << "and goes on from there";
+  EXPECT_LT(frames[1].speed_m_s, 0.3);
+  EXPECT_EQ(frames[2].edits, 2);
   EXPECT_EQ(skirt.panels.panels.size(), 3u);
   EXPECT_EQ(report.drape.quality["faces_through_body"], 0);
   EXPECT_EQ(report.drape.quality["self_intersections"], 0);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <pattern/place_panels.hpp>
+#include <pattern/sleeve_bend.hpp>
 
 namespace sloper::pattern::test {
 namespace {
@@ -91,6 +92,70 @@ TEST(Placement, LongSleevesEndAtTheWristAndTheirEdgesMeetBeyondTheArm) {
       }
     }
   }
+}
+
+/// Front and back with sleeves cut in one with them, drawn nearly level; `under` is how far the sleeves reach down, cm.
+Pattern kimono(double under = 38) {
+  const auto panel = [&](const std::string& name, const std::string& l, const std::string& r, double neck) {
+    const std::string u = std::to_string(under), v = std::to_string(under + 4), w = std::to_string(under - 5);
+    return R"({"name": ")" + name + R"(", "outline": [{"edge": "hem", "path": [["M", -27, 0], ["L", 27, 0]]}, {"edge": "side_)" + l +
+           R"(", "path": [["L", 27, )" + w + R"(]]}, {"edge": "under_)" + l + R"(", "path": [["Q", 27, )" + u + ", 32, " + u + R"(], ["L", 62, )" + v +
+           R"(]]}, {"edge": "cuff_)" + l + R"(", "path": [["L", 59, 62]]}, {"edge": "top_)" + l +
+           R"(", "path": [["L", 10, 66]]}, {"edge": "neck", "path": [["C", 8, )" + std::to_string(neck) + ", -8, " + std::to_string(neck) +
+           R"(, -10, 66]]}, {"edge": "top_)" + r + R"(", "path": [["L", -59, 62]]}, {"edge": "cuff_)" + r + R"(", "path": [["L", -62, )" + v +
+           R"(]]}, {"edge": "under_)" + r + R"(", "path": [["L", -32, )" + u + R"(], ["Q", -27, )" + u + ", -27, " + w + R"(]]}, {"edge": "side_)" + r +
+           R"(", "path": [["L", -27, 0]]}]})";
+  };
+  std::string seams;
+  for (const char* name : {"side_l", "under_l", "top_l", "side_r", "under_r", "top_r"})
+    seams += std::string(seams.empty() ? "" : ", ") + R"({"name": ")" + name + R"(", "a": [{"panel": "front", "edge": ")" + name +
+             R"("}], "b": [{"panel": "back", "edge": ")" + name + R"("}]})";
+  return own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "kimono", "panels": [)" + panel("front", "l", "r", 56) + ", " +
+             panel("back", "r", "l", 64) + R"(], "seams": [)" + seams + "]}");
+}
+
+TEST(Placement, SleevesCutInOneWithTheTrunkLieAlongTheArmsHoweverTheyHang) {
+  for (double under : {38.0, 25.0}) // a kimono's, a batwing's
+    for (double arm : {20.0, 45.0, 70.0, 90.0}) {
+      SCOPED_TRACE(std::to_string(arm) + " degrees, sleeves down to " + std::to_string(under) + " cm");
+      const Pattern pattern = kimono(under);
+      PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+      EXPECT_EQ(sew(mesh).wrong_direction, 0);
+      const body::Body body = stick_body(arm);
+      const PlacementReport report = place_panels(pattern, body, mesh);
+      EXPECT_EQ(report.crossings, 0);
+      EXPECT_EQ(report.vertices_inside, 0);
+      EXPECT_EQ(report.faces_through, 0);
+      for (int p = 0; p < 2; ++p) {
+        const PanelInfo& info = mesh.panels[static_cast<std::size_t>(p)];
+        double least = 1e300; // no part of a panel lies on another: seen from outside, all triangles keep their sense
+        for (int f = info.first_triangle; f < info.first_triangle + info.n_triangles; ++f) {
+          const Triangle& t = mesh.triangles[static_cast<std::size_t>(f)];
+          const auto at = [&](std::size_t k) { return mesh.placed[static_cast<std::size_t>(t[k])]; };
+          least = std::min(least, (p == 0 ? 1 : -1) * (at(1) - at(0)).cross(at(2) - at(0)).z());
+        }
+        EXPECT_GT(least, -1e-12) << info.name;
+        for (const double side : {1.0, -1.0}) { // the end of each sleeve is about the arm
+          const Vec3 shoulder(side * 0.19, 1.36, 0), along(side * std::sin(arm * M_PI / 180), -std::cos(arm * M_PI / 180), 0);
+          Vec3 end = Vec3::Zero();
+          int n = 0;
+          for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v)
+            if (const double u = (p == 0 ? 1 : -1) * mesh.pattern[static_cast<std::size_t>(v)].x(); side * u > 0.585)
+              end += mesh.placed[static_cast<std::size_t>(v)], ++n;
+          end /= n;
+          const Vec3 off = end - shoulder - (end - shoulder).dot(along) * along;
+          EXPECT_LT(std::hypot(off.x(), off.y()), 0.06) << info.name << (side > 0 ? " left" : " right");
+          EXPECT_GT((end - shoulder).dot(along), 0.2);
+        }
+      }
+    }
+}
+
+TEST(Placement, AWideTrunkWithoutSleevesIsNotBent) { // a poncho's width is that of its trunk
+  const std::vector<std::vector<Vec2>> poncho = {{{-0.6, 0.7}, {0.6, 0.7}, {0.6, 1.4}, {-0.6, 1.4}}},
+                                       bodice = {{{-0.26, 0.9}, {0.26, 0.9}, {0.24, 1.4}, {-0.24, 1.4}}};
+  EXPECT_FALSE(SleeveBend::find(poncho, 1, Vec2(0.2, 1.36), -1));
+  EXPECT_FALSE(SleeveBend::find(bodice, 1, Vec2(0.2, 1.36), -1));
 }
 
 TEST(Placement, WrappingKeepsLengths) {
