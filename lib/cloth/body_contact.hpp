@@ -44,6 +44,9 @@ public:
   void declare(std::vector<std::array<int, 2>>& pairs) const override;
   void bind(const BlockMatrix& matrix) override;
   void begin_step(const std::vector<Vec3>& x, double h) override;
+  void look_ahead(const std::vector<Vec3>& x, double h) override {
+    if (m_n_crossing == 0) begin_step(x, h); // what crosses is pushed harder with every search
+  }
   void add(StepContext& c) override;
   double energy(const std::vector<Vec3>& x) const override; ///< of the pairs of the last search and of the ties of friction
 

@@ -28,6 +28,8 @@ public:
   virtual void bind(const BlockMatrix&) {}
   /// Before assembly: find contacts for the positions x.
   virtual void begin_step(const std::vector<Vec3>& /*x*/, double /*h*/) {}
+  /// Does now what the next begin_step() at x would do first, where that can be done twice.
+  virtual void look_ahead(const std::vector<Vec3>& /*x*/, double /*h*/) {}
   virtual void add(StepContext& context) = 0;
   /// Potential at x, J; 0 for what has none (damping, friction).
   virtual double energy(const std::vector<Vec3>& /*x*/) const { return 0; }

@@ -212,7 +212,7 @@ void ClothSolver::look_ahead(double h) {
   if (m_pattern_stale) return; // pairs hold places in the matrix
   for (const auto& e : m_effects) {
     const Stopwatch watch(e->wall_s);
-    e->begin_step(m_x, h);
+    e->look_ahead(m_x, h);
   }
 }
 

@@ -31,6 +31,9 @@ public:
   SelfContactEffect(const ClothMesh& mesh, const SelfContactOptions& options, std::vector<int> seam_class = {});
   const char* name() const override { return "self_contact"; }
   void begin_step(const std::vector<Vec3>& x, double h) override;
+  void look_ahead(const std::vector<Vec3>& x, double h) override {
+    if (m_crossings.empty()) begin_step(x, h);
+  }
   void add(StepContext& c) override;
   double energy(const std::vector<Vec3>& x) const override;
   bool guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) override;

@@ -41,14 +41,14 @@ std::optional<SleeveBend> SleeveBend::find(const std::vector<std::vector<Vec2>>&
     const double reach = reach_at(outlines, sign, y);
     if (reach <= 0) continue;
     if (y < shoulder.y() && reach < trunk + SLEEVE_ROW) trunk = std::min(trunk, reach), crook = y;
-    tip = std::max(tip, reach);
   }
+  for (double y = crook; y < high; y += SLEEVE_ROW) tip = std::max(tip, reach_at(outlines, sign, y)); // flares are below
   if (!(tip > std::max(trunk, sign * shoulder.x()) + SLEEVE_LEAST)) return std::nullopt;
   Vec2 end = Vec2::Zero();
   double n = 0;
   for (const auto& loop : outlines)
     for (const Vec2& p : loop)
-      if (sign * p.x() > tip - SLEEVE_END && p.y() > low) end += p, ++n;
+      if (sign * p.x() > tip - SLEEVE_END && p.y() > crook) end += p, ++n;
   if (n == 0) return std::nullopt;
   end /= n;
   SleeveBend bend;

@@ -238,6 +238,32 @@ TEST(Contact, ClothThatFallsTogetherFallsFreely) {
   for (std::size_t i = 0; i < s.x.size(); ++i) EXPECT_NEAR(s.x[i].y() - solver.x()[i].y(), fallen, 1e-3 * fallen);
 }
 
+TEST(Contact, LookingAheadChangesNoStep) {
+  collision::BodyCollider body(table(7, 0.2));
+  for (const double height : {0.004, -0.001}) { // outside, and with faces in the skin, which are pushed harder with every search
+    Grid grid = make_grid(14, 0.26);
+    for (Vec3& p : grid.x) p += Vec3(-0.03, height, 0.03);
+    std::vector<Vec3> end[2];
+    long ahead = 0;
+    for (const bool look : {false, true}) {
+      ClothSolver solver(grid.mesh, grid.x);
+      solver.emplace<EdgeSpringEffect>(grid.mesh);
+      solver.emplace<GravityEffect>(grid.mesh, Vec3(0, -9.81, 0));
+      auto& skin = solver.emplace<BodyContactEffect>(grid.mesh, body, BodyContactOptions{});
+      solver.emplace<SelfContactEffect>(grid.mesh, SelfContactOptions{});
+      for (int k = 0; k < 20; ++k) {
+        solver.step({});
+        const long searches = skin.searches;
+        if (look) solver.look_ahead(StepOptions{}.h);
+        ahead += skin.searches - searches;
+      }
+      end[look] = solver.x();
+    }
+    EXPECT_EQ(end[0], end[1]) << height;
+    if (height > 0) EXPECT_GT(ahead, 0);
+  }
+}
+
 class ContactFrom : public ::testing::TestWithParam<double> {};
 
 TEST_P(ContactFrom, ClothThatMeetsClothInOneStepDoesNotPassIt) {

@@ -1,6 +1,7 @@
 #include "mesh_quality.hpp"
 #include "pattern_texts.hpp"
 
+#include <base/error.hpp>
 #include <base/parallel.hpp>
 #include <ctime>
 #include <gtest/gtest.h>
@@ -19,6 +20,24 @@ TEST(Mesh, AreaIsThatOfTheOutline) {
   for (std::size_t p = 0; p < pattern.panels.size(); ++p)
     EXPECT_NEAR(mesh_area(mesh, mesh.panels[p]), outline_area(pattern.panels[p]), 1e-3 * outline_area(pattern.panels[p]));
 }
+
+TEST(Mesh, AMemoryOfPanelsChangesNothing) {
+  MeshMemory memory;
+  const auto same = [&](const Pattern& p, double h, double seam_h) {
+    const PanelMesh with = mesh_pattern(p, h, "t", seam_h, &memory), without = mesh_pattern(p, h, "t", seam_h);
+    EXPECT_EQ(with.pattern, without.pattern);
+    EXPECT_EQ(with.triangles, without.triangles);
+    EXPECT_EQ(with.findings, without.findings);
+  };
+  Pattern pattern = own(tube_text());
+  same(pattern, 0.015, 0), same(pattern, 0.015, 0);
+  pattern.panels[0].lines = {{"pocket", "mark", {Segment::straight({-0.1, 0.2}, {0.1, 0.25})}}};
+  same(pattern, 0.015, 0);                           // a line
+  pattern.seams.pop_back(), same(pattern, 0.015, 0); // a seam
+  same(pattern, 0.015, 0.006), same(pattern, 0.012, 0.006), same(pattern, 0.012, 0);
+}
+
+TEST(Mesh, AnEdgeLengthFarTooSmallIsRefusedBeforeTheMemoryIsFull) { EXPECT_THROW(mesh_pattern(own(tube_text()), 1e-5, "t"), Error); }
 
 TEST(Mesh, NoTriangleLiesOnThreeBoundaryVertices) {
   const PanelMesh mesh = mesh_pattern(own(tube_text()), 0.015, "test.json");

@@ -153,7 +153,9 @@ TEST(Placement, SleevesCutInOneWithTheTrunkLieAlongTheArmsHoweverTheyHang) {
 
 TEST(Placement, AWideTrunkWithoutSleevesIsNotBent) { // a poncho's width is that of its trunk
   const std::vector<std::vector<Vec2>> poncho = {{{-0.6, 0.7}, {0.6, 0.7}, {0.6, 1.4}, {-0.6, 1.4}}},
-                                       bodice = {{{-0.26, 0.9}, {0.26, 0.9}, {0.24, 1.4}, {-0.24, 1.4}}};
+                                       bodice = {{{-0.26, 0.9}, {0.26, 0.9}, {0.24, 1.4}, {-0.24, 1.4}}},
+                                       skirt = {{{-0.9, 0.5}, {0.9, 0.5}, {0.18, 1.05}, {-0.18, 1.05}}};
+  EXPECT_FALSE(SleeveBend::find(skirt, 1, Vec2(0.2, 1.36), -1));
   EXPECT_FALSE(SleeveBend::find(poncho, 1, Vec2(0.2, 1.36), -1));
   EXPECT_FALSE(SleeveBend::find(bodice, 1, Vec2(0.2, 1.36), -1));
 }
