@@ -43,7 +43,7 @@ io::Json loop_json(const std::vector<PanelEdge>& loop, double unit) {
 }
 
 /// Text of group codes and values.
-class DxfText {
+class DxfWriter {
 public:
   void tag(int code, const std::string& value) { m_text += std::to_string(code) + "\n" + value + "\n"; }
   void tag(int code, double value) {
@@ -182,7 +182,7 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNu
 }
 
 std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_out) {
-  DxfText out;
+  DxfWriter out;
   out.tag(0, "SECTION"), out.tag(2, "HEADER"), out.tag(9, "$ACADVER"), out.tag(1, "AC1009"), out.tag(0, "ENDSEC");
   out.tag(0, "SECTION"), out.tag(2, "BLOCKS");
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
