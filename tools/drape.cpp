@@ -1,6 +1,7 @@
 /// drape: placed panels or a kept garment to cloth at rest on a body.
 #include <body/body_json.hpp>
 #include <cli/run_tool.hpp>
+#include <collision/skin_cache.hpp>
 #include <garment/bind.hpp>
 #include <garment/drape_job.hpp>
 #include <garment/garment_json.hpp>
@@ -20,9 +21,8 @@ using namespace sloper;
 namespace {
 
 struct Options {
-  std::string scene, body, panels, from, accuracy, effects, material, report, output, follow, frames, edit_log, motion;
+  std::string scene, body, panels, from, accuracy, effects, material, report, output, cache, checkpoint, follow, frames, edit_log, motion;
   std::vector<std::string> set, over, over_output;
-  std::string checkpoint;
   int checkpoint_steps = 100;
   double max_seconds = 0, max_error_mm = 0, motion_fps = 30;
   bool untangle_only = false;
@@ -72,6 +72,7 @@ void add_options(cli::Tool& tool, Options& o) {
       .check(cli::output_file());
   tool.option("--checkpoint-steps", o.checkpoint_steps, "steps from one checkpoint to the next; part of the result (default: 100)")
       .check(cli::finite_in(1, 1e6, "steps"));
+  tool.option("--cache", o.cache, "keep what is found out about a body in this folder, for later runs that meet it: the same result, sooner").type_name("DIR");
   tool.option("-o,--output", o.output, "shirt.json; shirt.obj is written beside it").required().check(cli::document_file());
   tool.example("drape --body body.json --panels panels.json --report report.json -o shirt.json", "drape a sewn pattern on a scanned body");
   tool.formats("scene, body, panels and garment documents (version 1)", "garment and report documents (version 1), OBJ");
@@ -160,6 +161,12 @@ int write_report(cli::Tool& tool, const Options& o, const garment::Garment& garm
   return static_cast<int>(ErrorKind::FAILED);
 }
 
+body::Body read_body(cli::Tool& tool, const Options& o) {
+  body::Body body = body::read_body(o.body);
+  body.skin_cache = std::make_shared<collision::SkinCache>(o.cache, tool.reporter());
+  return body;
+}
+
 /// Goes on from a checkpoint, which knows all but the body.
 int resume(cli::Tool& tool, const Options& o) {
   const cli::Given given[] = {
@@ -172,7 +179,7 @@ int resume(cli::Tool& tool, const Options& o) {
   garment::Garment garment;
   body::Body body;
   if (!o.body.empty()) {
-    body = body::read_body(o.body);
+    body = read_body(tool, o);
     garment.body_sha256 = body::skin_sha256(o.body);
     inputs.push_back(garment::input_entry(o.body));
   }
@@ -209,7 +216,7 @@ int run(cli::Tool& tool, Options& o) {
   std::vector<garment::Garment> layers;
   for (const std::string& path : o.over) layers.push_back(garment::read_garment(path));
   body::Body body;
-  if (!o.body.empty()) body = body::read_body(o.body);
+  if (!o.body.empty()) body = read_body(tool, o);
   const std::string skin = o.body.empty() ? "" : body::skin_sha256(o.body);
   std::vector<std::string> findings = garment::start_findings(garment, {source, o.body, skin, !o.from.empty()});
   if (!o.body.empty()) {

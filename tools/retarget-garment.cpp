@@ -1,6 +1,7 @@
 /// retarget-garment: a draped garment on another body, and how it fits there.
 #include <body/body_json.hpp>
 #include <cli/run_tool.hpp>
+#include <collision/skin_cache.hpp>
 #include <garment/bind.hpp>
 #include <garment/drape.hpp>
 #include <garment/fit.hpp>
@@ -18,7 +19,7 @@ using namespace sloper;
 namespace {
 
 struct Options {
-  std::string garment, to, mode = "keep-fabric", accuracy = "standard", policy, fit, fit_csv, fit_page, pattern, report, output;
+  std::string garment, to, mode = "keep-fabric", accuracy = "standard", policy, fit, fit_csv, fit_page, pattern, report, cache, output;
   std::vector<std::string> set;
   double max_seconds = 0;
   bool no_drape = false;
@@ -39,6 +40,7 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.option("--accuracy", o.accuracy, "how exact the re-drape is (default: standard)").check(cli::one_of(garment::accuracy_names()));
   tool.option("--set", o.set, "one setting of the re-drape").type_name("KNOB=VALUE");
   tool.option("--max-seconds", o.max_seconds, "stop after this wall time, s, with the best state so far (exit 4)").check(cli::finite_in(0, 1e6, "s"));
+  tool.option("--cache", o.cache, "keep what is found out about a body in this folder, for later runs that meet it: the same result, sooner").type_name("DIR");
   tool.flag("--no-drape", o.no_drape, "only place the garment by its coordinates, without a drape");
   tool.option("-o,--output", o.output, "shirt-b.json; shirt-b.obj is written beside it").required().check(cli::document_file());
   tool.example("retarget-garment --garment shirt.json --to other.body.json --fit fit.json -o shirt-b.json", "put a shirt on another body and see how it fits");
@@ -87,7 +89,8 @@ int run(cli::Tool& tool, const Options& o) {
 
   const garment::Garment source = garment::read_garment(o.garment);
   if (source.bind.empty()) throw input_error(o.garment, "/bind", "the garment is not bound to a body", "drape it with --body first");
-  const body::Body body = body::read_body(o.to);
+  body::Body body = body::read_body(o.to);
+  body.skin_cache = std::make_shared<collision::SkinCache>(o.cache, tool.reporter());
   const std::string skin_hash = body::skin_sha256(o.to);
   const io::Json inputs = {garment::input_entry(o.garment), garment::input_entry(o.to)};
   if (const std::string reason = garment::why_impossible(source, body); !reason.empty()) {
@@ -95,7 +98,7 @@ int run(cli::Tool& tool, const Options& o) {
     write_fit(o, fit, tool.name(), false, inputs);
     return refuse(tool, o, fit);
   }
-  const collision::BodyCollider skin(body.skin);
+  const collision::BodyCollider skin = collision::make_collider(body.skin, body.skin_cache.get());
 
   garment::Retargeted placed = garment::retarget(source, body, skin, mode, tool.reporter());
   garment::Garment& garment = placed.garment;

@@ -3,6 +3,8 @@
 /// elsewhere, same results.
 #if defined(__SSE2__)
 #include <emmintrin.h>
+#else
+#include <cmath>
 #endif
 namespace sloper {
 
@@ -19,6 +21,7 @@ inline Float4 operator*(Float4 a, Float4 b) { return {_mm_mul_ps(a.v, b.v)}; }
 inline Float4 operator/(Float4 a, Float4 b) { return {_mm_div_ps(a.v, b.v)}; }
 inline Float4 max(Float4 a, Float4 b) { return {_mm_max_ps(a.v, b.v)}; }
 inline Float4 min(Float4 a, Float4 b) { return {_mm_min_ps(a.v, b.v)}; }
+inline Float4 square_root(Float4 a) { return {_mm_sqrt_ps(a.v)}; }
 /// Lane I in all four lanes.
 template<int I> Float4 lane(Float4 a) { return {_mm_shuffle_ps(a.v, a.v, _MM_SHUFFLE(I, I, I, I))}; }
 /// a where b < c, else 0.
@@ -48,6 +51,10 @@ inline Float4 min(Float4 a, Float4 b) {
   Float4 r;
   for (int i = 0; i < 4; ++i) r.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i];
   return r;
+}
+inline Float4 square_root(Float4 a) {
+  for (float& x : a.v) x = std::sqrt(x);
+  return a;
 }
 inline Float4 where_less(Float4 a, Float4 b, Float4 c) {
   Float4 r;

@@ -4,9 +4,14 @@
 #include <geometry/part_frame.hpp>
 #include <geometry/triangle_mesh.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace sloper::collision {
+class SkinCache;
+}
 
 namespace sloper::body {
 
@@ -80,6 +85,8 @@ struct Body {
   std::vector<std::string> body_class_why;
   TriangleMesh skin;           ///< body frame, m; outward faces
   std::vector<Part> face_part; ///< one per triangle of skin
+  /// Where what contact finds out about this skin is kept (collision/skin_cache.hpp); null: it is found out each time. Not of the document
+  std::shared_ptr<collision::SkinCache> skin_cache;
 
   /// @throws Error INPUT naming the landmark when it was not found
   const Vec3& landmark(const std::string& name) const;

@@ -1,6 +1,8 @@
 #include <collision/body_collider.hpp>
 
 #include <base/parallel.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <collision/intersections.hpp>
 
@@ -9,21 +11,66 @@ namespace sloper::collision {
 namespace {
 
 constexpr double TOUCHING = 1e-12; ///< m; nearer than this the direction to the skin is the skin's normal
+constexpr int RIM = -1, NOT_OWNED = -2;
 
 } // namespace
 
 BodyCollider::BodyCollider(const TriangleMesh& body, int k) : m_mesh(body) {
   m_topology = make_topology(m_mesh.positions.size(), m_mesh.triangles);
   turn_faces();
+  assign_features();
   m_tree = TriangleTree(m_mesh.positions, m_mesh.triangles, k);
   m_winding = std::make_shared<LazyWinding>();
   compute_normals();
   assess_trust();
-  if (m_findings.buried_triangles > 0) {
-    std::vector<Triangle> kept;
-    for (int f : m_skin_triangle) kept.push_back(m_mesh.triangles[f]);
-    m_skin = TriangleTree(m_mesh.positions, kept, k);
+  if (m_findings.buried_triangles > 0) m_skin = TriangleTree(m_mesh.positions, skin_triangles(), k);
+}
+
+BodyCollider::BodyCollider(const TriangleMesh& body, const PreparedSkin& known, int k)
+    : m_mesh(body), m_topology(make_topology(body.positions.size(), body.triangles)), m_turned(known.turned), m_findings(known.findings) {
+  for (const int f : m_turned) turn(f);
+  assign_features();
+  m_tree = TriangleTree(m_mesh.positions, m_mesh.triangles, k, known.order);
+  compute_normals();
+  m_trusted_face.assign(m_mesh.triangles.size(), 1);
+  m_trusted_edge.assign(m_topology.edges.size(), 1);
+  m_trusted_vertex.assign(m_mesh.positions.size(), 1);
+  for (const int f : known.untrusted_faces) m_trusted_face[f] = 0;
+  for (const int side : known.untrusted_edges) m_trusted_edge[m_topology.triangle_edges[side / 3][side % 3]] = 0;
+  for (const int v : known.untrusted_vertices) m_trusted_vertex[v] = 0;
+  if (known.buried.empty()) return;
+  std::vector<char> buried(m_mesh.triangles.size(), 0);
+  for (const int f : known.buried) buried[f] = 1;
+  number_skin(buried);
+  m_skin = TriangleTree(m_mesh.positions, skin_triangles(), k, known.skin_order);
+}
+
+PreparedSkin BodyCollider::prepared() const {
+  PreparedSkin found;
+  found.turned = m_turned;
+  found.findings = m_findings;
+  found.order = m_tree.triangle_order();
+  found.skin_order = m_skin.triangle_order();
+  for (int f = 0; f < static_cast<int>(m_skin_of.size()); ++f)
+    if (m_skin_of[f] < 0) found.buried.push_back(f);
+  for (int f = 0; f < static_cast<int>(m_mesh.triangles.size()); ++f) {
+    if (!m_trusted_face[f]) found.untrusted_faces.push_back(f);
+    const std::array<int, 3>& sides = m_topology.triangle_edges[f];
+    for (int k = 0; k < 3; ++k) // a triangle of no width may have one edge twice
+      if (!m_trusted_edge[sides[k]] && m_topology.triangles_of_edge(sides[k])[0] == f &&
+          std::find(sides.begin(), sides.begin() + k, sides[k]) == sides.begin() + k)
+        found.untrusted_edges.push_back(3 * f + k);
   }
+  for (int v = 0; v < static_cast<int>(m_trusted_vertex.size()); ++v)
+    if (!m_trusted_vertex[v]) found.untrusted_vertices.push_back(v);
+  return found;
+}
+
+std::vector<Triangle> BodyCollider::skin_triangles() const {
+  std::vector<Triangle> kept;
+  kept.reserve(m_skin_triangle.size());
+  for (const int f : m_skin_triangle) kept.push_back(m_mesh.triangles[f]);
+  return kept;
 }
 
 void BodyCollider::set_positions(const std::vector<Vec3>& positions) {
@@ -35,50 +82,64 @@ void BodyCollider::set_positions(const std::vector<Vec3>& positions) {
 }
 
 void BodyCollider::compute_normals() {
-  m_face_normals.resize(m_mesh.triangles.size());
-  parallel_for(m_mesh.triangles.size(), 8192, [&](std::size_t begin, std::size_t end) {
+  const std::size_t n = m_mesh.triangles.size();
+  m_face_normals.resize(n);
+  std::vector<Vec3> angles(n);
+  parallel_for(n, 8192, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       const Triangle& t = m_mesh.triangles[f];
-      const Vec3 n = area_normal(m_mesh.positions[t[0]], m_mesh.positions[t[1]], m_mesh.positions[t[2]]);
-      const double length = n.norm();
-      m_face_normals[f] = length > 0 ? Vec3(n / length) : Vec3(Vec3::Zero());
-    }
-  });
-  m_vertex_normals.resize(m_mesh.positions.size());
-  parallel_for(m_mesh.positions.size(), 8192, [&](std::size_t begin, std::size_t end) {
-    for (auto v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
-      Vec3 sum = Vec3::Zero();
-      for (int f : m_topology.triangles_of_vertex(v)) {
-        const Triangle& t = m_mesh.triangles[f];
-        const int k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
-        const Vec3 e1 = m_mesh.positions[t[(k + 1) % 3]] - m_mesh.positions[v], e2 = m_mesh.positions[t[(k + 2) % 3]] - m_mesh.positions[v];
-        sum += std::atan2(e1.cross(e2).norm(), e1.dot(e2)) * m_face_normals[f];
+      const Vec3 corner[3] = {m_mesh.positions[t[0]], m_mesh.positions[t[1]], m_mesh.positions[t[2]]};
+      const Vec3 normal = area_normal(corner[0], corner[1], corner[2]);
+      const double length = normal.norm();
+      m_face_normals[f] = length > 0 ? Vec3(normal / length) : Vec3(Vec3::Zero());
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 e1 = corner[(k + 1) % 3] - corner[k], e2 = corner[(k + 2) % 3] - corner[k];
+        angles[f][k] = std::atan2(e1.cross(e2).norm(), e1.dot(e2));
       }
-      const double length = sum.norm();
-      m_vertex_normals[v] = length > 0 ? Vec3(sum / length) : sum;
     }
   });
-  assign_features();
+  // triangle by triangle, as they lie in memory: of a large scan a vertex does not know where its triangles are without waiting for them
+  m_vertex_normals.assign(m_mesh.positions.size(), Vec3::Zero());
+  for (std::size_t f = 0; f < n; ++f)
+    for (int k = 0; k < 3; ++k) m_vertex_normals[m_mesh.triangles[f][k]] += angles[f][k] * m_face_normals[f];
+  parallel_for(m_mesh.positions.size(), 8192, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v)
+      if (const double length = m_vertex_normals[v].norm(); length > 0) m_vertex_normals[v] /= length;
+  });
+  find_convex_edges();
 }
 
 void BodyCollider::assign_features() {
-  // An edge in a hollow or on flat skin is never the nearest feature: its faces are at least as near.
-  constexpr double FLAT_SINE = 1e-3;
   m_owned.assign(m_mesh.triangles.size(), 0);
+  m_beyond.assign(m_mesh.triangles.size(), {NOT_OWNED, NOT_OWNED, NOT_OWNED});
   parallel_for(m_mesh.triangles.size(), 8192, [&](std::size_t begin, std::size_t end) {
     for (auto f = static_cast<int>(begin); f < static_cast<int>(end); ++f)
       for (int k = 0; k < 3; ++k) {
-        const Triangle& t = m_mesh.triangles[f];
-        if (m_topology.triangles_of_vertex(t[k])[0] == f) m_owned[f] |= 1 << k;
+        if (m_topology.triangles_of_vertex(m_mesh.triangles[f][k])[0] == f) m_owned[f] |= 1 << k;
         const auto around = m_topology.triangles_of_edge(m_topology.triangle_edges[f][k]);
-        if (around[0] != f) continue;
-        bool convex = around.size() != 2; // at a rim or where sheets meet there is no hollow side to rule out
+        if (around[0] == f) m_beyond[f][k] = around.size() == 2 ? around[1] : RIM;
+      }
+  });
+}
+
+void BodyCollider::find_convex_edges() {
+  // An edge in a hollow or on flat skin is never the nearest feature: its faces are at least as near.
+  constexpr double FLAT_SINE = 1e-3;
+  parallel_for(m_mesh.triangles.size(), 8192, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      m_owned[f] &= 7;
+      for (int k = 0; k < 3; ++k) {
+        const int beyond = m_beyond[f][k];
+        if (beyond == NOT_OWNED) continue;
+        bool convex = beyond == RIM; // at a rim or where sheets meet there is no hollow side to rule out
         if (!convex) {
+          const Triangle& t = m_mesh.triangles[f];
           const Vec3 along = m_mesh.positions[t[(k + 1) % 3]] - m_mesh.positions[t[k]];
-          convex = m_face_normals[f].cross(m_face_normals[around[1]]).dot(along) > FLAT_SINE * along.norm();
+          convex = m_face_normals[f].cross(m_face_normals[beyond]).dot(along) > FLAT_SINE * along.norm();
         }
         if (convex) m_owned[f] |= 8 << k;
       }
+    }
   });
 }
 

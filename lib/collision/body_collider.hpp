@@ -6,6 +6,7 @@
 /// at holes, non-manifold edges and where the skin passes through itself. Flipped faces are turned first, by their neighbours;
 /// a piece that is inside out as a whole is turned as a whole. Skin buried inside the body (an arm that a scan has grown into
 /// the trunk) is no closest point. Test: tests/collision/test_body_collider.cpp
+#include <collision/prepared_skin.hpp>
 #include <collision/topology.hpp>
 #include <collision/triangle_tree.hpp>
 #include <collision/winding_number.hpp>
@@ -53,21 +54,16 @@ struct BodyPairs {
   std::vector<FaceVertex> face_vertex;
 };
 
-/// What was wrong with the body's mesh and how it was met.
-struct BodyFindings {
-  int flipped_triangles = 0; ///< turned to agree with their neighbours, or with their whole piece
-  int boundary_edges = 0;
-  int non_manifold_edges = 0;  ///< of three or more triangles, or of two that cannot be made to agree
-  int self_intersections = 0;  ///< pairs of body triangles
-  int untrusted_triangles = 0; ///< whose side is decided by winding number
-  int buried_triangles = 0;    ///< inside the body, left out of closest points
-};
-
 class BodyCollider {
 public:
   BodyCollider() = default;
   /// @param body body frame, m; faces may be flipped, open, non-manifold, zero-area   @param k see TriangleTree
   explicit BodyCollider(const TriangleMesh& body, int k = 6);
+  /// The same collider, to the bit, from what was found out about this mesh before. O(#F).
+  /// @param known prepared() of a collider of the same mesh, of any k, or anything that fits() it
+  BodyCollider(const TriangleMesh& body, const PreparedSkin& known, int k = 6);
+  /// What the constructor found out; also after set_positions().
+  PreparedSkin prepared() const;
 
   /// Moves the body; same triangles. Which skin is trusted or buried stays as it was found at construction. O(#F).
   void set_positions(const std::vector<Vec3>& positions);
@@ -101,10 +97,14 @@ public:
 
 private:
   void turn_faces();
+  void turn(int triangle);
   void assess_trust();
+  void number_skin(const std::vector<char>& buried);
+  std::vector<Triangle> skin_triangles() const; ///< without buried ones
   std::vector<char> ask_winding_numbers();
+  void assign_features(); ///< of the topology alone: who owns which vertex and edge
   void compute_normals();
-  void assign_features();
+  void find_convex_edges();
   Vec3 pseudonormal(int triangle, int feature) const; ///< not unit
   bool is_trusted(int triangle, int feature) const;
 
@@ -121,8 +121,10 @@ private:
   };
   std::shared_ptr<LazyWinding> m_winding = std::make_shared<LazyWinding>();
   std::vector<Vec3> m_face_normals, m_vertex_normals;
+  std::vector<int> m_turned; ///< triangles, ascending
   std::vector<char> m_trusted_face, m_trusted_edge, m_trusted_vertex;
-  std::vector<unsigned char> m_owned; ///< per triangle: bits 0-2 vertices, 3-5 convex edges of which it is the first triangle
+  std::vector<std::array<int, 3>> m_beyond; ///< per triangle and side: the edge's other triangle, if it has two and this is the first; else below zero
+  std::vector<unsigned char> m_owned;       ///< per triangle: bits 0-2 vertices, 3-5 convex edges of which it is the first triangle
   BodyFindings m_findings;
 };
 

@@ -59,38 +59,43 @@ bool is_inside_out(const TriangleMesh& mesh, const std::vector<int>& piece, cons
 void BodyCollider::turn_faces() {
   // Each manifold piece is made to agree with itself, keeping the orientation that most of its area has.
   const auto n = static_cast<int>(m_mesh.triangles.size());
-  std::vector<signed char> turn(n, 0); // 1 keep, -1 turn, 0 not reached
+  std::vector<signed char> side(n, 0); // 1 keep, -1 turn, 0 not reached
   for (int seed = 0; seed < n; ++seed) {
-    if (turn[seed] != 0) continue;
+    if (side[seed] != 0) continue;
     std::vector<int> piece = {seed};
-    turn[seed] = 1;
+    side[seed] = 1;
     double kept_area = 0, turned_area = 0;
     for (std::size_t i = 0; i < piece.size(); ++i) {
       const int f = piece[i];
       const Triangle& t = m_mesh.triangles[f];
-      (turn[f] > 0 ? kept_area : turned_area) += area_normal(m_mesh.positions[t[0]], m_mesh.positions[t[1]], m_mesh.positions[t[2]]).norm();
+      (side[f] > 0 ? kept_area : turned_area) += area_normal(m_mesh.positions[t[0]], m_mesh.positions[t[1]], m_mesh.positions[t[2]]).norm();
       for (int e : m_topology.triangle_edges[f]) {
         const auto pair = m_topology.triangles_of_edge(e);
         if (pair.size() != 2) continue;
         const int g = pair[0] == f ? pair[1] : pair[0];
-        if (turn[g] != 0 || g == f) continue;
+        if (side[g] != 0 || g == f) continue;
         const auto& edge = m_topology.edges[e];
         const bool agree = direction_along(t, edge) != direction_along(m_mesh.triangles[g], edge);
-        turn[g] = static_cast<signed char>(agree ? turn[f] : -turn[f]);
+        side[g] = static_cast<signed char>(agree ? side[f] : -side[f]);
         piece.push_back(g);
       }
     }
     if (turned_area > kept_area)
-      for (int f : piece) turn[f] = static_cast<signed char>(-turn[f]);
-    if (is_inside_out(m_mesh, piece, turn))
-      for (int f : piece) turn[f] = static_cast<signed char>(-turn[f]);
+      for (int f : piece) side[f] = static_cast<signed char>(-side[f]);
+    if (is_inside_out(m_mesh, piece, side))
+      for (int f : piece) side[f] = static_cast<signed char>(-side[f]);
   }
   for (int f = 0; f < n; ++f)
-    if (turn[f] < 0) {
-      std::swap(m_mesh.triangles[f][1], m_mesh.triangles[f][2]);
-      std::swap(m_topology.triangle_edges[f][0], m_topology.triangle_edges[f][2]);
-      ++m_findings.flipped_triangles;
+    if (side[f] < 0) {
+      m_turned.push_back(f);
+      turn(f);
     }
+  m_findings.flipped_triangles = static_cast<int>(m_turned.size());
+}
+
+void BodyCollider::turn(int f) {
+  std::swap(m_mesh.triangles[f][1], m_mesh.triangles[f][2]);
+  std::swap(m_topology.triangle_edges[f][0], m_topology.triangle_edges[f][2]);
 }
 
 void BodyCollider::assess_trust() {
@@ -126,14 +131,15 @@ void BodyCollider::assess_trust() {
 
   m_findings.buried_triangles = static_cast<int>(std::count(buried.begin(), buried.end(), 1));
   if (m_findings.buried_triangles == n) m_findings.buried_triangles = 0; // never leave nothing to collide with
-  m_skin_triangle.clear();
-  m_skin_of.clear();
-  if (m_findings.buried_triangles == 0) return;
-  m_skin_of.assign(n, -1);
-  for (int f = 0; f < n; ++f) {
+  if (m_findings.buried_triangles > 0) number_skin(buried);
+}
+
+void BodyCollider::number_skin(const std::vector<char>& buried) {
+  m_skin_of.assign(m_mesh.triangles.size(), -1);
+  for (std::size_t f = 0; f < buried.size(); ++f) {
     if (buried[f]) continue;
     m_skin_of[f] = static_cast<int>(m_skin_triangle.size());
-    m_skin_triangle.push_back(f);
+    m_skin_triangle.push_back(static_cast<int>(f));
   }
 }
 

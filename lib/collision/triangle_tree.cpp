@@ -38,13 +38,40 @@ void interval(const std::array<Vec3, 3>& corners, int axis, int axes, double& lo
   high = std::max(d[0], std::max(d[1], d[2]));
 }
 
-} // namespace
+/// Where slots are cut: at multiples of four, so that the lowest nodes are full.
+int middle_of(int from, int to) { return from + ((to - from) / 2 + 3) / 4 * 4; }
 
-TriangleTree::TriangleTree(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, int k) : m_axes(k / 2) {
-  if (k != 6 && k != 14 && k != 18 && k != 26) throw Error(ErrorKind::INTERNAL, {}, {}, "a k-DOP tree has k = 6, 14, 18 or 26");
+/// The borders of a node's children, halves of halves; of more than four slots.
+std::array<int, 5> quarters(int begin, int end) {
+  const int middle = middle_of(begin, end);
+  return {begin, middle - begin > 4 ? middle_of(begin, middle) : middle, middle, end - middle > 4 ? middle_of(middle, end) : end, end};
+}
+
+/// Puts the slots of a subtree in order: each cut goes along the widest side of the centres.
+void sort_slots(std::vector<int>& order, const std::vector<Vec3>& centers, int begin, int end) {
+  if (end - begin <= 4) return;
+  const auto cut = [&](int from, int middle, int to) {
+    Box3 box;
+    for (int i = from; i < to; ++i) box.add(centers[order[i]]);
+    int axis;
+    box.size().maxCoeff(&axis);
+    std::nth_element(order.begin() + from, order.begin() + middle, order.begin() + to, [&](int a, int b) {
+      const double ca = centers[a][axis], cb = centers[b][axis];
+      return ca < cb || (ca == cb && a < b);
+    });
+  };
+  const std::array<int, 5> border = quarters(begin, end);
+  cut(begin, border[2], end);
+  if (border[1] < border[2]) cut(begin, border[1], border[2]);
+  if (border[3] < end) cut(border[2], border[3], end);
+  for (int i = 0; i < 4; ++i)
+    if (border[i + 1] - border[i] > 1) sort_slots(order, centers, border[i], border[i + 1]);
+}
+
+std::vector<int> sorted_triangles(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles) {
   const auto n = static_cast<int>(triangles.size());
-  m_triangle_of_slot.resize(n);
-  std::iota(m_triangle_of_slot.begin(), m_triangle_of_slot.end(), 0);
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
   std::vector<Vec3> centers(n);
   for (int f = 0; f < n; ++f) {
     const Vec3 &a = positions[triangles[f][0]], &b = positions[triangles[f][1]], &c = positions[triangles[f][2]];
@@ -53,8 +80,22 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& positions, const std::vector
     for (int i = 0; i < 3; ++i)
       if (!std::isfinite(centers[f][i])) centers[f][i] = 0; // an ordering must not meet NaN
   }
+  sort_slots(order, centers, 0, n);
+  return order;
+}
+
+} // namespace
+
+TriangleTree::TriangleTree(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, int k)
+    : TriangleTree(positions, triangles, k, sorted_triangles(positions, triangles)) {}
+
+TriangleTree::TriangleTree(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, int k, std::vector<int> order)
+    : m_axes(k / 2), m_triangle_of_slot(std::move(order)) {
+  if (k != 6 && k != 14 && k != 18 && k != 26) throw Error(ErrorKind::INTERNAL, {}, {}, "a k-DOP tree has k = 6, 14, 18 or 26");
+  const auto n = static_cast<int>(triangles.size());
+  if (n != n_slots()) throw Error(ErrorKind::INTERNAL, {}, {}, "a tree's order has as many triangles as the mesh");
   m_nodes.reserve(n / 2 + 1);
-  if (n > 0) build(m_triangle_of_slot, centers, 0, n);
+  if (n > 0) build(0, n);
   m_slot_of_triangle.resize(n);
   m_slot_vertices.resize(n);
   for (int s = 0; s < n; ++s) {
@@ -98,12 +139,11 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& positions, const std::vector
   refit(positions);
 }
 
-int TriangleTree::build(std::vector<int>& order, const std::vector<Vec3>& centers, int begin, int end) {
+int TriangleTree::build(int begin, int end) {
   const auto index = static_cast<int>(m_nodes.size());
   m_nodes.emplace_back();
   std::fill_n(m_nodes[index].child, 4, EMPTY);
   std::fill_n(m_nodes[index].slot_end, 4, begin);
-  int border[5] = {begin, begin, begin, begin, end};
   if (end - begin <= 4) {
     for (int i = 0; begin + i < end; ++i) {
       m_nodes[index].child[i] = -2 - (begin + i);
@@ -111,27 +151,12 @@ int TriangleTree::build(std::vector<int>& order, const std::vector<Vec3>& center
     }
     return index;
   }
-  // halves and quarters, cut along the widest side at a multiple of four so that the lowest nodes are full
-  const auto cut = [&](int from, int to) {
-    Box3 box;
-    for (int i = from; i < to; ++i) box.add(centers[order[i]]);
-    int axis;
-    box.size().maxCoeff(&axis);
-    const int middle = from + ((to - from) / 2 + 3) / 4 * 4;
-    std::nth_element(order.begin() + from, order.begin() + middle, order.begin() + to, [&](int a, int b) {
-      const double ca = centers[a][axis], cb = centers[b][axis];
-      return ca < cb || (ca == cb && a < b);
-    });
-    return middle;
-  };
-  border[2] = cut(begin, end);
-  border[1] = border[2] - begin > 4 ? cut(begin, border[2]) : border[2];
-  border[3] = end - border[2] > 4 ? cut(border[2], end) : end;
+  const std::array<int, 5> border = quarters(begin, end);
   int lane = 0;
   for (int i = 0; i < 4; ++i) {
     const int from = border[i], to = border[i + 1];
     if (from >= to) continue;
-    const int child = to - from == 1 ? -2 - from : build(order, centers, from, to);
+    const int child = to - from == 1 ? -2 - from : build(from, to);
     m_nodes[index].child[lane] = child;
     m_nodes[index].slot_end[lane] = to;
     ++lane;

@@ -40,6 +40,9 @@ public:
   TriangleTree() = default;
   /// @param k 6, 14, 18 or 26; anything else throws Error INTERNAL. Cost O(#F log #F).
   TriangleTree(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, int k = 6);
+  /// The same tree without the sorting, which is most of the cost. O(#F).
+  /// @param order triangle_order() of a tree over these triangles, however many directions it has; a permutation in any case
+  TriangleTree(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, int k, std::vector<int> order);
 
   /// New bounds for moved vertices; same triangles. O(#F), parallel.
   /// @param for_points  false spares what makes closest_point() fast: it answers the same, some times slower
@@ -65,6 +68,7 @@ public:
 
   int n_slots() const { return static_cast<int>(m_triangle_of_slot.size()); } ///< slots are the triangles in tree order
   int triangle_of_slot(int slot) const { return m_triangle_of_slot[slot]; }
+  const std::vector<int>& triangle_order() const { return m_triangle_of_slot; }
   int slot_of_triangle(int triangle) const { return m_slot_of_triangle[triangle]; }
   const std::array<Vec3, 3>& corners(int slot) const { return m_corners[slot]; } ///< positions at the last refit
   const std::vector<Node>& nodes() const { return m_nodes; }                     ///< the root first, parents before children
@@ -78,7 +82,7 @@ private:
   static Float4 squared_distances(const Leaves& leaves, const Float4 (&p)[3]);
   template<bool EXTRA, class Visit> void visit_slots_of(const Dop& query, int first_slot, Visit& visit) const;
   void fill_leaves();
-  int build(std::vector<int>& order, const std::vector<Vec3>& centers, int begin, int end);
+  int build(int begin, int end);
   void refit_node(int node);
 
   int m_axes = 3;

@@ -10,23 +10,23 @@ double solid_angle_fraction(const Vec3& p, const Vec3& a, const Vec3& b, const V
 class WindingNumber {
 public:
   WindingNumber() = default;
-  /// @param flipped  #F, true for triangles that count with their orientation turned; may be empty
-  /// @param reach a node is taken as a whole from this many of its radii away; the error falls with the cube of it
-  explicit WindingNumber(const TriangleTree& tree, const std::vector<char>& flipped = {}, double reach = 2);
+  /// @param reach a node is taken as a whole from this many of its radii away; the error falls with the cube of it. Cost O(#F)
+  explicit WindingNumber(const TriangleTree& tree, double reach = 2);
   /// Winding number about p; within about 0.005 of the exact sum (tested). O(log #F).
   double at(const TriangleTree& tree, const Vec3& p) const;
 
 private:
-  /// The far field of one subtree: sum of n . d / |d|^3 expanded to second order in the offsets from its centre.
-  struct Expansion {
-    Vec3 center, area_normal;     ///< area-weighted centre, m; sum of area times normal, m2
-    std::array<double, 6> first;  ///< sum of n offset^T as a quadratic form: xx, yy, zz, xy, xz, yz, m3
-    Vec3 second_linear;           ///< contracted second moments, m4
-    std::array<double, 10> cubic; ///< symmetrised second moments: coefficients of xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz
-    double reach2 = 0;            ///< squared distance from which the expansion serves
+  /// The far fields of a node's four subtrees, lane by lane: sum of n . d / |d|^3 expanded to second order in the offsets from its centre.
+  /// Triangles have none: they are few once their node is near, and exact.
+  struct alignas(16) FarField {
+    float center[3][4], normal[3][4]; ///< area-weighted centre, m; sum of area times normal, m2
+    float first[6][4];                ///< sum of n offset^T as a quadratic form: xx, yy, zz, xy, xz, yz, m3
+    float linear[3][4];               ///< contracted second moments, m4
+    float cubic[10][4];               ///< symmetrised second moments: coefficients of xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz
+    float reach2[4];                  ///< squared distance from which the expansion serves; infinite where there is none
   };
-  std::vector<std::array<Expansion, 4>> m_far; ///< per node and lane
-  std::vector<char> m_flipped_slot;
+  std::vector<FarField> m_far;
+  std::vector<int> m_far_of_node; ///< -1 where all children are triangles
 };
 
 } // namespace sloper::collision

@@ -76,10 +76,12 @@ void DrapeRun::activate(const char* effect, const char* why) {
 
 bool DrapeRun::active(const char* effect) const { return is_active(m_report.effects, effect); }
 
+void DrapeRun::collide_with(const TriangleMesh& skin) { m_collider.emplace(collision::make_collider(skin, m_body->skin_cache.get())); }
+
 void DrapeRun::prepare_body(bool near_hands) {
   if (near_hands) m_mitten.emplace(*m_body);
   if (m_mitten && !(m_mitten->has_shells() && (m_at.mitten || m_mitten->concerns(m_garment.position)))) m_mitten.reset();
-  m_collider.emplace(m_mitten ? m_mitten->mesh() : m_body->skin);
+  collide_with(m_mitten ? m_mitten->mesh() : m_body->skin);
   m_at.mitten = m_mitten.has_value();
   if (m_mitten) m_reporter.info("hands as mittens: cloth is near them");
 }

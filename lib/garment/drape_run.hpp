@@ -4,6 +4,7 @@
 #include <cloth/implicit_step.hpp>
 #include <cloth/self_contact.hpp>
 #include <cloth/sewing_spring.hpp>
+#include <collision/skin_cache.hpp>
 #include <garment/audit.hpp>
 #include <garment/body_shrink.hpp>
 #include <garment/drape_state.hpp>
@@ -49,6 +50,7 @@ private:
   };
   void add_phase_time(const char* name, double wall_s);
 
+  void collide_with(const TriangleMesh& skin); ///< makes m_collider
   void prepare_body(bool near_hands);
   void start_outside_body(bool unsewn);          ///< shrink until nothing of the garment is inside
   std::vector<Vec3> skin_at(double scale) const; ///< as the collider has it

@@ -129,7 +129,7 @@ DrapeReport DrapeRun::run_untangle_only() {
   if (m_garment.particle_of.empty()) throw input_error("", "", "the garment is not sewn yet", "drape it first");
   m_report.effects = choose_effects(m_garment, m_body, m_settings);
   for (EffectReport& e : m_report.effects) e.active = e.active && (e.name == "body_contact" || e.name == "self_contact");
-  if (m_body && !m_body->skin.triangles.empty()) m_collider.emplace(m_body->skin);
+  if (m_body && !m_body->skin.triangles.empty()) collide_with(m_body->skin);
   const auto counts = [&] {
     const Audit a = audit(m_garment, m_collider ? &*m_collider : nullptr);
     return io::Json{
@@ -155,7 +155,7 @@ DrapeReport DrapeRun::run_untangle_only() {
     m_garment.position = m_solver->x();
     report_effects();
     m_solver.reset();
-    if (m_mitten) m_collider.emplace(m_body->skin), m_mitten.reset();
+    if (m_mitten) collide_with(m_body->skin), m_mitten.reset();
     const std::size_t now = part_all(PART_ROUNDS, m_report.steps); // what the push leaves is shallow
     if (now >= least) m_garment.position = shallow;
     least = std::min(least, now);

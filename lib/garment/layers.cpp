@@ -3,6 +3,7 @@
 #include <base/error.hpp>
 #include <base/parallel.hpp>
 #include <collision/intersections.hpp>
+#include <collision/skin_cache.hpp>
 #include <garment/audit.hpp>
 #include <garment/materials.hpp>
 #include <io/json.hpp>
@@ -234,7 +235,7 @@ DrapeReport drape_layers(std::vector<Garment>& garments, const body::Body* body,
     for (const std::string& r : report.repairs) repairs.push_back(prefix_of(k) + "alone: " + r);
     if (report.stop_reason == "time limit" || report.stop_reason == "stopped by the user") return report;
   }
-  const collision::BodyCollider collider(body->skin);
+  const collision::BodyCollider collider = collision::make_collider(body->skin, body->skin_cache.get());
   const LayerOrder order = order_layers(garments, collider, settings.self_thickness_m);
   if (order.tucked > 0)
     repairs.push_back("layers: " + std::to_string(order.tucked) + " inner particles lay beyond an outer garment and were tucked in, by " +

@@ -149,7 +149,7 @@ def make_cell(out, plan, key):
     options = ["--mode", settings["mode"], "--accuracy", settings["accuracy"]]
     for assignment in settings["set"]:
         options += ["--set", assignment]
-    command = [tools["retarget-garment"]["path"], "--threads", "1", "--garment", cell["garment_file"], "--to", os.path.join(body_folder, "body.json"), *options,
+    command = [tools["retarget-garment"]["path"], "--threads", "1", "--cache", plan["skins"], "--garment", cell["garment_file"], "--to", os.path.join(body_folder, "body.json"), *options,
                *(["--policy", settings["policy"]] if settings["policy"] else []), "--fit", "fit.json", "--fit-page", "fit.html", "--report", "report.json", "-o", "garment.json"]
     code, message, cost = run(command, settings["timeout_s"], folder)
     fit, report = optional_json(os.path.join(folder, "fit.json")), optional_json(os.path.join(folder, "report.json"))

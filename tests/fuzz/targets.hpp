@@ -11,6 +11,8 @@ void read_scan_bytes(std::string_view bytes);
 void read_json_bytes(std::string_view bytes);
 /// A file as a body document, a pose and landmark rules.
 void read_document_file(const std::string& path);
+/// A kept prepared skin, whatever its key and sum say, and what a collider makes of it.
+void read_prepared_skin_bytes(std::string_view bytes);
 /// BVH motion for a body with all bones.
 void read_bvh_bytes(std::string_view bytes);
 } // namespace sloper::fuzz

@@ -47,4 +47,5 @@ TEST(FuzzCorpus, documents_are_read_or_refused) {
   });
   std::filesystem::remove(path);
 }
+TEST(FuzzCorpus, prepared_skins_are_read_or_made_anew) { read_all("prepared_skin", sloper::fuzz::read_prepared_skin_bytes); }
 TEST(FuzzCorpus, motions_are_read_or_refused) { read_all("bvh", sloper::fuzz::read_bvh_bytes); }

@@ -102,3 +102,5 @@ case_what_belongs_to_another_body_is_told() {
   run 3 "$program" --body bare.json --panels panels.json "${two[@]}"
   says "the body was written without its skin"
 }
+
+case_a_cache_changes_no_byte() { a_cache_changes_no_byte; }
