@@ -114,7 +114,7 @@ int run(cli::Tool& tool, const Options& o) {
   else if (!o.no_drape) report = garment::drape(garment, &body, settings, tool.reporter(), garment::hopeless_beyond(policy, fit));
   garment::bind_garment(garment, body);
   garment::write_garment(o.output, garment, tool.name());
-  if (!hopeless) fit = garment::fit_garment(garment, body, skin, policy, &placed.placed, !report.unfit.empty());
+  if (!hopeless) fit = garment::fit_garment(garment, body, skin, policy, &placed.placed, report.unfit);
   write_fit(o, fit, tool.name(), report.converged, inputs);
   if (!o.report.empty()) {
     io::Json document = garment::report_json(report, tool.name());

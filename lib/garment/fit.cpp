@@ -130,7 +130,7 @@ void tell_long_sleeve(const FitLines& lines, FitRow& row) {
 }
 
 /// The verdict of all rows, the strain and the slip.
-void conclude(const FitPolicy& policy, bool beyond_bounds, FitReport& report) {
+void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& report) {
   const FitRow* worst = nullptr;
   for (const FitRow& row : report.rows) {
     const bool worse = !worst || row.verdict > worst->verdict || (row.verdict == worst->verdict && row.margin_m / row.body_m < worst->margin_m / worst->body_m);
@@ -145,7 +145,7 @@ void conclude(const FitPolicy& policy, bool beyond_bounds, FitReport& report) {
   }
   report.verdict = worst->verdict;
   report.reason = worst->reason;
-  const bool certain = report.convergence_m == 0 || beyond_bounds;
+  const bool certain = report.convergence_m == 0 || !unfit.empty();
   if (certain) judge_strain(policy, report);
   if (certain && report.verdict <= FitVerdict::TOO_LARGE && report.slip_m > policy.slip_m(report.garment_class, report.fabric)) {
     report.verdict = FitVerdict::TOO_LARGE;
@@ -155,12 +155,17 @@ void conclude(const FitPolicy& policy, bool beyond_bounds, FitReport& report) {
   if (report.fits && policy.refuse_loose)
     for (const FitRow& row : report.rows)
       if (row.verdict == FitVerdict::LOOSE) report.fits = false, report.reason = row.reason;
+  if (report.fits && !unfit.empty()) { // measured where it was then, it might be of another class, with limits of its own
+    report.fits = false;
+    report.verdict = FitVerdict::TOO_LARGE;
+    report.reason = unfit + " too far to fit";
+  }
 }
 
 } // namespace
 
 FitReport fit_garment(const Garment& garment, const body::Body& body, const collision::BodyCollider& skin, const FitPolicy& policy,
-                      const std::vector<Vec3>* placed, bool beyond_bounds) {
+                      const std::vector<Vec3>* placed, const std::string& unfit) {
   if (garment.bind.empty()) throw input_error("", "/bind", "the garment is not bound to a body", "drape it on the body first");
   FitReport report;
   report.policy = policy.name;
@@ -205,7 +210,7 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
   for (const FitHem& hem : report.lines.hems) add(measure_edge(cloth, body, hem, report.convergence_m, why), hem.name + " edge");
   for (const auto& [name, girth] : body.girths)
     if (!measured.count(name)) report.left_out.emplace_back(name, "where it was measured is not told by the body document");
-  conclude(policy, beyond_bounds, report);
+  conclude(policy, unfit, report);
   return report;
 }
 

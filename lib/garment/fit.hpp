@@ -71,10 +71,10 @@ struct FitReport {
 
 /// @param garment draped on `body` and bound to it (bind_garment)
 /// @param placed  positions before the drape, #P, or nullptr: how far the garment slid is measured from them
-/// @param beyond_bounds  the drape was ended by FitBounds: strain and slip decide although it is not at rest
+/// @param unfit  DrapeReport::unfit: where FitBounds ended the drape, strain and slip decide although it is not at rest, and the answer is no
 /// @throws Error INPUT when it is not bound
 FitReport fit_garment(const Garment& garment, const body::Body& body, const collision::BodyCollider& skin, const FitPolicy& policy,
-                      const std::vector<Vec3>* placed = nullptr, bool beyond_bounds = false);
+                      const std::vector<Vec3>* placed = nullptr, const std::string& unfit = {});
 
 /// Bounds for a drape beyond which the garment will not fit by the policy: one and a half times the slip that it bears, and the strain where a
 /// girth is tight; strain alone, of sleeves that slide along an arm, says nothing before the cloth is at rest.

@@ -222,6 +222,16 @@ TEST(fit_section, a_facing_over_a_front_counts_once) {
 
 TEST(fit_section, a_scarf_does_not_go_round) { EXPECT_FALSE(assemble_line({arc(-1, 1, 0.15)}, Vec3::Zero(), Vec3::UnitY(), 0.4)); }
 
+TEST(fit, a_garment_for_whose_fit_the_drape_was_ended_does_not_fit) {
+  const body::Body body = measured("f-165-a");
+  const Dressed d = dressed(body, skin_shirt(body, 0.01));
+  ASSERT_TRUE(d.report.fits) << d.report.reason;
+  const collision::BodyCollider skin(body.skin);
+  const FitReport ended = fit_garment(d.garment, body, skin, standard_fit_policy(), nullptr, "slides down");
+  EXPECT_FALSE(ended.fits);
+  EXPECT_EQ(ended.reason, "slides down too far to fit");
+}
+
 TEST(fit_policy, a_girth_goes_before_the_default_and_a_fabric_before_a_class) {
   const FitPolicy p = read_fit_policy(policy_file(R"("name": "shop", "refuse": ["tight"], "default": {"tight_ease": 0.02},
     "girths": {"wrist": {"loose_ease": 1.0}}, "classes": {"skirt": {"default": {"loose_ease": 2.0}}},

@@ -4,3 +4,18 @@ inputs=(skirt.json skirt.obj b.body.json b.body.obj)
 command_line=(--garment skirt.json --to b.body.json --accuracy draft --set max_steps=10 -o out.json)
 
 case_a_cache_changes_no_byte() { a_cache_changes_no_byte; }
+
+# A verdict asked for by a policy is an answer, whether the drape comes to its end or is ended by it; without a policy no garment was made.
+case_what_does_not_fit_ends_with_1_under_a_policy_and_with_4_without() {
+  local policy
+  local of=(--garment skirt.json --to b.body.json --accuracy draft --fit fit.json --report report.json -o out.json)
+  for policy in '"slip_m": 0.005' '"slip_m": 9, "default": {"too_large_ease": 0.001}'; do
+    printf '{"format": "fit-policy", "version": 1, %s}' "$policy" > policy.json
+    run 1 "$program" "${of[@]}" --policy policy.json
+    says "does not fit: the garment"
+    grep -q '"fits": false' fit.json || fail "$policy: the report says that it fits"
+    [[ $policy != '"slip_m": 0.005' ]] || grep -q "slides down too far to fit" report.json || fail "the drape was not ended by it"
+  done
+  run 4 "$program" "${of[@]}"
+  says "does not fit: the garment slides down"
+}
