@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <limits>
 
 namespace sloper::collision {
 
@@ -83,7 +84,8 @@ std::optional<PreparedSkin> prepared_from_bytes(std::string_view bytes, const st
   visit_findings(prepared.findings, [&](int& count) {
     std::uint64_t number = 0;
     take(&number, sizeof number);
-    count = static_cast<int>(number);
+    whole = whole && number <= std::numeric_limits<int>::max();
+    count = whole ? static_cast<int>(number) : 0;
   });
   visit_lists(prepared, [&](std::vector<int>& list) {
     std::uint64_t size = 0;
