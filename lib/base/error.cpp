@@ -38,17 +38,17 @@ static std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-std::string nearest_word(const std::string& word, const std::string* first, const std::string* last) {
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known, const char* quote) {
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (; first != last; ++first) {
-    const std::size_t d = edit_distance(word, *first);
+  for (const std::string& candidate : known) {
+    const std::size_t d = edit_distance(word, candidate);
     if (d < best_distance) {
       best_distance = d;
-      best = *first;
+      best = candidate;
     }
   }
-  return best;
+  return best.empty() ? best : std::string(" (did you mean ") + quote + best + quote + "?)";
 }
 
 } // namespace sloper

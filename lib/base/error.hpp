@@ -2,6 +2,7 @@
 /// Typed errors. Thrown in lib, caught once, in cli::run_tool(). Every message says file, place, fact and next step.
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace sloper {
 
@@ -37,7 +38,7 @@ private:
 /// Shorthand for the commonest one: bad input, exit 3.
 Error input_error(std::string file, std::string place, std::string fact, std::string next_step = {});
 
-/// The candidate nearest to `word` by edit distance, or empty when none is near. For "did you mean".
-std::string nearest_word(const std::string& word, const std::string* first, const std::string* last);
+/// " (did you mean 'X'?)" with the word of `known` nearest to `word` by edit distance, between `quote`s; empty when none is near.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known, const char* quote = "'");
 
 } // namespace sloper

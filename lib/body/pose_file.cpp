@@ -219,10 +219,8 @@ Pose read_pose(const std::string& path, const Body& body) {
   }
   if (root.has("turn_deg"))
     for (const std::string& name : root.at("turn_deg").keys()) {
-      if (std::find(names.begin(), names.end(), name) == names.end()) {
-        const std::string near = nearest_word(name, names.data(), names.data() + names.size());
-        root.at("turn_deg").at(name).fail("the body has no joint \"" + name + "\"", near.empty() ? "" : "did you mean \"" + near + "\"?");
-      }
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        root.at("turn_deg").at(name).fail("the body has no joint \"" + name + "\"" + did_you_mean(name, names, "\""));
       const Vec3 angles = root.at("turn_deg").at(name).vec3();
       Quaterniond q = Quaterniond::Identity();
       for (int axis = 0; axis < 3; ++axis) q = about(axis, units::radians(angles[axis])) * q;

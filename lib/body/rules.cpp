@@ -15,8 +15,7 @@ using Numbers = std::map<std::string, double>;
 using Tree = std::map<std::string, std::vector<RuleChoice>>;
 
 [[noreturn]] void unknown(const io::Node& at, const char* what, const std::string& name, const std::vector<std::string>& known) {
-  const std::string near = nearest_word(name, known.data(), known.data() + known.size());
-  at.fail(std::string(what) + " \"" + name + "\"", near.empty() ? "" : "did you mean \"" + near + "\"?");
+  at.fail(std::string(what) + " \"" + name + "\"" + did_you_mean(name, known, "\""));
 }
 
 void merge_numbers(Numbers& numbers, const io::Node& table, bool may_add) {

@@ -66,8 +66,7 @@ Check one_of(const std::vector<std::string>& words) {
       if (word == text) return {};
       list += (list.empty() ? "" : ", ") + word;
     }
-    const std::string near = nearest_word(text, words.data(), words.data() + words.size());
-    return "'" + text + "' is none of " + list + (near.empty() ? "" : " (did you mean '" + near + "'?)");
+    return "'" + text + "' is none of " + list + did_you_mean(text, words);
   };
   return {"one_of", joined, check};
 }

@@ -87,8 +87,7 @@ static Error unknown_option(const CLI::App& app, const std::string& given) {
   std::vector<std::string> known;
   for (const OptionRow& row : option_rows(app))
     for (const std::string& l : row.longs) known.push_back("--" + l);
-  const std::string near = given.rfind("--", 0) == 0 ? nearest_word(given, known.data(), known.data() + known.size()) : "";
-  return usage_error("unknown option " + given + (near.empty() ? "" : " (did you mean " + near + "?)"));
+  return usage_error("unknown option " + given + (given.rfind("--", 0) == 0 ? did_you_mean(given, known, "") : ""));
 }
 
 /// What the command line asks for besides the tool's work: the first of these that is named wins over all other options.

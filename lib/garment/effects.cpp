@@ -21,9 +21,7 @@ static EffectReport& named(std::vector<EffectReport>& effects, const std::string
     known.push_back(e.name);
     names += (names.empty() ? "" : ", ") + e.name;
   }
-  const std::string near = nearest_word(name, known.data(), known.data() + known.size());
-  throw Error(ErrorKind::USAGE, "", "effect \"" + name + "\"", "is not known" + (near.empty() ? std::string() : " (did you mean \"" + near + "\"?)"),
-              "known are " + names);
+  throw Error(ErrorKind::USAGE, "", "effect \"" + name + "\"", "is not known" + did_you_mean(name, known), "known are " + names);
 }
 
 /// One that is named takes the place of the others of its kind.

@@ -35,8 +35,7 @@ const Material& material_preset(const std::string& name) {
     words.push_back(m.name);
     names += (names.empty() ? "" : ", ") + m.name;
   }
-  const std::string near = nearest_word(name, words.data(), words.data() + words.size());
-  throw input_error("", "material \"" + name + "\"", "is not known" + (near.empty() ? "" : " (did you mean \"" + near + "\"?)"), "known are " + names);
+  throw input_error("", "material \"" + name + "\"", "is not known" + did_you_mean(name, words), "known are " + names);
 }
 
 const Material& material_of(const Garment& garment, const std::string& name) {

@@ -154,8 +154,7 @@ void set_knob(DrapeSettings& settings, const std::string& name, double value) {
     words.emplace_back(k.name);
     names += (names.empty() ? "" : ", ") + words.back();
   }
-  const std::string near = nearest_word(name, words.data(), words.data() + words.size());
-  throw Error(ErrorKind::USAGE, "", name, "is no knob" + (near.empty() ? std::string() : " (did you mean \"" + near + "\"?)"), "knobs are " + names);
+  throw Error(ErrorKind::USAGE, "", name, "is no knob" + did_you_mean(name, words), "knobs are " + names);
 }
 
 void set_knob(DrapeSettings& settings, const std::string& name, const io::Node& value) {

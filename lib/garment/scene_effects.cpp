@@ -26,9 +26,7 @@ const pattern::PanelInfo& panel_named(const Garment& garment, const std::string&
     words.push_back(p.name);
     names += (names.empty() ? "" : ", ") + p.name;
   }
-  const std::string near = nearest_word(name, words.data(), words.data() + words.size());
-  throw input_error("", "panel \"" + name + "\"", "is not in the garment" + (near.empty() ? std::string() : " (did you mean \"" + near + "\"?)"),
-                    "panels are " + names);
+  throw input_error("", "panel \"" + name + "\"", "is not in the garment" + did_you_mean(name, words), "panels are " + names);
 }
 
 int nearest_vertex(const Garment& garment, const pattern::PanelInfo& panel, const Vec2& at) {

@@ -213,8 +213,7 @@ void Node::allow_only(std::initializer_list<const char*> allowed) const {
   const std::vector<std::string> words(allowed.begin(), allowed.end());
   for (const std::string& key : keys()) {
     if (std::find(words.begin(), words.end(), key) != words.end()) continue;
-    const std::string near = nearest_word(key, words.data(), words.data() + words.size());
-    fail("unknown key \"" + key + "\"" + (near.empty() ? "" : " (did you mean \"" + near + "\"?)"));
+    fail("unknown key \"" + key + "\"" + did_you_mean(key, words, "\""));
   }
 }
 

@@ -118,8 +118,7 @@ const Seam& seam_named(const Pattern& pattern, const io::Node& node) {
   if (seam != pattern.seams.end()) return *seam;
   std::vector<std::string> names;
   for (const Seam& s : pattern.seams) names.push_back(s.name);
-  const std::string near = nearest_word(name, names.data(), names.data() + names.size());
-  node.fail("there is no seam '" + name + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)"));
+  node.fail("there is no seam '" + name + "'" + did_you_mean(name, names));
 }
 
 /// Opens a seam, or closes one that is open. An edit that changes nothing is a mistake, and would have no opposite.
@@ -340,8 +339,7 @@ const Edit& edit_named(const io::Node& node) {
     known += (names.empty() ? "" : &edit == std::end(EDITS) - 1 ? " and " : ", ") + std::string(edit.name);
     names.emplace_back(edit.name);
   }
-  const std::string near = nearest_word(what, names.data(), names.data() + names.size());
-  node.at("edit").fail("unknown edit '" + what + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)"), "known are " + known);
+  node.at("edit").fail("unknown edit '" + what + "'" + did_you_mean(what, names), "known are " + known);
 }
 
 } // namespace

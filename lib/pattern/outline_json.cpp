@@ -76,8 +76,7 @@ int panel_named(const Pattern& pattern, const io::Node& node) {
   if (k >= 0) return k;
   std::vector<std::string> names;
   for (const Panel& p : pattern.panels) names.push_back(p.name);
-  const std::string near = nearest_word(name, names.data(), names.data() + names.size());
-  node.fail("there is no panel '" + name + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)"));
+  node.fail("there is no panel '" + name + "'" + did_you_mean(name, names));
 }
 
 int edge_named(const Panel& panel, const io::Node& node) {
@@ -87,8 +86,7 @@ int edge_named(const Panel& panel, const io::Node& node) {
   std::vector<std::string> names;
   for (const auto& loop : panel.loops)
     for (const PanelEdge& e : loop) names.push_back(e.name);
-  const std::string near = nearest_word(name, names.data(), names.data() + names.size());
-  node.fail("panel " + panel.name + " has no edge '" + name + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)"));
+  node.fail("panel " + panel.name + " has no edge '" + name + "'" + did_you_mean(name, names));
 }
 
 } // namespace sloper::pattern

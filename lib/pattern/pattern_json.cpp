@@ -59,8 +59,7 @@ int line_named(const Panel& panel, const io::Node& node) {
   for (const InnerLine& line : panel.lines) names.push_back(line.name);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<int>(found - names.begin());
-  const std::string near = nearest_word(name, names.data(), names.data() + names.size());
-  node.fail("panel " + panel.name + " has no line '" + name + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)"));
+  node.fail("panel " + panel.name + " has no line '" + name + "'" + did_you_mean(name, names));
 }
 
 void read_lines(const io::Node& node, Panel& panel, double unit) {

@@ -18,8 +18,7 @@ std::vector<std::string> split_words(const std::string& text) {
 }
 
 void refuse_word(const std::string& option, const std::string& word, const std::vector<std::string>& known, const std::string& next_step) {
-  const std::string near = nearest_word(word, known.data(), known.data() + known.size());
-  throw Error(ErrorKind::USAGE, "", option + " " + word, "is not known" + (near.empty() ? "" : " (did you mean '" + near + "'?)"), next_step);
+  throw Error(ErrorKind::USAGE, "", option + " " + word, "is not known" + did_you_mean(word, known), next_step);
 }
 
 std::array<int, 2> parse_size(const std::string& text) {

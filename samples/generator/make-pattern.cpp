@@ -20,9 +20,8 @@ samples::Draft draft(const std::string& garment, const samples::Measures& measur
     names.push_back(name);
     if (name == garment) return drafter(measures);
   }
-  const std::string near = nearest_word(garment, names.data(), names.data() + names.size());
-  throw Error(ErrorKind::USAGE, "", "GARMENT", "there is no garment \"" + garment + "\"",
-              near.empty() ? "shirt, tshirt, skirt or trousers" : "did you mean \"" + near + "\"?");
+  throw Error(ErrorKind::USAGE, "", "GARMENT", "there is no garment \"" + garment + "\"" + did_you_mean(garment, names, "\""),
+              "it makes a shirt, tshirt, skirt or trousers");
 }
 
 void set_measures(const std::vector<std::string>& texts, samples::Measures& measures) {

@@ -124,9 +124,7 @@ Mannequin preset(const std::string& name) {
       m.leg_deg = p.leg_deg;
       return m;
     }
-  const std::vector<std::string> names = preset_names();
-  const std::string near = nearest_word(name, names.data(), names.data() + names.size());
-  throw Error(ErrorKind::USAGE, "", "--preset", "there is no figure \"" + name + "\"", near.empty() ? "see --list" : "did you mean \"" + near + "\"?");
+  throw Error(ErrorKind::USAGE, "", "--preset", "there is no figure \"" + name + "\"" + did_you_mean(name, preset_names(), "\""), "see --list");
 }
 
 MadeMannequin make_mannequin(const Mannequin& shape) {

@@ -73,8 +73,7 @@ void set_measure(Measures& m, const std::string& name, double value) {
       return;
     }
   }
-  const std::string near = nearest_word(name, names.data(), names.data() + names.size());
-  throw Error(ErrorKind::USAGE, "", "--measure", "there is no measure \"" + name + "\"", near.empty() ? "see --help" : "did you mean \"" + near + "\"?");
+  throw Error(ErrorKind::USAGE, "", "--measure", "there is no measure \"" + name + "\"" + did_you_mean(name, names, "\""), "see --help");
 }
 
 Measures measures_from_body(const io::Json& body, const std::string& file) {

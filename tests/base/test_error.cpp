@@ -26,22 +26,18 @@ TEST(Error, has_the_exit_code_of_its_kind) {
   EXPECT_EQ(Error(ErrorKind::INTERNAL, "", "", "x").exit_code(), 70);
 }
 
-static std::string nearest(const std::string& word, const std::vector<std::string>& words) {
-  return nearest_word(word, words.data(), words.data() + words.size());
-}
-
-TEST(NearestWord, finds_a_misspelt_word) {
+TEST(DidYouMean, names_the_nearest_of_the_known_words) {
   const std::vector<std::string> words = {"--accuracy", "--body", "--panels"};
-  EXPECT_EQ(nearest("--accurcy", words), "--accuracy");
-  EXPECT_EQ(nearest("--boddy", words), "--body");
-  EXPECT_EQ(nearest("--panel", words), "--panels");
+  EXPECT_EQ(did_you_mean("--accurcy", words), " (did you mean '--accuracy'?)");
+  EXPECT_EQ(did_you_mean("--boddy", words, ""), " (did you mean --body?)");
+  EXPECT_EQ(did_you_mean("--panel", words, "\""), " (did you mean \"--panels\"?)");
 }
 
-TEST(NearestWord, is_empty_when_nothing_is_near) {
-  EXPECT_EQ(nearest("--turntable", {"--body", "--set"}), "");
-  EXPECT_EQ(nearest("x", {}), "");
+TEST(DidYouMean, is_empty_when_nothing_is_near) {
+  EXPECT_EQ(did_you_mean("--turntable", {"--body", "--set"}), "");
+  EXPECT_EQ(did_you_mean("x", {}), "");
 }
 
-TEST(NearestWord, takes_the_first_of_two_equally_near) { EXPECT_EQ(nearest("cat", {"bat", "rat"}), "bat"); }
+TEST(DidYouMean, takes_the_first_of_two_equally_near) { EXPECT_EQ(did_you_mean("cat", {"bat", "rat"}), " (did you mean 'bat'?)"); }
 
 TEST(Version, stamps_a_document_with_tool_and_version) { EXPECT_EQ(generator_stamp("drape"), std::string("drape ") + SLOPER_VERSION); }
