@@ -10,15 +10,18 @@ struct CanonicalFrame {
   std::vector<Finding> findings;
 };
 
+constexpr std::size_t SHAPE_POINTS = 60000; ///< for medians of radii, more points of the body are not needed
+
+/// @param shape points_of_body(), about SHAPE_POINTS of them, scan units
 /// @param unit "auto", "m", "cm" or "mm"
 /// @throws Error INPUT (naming `file`) where the scan is no standing body or no unit makes it one
-CanonicalFrame guess_frame(const TriangleMesh& scan, const SortedScan& sorted, const std::string& unit, const std::string& file);
-
-constexpr std::size_t SHAPE_POINTS = 60000; ///< for medians of radii, more points of the body are not needed
+CanonicalFrame guess_frame(const TriangleMesh& scan, const SortedScan& sorted, const std::vector<Vec3>& shape, const std::string& unit,
+                           const std::string& file);
 
 /// Turns and shifts a frame whose heading is right to a few degrees so that the trunk is its own mirror image; fills `front`.
 /// @param points of the body, scan units
-void refine_heading(std::vector<Vec3> points, CanonicalFrame& frame);
+/// @param is_near  the heading was right to a degree before the last change of the frame, which halves the cost
+void refine_heading(std::vector<Vec3> points, CanonicalFrame& frame, bool is_near);
 
 /// A rigid turn about y by `angle` (rad, from +z towards +x) and a shift, as a 4x4.
 Mat4 turn_and_shift(double angle, const Vec3& shift);

@@ -276,9 +276,10 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   for (std::size_t v = 0; v < torso.is_cut.size(); ++v)
     if (torso.is_cut[v]) sorted.is_body[v] = 0;
   const TriangleMesh& scan = is_torso ? torso.scan : given;
-  CanonicalFrame frame = guess_frame(scan, sorted, options.unit, file);
+  const std::vector<Vec3> shape = points_of_body(scan, sorted.is_body, SHAPE_POINTS);
+  CanonicalFrame frame = guess_frame(scan, sorted, shape, options.unit, file);
   // the same body gets the same vertical however it lies in its file; a floor, or a user, knows better
-  if (options.up == "auto" && !is_torso && (upright || !sorted.has_floor)) settle_vertical(scan, sorted, frame, !upright);
+  if (options.up == "auto" && !is_torso && (upright || !sorted.has_floor)) settle_vertical(scan, shape, sorted, frame, !upright);
   body.scan = {io::file_name(file),
                sha256,
                frame.unit,

@@ -18,7 +18,8 @@ std::optional<ShapeVertical> vertical_of_shape(std::vector<Vec3> points, const C
 /// Turns `frame` to the body's own vertical, where that is sure. The body's and the file's may differ by a posture that is not the usual one: the
 /// file's stays where the two are more than a little apart and posture or soles agree with the file. `sorted` gets the new vertical with the body's
 /// extent along it. The angle between the two is told in the frame's findings. Cost: linear, some 50 ms for 100,000 vertices.
+/// @param points of the body, scan units
 /// @param upright_file false where `frame` owes its vertical to upright_turn
-void settle_vertical(const TriangleMesh& scan, SortedScan& sorted, CanonicalFrame& frame, bool upright_file);
+void settle_vertical(const TriangleMesh& scan, const std::vector<Vec3>& points, SortedScan& sorted, CanonicalFrame& frame, bool upright_file);
 
 } // namespace sloper::body
