@@ -27,6 +27,7 @@ constexpr int IDLE_MS = 20;          // between looks for a line, while at rest
 constexpr int CALM_STEPS = 3;
 constexpr double LARGEST_MOVE = 0.02;    // m, of a particle in one frame
 constexpr double ANSWER_TOLERANCE = 0.1; // relative residual; see FOLLOW_ANSWER_ITERATIONS
+constexpr double BUSY_S = 1;             // after an edit: the next one is likely to come, and waits for the step it comes into
 
 using Clock = std::chrono::steady_clock;
 
@@ -62,7 +63,7 @@ public:
       const auto line = m_session.next_line(m_at_rest ? IDLE_MS : 0);
       if (line) take(*line);
       else if (m_session.ended()) break;
-      else if (!m_at_rest) frame();
+      else if (!m_at_rest) frame(-1, 0, Clock::now() - m_edited < std::chrono::duration<double>(BUSY_S));
       m_run.m_stopped = m_run.m_stopped || m_reporter.stop_requested();
     }
     settle();
@@ -205,6 +206,7 @@ private:
       m_reporter.warning(m_report.refused.back());
       return;
     }
+    m_edited = arrived;
     const auto since = [&] { return std::chrono::duration<double, std::milli>(Clock::now() - arrived).count(); };
     if (!m_remeshed) return frame(since(), cpu);
     FollowFrame f = next_frame();
@@ -282,7 +284,8 @@ private:
       if (effect->name() == std::string("shear")) static_cast<cloth::ShearEffect&>(*effect).set_rest(*m_run.m_cloth);
   }
 
-  /// One step on the way to rest, or, where an edit came `since_edit_ms` ago, the one that answers it. @param wide  not searched, as an answer is not
+  /// One step on the way to rest, or, where an edit came `since_edit_ms` ago, the one that answers it.
+  /// @param wide  on the budget of an answer and not searched, as an answer is not: sooner done
   void frame(double since_edit_ms = -1, std::clock_t cpu = 0, bool wide = false) {
     const auto began = Clock::now();
     const double h = m_run.m_settings.time_step_s;
@@ -316,6 +319,7 @@ private:
   int m_line = 0, m_calm = 0;
   std::optional<Finish> m_finish; ///< as asked for
   bool m_end = false, m_at_rest = false, m_remeshed = false;
+  Clock::time_point m_edited = Clock::now() - std::chrono::hours(1); ///< the last edit
 };
 
 FollowReport follow(Garment& garment, const body::Body* body, const DrapeSettings& settings, const FollowSession& session, Reporter& reporter) {

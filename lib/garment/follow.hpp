@@ -47,7 +47,8 @@ struct FollowReport {
 /// {"edit": "end", "finish": "warm"} leaves the cloth in its own rest; "finish": "replay" goes back to where the session began and makes all
 /// edits at once: the same bytes for the same last pattern, whatever came between and however fast. Without a body the panels cannot
 /// be placed anew, and a session ends in a replay; without an edit the garment stays as it hangs.
-/// After each edit the cloth makes at least one step before the next line is looked at; when no line comes, it goes on to rest. An edit
+/// After each edit the cloth makes at least one step before the next line is looked at; when no line comes, it goes on to rest, for a
+/// second in steps as short as an answer. An edit
 /// that asks for another mesh is answered by that mesh where the cloth hangs, and the step is the frame after it.
 /// @param garment  sewn, with the pattern it was meshed from (panels.source); left at rest, with that pattern edited
 /// @throws Error INPUT for a garment without its pattern, or whose panels are no longer its pattern's
