@@ -108,18 +108,16 @@ void require_few_vertices(const Pattern& pattern, const PanelMesh& mesh, const s
                       "give a larger --edge-length, or check the pattern's unit");
 }
 
-/// What the triangles of a panel depend on.
-struct PanelTask {
-  std::vector<std::vector<Vec2>> loops, lines;
-  std::vector<char> must_split;
-  SizeField size;
-  bool operator==(const PanelTask&) const = default;
-};
-
 } // namespace
 
 struct MeshMemory::Panels {
-  std::vector<PanelTask> tasks;
+  struct Task { ///< what the triangles of a panel depend on
+    std::vector<std::vector<Vec2>> loops, lines;
+    std::vector<char> must_split;
+    SizeField size;
+    bool operator==(const Task&) const = default;
+  };
+  std::vector<Task> tasks;
   std::vector<FlatMesh> flat; ///< of each task
 };
 MeshMemory::MeshMemory() : m_panels(std::make_unique<Panels>()) {}
@@ -139,7 +137,7 @@ PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::stri
 
   std::vector<FlatMesh> flat(pattern.panels.size());
   std::vector<std::string> failed(pattern.panels.size());
-  std::vector<PanelTask> tasks;
+  std::vector<MeshMemory::Panels::Task> tasks;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     const Boundary::PanelBoundary& b = boundary.panels[p];
     tasks.push_back({b.loops, sampled_lines(pattern.panels[p], b, edge_length, mesh.findings), b.must_split, size_field(pattern, p, b, mesh)});
@@ -148,7 +146,7 @@ PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::stri
   parallel_for(pattern.panels.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       try {
-        const PanelTask& task = tasks[p];
+        const auto& task = tasks[p];
         if (memory)
           if (const auto same = std::find(memory->m_panels->tasks.begin(), memory->m_panels->tasks.end(), task); same != memory->m_panels->tasks.end()) {
             flat[p] = memory->m_panels->flat[static_cast<std::size_t>(same - memory->m_panels->tasks.begin())];
