@@ -28,6 +28,7 @@ constexpr int CALM_STEPS = 3;
 constexpr double LARGEST_MOVE = 0.02;    // m, of a particle in one frame
 constexpr double ANSWER_TOLERANCE = 0.1; // relative residual; see FOLLOW_ANSWER_ITERATIONS
 constexpr double BUSY_S = 1;             // after an edit: the next one is likely to come, and waits for the step it comes into
+constexpr int BUSY_ITERATIONS = 6;       // at most, of those steps
 
 using Clock = std::chrono::steady_clock;
 
@@ -105,10 +106,10 @@ private:
   }
 
   /// One step, however long, on the budget of an answer. @return false when the run must end
-  bool answer() {
+  bool answer(int iterations = FOLLOW_ANSWER_ITERATIONS) {
     const DrapeSettings settings = m_run.m_settings;
     m_run.m_settings.cg_tolerance = std::max(settings.cg_tolerance, ANSWER_TOLERANCE);
-    m_run.m_settings.cg_max_iterations = std::min(settings.cg_max_iterations, FOLLOW_ANSWER_ITERATIONS);
+    m_run.m_settings.cg_max_iterations = std::min(settings.cg_max_iterations, iterations);
     m_run.m_settling = false;
     const bool goes_on = m_run.step(settings.time_step_s, 0, LARGEST_MOVE);
     m_run.m_settings = settings;
@@ -285,14 +286,14 @@ private:
   }
 
   /// One step on the way to rest, or, where an edit came `since_edit_ms` ago, the one that answers it.
-  /// @param wide  on the budget of an answer and not searched, as an answer is not: sooner done
+  /// @param wide  on a budget and not searched, as an answer is not: sooner done
   void frame(double since_edit_ms = -1, std::clock_t cpu = 0, bool wide = false) {
     const auto began = Clock::now();
     const double h = m_run.m_settings.time_step_s;
     const bool edited = since_edit_ms >= 0;
     m_run.m_report.steps = 0; // a session has no step limit
     m_run.m_settling = true;  // the way to rest is searched
-    if (!(edited || wide ? answer() : m_run.step(h, 0, LARGEST_MOVE))) return;
+    if (!(edited ? answer() : wide ? answer(BUSY_ITERATIONS) : m_run.step(h, 0, LARGEST_MOVE))) return;
     FollowFrame f = next_frame();
     f.cg_iterations = m_run.m_at.last.cg.iterations;
     f.speed_m_s = m_run.m_at.last.largest_move_m / h;

@@ -48,8 +48,8 @@ struct FollowReport {
 /// edits at once: the same bytes for the same last pattern, whatever came between and however fast. Without a body the panels cannot
 /// be placed anew, and a session ends in a replay; without an edit the garment stays as it hangs.
 /// After each edit the cloth makes at least one step before the next line is looked at; when no line comes, it goes on to rest, for a
-/// second in steps as short as an answer. An edit
-/// that asks for another mesh is answered by that mesh where the cloth hangs, and the step is the frame after it.
+/// second in steps shorter than an answer. An edit that asks for another mesh is answered by that mesh where the cloth hangs, and the step
+/// is the frame after it.
 /// @param garment  sewn, with the pattern it was meshed from (panels.source); left at rest, with that pattern edited
 /// @throws Error INPUT for a garment without its pattern, or whose panels are no longer its pattern's
 FollowReport follow(Garment& garment, const body::Body* body, const DrapeSettings& settings, const FollowSession& session, Reporter& reporter);
