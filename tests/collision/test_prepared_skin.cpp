@@ -8,7 +8,7 @@ namespace sloper::collision {
 namespace {
 
 using shapes::random_point;
-constexpr double FAR = std::numeric_limits<double>::infinity();
+constexpr double ANY_DISTANCE = std::numeric_limits<double>::infinity();
 
 /// Two balls that overlap, with flipped faces, a hole, a fin, a triangle of no width and a loose vertex: something of all that is found.
 TriangleMesh troubled() {
@@ -31,7 +31,7 @@ void expect_same(const BodyCollider& a, const BodyCollider& b) {
   Random random(7);
   for (int i = 0; i < 3000; ++i) {
     const Vec3 p = random_point(random, 1.6);
-    const SignedDistance here = a.signed_distance(p, FAR), there = b.signed_distance(p, FAR);
+    const SignedDistance here = a.signed_distance(p, ANY_DISTANCE), there = b.signed_distance(p, ANY_DISTANCE);
     ASSERT_EQ(here.distance, there.distance);
     ASSERT_EQ(here.triangle, there.triangle);
     ASSERT_EQ(here.normal, there.normal);
