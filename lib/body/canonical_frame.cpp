@@ -90,10 +90,10 @@ Mat4 turn_and_shift(double angle, const Vec3& shift) {
 
 Vec3 transform(const Mat4& m, const Vec3& p) { return m.block<3, 3>(0, 0) * p + m.block<3, 1>(0, 3); }
 
-void refine_heading(std::vector<Vec3> points, CanonicalFrame& frame, bool is_near) {
+void refine_heading(std::vector<Vec3> points, CanonicalFrame& frame) {
   for (Vec3& p : points) p = transform(frame.scan_to_body, p);
   // the mirror plane's normal (cos, -sin) becomes +x
-  if (const auto mirror = mirror_plane(points, frame.stature_m, is_near))
+  if (const auto mirror = mirror_plane(points, frame.stature_m))
     frame.scan_to_body = turn_and_shift(-mirror->angle, Vec3(-mirror->offset, 0, 0)) * frame.scan_to_body;
   const Vec3 facing = frame.scan_to_body.block<1, 3>(2, 0).transpose().normalized();
   frame.front = number_text("%.4f", facing.x()) + number_text(" %.4f", facing.y()) + number_text(" %.4f", facing.z());
@@ -173,7 +173,7 @@ CanonicalFrame guess_frame(const TriangleMesh& scan, const SortedScan& sorted, c
   frame.scan_to_body.block<3, 3>(0, 0) = chosen.metres * rotation;
   const Vec3 foot(calves.mean.x(), sorted.low * chosen.metres, calves.mean.y());
   frame.scan_to_body.block<3, 1>(0, 3) = -(heading * foot);
-  refine_heading(shape, frame, false);
+  refine_heading(shape, frame);
   return frame;
 }
 

@@ -20,8 +20,7 @@ CanonicalFrame guess_frame(const TriangleMesh& scan, const SortedScan& sorted, c
 
 /// Turns and shifts a frame whose heading is right to a few degrees so that the trunk is its own mirror image; fills `front`.
 /// @param points of the body, scan units
-/// @param is_near  the heading was right to a degree before the last change of the frame, which halves the cost
-void refine_heading(std::vector<Vec3> points, CanonicalFrame& frame, bool is_near);
+void refine_heading(std::vector<Vec3> points, CanonicalFrame& frame);
 
 /// A rigid turn about y by `angle` (rad, from +z towards +x) and a shift, as a 4x4.
 Mat4 turn_and_shift(double angle, const Vec3& shift);

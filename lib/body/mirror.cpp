@@ -120,14 +120,12 @@ Moments moments_of(const std::vector<Vec2>& points, double cell) {
   return m;
 }
 
-std::optional<MirrorPlane> mirror_plane(const std::vector<Vec3>& points, double stature, bool is_near) {
-  constexpr double FINER = 2.5; // steps of a round than of the one before
+std::optional<MirrorPlane> mirror_plane(const std::vector<Vec3>& points, double stature) {
   const std::vector<RadialLayer> layers = trunk_outlines(points, stature);
   std::vector<double> misses;
   double angle = 0, offset = 0;
-  const int first = is_near ? 1 : 0;
-  double angle_step = units::radians(2.0) / (is_near ? FINER : 1), offset_step = 0.004 * stature / (is_near ? FINER : 1);
-  for (int round = first; round < 4; ++round) {
+  double angle_step = units::radians(2.0), offset_step = 0.004 * stature;
+  for (int round = 0; round < 4; ++round) {
     double best = 1e300, best_angle = angle, best_offset = offset;
     const int n = round == 0 ? 4 : 2;
     for (int i = -n; i <= n; ++i)
@@ -137,7 +135,7 @@ std::optional<MirrorPlane> mirror_plane(const std::vector<Vec3>& points, double 
       }
     if (best > 1e299) return std::nullopt;
     angle = best_angle, offset = best_offset;
-    angle_step /= FINER, offset_step /= FINER;
+    angle_step /= 2.5, offset_step /= 2.5;
   }
   return MirrorPlane{angle, offset};
 }

@@ -20,8 +20,7 @@ struct MirrorPlane {
 
 /// The upright plane that mirrors the trunk below the shoulders best: the legs alone tell the heading to a few degrees.
 /// @param points of the body, body frame, m; nothing where they show no trunk
-/// @param is_near  it is known to lie within 2.5 degrees of x = 0, which halves the cost
-std::optional<MirrorPlane> mirror_plane(const std::vector<Vec3>& points, double stature, bool is_near = false);
+std::optional<MirrorPlane> mirror_plane(const std::vector<Vec3>& points, double stature);
 
 /// By how much the plane that mirrors the trunk leans to the body's left, rad; nothing where the trunk does not show it.
 std::optional<double> mirror_roll(const std::vector<Vec3>& points, double stature);

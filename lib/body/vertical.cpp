@@ -16,8 +16,7 @@ constexpr double HEAD_BEFORE_CALVES = 2.0; ///< degrees by which the line from t
 constexpr double FAR_APART = 4;            ///< degrees between posture and soles: so far, the soles are not believed at all
 constexpr double NEAR_FILE = 1.5;          ///< degrees from the file's vertical to the body's: so near, the body's is taken
 constexpr int SHAPE_ROUNDS = 2, HEADINGS = 2;
-constexpr double NEARLY_UPRIGHT = 3; ///< degrees: a turn so small does not change the heading by as much as a degree
-constexpr double SETTLED = 1e-4;     ///< rad
+constexpr double SETTLED = 1e-4; ///< rad
 
 /// A direction that is nearly +y, rad from it: `forward` to +z, `left` to +x.
 struct Lean {
@@ -115,7 +114,7 @@ void settle_vertical(const TriangleMesh& scan, const std::vector<Vec3>& points, 
     settled.stature_m = by_body.high - by_body.low;
     const double unit = row.head<3>().norm();
     by_body.low = (by_body.low - row[3]) / unit, by_body.high = (by_body.high - row[3]) / unit;
-    refine_heading(points, settled, degrees_between(up, Vec3::UnitY()) < NEARLY_UPRIGHT);
+    refine_heading(points, settled);
   }
   if (const double far = degrees_between(by_body.up, sorted.up); upright_file) {
     char text[120];
