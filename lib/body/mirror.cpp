@@ -2,7 +2,6 @@
 #include <body/mirror.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 
@@ -57,7 +56,7 @@ double quick_angle(double y, double x) {
 }
 
 /// How far the layers are from their mirror images in the upright plane through `offset` across, turned by `angle`:
-/// the median of |r - r'|, m. The layers are in the body frame. `misses` is room to work in.
+/// the mean of the lower six tenths of |r - r'|, m. The layers are in the body frame. `misses` is room to work in.
 double asymmetry(std::span<const RadialLayer> layers, double angle, double offset, std::vector<double>& misses) {
   const Vec2 normal(std::cos(angle), -std::sin(angle)); // of the mirror plane; +x at angle 0
   misses.clear();

@@ -82,6 +82,7 @@ void cut_triangle(const Triangle& t, const std::array<const Vec3*, 3>& p, const 
   cuts.push_back({edge_key(t[lone], t[from]), edge_key(t[lone], t[to]), crossing(from), crossing(to)});
 }
 
+/// The segments as loops, the one with the largest |area| first.
 std::vector<Loop> joined(const std::vector<Cut>& cuts) {
   if (cuts.empty()) return {};
   std::vector<char> is_open;

@@ -17,11 +17,10 @@ public:
   /// @param elevation rad, of the arm above the level, seen from the front: negative for arms that hang
   /// @return nothing where there is no sleeve: where the cloth at the arm's height reaches no farther out than below it or than the shoulder
   static std::optional<SleeveBend> find(const std::vector<std::vector<Vec2>>& outlines, double sign, const Vec2& shoulder, double elevation);
-  Vec2 at(const Vec2& p) const;
-  double angle() const { return m_angle; } ///< rad, by which the sleeve is turned upwards
+  Vec2 at(const Vec2& p) const; ///< where a point of the drawing goes, m, in the same plane
 
 private:
-  double m_sign = 1, m_axis = 0, m_angle = 0, m_crook = 0; // the sleeve's own elevation, rad; m, height where it leaves the trunk
+  double m_sign = 1, m_axis = 0, m_angle = 0, m_crook = 0; // rad, the sleeve's own elevation and its turn; m, height where it leaves the trunk
   Vec2 m_shoulder = Vec2::Zero();
 };
 
