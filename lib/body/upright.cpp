@@ -60,7 +60,8 @@ std::vector<Vec3> search(const std::vector<Vec3>& points) {
   }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Vec3> best;
-  for (const auto& [worth, up] : all) {
+  for (const auto& candidate : all) {
+    const Vec3& up = candidate.second; // clang 14 captures no structured binding
     if (best.size() == CANDIDATES) break;
     if (std::none_of(best.begin(), best.end(), [&](const Vec3& other) { return degrees_between(up, other) < SAME; })) best.push_back(up);
   }

@@ -198,8 +198,8 @@ void Aggregation::build(const LinearSystem& system) {
 
 double Aggregation::complexity() const {
   double blocks = 0;
-  for (const Level& level : m_levels) blocks += static_cast<double>(level.a.value.size());
-  return m_levels.empty() ? 1 : blocks / static_cast<double>(m_levels[0].a.value.size());
+  for (const Level& level : m_levels) blocks += static_cast<double>(level.a.column.size());
+  return m_levels.empty() ? 1 : blocks / static_cast<double>(m_levels[0].a.column.size());
 }
 
 void Aggregation::update(const LinearSystem& system) {

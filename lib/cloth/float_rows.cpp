@@ -30,8 +30,8 @@ Vec3 to_double(Float4 v) {
 
 FloatRows to_float(const BlockRows& rows) {
   FloatRows out{rows.rows, rows.columns, rows.start, rows.column, {}};
-  out.value.reserve(rows.value.size());
-  for (const Mat3& m : rows.value) out.value.push_back(to_float(m));
+  out.value.assign(9 * rows.value.size() + 3, 0);
+  for (std::size_t k = 0; k < rows.value.size(); ++k) out.put(static_cast<int>(k), rows.value[k]);
   return out;
 }
 
@@ -61,7 +61,7 @@ BlockRows expand(const BlockMatrix& m) {
 void refill(const BlockMatrix& m, FloatRows& rows) {
   parallel_for(static_cast<std::size_t>(m.size()), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
     for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
-      visit_row(m, i, rows.start[i], [&](int k, int, const Mat3& value) { rows.value[k] = to_float(value); });
+      visit_row(m, i, rows.start[i], [&](int k, int, const Mat3& value) { rows.put(k, value); });
   });
 }
 

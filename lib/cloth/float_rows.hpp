@@ -18,15 +18,23 @@ struct FloatBlock {
 };
 inline Float4 operator*(const FloatBlock& a, Float4 x) { return a.column[0] * lane<0>(x) + a.column[1] * lane<1>(x) + a.column[2] * lane<2>(x); }
 
+/// Blocks are packed, since reading them is what a product costs: the fourth lane of what a row gives is anything.
 struct FloatRows {
   int rows = 0, columns = 0;
   std::vector<int> start, column;
-  std::vector<FloatBlock> value;
+  std::vector<float> value; ///< nine numbers a block, by columns, and three more that the last one's read runs into
   /// Row i of A x
   Float4 row_times(std::size_t i, const std::vector<Float4>& x) const {
     Float4 sum = Float4::all(0);
-    for (int k = start[i]; k < start[i + 1]; ++k) sum = sum + value[k] * x[column[k]];
+    const float* v = value.data() + 9 * static_cast<std::size_t>(start[i]);
+    for (int k = start[i]; k < start[i + 1]; ++k, v += 9) {
+      const Float4 p = x[column[k]];
+      sum = sum + (Float4::load_any(v) * lane<0>(p) + Float4::load_any(v + 3) * lane<1>(p) + Float4::load_any(v + 6) * lane<2>(p));
+    }
     return sum;
+  }
+  void put(int k, const Mat3& block) {
+    for (int i = 0; i < 9; ++i) value[9 * static_cast<std::size_t>(k) + i] = static_cast<float>(block.data()[i]);
   }
   /// y = A x
   void multiply(const std::vector<Float4>& x, std::vector<Float4>& y) const;

@@ -108,9 +108,11 @@ void run(const std::string& folder, const std::string& name, bool self, bool to_
     self_contact = &solver.emplace<SelfContactEffect>(mesh, options);
   }
 
-  const int frames = scene.at("frames"), substeps = std::atoi(environment("SLOPER_BENCH_SUBSTEPS", "1"));
+  const int frames = std::min(scene.at("frames").get<int>(), std::atoi(environment("SLOPER_BENCH_FRAMES", "1000000")));
+  const int substeps = std::atoi(environment("SLOPER_BENCH_SUBSTEPS", "1"));
   StepOptions options;
-  options.cg_tolerance = std::atof(environment("SLOPER_BENCH_TOLERANCE", to_rest ? "0.03" : "0.2"));
+  // In motion as loose as the step itself: skirt_3k after 20 frames is 16 mm RMS from a solve to 0.001, and that 23 mm from one with half the step.
+  options.cg_tolerance = std::atof(environment("SLOPER_BENCH_TOLERANCE", to_rest ? "0.03" : "0.5"));
   options.largest_move_m = 0.5;
   std::vector<double> frame_ms;
   long iterations = 0, steps = 0;
