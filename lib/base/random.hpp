@@ -1,5 +1,6 @@
 #pragma once
-/// Seeded random numbers: the same sequence on every machine and compiler (SplitMix64, Steele et al. 2014).
+/// Seeded random numbers: the same sequence on every machine and compiler (SplitMix64, Steele et al. 2014), as
+/// long as draws are not arguments of one call: compilers choose those arguments' order.
 #include <cstdint>
 namespace sloper {
 class Random {

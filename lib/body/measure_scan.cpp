@@ -204,9 +204,9 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
   for (int run = 0; run < runs && !reporter.stop_requested(); ++run) {
     Random random(static_cast<std::uint64_t>(run) + 1);
     auto angle = [&](double degrees) { return units::radians(random.uniform(-degrees, degrees)); };
+    const double about_z = angle(0.5), about_x = angle(0.5), about_y = angle(1.5);
     const Eigen::Matrix3d turn =
-        (Eigen::AngleAxisd(angle(1.5), Vec3::UnitY()) * Eigen::AngleAxisd(angle(0.5), Vec3::UnitX()) * Eigen::AngleAxisd(angle(0.5), Vec3::UnitZ()))
-            .toRotationMatrix();
+        (Eigen::AngleAxisd(about_y, Vec3::UnitY()) * Eigen::AngleAxisd(about_x, Vec3::UnitX()) * Eigen::AngleAxisd(about_z, Vec3::UnitZ())).toRotationMatrix();
     const Vec3 lift(0, random.uniform(0, 0.0025) * in.s, 0); // where the slices lie
     Body trial;
     trial.scan.stature_m = body.scan.stature_m;

@@ -299,7 +299,8 @@ GradeReport regrade(Garment& garment, const std::vector<Vec3>& before, const std
     for (int i = 0; i < layouts[k].panel->n_vertices; ++i) garment.panels.pattern[layouts[k].panel->first_vertex + i] += (moved[k].row(i) - shift).transpose();
   }
   for (const auto& [limb, why] : sides.apart)
-    if (std::any_of(garment.panels.panels.begin(), garment.panels.panels.end(), [&](const auto& panel) { return limb_of(garment, panel) == limb; }))
+    if (std::any_of(garment.panels.panels.begin(), garment.panels.panels.end(),
+                    [&, limb = limb](const auto& panel) { return limb_of(garment, panel) == limb; })) // clang 14 captures no structured binding
       report.findings.push_back(why + ": more than is graded alike, so left and right are graded apart");
   measure_seams(garment, lengths, report);
   return report;

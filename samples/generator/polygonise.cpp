@@ -163,12 +163,13 @@ void even_valence(TriangleMesh& mesh) {
     for (const auto& [edge, tris] : side) {
       const auto [t0, t1] = tris;
       if (touched[t0] || touched[t1]) continue;
+      const int a = edge.first, b = edge.second;
       const auto opposite = [&](int t) {
         for (int v : mesh.triangles[t])
-          if (v != edge.first && v != edge.second) return v;
+          if (v != a && v != b) return v;
         return -1;
       };
-      const int a = edge.first, b = edge.second, c = opposite(t0), d = opposite(t1);
+      const int c = opposite(t0), d = opposite(t1);
       if (side.count({std::min(c, d), std::max(c, d)})) continue;
       const auto cost = [](int va, int vb, int vc, int vd) {
         const auto square = [](int n) { return (n - 6) * (n - 6); };

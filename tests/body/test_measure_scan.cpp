@@ -200,7 +200,7 @@ TEST(MeasureScan, floor_pole_and_debris_are_no_body) {
     }
   add_box(scan, Vec3(0.40, 0, -0.55), Vec3(0.44, 1.9, -0.51));
   for (int k = 0; k < 12; ++k) {
-    const Vec3 at(random.uniform(-0.6, 0.6), random.uniform(0.2, 1.6), random.uniform(0.35, 0.6));
+    const Vec3 at{random.uniform(-0.6, 0.6), random.uniform(0.2, 1.6), random.uniform(0.35, 0.6)};
     add_box(scan, at, at + Vec3::Constant(0.015));
   }
   const Body alone = measure(test::mannequin("f-165-a").mesh).body;

@@ -39,7 +39,7 @@ TEST(Upright, a_body_with_level_arms_is_found_however_it_lies) {
   const TriangleMesh& mesh = test::mannequin("m-185-t").mesh;
   Random random(5);
   for (int k = 0; k < 8; ++k) {
-    const Eigen::Quaterniond q(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    const Eigen::Quaterniond q{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
     const Eigen::Matrix3d turn = q.normalized().toRotationMatrix();
     const TriangleMesh lying = test::moved(mesh, turn, Vec3(1, 2, 3));
     const auto upright = upright_turn(lying, sort_scan(lying, "auto"));

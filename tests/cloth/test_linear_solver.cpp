@@ -103,7 +103,7 @@ TEST(Factorisation, solves_the_same_system_contacts_too_at_once) {
     for (int i = 0; i < e.n; ++i) e.particle[i] = static_cast<int>(random.uniform(0, 1) * (s.matrix.size() - 1));
     if (k % 10 == 0) e.particle[2] = e.particle[0];
     e.weight = {0.5, 0.3, -0.8, 0};
-    e.normal = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 2).normalized();
+    e.normal = Vec3{random.uniform(-1, 1), random.uniform(-1, 1), 2}.normalized();
     e.normal_stiffness = 300;
     e.tangent_stiffness = 20;
     s.elements.push_back(e);

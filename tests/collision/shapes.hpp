@@ -13,6 +13,13 @@ inline Vec3 random_point(Random& random, double size = 1) {
   return {x, y, z};
 }
 
+/// A point of the grid 0 .. range - 1.
+inline Vec3 grid_point(Random& random, unsigned range) {
+  Vec3 p;
+  for (double& c : p) c = static_cast<double>(random.next() % range);
+  return p;
+}
+
 /// Subdivided icosahedron: 20 * 4^levels triangles, outward.
 inline TriangleMesh sphere(int levels, double radius = 1, const Vec3& center = Vec3::Zero()) {
   const double g = (1 + std::sqrt(5.0)) / 2;

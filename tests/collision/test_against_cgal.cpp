@@ -28,7 +28,7 @@ TEST(AgainstCgal, OrientationHasOneConventionAndTheSameSigns) {
   Random random(31);
   for (int i = 0; i < 20000; ++i) {
     Vec3 p[4];
-    for (Vec3& v : p) v = i % 3 ? Vec3(Vec3(random.next() % 5, random.next() % 5, random.next() % 5) * 0.1) : shapes::random_point(random);
+    for (Vec3& v : p) v = i % 3 ? Vec3(shapes::grid_point(random, 5) * 0.1) : shapes::random_point(random);
     if (i % 3 == 0 && i % 2) p[3] = p[0] + 0.3 * (p[1] - p[0]) + 0.4 * (p[2] - p[0]);
     const auto q = [&](int k) { return Kernel::Point_3(p[k].x(), p[k].y(), p[k].z()); };
     ASSERT_EQ(orientation(p[0], p[1], p[2], p[3]), -static_cast<int>(CGAL::orientation(q(0), q(1), q(2), q(3)))) << i;
@@ -43,7 +43,7 @@ TEST(AgainstCgal, TrianglesOnAGridOfPointsAgree) {
     const double scale = i % 2 ? 0.1 : 1;
     const unsigned range = 2 + i % 4;
     for (Corners& c : t)
-      for (Vec3& v : c) v = Vec3(random.next() % range, random.next() % range, random.next() % range) * scale;
+      for (Vec3& v : c) v = shapes::grid_point(random, range) * scale;
     if (i % 5 == 0)
       for (Corners& c : t)
         for (Vec3& v : c) v.z() = 0; // coplanar

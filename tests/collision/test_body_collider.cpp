@@ -48,7 +48,7 @@ TEST(BodyCollider, SignAtSharpEdgesAndCornersIsThatOfTheSolid) {
   Random random(42);
   int inside = 0;
   for (int i = 0; i < 5000; ++i) {
-    const Vec3 p(random.uniform(-0.15, 0.15), random.uniform(-0.15, 0.15), random.uniform(-0.2, 3.2));
+    const Vec3 p{random.uniform(-0.15, 0.15), random.uniform(-0.15, 0.15), random.uniform(-0.2, 3.2)};
     const bool truth = exact_winding(spike, p) > 0.5;
     inside += truth;
     ASSERT_EQ(body.signed_distance(p, FAR).distance < 0, truth) << p.transpose();

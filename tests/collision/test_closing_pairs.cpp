@@ -37,7 +37,7 @@ Sheets two_sheets(int n) {
 std::vector<Vec3> random_motion(const Sheets& s, std::uint64_t seed) {
   Random random(seed);
   std::vector<Vec3> dx(s.x.size());
-  for (Vec3& d : dx) d = 0.01 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  for (Vec3& d : dx) d = 0.01 * Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
   return dx;
 }
 
@@ -58,7 +58,7 @@ TEST(ClosingPairs, WhatIsNotFoundStaysApart) {
   Random random(8);
   std::vector<Vec3> dx(s.x.size());
   for (std::size_t i = 0; i < dx.size(); ++i) // the upper sheet falls through the lower, and both drift
-    dx[i] = Vec3(0.05, i < dx.size() / 2 ? 0 : -0.03, 0) + 0.002 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    dx[i] = Vec3(0.05, i < dx.size() / 2 ? 0 : -0.03, 0) + 0.002 * Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
   ClosingPairs closing(s.triangles, topology);
   closing.find(s.x, dx, false);
   EXPECT_FALSE(closing.vertex_face().empty());

@@ -44,7 +44,7 @@ TEST(Predicates, OrientationChangesSignWithEveryExchangeOfPoints) {
   Random random(21);
   for (int i = 0; i < 2000; ++i) {
     Vec3 p[4];
-    for (Vec3& v : p) v = Vec3(random.next() % 4, random.next() % 4, random.next() % 4) * (i % 2 ? 0.1 : 1.0); // many exact ties
+    for (Vec3& v : p) v = shapes::grid_point(random, 4) * (i % 2 ? 0.1 : 1.0); // many exact ties
     const int o = orientation(p[0], p[1], p[2], p[3]);
     ASSERT_EQ(orientation(p[1], p[0], p[2], p[3]), -o);
     ASSERT_EQ(orientation(p[1], p[2], p[0], p[3]), o);
@@ -95,7 +95,7 @@ TEST(SelfIntersections, GridPointsGiveAllKindsOfTouching) {
   Random random(24);
   TriangleMesh mesh;
   for (int i = 0; i < 200; ++i) {
-    for (int k = 0; k < 3; ++k) mesh.positions.push_back(Vec3(random.next() % 5, random.next() % 5, random.next() % 5) * 0.1);
+    for (int k = 0; k < 3; ++k) mesh.positions.push_back(shapes::grid_point(random, 5) * 0.1);
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   EXPECT_EQ(self_intersections(mesh.positions, mesh.triangles, TriangleTree(mesh.positions, mesh.triangles)), brute_force(mesh));

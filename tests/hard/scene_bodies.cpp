@@ -150,9 +150,9 @@ void damage(TriangleMesh& mesh, const std::string& kind, std::uint64_t seed) {
     for (Triangle& t : f) std::swap(t[1], t[2]);
   } else if (kind == "debris") {
     for (int k = 0; k < 30; ++k) {
-      const Vec3 at(random.uniform(-0.6, 0.6), random.uniform(0, 1.3), random.uniform(0.4, 0.6));
+      const Vec3 at = random_point(random, {-0.6, 0, 0.4}, {0.6, 1.3, 0.6});
       const int base = static_cast<int>(mesh.positions.size());
-      for (int c = 0; c < 3; ++c) mesh.positions.push_back(at + 0.01 * Vec3(random.uniform(), random.uniform(), random.uniform()));
+      for (int c = 0; c < 3; ++c) mesh.positions.push_back(at + 0.01 * random_point(random, Vec3::Zero(), Vec3::Ones()));
       f.push_back({base, base + 1, base + 2});
     }
   } else if (kind == "duplicates") {

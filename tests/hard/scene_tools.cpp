@@ -79,6 +79,12 @@ void jitter(std::vector<Vec3>& x, double amount, std::uint64_t seed) {
     for (int k = 0; k < 3; ++k) p[k] += random.uniform(-amount, amount);
 }
 
+Vec3 random_point(Random& random, const Vec3& low, const Vec3& high) {
+  Vec3 p;
+  for (int k : {2, 1, 0}) p[k] = random.uniform(low[k], high[k]);
+  return p;
+}
+
 void measure_cloth(Outcome& o, const cloth::ClothMesh& mesh, const std::vector<Vec3>& x) {
   o.value["finite"] = std::all_of(x.begin(), x.end(), [](const Vec3& p) { return p.allFinite(); });
   if (o.value["finite"] == 0) return;

@@ -27,6 +27,8 @@ cloth::Fabric fabric_of(const Parameters& p);
 void add_models(cloth::ClothSolver& solver, const cloth::ClothMesh& mesh, const Parameters& p);
 
 void jitter(std::vector<Vec3>& x, double amount, std::uint64_t seed);
+/// Uniform in the box between two corners.
+Vec3 random_point(Random& random, const Vec3& low, const Vec3& high);
 
 /// "finite", "strain_p99", "strain_max" (either sign), "stretch_p99" (lengthening), "crossings" (pairs of triangles), "extent_m".
 void measure_cloth(Outcome& o, const cloth::ClothMesh& mesh, const std::vector<Vec3>& x);

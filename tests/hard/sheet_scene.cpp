@@ -59,7 +59,7 @@ void spoil(Sheet& s, const Parameters& p, std::uint64_t seed) {
     q = middle + scale * (q - middle);
     if (start == "mirrored") q.x() = 2 * middle.x() - q.x();
     if (start == "point") q = middle;
-    if (crumple > 0) q += Vec3(random.uniform(-crumple, crumple), random.uniform(-crumple, crumple), random.uniform(-crumple, crumple));
+    if (crumple > 0) q += random_point(random, Vec3::Constant(-crumple), Vec3::Constant(crumple));
   }
   if (start == "far") s.x[s.at(s.columns / 2, s.rows / 2)] += Vec3(0, 100, 0);
   if (start == "nan") s.x[s.at(s.columns / 2, s.rows / 2)].y() = std::nan("");

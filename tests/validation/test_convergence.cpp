@@ -108,7 +108,7 @@ TEST(Convergence, in_the_mesh_is_of_second_order) {
 TEST(Convergence, in_the_tolerance_of_conjugate_gradients_is_of_first_order) {
   Sheet s = make_sheet(16, 16, 0.02, 0.02, Fabric{});
   Random random(3);
-  for (Vec3& p : s.x) p += Vec3(random.uniform(-1e-3, 1e-3), random.uniform(-1e-3, 1e-3), random.uniform(-1e-3, 1e-3));
+  for (Vec3& p : s.x) p += Vec3{random.uniform(-1e-3, 1e-3), random.uniform(-1e-3, 1e-3), random.uniform(-1e-3, 1e-3)};
   const auto stepped = [&](double tolerance) {
     ClothSolver solver(s.mesh, s.x);
     solver.emplace<MembraneEffect>(s.mesh);
