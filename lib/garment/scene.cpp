@@ -6,6 +6,7 @@
 #include <garment/scene_effects_json.hpp>
 #include <io/json.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <functional>
@@ -138,6 +139,12 @@ DrapeSettings preset_settings(const std::string& accuracy) {
       return s;
     }
   throw Error(ErrorKind::USAGE, "", "--accuracy", "\"" + accuracy + "\" is not known", "known are draft, standard, fine, reference");
+}
+
+DrapeSettings redrape_settings(const std::string& accuracy) {
+  DrapeSettings s = preset_settings(accuracy);
+  if (s.accuracy == "standard") s.cg_tolerance = std::max(s.cg_tolerance, preset_settings("draft").cg_tolerance);
+  return s;
 }
 
 void set_knob(DrapeSettings& settings, const std::string& name, double value) {

@@ -6,6 +6,7 @@
 #include <garment/preset_table.hpp>
 #include <garment/scene.hpp>
 #include <gtest/gtest.h>
+#include <io/json.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;
@@ -42,6 +43,32 @@ TEST(Presets, are_within_ten_times_their_table_on_a_scene_that_it_was_not_made_f
     EXPECT_LT(rms(cloth, reference), coarser) << p.name;
     coarser = rms(cloth, reference);
   }
+}
+
+/// A placed garment is re-draped with rougher steps: that must be cheaper, and what is at rest must stay as strict.
+TEST(Presets, of_a_redrape_differ_only_in_how_exactly_a_step_is_solved) {
+  for (const std::string& name : accuracy_names()) {
+    const DrapeSettings cold = preset_settings(name), warm = redrape_settings(name);
+    EXPECT_EQ(warm.accuracy, name);
+    EXPECT_EQ(warm.settle_force_ratio, cold.settle_force_ratio);
+    EXPECT_EQ(warm.settle_speed_m_s, cold.settle_speed_m_s);
+    EXPECT_EQ(warm.max_steps, cold.max_steps);
+    if (name != "standard") {
+      EXPECT_EQ(warm.cg_tolerance, cold.cg_tolerance) << name;
+    }
+  }
+  const body::Body pillar = make_pillar();
+  Garment placed = make_skirt(0.76, 0.28, 0.04);
+  ASSERT_TRUE(drape(placed, &pillar, preset_settings("standard"), silent_reporter()).converged);
+  for (Vec3& p : placed.position) p = Vec3(1.02 * p.x(), p.y() + 0.01, 1.02 * p.z());
+  Garment exact = placed, rough = placed;
+  const DrapeReport a = drape(exact, &pillar, preset_settings("standard"), silent_reporter()),
+                    b = drape(rough, &pillar, redrape_settings("standard"), silent_reporter());
+  ASSERT_TRUE(a.converged);
+  ASSERT_TRUE(b.converged);
+  EXPECT_LT(b.quality["residual_force_ratio"].get<double>(), preset_settings("standard").settle_force_ratio);
+  const auto iterations = [](const DrapeReport& r) { return r.steps * r.solver["cg_iterations"]["mean"].get<double>(); };
+  EXPECT_LT(iterations(b), iterations(a));
 }
 
 class Goal : public testing::TestWithParam<double> {};
