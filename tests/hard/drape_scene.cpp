@@ -219,7 +219,8 @@ Outcome drape_scene(const Parameters& p, std::uint64_t seed) {
   collision::BodyCollider truth;
   if (on) truth = collision::BodyCollider(whole);
   measure(out, g, report, on ? &truth : nullptr);
-  if (on && p.text("damage", "none") == "noise") { // of skin that is off by noise the drape can claim nothing but what it was given
+  const std::string damage_kind = p.text("damage", "none");
+  if (on && (damage_kind == "noise" || damage_kind == "holes")) { // of skin that is off by noise or gone the drape can claim nothing but what it was given
     const collision::BodyCollider given(skin);
     out.value["honest"] = !report.converged || garment::audit(g, &given).clean();
   }
