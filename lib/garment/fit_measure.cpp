@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sloper::garment {
 
@@ -210,11 +211,16 @@ std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& pla
   };
   take_strain(within(BAND), within(0.5 * BAND), row);
   // How the girth changes within the error of the height, and a chord's shortfall against its arc (edge^2 / 24 r^2).
-  double change = 0;
+  // An opening whose sides lie flatter than 45 degrees is a hem that crosses the level: bridged, it cuts through the body.
+  const bool cut_open = row.open && line->chains.size() == 1;
+  double change = 0, widens = 0;
   for (const double shift : {-place.height_error_m, place.height_error_m}) {
     std::string ignored;
-    if (const auto moved = line_around(garment, use, place, shift, ignored)) change = std::max(change, std::abs(moved->rest - row.rest_m));
+    const auto moved = line_around(garment, use, place, shift, ignored);
+    if (moved) change = std::max(change, std::abs(moved->rest - row.rest_m));
+    widens = std::max(widens, moved ? std::abs(moved->bridged - line->bridged) : std::numeric_limits<double>::infinity());
   }
+  if (cut_open && widens > 2 * place.height_error_m) return why = "a hem crosses it", std::nullopt;
   if (place.kind == "neck" && change > SLANT * row.rest_m) return why = "the cloth crosses it at a slant", std::nullopt; // shoulders, not a neck
   finish_row(cloth, place, *line, change, convergence, row);
   return row;

@@ -145,6 +145,24 @@ TEST(fit, a_level_at_the_arm_pits_is_measured_with_its_arms_left_out) {
   EXPECT_NEAR(r->rest_m, r->body_m, 0.12);
 }
 
+TEST(fit, a_level_that_a_slanting_hem_crosses_is_left_out) {
+  const body::Body body = measured("f-165-a");
+  const Garment whole = skin_shirt(body, 0.01);
+  const double level = body.levels.at("waist_semantic").y;
+  double front = -1e9, back = 1e9;
+  for (const Vec3& p : whole.position)
+    if (std::abs(p.y() - level) < 0.02 && std::abs(p.x()) < 0.1) front = std::max(front, p.z()), back = std::min(back, p.z());
+  std::vector<Triangle> faces; // the hem rises to the front, where it leaves a fifth of the level bare
+  for (const Triangle& t : whole.panels.triangles) {
+    const Vec3 p = (whole.position[t[0]] + whole.position[t[1]] + whole.position[t[2]]) / 3;
+    if (std::abs(p.x()) > 0.25 || p.y() > level + 0.3 * (p.z() - front + 0.1 * (front - back))) faces.push_back(t);
+  }
+  const Dressed d = dressed(body, sheet(whole.position, faces, 0));
+  EXPECT_FALSE(row(d.report, "waist_semantic"));
+  EXPECT_TRUE(std::count(d.report.left_out.begin(), d.report.left_out.end(), std::pair<std::string, std::string>("waist_semantic", "a hem crosses it")));
+  ASSERT_TRUE(row(dressed(body, whole).report, "waist_semantic"));
+}
+
 TEST(fit, sleeves_and_legs_are_covered_to_where_they_end) {
   const body::Body body = measured("f-165-a");
   const Dressed shirt = dressed(body, skin_shirt(body)), trousers = dressed(body, skin_trousers(body));
