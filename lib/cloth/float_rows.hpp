@@ -22,7 +22,7 @@ inline Float4 operator*(const FloatBlock& a, Float4 x) { return a.column[0] * la
 struct FloatRows {
   int rows = 0, columns = 0;
   std::vector<int> start, column;
-  std::vector<float> value; ///< nine numbers a block, by columns, and three more that the last one's read runs into
+  std::vector<float> value; ///< nine numbers a block, by columns, and room that the last one's read runs into
   /// Row i of A x
   Float4 row_times(std::size_t i, const std::vector<Float4>& x) const {
     Float4 sum = Float4::all(0);

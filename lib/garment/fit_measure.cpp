@@ -210,8 +210,8 @@ std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& pla
     return strain_of(cloth, near);
   };
   take_strain(within(BAND), within(0.5 * BAND), row);
-  // How the girth changes within the error of the height, and a chord's shortfall against its arc (edge^2 / 24 r^2).
-  // An opening whose sides lie flatter than 45 degrees is a hem that crosses the level: bridged, it cuts through the body.
+  // How the girth changes within the error of the height, and how much wider it opens: an opening whose sides lie flatter than 45
+  // degrees is a hem that crosses the level, and the bridge over it cuts through the body.
   const bool cut_open = row.open && line->chains.size() == 1;
   double change = 0, widens = 0;
   for (const double shift : {-place.height_error_m, place.height_error_m}) {
