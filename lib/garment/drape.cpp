@@ -37,7 +37,7 @@ constexpr int JUDGE_EVERY = 20;          // steps between looks whether the garm
 constexpr int STRAINED_STEPS = 80;       // without a strain that is less by STRAIN_FALLS: it stays
 constexpr double STRAIN_FALLS = 0.97;    // sleeves that slide along an arm against friction lose a few hundredths meanwhile
 constexpr double NEAR_RESIDUAL = 1;      // weights: below, steps may grow faster
-constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
+constexpr double LARGEST_STEP_S = 1;     // s, while settling
 
 } // namespace
 
@@ -171,7 +171,7 @@ void DrapeRun::build_solver(bool open_seams) {
 bool DrapeRun::step(double h, double inertia, double largest_move_m) {
   cloth::StepOptions options;
   options.largest_move_m = largest_move_m;
-  options.line_search = m_settling;
+  options.line_search = options.momentum = m_settling;
   options.h = h;
   options.inertia = inertia;
   options.cg_tolerance = m_sewing ? std::max(SEW_TOLERANCE, m_settings.cg_tolerance) : m_settings.cg_tolerance;

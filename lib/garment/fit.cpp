@@ -137,19 +137,21 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
     if (worse) worst = &row;
     if (&row == report.rows.data() || row.margin_m < report.margin_m) report.margin_m = row.margin_m, report.margin_at = row.name;
   }
-  if (!worst) {
+  const bool slips = report.slip_m > policy.slip_m(report.garment_class, report.fabric);
+  const std::string slides_down = "slides down by " + centimetres(report.slip_m);
+  if (!worst) { // or it has slid off all of them
     report.fits = false;
     report.verdict = FitVerdict::TOO_LARGE;
-    report.reason = "goes round no girth of the body";
+    report.reason = slips ? slides_down : "goes round no girth of the body";
     return;
   }
   report.verdict = worst->verdict;
   report.reason = worst->reason;
   const bool certain = report.convergence_m == 0 || !unfit.empty();
   if (certain) judge_strain(policy, report);
-  if (certain && report.verdict <= FitVerdict::TOO_LARGE && report.slip_m > policy.slip_m(report.garment_class, report.fabric)) {
+  if (certain && report.verdict <= FitVerdict::TOO_LARGE && slips) {
     report.verdict = FitVerdict::TOO_LARGE;
-    report.reason = "slides down by " + centimetres(report.slip_m);
+    report.reason = slides_down;
   }
   report.fits = report.verdict < FitVerdict::TOO_LARGE && !(report.verdict == FitVerdict::TIGHT && policy.refuse_tight);
   if (report.fits && policy.refuse_loose)
