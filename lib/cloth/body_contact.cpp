@@ -201,7 +201,6 @@ void BodyContactEffect::search(const std::vector<Vec3>& x) {
 BodyContactEffect::Closest BodyContactEffect::closest(const Pair& pair, const std::vector<Vec3>& x) const {
   const std::vector<Vec3>& skin = m_body.mesh().positions;
   Closest c;
-  c.share = 1;
   Vec3 away;
   if (pair.n == 1) {
     const auto d = collision::point_triangle(x[pair.particle[0]], skin[pair.body[0]], skin[pair.body[1]], skin[pair.body[2]]);
@@ -213,7 +212,6 @@ BodyContactEffect::Closest BodyContactEffect::closest(const Pair& pair, const st
     const auto d = collision::edge_edge(a0, a1, b0, b1);
     c.weight = {1 - d.s, d.s, 0};
     c.body_weight = {1 - d.t, d.t, 0};
-    c.share = crossing_share(a1 - a0, b1 - b0);
     away = a0 + d.s * (a1 - a0) - b0 - d.t * (b1 - b0);
   } else {
     const Vec3& b = skin[pair.body[0]];
@@ -243,8 +241,38 @@ BodyContactEffect::Closest BodyContactEffect::closest(const Pair& pair, const st
   return c;
 }
 
+double BodyContactEffect::share_of(const Pair& pair, const std::vector<Vec3>& x) const {
+  if (pair.n != 2) return 1;
+  const std::vector<Vec3>& skin = m_body.mesh().positions;
+  return crossing_share(x[pair.particle[1]] - x[pair.particle[0]], skin[pair.body[1]] - skin[pair.body[0]]);
+}
+
+void BodyContactEffect::measure_way(const std::vector<Vec3>& x) const {
+  m_way.assign(x.size(), 0);
+  if (m_added_at.size() == x.size())
+    for (std::size_t i = 0; i < x.size(); ++i) m_way[i] = (x[i] - m_added_at[i]).norm();
+}
+
+/// Of the pair's particles, by m_way.
+double BodyContactEffect::farthest(const Pair& pair) const {
+  double most = m_way[pair.particle[0]];
+  for (int k = 1; k < pair.n; ++k) most = std::max(most, m_way[pair.particle[k]]);
+  return most;
+}
+
+void BodyContactEffect::guard(const Pair& pair, const Closest& c, MotionLimits& limits) const {
+  double body = 0;
+  for (int b = 0; b < pair.n_body; ++b) body += c.body_weight[b] * c.normal.dot(m_body.mesh().positions[pair.body[b]]);
+  limits.guards.push_back({pair.n,
+                           pair.n,
+                           {pair.particle[0], pair.particle[1], pair.particle[2], 0},
+                           c.normal,
+                           body + std::max((1 - APPROACH) * c.distance, std::min(c.distance, LEAST_DISTANCE * pair.reach)),
+                           0});
+}
+
 void BodyContactEffect::add_pair(const Pair& pair, const Closest& c, StepContext& context) {
-  const double stiffness = c.share * pair.stiffness;
+  const double stiffness = share_of(pair, context.x) * pair.stiffness;
   const Push push = pair.crossed ? push_out_of(c.distance, pair.reach, m_push * stiffness) : push_of(c.distance, pair.reach, stiffness);
   if (push.force <= 0) return;
   const Mat3 block = push.stiffness * c.normal * c.normal.transpose();
@@ -273,19 +301,19 @@ void BodyContactEffect::add(StepContext& context) {
   std::fill(m_load.begin(), m_load.end(), Vec3::Zero());
   std::fill(m_load_stiffness.begin(), m_load_stiffness.end(), 0);
   const std::vector<Vec3>& x = context.x;
-  for (const Pair& pair : m_pairs) {
+  measure_way(x);
+  m_added_at = x;
+  for (Pair& pair : m_pairs) {
+    pair.guarded = false;
+    pair.clear -= farthest(pair);
+    if (!pair.crossed && pair.clear >= pair.reach) continue;
     const Closest c = closest(pair, x);
+    pair.clear = c.valid ? c.distance : 0;
     if (!c.valid) continue;
     if (c.distance < pair.reach) add_pair(pair, c, context);
     if (pair.crossed || !context.limits || !guarded()) continue;
-    double body = 0;
-    for (int b = 0; b < pair.n_body; ++b) body += c.body_weight[b] * c.normal.dot(m_body.mesh().positions[pair.body[b]]);
-    context.limits->guards.push_back({pair.n,
-                                      pair.n,
-                                      {pair.particle[0], pair.particle[1], pair.particle[2], 0},
-                                      c.normal,
-                                      body + std::max((1 - APPROACH) * c.distance, std::min(c.distance, LEAST_DISTANCE * pair.reach)),
-                                      0});
+    guard(pair, c, *context.limits);
+    pair.guarded = true;
   }
   if (m_n_crossing > 0)
     for (int i = 0; i < m_mesh.n_particles; ++i)
@@ -298,6 +326,23 @@ void BodyContactEffect::add(StepContext& context) {
     }
   if (m_options.friction > 0) add_friction(context);
   m_carried.assign(x.size(), Vec3::Zero());
+}
+
+/// Guards those near pairs that add() left out and that the displacement may bring nearer than a step may.
+bool BodyContactEffect::guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool) {
+  if (!guarded()) return false;
+  m_way.resize(dx.size());
+  for (std::size_t i = 0; i < dx.size(); ++i) m_way[i] = dx[i].norm();
+  bool added = false;
+  for (Pair& pair : m_pairs) {
+    if (pair.guarded || pair.crossed || farthest(pair) <= APPROACH * pair.clear) continue;
+    pair.guarded = true;
+    const Closest c = closest(pair, x);
+    if (!c.valid) continue; // no plane separates them
+    guard(pair, c, limits);
+    added = true;
+  }
+  return added;
 }
 
 void BodyContactEffect::add_friction(StepContext& context) {
@@ -337,10 +382,12 @@ void BodyContactEffect::add_friction(StepContext& context) {
 
 double BodyContactEffect::energy(const std::vector<Vec3>& x) const {
   double sum = 0;
+  measure_way(x);
   for (const Pair& pair : m_pairs) {
+    if (!pair.crossed && pair.clear - farthest(pair) >= pair.reach) continue;
     const Closest c = closest(pair, x);
-    if (!c.valid) continue;
-    const double k = c.share * pair.stiffness;
+    if (!c.valid || (!pair.crossed && c.distance >= pair.reach)) continue;
+    const double k = share_of(pair, x) * pair.stiffness;
     sum += pair.crossed ? push_out_of(c.distance, pair.reach, m_push * k).energy : push_of(c.distance, pair.reach, k).energy;
   }
   if (m_n_crossing > 0)

@@ -49,6 +49,7 @@ public:
   }
   void add(StepContext& c) override;
   double energy(const std::vector<Vec3>& x) const override; ///< of the pairs of the last search and of the ties of friction
+  bool guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) override;
 
   /// How far each vertex of the skin may move at once so that it passes none of the cloth at x, m: half of its distance to the cloth,
   /// and no more than what is seen. Cloth that crosses the skin already does not count. Searches. After a first step only.
@@ -94,16 +95,21 @@ private:
     int n, n_body;           // particles and body vertices in use
     bool crossed;            // pushed along the skin's normal, not guarded
     double reach, stiffness; // m, N/m
+    double clear = 0;        // m: not nearer than this at m_added_at; 0: not known
+    bool guarded = false;    // against the present step
   };
   /// A pair's closest points now.
   struct Closest {
     Vec3 normal;     // unit, from the skin to the cloth
     double distance; // negative only for crossed pairs
     std::array<double, 3> weight, body_weight;
-    double share; // see crossing_share()
     bool valid;
   };
   Closest closest(const Pair& pair, const std::vector<Vec3>& x) const;
+  double share_of(const Pair& pair, const std::vector<Vec3>& x) const; ///< see crossing_share()
+  void measure_way(const std::vector<Vec3>& x) const;
+  double farthest(const Pair& pair) const;
+  void guard(const Pair& pair, const Closest& c, MotionLimits& limits) const;
   bool guarded() const { return m_options.level == ContactLevel::CONTINUOUS; }
   void weigh_skin();
   void search(const std::vector<Vec3>& x);
@@ -126,9 +132,10 @@ private:
 
   std::vector<Pair> m_pairs;
   collision::BodyPairs m_found;
-  std::vector<Vec3> m_searched_at;
-  std::vector<double> m_reach_now; // #P: may move this far from m_searched_at unseen
-  double m_body_moved = 0;         // m, since the search
+  std::vector<Vec3> m_searched_at, m_added_at;
+  mutable std::vector<double> m_way; // #P, m: of each particle since m_added_at, or of a displacement
+  std::vector<double> m_reach_now;   // #P: may move this far from m_searched_at unseen
+  double m_body_moved = 0;           // m, since the search
   bool m_stale = true, m_look_for_crossings = true;
   std::vector<char> m_inside, m_crossing, m_asked; // by particle, triangle, triangle
   std::size_t m_n_crossing = 0;

@@ -130,6 +130,7 @@ void BodyContactEffect::move_body(const std::vector<Vec3>& positions) {
   m_body_moved += motion;
   carry_anchors(positions);
   m_body.set_positions(positions);
+  for (Pair& pair : m_pairs) pair.clear -= motion;
   for (Clearance& c : m_clearance)
     if (c.distance >= 0) c.distance = std::max(0.0, c.distance - motion);
 }
