@@ -78,7 +78,9 @@ private:
   void finish();
   void report_effects(); ///< adds the solver's counts to the report
   bool active(const char* effect) const;
-  void judge_fit();         ///< stops when the garment is beyond the bounds
+  void judge_fit();     ///< stops when the garment is beyond the bounds, and will stay there: drape_judge.cpp
+  bool is_calm() const; ///< the strain hardly changes from look to look, and forces are nearly balanced
+  double tension_ratio() const;
   double mean_edge() const; ///< mean rest length of the cloth's edges, m
 
   Garment& m_garment;
@@ -108,9 +110,12 @@ private:
   bool m_loaded = false; ///< with weight and friction
   const BodyMoves* m_moves = nullptr;
   OnMotionFrame m_on_frame;
-  io::Json m_motion;      ///< for the report
-  body::Body m_end_body;  ///< where the motion left it
-  bool m_stopped = false; ///< by time limit, by the user or by the guard
+  io::Json m_motion;             ///< for the report
+  body::Body m_end_body;         ///< where the motion left it
+  std::vector<double> m_strains; ///< 99th percentile at each look of judge_fit()
+  double m_slip = -1e300;        ///< m, median at the last look
+  int m_girths_asked = 0;        ///< times
+  bool m_stopped = false;        ///< by time limit, by the user or by the guard
 };
 
 } // namespace sloper::garment

@@ -89,7 +89,6 @@ Json state_json(const DrapeState& s) {
   j["calm"] = s.calm, j["unmoved"] = s.unmoved, j["pushed"] = s.pushed, j["best_at"] = s.best_at, j["untanglings"] = s.untanglings, j["partings"] = s.partings;
   if (s.best < std::numeric_limits<double>::infinity()) j["best"] = s.best;
   j["start_height"] = s.start_height;
-  j["least_strain"] = s.least_strain, j["strain_fell_at"] = s.strain_fell_at;
   return j;
 }
 
@@ -123,7 +122,6 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   if (node.has("best")) s.best = node.at("best").number();
   s.start_height = read_numbers(node.at("start_height"));
   if (s.phase == DrapePhase::SETTLE && s.start_height.size() != n_particles) node.at("start_height").fail("does not belong to this garment");
-  s.least_strain = node.at("least_strain").number(), s.strain_fell_at = node.at("strain_fell_at").integer();
   return s;
 }
 

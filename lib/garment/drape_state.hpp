@@ -38,8 +38,6 @@ struct DrapeState {
   int calm = 0, unmoved = 0, pushed = 0, best_at = 0, untanglings = 0, partings = 0;
   double best = std::numeric_limits<double>::infinity(); ///< least residual so far, weights
   std::vector<double> start_height;                      ///< #P, m, where settling began
-  double least_strain = 1e300;                           ///< 99th percentile, of those that were looked at
-  int strain_fell_at = 0;                                ///< step
 };
 
 /// A drape interrupted: what checkpoint files hold. The report has what it had come to: steps, seconds, effects, phases, repairs, settings.

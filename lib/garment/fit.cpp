@@ -16,9 +16,14 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double REACH_BEYOND = 0.03;  // m above and below a level that cloth must reach, or it may slide to where it is wide enough
-constexpr double OVER_THE_HAND = 0.02; // m beyond the wrist from which a cuff lies on the hand
-constexpr double NOT_AT_REST = 0.01;   // m that a drape which did not come to rest may still move
+constexpr double REACH_BEYOND = 0.03;   // m above and below a level that cloth must reach, or it may slide to where it is wide enough
+constexpr double SLIDE_BEYOND = 0.06;   // m as far as cloth that is tight slides at most: three times what was seen, it holds on
+constexpr double SLIDE_AT_REST = 0.01;  // m, the same of cloth that is laid on and hardly moves
+constexpr double SLIDE_STRIDE = 0.01;   // m between sections of the skin on that way
+constexpr double CERTAIN_SLIP = 1.1;    // of what the policy bears: what has sunk so far does not rise
+constexpr double CERTAIN_STRAIN = 1.25; // of what the policy bears: room for what a garment may lose to the end
+constexpr double OVER_THE_HAND = 0.02;  // m beyond the wrist from which a cuff lies on the hand
+constexpr double NOT_AT_REST = 0.01;    // m that a drape which did not come to rest may still move
 
 std::string centimetres(double m) {
   char text[32];
@@ -160,7 +165,7 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
   if (report.fits && !unfit.empty()) { // measured where it was then, it might be of another class, with limits of its own
     report.fits = false;
     report.verdict = FitVerdict::TOO_LARGE;
-    report.reason = unfit + " too far to fit";
+    report.reason = unfit.rfind("does not close", 0) == 0 ? unfit : unfit + " too far to fit";
   }
 }
 
@@ -216,43 +221,23 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
   return report;
 }
 
-FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before) {
-  // Cloth with ease all around is not too small, whatever strain it starts with: it gets rid of that by sliding, and may be slow.
-  const double strain = before.margin_m < 0 ? 1.5 * policy.strain_p99(before.garment_class, before.fabric) : 0;
-  return {1.5 * policy.slip_m(before.garment_class, before.fabric), strain};
-}
+namespace {
 
-FitReport fit_before_drape(const Garment& placed, const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy) {
+/// What fit_before_drape() tells, of a garment that will slide by `slide` at most, m.
+FitReport girths_too_small(const Garment& garment, const std::vector<Vec3>& source_position, const body::Body& body, const std::vector<FitPlace>& places,
+                           const FitPolicy& policy, double slide) {
   FitReport report;
   report.policy = policy.name;
-  report.fabric = main_fabric(placed);
+  report.fabric = main_fabric(garment);
   std::vector<std::string> region;
-  for (std::size_t i = 0; i < placed.position.size(); ++i) region.push_back(region_of(placed, i, axilla_height(body)));
+  for (std::size_t i = 0; i < garment.position.size(); ++i) region.push_back(region_of(garment, i, axilla_height(body)));
   report.garment_class = class_of(region);
   double worst = 0;
-  for (const FitPlace& place : fit_places(body)) {
-    if (place.kind == "neck") continue; // a collar slides to where it is wide enough
-    const std::vector<char> use = cloth_of(placed, place);
-    const FitLimits limits = policy.limits(place.name, report.garment_class, report.fabric);
-    const double limit = limits.too_small_strain;
-    std::optional<SectionLine> line;
-    double missing = 1e300;
-    for (const double shift : {-REACH_BEYOND, REACH_BEYOND, 0.0}) {
-      std::string why;
-      line = line_around(placed, use, place, shift, why, &source_position);
-      if (!line) break;
-      const double reach = std::max((line->rest - line->bridged) * (1 + limit), line->elsewhere - line->bridged) + line->bridged;
-      missing = std::min(missing, place.body_m - place.body_spread_m - reach);
-    }
-    if (!line) continue;
-    if (missing <= 0) {
-      if (worst == 0) report.margin_m = std::min(report.margin_m, line->rest - (1 + limits.tight_ease) * place.body_m);
-      continue;
-    }
+  const auto refuse = [&](const FitPlace& place, const SectionLine& line, const FitLimits& limits, double missing) {
     FitRow row;
     row.name = place.name, row.kind = place.kind, row.height_m = place.center.y(), row.body_m = place.body_m;
-    row.rest_m = line->rest, row.lying_m = line->lying, row.ease_m = row.rest_m - row.body_m;
-    row.bridged_m = line->bridged, row.open = !line->closed();
+    row.rest_m = line.rest, row.lying_m = line.lying, row.ease_m = row.rest_m - row.body_m;
+    row.bridged_m = line.bridged, row.open = !line.closed();
     row.body_uncertainty_m = row.ease_uncertainty_m = place.body_spread_m;
     row.margin_m = row.ease_m;
     row.limits = limits;
@@ -262,8 +247,70 @@ FitReport fit_before_drape(const Garment& placed, const std::vector<Vec3>& sourc
     report.verdict = row.verdict;
     if (missing / place.body_m > worst) worst = missing / place.body_m, report.reason = row.reason, report.margin_m = row.margin_m, report.margin_at = row.name;
     report.rows.push_back(std::move(row));
+  };
+  const auto accept = [&](const FitPlace& place, const SectionLine& line, const FitLimits& limits) {
+    if (worst == 0) report.margin_m = std::min(report.margin_m, line.rest - (1 + limits.tight_ease) * place.body_m);
+  };
+  const double reach = std::min(REACH_BEYOND, slide);
+  for (const FitPlace& place : places) {
+    if (place.kind == "neck") continue; // a collar slides to where it is wide enough
+    const std::vector<char> use = cloth_of(garment, place);
+    const FitLimits limits = policy.limits(place.name, report.garment_class, report.fabric);
+    const double least = place.body_m - place.body_spread_m;
+    // Stretched by all that the policy bears it reaches round where it can slide to a little; or unstretched where it can slide to at all.
+    std::optional<SectionLine> line;
+    double beyond_stretch = 1e300, beyond_rest = 1e300;
+    const auto look = [&](double shift) {
+      std::string why;
+      line = line_around(garment, use, place, shift, why, &source_position);
+      if (!line) return false;
+      const double elsewhere = line->elsewhere - line->bridged, rest = line->rest - line->bridged;
+      if (std::abs(shift) <= reach)
+        beyond_stretch = std::min(beyond_stretch, least - std::max(rest * (1 + limits.too_small_strain), elsewhere) - line->bridged);
+      beyond_rest = std::min(beyond_rest, (1 + limits.too_small_ease) * least - std::max(line->rest, line->elsewhere));
+      return true;
+    };
+    if (!look(-reach) || !look(reach) || !look(0)) continue;
+    if (beyond_rest > 0 && slide > reach && !(look(-slide) && look(slide))) beyond_rest = 0;
+    if (!look(0)) continue;
+    const double missing = std::max(beyond_stretch, beyond_rest);
+    if (missing > 0) refuse(place, *line, limits, missing);
+    else accept(place, *line, limits);
+  }
+  for (const FitHem& hem : fit_lines(garment, body).hems) {
+    if (hem.name != "top") continue; // others slide along a limb, over a hand or a foot
+    std::string why;
+    const auto edge = edge_line(garment, body, hem, why);
+    if (!edge) continue;
+    const FitPlace& place = edge->place;
+    const FitLimits limits = policy.limits(place.name, report.garment_class, report.fabric);
+    double least = place.body_m, elsewhere = 0;
+    for (double shift = -slide; shift <= slide; shift += SLIDE_STRIDE)
+      least = std::min(least, skin_girth(body, edge->parts, place.center + shift * place.normal, place.normal));
+    for (std::size_t i = 0; i < edge->particles.size(); ++i)
+      elsewhere += (source_position[edge->particles[i]] - source_position[edge->particles[(i + 1) % edge->particles.size()]]).norm();
+    const double missing = (1 + limits.too_small_ease) * (least - place.body_spread_m) - std::max(edge->line.rest, elsewhere);
+    if (missing > 0) refuse(place, edge->line, limits, missing);
+    else accept(place, edge->line, limits);
   }
   return report;
+}
+
+} // namespace
+
+FitReport fit_before_drape(const Garment& placed, const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy) {
+  return girths_too_small(placed, source_position, body, fit_places(body), policy, SLIDE_BEYOND);
+}
+
+FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before) {
+  const std::string &kind = before.garment_class, &fabric = before.fabric;
+  return {CERTAIN_SLIP * policy.slip_m(kind, fabric), CERTAIN_STRAIN * policy.strain_p99(kind, fabric), before.margin_m < 0, {}};
+}
+
+std::function<std::string(const Garment&)> judge_of_girths(const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy) {
+  return [&source_position, &body, &policy, places = fit_places(body)](const Garment& garment) {
+    return girths_too_small(garment, source_position, body, places, policy, SLIDE_AT_REST).reason;
+  };
 }
 
 FitReport impossible_fit(const std::string& reason, const FitPolicy& policy) {

@@ -18,6 +18,8 @@
 #include <garment/garment.hpp>
 #include <io/json_fwd.hpp>
 
+#include <functional>
+
 namespace sloper::garment {
 
 struct FitRow {
@@ -76,16 +78,21 @@ struct FitReport {
 FitReport fit_garment(const Garment& garment, const body::Body& body, const collision::BodyCollider& skin, const FitPolicy& policy,
                       const std::vector<Vec3>* placed = nullptr, const std::string& unfit = {});
 
-/// Bounds for a drape beyond which the garment will not fit by the policy: one and a half times the slip that it bears, and the strain where a
-/// girth is tight; strain alone, of sleeves that slide along an arm, says nothing before the cloth is at rest.
+/// Bounds for a drape beyond which the garment will not fit by the policy: a tenth more slip and a quarter more strain than it bears.
 /// @param before  of fit_before_drape(), for the class, the fabric and the least ease
 FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before);
 
-/// Whether a garment can go on at all, before any drape: only girths that the cloth does not reach round even when it is stretched by
-/// all that the policy bears, or as far as it was on the first body where that is further (an elastic band). Only `fits`, `verdict`,
-/// `reason`, the refused rows and, where it may go on, a `margin_m` below zero for a tight girth are told.
+/// Whether a garment can go on at all, before any drape: only girths, and the top edge of what hangs from the waist, that the cloth does not
+/// reach round. That is so where the girth is too small by the policy though the garment slides 6 cm up or down, which no tight cloth does, or, to
+/// be told of less of the body, though it slides 3 cm and is stretched by all that the policy bears; and as far as it was stretched on the first body
+/// where that is further (an elastic band). Only `fits`, `verdict`, `reason`, the refused rows and, where it may go on, a `margin_m`
+/// below zero for a tight girth are told.
 /// @param placed on `body`, bound to any body   @param source_position #P: where it hung when it was at rest
 FitReport fit_before_drape(const Garment& placed, const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy);
+
+/// The same for cloth that is laid on the body and hardly moves any more, to be asked while a drape goes on (FitBounds::girths).
+/// @return the reason, or nothing; about 50 ms @param source_position, body, policy  must outlive what is returned
+std::function<std::string(const Garment&)> judge_of_girths(const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy);
 
 /// A report that says no for a reason that needs no measuring.
 FitReport impossible_fit(const std::string& reason, const FitPolicy& policy);

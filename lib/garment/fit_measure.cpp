@@ -226,19 +226,19 @@ std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& pla
   return row;
 }
 
-std::optional<FitRow> measure_edge(const ClothState& cloth, const body::Body& body, const FitHem& hem, double convergence, std::string& why) {
+std::optional<EdgeLine> edge_line(const Garment& garment, const body::Body& body, const FitHem& hem, std::string& why) {
   why.clear();
   const EdgeKind* kind = kind_of(hem.name);
   if (!kind) return std::nullopt;
-  const std::vector<int> loop = in_order(hem.edges);
+  EdgeLine edge{{kind->row, "edge", Vec3::Zero(), Vec3::Zero(), 0, 0, EDGE_HEIGHT, {}, {}}, {}, kind->parts, in_order(hem.edges)};
+  FitPlace& place = edge.place;
+  const std::vector<int>& loop = edge.particles;
   if (loop.empty()) return std::nullopt;
-  const Garment& garment = cloth.garment;
-  FitPlace place{kind->row, "edge", Vec3::Zero(), Vec3::Zero(), 0, 0, EDGE_HEIGHT, {}, {}};
   for (const int p : loop) place.center += garment.position[p] / static_cast<double>(loop.size());
   for (std::size_t i = 0; i < loop.size(); ++i)
     place.normal += (garment.position[loop[i]] - place.center).cross(garment.position[loop[(i + 1) % loop.size()]] - place.center);
-  const SectionLine line = line_of(garment, loop);
-  const double round = 2 * units::PI * place.normal.norm() / (line.lying * line.lying); // 4 pi area / length^2: 1 for a circle
+  edge.line = line_of(garment, loop);
+  const double round = 2 * units::PI * place.normal.norm() / (edge.line.lying * edge.line.lying); // 4 pi area / length^2: 1 for a circle
   if (!(round > LEAST_ROUND)) return why = "its edge goes round nothing", std::nullopt;
   place.normal = (place.normal.y() < 0 ? Vec3(-place.normal) : place.normal).normalized();
   const bool of_limb = kind->parts.size() == 1;
@@ -252,12 +252,19 @@ std::optional<FitRow> measure_edge(const ClothState& cloth, const body::Body& bo
   for (const double shift : {-EDGE_HEIGHT, EDGE_HEIGHT})
     if (const double moved = skin_girth(body, kind->parts, place.center + shift * place.normal, place.normal); moved > 0)
       place.body_spread_m = std::max(place.body_spread_m, std::abs(moved - place.body_m));
-  FitRow row = row_of(place, line);
+  return edge;
+}
+
+std::optional<FitRow> measure_edge(const ClothState& cloth, const body::Body& body, const FitHem& hem, double convergence, std::string& why) {
+  const Garment& garment = cloth.garment;
+  const auto edge = edge_line(garment, body, hem, why);
+  if (!edge) return std::nullopt;
+  FitRow row = row_of(edge->place, edge->line);
   std::vector<char> in(garment.position.size(), 0);
-  for (const int p : loop) in[p] = 1;
+  for (const int p : edge->particles) in[p] = 1;
   const StrainFigures first = strain_of(cloth, ring_of(garment, in));
   take_strain(first, strain_of(cloth, ring_of(garment, in)), row);
-  finish_row(cloth, place, line, 0, convergence, row);
+  finish_row(cloth, edge->place, edge->line, 0, convergence, row);
   return row;
 }
 

@@ -33,6 +33,16 @@ std::optional<SectionLine> line_around(const Garment& garment, const std::vector
 /// A girth of the body where the garment goes round it, or nothing and why. @param convergence  m that the cloth may still move
 std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& place, double convergence, std::string& why);
 
+/// A free edge as a closed line of cloth, and the place that it goes round.
+struct EdgeLine {
+  FitPlace place; ///< its plane, and the girth of the skin there
+  SectionLine line;
+  std::vector<body::Part> parts; ///< of the skin that it goes round
+  std::vector<int> particles;    ///< in order
+};
+/// @param garment bound   @param hem of fit_lines()   @return nothing, and why, for an edge that goes round nothing that is measured
+std::optional<EdgeLine> edge_line(const Garment& garment, const body::Body& body, const FitHem& hem, std::string& why);
+
 /// A free edge that goes round the neck, an arm, a leg or the trunk at its top, against the skin in its plane; nothing, and why, for another
 /// one. Its row is "neck_edge", "sleeve_hem_l", "leg_hem_r", "top_edge"; its strain that of the triangles along it.
 std::optional<FitRow> measure_edge(const ClothState& cloth, const body::Body& body, const FitHem& hem, double convergence, std::string& why);

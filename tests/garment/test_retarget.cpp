@@ -4,6 +4,7 @@
 #include <base/error.hpp>
 #include <garment/bind.hpp>
 #include <garment/body_sides.hpp>
+#include <garment/drape.hpp>
 #include <garment/fit.hpp>
 #include <garment/pattern_mirror.hpp>
 #include <garment/retarget.hpp>
@@ -69,6 +70,39 @@ Garment sewn_tube(double radius, double length, double y) {
   return g;
 }
 
+/// A closed surface of revolution about y from 0.1 to 1.1 m, of radius `radius(y)`.
+template<class Radius> body::Body round_body(Radius radius) {
+  body::Body body;
+  const int n = 96, rows = 100;
+  TriangleMesh& mesh = body.skin;
+  for (int r = 0; r <= rows; ++r)
+    for (int c = 0; c < n; ++c) {
+      const double y = 0.1 + static_cast<double>(r) / rows, a = 2 * M_PI * c / n;
+      mesh.positions.emplace_back(radius(y) * std::sin(a), y, radius(y) * std::cos(a));
+    }
+  const int low = static_cast<int>(mesh.positions.size());
+  mesh.positions.emplace_back(0, 0.1, 0);
+  mesh.positions.emplace_back(0, 1.1, 0);
+  for (int c = 0; c < n; ++c) {
+    const int d = (c + 1) % n, top = rows * n;
+    for (int r = 0; r < rows; ++r) {
+      mesh.triangles.push_back({r * n + c, r * n + d, (r + 1) * n + d});
+      mesh.triangles.push_back({r * n + c, (r + 1) * n + d, (r + 1) * n + c});
+    }
+    mesh.triangles.push_back({low, d, c});
+    mesh.triangles.push_back({low + 1, top + c, top + d});
+  }
+  body.face_part.assign(mesh.triangles.size(), body::Part::TORSO);
+  return body;
+}
+
+/// A sewn tube of rest radius `radius` that is held open to `open` at all heights.
+Garment tube_around(double radius, double length, double y, double open) {
+  Garment g = sewn_tube(radius, length, y);
+  for (Vec3& p : g.position) p.x() *= open / radius, p.z() *= open / radius;
+  return g;
+}
+
 } // namespace
 
 TEST(retarget, a_placed_garment_is_cleared_of_the_skin) {
@@ -105,11 +139,84 @@ TEST(retarget, cloth_that_was_placed_too_long_slides_along_the_skin_to_its_own_l
   EXPECT_LT((high - low) / 0.4 - 1, 0.04); // a tenth, where the skin holds what is near it
 }
 
-TEST(retarget, strain_ends_a_drape_only_where_a_girth_is_tight) {
+TEST(retarget, strain_is_waited_for_longer_where_no_girth_is_tight) {
   const body::Body body = measured("f-165-a");
   const FitPolicy policy = standard_fit_policy();
-  EXPECT_EQ(hopeless_beyond(policy, before_drape(bound(skin_shirt(body, 0.03), body), body)).strain_p99, 0);
-  EXPECT_GT(hopeless_beyond(policy, before_drape(bound(skin_shirt(body, 0.004, 0.05), body), body)).strain_p99, 0);
+  const FitBounds loose = hopeless_beyond(policy, before_drape(bound(skin_shirt(body, 0.03), body), body));
+  const FitBounds tight = hopeless_beyond(policy, before_drape(bound(skin_shirt(body, 0.004, 0.05), body), body));
+  EXPECT_FALSE(loose.tight);
+  EXPECT_TRUE(tight.tight);
+  EXPECT_GT(tight.strain_p99, policy.strain_p99("top", ""));
+  EXPECT_GT(tight.slip_m, policy.slip_m("top", ""));
+}
+
+TEST(retarget, a_tube_that_cannot_widen_is_given_up_within_fifty_steps) {
+  const body::Body pillar = round_body([](double) { return 0.165; });
+  for (const bool tight : {true, false}) {
+    Garment tube = tube_around(0.15, 0.2, 0.6, 0.17); // a tenth too narrow
+    const DrapeReport report = drape(tube, &pillar, {}, silent_reporter(), {0.11, 0.0625, tight, {}});
+    EXPECT_EQ(report.unfit, "stays stretched");
+    EXPECT_LE(report.steps, 50) << report.stop_reason;
+    EXPECT_FALSE(report.converged);
+  }
+}
+
+TEST(retarget, a_tube_that_starts_stretched_and_slides_to_where_it_is_wide_enough_is_not_given_up) {
+  const body::Body waisted = round_body([](double y) { return 0.13 + 0.6 * std::max(0.0, y - 0.7) + 0.6 * std::max(0.0, 0.5 - y); });
+  for (const bool tight : {true, false}) {
+    Garment tube = tube_around(0.15, 0.06, 0.75, 0.20); // a fifteenth to a third too narrow there
+    const DrapeReport report = drape(tube, &waisted, {}, silent_reporter(), {1.0, 0.0625, tight, {}});
+    EXPECT_EQ(report.unfit, "") << report.steps << " steps";
+    EXPECT_TRUE(report.converged) << report.stop_reason;
+  }
+}
+
+TEST(retarget, the_judge_of_girths_is_asked_of_tight_cloth_that_hardly_moves_and_a_few_times_only) {
+  const body::Body pillar = round_body([](double) { return 0.154; });
+  DrapeSettings settings;
+  settings.settle_force_ratio = 1e-12; // never at rest
+  settings.max_steps = 100;
+  const auto run = [&](bool tight, const std::string& answer, int& asked) {
+    Garment tube = tube_around(0.15, 0.2, 0.6, 0.17);
+    const auto girths = [&](const Garment& g) {
+      EXPECT_LT(std::hypot(g.position[0].x(), g.position[0].z()), 0.165); // where it is now, not where it began
+      ++asked;
+      return answer;
+    };
+    return drape(tube, &pillar, settings, silent_reporter(), {0.11, 0.0625, tight, girths});
+  };
+  int asked = 0;
+  EXPECT_EQ(run(true, "", asked).unfit, "");
+  EXPECT_GE(asked, 1);
+  EXPECT_LE(asked, 3);
+  asked = 0;
+  const DrapeReport no = run(true, "does not close at the hip by 2.0 cm", asked);
+  EXPECT_EQ(no.stop_reason, "the garment does not close at the hip by 2.0 cm");
+  EXPECT_LE(no.steps, 50);
+  EXPECT_EQ(asked, 1);
+  asked = 0;
+  run(false, "does not close at the hip by 2.0 cm", asked);
+  EXPECT_EQ(asked, 0);
+}
+
+TEST(retarget, trousers_that_lack_a_twentieth_at_the_waist_are_refused_before_any_step_and_those_that_lack_a_hundredth_are_tried) {
+  const body::Body body = measured("f-165-a");
+  const collision::BodyCollider skin(body.skin);
+  const FitPolicy policy = standard_fit_policy();
+  for (const double lacks : {0.01, 0.06}) {
+    const double gap = 0.004, strain = lacks + 2 * M_PI * gap / body.levels.at("waist_semantic").girth_m; // the gap made up for
+    Garment g = bound(skin_trousers(body, gap), body);
+    for (auto& scale : g.rest_scale)
+      for (double& s : scale) s *= 1 - strain;
+    const FitReport report = fit_before_drape(g, g.position, body, policy);
+    EXPECT_TRUE(report.fits) << "as far as on the first body"; // it was stretched there, as an elastic band is
+    std::vector<Vec3> unstretched = g.position;
+    for (Vec3& p : unstretched) p *= 1 - strain;
+    const FitReport again = fit_before_drape(g, unstretched, body, policy);
+    EXPECT_EQ(again.fits, lacks < 0.03) << again.reason;
+    EXPECT_EQ(again.reason.rfind("does not close at the ", 0) == 0, lacks > 0.03) << again.reason;
+    EXPECT_EQ(judge_of_girths(unstretched, body, policy)(g).empty(), lacks < 0.03);
+  }
 }
 
 TEST(retarget, a_childs_shirt_on_a_large_man_does_not_close) {
