@@ -150,13 +150,13 @@ TEST(retarget, strain_is_waited_for_longer_where_no_girth_is_tight) {
   EXPECT_GT(tight.slip_m, policy.slip_m("top", ""));
 }
 
-TEST(retarget, a_tube_that_cannot_widen_is_given_up_within_fifty_steps) {
+TEST(retarget, a_tube_that_cannot_widen_is_given_up_within_a_hundred_steps) {
   const body::Body pillar = round_body([](double) { return 0.165; });
   for (const bool tight : {true, false}) {
     Garment tube = tube_around(0.15, 0.2, 0.6, 0.17); // a tenth too narrow
     const DrapeReport report = drape(tube, &pillar, {}, silent_reporter(), {0.11, 0.0625, tight, {}});
     EXPECT_EQ(report.unfit, "stays stretched");
-    EXPECT_LE(report.steps, 50) << report.stop_reason;
+    EXPECT_LE(report.steps, 100) << report.stop_reason;
     EXPECT_FALSE(report.converged);
   }
 }
@@ -183,7 +183,7 @@ TEST(retarget, the_judge_of_girths_is_asked_of_tight_cloth_that_hardly_moves_and
       ++asked;
       return answer;
     };
-    return drape(tube, &pillar, settings, silent_reporter(), {0.11, 0.0625, tight, girths});
+    return drape(tube, &pillar, settings, silent_reporter(), {0, 0.0625, tight, girths});
   };
   int asked = 0;
   EXPECT_EQ(run(true, "", asked).unfit, "");
@@ -192,7 +192,7 @@ TEST(retarget, the_judge_of_girths_is_asked_of_tight_cloth_that_hardly_moves_and
   asked = 0;
   const DrapeReport no = run(true, "does not close at the hip by 2.0 cm", asked);
   EXPECT_EQ(no.stop_reason, "the garment does not close at the hip by 2.0 cm");
-  EXPECT_LE(no.steps, 50);
+  EXPECT_LT(no.steps, 100);
   EXPECT_EQ(asked, 1);
   asked = 0;
   run(false, "does not close at the hip by 2.0 cm", asked);
