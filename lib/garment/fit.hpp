@@ -78,7 +78,7 @@ struct FitReport {
 FitReport fit_garment(const Garment& garment, const body::Body& body, const collision::BodyCollider& skin, const FitPolicy& policy,
                       const std::vector<Vec3>* placed = nullptr, const std::string& unfit = {});
 
-/// Bounds for a drape beyond which the garment will not fit by the policy: a tenth more slip and a quarter more strain than it bears.
+/// Bounds for a drape beyond which the garment will not fit by the policy: a tenth more slip and half as much strain again as it bears.
 /// @param before  of fit_before_drape(), for the class, the fabric and the least ease
 FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before);
 
