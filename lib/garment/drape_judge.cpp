@@ -21,6 +21,8 @@ constexpr int TIGHT_AHEAD = 20;          // looks, of a garment that is tight at
 constexpr int LOOSE_AHEAD = 40;          // looks, of one with ease all around: sleeves slide along an arm, slowly
 constexpr double LEFT_UNBALANCED = 0.03; // of the tension that goes with the strain of the bounds: the residual force
 
+constexpr int STRAINED_STEPS = 80; // of a tight garment that never gets calm, without a strain that is less by STRAIN_FALLS: it stays
+constexpr double STRAIN_FALLS = 0.97;
 constexpr double STILL_M = 0.001; // that half of the particles sink or rise between two looks: it slides no more to speak of
 constexpr int MOST_ASKED = 3;     // times that girths are measured on the way: each is worth half a step
 
@@ -63,8 +65,12 @@ void DrapeRun::judge_fit() {
     for (const TriangleStrain& s : triangle_strains(m_garment, x))
       if (s.area > 0) along.push_back({s.thread(), s.area});
     m_strains.push_back(area_quantile(along, 0.99));
-    if (is_calm()) {
-      const double strain = m_strains.back(), change = std::abs(m_strains[m_strains.size() - 2] - strain);
+    const double strain = m_strains.back();
+    if (strain < STRAIN_FALLS * m_least_strain) m_least_strain = strain, m_strain_fell_at = m_report.steps;
+    if (m_bounds.tight && strain > m_bounds.strain_p99 && m_report.steps >= m_strain_fell_at + STRAINED_STEPS) {
+      m_report.unfit = "stays stretched";
+    } else if (is_calm()) {
+      const double change = std::abs(m_strains[m_strains.size() - 2] - strain);
       if (strain - (m_bounds.tight ? TIGHT_AHEAD : LOOSE_AHEAD) * change > m_bounds.strain_p99) {
         m_report.unfit = "stays stretched";
       } else if (m_bounds.tight && m_bounds.girths && sinking < STILL_M && m_girths_asked < MOST_ASKED) {

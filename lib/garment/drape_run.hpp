@@ -113,6 +113,8 @@ private:
   io::Json m_motion;             ///< for the report
   body::Body m_end_body;         ///< where the motion left it
   std::vector<double> m_strains; ///< 99th percentile at each look of judge_fit()
+  double m_least_strain = 1e300; ///< of m_strains
+  int m_strain_fell_at = 0;      ///< step
   double m_slip = -1e300;        ///< m, median at the last look
   int m_girths_asked = 0;        ///< times
   bool m_stopped = false;        ///< by time limit, by the user or by the guard
