@@ -111,11 +111,7 @@ int run(cli::Tool& tool, const Options& o) {
   report.stop_reason = "placed only";
   const bool hopeless = !fit.fits;
   if (hopeless) report.stop_reason = "the garment " + fit.reason;
-  else if (!o.no_drape) {
-    garment::FitBounds bounds = garment::hopeless_beyond(policy, fit);
-    bounds.girths = garment::judge_of_girths(source.position, body, policy);
-    report = garment::drape(garment, &body, settings, tool.reporter(), bounds);
-  }
+  else if (!o.no_drape) report = garment::drape(garment, &body, settings, tool.reporter(), garment::hopeless_beyond(policy, fit));
   garment::bind_garment(garment, body);
   garment::write_garment(o.output, garment, tool.name());
   if (!hopeless) fit = garment::fit_garment(garment, body, skin, policy, &placed.placed, report.unfit);

@@ -2,7 +2,6 @@
 /// Drape: from placed panels or a kept garment to cloth at rest on a body.
 #include <base/progress.hpp>
 #include <body/body.hpp>
-#include <functional>
 #include <garment/garment.hpp>
 #include <io/json.hpp>
 #include <map>
@@ -34,8 +33,6 @@ struct FitBounds {
   double slip_m = 0;     ///< half of the particles have sunk farther than this since the start
   double strain_p99 = 0; ///< along the threads (cloth_strain.hpp), and by how it falls it will not come below
   bool tight = true;     ///< the garment is tight at some girth; where it has ease all around, strain is waited for twice as long
-  /// Asked of a tight garment that hardly moves any more, a few times at most: why a girth stays too small, or nothing.
-  std::function<std::string(const Garment&)> girths;
 };
 
 struct EffectReport {
@@ -49,7 +46,7 @@ struct EffectReport {
 struct DrapeReport {
   bool converged = false;
   std::string stop_reason;
-  std::string unfit; ///< what of FitBounds ended the drape: "slides down", "stays stretched", "does not close at the ...", or nothing
+  std::string unfit; ///< what of FitBounds ended the drape: "slides down", "stays stretched", or nothing
   int steps = 0;
   double simulated_s = 0, wall_s = 0;
   std::vector<EffectReport> effects;

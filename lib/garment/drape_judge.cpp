@@ -23,8 +23,6 @@ constexpr double LEFT_UNBALANCED = 0.03; // of the tension that goes with the st
 
 constexpr int STRAINED_STEPS = 80; // of a tight garment that never gets calm, without a strain that is less by STRAIN_FALLS: it stays
 constexpr double STRAIN_FALLS = 0.97;
-constexpr double STILL_M = 0.001; // that half of the particles sink or rise between two looks: it slides no more to speak of
-constexpr int MOST_ASKED = 3;     // times that girths are measured on the way: each is worth half a step
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<long>(values.size() / 2);
@@ -51,12 +49,10 @@ bool DrapeRun::is_calm() const {
 
 void DrapeRun::judge_fit() {
   const std::vector<Vec3>& x = m_solver->x();
-  double sinking = 0;
   if (m_bounds.slip_m > 0) {
     std::vector<double> sunk;
     for (std::size_t i = 0; i < x.size(); ++i) sunk.push_back(m_at.start_height[i] - x[i].y());
     const double slip = median(std::move(sunk));
-    sinking = std::abs(slip - m_slip);
     if (slip > m_bounds.slip_m && slip >= m_slip) m_report.unfit = "slides down";
     m_slip = slip;
   }
@@ -71,18 +67,12 @@ void DrapeRun::judge_fit() {
       m_report.unfit = "stays stretched";
     } else if (is_calm()) {
       const double change = std::abs(m_strains[m_strains.size() - 2] - strain);
-      if (strain - (m_bounds.tight ? TIGHT_AHEAD : LOOSE_AHEAD) * change > m_bounds.strain_p99) {
-        m_report.unfit = "stays stretched";
-      } else if (m_bounds.tight && m_bounds.girths && sinking < STILL_M && m_girths_asked < MOST_ASKED) {
-        ++m_girths_asked;
-        m_garment.position = x;
-        m_report.unfit = m_bounds.girths(m_garment);
-      }
+      if (strain - (m_bounds.tight ? TIGHT_AHEAD : LOOSE_AHEAD) * change > m_bounds.strain_p99) m_report.unfit = "stays stretched";
     }
   }
   if (m_report.unfit.empty()) return;
   m_stopped = true;
-  m_report.stop_reason = "the garment " + m_report.unfit + (m_report.unfit.rfind("does not close", 0) == 0 ? "" : " too far to fit");
+  m_report.stop_reason = "the garment " + m_report.unfit + " too far to fit";
 }
 
 } // namespace sloper::garment

@@ -116,7 +116,6 @@ private:
   double m_least_strain = 1e300; ///< of m_strains
   int m_strain_fell_at = 0;      ///< step
   double m_slip = -1e300;        ///< m, median at the last look
-  int m_girths_asked = 0;        ///< times
   bool m_stopped = false;        ///< by time limit, by the user or by the guard
 };
 

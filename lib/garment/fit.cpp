@@ -18,7 +18,6 @@ namespace {
 
 constexpr double REACH_BEYOND = 0.03;  // m above and below a level that cloth must reach, or it may slide to where it is wide enough
 constexpr double SLIDE_BEYOND = 0.06;  // m as far as cloth that is tight slides at most: three times what was seen, it holds on
-constexpr double SLIDE_AT_REST = 0.01; // m, the same of cloth that is laid on and hardly moves
 constexpr double SLIDE_STRIDE = 0.01;  // m between sections of the skin on that way
 constexpr double CERTAIN_SLIP = 1.1;   // of what the policy bears: what has sunk so far does not rise
 constexpr double CERTAIN_STRAIN = 1.5; // of what the policy bears: cloth that seems still was seen to creep down by a quarter until it was at rest
@@ -221,11 +220,7 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
   return report;
 }
 
-namespace {
-
-/// What fit_before_drape() tells, of a garment that will slide by `slide` at most, m.
-FitReport girths_too_small(const Garment& garment, const std::vector<Vec3>& source_position, const body::Body& body, const std::vector<FitPlace>& places,
-                           const FitPolicy& policy, double slide) {
+FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy) {
   FitReport report;
   report.policy = policy.name;
   report.fabric = main_fabric(garment);
@@ -251,8 +246,7 @@ FitReport girths_too_small(const Garment& garment, const std::vector<Vec3>& sour
   const auto accept = [&](const FitPlace& place, const SectionLine& line, const FitLimits& limits) {
     if (worst == 0) report.margin_m = std::min(report.margin_m, line.rest - (1 + limits.tight_ease) * place.body_m);
   };
-  const double reach = std::min(REACH_BEYOND, slide);
-  for (const FitPlace& place : places) {
+  for (const FitPlace& place : fit_places(body)) {
     if (place.kind == "neck") continue; // a collar slides to where it is wide enough
     const std::vector<char> use = cloth_of(garment, place);
     const FitLimits limits = policy.limits(place.name, report.garment_class, report.fabric);
@@ -265,13 +259,13 @@ FitReport girths_too_small(const Garment& garment, const std::vector<Vec3>& sour
       line = line_around(garment, use, place, shift, why, &source_position);
       if (!line) return false;
       const double elsewhere = line->elsewhere - line->bridged, rest = line->rest - line->bridged;
-      if (std::abs(shift) <= reach)
+      if (std::abs(shift) <= REACH_BEYOND)
         beyond_stretch = std::min(beyond_stretch, least - std::max(rest * (1 + limits.too_small_strain), elsewhere) - line->bridged);
       beyond_rest = std::min(beyond_rest, (1 + limits.too_small_ease) * least - std::max(line->rest, line->elsewhere));
       return true;
     };
-    if (!look(-reach) || !look(reach) || !look(0)) continue;
-    if (beyond_rest > 0 && slide > reach && !(look(-slide) && look(slide))) beyond_rest = 0;
+    if (!look(-REACH_BEYOND) || !look(REACH_BEYOND) || !look(0)) continue;
+    if (beyond_rest > 0 && !(look(-SLIDE_BEYOND) && look(SLIDE_BEYOND))) beyond_rest = 0;
     if (!look(0)) continue;
     const double missing = std::max(beyond_stretch, beyond_rest);
     if (missing > 0) refuse(place, *line, limits, missing);
@@ -285,7 +279,7 @@ FitReport girths_too_small(const Garment& garment, const std::vector<Vec3>& sour
     const FitPlace& place = edge->place;
     const FitLimits limits = policy.limits(place.name, report.garment_class, report.fabric);
     double least = place.body_m, elsewhere = 0;
-    for (double shift = -slide; shift <= slide; shift += SLIDE_STRIDE)
+    for (double shift = -SLIDE_BEYOND; shift <= SLIDE_BEYOND; shift += SLIDE_STRIDE)
       least = std::min(least, skin_girth(body, edge->parts, place.center + shift * place.normal, place.normal));
     for (std::size_t i = 0; i < edge->particles.size(); ++i)
       elsewhere += (source_position[edge->particles[i]] - source_position[edge->particles[(i + 1) % edge->particles.size()]]).norm();
@@ -296,21 +290,9 @@ FitReport girths_too_small(const Garment& garment, const std::vector<Vec3>& sour
   return report;
 }
 
-} // namespace
-
-FitReport fit_before_drape(const Garment& placed, const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy) {
-  return girths_too_small(placed, source_position, body, fit_places(body), policy, SLIDE_BEYOND);
-}
-
 FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before) {
   const std::string &kind = before.garment_class, &fabric = before.fabric;
-  return {CERTAIN_SLIP * policy.slip_m(kind, fabric), CERTAIN_STRAIN * policy.strain_p99(kind, fabric), before.margin_m < 0, {}};
-}
-
-std::function<std::string(const Garment&)> judge_of_girths(const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy) {
-  return [&source_position, &body, &policy, places = fit_places(body)](const Garment& garment) {
-    return girths_too_small(garment, source_position, body, places, policy, SLIDE_AT_REST).reason;
-  };
+  return {CERTAIN_SLIP * policy.slip_m(kind, fabric), CERTAIN_STRAIN * policy.strain_p99(kind, fabric), before.margin_m < 0};
 }
 
 FitReport impossible_fit(const std::string& reason, const FitPolicy& policy) {

@@ -18,8 +18,6 @@
 #include <garment/garment.hpp>
 #include <io/json_fwd.hpp>
 
-#include <functional>
-
 namespace sloper::garment {
 
 struct FitRow {
@@ -89,10 +87,6 @@ FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before);
 /// below zero for a tight girth are told.
 /// @param placed on `body`, bound to any body   @param source_position #P: where it hung when it was at rest
 FitReport fit_before_drape(const Garment& placed, const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy);
-
-/// The same for cloth that is laid on the body and hardly moves any more, to be asked while a drape goes on (FitBounds::girths).
-/// @return the reason, or nothing; about 50 ms @param source_position, body, policy  must outlive what is returned
-std::function<std::string(const Garment&)> judge_of_girths(const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy);
 
 /// A report that says no for a reason that needs no measuring.
 FitReport impossible_fit(const std::string& reason, const FitPolicy& policy);
