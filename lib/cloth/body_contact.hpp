@@ -119,6 +119,7 @@ private:
   void add_pair(const Pair& pair, const Closest& c, StepContext& context);
   void push_out(int particle, StepContext& context);
   void add_friction(StepContext& context);
+  double friction_energy(const std::vector<Vec3>& x) const; ///< J
   void carry_anchors(const std::vector<Vec3>& positions);
 
   const ClothMesh& m_mesh;
