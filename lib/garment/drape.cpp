@@ -34,7 +34,7 @@ constexpr int MOST_UNTANGLINGS = 8;      // of cloth at rest that crosses itself
 constexpr int PART_EVERY = 40;           // steps between looks whether a few faces are still through the skin
 constexpr int JUDGE_EVERY = 10;          // steps between looks whether the garment can still fit
 constexpr double NEAR_RESIDUAL = 1;      // weights: below, steps may grow faster
-constexpr double LARGEST_STEP_S = 1;     // s, while settling
+constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
 
 } // namespace
 
@@ -168,7 +168,7 @@ void DrapeRun::build_solver(bool open_seams) {
 bool DrapeRun::step(double h, double inertia, double largest_move_m) {
   cloth::StepOptions options;
   options.largest_move_m = largest_move_m;
-  options.line_search = options.momentum = m_settling;
+  options.line_search = m_settling;
   options.h = h;
   options.inertia = inertia;
   options.cg_tolerance = m_sewing ? std::max(SEW_TOLERANCE, m_settings.cg_tolerance) : m_settings.cg_tolerance;
