@@ -133,10 +133,10 @@ private:
 
   std::vector<Pair> m_pairs;
   collision::BodyPairs m_found;
-  std::vector<Vec3> m_searched_at, m_added_at;
-  mutable std::vector<double> m_way; // #P, m: of each particle since m_added_at, or of a displacement
-  std::vector<double> m_reach_now;   // #P: may move this far from m_searched_at unseen
-  double m_body_moved = 0;           // m, since the search
+  std::vector<Vec3> m_searched_at, m_added_at; // #P by 3, m: where the last search and the last add() saw the cloth
+  mutable std::vector<double> m_way;           // #P, m: of each particle since m_added_at, or of a displacement
+  std::vector<double> m_reach_now;             // #P: may move this far from m_searched_at unseen
+  double m_body_moved = 0;                     // m, since the search
   bool m_stale = true, m_look_for_crossings = true;
   std::vector<char> m_inside, m_crossing, m_asked; // by particle, triangle, triangle
   std::size_t m_n_crossing = 0;

@@ -163,6 +163,19 @@ TEST(fit, a_level_that_a_slanting_hem_crosses_is_left_out) {
   ASSERT_TRUE(row(dressed(body, whole).report, "waist_semantic"));
 }
 
+TEST(fit, what_has_slid_off_all_girths_is_told_as_sliding_down) {
+  const body::Body body = measured("f-165-a");
+  Garment trousers = dressed(body, skin_trousers(body)).garment;
+  const std::vector<Vec3> placed = trousers.position;
+  for (Vec3& p : trousers.position) p.y() -= 3;
+  const collision::BodyCollider skin(body.skin);
+  const FitReport slid = fit_garment(trousers, body, skin, standard_fit_policy(), &placed);
+  EXPECT_TRUE(slid.rows.empty());
+  EXPECT_FALSE(slid.fits);
+  EXPECT_EQ(slid.reason.rfind("slides down by 300", 0), 0u) << slid.reason;
+  EXPECT_EQ(fit_garment(trousers, body, skin, standard_fit_policy(), nullptr).reason, "goes round no girth of the body");
+}
+
 TEST(fit, sleeves_and_legs_are_covered_to_where_they_end) {
   const body::Body body = measured("f-165-a");
   const Dressed shirt = dressed(body, skin_shirt(body)), trousers = dressed(body, skin_trousers(body));
