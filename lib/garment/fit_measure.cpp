@@ -139,6 +139,18 @@ const EdgeKind* kind_of(const std::string& hem) {
   return nullptr;
 }
 
+/// Whether a line is open where cloth was left out, as at an arm.
+bool ends_at_left_out(const Garment& garment, const std::vector<char>& use, const SectionLine& line) {
+  std::vector<char> left_out(garment.position.size(), 0);
+  for (std::size_t f = 0; f < use.size(); ++f)
+    for (int k = 0; k < 3 && !use[f]; ++k) left_out[garment.particle_of[garment.panels.triangles[f][k]]] = 1;
+  const auto borders = [&](const SectionSegment& s) {
+    const Triangle& t = garment.panels.triangles[s.triangle];
+    return std::any_of(t.begin(), t.end(), [&](int v) { return left_out[garment.particle_of[v]]; });
+  };
+  return std::any_of(line.chains.begin(), line.chains.end(), [&](const SectionChain& c) { return borders(c.segments.front()) || borders(c.segments.back()); });
+}
+
 /// Triangles that have a particle of the set; the set grows by theirs.
 std::vector<int> ring_of(const Garment& garment, std::vector<char>& in) {
   std::vector<int> ring;
@@ -210,9 +222,9 @@ std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& pla
     return strain_of(cloth, near);
   };
   take_strain(within(BAND), within(0.5 * BAND), row);
-  // How the girth changes within the error of the height, and how much wider it opens: an opening whose sides lie flatter than 45
-  // degrees is a hem that crosses the level, and the bridge over it cuts through the body.
-  const bool cut_open = row.open && line->chains.size() == 1;
+  // How the girth changes within the error of the height, and how much wider it opens: openings whose sides lie flatter than 45
+  // degrees are a hem that crosses the level, and the bridges over them cut through the body.
+  const bool cut_open = row.open && (line->chains.size() == 1 || !ends_at_left_out(garment, use, *line));
   double change = 0, widens = 0;
   for (const double shift : {-place.height_error_m, place.height_error_m}) {
     std::string ignored;
@@ -220,7 +232,7 @@ std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& pla
     if (moved) change = std::max(change, std::abs(moved->rest - row.rest_m));
     widens = std::max(widens, moved ? std::abs(moved->bridged - line->bridged) : std::numeric_limits<double>::infinity());
   }
-  if (cut_open && widens > 2 * place.height_error_m) return why = "a hem crosses it", std::nullopt;
+  if (cut_open && widens > 2 * place.height_error_m * static_cast<double>(line->chains.size())) return why = "a hem crosses it", std::nullopt;
   if (place.kind == "neck" && change > SLANT * row.rest_m) return why = "the cloth crosses it at a slant", std::nullopt; // shoulders, not a neck
   finish_row(cloth, place, *line, change, convergence, row);
   return row;

@@ -19,12 +19,14 @@ struct GradeReport {
 
 /// Changes the pattern coordinates of every panel so that the cloth has the strain at `after` that it had at `before`.
 ///
-/// Each triangle's map from `before` to `after` gives a stretch along warp and along weft in the pattern plane; both are
-/// smoothed over the panel (a pattern is graded, not moulded) and averaged with those of its mirror image on the other side of the body
-/// (panel_mirrors), since a pattern that was alike left and right stays so; the panel is laid out again by least squares:
-/// minimise sum of area |grad u' - S grad u|^2 per coordinate, S = diag(weft, warp) in the grain's axes. The panel keeps its
-/// centroid and grain. Rest length edits (rest_scale) stay as factors. Both sides of a seam keep the ratio of lengths that they had, mesh
-/// edge by mesh edge, each giving way as little as it must; the seams' stated lengths are measured again.
+/// Each triangle's map from `before` to `after` gives a stretch along warp and along weft in the pattern plane. Both are smoothed far
+/// along their threads, which keeps a thread's length, and hardly across, so that each level has its own girth; and averaged with those of
+/// the mirror image on the other side of the body (panel_mirrors), since a pattern that was alike left and right stays so. The panel is
+/// laid out again so that its threads have these lengths, their angle nearly free (a Chebyshev net): minimise sum of area |J - T|^2, J the
+/// triangle's map from the old layout to the new in the grain's axes, T the nearest map whose columns are as long as weft and warp are to
+/// be, drawn a little towards a right angle. The panel keeps its centroid and grain. Rest length edits (rest_scale) stay as factors. Both
+/// sides of a seam keep the ratio of lengths that they had, mesh edge by mesh edge, each giving way as little as it must; a straight seam
+/// between a panel and its mirror image (center front, center back) stays straight; the seams' stated lengths are measured again.
 /// @param before, after  #P by 3, m; `before` on a body that faces +z with its left at +x
 GradeReport regrade(Garment& garment, const std::vector<Vec3>& before, const std::vector<Vec3>& after, const GradeSides& sides = {});
 

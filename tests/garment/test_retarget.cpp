@@ -261,6 +261,45 @@ TEST(regrade, a_tube_around_a_wider_body_is_made_wider_and_not_longer) {
   }
 }
 
+/// A body that widens by 6 % over the top 6 cm of the tube, as ribs do above a waist.
+std::vector<Vec3> flared_at_the_top(const Garment& g) {
+  std::vector<Vec3> after = g.position;
+  for (Vec3& p : after) {
+    const double wider = 1 + 0.06 * std::max(0.0, (p.y() - 0.94) / 0.06);
+    p.x() *= wider, p.z() *= wider;
+  }
+  return after;
+}
+
+TEST(regrade, every_level_takes_its_own_girth_up_to_the_edge) {
+  Garment g = sewn_tube(0.15, 0.4, 0.6);
+  for (Vec3& p : g.position) p = Vec3(-p.z(), p.y(), p.x()); // its seams lie at the sides
+  Garment graded = g;
+  const std::vector<Vec3> after = flared_at_the_top(g);
+  regrade(graded, g.position, after);
+  const int n = 24, rows = 12;
+  for (int r = 0; r <= rows; ++r) {
+    double rest = 0, wanted = 0;
+    for (int side = 0; side < 2; ++side)
+      for (int c = 0; c < n; ++c) {
+        const int v = g.panels.panels[side].first_vertex + r * (n + 1) + c;
+        rest += (graded.panels.pattern[v + 1] - graded.panels.pattern[v]).norm();
+        wanted += (after[g.particle_of[v + 1]] - after[g.particle_of[v]]).norm();
+      }
+    EXPECT_NEAR(rest / wanted, 1, 0.025) << "row " << r;
+  }
+}
+
+TEST(regrade, a_straight_seam_between_mirror_images_stays_straight) {
+  Garment g = sewn_tube(0.15, 0.4, 0.6); // its seams lie at the front and at the back; the second one is left open and gives way
+  g.panels.seams.pop_back();
+  Garment graded = g;
+  regrade(graded, g.position, flared_at_the_top(g));
+  for (const pattern::MeshSeam& seam : graded.panels.seams)
+    for (const std::vector<int>& run : {seam.a, seam.b})
+      for (const int v : run) EXPECT_NEAR(graded.panels.pattern[v].x(), graded.panels.pattern[run.front()].x(), 1e-3) << seam.name;
+}
+
 TEST(regrade, seams_stay_as_long_on_both_sides) {
   const Garment g = sewn_tube(0.15, 0.4, 0.6);
   Garment graded = g;
