@@ -222,6 +222,9 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
   PlacementReport& report = result.report;
   measure(report.stretch_p01, report.stretch_p50, report.stretch_p99);
   report.placed = state_of(g.position, triangles, skin);
+  const std::vector<Vec3>& placed = result.placed = g.position;
+  // keep-fabric: the cloth wants the shape it had; keep-fit: the shape it was placed in, and is regraded to where the skin lets it lie.
+  report.clear_rounds = settle_shape(g.position, mode == RetargetMode::KEEP_FIT ? placed : garment.position, triangles, skin, g.offset_m);
   if (mode == RetargetMode::KEEP_FIT) {
     GradeSides sides;
     for (const SideDifference& d : uneven_sides(to)) sides.apart[d.limb] += (sides.apart[d.limb].empty() ? "" : ", ") + d.text;
@@ -229,9 +232,6 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
     report.mirrored_panels = grade.mirrored_panels, report.findings = grade.findings;
     for (const std::string& finding : grade.findings) reporter.warning(finding);
   }
-  const std::vector<Vec3>& placed = result.placed = g.position;
-  // keep-fabric: the cloth wants the shape it had; keep-fit: the regraded cloth wants the shape it was placed in.
-  report.clear_rounds = settle_shape(g.position, mode == RetargetMode::KEEP_FIT ? placed : garment.position, triangles, skin, g.offset_m);
   for (std::size_t i = 0; i < placed.size(); ++i) report.largest_move_m = std::max(report.largest_move_m, (g.position[i] - placed[i]).norm());
   measure(report.settled_p01, report.settled_p50, report.settled_p99);
   report.cleared = state_of(g.position, triangles, skin);

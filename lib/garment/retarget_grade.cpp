@@ -19,13 +19,13 @@ namespace {
 // What the threads stretch by is smoothed far along a thread, which keeps its length, and little across, where each level has its own.
 constexpr double ALONG_THREAD = 0.08;    // m
 constexpr double ACROSS_THREADS = 0.005; // m
-constexpr double SQUARE = 0.05;          // of the angle between warp and weft, a right one, against their lengths
+constexpr double SQUARE = 0.02;          // of the angle between warp and weft, a right one, against their lengths
 constexpr double SEAM_STIFFNESS = 30;    // of the length of a seam edge, against the weights of the layout, which are about 1
-constexpr double LAYOUT_MOVE = 2e-5;     // m of no vertex in a round: the layout has come to rest
-constexpr int LAYOUT_ROUNDS = 400;       // at most
+constexpr double LAYOUT_MOVE = 5e-6;     // m of no vertex in a round: the layout has come to rest
+constexpr int LAYOUT_ROUNDS = 1000;      // at most
 constexpr double SEAM_EDGE = 2e-6;       // m that the sides of a seam edge may differ by
 constexpr double STRAIGHT = 1 - 1e-4;    // of a seam's length that its ends are apart: it is cut on a straight line
-constexpr double STRAIGHTENING = 0.1;    // how far a straight seam of mirror images goes back to its line in one round
+constexpr double STRAIGHTENING = 0.05;   // how far a straight seam of mirror images goes back to its line in one round
 constexpr double SEAM_FINDING = 1e-3;    // m that the sides of a whole seam may differ by without a word
 
 using Mat2 = Eigen::Matrix2d;
