@@ -59,13 +59,18 @@ std::vector<int> faces_of(const body::Body& body, const std::vector<body::Part>&
   return faces;
 }
 
-/// Taut girth of the outline whose middle is nearest to the plane's origin; 0 where there is none.
+/// Taut girth of the outline whose middle is nearest to the plane's origin, over all pieces where other parts (arms that lie on the flanks)
+/// take some of it away; 0 where there is none.
 double girth_in(const body::Body& body, const body::Plane& plane, const std::vector<int>& faces) {
   const std::vector<body::Loop> loops = body::cut(body.skin, plane, &faces);
   const body::Loop* best = nullptr;
   for (const body::Loop& loop : loops)
     if (loop.area > 0 && (!best || loop.centroid.norm() < best->centroid.norm())) best = &loop;
-  return best ? body::taut_girth(*best) : 0;
+  if (!best) return 0;
+  body::Loop whole = *best;
+  for (const body::Loop& loop : loops)
+    if (&loop != best && !best->closed && !loop.closed) whole.segments.insert(whole.segments.end(), loop.segments.begin(), loop.segments.end());
+  return body::taut_girth(whole);
 }
 
 /// Where along a way from `from` the section square to it is as long as `girth`, within a tenth: of those the nearest in length.

@@ -3,6 +3,7 @@
 #include <base/error.hpp>
 #include <garment/bind.hpp>
 #include <garment/fit.hpp>
+#include <garment/fit_places.hpp>
 #include <garment/fit_section.hpp>
 #include <garment/materials.hpp>
 #include <io/json.hpp>
@@ -166,6 +167,18 @@ TEST(fit, a_level_that_a_slanting_hem_crosses_is_left_out) {
         << both;
   }
   ASSERT_TRUE(row(dressed(body, whole).report, "waist_semantic"));
+}
+
+TEST(fit, a_trunk_whose_flanks_went_to_the_arms_keeps_its_girth) { // as where arms lie on the flanks of a stout person
+  body::Body body = measured("f-165-a");
+  const Vec3 waist(0, body.levels.at("waist_semantic").y, 0);
+  const double whole = skin_girth(body, {body::Part::TORSO}, waist, Vec3::UnitY());
+  for (std::size_t f = 0; f < body.face_part.size(); ++f) {
+    const Triangle& t = body.skin.triangles[f];
+    const double x = (body.skin.positions[t[0]] + body.skin.positions[t[1]] + body.skin.positions[t[2]]).x() / 3;
+    if (body.face_part[f] == body::Part::TORSO && std::abs(x) > 0.11) body.face_part[f] = x > 0 ? body::Part::ARM_L : body::Part::ARM_R;
+  }
+  EXPECT_NEAR(skin_girth(body, {body::Part::TORSO}, waist, Vec3::UnitY()) / whole, 1, 0.07); // straight over the gaps
 }
 
 TEST(fit, what_has_slid_off_all_girths_is_told_as_sliding_down) {
