@@ -36,6 +36,7 @@ Mat2 sides(const Vec2& a, const Vec2& b, const Vec2& c) {
   m << b - a, c - a;
   return m;
 }
+
 /// Area and gradients of the three hat functions of a triangle; area 0 for one that is no triangle.
 struct FlatTriangle {
   double area = 0;
@@ -178,7 +179,7 @@ void start_layout(PanelLayout& layout) {
 /// One round of a layout: each triangle's threads take the wanted lengths in the directions that they have, nearly free to slant against
 /// each other as cloth is, and the panel comes as near to all triangles as it can (the local and the global step of Liu et al. 2008, A
 /// local/global approach to mesh parameterization, for threads).
-/// Returns the longest move of a vertex, m.
+/// @return the longest move of a vertex, m
 double lay_out(PanelLayout& layout) {
   Eigen::MatrixX2d right = layout.seams;
   for (std::size_t f = 0; f < layout.triangles.size(); ++f) {
@@ -227,8 +228,9 @@ std::vector<SeamEdge> seam_edges(const Garment& garment, const std::vector<int>&
   return edges;
 }
 
-/// Lays the panels out, with both sides of every seam in the ratio of lengths that they had, mesh edge by mesh edge, by the alternating direction method of
-/// multipliers (Boyd et al. 2011): the layouts against the nearest edges of that ratio, with what the layouts resist added up.
+/// Lays the panels out, with both sides of every seam in the ratio of lengths that they had, mesh edge by mesh edge, by the alternating
+/// direction method of multipliers (Boyd et al. 2011): the layouts against the nearest edges of that ratio, with what the layouts resist
+/// added up.
 void lay_out_together(std::vector<PanelLayout>& layouts, std::vector<SeamEdge>& edges) {
   for (const SeamEdge& e : edges)
     for (const SeamEdge::Side* s : {&e.a, &e.b})
