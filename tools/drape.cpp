@@ -4,13 +4,12 @@
 #include <collision/skin_cache.hpp>
 #include <garment/bind.hpp>
 #include <garment/drape_job.hpp>
+#include <garment/drape_state.hpp>
 #include <garment/garment_json.hpp>
 #include <garment/inputs.hpp>
 #include <garment/kes.hpp>
 #include <garment/scene.hpp>
-#include <io/files.hpp>
 #include <io/json.hpp>
-#include <io/obj.hpp>
 #include <pattern/folds.hpp>
 #include <pattern/panel_mesh_json.hpp>
 
@@ -24,7 +23,7 @@ struct Options {
   std::string scene, body, panels, from, accuracy, effects, material, report, output, cache, checkpoint, follow, frames, edit_log, motion;
   std::vector<std::string> set, over, over_output;
   int checkpoint_steps = 100;
-  double max_seconds = 0, max_error_mm = 0, motion_fps = 30;
+  double max_seconds = 0, max_error_mm = 0, motion_fps = 0;
   bool untangle_only = false;
 };
 
@@ -68,7 +67,7 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.flag("--untangle-only", o.untangle_only,
             "with --from: only draw crossing cloth apart and out of the body, and drape nothing; exit 4 where crossings remain");
   tool.option("--checkpoint", o.checkpoint,
-              "note the state in this file now and then; after a crash, --from FILE with the same --body goes on from there to the same bytes")
+              "note the state in this file now and then; after a crash, --from FILE with the same --body and --motion goes on from there to the same bytes")
       .check(cli::output_file());
   tool.option("--checkpoint-steps", o.checkpoint_steps, "steps from one checkpoint to the next; part of the result (default: 100)")
       .check(cli::finite_in(1, 1e6, "steps"));
@@ -94,12 +93,6 @@ void set_knobs(garment::DrapeSettings& settings, const Options& o, const garment
   if (!o.effects.empty()) settings.effects = o.effects;
 }
 
-garment::DrapeSettings resolve(const Options& o, const garment::Scene& scene) {
-  garment::DrapeSettings settings = garment::preset_settings(!o.accuracy.empty() ? o.accuracy : !scene.accuracy.empty() ? scene.accuracy : "standard");
-  set_knobs(settings, o, scene);
-  return settings;
-}
-
 /// Whether presets are climbed until an error or a time is met, instead of one being given.
 bool has_goal(const Options& o, const garment::Scene& scene) {
   const bool preset = !o.accuracy.empty() || !scene.accuracy.empty() || !o.checkpoint.empty();
@@ -114,7 +107,8 @@ garment::DrapeJob job_of(const cli::Tool& tool, const Options& o, const garment:
   if (o.follow.empty() && o.motion.empty() && !o.untangle_only && has_goal(o, scene))
     job.goal = garment::AccuracyGoal{1e-3 * o.max_error_mm, settings.max_seconds};
   job.adjust = [&o, &scene](garment::DrapeSettings& s) { set_knobs(s, o, scene); };
-  job.motion = o.motion, job.motion_fps = o.motion_fps;
+  job.motion = o.motion;
+  if (o.motion_fps > 0) job.motion_fps = o.motion_fps;
   job.untangle_only = o.untangle_only;
   job.follow = o.follow, job.frames = o.frames, job.edit_log = o.edit_log;
   job.checkpoints = {o.checkpoint, o.checkpoint_steps};
@@ -124,23 +118,33 @@ garment::DrapeJob job_of(const cli::Tool& tool, const Options& o, const garment:
 void check_options(const Options& o) {
   const cli::Given follow{"--follow", !o.follow.empty()}, over{"--over", !o.over.empty()}, checkpoint{"--checkpoint", !o.checkpoint.empty()},
       max_error{"--max-error-mm", o.max_error_mm > 0}, untangle{"--untangle-only", o.untangle_only}, motion{"--motion", !o.motion.empty()};
-  cli::refuse_together(motion, {follow, over, checkpoint, max_error, untangle});
+  cli::refuse_together(motion, {follow, over, max_error, untangle});
   cli::refuse_together(untangle, {follow, over, checkpoint, max_error});
-  cli::refuse_together(checkpoint, {over, follow, max_error});
+  cli::refuse_together(checkpoint, {follow, max_error});
   cli::refuse_together(over, {follow, max_error});
   for (const cli::Given& one : {follow, untangle})
     if (one.second && o.from.empty()) throw Error(ErrorKind::USAGE, "", one.first, "there is no garment to go on from", "give --from shirt.json");
   if (o.follow.empty() && !o.edit_log.empty()) throw Error(ErrorKind::USAGE, "", "--edit-log", "no edits are followed", "give --follow too");
   if (o.follow.empty() && o.motion.empty() && !o.frames.empty())
     throw Error(ErrorKind::USAGE, "", "--frames", "nothing moves", "give --follow or --motion too");
-  if (!o.over_output.empty() && o.over_output.size() != o.over.size())
-    throw Error(ErrorKind::USAGE, "", "--over-output", "is given " + std::to_string(o.over_output.size()) + " times, --over " + std::to_string(o.over.size()),
+}
+
+/// @param below  garments that will lie below this one
+void check_over_output(const Options& o, std::size_t below) {
+  if (!o.over_output.empty() && o.over_output.size() != below)
+    throw Error(ErrorKind::USAGE, "", "--over-output", "is given " + std::to_string(o.over_output.size()) + " times, --over " + std::to_string(below),
                 "name one file for each garment of --over");
 }
 
-/// Writes the report; the exit code.
-int write_report(cli::Tool& tool, const Options& o, const garment::Garment& garment, garment::DrapeOutcome& outcome, const io::Json& inputs,
-                 const std::vector<std::string>& findings) {
+/// Writes all that is asked for; the exit code.
+int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment, std::vector<garment::Garment>& under, const body::Body& body,
+              garment::DrapeOutcome& outcome, const io::Json& inputs, const std::vector<std::string>& findings) {
+  if (!o.body.empty() && o.motion.empty()) garment::bind_garment(garment, body);
+  garment::write_garment(o.output, garment, tool.name());
+  for (std::size_t k = 0; k < o.over_output.size(); ++k) {
+    garment::bind_garment(under[k], body);
+    garment::write_garment(o.over_output[k], under[k], tool.name());
+  }
   io::Json& document = outcome.document;
   const garment::DrapeReport& report = outcome.report;
   if (!o.report.empty()) {
@@ -167,49 +171,52 @@ body::Body read_body(cli::Tool& tool, const Options& o) {
   return body;
 }
 
-/// Goes on from a checkpoint, which knows all but the body.
+/// Goes on from a checkpoint, which knows all but the body and its motion.
 int resume(cli::Tool& tool, const Options& o) {
   const cli::Given given[] = {
       {"--scene", !o.scene.empty()},   {"--accuracy", !o.accuracy.empty()},  {"--effects", !o.effects.empty()},      {"--material", !o.material.empty()},
       {"--set", !o.set.empty()},       {"--over", !o.over.empty()},          {"--max-error-mm", o.max_error_mm > 0}, {"--max-seconds", o.max_seconds > 0},
-      {"--follow", !o.follow.empty()}, {"--untangle-only", o.untangle_only}, {"--motion", !o.motion.empty()}};
+      {"--follow", !o.follow.empty()}, {"--untangle-only", o.untangle_only}, {"--motion-fps", o.motion_fps > 0}};
   for (const auto& [name, is_given] : given)
     if (is_given) throw Error(ErrorKind::USAGE, "", name, "is settled by the checkpoint", "leave it out");
+  const garment::DrapeCheckpoint checkpoint = garment::read_checkpoint(o.from);
+  check_over_output(o, checkpoint.layers ? checkpoint.layers->garments.size() - 1 : 0);
   io::Json inputs = io::Json::array({garment::input_entry(o.from)});
   garment::Garment garment;
+  std::vector<garment::Garment> under;
   body::Body body;
   if (!o.body.empty()) {
     body = read_body(tool, o);
     garment.body_sha256 = body::skin_sha256(o.body);
     inputs.push_back(garment::input_entry(o.body));
   }
-  garment::DrapeOutcome outcome;
-  outcome.report = garment::resume_drape(o.from, garment, o.body.empty() ? nullptr : &body, tool.reporter(), o.checkpoint);
-  outcome.document = garment::report_json(outcome.report, tool.name());
-  if (!o.body.empty()) garment::bind_garment(garment, body);
-  garment::write_garment(o.output, garment, tool.name());
-  return write_report(tool, o, garment, outcome, inputs, {});
+  if (!o.motion.empty()) inputs.push_back(garment::input_entry(o.motion));
+  garment::DrapeJob job;
+  job.tool = tool.name(), job.motion = o.motion, job.frames = o.frames, job.checkpoints.file = o.checkpoint;
+  garment::DrapeOutcome outcome = garment::resume_job(job, checkpoint, garment, under, o.body.empty() ? nullptr : &body, std::cout, tool.reporter());
+  return write_out(tool, o, garment, under, body, outcome, inputs, {});
 }
 
 int run(cli::Tool& tool, Options& o) {
   check_options(o);
   if (!o.from.empty() && garment::is_checkpoint(o.from)) return resume(tool, o);
+  check_over_output(o, o.over.size());
   const garment::Scene scene = o.scene.empty() ? garment::Scene{} : garment::read_scene(o.scene);
   if (o.body.empty()) o.body = scene.body;
   if (o.panels.empty()) o.panels = scene.panels;
   if (o.panels.empty() == o.from.empty())
     throw Error(ErrorKind::USAGE, "", "", o.from.empty() ? "nothing to drape" : "both --panels and --from are given",
                 "give --panels panels.json or --from shirt.json");
-  const garment::DrapeSettings settings = resolve(o, scene);
+  garment::DrapeSettings settings = garment::preset_settings(!o.accuracy.empty() ? o.accuracy : !scene.accuracy.empty() ? scene.accuracy : "standard");
+  set_knobs(settings, o, scene);
   if (!o.motion.empty() && o.body.empty()) throw Error(ErrorKind::USAGE, "", "--motion", "there is no body to move", "give --body body.json");
   if (!o.over.empty() && o.body.empty()) throw Error(ErrorKind::USAGE, "", "--over", "there is no body that layers could lie on", "give --body body.json");
 
-  io::Json inputs = io::Json::array();
   garment::Garment garment;
   const std::string& source = o.from.empty() ? o.panels : o.from;
   if (o.from.empty()) garment.panels = pattern::read_panel_mesh(o.panels), garment.rest_scale = pattern::tape_scales(garment.panels);
   else garment = garment::read_garment(o.from);
-  inputs.push_back(garment::input_entry(source));
+  io::Json inputs = io::Json::array({garment::input_entry(source)});
   garment::apply_scene(scene, garment);
   if (!o.material.empty()) garment.materials[""] = garment::material_from(o.material);
 
@@ -230,14 +237,7 @@ int run(cli::Tool& tool, Options& o) {
   for (const std::string& path : o.over) inputs.push_back(garment::input_entry(path));
   garment::DrapeOutcome outcome =
       garment::do_drape(job_of(tool, o, scene, settings), garment, layers, o.body.empty() ? nullptr : &body, settings, std::cout, tool.reporter());
-  if (!o.body.empty() && o.motion.empty()) garment::bind_garment(garment, body);
-
-  garment::write_garment(o.output, garment, tool.name());
-  for (std::size_t k = 0; k < o.over_output.size(); ++k) {
-    garment::bind_garment(layers[k], body);
-    garment::write_garment(o.over_output[k], layers[k], tool.name());
-  }
-  return write_report(tool, o, garment, outcome, inputs, findings);
+  return write_out(tool, o, garment, layers, body, outcome, inputs, findings);
 }
 
 } // namespace

@@ -342,9 +342,9 @@ DrapeReport DrapeRun::run() {
       untangle();
       build_solver(false);
     }
-    if (m_at.phase != DrapePhase::SETTLE) inflate();
-    settle();
-    if (m_moves) follow_motion();
+    if (m_at.phase != DrapePhase::SETTLE && m_at.phase != DrapePhase::MOVE) inflate();
+    if (m_at.phase != DrapePhase::MOVE) settle();
+    if (m_moves && !m_at.motion.over) follow_motion();
   }
   finish();
   m_report.wall_s = elapsed();

@@ -57,10 +57,21 @@ struct DrapeReport {
   DrapeSettings settings;
 };
 
+/// What a checkpoint knows of the motion that the drape takes part in, for whoever gives it again.
+struct MotionInput {
+  std::string sha256; ///< motion_sha256() of its file; empty: not known, and not checked
+  double fps = 0;     ///< 1/s, as it was asked for
+};
+
+struct LayersProgress; ///< drape_state.hpp
+
 /// Where a drape notes its state now and then, so that it can go on from there after it was killed.
 struct Checkpoints {
   std::string file; ///< replaced as a whole each time; empty: none is written
   int every_steps = 100;
+  bool renew = false;                     ///< without a file too: what a run with a file does, to the bit
+  MotionInput motion = {};                ///< in a drape_in_motion()
+  const LayersProgress* layers = nullptr; ///< set by drape_layers(): of the drapes around this one
 };
 
 /// Sews (when seams are open), repairs the start, drapes until at rest.
@@ -78,7 +89,7 @@ bool is_checkpoint(const std::string& path);
 /// Goes on from a checkpoint to the same garment, bit by bit, that the undisturbed run would have come to; settings are the checkpoint's.
 /// @param garment  in: body_sha256 of the body, or empty to trust the caller; out: the state reached   @param body  the one that the run began with   @param
 /// file  new checkpoints go there; empty: nowhere
-/// @throws Error INPUT for what is no checkpoint, or for another body
+/// @throws Error INPUT for what is no checkpoint, for another body, or for one of drape_layers() or drape_in_motion(), which drape_job.hpp goes on with
 DrapeReport resume_drape(const std::string& checkpoint, Garment& garment, const body::Body* body, Reporter& reporter, const std::string& file = "");
 
 /// Draws crossing cloth apart and out of the body without draping: only what crosses moves, by short steps; where that does not do, the body

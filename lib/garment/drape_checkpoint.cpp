@@ -4,11 +4,17 @@
 
 namespace sloper::garment {
 
+bool DrapeRun::renews() const { return !m_checkpoints.file.empty() || m_checkpoints.renew; }
+
 bool DrapeRun::checkpoint() {
   const int steps = m_report.steps;
-  if (m_checkpoints.file.empty() && !m_resumed) return false;
-  if (steps == m_checkpoint_step || steps % m_checkpoints.every_steps != 0) return false;
-  m_checkpoint_step = steps;
+  if (!renews() || steps == m_checkpoint_step || steps % m_checkpoints.every_steps != 0) return false;
+  renew();
+  return true;
+}
+
+void DrapeRun::renew() {
+  m_checkpoint_step = m_report.steps;
   m_garment.position = m_solver->x();
   if (m_body_contact) m_at.contact = m_body_contact->memory();
   m_at.shrunk = m_shrink.has_value();
@@ -18,21 +24,26 @@ bool DrapeRun::checkpoint() {
   m_solver.reset(); // reported, and not to be again
   if (!m_checkpoints.file.empty()) {
     m_report.wall_s = elapsed();
-    write_checkpoint(m_checkpoints.file, {m_garment, m_at, m_report, m_checkpoints.every_steps, m_body != nullptr});
+    DrapeCheckpoint c{m_garment, m_at, m_report, m_checkpoints.every_steps, m_body != nullptr, {}, {}, {}};
+    if (m_moves) c.motion = m_checkpoints.motion;
+    if (m_checkpoints.layers) c.layers = *m_checkpoints.layers;
+    write_checkpoint(m_checkpoints.file, c);
   }
   rebuild();
-  return true;
 }
 
 void DrapeRun::rebuild() {
   build_solver(m_at.phase == DrapePhase::SEW);
-  if (m_at.phase == DrapePhase::SETTLE && m_at.step > glide()) add_load();
+  if ((m_at.phase == DrapePhase::SETTLE && m_at.step > glide()) || m_at.phase == DrapePhase::MOVE) add_load();
   if (m_body_contact) m_body_contact->recall(m_at.contact);
+  if (m_at.phase == DrapePhase::MOVE) m_solver->shift(std::vector<Vec3>(m_at.motion.velocity.size(), Vec3::Zero()), m_at.motion.velocity);
 }
 
 void DrapeRun::resume(const DrapeCheckpoint& c) {
-  if (c.has_body != (m_body != nullptr))
-    throw input_error("", "checkpoint", c.has_body ? "was on a body" : "was without a body", "give the same --body as before");
+  c.check_body(m_body, "");
+  const MotionState& motion = c.state.motion;
+  if (c.motion.has_value() != (m_moves != nullptr) || (m_moves && motion.frame > m_moves->n_frames))
+    throw input_error(c.file, "", c.motion ? "is of a run in another motion" : "is of a run in no motion", "give the same --motion as before");
   m_at = c.state;
   m_report.settings = m_settings = c.report.settings;
   m_report.steps = m_checkpoint_step = c.report.steps;
@@ -42,28 +53,50 @@ void DrapeRun::resume(const DrapeCheckpoint& c) {
   m_report.repairs = c.report.repairs;
   m_elapsed_before = c.report.wall_s;
   m_checkpoints.every_steps = c.every_steps;
-  m_resumed = true;
+  m_checkpoints.renew = true;
   if (m_body && !m_body->skin.triangles.empty()) {
     const Phase phase(*this, "prepare body");
     prepare_body(m_at.mitten);
     if (m_at.shrunk) m_shrink.emplace(*m_body);
-    const bool inflating = m_at.phase == DrapePhase::INFLATE;
-    if (inflating && m_at.skin.size() != m_collider->mesh().positions.size()) throw input_error("", "checkpoint", "belongs to another body");
-    if (m_at.shrunk) m_collider->set_positions(inflating ? m_at.skin : skin_at(m_at.scale));
+    if (motion.frame > 0) {
+      const std::vector<Vec3> skin = m_moves->skin(motion.frame - 1);
+      m_collider->set_positions(m_mitten ? m_mitten->positions(skin) : skin);
+      if (motion.over) stand_in(skin);
+    } else if (m_at.shrunk) {
+      const bool inflating = m_at.phase == DrapePhase::INFLATE;
+      if (inflating && m_at.skin.size() != m_collider->mesh().positions.size()) throw input_error(c.file, "", "belongs to another body");
+      m_collider->set_positions(inflating ? m_at.skin : skin_at(m_at.scale));
+    }
   }
   rebuild();
 }
 
 DrapeReport resume_drape(const std::string& checkpoint, Garment& garment, const body::Body* body, Reporter& reporter, const std::string& file) {
-  DrapeCheckpoint c = read_checkpoint(checkpoint);
-  const std::string& hangs_on = garment.body_sha256;
-  if (!hangs_on.empty() && hangs_on != c.garment.body_sha256)
-    throw input_error(checkpoint, "", "the body is not the one on which this drape began", "give the same --body as before");
+  const DrapeCheckpoint c = read_checkpoint(checkpoint);
+  if (c.motion || c.layers) throw input_error(checkpoint, "", c.motion ? "is of a run in motion" : "is of a run with garments over each other");
+  c.check_body(body, garment.body_sha256);
+  Checkpoints checkpoints;
+  checkpoints.file = file;
+  return resume_drape(c, garment, body, reporter, checkpoints);
+}
+
+DrapeReport resume_drape(const DrapeCheckpoint& c, Garment& garment, const body::Body* body, Reporter& reporter, Checkpoints checkpoints) {
   garment = c.garment;
   DrapeRun run(garment, body, c.report.settings, reporter);
-  run.set_checkpoints({file, c.every_steps});
+  run.set_checkpoints(checkpoints);
   run.resume(c);
   return run.run();
+}
+
+void DrapeCheckpoint::check_body(const body::Body* body, const std::string& body_sha256) const {
+  const std::string& began_on = layers ? layers->garments.back().body_sha256 : garment.body_sha256;
+  const bool same = has_body == (body != nullptr) && (body_sha256.empty() || body_sha256 == began_on);
+  if (same) return;
+  throw input_error(file, "",
+                    !has_body ? "this drape began without a body"
+                    : !body   ? "this drape began on a body"
+                              : "the body is not the one on which this drape began",
+                    has_body ? "give the same --body as before" : "leave --body out");
 }
 
 } // namespace sloper::garment

@@ -21,7 +21,7 @@ struct DrapeJob {
   std::string follow;      ///< file of edits, one a line; "-": standard input
   std::string frames;      ///< with `motion` or `follow`: a folder, "-" for the stream, empty for none
   std::string edit_log;    ///< with `follow`: where the edits taken are written
-  Checkpoints checkpoints; ///< of a plain drape
+  Checkpoints checkpoints; ///< of a plain drape, one in motion, or one with garments under it
 };
 
 struct DrapeOutcome {
@@ -37,5 +37,15 @@ struct DrapeOutcome {
 /// @param stream   where frames named "-" go   @throws Error as drape(), follow(), read_moves()
 DrapeOutcome do_drape(const DrapeJob& job, Garment& garment, std::vector<Garment>& under, const body::Body* body, const DrapeSettings& settings,
                       std::ostream& stream, Reporter& reporter);
+
+struct DrapeCheckpoint; ///< drape_state.hpp
+/// Goes on from a checkpoint of do_drape() to the same bytes. What the garments are, and all settings, are the checkpoint's.
+/// @param job      its tool, motion, frames and checkpoints.file; `motion` is given where the checkpoint is of one, and only there. Frames that the
+///                 checkpoint has passed stay as they are in the folder; the stream gets those after it.
+/// @param garment  in: body_sha256 of the body, or empty to trust the caller; out: the state reached
+/// @param under    out: the garments that lie below it   @param body  the one that the run began with, or nullptr where there was none
+/// @throws Error INPUT for another body or another motion, which are told from the first by their content
+DrapeOutcome resume_job(const DrapeJob& job, const DrapeCheckpoint& checkpoint, Garment& garment, std::vector<Garment>& under, const body::Body* body,
+                        std::ostream& stream, Reporter& reporter);
 
 } // namespace sloper::garment

@@ -31,12 +31,21 @@ void DrapeRun::audit_frame(MotionFrame& frame) {
 
 void DrapeRun::follow_motion() {
   if (m_stopped || !m_body_contact) return;
-  const double began = elapsed();
+  MotionState& at = m_at.motion;
+  const double began = elapsed() - at.elapsed_s;
   m_report.converged = false;
   m_settling = false;
-  const double slack = cloth::BodyContactOptions{}.slack_m;
-  m_body_contact->set_slack(MOTION_SLACK);
-  cloth::BodyMotion motion(*m_solver, *m_body_contact, *m_collider);
+  if (m_at.phase != DrapePhase::MOVE) { // it begins; else it goes on from a checkpoint
+    m_at.phase = DrapePhase::MOVE;
+    m_solver->stop();
+  }
+  std::optional<cloth::BodyMotion> motion;
+  const auto take_up = [&] {
+    m_body_contact->set_slack(MOTION_SLACK);
+    motion.emplace(*m_solver, *m_body_contact, *m_collider);
+    motion->parts = at.parts, motion->forced = at.forced, motion->largest_way_m = at.largest_way_m, motion->wall_s = at.wall_s;
+  };
+  take_up();
   const std::size_t substeps = static_cast<std::size_t>(std::max(1.0, std::ceil(m_moves->frame_s / LONGEST_MOTION_STEP - 1e-9)));
   cloth::StepOptions options;
   options.h = m_moves->frame_s / static_cast<double>(substeps);
@@ -44,79 +53,106 @@ void DrapeRun::follow_motion() {
   options.largest_move_m = 1;
   options.cg_tolerance = std::min(m_settings.cg_tolerance, 1e-3);
   options.cg_max_iterations = m_settings.cg_max_iterations;
-  std::size_t bad_frames[3] = {}, most[3] = {};
-  int frames = 0, forced_frames = 0;
-  double simulated = 0;
-  std::vector<Vec3> skin = m_body->skin.positions, target = skin;
-  m_solver->stop();
-  for (std::size_t k = 0; k < m_moves->n_frames && !m_stopped; ++k) {
-    m_reporter.progress("body motion", static_cast<double>(k) / static_cast<double>(m_moves->n_frames));
+  std::vector<Vec3> skin = at.frame > 0 ? m_moves->skin(at.frame - 1) : m_body->skin.positions, target = skin;
+  while (at.frame < m_moves->n_frames && !m_stopped) {
+    if (renews() && at.parts - at.noted >= m_checkpoints.every_steps) {
+      at.noted = at.parts;
+      at.velocity = m_solver->v();
+      at.elapsed_s = elapsed() - began;
+      renew();
+      take_up();
+    }
+    m_reporter.progress("body motion", static_cast<double>(at.frame) / static_cast<double>(m_moves->n_frames));
     const std::vector<Vec3> from = skin;
-    skin = m_moves->skin(k);
+    skin = m_moves->skin(at.frame);
     MotionFrame frame;
-    const long parts = motion.parts, forced = motion.forced;
     for (std::size_t s = 1; s <= substeps && !m_stopped; ++s) {
       const double t = static_cast<double>(s) / static_cast<double>(substeps);
       for (std::size_t v = 0; v < skin.size(); ++v) target[v] = s < substeps ? Vec3((1 - t) * from[v] + t * skin[v]) : skin[v];
-      m_at.last = motion.advance(m_mitten ? m_mitten->positions(target) : target, options);
+      m_at.last = motion->advance(m_mitten ? m_mitten->positions(target) : target, options);
       m_at.cg_iterations.push_back(m_at.last.cg.iterations);
       frame.speed_m_s = std::max(frame.speed_m_s, m_at.last.largest_move_m / options.h);
       if (m_at.last.finite) continue;
-      m_at.rejected.push_back("frame " + std::to_string(k + 1) + " of the motion: not finite, undone");
+      m_at.rejected.push_back("frame " + std::to_string(at.frame + 1) + " of the motion: not finite, undone");
       m_solver->stop();
       m_stopped = true;
       m_report.stop_reason = "diverged";
     }
-    simulated += m_moves->frame_s;
-    frame.number = ++frames;
-    frame.time_s = simulated;
-    frame.parts = motion.parts - parts;
-    frame.forced = motion.forced > forced;
-    forced_frames += frame.forced;
+    at.simulated_s += m_moves->frame_s;
+    frame.number = static_cast<int>(++at.frame);
+    frame.time_s = at.simulated_s;
+    frame.parts = motion->parts - at.parts;
+    frame.forced = motion->forced > at.forced;
+    at.parts = static_cast<int>(motion->parts), at.forced = static_cast<int>(motion->forced);
+    at.largest_way_m = motion->largest_way_m, at.wall_s = motion->wall_s;
+    at.forced_frames += frame.forced;
     m_garment.position = m_solver->x();
     audit_frame(frame);
     const std::size_t found[3] = {frame.faces_through, frame.vertices_inside, frame.self_intersections};
     for (int i = 0; i < 3; ++i) {
-      bad_frames[i] += found[i] > 0;
-      most[i] = std::max(most[i], found[i]);
+      at.bad_frames[i] += found[i] > 0;
+      at.most[i] = std::max(at.most[i], static_cast<int>(found[i]));
     }
     if (m_on_frame) m_on_frame(frame, m_garment);
     if (!m_stopped && m_settings.max_seconds > 0 && elapsed() > m_settings.max_seconds) m_stopped = true, m_report.stop_reason = "time limit";
     if (!m_stopped && m_reporter.stop_requested()) m_stopped = true, m_report.stop_reason = "stopped by the user";
   }
-  const double wall = elapsed() - began;
-  add_phase_time("body motion", wall);
-  m_report.simulated_s += simulated;
-  m_report.steps += static_cast<int>(motion.parts);
+  at.elapsed_s = elapsed() - began;
+  at.velocity.clear();
+  at.over = true;
+  add_phase_time("body motion", at.elapsed_s);
+  m_report.simulated_s += at.simulated_s;
+  m_report.steps += at.parts;
   for (EffectReport& e : m_report.effects)
-    if (e.name == "body_motion") e.calls = motion.parts, e.wall_s = motion.wall_s;
-  m_motion = {{"frames", frames},
-              {"lead_in", std::min<std::size_t>(m_moves->lead_in, static_cast<std::size_t>(frames))},
-              {"frame_s", m_moves->frame_s},
-              {"parts", motion.parts},
-              {"forced_frames", forced_frames},
-              {"largest_way_m", motion.largest_way_m},
-              {"ms_per_frame", 1000 * wall / std::max(frames, 1)},
-              {"faces_through_body", {{"frames", bad_frames[0]}, {"most", most[0]}}},
-              {"vertices_inside_body", {{"frames", bad_frames[1]}, {"most", most[1]}}},
-              {"self_intersections", {{"frames", bad_frames[2]}, {"most", most[2]}}}};
-  m_end_body = *m_body;
-  m_end_body.skin.positions = skin;
-  m_body = &m_end_body;
+    if (e.name == "body_motion") e.calls = at.parts, e.wall_s = at.wall_s;
+  stand_in(skin);
   m_solver->stop();
-  m_settings.max_steps += static_cast<int>(motion.parts); // the limit is on the way to rest
   m_at.disturbed = false;
   m_at.phase = DrapePhase::START; // settles once more
   m_at.calm = m_at.pushed = m_at.best_at = 0;
   m_at.best = std::numeric_limits<double>::infinity();
-  m_body_contact->set_slack(slack);
+  m_body_contact->set_slack(cloth::BodyContactOptions{}.slack_m);
   if (!m_stopped) settle();
 }
 
+void DrapeRun::stand_in(const std::vector<Vec3>& skin) {
+  m_end_body = *m_body;
+  m_end_body.skin.positions = skin;
+  m_body = &m_end_body;
+  m_settings.max_steps += m_at.motion.parts; // the limit is on the way to rest
+}
+
+io::Json DrapeRun::motion_report() const {
+  const MotionState& m = m_at.motion;
+  const auto count = [&](int k) { return io::Json{{"frames", m.bad_frames[k]}, {"most", m.most[k]}}; };
+  return {{"frames", m.frame},
+          {"lead_in", std::min(m_moves->lead_in, m.frame)},
+          {"frame_s", m_moves->frame_s},
+          {"parts", m.parts},
+          {"forced_frames", m.forced_frames},
+          {"largest_way_m", m.largest_way_m},
+          {"ms_per_frame", 1000 * m.elapsed_s / static_cast<double>(std::max<std::size_t>(m.frame, 1))},
+          {"faces_through_body", count(0)},
+          {"vertices_inside_body", count(1)},
+          {"self_intersections", count(2)}};
+}
+
 DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const BodyMoves& moves, const DrapeSettings& settings, const OnMotionFrame& on_frame,
-                            Reporter& reporter) {
+                            Reporter& reporter, const Checkpoints& checkpoints) {
   DrapeRun run(garment, &body, settings, reporter);
+  run.set_checkpoints(checkpoints);
   run.then_move(moves, on_frame);
+  return run.run();
+}
+
+DrapeReport resume_in_motion(const DrapeCheckpoint& c, Garment& garment, const body::Body& body, const BodyMoves& moves, const OnMotionFrame& on_frame,
+                             Reporter& reporter, Checkpoints checkpoints) {
+  garment = c.garment;
+  DrapeRun run(garment, &body, c.report.settings, reporter);
+  if (c.motion) checkpoints.motion = *c.motion;
+  run.set_checkpoints(checkpoints);
+  run.then_move(moves, on_frame);
+  run.resume(c);
   return run.run();
 }
 

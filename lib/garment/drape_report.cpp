@@ -95,7 +95,7 @@ void DrapeRun::finish() {
       {"residual", m_at.last.cg.residual},
       {"newton", 1},
       {"rejected_steps", m_at.rejected}};
-  if (m_moves) m_report.quality["motion"] = m_motion;
+  if (m_moves) m_report.quality["motion"] = motion_report();
   m_garment.converged = m_report.converged;
   m_garment.offset_m = m_settings.contact_gap_m;
 }

@@ -66,12 +66,16 @@ private:
   void settle();
   void follow_motion(); ///< drape_motion.cpp
   void audit_frame(MotionFrame& frame);
+  void stand_in(const std::vector<Vec3>& skin); ///< the motion is over, with the body so
+  io::Json motion_report() const;
   void activate(const char* effect, const char* why);
   void breathe(); ///< a little pressure from within, until stop_breathing()
   void stop_breathing();
   void add_load();                                                   ///< weight and friction
   int glide() const;                                                 ///< step of SETTLE at which they come
-  bool checkpoint();                                                 ///< between steps: where one is due, writes it and rebuilds; whether it did
+  bool checkpoint();                                                 ///< between steps: where one is due, renew(); whether it was
+  bool renews() const;                                               ///< at times, as a run with checkpoints does
+  void renew();                                                      ///< writes the checkpoint where one is wanted, and rebuilds
   void rebuild();                                                    ///< all that a checkpoint does not hold, from m_at and the garment
   bool step(double h, double inertia, double largest_move_m = 0.02); ///< one guarded step; false when the run must end
   double elapsed() const;
@@ -98,7 +102,6 @@ private:
   Checkpoints m_checkpoints;
   int m_checkpoint_step = 0;   ///< of all steps, where the last one was
   double m_elapsed_before = 0; ///< s, of the runs before this one
-  bool m_resumed = false;      ///< the first part of this drape was another run's
   bool m_settling = false;     ///< steps are shortened until the energy falls
 
   std::unique_ptr<cloth::ClothMesh> m_cloth;
@@ -110,7 +113,6 @@ private:
   bool m_loaded = false; ///< with weight and friction
   const BodyMoves* m_moves = nullptr;
   OnMotionFrame m_on_frame;
-  io::Json m_motion;             ///< for the report
   body::Body m_end_body;         ///< where the motion left it
   std::vector<double> m_strains; ///< 99th percentile at each look of judge_fit()
   double m_least_strain = 1e300; ///< of m_strains

@@ -14,7 +14,7 @@ namespace {
 using io::Json;
 using io::Node;
 
-constexpr const char* PHASES[] = {"start", "sew", "inflate", "settle"};
+constexpr const char* PHASES[] = {"start", "sew", "inflate", "settle", "move"};
 
 Json flat(const std::vector<Vec3>& list) {
   Json out = Json::array();
@@ -70,6 +70,36 @@ cloth::StepResult read_step(const Node& node) {
   return s;
 }
 
+Json motion_json(const MotionState& m) {
+  return {{"frame", m.frame},
+          {"over", m.over},
+          {"velocity", flat(m.velocity)},
+          {"parts", m.parts},
+          {"forced", m.forced},
+          {"noted", m.noted},
+          {"forced_frames", m.forced_frames},
+          {"bad_frames", m.bad_frames},
+          {"most", m.most},
+          {"largest_way_m", m.largest_way_m},
+          {"simulated_s", m.simulated_s},
+          {"wall_s", m.wall_s},
+          {"elapsed_s", m.elapsed_s}};
+}
+
+MotionState read_motion(const Node& node) {
+  MotionState m;
+  if (node.at("frame").integer() < 1) node.at("frame").fail("expected a number above zero");
+  m.frame = static_cast<std::size_t>(node.at("frame").integer());
+  m.over = node.at("over").boolean();
+  m.velocity = read_flat(node.at("velocity"));
+  m.parts = node.at("parts").integer(), m.forced = node.at("forced").integer(), m.noted = node.at("noted").integer();
+  m.forced_frames = node.at("forced_frames").integer();
+  for (std::size_t i = 0; i < 3; ++i) m.bad_frames[i] = node.at("bad_frames").at(i).integer(), m.most[i] = node.at("most").at(i).integer();
+  m.largest_way_m = node.at("largest_way_m").number(), m.simulated_s = node.at("simulated_s").number();
+  m.wall_s = node.at("wall_s").number(), m.elapsed_s = node.at("elapsed_s").number();
+  return m;
+}
+
 Json state_json(const DrapeState& s) {
   Json j;
   j["phase"] = PHASES[static_cast<int>(s.phase)];
@@ -89,6 +119,7 @@ Json state_json(const DrapeState& s) {
   j["calm"] = s.calm, j["unmoved"] = s.unmoved, j["pushed"] = s.pushed, j["best_at"] = s.best_at, j["untanglings"] = s.untanglings, j["partings"] = s.partings;
   if (s.best < std::numeric_limits<double>::infinity()) j["best"] = s.best;
   j["start_height"] = s.start_height;
+  if (s.motion.frame > 0) j["motion"] = motion_json(s.motion);
   return j;
 }
 
@@ -122,6 +153,8 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   if (node.has("best")) s.best = node.at("best").number();
   s.start_height = read_numbers(node.at("start_height"));
   if (s.phase == DrapePhase::SETTLE && s.start_height.size() != n_particles) node.at("start_height").fail("does not belong to this garment");
+  if (node.has("motion") || s.phase == DrapePhase::MOVE) s.motion = read_motion(node.at("motion"));
+  if (s.phase == DrapePhase::MOVE && s.motion.velocity.size() != n_particles) node.at("motion").at("velocity").fail("does not belong to this garment");
   return s;
 }
 
@@ -139,6 +172,15 @@ Json progress_json(const DrapeReport& r) {
   return j;
 }
 
+DrapeSettings read_settings(const Node& node) {
+  DrapeSettings s;
+  for (const std::string& name : node.keys())
+    if (name == "accuracy") s.accuracy = node.at(name).string();
+    else if (name == "effects") s.effects = node.at(name).string();
+    else set_knob(s, name, node.at(name));
+  return s;
+}
+
 DrapeReport read_progress(const Node& node, const Node& settings) {
   DrapeReport r;
   r.steps = node.at("steps").integer();
@@ -151,26 +193,65 @@ DrapeReport read_progress(const Node& node, const Node& settings) {
   for (std::size_t k = 0; k < node.at("phases").size(); ++k)
     r.phases.emplace_back(node.at("phases").at(k).at("name").string(), node.at("phases").at(k).at("wall_s").number());
   r.repairs = read_strings(node.at("repairs"));
-  for (const std::string& name : settings.keys())
-    if (name == "accuracy") r.settings.accuracy = settings.at(name).string();
-    else if (name == "effects") r.settings.effects = settings.at(name).string();
-    else set_knob(r.settings, name, settings.at(name));
+  r.settings = read_settings(settings);
   return r;
+}
+
+/// Into a document: what garment_text() says of it, and where its panels were placed.
+void put_garment(Json& document, const Garment& garment) {
+  GarmentText text = garment_text(garment, "", "drape");
+  document["garment"] = std::move(text.document);
+  document["mesh"] = std::move(text.mesh);
+  document["placed"] = flat(garment.panels.placed);
+}
+
+Garment take_garment(const Node& node) {
+  Garment garment = garment_from(node.at("garment"), io::parse_obj(node.at("mesh").string(), node.file()), node.file());
+  garment.panels.placed = read_flat(node.at("placed"));
+  if (!garment.panels.placed.empty() && garment.panels.placed.size() != garment.panels.pattern.size())
+    node.at("placed").fail("does not belong to this garment");
+  return garment;
+}
+
+Json layers_json(const LayersProgress& l) {
+  Json j = {{"settings", settings_json(l.settings)}, {"alone", l.alone}, {"alone_s", l.alone_s}, {"repairs", l.repairs}, {"garments", Json::array()}};
+  for (const Garment& g : l.garments) {
+    j["garments"].push_back(Json::object());
+    put_garment(j["garments"].back(), g);
+  }
+  return j;
+}
+
+LayersProgress read_layers(const Node& node, std::size_t n_particles) {
+  LayersProgress l;
+  l.settings = read_settings(node.at("settings"));
+  const Node garments = node.at("garments");
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < garments.size(); ++k) {
+    l.garments.push_back(take_garment(garments.at(k)));
+    n += l.garments.back().position.size();
+  }
+  const int alone = node.at("alone").integer();
+  if (l.garments.empty() || alone < 0 || static_cast<std::size_t>(alone) > l.garments.size()) node.at("alone").fail("is none of the garments");
+  l.alone = static_cast<std::size_t>(alone);
+  if (l.alone == l.garments.size() && n != n_particles) garments.fail("are not the garments that are draped together");
+  l.alone_s = node.at("alone_s").number();
+  l.repairs = read_strings(node.at("repairs"));
+  return l;
 }
 
 } // namespace
 
 void write_checkpoint(const std::string& path, const DrapeCheckpoint& c) {
-  GarmentText garment = garment_text(c.garment, "", "drape");
   Json document = io::new_document("checkpoint", CHECKPOINT_VERSION, "drape");
   document["every_steps"] = c.every_steps;
   document["has_body"] = c.has_body;
   document["settings"] = settings_json(c.report.settings);
   document["progress"] = progress_json(c.report);
   document["state"] = state_json(c.state);
-  document["garment"] = std::move(garment.document);
-  document["mesh"] = std::move(garment.mesh);
-  document["placed"] = flat(c.garment.panels.placed);
+  if (c.motion) document["motion"] = {{"sha256", c.motion->sha256}, {"fps", c.motion->fps}};
+  if (c.layers) document["layers"] = layers_json(*c.layers);
+  put_garment(document, c.garment);
   io::write_json(path, document);
 }
 
@@ -183,15 +264,20 @@ DrapeCheckpoint read_checkpoint(const std::string& path) {
   const Json document = io::read_document(path, "checkpoint", CHECKPOINT_VERSION);
   const Node root(document, path);
   DrapeCheckpoint c;
+  c.file = path;
   c.every_steps = root.at("every_steps").integer();
   if (c.every_steps < 1) root.at("every_steps").fail("expected a number above zero");
   c.has_body = root.at("has_body").boolean();
-  c.garment = garment_from(root.at("garment"), io::parse_obj(root.at("mesh").string(), path), path);
-  c.garment.panels.placed = read_flat(root.at("placed"));
-  if (!c.garment.panels.placed.empty() && c.garment.panels.placed.size() != c.garment.panels.pattern.size())
-    root.at("placed").fail("does not belong to this garment");
+  c.garment = take_garment(root);
   c.report = read_progress(root.at("progress"), root.at("settings"));
   c.state = read_state(root.at("state"), c.garment.position.size());
+  if (root.has("motion")) {
+    c.motion = {root.at("motion").at("sha256").string(), root.at("motion").at("fps").number()};
+    if (!(c.motion->fps > 0)) root.at("motion").at("fps").fail("expected a number above zero");
+  } else if (c.state.motion.frame > 0) {
+    root.at("state").at("motion").fail("is of a motion that the checkpoint does not name");
+  }
+  if (root.has("layers")) c.layers = read_layers(root.at("layers"), c.garment.position.size());
   return c;
 }
 

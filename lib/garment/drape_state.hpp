@@ -9,10 +9,24 @@
 #include <garment/drape.hpp>
 
 #include <limits>
+#include <optional>
 
 namespace sloper::garment {
 
-enum class DrapePhase { START, SEW, INFLATE, SETTLE };
+enum class DrapePhase { START, SEW, INFLATE, SETTLE, MOVE };
+
+/// A motion of the body, between two of its frames, with the sums that its report will have.
+struct MotionState {
+  std::size_t frame = 0;      ///< the next one; in the phase MOVE the skin is that of the frame before it
+  bool over = false;          ///< all frames are done, the cloth settles in the last pose
+  std::vector<Vec3> velocity; ///< MOVE: #P by 3, m/s
+  int parts = 0, forced = 0;  ///< see cloth/body_motion.hpp
+  int noted = 0;              ///< parts at the last checkpoint
+  int forced_frames = 0;
+  int bad_frames[3] = {}, most[3] = {};      ///< faces through the body, vertices inside it, self intersections
+  double largest_way_m = 0, simulated_s = 0; ///< m, of a skin vertex in one frame; s
+  double wall_s = 0, elapsed_s = 0;          ///< of moving the skin alone; of all of it
+};
 
 struct DrapeState {
   DrapePhase phase = DrapePhase::START;
@@ -38,6 +52,16 @@ struct DrapeState {
   int calm = 0, unmoved = 0, pushed = 0, best_at = 0, untanglings = 0, partings = 0;
   double best = std::numeric_limits<double>::infinity(); ///< least residual so far, weights
   std::vector<double> start_height;                      ///< #P, m, where settling began
+  MotionState motion;                                    ///< of a drape in motion
+};
+
+/// How far a drape of garments over each other (layers.hpp) has come between the drapes that it is made of.
+struct LayersProgress {
+  DrapeSettings settings;           ///< of the whole; a garment that is draped alone has others
+  std::vector<Garment> garments;    ///< from the skin outwards
+  std::size_t alone = 0;            ///< which is draped alone at present; their number: all together
+  std::vector<std::string> repairs; ///< so far
+  double alone_s = 0;               ///< wall seconds of the drapes alone that are done
 };
 
 /// A drape interrupted: what checkpoint files hold. The report has what it had come to: steps, seconds, effects, phases, repairs, settings.
@@ -47,12 +71,22 @@ struct DrapeCheckpoint {
   DrapeReport report;
   int every_steps = 0; ///< between two checkpoints
   bool has_body = false;
+  std::optional<MotionInput> motion;    ///< of a drape in motion
+  std::optional<LayersProgress> layers; ///< garment, state and report are of one of its drapes
+  std::string file;                     ///< where it was read, for messages
+
+  /// @param body  that is given now, or null   @param body_sha256  of its skin; empty: trusted
+  /// @throws Error INPUT where the run began on another
+  void check_body(const body::Body* body, const std::string& body_sha256) const;
 };
 
-inline constexpr int CHECKPOINT_VERSION = 1;
+inline constexpr int CHECKPOINT_VERSION = 2; ///< 1: without motion and layers
 /// One JSON document (format "checkpoint"), replaced as a whole. @throws Error OUTPUT
 void write_checkpoint(const std::string& path, const DrapeCheckpoint& checkpoint);
 /// @throws Error INPUT
 DrapeCheckpoint read_checkpoint(const std::string& path);
+
+/// resume_drape() from what was read. @param checkpoints as for drape(); how often is the checkpoint's
+DrapeReport resume_drape(const DrapeCheckpoint& checkpoint, Garment& garment, const body::Body* body, Reporter& reporter, Checkpoints checkpoints);
 
 } // namespace sloper::garment

@@ -1,5 +1,6 @@
 #include <base/error.hpp>
 #include <garment/frame_writer.hpp>
+#include <io/files.hpp>
 #include <io/obj.hpp>
 
 #include <cmath>
@@ -8,11 +9,21 @@
 
 namespace sloper::garment {
 
-FrameWriter::FrameWriter(std::string where, std::string stamp, std::ostream& stream) : m_where(std::move(where)), m_stamp(std::move(stamp)), m_stream(stream) {
+FrameWriter::FrameWriter(std::string where, std::string stamp, std::ostream& stream, std::size_t after)
+    : m_where(std::move(where)), m_stamp(std::move(stamp)), m_stream(stream) {
   if (m_where.empty() || m_where == "-") return;
   std::error_code failed;
   std::filesystem::create_directories(m_where, failed);
-  m_index.open(m_where + "/frames.jsonl");
+  const std::string index = m_where + "/frames.jsonl";
+  if (after > 0 && std::filesystem::exists(index)) {
+    const std::string all = io::read_file(index);
+    std::size_t end = 0;
+    for (; after > 0 && all.find('\n', end) != all.npos; --after) end = all.find('\n', end) + 1;
+    io::write_file(index, all.substr(0, end)); // whole or not at all: this run can be killed too
+    m_index.open(index, std::ios::app);
+  } else {
+    m_index.open(index);
+  }
   if (failed || !m_index) throw Error(ErrorKind::OUTPUT, m_where, "", "no frames can be written there", "name a folder");
 }
 

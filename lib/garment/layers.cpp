@@ -5,11 +5,13 @@
 #include <collision/intersections.hpp>
 #include <collision/skin_cache.hpp>
 #include <garment/audit.hpp>
+#include <garment/drape_state.hpp>
 #include <garment/materials.hpp>
 #include <io/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sloper::garment {
 
@@ -222,31 +224,43 @@ std::vector<std::size_t> order_violations(const std::vector<Garment>& garments, 
   return count;
 }
 
-DrapeReport drape_layers(std::vector<Garment>& garments, const body::Body* body, const DrapeSettings& settings, Reporter& reporter) {
+namespace {
+
+/// @param at    where it stands; moves on
+/// @param from  the checkpoint that it goes on from, or null: then it begins
+DrapeReport drape_from(LayersProgress& at, const DrapeCheckpoint* from, const body::Body* body, Reporter& reporter, Checkpoints checkpoints) {
   if (!body || body->skin.triangles.empty()) throw input_error("", "layers", "there is no body, from which layers have their order", "give --body body.json");
-  std::vector<std::string> repairs;
-  double alone_s = 0;
-  for (std::size_t k = 0; k < garments.size(); ++k) {
-    if (!garments[k].particle_of.empty()) continue;
-    DrapeSettings alone = settings;
-    alone.contact_gap_m = std::min(0.02, settings.contact_gap_m + static_cast<double>(k) * (settings.self_thickness_m + SLACK));
-    const DrapeReport report = drape(garments[k], body, alone, reporter);
-    alone_s += report.wall_s;
-    for (const std::string& r : report.repairs) repairs.push_back(prefix_of(k) + "alone: " + r);
+  checkpoints.layers = &at;
+  const auto drape_one = [&](Garment& garment, const DrapeSettings& settings) {
+    if (const DrapeCheckpoint* c = std::exchange(from, nullptr)) return resume_drape(*c, garment, body, reporter, checkpoints);
+    return drape(garment, body, settings, reporter, {}, checkpoints);
+  };
+  std::vector<Garment>& garments = at.garments;
+  for (; at.alone < garments.size(); ++at.alone) {
+    const std::size_t k = at.alone;
+    if (!from && !garments[k].particle_of.empty()) continue;
+    DrapeSettings alone = at.settings;
+    alone.contact_gap_m = std::min(0.02, at.settings.contact_gap_m + static_cast<double>(k) * (at.settings.self_thickness_m + SLACK));
+    DrapeReport report = drape_one(garments[k], alone);
+    at.alone_s += report.wall_s;
+    for (const std::string& r : report.repairs) at.repairs.push_back(prefix_of(k) + "alone: " + r);
     if (report.stop_reason == "time limit" || report.stop_reason == "stopped by the user") return report;
   }
   const collision::BodyCollider collider = collision::make_collider(body->skin, body->skin_cache.get());
-  const LayerOrder order = order_layers(garments, collider, settings.self_thickness_m);
-  if (order.tucked > 0)
-    repairs.push_back("layers: " + std::to_string(order.tucked) + " inner particles lay beyond an outer garment and were tucked in, by " +
-                      std::to_string(std::lround(1000 * order.farthest_m)) + " mm at most; " + std::to_string(order.crossed) + " crossings of layers, " +
-                      std::to_string(order.remain) + " remained");
-  Garment merged = merge_layers(garments);
-  DrapeReport report = drape(merged, body, settings, reporter);
+  Garment merged;
+  if (!from) {
+    const LayerOrder order = order_layers(garments, collider, at.settings.self_thickness_m);
+    if (order.tucked > 0)
+      at.repairs.push_back("layers: " + std::to_string(order.tucked) + " inner particles lay beyond an outer garment and were tucked in, by " +
+                           std::to_string(std::lround(1000 * order.farthest_m)) + " mm at most; " + std::to_string(order.crossed) + " crossings of layers, " +
+                           std::to_string(order.remain) + " remained");
+    merged = merge_layers(garments);
+  }
+  DrapeReport report = drape_one(merged, at.settings);
   split_layers(merged, garments);
-  report.repairs.insert(report.repairs.begin(), repairs.begin(), repairs.end());
-  report.phases.insert(report.phases.begin(), {"garments alone", alone_s});
-  report.wall_s += alone_s;
+  report.repairs.insert(report.repairs.begin(), at.repairs.begin(), at.repairs.end());
+  report.phases.insert(report.phases.begin(), {"garments alone", at.alone_s});
+  report.wall_s += at.alone_s;
   const std::vector<std::size_t> wrong = order_violations(garments, collider);
   io::Json layers = io::Json::array();
   for (std::size_t k = 0; k < garments.size(); ++k) {
@@ -260,6 +274,26 @@ DrapeReport drape_layers(std::vector<Garment>& garments, const body::Body* body,
                       {"order_violations", wrong[k]}});
   }
   report.quality["layers"] = std::move(layers);
+  return report;
+}
+
+} // namespace
+
+DrapeReport drape_layers(std::vector<Garment>& garments, const body::Body* body, const DrapeSettings& settings, Reporter& reporter,
+                         const Checkpoints& checkpoints) {
+  LayersProgress at{settings, garments, 0, {}, 0};
+  DrapeReport report = drape_from(at, nullptr, body, reporter, checkpoints);
+  garments = std::move(at.garments);
+  return report;
+}
+
+DrapeReport resume_layers(const DrapeCheckpoint& checkpoint, std::vector<Garment>& garments, const body::Body* body, Reporter& reporter,
+                          Checkpoints checkpoints) {
+  if (!checkpoint.layers) throw input_error(checkpoint.file, "", "is of a run without garments over each other");
+  LayersProgress at = *checkpoint.layers;
+  checkpoints.renew = true, checkpoints.every_steps = checkpoint.every_steps;
+  DrapeReport report = drape_from(at, &checkpoint, body, reporter, checkpoints);
+  garments = std::move(at.garments);
   return report;
 }
 

@@ -33,7 +33,14 @@ std::vector<std::size_t> order_violations(const std::vector<Garment>& garments, 
 
 /// Drapes garments over each other. @param garments from the skin outwards; those not sewn yet are draped alone first
 /// @return of the joint drape; `quality.layers`: for each garment its strain, what of it is in the body, and its order violations
-/// @throws Error INPUT without a body, or as drape()
-DrapeReport drape_layers(std::vector<Garment>& garments, const body::Body* body, const DrapeSettings& settings, Reporter& reporter);
+/// @param checkpoints  as for drape()   @throws Error INPUT without a body, or as drape()
+DrapeReport drape_layers(std::vector<Garment>& garments, const body::Body* body, const DrapeSettings& settings, Reporter& reporter,
+                         const Checkpoints& checkpoints = {});
+
+struct DrapeCheckpoint;
+/// Goes on from a checkpoint of drape_layers() to the same bytes. @param garments  out: from the skin outwards   @param body  the one that the run
+/// began with   @param checkpoints  as for resume_drape()   @throws Error INPUT for a checkpoint without layers, or without a body
+DrapeReport resume_layers(const DrapeCheckpoint& checkpoint, std::vector<Garment>& garments, const body::Body* body, Reporter& reporter,
+                          Checkpoints checkpoints = {});
 
 } // namespace sloper::garment

@@ -1,6 +1,7 @@
 #include <garment/motion.hpp>
 
 #include <base/error.hpp>
+#include <io/files.hpp>
 #include <io/obj.hpp>
 
 #include <algorithm>
@@ -89,6 +90,14 @@ BodyMoves moves_of_files(const body::Body& body, const std::string& first_file, 
     return skin;
   };
   return moves;
+}
+
+std::string motion_sha256(const std::string& file) {
+  if (file.ends_with(".bvh")) return io::sha256(io::read_file(file));
+  std::string sums;
+  for (std::size_t number = number_of(file); std::filesystem::exists(numbered(file, number)); ++number)
+    sums += io::sha256(io::read_file(numbered(file, number)));
+  return io::sha256(sums);
 }
 
 BodyMoves read_moves(const body::Body& body, const std::string& file, double frame_s) {

@@ -28,6 +28,10 @@ BodyMoves moves_of_files(const body::Body& body, const std::string& first_file, 
 /// Either of them by the file's name: a BVH motion, or the first of a numbered sequence of skins. @throws Error INPUT
 BodyMoves read_moves(const body::Body& body, const std::string& file, double frame_s);
 
+/// What tells a motion from another: SHA-256 of the BVH file, or of those of all files of the sequence, one after the other. Reads them all.
+/// @throws Error INPUT
+std::string motion_sha256(const std::string& file);
+
 /// One frame of the cloth, with what an exact audit of it found.
 struct MotionFrame {
   int number = 0;    ///< from 1
@@ -43,7 +47,15 @@ using OnMotionFrame = std::function<void(const MotionFrame&, const Garment&)>;
 /// pose. `quality.motion`: frames, lead_in, simulated_s, parts, forced_frames, largest_way_m (of skin in one frame), ms_per_frame, and
 /// frames and counts with faces through the body, vertices inside it and self intersections.
 /// @param on_frame  after each frame; may be empty
+/// @param checkpoints  as for drape(); while the body moves between two frames, where so many of its parts have passed. With `motion`.
 DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const BodyMoves& moves, const DrapeSettings& settings, const OnMotionFrame& on_frame,
-                            Reporter& reporter);
+                            Reporter& reporter, const Checkpoints& checkpoints = {});
+
+struct DrapeCheckpoint;
+/// Goes on from a checkpoint of drape_in_motion() to the same bytes. @param garment  out   @param body, moves  those that the run began with, for whose
+/// identity the caller answers   @param on_frame  for the frames still to come: after DrapeState::motion.frame
+/// @param checkpoints  as for resume_drape()   @throws Error INPUT for a checkpoint without motion, or whose frames the motion does not have
+DrapeReport resume_in_motion(const DrapeCheckpoint& checkpoint, Garment& garment, const body::Body& body, const BodyMoves& moves, const OnMotionFrame& on_frame,
+                             Reporter& reporter, Checkpoints checkpoints = {});
 
 } // namespace sloper::garment

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <garment/drape_state.hpp>
 #include <garment/garment_json.hpp>
+#include <garment/layers.hpp>
+#include <garment/motion.hpp>
 #include <gtest/gtest.h>
 #include <set>
 #include <unistd.h>
@@ -19,11 +21,13 @@ namespace {
 /// Ends a run, as a kill does, at one of its steps: what it wrote until then is all that is left of it.
 class Killer : public Reporter {
 public:
-  explicit Killer(int at_step) : m_left(at_step) {}
-  bool stop_requested() const override { return m_left-- <= 0; }
+  explicit Killer(int at_step) : m_at(at_step) {}
+  bool stop_requested() const override { return ++m_asked > m_at; }
+  int asked() const { return m_asked; } ///< how often: steps, and frames of a motion
 
 private:
-  mutable int m_left;
+  int m_at;
+  mutable int m_asked = 0;
 };
 
 struct Case {
@@ -97,6 +101,93 @@ TEST_F(CheckpointTest, a_run_that_was_resumed_can_be_killed_and_resumed_again) {
   EXPECT_EQ(read_checkpoint(file("run.json")).report.steps, 60);
   EXPECT_EQ(resume_drape(file("run.json"), resumed, &c.body, silent_reporter()).steps, undisturbed.steps);
   EXPECT_EQ(text(resumed), text(whole));
+}
+
+TEST_F(CheckpointTest, garments_over_each_other_killed_while_one_is_draped_alone_or_all_together_go_on_to_the_same_bytes) {
+  const body::Body pillar = make_pillar(48, 40);
+  const std::vector<Garment> start = {make_skirt(0.72, 0.25, 0.05), make_skirt(0.76, 0.15, 0.05)};
+  std::vector<Garment> whole = start;
+  const DrapeReport undisturbed = drape_layers(whole, &pillar, {}, silent_reporter(), {file("whole.json"), 23});
+  EXPECT_TRUE(undisturbed.converged) << undisturbed.stop_reason;
+  std::set<std::size_t> stages;
+  for (int at = 60; at < 1000; at += 110) {
+    std::vector<Garment> killed = start, resumed;
+    Killer killer(at);
+    if (drape_layers(killed, &pillar, {}, killer, {file("killed.json"), 23}).stop_reason != "stopped by the user") break;
+    const DrapeCheckpoint c = read_checkpoint(file("killed.json"));
+    ASSERT_TRUE(c.layers);
+    stages.insert(c.layers->alone);
+    set_thread_count(1 + at % 2);
+    const DrapeReport report = resume_layers(c, resumed, &pillar, silent_reporter());
+    set_thread_count(1);
+    ASSERT_EQ(resumed.size(), 2U);
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(text(resumed[k]), text(whole[k])) << "garment " << k << " killed after " << at << " steps";
+    EXPECT_EQ(report.steps, undisturbed.steps);
+    EXPECT_EQ(report.repairs, undisturbed.repairs);
+    EXPECT_EQ(report.quality, undisturbed.quality);
+  }
+  EXPECT_EQ(stages, (std::set<std::size_t>{0, 1, 2})) << "a kill in each of the three drapes";
+  Garment one;
+  EXPECT_THROW(resume_drape(file("killed.json"), one, &pillar, silent_reporter()), Error) << "without the other garments";
+}
+
+TEST_F(CheckpointTest, a_body_in_motion_is_gone_on_with_from_between_its_frames_to_the_same_bytes) {
+  const body::Body pillar = make_pillar(48, 40);
+  BodyMoves moves;
+  moves.n_frames = 12;
+  moves.skin = [&pillar](std::size_t k) {
+    const double t = (static_cast<double>(k) + 1) / 30;
+    std::vector<Vec3> x = pillar.skin.positions;
+    for (Vec3& p : x) p = Eigen::AngleAxisd(0.3 * std::sin(6 * t), Vec3::UnitY()) * p + Vec3(0.15 * std::sin(2 * M_PI * t), 0, 0);
+    return x;
+  };
+  struct Frame {
+    MotionFrame told;
+    std::vector<Vec3> x;
+  };
+  const auto keep = [](std::vector<Frame>& list) { return [&list](const MotionFrame& f, const Garment& g) { list.push_back({f, g.position}); }; };
+  const Garment start = make_skirt(0.75, 0.3, 0.04);
+  Garment whole = start;
+  std::vector<Frame> frames;
+  Killer nobody(1 << 30);
+  int first = 0; // how often it was asked before the first frame
+  const auto keep_and_count = [&](const MotionFrame& f, const Garment& g) {
+    if (frames.empty()) first = nobody.asked();
+    frames.push_back({f, g.position});
+  };
+  const DrapeReport undisturbed = drape_in_motion(whole, pillar, moves, {}, keep_and_count, nobody, {file("whole.json"), 25, false, {"a walk", 30}});
+  EXPECT_TRUE(undisturbed.converged) << undisturbed.stop_reason;
+  std::set<std::pair<DrapePhase, bool>> places;
+  for (int at : {first - 3, first + 5, first + 10, nobody.asked() - 2}) {
+    Garment killed = start, resumed;
+    Killer killer(at);
+    std::vector<Frame> before, after;
+    drape_in_motion(killed, pillar, moves, {}, keep(before), killer, {file("killed.json"), 25, false, {"a walk", 30}});
+    const DrapeCheckpoint c = read_checkpoint(file("killed.json"));
+    ASSERT_TRUE(c.motion);
+    EXPECT_EQ(c.motion->sha256, "a walk");
+    places.insert({c.state.phase, c.state.motion.over});
+    set_thread_count(1 + at % 2);
+    const DrapeReport report = resume_in_motion(c, resumed, pillar, moves, keep(after), silent_reporter());
+    set_thread_count(1);
+    EXPECT_EQ(text(resumed), text(whole)) << "killed at " << at << " of " << nobody.asked() << ", frames begin at " << first;
+    EXPECT_EQ(report.steps, undisturbed.steps);
+    EXPECT_EQ(report.solver, undisturbed.solver);
+    io::Json quality = report.quality, expected = undisturbed.quality;
+    for (io::Json* q : {&quality, &expected}) (*q)["motion"].erase("ms_per_frame");
+    EXPECT_EQ(quality, expected);
+    ASSERT_EQ(c.state.motion.frame + after.size(), frames.size());
+    for (std::size_t k = 0; k < after.size(); ++k) {
+      EXPECT_EQ(after[k].x, frames[c.state.motion.frame + k].x);
+      EXPECT_EQ(after[k].told.parts, frames[c.state.motion.frame + k].told.parts);
+      EXPECT_EQ(after[k].told.number, frames[c.state.motion.frame + k].told.number);
+    }
+  }
+  EXPECT_TRUE(places.count({DrapePhase::MOVE, false}) && places.count({DrapePhase::SETTLE, false}) && places.count({DrapePhase::SETTLE, true}));
+  Garment resumed;
+  EXPECT_THROW(resume_drape(file("killed.json"), resumed, &pillar, silent_reporter()), Error) << "without the motion";
+  moves.n_frames = 0;
+  EXPECT_THROW(resume_in_motion(read_checkpoint(file("killed.json")), resumed, pillar, moves, {}, silent_reporter()), Error) << "with a shorter motion";
 }
 
 TEST_F(CheckpointTest, a_checkpoint_of_another_body_or_a_damaged_one_is_refused) {

@@ -35,31 +35,78 @@ case_a_drape_with_no_body_nor_panels_is_a_usage_error() {
   says "lone/a.body.json: /mesh: there is no lone/a.body.obj"
 }
 
-case_a_run_killed_dead_goes_on_from_its_checkpoint_to_the_same_bytes() {
-  local of=(--body a.body.json --panels panels.json --set max_steps=100 --checkpoint-steps 10) pid kills=0 old="" new
-  run "0|4" "$program" "${of[@]}" --checkpoint whole.checkpoint -o whole.json
-  "$program" -q "${of[@]}" --checkpoint run.checkpoint -o run.json & pid=$!
-  while [[ $kills -lt 3 ]]; do
-    for _ in $(seq 3000); do # until there is a new checkpoint, or the run has ended
+# The run of `of`, with % for its name, is made once in peace and once with kills in its way, each once a new checkpoint says what is next in
+# `when`; then it goes on with what is in `again`. Both must write the same garments, named in `written`.
+survives_kills() {
+  local pid kills=0 old="" new name
+  run "0|4" "$program" "${of[@]//%/whole}" --checkpoint whole.checkpoint -o whole.json
+  "$program" -q "${of[@]//%/run}" --checkpoint run.checkpoint -o run.json & pid=$!
+  while [[ $kills -lt ${#when[@]} ]]; do
+    for _ in $(seq 3000); do # until there is such a checkpoint, or the run has ended
       new=$(cksum run.checkpoint 2> /dev/null || true)
-      [[ $new != "$old" ]] && break
+      [[ $new != "$old" ]] && grep -q "${when[kills]}" run.checkpoint && break
       kill -0 "$pid" 2> /dev/null || break
       sleep 0.01
     done
-    [[ $new != "$old" ]] || break
     old=$new
-    kill -KILL "$pid" 2> /dev/null && kills=$((kills + 1))
+    sleep "0.0$((3 * kills))" # not always at once
+    kill -KILL "$pid" 2> /dev/null || break
+    kills=$((kills + 1))
     wait "$pid" 2> /dev/null || true
     [[ -e run.json ]] && break
-    "$program" -q --from run.checkpoint --body a.body.json --checkpoint run.checkpoint -o run.json & pid=$!
+    "$program" -q --from run.checkpoint "${again[@]//%/run}" --checkpoint run.checkpoint -o run.json & pid=$!
   done
   wait "$pid" 2> /dev/null || true
   [[ $kills -gt 0 ]] || fail "the run could not be killed on its way"
-  cmp whole.obj run.obj || fail "another mesh after $kills kills"
-  diff <(grep -v '"mesh"' whole.json) <(grep -v '"mesh"' run.json) || fail "another document after $kills kills"
+  echo "killed $kills times"
+  for name in "${written[@]}"; do
+    cmp "${name//%/whole}.obj" "${name//%/run}.obj" || fail "another mesh after $kills kills: $name"
+    diff <(grep -v '"mesh"' "${name//%/whole}.json") <(grep -v '"mesh"' "${name//%/run}.json") || fail "another document after $kills kills: $name"
+  done
+}
+
+case_a_run_killed_dead_goes_on_from_its_checkpoint_to_the_same_bytes() {
+  local of=(--body a.body.json --panels panels.json --set max_steps=100 --checkpoint-steps 10) again=(--body a.body.json) written=(%) when=(phase phase phase)
+  survives_kills
   run 2 "$program" --from run.checkpoint --body a.body.json --accuracy fine -o run.json
   says "--accuracy"
   run 3 "$program" --from run.checkpoint -o run.json
+  says "give the same --body as before"
+  run 3 "$program" --from run.checkpoint --body "$data/b.body.json" -o run.json
+  says "the body is not the one on which this drape began"
+}
+
+case_layers_killed_dead_go_on_to_the_same_bytes() {
+  local of=(--body a.body.json --over "$data/skirt.json" --panels panels.json --set max_steps=60 --checkpoint-steps 10 --over-output %-below.json)
+  local again=(--body a.body.json --over-output %-below.json) written=(% %-below)
+  local when=('"alone": 1' '"alone": 2' '"alone": 2')
+  survives_kills
+  run 2 "$program" --from run.checkpoint --body a.body.json --over "$data/skirt.json" -o run.json
+  says "is settled by the checkpoint"
+  run 2 "$program" --from run.checkpoint --body a.body.json --over-output 1.json --over-output 2.json -o run.json
+  says "--over-output"
+  run 3 "$program" --from run.checkpoint --body "$data/b.body.json" -o run.json
+  says "the body is not the one on which this drape began"
+}
+
+case_a_motion_killed_dead_goes_on_to_the_same_bytes() {
+  local k
+  mkdir skins
+  for k in 1 2 3 4; do awk -v k=$k '/^v / { $2 += 0.01 * k } { print }' a.body.obj > "skins/s.000$k.obj"; done
+  local of=(--from "$data/skirt.json" --body a.body.json --set settle_force_ratio=10 --set settle_speed_m_s=1 --checkpoint-steps 6
+    --motion skins/s.0001.obj --motion-fps 25 --frames %-frames)
+  local again=(--body a.body.json --motion skins/s.0001.obj --frames %-frames) written=(%)
+  local when=('"phase": "move"' '"phase": "move"')
+  survives_kills
+  [[ $(wc -l < whole-frames/frames.jsonl) -ge 9 ]] || fail "no motion took place"
+  diff -rq -x '*.tmp.*' whole-frames run-frames || fail "other frames" # a kill may leave a file half written, under another name
+  run 2 "$program" --from run.checkpoint --body a.body.json --motion skins/s.0001.obj --motion-fps 25 -o run.json
+  says "is settled by the checkpoint"
+  run 3 "$program" --from run.checkpoint --body a.body.json -o run.json
+  says "give the same --motion as before"
+  cp a.body.obj skins/s.0003.obj
+  run 3 "$program" --from run.checkpoint --body a.body.json --motion skins/s.0001.obj -o run.json
+  says "skins/s.0001.obj: is not the motion with which this drape began"
 }
 
 case_untangling_and_motion_say_what_they_need() {
