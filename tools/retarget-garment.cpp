@@ -115,6 +115,8 @@ int run(cli::Tool& tool, const Options& o) {
   garment::bind_garment(garment, body);
   garment::write_garment(o.output, garment, tool.name());
   if (!hopeless) fit = garment::fit_garment(garment, body, skin, policy, &placed.placed, report.unfit);
+  if (const std::string why = garment::why_stuck(garment, body); fit.fits && !o.no_drape && !report.converged && !why.empty())
+    fit.fits = false, fit.verdict = garment::FitVerdict::IMPOSSIBLE, fit.reason = why;
   write_fit(o, fit, tool.name(), report.converged, inputs);
   if (!o.report.empty()) {
     io::Json document = garment::report_json(report, tool.name());

@@ -82,8 +82,9 @@ std::string region_of(const Garment& garment, std::size_t particle, double axill
 std::string class_of(const std::vector<std::string>& region) {
   std::map<std::string, double> share;
   for (const std::string& name : region) share[name] += 1.0 / static_cast<double>(region.size());
-  const double legs = share["left leg"] + share["right leg"], above = share["shoulders"];
-  const bool top = above > 0.02;
+  const double legs = share["left leg"] + share["right leg"];
+  // Where a scan's arms lie on its flanks, no arm pits are found, and nothing counts as above them.
+  const bool top = share["shoulders"] + share["left sleeve"] + share["right sleeve"] + share["collar"] > 0.02;
   if (legs > 0.2 && legs > share["skirt"]) return top ? "whole" : "trousers";
   if (share["skirt"] > 0.2) return top ? "dress" : "skirt";
   return top || share["trunk"] > 0.9 ? "top" : "skirt";

@@ -25,6 +25,7 @@ constexpr double SEARCH_DEPTH = 0.15;      // m, deeper is not looked for
 constexpr double FINAL_GAP_SHARE = 0.5;    // of the gap: near enough to stop
 constexpr int LEAST_ROUNDS = 6;            // before which the shape has not found its rest
 constexpr double LONGEST_MOVE = 0.008;     // m of a particle in one round
+constexpr double LEAST_SLEEVE = 0.02;      // of a garment that hangs on one arm: it has a sleeve
 constexpr double STILL = 0.003;            // m that no particle moves any more in a round
 
 using Field = Eigen::Matrix<double, Eigen::Dynamic, 3>;
@@ -201,6 +202,20 @@ std::string why_impossible(const Garment& garment, const body::Body& body) {
   if (missing.empty()) return {};
   const auto most = std::max_element(missing.begin(), missing.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   return "hangs on " + most->first + ", which the body lacks";
+}
+
+std::string why_stuck(const Garment& garment, const body::Body& body) {
+  for (const std::string side : {"left", "right"}) {
+    const std::string suffix = side == "left" ? "_l" : "_r";
+    if (body.has_landmark("axilla" + suffix) || !body.has_landmark("shoulder_joint" + suffix)) continue;
+    double sleeve = 0;
+    for (const auto& weights : garment.bind.particles)
+      for (const BindWeight& w : weights)
+        if (const std::string& frame = garment.bind.frames[w.frame]; frame.find("arm") != std::string::npos && frame.ends_with(suffix)) sleeve += w.weight;
+    if (sleeve > LEAST_SLEEVE * static_cast<double>(garment.bind.particles.size()))
+      return "has a " + side + " sleeve, and no cloth goes between the scan's " + side + " arm and its trunk, which touch";
+  }
+  return {};
 }
 
 Retargeted retarget(const Garment& garment, const body::Body& to, const collision::BodyCollider& skin, RetargetMode mode, Reporter& reporter) {

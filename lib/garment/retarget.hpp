@@ -47,6 +47,11 @@ int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, c
 /// do without arms, but a collar that lies on the shoulders can do without a head.
 std::string why_impossible(const Garment& garment, const body::Body& body);
 
+/// Why a garment that did not come to rest on a body could not ("has a left sleeve, and no cloth goes between the scan's left arm and its
+/// trunk, which touch"), or nothing: it has a sleeve on a side on which no arm pit was found.
+/// @param garment bound to a body   @param body measured
+std::string why_stuck(const Garment& garment, const body::Body& body);
+
 struct Retargeted {
   Garment garment;          ///< placed on the new body and clear of its skin, still bound to the old one; converged is false
   std::vector<Vec3> placed; ///< #P by 3, m: by coordinates alone

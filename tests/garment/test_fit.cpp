@@ -169,6 +169,13 @@ TEST(fit, a_level_that_a_slanting_hem_crosses_is_left_out) {
   ASSERT_TRUE(row(dressed(body, whole).report, "waist_semantic"));
 }
 
+TEST(fit, a_shirt_is_one_on_a_body_without_arm_pits_too) {
+  body::Body body = measured("f-165-a");
+  const Garment shirt = skin_shirt(body, 0.01);
+  for (const char* name : {"axilla_l", "axilla_r"}) body.landmarks.erase(name);
+  EXPECT_EQ(dressed(body, shirt).report.garment_class, "top");
+}
+
 TEST(fit, a_trunk_whose_flanks_went_to_the_arms_keeps_its_girth) { // as where arms lie on the flanks of a stout person
   body::Body body = measured("f-165-a");
   const Vec3 waist(0, body.levels.at("waist_semantic").y, 0);

@@ -185,7 +185,9 @@ TEST(Follow, a_garment_read_from_its_document_ends_in_the_same_bytes) { // the p
     EXPECT_EQ(a.panels[p].hint.theta, b.panels[p].hint.theta);
     EXPECT_EQ(a.panels[p].hint.height, b.panels[p].hint.height);
     ASSERT_EQ(a.panels[p].hint.rigid.has_value(), b.panels[p].hint.rigid.has_value());
-    if (p == 0) EXPECT_EQ(*a.panels[p].hint.rigid, *b.panels[p].hint.rigid);
+    if (p == 0) {
+      EXPECT_EQ(*a.panels[p].hint.rigid, *b.panels[p].hint.rigid);
+    }
     for (int e = 0; e < a.panels[p].n_edges(); ++e)
       for (std::size_t s = 0; s < a.panels[p].edge(e).path.size(); ++s)
         for (std::size_t k : {0, 3}) EXPECT_EQ(a.panels[p].edge(e).path[s].p[k], b.panels[p].edge(e).path[s].p[k]);

@@ -221,6 +221,16 @@ TEST(retarget, what_a_body_lacks_is_named) {
   EXPECT_EQ(why_impossible(skirt, armless), "");
 }
 
+TEST(retarget, sleeves_between_arms_and_a_trunk_that_touch_are_named) {
+  const body::Body whole = measured("f-165-a");
+  const Garment shirt = bound(skin_shirt(whole), whole), skirt = bound(tube_skirt(whole), whole);
+  EXPECT_EQ(why_stuck(shirt, whole), "");
+  body::Body touching = whole;
+  touching.landmarks.erase("axilla_r");
+  EXPECT_EQ(why_stuck(shirt, touching).rfind("has a right sleeve", 0), 0u) << why_stuck(shirt, touching);
+  EXPECT_EQ(why_stuck(skirt, touching), "");
+}
+
 TEST(retarget, trousers_on_a_torso_are_impossible) {
   const body::Body whole = measured("f-165-a");
   body::Body torso = without_arms(whole);
