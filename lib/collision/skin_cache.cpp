@@ -26,12 +26,13 @@ BodyCollider SkinCache::collider(const TriangleMesh& skin) {
 
 std::optional<PreparedSkin> SkinCache::read(const std::string& key, const TriangleMesh& skin) {
   const std::string file = file_of(key);
-  std::error_code ignored;
-  if (m_folder.empty() || !std::filesystem::exists(file, ignored)) return {};
+  if (m_folder.empty()) return {};
   std::optional<PreparedSkin> known;
   try {
-    known = prepared_from_bytes(io::read_file(file), key, skin.positions.size(), skin.triangles.size());
-  } catch (const Error&) { // gone in the meantime, or not ours to read: as if it had never been
+    const std::optional<std::string> bytes = io::read_file_if_there(file);
+    if (!bytes) return {};
+    known = prepared_from_bytes(*bytes, key, skin.positions.size(), skin.triangles.size());
+  } catch (const Error&) { // not ours to read: as if it had never been
   }
   m_reporter->info(known ? "body known from " + file : file + " is damaged or cannot be read; the body is prepared anew");
   return known;

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 namespace sloper::io {
 
@@ -31,8 +32,15 @@ static std::string read_descriptor(int fd, const std::string& name) {
 }
 
 std::string read_file(const std::string& path) {
+  std::optional<std::string> bytes = read_file_if_there(path);
+  if (!bytes) throw input_error(path, "", std::string("cannot open: ") + std::strerror(errno), "check the path");
+  return std::move(*bytes);
+}
+
+std::optional<std::string> read_file_if_there(const std::string& path) {
   if (path == "-") return read_descriptor(STDIN_FILENO, "standard input");
   const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0 && (errno == ENOENT || errno == ENOTDIR)) return {};
   if (fd < 0) throw input_error(path, "", std::string("cannot open: ") + std::strerror(errno), "check the path");
   try {
     std::string bytes = read_descriptor(fd, path);

@@ -37,6 +37,8 @@ TEST(Files, a_missing_one_and_a_folder_are_bad_input_that_names_the_path) {
   const ScratchFolder folder;
   std::string message;
   EXPECT_EQ(kind_of([&] { io::read_file(folder / "none.json"); }, &message), ErrorKind::INPUT);
+  EXPECT_FALSE(io::read_file_if_there(folder / "none.json"));
+  EXPECT_EQ(kind_of([&] { io::read_file_if_there(folder.path()); }), ErrorKind::INPUT);
   EXPECT_NE(message.find("none.json"), std::string::npos);
   EXPECT_EQ(kind_of([&] { io::read_file(folder.path()); }, &message), ErrorKind::INPUT);
   EXPECT_NE(message.find("folder"), std::string::npos);
