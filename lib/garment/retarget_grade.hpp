@@ -26,7 +26,8 @@ struct GradeReport {
 /// triangle's map from the old layout to the new in the grain's axes, T the nearest map whose columns are as long as weft and warp are to
 /// be, drawn a little towards a right angle. The panel keeps its centroid and grain. Rest length edits (rest_scale) stay as factors. Both
 /// sides of a seam keep the ratio of lengths that they had, mesh edge by mesh edge, each giving way as little as it must; a straight seam
-/// between a panel and its mirror image (center front, center back) stays straight; the seams' stated lengths are measured again.
+/// between a panel and its mirror image (center front, center back) leaves its line only where nothing else gives way; the seams' stated
+/// lengths are measured again. Stops after 1000 rounds at most; seams that then differ are among the findings.
 /// @param before, after  #P by 3, m; `before` on a body that faces +z with its left at +x
 GradeReport regrade(Garment& garment, const std::vector<Vec3>& before, const std::vector<Vec3>& after, const GradeSides& sides = {});
 
