@@ -224,3 +224,13 @@ TEST_F(CheckpointTest, a_checkpoint_of_another_body_or_a_damaged_one_is_refused)
   std::ofstream(file("damaged.json")) << whole.substr(0, whole.size() / 2);
   EXPECT_THROW(resume_drape(file("damaged.json"), resumed, &pillar, silent_reporter()), Error);
 }
+
+/// What fuzzers start from is read: of a seed that is refused they would see no more than the refusal.
+TEST(CheckpointSeeds, of_every_version_are_read) {
+  const std::string folder = std::string(SLOPER_SOURCE_DIR) + "/tests/fuzz/corpus/garment/";
+  EXPECT_NO_THROW(read_checkpoint(folder + "checkpoint")); // version 1
+  const DrapeCheckpoint moving = read_checkpoint(folder + "checkpoint-motion"), layered = read_checkpoint(folder + "checkpoint-layers");
+  EXPECT_EQ(moving.state.phase, DrapePhase::MOVE);
+  ASSERT_TRUE(layered.layers);
+  EXPECT_EQ(layered.layers->garments.size(), 2u);
+}
