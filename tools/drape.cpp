@@ -118,7 +118,7 @@ garment::DrapeJob job_of(const cli::Tool& tool, const Options& o, const garment:
 void check_options(const Options& o) {
   const cli::Given follow{"--follow", !o.follow.empty()}, over{"--over", !o.over.empty()}, checkpoint{"--checkpoint", !o.checkpoint.empty()},
       max_error{"--max-error-mm", o.max_error_mm > 0}, untangle{"--untangle-only", o.untangle_only}, motion{"--motion", !o.motion.empty()};
-  cli::refuse_together(motion, {follow, over, max_error, untangle});
+  cli::refuse_together(motion, {follow, max_error, untangle});
   cli::refuse_together(untangle, {follow, over, checkpoint, max_error});
   cli::refuse_together(checkpoint, {follow, max_error});
   cli::refuse_together(over, {follow, max_error});
@@ -142,7 +142,7 @@ int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment, std:
   if (!o.body.empty() && o.motion.empty()) garment::bind_garment(garment, body);
   garment::write_garment(o.output, garment, tool.name());
   for (std::size_t k = 0; k < o.over_output.size(); ++k) {
-    garment::bind_garment(under[k], body);
+    if (o.motion.empty()) garment::bind_garment(under[k], body);
     garment::write_garment(o.over_output[k], under[k], tool.name());
   }
   io::Json& document = outcome.document;

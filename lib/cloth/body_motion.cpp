@@ -16,6 +16,7 @@ constexpr double SHORTEST_PART = 2e-4;
 constexpr double LEAST_TIME = 0.02;
 /// Cloth this near is carried whole, then less and less, m.
 constexpr double CARRIED_WHOLE = 0.006, NOT_CARRIED = 0.03;
+constexpr double FEWER = 4; ///< of the carry that was asked for, where it would not do
 
 double longest_of(const std::vector<Vec3>& way) {
   double longest = 0;
@@ -46,26 +47,49 @@ void BodyMotion::find_carry(const std::vector<Vec3>& way) {
     }
   });
   m_contact.clear_carry(x, way, m_carry);
-  if (m_self_contact) keep_from_crossing();
 }
 
-/// Takes off what of the carry would bring cloth through cloth.
-void BodyMotion::keep_from_crossing() {
+/// What brings no cloth through cloth, of this share of the carry.
+std::vector<Vec3> BodyMotion::uncrossing_carry(double share, const MotionLimits& found) const {
   const std::vector<Vec3>& x = m_solver.x();
+  MotionLimits limits = found;
+  std::vector<Vec3> carry = m_carry;
+  for (Vec3& c : carry) c *= share;
+  std::vector<char> held(x.size(), 0);
+  limits.apply(x, carry, held);
+  for (int round = 1; round <= GUARD_ROUNDS; ++round) {
+    if (!m_self_contact->guard_motion(x, carry, limits, round == GUARD_ROUNDS)) break;
+    limits.apply(x, carry, held);
+  }
+  return carry;
+}
+
+/// The share of its way that the skin can go now, with m_carry that of the whole way at this rate. Cloth between skin and cloth cannot be
+/// carried all the way at once, and would stop the skin within a hair: carried on less of it, it goes with what lies over it.
+double BodyMotion::free_part(const std::vector<Vec3>& way, double longest) {
+  const std::vector<Vec3>& x = m_solver.x();
+  find_carry(way);
+  if (!m_self_contact) return m_contact.free_share(x, way, m_carry);
   MotionLimits limits;
   limits.reset(x.size());
   std::vector<Vec3> force(x.size(), Vec3::Zero());
   std::vector<ContactElement> elements;
   BlockMatrix unused; // self contact adds elements only
   StepContext context{x, 1, force, unused, elements, &limits};
-  std::vector<char> held(x.size(), 0);
   m_self_contact->begin_step(x, 1);
   m_self_contact->add(context);
-  limits.apply(x, m_carry, held);
-  for (int round = 1; round <= GUARD_ROUNDS; ++round) {
-    if (!m_self_contact->guard_motion(x, m_carry, limits, round == GUARD_ROUNDS)) return;
-    limits.apply(x, m_carry, held);
+  std::vector<Vec3> best_carry(x.size(), Vec3::Zero());
+  double best = 0;
+  for (double asked = 1;; asked /= FEWER) {
+    std::vector<Vec3> carry = uncrossing_carry(asked, limits);
+    for (Vec3& c : carry) c /= asked;
+    const bool whole = carry == m_carry; // what else stops the skin does so on a shorter way too
+    const double share = std::min(asked, m_contact.free_share(x, way, carry));
+    if (share > best) best = share, best_carry = std::move(carry);
+    if (whole || best >= asked / FEWER || asked * longest < SHORTEST_PART) break;
   }
+  m_carry = std::move(best_carry);
+  return best;
 }
 
 StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOptions& options, const std::function<StepResult(const StepOptions&)>& step) {
@@ -85,8 +109,7 @@ StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOption
       most_parts = MOST_PARTS + static_cast<int>(std::min(longest / SHORTEST_PART, 1e6));
     }
     m_carry = nothing;
-    if (longest > 0) find_carry(way);
-    double share = longest > 0 ? m_contact.free_share(m_solver.x(), way, m_carry) : 1;
+    double share = longest > 0 ? free_part(way, longest) : 1;
     const bool force = part >= most_parts && share < 1;
     if (force) {
       share = 1;

@@ -34,7 +34,8 @@ public:
 
 private:
   void find_carry(const std::vector<Vec3>& way);
-  void keep_from_crossing();
+  std::vector<Vec3> uncrossing_carry(double share, const MotionLimits& found) const;
+  double free_part(const std::vector<Vec3>& way, double longest);
 
   ClothSolver& m_solver;
   BodyContactEffect& m_contact;

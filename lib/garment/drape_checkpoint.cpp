@@ -24,8 +24,7 @@ void DrapeRun::renew() {
   m_solver.reset(); // reported, and not to be again
   if (!m_checkpoints.file.empty()) {
     m_report.wall_s = elapsed();
-    DrapeCheckpoint c{m_garment, m_at, m_report, m_checkpoints.every_steps, m_body != nullptr, {}, {}, {}};
-    if (m_moves) c.motion = m_checkpoints.motion;
+    DrapeCheckpoint c{m_garment, m_at, m_report, m_checkpoints.every_steps, m_body != nullptr, m_checkpoints.motion, {}, {}};
     if (m_checkpoints.layers) c.layers = *m_checkpoints.layers;
     write_checkpoint(m_checkpoints.file, c);
   }
@@ -42,8 +41,7 @@ void DrapeRun::rebuild() {
 void DrapeRun::resume(const DrapeCheckpoint& c) {
   c.check_body(m_body, "");
   const MotionState& motion = c.state.motion;
-  if (c.motion.has_value() != (m_moves != nullptr) || (m_moves && motion.frame > m_moves->n_frames))
-    throw input_error(c.file, "", c.motion ? "is of a run in another motion" : "is of a run in no motion", "give the same --motion as before");
+  if (!c.layers || c.layers->alone == c.layers->garments.size()) c.check_moves(m_moves); // the body stands still while a garment of several is alone
   m_at = c.state;
   m_report.settings = m_settings = c.report.settings;
   m_report.steps = m_checkpoint_step = c.report.steps;
@@ -86,6 +84,11 @@ DrapeReport resume_drape(const DrapeCheckpoint& c, Garment& garment, const body:
   run.set_checkpoints(checkpoints);
   run.resume(c);
   return run.run();
+}
+
+void DrapeCheckpoint::check_moves(const BodyMoves* moves) const {
+  if (motion.has_value() == (moves != nullptr) && (!moves || state.motion.frame <= moves->n_frames)) return;
+  throw input_error(file, "", motion ? "is of a run in another motion" : "is of a run in no motion", "give the same --motion as before");
 }
 
 void DrapeCheckpoint::check_body(const body::Body* body, const std::string& body_sha256) const {

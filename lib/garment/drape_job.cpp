@@ -14,42 +14,62 @@ namespace sloper::garment {
 
 namespace {
 
-DrapeReport drape_over(const DrapeJob& job, Garment& garment, std::vector<Garment>& under, const body::Body* body, const DrapeSettings& settings,
-                       Reporter& reporter) {
-  under.push_back(std::move(garment));
-  DrapeReport report = drape_layers(under, body, settings, reporter, job.checkpoints);
+/// The outermost garment is out on its own, those under it are together.
+void take_off(Garment& garment, std::vector<Garment>& under) {
   garment = std::move(under.back());
   under.pop_back();
+}
+
+/// @param moves  null for none
+DrapeReport drape_over(Garment& garment, std::vector<Garment>& under, const body::Body* body, const DrapeSettings& settings, Reporter& reporter,
+                       const Checkpoints& checkpoints, const BodyMoves* moves = nullptr, const OnMotionFrame& on_frame = {}) {
+  under.push_back(std::move(garment));
+  DrapeReport report = drape_layers(under, body, settings, reporter, checkpoints, moves, on_frame);
+  take_off(garment, under);
+  return report;
+}
+
+DrapeReport resume_over(const DrapeCheckpoint& c, Garment& garment, std::vector<Garment>& under, const body::Body* body, Reporter& reporter,
+                        const Checkpoints& checkpoints, const BodyMoves* moves = nullptr, const OnMotionFrame& on_frame = {}) {
+  DrapeReport report = resume_layers(c, under, body, reporter, checkpoints, moves, on_frame);
+  take_off(garment, under);
   return report;
 }
 
 /// @param fps   1/s   @param done  frames that are written already   @param drape  makes the drape with what it needs for it
 template<class Drape>
-DrapeReport with_motion(const DrapeJob& job, double fps, std::size_t done, Garment& garment, const body::Body& body, std::ostream& stream, const Drape& drape) {
+DrapeReport with_motion(const DrapeJob& job, double fps, std::size_t done, Garment& garment, std::vector<Garment>& under, const body::Body& body,
+                        std::ostream& stream, const Drape& drape) {
   const BodyMoves moves = read_moves(body, job.motion, 1 / fps);
   FrameWriter write(job.frames, "frame of " + generator_stamp(job.tool), stream, done);
   DrapeReport report = drape(moves, OnMotionFrame([&](const MotionFrame& f, const Garment& g) { write(f, g); }));
-  garment.body_sha256.clear(); // it hangs on the last skin
-  if (moves.end) bind_garment(garment, *moves.end);
-  else garment.bind = {};
+  const auto leave = [&](Garment& g) {
+    g.body_sha256.clear(); // it hangs on the last skin
+    if (moves.end) bind_garment(g, *moves.end);
+    else g.bind = {};
+  };
+  leave(garment);
+  for (Garment& g : under) leave(g);
   return report;
 }
 
-DrapeReport drape_with_motion(const DrapeJob& job, Garment& garment, const body::Body& body, const DrapeSettings& settings, std::ostream& stream,
-                              Reporter& reporter) {
+DrapeReport drape_with_motion(const DrapeJob& job, Garment& garment, std::vector<Garment>& under, const body::Body& body, const DrapeSettings& settings,
+                              std::ostream& stream, Reporter& reporter) {
   Checkpoints checkpoints = job.checkpoints;
   if (!checkpoints.file.empty()) checkpoints.motion = {motion_sha256(job.motion), job.motion_fps};
-  return with_motion(job, job.motion_fps, 0, garment, body, stream, [&](const BodyMoves& moves, const OnMotionFrame& on_frame) {
+  return with_motion(job, job.motion_fps, 0, garment, under, body, stream, [&](const BodyMoves& moves, const OnMotionFrame& on_frame) {
+    if (!under.empty()) return drape_over(garment, under, &body, settings, reporter, checkpoints, &moves, on_frame);
     return drape_in_motion(garment, body, moves, settings, on_frame, reporter, checkpoints);
   });
 }
 
-DrapeReport resume_with_motion(const DrapeJob& job, const DrapeCheckpoint& c, Garment& garment, const body::Body& body, std::ostream& stream,
-                               Reporter& reporter) {
+DrapeReport resume_with_motion(const DrapeJob& job, const DrapeCheckpoint& c, Garment& garment, std::vector<Garment>& under, const body::Body& body,
+                               std::ostream& stream, Reporter& reporter) {
   if (job.motion.empty()) throw input_error(c.file, "", "this drape began with a motion of the body", "give the same --motion as before");
   if (!c.motion->sha256.empty() && motion_sha256(job.motion) != c.motion->sha256)
     throw input_error(job.motion, "", "is not the motion with which this drape began", "give the same --motion as before");
-  return with_motion(job, c.motion->fps, c.state.motion.frame, garment, body, stream, [&](const BodyMoves& moves, const OnMotionFrame& on_frame) {
+  return with_motion(job, c.motion->fps, c.state.motion.frame, garment, under, body, stream, [&](const BodyMoves& moves, const OnMotionFrame& on_frame) {
+    if (c.layers) return resume_over(c, garment, under, &body, reporter, job.checkpoints, &moves, on_frame);
     return resume_in_motion(c, garment, body, moves, on_frame, reporter, job.checkpoints);
   });
 }
@@ -79,10 +99,10 @@ DrapeOutcome do_drape(const DrapeJob& job, Garment& garment, std::vector<Garment
                       std::ostream& stream, Reporter& reporter) {
   if (under.empty() && job.goal) return drape_towards(job, garment, body, reporter);
   if (under.empty() && !job.follow.empty()) return follow_edits(job, garment, body, settings, stream, reporter);
-  DrapeReport report = !under.empty()        ? drape_over(job, garment, under, body, settings, reporter)
-                       : !job.motion.empty() ? drape_with_motion(job, garment, *body, settings, stream, reporter)
-                       : job.untangle_only   ? untangle_only(garment, body, settings, reporter)
-                                             : drape(garment, body, settings, reporter, {}, job.checkpoints);
+  DrapeReport report = !job.motion.empty() ? drape_with_motion(job, garment, under, *body, settings, stream, reporter)
+                       : !under.empty()    ? drape_over(garment, under, body, settings, reporter, job.checkpoints)
+                       : job.untangle_only ? untangle_only(garment, body, settings, reporter)
+                                           : drape(garment, body, settings, reporter, {}, job.checkpoints);
   io::Json document = report_json(report, job.tool);
   return {std::move(report), std::move(document), 0};
 }
@@ -91,14 +111,9 @@ DrapeOutcome resume_job(const DrapeJob& job, const DrapeCheckpoint& c, Garment& 
                         std::ostream& stream, Reporter& reporter) {
   c.check_body(body, garment.body_sha256);
   if (!c.motion && !job.motion.empty()) throw input_error(c.file, "", "this drape began without a motion", "leave --motion out");
-  DrapeReport report;
-  if (c.layers) {
-    report = resume_layers(c, under, body, reporter, job.checkpoints);
-    garment = std::move(under.back());
-    under.pop_back();
-  } else {
-    report = c.motion ? resume_with_motion(job, c, garment, *body, stream, reporter) : resume_drape(c, garment, body, reporter, job.checkpoints);
-  }
+  DrapeReport report = c.motion   ? resume_with_motion(job, c, garment, under, *body, stream, reporter)
+                       : c.layers ? resume_over(c, garment, under, body, reporter, job.checkpoints)
+                                  : resume_drape(c, garment, body, reporter, job.checkpoints);
   io::Json document = report_json(report, job.tool);
   return {std::move(report), std::move(document), 0};
 }

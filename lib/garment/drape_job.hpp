@@ -19,7 +19,7 @@ struct DrapeJob {
   double motion_fps = 30;                     ///< 1/s
   bool untangle_only = false;
   std::string follow;      ///< file of edits, one a line; "-": standard input
-  std::string frames;      ///< with `motion` or `follow`: a folder, "-" for the stream, empty for none
+  std::string frames;      ///< with `motion` or `follow`: a folder, "-" for the stream, empty for none; with garments under it they are in each
   std::string edit_log;    ///< with `follow`: where the edits taken are written
   Checkpoints checkpoints; ///< of a plain drape, one in motion, or one with garments under it
 };
@@ -32,7 +32,7 @@ struct DrapeOutcome {
 
 /// Does the job. The motion leaves the garment bound to the last body where that is known, else to none.
 /// @param garment  in: placed panels or a sewn garment; out: the state reached
-/// @param under    garments that lie below it, from the skin outwards; they come to rest together, and `job` says nothing else then
+/// @param under    garments that lie below it, from the skin outwards; they come to rest together, and move together where `job` has a motion
 /// @param body     nullptr for none; needed by `motion` and by garments `under` it
 /// @param stream   where frames named "-" go   @throws Error as drape(), follow(), read_moves()
 DrapeOutcome do_drape(const DrapeJob& job, Garment& garment, std::vector<Garment>& under, const body::Body* body, const DrapeSettings& settings,

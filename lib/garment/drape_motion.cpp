@@ -138,7 +138,8 @@ io::Json DrapeRun::motion_report() const {
 }
 
 DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const BodyMoves& moves, const DrapeSettings& settings, const OnMotionFrame& on_frame,
-                            Reporter& reporter, const Checkpoints& checkpoints) {
+                            Reporter& reporter, Checkpoints checkpoints) {
+  if (!checkpoints.motion) checkpoints.motion = moves.input();
   DrapeRun run(garment, &body, settings, reporter);
   run.set_checkpoints(checkpoints);
   run.then_move(moves, on_frame);
@@ -149,7 +150,7 @@ DrapeReport resume_in_motion(const DrapeCheckpoint& c, Garment& garment, const b
                              Reporter& reporter, Checkpoints checkpoints) {
   garment = c.garment;
   DrapeRun run(garment, &body, c.report.settings, reporter);
-  if (c.motion) checkpoints.motion = *c.motion;
+  checkpoints.motion = c.motion;
   run.set_checkpoints(checkpoints);
   run.then_move(moves, on_frame);
   run.resume(c);

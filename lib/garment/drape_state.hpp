@@ -13,6 +13,8 @@
 
 namespace sloper::garment {
 
+struct BodyMoves; ///< motion.hpp
+
 enum class DrapePhase { START, SEW, INFLATE, SETTLE, MOVE };
 
 /// A motion of the body, between two of its frames, with the sums that its report will have.
@@ -78,6 +80,8 @@ struct DrapeCheckpoint {
   /// @param body  that is given now, or null   @param body_sha256  of its skin; empty: trusted
   /// @throws Error INPUT where the run began on another
   void check_body(const body::Body* body, const std::string& body_sha256) const;
+  /// @param moves  given now, or null   @throws Error INPUT for one where the run began without, none where it began with one, and one too short
+  void check_moves(const BodyMoves* moves) const;
 };
 
 inline constexpr int CHECKPOINT_VERSION = 2; ///< 1: without motion and layers

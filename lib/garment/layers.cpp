@@ -228,11 +228,15 @@ namespace {
 
 /// @param at    where it stands; moves on
 /// @param from  the checkpoint that it goes on from, or null: then it begins
-DrapeReport drape_from(LayersProgress& at, const DrapeCheckpoint* from, const body::Body* body, Reporter& reporter, Checkpoints checkpoints) {
+DrapeReport drape_from(LayersProgress& at, const DrapeCheckpoint* from, const body::Body* body, Reporter& reporter, Checkpoints checkpoints,
+                       const BodyMoves* moves, const OnMotionFrame& on_frame) {
   if (!body || body->skin.triangles.empty()) throw input_error("", "layers", "there is no body, from which layers have their order", "give --body body.json");
   checkpoints.layers = &at;
-  const auto drape_one = [&](Garment& garment, const DrapeSettings& settings) {
-    if (const DrapeCheckpoint* c = std::exchange(from, nullptr)) return resume_drape(*c, garment, body, reporter, checkpoints);
+  const auto drape_one = [&](Garment& garment, const DrapeSettings& settings, const BodyMoves* then) {
+    const DrapeCheckpoint* c = std::exchange(from, nullptr);
+    if (c && then) return resume_in_motion(*c, garment, *body, *then, on_frame, reporter, checkpoints);
+    if (c) return resume_drape(*c, garment, body, reporter, checkpoints);
+    if (then) return drape_in_motion(garment, *body, *then, settings, on_frame, reporter, checkpoints);
     return drape(garment, body, settings, reporter, {}, checkpoints);
   };
   std::vector<Garment>& garments = at.garments;
@@ -241,12 +245,12 @@ DrapeReport drape_from(LayersProgress& at, const DrapeCheckpoint* from, const bo
     if (!from && !garments[k].particle_of.empty()) continue;
     DrapeSettings alone = at.settings;
     alone.contact_gap_m = std::min(0.02, at.settings.contact_gap_m + static_cast<double>(k) * (at.settings.self_thickness_m + SLACK));
-    DrapeReport report = drape_one(garments[k], alone);
+    DrapeReport report = drape_one(garments[k], alone, nullptr);
     at.alone_s += report.wall_s;
     for (const std::string& r : report.repairs) at.repairs.push_back(prefix_of(k) + "alone: " + r);
     if (report.stop_reason == "time limit" || report.stop_reason == "stopped by the user") return report;
   }
-  const collision::BodyCollider collider = collision::make_collider(body->skin, body->skin_cache.get());
+  collision::BodyCollider collider = collision::make_collider(body->skin, body->skin_cache.get());
   Garment merged;
   if (!from) {
     const LayerOrder order = order_layers(garments, collider, at.settings.self_thickness_m);
@@ -256,11 +260,13 @@ DrapeReport drape_from(LayersProgress& at, const DrapeCheckpoint* from, const bo
                            std::to_string(order.remain) + " remained");
     merged = merge_layers(garments);
   }
-  DrapeReport report = drape_one(merged, at.settings);
+  DrapeReport report = drape_one(merged, at.settings, moves);
   split_layers(merged, garments);
   report.repairs.insert(report.repairs.begin(), at.repairs.begin(), at.repairs.end());
   report.phases.insert(report.phases.begin(), {"garments alone", at.alone_s});
   report.wall_s += at.alone_s;
+  const std::size_t frames = moves ? report.quality["motion"]["frames"].get<std::size_t>() : 0;
+  if (frames > 0) collider.set_positions(moves->skin(frames - 1));
   const std::vector<std::size_t> wrong = order_violations(garments, collider);
   io::Json layers = io::Json::array();
   for (std::size_t k = 0; k < garments.size(); ++k) {
@@ -279,20 +285,22 @@ DrapeReport drape_from(LayersProgress& at, const DrapeCheckpoint* from, const bo
 
 } // namespace
 
-DrapeReport drape_layers(std::vector<Garment>& garments, const body::Body* body, const DrapeSettings& settings, Reporter& reporter,
-                         const Checkpoints& checkpoints) {
+DrapeReport drape_layers(std::vector<Garment>& garments, const body::Body* body, const DrapeSettings& settings, Reporter& reporter, Checkpoints checkpoints,
+                         const BodyMoves* moves, const OnMotionFrame& on_frame) {
   LayersProgress at{settings, garments, 0, {}, 0};
-  DrapeReport report = drape_from(at, nullptr, body, reporter, checkpoints);
+  if (moves && !checkpoints.motion) checkpoints.motion = moves->input(); // while one is alone too
+  DrapeReport report = drape_from(at, nullptr, body, reporter, checkpoints, moves, on_frame);
   garments = std::move(at.garments);
   return report;
 }
 
 DrapeReport resume_layers(const DrapeCheckpoint& checkpoint, std::vector<Garment>& garments, const body::Body* body, Reporter& reporter,
-                          Checkpoints checkpoints) {
+                          Checkpoints checkpoints, const BodyMoves* moves, const OnMotionFrame& on_frame) {
   if (!checkpoint.layers) throw input_error(checkpoint.file, "", "is of a run without garments over each other");
+  checkpoint.check_moves(moves);
   LayersProgress at = *checkpoint.layers;
-  checkpoints.renew = true, checkpoints.every_steps = checkpoint.every_steps;
-  DrapeReport report = drape_from(at, &checkpoint, body, reporter, checkpoints);
+  checkpoints.renew = true, checkpoints.every_steps = checkpoint.every_steps, checkpoints.motion = checkpoint.motion;
+  DrapeReport report = drape_from(at, &checkpoint, body, reporter, checkpoints, moves, on_frame);
   garments = std::move(at.garments);
   return report;
 }

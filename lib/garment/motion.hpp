@@ -15,6 +15,8 @@ struct BodyMoves {
   std::size_t lead_in = 0;                            ///< frames at the start that lead from the body as it was draped to the motion's first
   std::function<std::vector<Vec3>(std::size_t)> skin; ///< of frame k, #V by 3 as body.skin, m
   std::shared_ptr<const body::Body> end;              ///< the whole body in the last frame, with its landmarks; null where not known
+
+  MotionInput input() const { return {"", 1 / frame_s}; } ///< for checkpoints of a motion that no file tells from another
 };
 
 /// Poses of a motion (pose_file.hpp) on `body`, which outlives this, with a lead-in from the body as it stands: joints turn evenly, for as long
@@ -47,9 +49,9 @@ using OnMotionFrame = std::function<void(const MotionFrame&, const Garment&)>;
 /// pose. `quality.motion`: frames, lead_in, simulated_s, parts, forced_frames, largest_way_m (of skin in one frame), ms_per_frame, and
 /// frames and counts with faces through the body, vertices inside it and self intersections.
 /// @param on_frame  after each frame; may be empty
-/// @param checkpoints  as for drape(); while the body moves between two frames, where so many of its parts have passed. With `motion`.
+/// @param checkpoints  as for drape(); while the body moves between two frames, where so many of its parts have passed
 DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const BodyMoves& moves, const DrapeSettings& settings, const OnMotionFrame& on_frame,
-                            Reporter& reporter, const Checkpoints& checkpoints = {});
+                            Reporter& reporter, Checkpoints checkpoints = {});
 
 struct DrapeCheckpoint;
 /// Goes on from a checkpoint of drape_in_motion() to the same bytes. @param garment  out   @param body, moves  those that the run began with, for whose

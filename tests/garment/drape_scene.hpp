@@ -1,8 +1,9 @@
 #pragma once
-/// A scene made for tests: a round pillar that widens below its waist, and a two-panel skirt around it.
+/// A scene made for tests: a round pillar that widens below its waist, a motion of it, and a two-panel skirt around it.
 #include <body/body.hpp>
 #include <cmath>
 #include <garment/garment.hpp>
+#include <garment/motion.hpp>
 
 namespace sloper::garment {
 
@@ -98,6 +99,19 @@ inline Garment make_skirt(double girth, double length, double edge, double top_y
     p.seams.push_back(seam);
   }
   return garment;
+}
+
+/// The pillar swings to its side, by `way` m at most, and turns, as hips do; 30 frames a second. `body` outlives it.
+inline BodyMoves swinging(const body::Body& body, std::size_t frames, double way) {
+  BodyMoves moves;
+  moves.n_frames = frames;
+  moves.skin = [&body, way](std::size_t k) {
+    const double t = (static_cast<double>(k) + 1) / 30;
+    std::vector<Vec3> x = body.skin.positions;
+    for (Vec3& p : x) p = Eigen::AngleAxisd(0.3 * std::sin(6 * t), Vec3::UnitY()) * p + Vec3(way * std::sin(2 * M_PI * t), 0, 0);
+    return x;
+  };
+  return moves;
 }
 
 } // namespace sloper::garment

@@ -133,14 +133,7 @@ TEST_F(CheckpointTest, garments_over_each_other_killed_while_one_is_draped_alone
 
 TEST_F(CheckpointTest, a_body_in_motion_is_gone_on_with_from_between_its_frames_to_the_same_bytes) {
   const body::Body pillar = make_pillar(48, 40);
-  BodyMoves moves;
-  moves.n_frames = 12;
-  moves.skin = [&pillar](std::size_t k) {
-    const double t = (static_cast<double>(k) + 1) / 30;
-    std::vector<Vec3> x = pillar.skin.positions;
-    for (Vec3& p : x) p = Eigen::AngleAxisd(0.3 * std::sin(6 * t), Vec3::UnitY()) * p + Vec3(0.15 * std::sin(2 * M_PI * t), 0, 0);
-    return x;
-  };
+  BodyMoves moves = swinging(pillar, 12, 0.15);
   struct Frame {
     MotionFrame told;
     std::vector<Vec3> x;
@@ -155,14 +148,15 @@ TEST_F(CheckpointTest, a_body_in_motion_is_gone_on_with_from_between_its_frames_
     if (frames.empty()) first = nobody.asked();
     frames.push_back({f, g.position});
   };
-  const DrapeReport undisturbed = drape_in_motion(whole, pillar, moves, {}, keep_and_count, nobody, {file("whole.json"), 25, false, {"a walk", 30}});
+  const MotionInput walk{"a walk", 30};
+  const DrapeReport undisturbed = drape_in_motion(whole, pillar, moves, {}, keep_and_count, nobody, {file("whole.json"), 25, false, walk});
   EXPECT_TRUE(undisturbed.converged) << undisturbed.stop_reason;
   std::set<std::pair<DrapePhase, bool>> places;
   for (int at : {first - 3, first + 5, first + 10, nobody.asked() - 2}) {
     Garment killed = start, resumed;
     Killer killer(at);
     std::vector<Frame> before, after;
-    drape_in_motion(killed, pillar, moves, {}, keep(before), killer, {file("killed.json"), 25, false, {"a walk", 30}});
+    drape_in_motion(killed, pillar, moves, {}, keep(before), killer, {file("killed.json"), 25, false, walk});
     const DrapeCheckpoint c = read_checkpoint(file("killed.json"));
     ASSERT_TRUE(c.motion);
     EXPECT_EQ(c.motion->sha256, "a walk");
@@ -188,6 +182,43 @@ TEST_F(CheckpointTest, a_body_in_motion_is_gone_on_with_from_between_its_frames_
   EXPECT_THROW(resume_drape(file("killed.json"), resumed, &pillar, silent_reporter()), Error) << "without the motion";
   moves.n_frames = 0;
   EXPECT_THROW(resume_in_motion(read_checkpoint(file("killed.json")), resumed, pillar, moves, {}, silent_reporter()), Error) << "with a shorter motion";
+}
+
+TEST_F(CheckpointTest, garments_over_each_other_in_motion_killed_before_and_during_it_go_on_to_the_same_bytes) {
+  const body::Body pillar = make_pillar(48, 40);
+  const BodyMoves moves = swinging(pillar, 6, 0.1);
+  const std::vector<Garment> start = {make_skirt(0.72, 0.25, 0.05), make_skirt(0.76, 0.15, 0.05)};
+  std::vector<Garment> whole = start;
+  Killer nobody(1 << 30);
+  int first = 0; // how often it was asked before the first frame
+  std::vector<std::vector<Vec3>> frames;
+  const auto count = [&](const MotionFrame& f, const Garment& g) {
+    if (frames.empty()) first = nobody.asked();
+    EXPECT_EQ(f.self_intersections, 0U) << f.number;
+    frames.push_back(g.position);
+  };
+  const DrapeReport undisturbed = drape_layers(whole, &pillar, {}, nobody, {file("whole.json"), 23}, &moves, count);
+  EXPECT_TRUE(undisturbed.converged) << undisturbed.stop_reason;
+  ASSERT_EQ(frames.size(), 6U);
+  std::set<std::pair<std::size_t, DrapePhase>> places;
+  for (int at : {60, first - 3, first + 4}) {
+    std::vector<Garment> killed = start, resumed;
+    Killer killer(at);
+    drape_layers(killed, &pillar, {}, killer, {file("killed.json"), 23}, &moves);
+    const DrapeCheckpoint c = read_checkpoint(file("killed.json"));
+    ASSERT_TRUE(c.layers && c.motion);
+    EXPECT_EQ(c.motion->fps, 30);
+    places.insert({c.layers->alone, c.state.phase});
+    std::vector<std::vector<Vec3>> after;
+    const DrapeReport report =
+        resume_layers(c, resumed, &pillar, silent_reporter(), {}, &moves, [&](const MotionFrame&, const Garment& g) { after.push_back(g.position); });
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(text(resumed[k]), text(whole[k])) << "garment " << k << " killed after " << at << " steps";
+    EXPECT_EQ(report.steps, undisturbed.steps);
+    EXPECT_EQ(report.quality["layers"], undisturbed.quality["layers"]);
+    EXPECT_EQ(after, std::vector<std::vector<Vec3>>(frames.begin() + static_cast<long>(c.state.motion.frame), frames.end()));
+    EXPECT_THROW(resume_layers(c, resumed, &pillar, silent_reporter()), Error) << "without the motion";
+  }
+  EXPECT_EQ(places, (std::set<std::pair<std::size_t, DrapePhase>>{{0, DrapePhase::SEW}, {2, DrapePhase::SETTLE}, {2, DrapePhase::MOVE}}));
 }
 
 TEST_F(CheckpointTest, a_checkpoint_of_another_body_or_a_damaged_one_is_refused) {

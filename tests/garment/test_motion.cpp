@@ -1,28 +1,13 @@
 #include "drape_scene.hpp"
 
+#include <garment/audit.hpp>
 #include <garment/effects.hpp>
+#include <garment/layers.hpp>
 #include <garment/motion.hpp>
 #include <gtest/gtest.h>
 
 using namespace sloper;
 using namespace sloper::garment;
-
-namespace {
-
-/// The pillar swings to its side and turns, as hips do.
-BodyMoves swinging(const body::Body& body, std::size_t frames, double way) {
-  BodyMoves moves;
-  moves.n_frames = frames;
-  moves.skin = [&body, way](std::size_t k) {
-    const double t = (static_cast<double>(k) + 1) / 30;
-    std::vector<Vec3> x = body.skin.positions;
-    for (Vec3& p : x) p = Eigen::AngleAxisd(0.3 * std::sin(6 * t), Vec3::UnitY()) * p + Vec3(way * std::sin(2 * M_PI * t), 0, 0);
-    return x;
-  };
-  return moves;
-}
-
-} // namespace
 
 TEST(Motion, a_skirt_on_a_swinging_body_is_clean_in_every_frame_and_at_rest_at_the_end) {
   const body::Body pillar = make_pillar(48, 40);
@@ -54,6 +39,29 @@ TEST(Motion, a_skirt_on_a_swinging_body_is_clean_in_every_frame_and_at_rest_at_t
       EXPECT_GE(e.calls, 15);
     }
   EXPECT_EQ(report.quality["motion"]["frames"].get<int>(), 15);
+}
+
+TEST(Motion, a_skirt_below_a_skirt_goes_with_the_body_and_the_order_is_kept) {
+  const body::Body pillar = make_pillar(48, 40);
+  std::vector<Garment> garments = {make_skirt(0.72, 0.3, 0.04), make_skirt(0.76, 0.2, 0.04)};
+  const BodyMoves moves = swinging(pillar, 12, 0.15);
+  int frames = 0;
+  const DrapeReport report = drape_layers(garments, &pillar, {}, silent_reporter(), {}, &moves, [&](const MotionFrame& f, const Garment& all) {
+    ++frames;
+    EXPECT_EQ(all.panels.panels.size(), 4U) << "of both";
+    EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U) << f.number;
+    EXPECT_FALSE(f.forced) << f.number;
+  });
+  EXPECT_EQ(frames, 12);
+  EXPECT_TRUE(report.converged) << report.stop_reason;
+  EXPECT_TRUE(is_active(report.effects, "body_motion") && is_active(report.effects, "layers"));
+  collision::BodyCollider end(TriangleMesh{moves.skin(11), pillar.skin.triangles}); // the body as the motion leaves it
+  EXPECT_TRUE(audit(merge_layers(garments), &end).clean());
+  EXPECT_EQ(order_violations(garments, end)[0], 0U);
+  for (const io::Json& layer : report.quality["layers"]) {
+    EXPECT_EQ(layer["vertices_inside_body"].get<int>(), 0);
+    EXPECT_EQ(layer["order_violations"].get<int>(), 0);
+  }
 }
 
 TEST(Motion, without_a_motion_the_effect_is_off_and_not_called) {

@@ -109,6 +109,22 @@ case_a_motion_killed_dead_goes_on_to_the_same_bytes() {
   says "skins/s.0001.obj: is not the motion with which this drape began"
 }
 
+case_garments_over_each_other_move_with_the_body_and_go_on_from_a_checkpoint() {
+  local k name again=(--from run.checkpoint --body a.body.json -o run.json)
+  mkdir skins
+  for k in 1 2 3; do awk -v k=$k '/^v / { $2 += 0.01 * k } { print }' a.body.obj > "skins/s.000$k.obj"; done
+  run "0|4" "$program" --body a.body.json --over "$data/skirt.json" --panels panels.json --set settle_force_ratio=10 --set settle_speed_m_s=1 \
+    --motion skins/s.0001.obj --motion-fps 25 --frames whole-frames --checkpoint run.checkpoint --checkpoint-steps 10 --over-output whole-below.json -o whole.json
+  grep -q '^g layer 0: ' whole-frames/frame-000001.obj && grep -q '^g layer 1: ' whole-frames/frame-000001.obj || fail "a frame without all garments"
+  grep -q '"body_sha256"' whole.json whole-below.json && fail "a garment says that it hangs on the body as it was scanned"
+  run 3 "$program" "${again[@]}"
+  says "give the same --motion as before"
+  cp -r whole-frames run-frames
+  run "0|4" "$program" "${again[@]}" --motion skins/s.0001.obj --frames run-frames --over-output run-below.json
+  for name in "" -below; do cmp "whole$name.obj" "run$name.obj" || fail "another mesh: $name"; done
+  diff -rq whole-frames run-frames || fail "other frames"
+}
+
 case_untangling_and_motion_say_what_they_need() {
   local skirt=(--from "$data/skirt.json" --body a.body.json)
   run 2 "$program" --panels panels.json --untangle-only -o out.json
