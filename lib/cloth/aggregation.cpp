@@ -52,6 +52,32 @@ std::vector<int> aggregates(const BlockRows& a, const std::vector<Mat3>& diagona
   return of;
 }
 
+/// P = (I - omega D^-1 A) P0 with P0 the indicator of the aggregates: what a row has in one aggregate is summed.
+BlockRows prolongator(const BlockRows& a, const std::vector<Mat3>& d_inverse, const std::vector<int>& of, int count, double omega) {
+  BlockRows p;
+  p.rows = a.rows;
+  p.columns = count;
+  p.start.assign(1, 0);
+  std::vector<int> where(count, -1);
+  for (int i = 0; i < a.rows; ++i) {
+    const int begin = p.start.back();
+    for (int k = a.start[i]; k < a.start[i + 1]; ++k) {
+      const int j = of[a.column[k]];
+      if (j < 0) continue;
+      if (where[j] < begin) {
+        where[j] = static_cast<int>(p.column.size());
+        p.column.push_back(j);
+        p.value.push_back(Mat3::Zero());
+      }
+      Mat3 smoother = -omega * d_inverse[i] * a.value[k];
+      if (a.column[k] == i) smoother += Mat3::Identity();
+      p.value[where[j]] += smoother;
+    }
+    p.start.push_back(static_cast<int>(p.column.size()));
+  }
+  return p;
+}
+
 } // namespace
 
 /// What the contacts of the finest level do, by contact; rows gather it.
@@ -162,24 +188,7 @@ void Aggregation::build(const LinearSystem& system) {
     int count = 0;
     const std::vector<int> of = aggregates(a, diagonal, count);
     if (count == 0 || count > a.rows * 3 / 4) break;
-    // P = (I - omega D^-1 A) P0 with P0 the indicator of the aggregates.
-    const double omega = 4.0 / 3.0 / fine.lambda;
-    BlockRows p0;
-    p0.rows = a.rows;
-    p0.columns = count;
-    p0.start.assign(1, 0);
-    for (int i = 0; i < a.rows; ++i) {
-      if (of[i] >= 0) p0.column.push_back(of[i]);
-      p0.start.push_back(static_cast<int>(p0.column.size()));
-    }
-    p0.value.assign(p0.column.size(), Mat3::Identity());
-    BlockRows smoother = a;
-    for (int i = 0; i < a.rows; ++i)
-      for (int k = a.start[i]; k < a.start[i + 1]; ++k) {
-        smoother.value[k] = -omega * d_inverse[i] * a.value[k];
-        if (a.column[k] == i) smoother.value[k] += Mat3::Identity();
-      }
-    const BlockRows p = product(smoother, p0), pt = transpose(p);
+    const BlockRows p = prolongator(a, d_inverse, of, count, 4.0 / 3.0 / fine.lambda), pt = transpose(p);
     fine.p = to_float(p);
     fine.pt = to_float(pt);
     a = product(pt, product(a, p));

@@ -14,6 +14,10 @@ FrameWriter::FrameWriter(std::string where, std::string stamp, std::ostream& str
   if (m_where.empty() || m_where == "-") return;
   std::error_code failed;
   std::filesystem::create_directories(m_where, failed);
+  for (const auto& entry : std::filesystem::directory_iterator(m_where, failed)) { // a run that was killed may have left one half written
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("frame", 0) == 0 && name.find(".tmp.") != name.npos) std::filesystem::remove(entry.path(), failed);
+  }
   const std::string index = m_where + "/frames.jsonl";
   if (after > 0 && std::filesystem::exists(index)) {
     const std::string all = io::read_file(index);
