@@ -86,7 +86,7 @@ std::string class_of(const std::vector<std::string>& region) {
   // Where a scan's arms lie on its flanks, no arm pits are found, and nothing counts as above them.
   const bool top = share["shoulders"] + share["left sleeve"] + share["right sleeve"] + share["collar"] > 0.02;
   if (legs > 0.2 && legs > share["skirt"]) return top ? "whole" : "trousers";
-  if (share["skirt"] > 0.2) return top ? "dress" : "skirt";
+  if (share["skirt"] > (top ? 0.1 : 0.2)) return top ? "dress" : "skirt"; // of a short dress much more is bodice and sleeves
   return top || share["trunk"] > 0.9 ? "top" : "skirt";
 }
 

@@ -176,6 +176,23 @@ TEST(fit, a_shirt_is_one_on_a_body_without_arm_pits_too) {
   EXPECT_EQ(dressed(body, shirt).report.garment_class, "top");
 }
 
+TEST(fit, a_dress_is_one_whether_its_hem_is_long_or_short) {
+  const body::Body body = measured("f-165-a");
+  const Garment shirt = skin_shirt(body), skirt = tube_skirt(body);
+  const auto with_skirt = [&](double below_crotch) { // a shirt with a skirt down to there, m
+    std::vector<Vec3> position = shirt.position;
+    position.insert(position.end(), skirt.position.begin(), skirt.position.end());
+    std::vector<Triangle> faces = shirt.panels.triangles;
+    const int first = static_cast<int>(shirt.position.size());
+    for (const Triangle& t : skirt.panels.triangles)
+      if (skirt.position[t[0]].y() > body.landmark("crotch").y() - below_crotch) faces.push_back({t[0] + first, t[1] + first, t[2] + first});
+    return dressed(body, sheet(position, faces)).report.garment_class;
+  };
+  EXPECT_EQ(with_skirt(0.25), "dress");
+  EXPECT_EQ(with_skirt(0.1), "dress");
+  EXPECT_EQ(with_skirt(-0.03), "top");
+}
+
 TEST(fit, a_trunk_whose_flanks_went_to_the_arms_keeps_its_girth) { // as where arms lie on the flanks of a stout person
   body::Body body = measured("f-165-a");
   const Vec3 waist(0, body.levels.at("waist_semantic").y, 0);
