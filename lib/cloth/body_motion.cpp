@@ -16,7 +16,7 @@ constexpr double SHORTEST_PART = 2e-4;
 constexpr double LEAST_TIME = 0.02;
 /// Cloth this near is carried whole, then less and less, m.
 constexpr double CARRIED_WHOLE = 0.006, NOT_CARRIED = 0.03;
-constexpr double FEWER = 4; ///< of the carry that was asked for, where it would not do
+constexpr double ASK_LESS = 4; ///< times: of the way, where cloth cannot be carried all that was asked for
 
 double longest_of(const std::vector<Vec3>& way) {
   double longest = 0;
@@ -80,13 +80,13 @@ double BodyMotion::free_part(const std::vector<Vec3>& way, double longest) {
   m_self_contact->add(context);
   std::vector<Vec3> best_carry(x.size(), Vec3::Zero());
   double best = 0;
-  for (double asked = 1;; asked /= FEWER) {
+  for (double asked = 1;; asked /= ASK_LESS) {
     std::vector<Vec3> carry = uncrossing_carry(asked, limits);
     for (Vec3& c : carry) c /= asked;
     const bool whole = carry == m_carry; // what else stops the skin does so on a shorter way too
     const double share = std::min(asked, m_contact.free_share(x, way, carry));
     if (share > best) best = share, best_carry = std::move(carry);
-    if (whole || best >= asked / FEWER || asked * longest < SHORTEST_PART) break;
+    if (whole || best >= asked / ASK_LESS || asked * longest < SHORTEST_PART) break;
   }
   m_carry = std::move(best_carry);
   return best;

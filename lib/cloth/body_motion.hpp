@@ -1,8 +1,8 @@
 #pragma once
 /// Body motion: a body that moves under cloth, in parts so short that no skin passes cloth that is clear of it.
 ///
-/// Cloth near the skin is first carried along with it, as far as self contact lets it, so that a body under taut cloth meets as little of
-/// it as one that stands still. A part of the way ends where skin and carried cloth have come nearer by a third of the distance of any
+/// Cloth near the skin is first carried along with it, as far as self contact lets it (on less of the way where that is longer), so that a body under taut
+/// cloth meets as little of it as one that stands still. A part of the way ends where skin and carried cloth have come nearer by a third of the distance of any
 /// pair of them (BodyContactEffect::free_share()); then the cloth steps in its share of the time, from where it was carried to but with
 /// the inertia of where it was: (M/h^2 + K) dx = f(x + c) + M (v - c/h) / h, then v = (c + dx)/h, c being the carry. So the carry is
 /// where a step begins to look, and no motion: what swings freely, or slips, does so as without it. Then the next part. Where cloth cannot

@@ -14,7 +14,7 @@ namespace sloper::garment {
 
 namespace {
 
-/// The outermost garment is out on its own, those under it are together.
+/// Parts the outermost garment from those under it.
 void take_off(Garment& garment, std::vector<Garment>& under) {
   garment = std::move(under.back());
   under.pop_back();
