@@ -181,7 +181,7 @@ void Aggregation::build(const LinearSystem& system) {
       fine.d_inverse[i] = to_float(d_inverse[i]);
     }
     for (auto* v : {&fine.r, &fine.z, &fine.t, &fine.d}) v->assign(a.rows, Float4::all(0));
-    fine.a = to_float(a);
+    fine.a = m_levels.size() == 1 ? to_float(system.matrix) : to_float(a);
     if (m_levels.size() == 1) copy_finest(system); // which has the contacts apart
     if (a.rows <= COARSEST || m_levels.size() > 8) break;
     estimate_lambda(m_levels.size() - 1, 8);

@@ -37,16 +37,16 @@ void add_bending(const ClothMesh& mesh, const std::vector<Vec3>& x, double h, co
     int at = 0;
     for (int a = 0; a < 4; ++a) {
       force[hinge.particle[a]] -= hinge.coefficient[a] * c;
-      stiffness.add_diagonal(hinge.particle[a], k * hinge.coefficient[a] * hinge.coefficient[a] * Mat3::Identity());
-      for (int b = a + 1; b < 4; ++b) stiffness.add_off_diagonal(slots[e][at++], k * hinge.coefficient[a] * hinge.coefficient[b] * Mat3::Identity());
+      stiffness.add_isotropic_diagonal(hinge.particle[a], k * hinge.coefficient[a] * hinge.coefficient[a]);
+      for (int b = a + 1; b < 4; ++b) stiffness.add_isotropic(slots[e][at++], k * hinge.coefficient[a] * hinge.coefficient[b]);
     }
   }
 }
 
-void BendingEffect::declare(std::vector<std::array<int, 2>>& pairs) const {
+void BendingEffect::declare(Couplings& couplings) const {
   for (const Hinge& hinge : m_mesh.hinges)
     for (int a = 0; a < 4; ++a)
-      for (int b = a + 1; b < 4; ++b) pairs.push_back({hinge.particle[a], hinge.particle[b]});
+      for (int b = a + 1; b < 4; ++b) couplings.isotropic.push_back({hinge.particle[a], hinge.particle[b]});
 }
 
 } // namespace sloper::cloth

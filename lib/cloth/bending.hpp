@@ -17,7 +17,7 @@ class BendingEffect : public Effect {
 public:
   explicit BendingEffect(const ClothMesh& mesh) : m_mesh(mesh) {}
   const char* name() const override { return "bending"; }
-  void declare(std::vector<std::array<int, 2>>& pairs) const override;
+  void declare(Couplings& couplings) const override;
   void bind(const BlockMatrix& matrix) override { m_slots = find_hinge_slots(m_mesh, matrix); }
   /// Potential at x, J.
   double energy(const std::vector<Vec3>& x) const override { return bending_energy(m_mesh, x); }

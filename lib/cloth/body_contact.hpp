@@ -41,7 +41,7 @@ public:
   /// `mesh` and `body` outlive the effect.
   BodyContactEffect(const ClothMesh& mesh, collision::BodyCollider& body, const BodyContactOptions& options);
   const char* name() const override { return "body_contact"; }
-  void declare(std::vector<std::array<int, 2>>& pairs) const override;
+  void declare(Couplings& couplings) const override;
   void bind(const BlockMatrix& matrix) override;
   void begin_step(const std::vector<Vec3>& x, double h) override;
   void look_ahead(const std::vector<Vec3>& x, double h) override {

@@ -49,10 +49,10 @@ DihedralBendingEffect::DihedralBendingEffect(const ClothMesh& mesh, std::vector<
   }
 }
 
-void DihedralBendingEffect::declare(std::vector<std::array<int, 2>>& pairs) const {
+void DihedralBendingEffect::declare(Couplings& couplings) const {
   for (const Hinge& hinge : m_mesh.hinges)
     for (int a = 0; a < 4; ++a)
-      for (int b = a + 1; b < 4; ++b) pairs.push_back({hinge.particle[a], hinge.particle[b]});
+      for (int b = a + 1; b < 4; ++b) couplings.full.push_back({hinge.particle[a], hinge.particle[b]});
 }
 
 double DihedralBendingEffect::energy(const std::vector<Vec3>& x) const {

@@ -16,7 +16,7 @@ public:
   /// @param rest_angle  #hinges or empty (all flat), rad, in the sign of hinge_angle()
   explicit DihedralBendingEffect(const ClothMesh& mesh, std::vector<double> rest_angle = {});
   const char* name() const override { return "dihedral_bending"; }
-  void declare(std::vector<std::array<int, 2>>& pairs) const override;
+  void declare(Couplings& couplings) const override;
   void bind(const BlockMatrix& matrix) override { m_slots = find_hinge_slots(m_mesh, matrix); }
   void add(StepContext& c) override;
   /// Potential at x, J.

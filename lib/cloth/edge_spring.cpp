@@ -57,8 +57,8 @@ double edge_springs_energy(const ClothMesh& mesh, const std::vector<Vec3>& x) {
   return sum;
 }
 
-void EdgeSpringEffect::declare(std::vector<std::array<int, 2>>& pairs) const {
-  for (const EdgeSpring& s : m_mesh.springs) pairs.push_back({s.i, s.j});
+void EdgeSpringEffect::declare(Couplings& couplings) const {
+  for (const EdgeSpring& s : m_mesh.springs) couplings.full.push_back({s.i, s.j});
 }
 
 void EdgeSpringEffect::bind(const BlockMatrix& matrix) {

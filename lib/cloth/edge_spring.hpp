@@ -26,7 +26,7 @@ class EdgeSpringEffect : public Effect {
 public:
   explicit EdgeSpringEffect(const ClothMesh& mesh) : m_mesh(mesh) {}
   const char* name() const override { return "edge_springs"; }
-  void declare(std::vector<std::array<int, 2>>& pairs) const override;
+  void declare(Couplings& couplings) const override;
   void bind(const BlockMatrix& matrix) override;
   /// Potential at x, J.
   double energy(const std::vector<Vec3>& x) const override { return edge_springs_energy(m_mesh, x); }

@@ -23,8 +23,8 @@ class Effect {
 public:
   virtual ~Effect() = default;
   virtual const char* name() const = 0;
-  /// Appends the particle pairs whose off-diagonal blocks add() fills.
-  virtual void declare(std::vector<std::array<int, 2>>&) const {}
+  /// Appends the particle pairs whose off-diagonal blocks add() fills; as isotropic those of which it adds multiples of the identity only.
+  virtual void declare(Couplings& /*couplings*/) const {}
   virtual void bind(const BlockMatrix&) {}
   /// Before assembly: find contacts for the positions x.
   virtual void begin_step(const std::vector<Vec3>& /*x*/, double /*h*/) {}

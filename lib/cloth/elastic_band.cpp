@@ -5,8 +5,8 @@
 
 namespace sloper::cloth {
 
-void ElasticBandEffect::declare(std::vector<std::array<int, 2>>& pairs) const {
-  for (const BandLink& l : m_links) pairs.push_back({l.i, l.j});
+void ElasticBandEffect::declare(Couplings& couplings) const {
+  for (const BandLink& l : m_links) couplings.full.push_back({l.i, l.j});
 }
 
 void ElasticBandEffect::bind(const BlockMatrix& matrix) {

@@ -15,7 +15,7 @@ class ElasticBandEffect : public Effect {
 public:
   explicit ElasticBandEffect(std::vector<BandLink> links) : m_links(std::move(links)) {}
   const char* name() const override { return "elastic_bands"; }
-  void declare(std::vector<std::array<int, 2>>& pairs) const override;
+  void declare(Couplings& couplings) const override;
   void bind(const BlockMatrix& matrix) override;
   void add(StepContext& c) override;
   /// Potential at x, J.

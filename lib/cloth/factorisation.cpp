@@ -38,6 +38,10 @@ void Factorisation::update(const LinearSystem& system) {
   for (int i = 0; i < a.size(); ++i) {
     lower.add(i, i, a.diagonal(i));
     for (int k = a.row_start()[i]; k < a.row_start()[i + 1]; ++k) lower.add(i, a.column()[k], a.value()[k]);
+    for (int k = a.isotropic_start()[i]; k < a.isotropic_start()[i + 1]; ++k) {
+      const auto [slot, column] = a.isotropic()[k];
+      if (column < i) lower.add(i, column, a.isotropic_value()[slot] * Mat3::Identity());
+    }
   }
   for (const ContactElement& e : system.elements) {
     const Mat3 stiffness = e.stiffness();

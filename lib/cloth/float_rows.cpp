@@ -29,13 +29,16 @@ Vec3 to_double(Float4 v) {
 }
 
 FloatRows to_float(const BlockRows& rows) {
-  FloatRows out{rows.rows, rows.columns, rows.start, rows.column, {}};
+  FloatRows out{rows.rows, rows.columns, rows.start, rows.column, {}, {}, {}, {}};
   out.value.assign(9 * rows.value.size() + 3, 0);
   for (std::size_t k = 0; k < rows.value.size(); ++k) out.put(static_cast<int>(k), rows.value[k]);
   return out;
 }
 
-/// Calls put(k, column, block) for row i of the whole matrix, by rising column, k counting from `at`.
+/// How many blocks of row i of the whole matrix are not isotropic.
+static int full_blocks(const BlockMatrix& m, int i) { return 1 + m.lower_start()[i + 1] - m.lower_start()[i] + m.row_start()[i + 1] - m.row_start()[i]; }
+
+/// Calls put(k, column, block) for those, by rising column, k counting from `at`.
 template<class Put> static void visit_row(const BlockMatrix& m, int i, int at, const Put& put) {
   for (int k = m.lower_start()[i]; k < m.lower_start()[i + 1]; ++k) put(at++, m.lower()[k].column, Mat3(m.value()[m.lower()[k].slot].transpose()));
   put(at++, i, m.diagonal(i));
@@ -46,22 +49,44 @@ BlockRows expand(const BlockMatrix& m) {
   BlockRows out;
   out.rows = out.columns = m.size();
   out.start.assign(m.size() + 1, 0);
-  for (int i = 0; i < m.size(); ++i)
-    out.start[i + 1] = out.start[i] + 1 + m.lower_start()[i + 1] - m.lower_start()[i] + m.row_start()[i + 1] - m.row_start()[i];
+  for (int i = 0; i < m.size(); ++i) out.start[i + 1] = out.start[i] + full_blocks(m, i) + m.isotropic_start()[i + 1] - m.isotropic_start()[i];
   out.column.resize(out.start.back());
   out.value.resize(out.start.back());
-  for (int i = 0; i < m.size(); ++i)
-    visit_row(m, i, out.start[i], [&](int k, int column, const Mat3& value) {
-      out.column[k] = column;
-      out.value[k] = value;
-    });
+  const auto put = [&](int k, int column, const Mat3& value) {
+    out.column[k] = column;
+    out.value[k] = value;
+  };
+  for (int i = 0; i < m.size(); ++i) {
+    visit_row(m, i, out.start[i], put);
+    int at = out.start[i] + full_blocks(m, i);
+    for (int k = m.isotropic_start()[i]; k < m.isotropic_start()[i + 1]; ++k)
+      put(at++, m.isotropic()[k].column, m.isotropic_value()[m.isotropic()[k].slot] * Mat3::Identity());
+  }
+  return out;
+}
+
+FloatRows to_float(const BlockMatrix& m) {
+  FloatRows out;
+  out.rows = out.columns = m.size();
+  out.start.assign(m.size() + 1, 0);
+  for (int i = 0; i < m.size(); ++i) out.start[i + 1] = out.start[i] + full_blocks(m, i);
+  out.column.resize(out.start.back());
+  out.value.assign(9 * static_cast<std::size_t>(out.start.back()) + 3, 0);
+  for (int i = 0; i < m.size(); ++i) visit_row(m, i, out.start[i], [&](int k, int column, const Mat3&) { out.column[k] = column; });
+  out.isotropic_start = m.isotropic_start();
+  for (const BlockMatrix::Entry& e : m.isotropic()) out.isotropic_column.push_back(e.column);
+  out.isotropic_value.resize(out.isotropic_column.size());
+  refill(m, out);
   return out;
 }
 
 void refill(const BlockMatrix& m, FloatRows& rows) {
   parallel_for(static_cast<std::size_t>(m.size()), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
+    for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i) {
       visit_row(m, i, rows.start[i], [&](int k, int, const Mat3& value) { rows.put(k, value); });
+      for (int k = m.isotropic_start()[i]; k < m.isotropic_start()[i + 1]; ++k)
+        rows.isotropic_value[k] = static_cast<float>(m.isotropic_value()[m.isotropic()[k].slot]);
+    }
   });
 }
 

@@ -20,6 +20,7 @@ constexpr double OUTLIER = 10;         // times that percentile
 constexpr double TIGHTEST = 0.01;      // of the tolerance
 constexpr std::size_t REMEMBERED = 20; // energies of the steps before: a step may end as high as the highest of them
 constexpr double MOST_CARRIED = 0.9;   // share of the last step's way
+constexpr double TURNED_BACK = 0.5;    // cosine of the angle between a step and the way back
 
 /// Adds the wall seconds of its own life to a counter.
 class Stopwatch {
@@ -74,9 +75,9 @@ void ClothSolver::set_positions(std::vector<Vec3> x) {
 }
 
 void ClothSolver::rebuild_pattern() {
-  std::vector<std::array<int, 2>> pairs;
-  for (const auto& e : m_effects) e->declare(pairs);
-  m_matrix = BlockMatrix(m_mesh.n_particles, std::move(pairs));
+  Couplings couplings;
+  for (const auto& e : m_effects) e->declare(couplings);
+  m_matrix = BlockMatrix(m_mesh.n_particles, std::move(couplings));
   for (const auto& e : m_effects) e->bind(m_matrix);
   m_preconditioner->reset();
   m_pattern_stale = false;
@@ -107,6 +108,7 @@ void ClothSolver::limit(std::vector<Vec3>& dx, std::vector<char>& held) {
 
 void ClothSolver::forget() {
   m_energies.clear();
+  m_last_dx.clear();
   m_carried_for = 0;
 }
 
@@ -126,6 +128,18 @@ void ClothSolver::carry_on() {
     return;
   }
   for (std::size_t i = 0; i < m_dx.size(); ++i) m_dx[i] += share * m_last_dx[i];
+}
+
+/// Whether this step undoes most of the last one.
+bool ClothSolver::turns_back() const {
+  if (m_last_dx.size() != m_dx.size()) return false;
+  double same_way = 0, now = 0, last = 0;
+  for (std::size_t i = 0; i < m_dx.size(); ++i) {
+    same_way += m_dx[i].dot(m_last_dx[i]);
+    now += m_dx[i].squaredNorm();
+    last += m_last_dx[i].squaredNorm();
+  }
+  return same_way < -TURNED_BACK * std::sqrt(now * last);
 }
 
 /// Halves the step until the energy falls, or doubles it while it keeps falling: where cloth buckles the definite part is far stiffer
@@ -155,6 +169,11 @@ int ClothSolver::search_along(const StepOptions& o) {
     return true;
   };
   const double after = energy_after(m_dx);
+  if (after <= allowed && turns_back()) { // whole steps may go to and fro across the rest
+    best = after;
+    try_length(0.5);
+    return 0;
+  }
   if (after <= best) {
     best = after;
     for (double share = 2; share * largest <= o.largest_move_m && try_length(share);) share *= 2;
@@ -192,7 +211,8 @@ static std::vector<double>::iterator percentile_95(std::vector<double>& values) 
 }
 
 /// Near rest a few particles in a pinch can have forces a thousand times those of all others, and a residual relative to theirs would
-/// leave the others where they are, for hundreds of steps. There they count as outliers, and the tolerance is relative to the rest.
+/// leave the others where they are, for hundreds of steps. There they count as outliers, and the tolerance is relative to the rest, but
+/// not so tight that it asks for more than rest does.
 double ClothSolver::tolerance(const StepOptions& o) {
   if (!o.line_search) return o.cg_tolerance;
   double all = 0, capped = 0;
@@ -205,7 +225,8 @@ double ClothSolver::tolerance(const StepOptions& o) {
   if (!(all > 0) || p95 > near * near) return o.cg_tolerance;
   const double most = OUTLIER * OUTLIER * p95;
   for (double r : m_residual) capped += std::min(r, most);
-  return o.cg_tolerance * std::max(TIGHTEST, std::sqrt(capped / all));
+  const double fine_enough = o.least_residual_ratio * m_mean_weight * std::sqrt(static_cast<double>(m_rhs.size()) / all);
+  return std::max(std::min(fine_enough, o.cg_tolerance), o.cg_tolerance * std::max(TIGHTEST, std::sqrt(capped / all)));
 }
 
 void ClothSolver::look_ahead(double h) {
@@ -237,7 +258,7 @@ StepResult ClothSolver::step(const StepOptions& o) {
     for (std::size_t i = 0; i < n; ++i) {
       double inertia = m_mesh.mass[i] / (o.h * o.h);
       if (m_frozen_for[i] > 0) inertia += FROZEN * m_matrix.diagonal(static_cast<int>(i)).trace();
-      m_matrix.add_diagonal(static_cast<int>(i), inertia * Mat3::Identity());
+      m_matrix.add_isotropic_diagonal(static_cast<int>(i), inertia);
       m_rhs[i] = m_force[i] + o.inertia * m_mesh.mass[i] / o.h * m_v[i];
     }
   }
@@ -281,12 +302,9 @@ StepResult ClothSolver::step(const StepOptions& o) {
   if (o.line_search) {
     result.halvings = search_along(o);
     freeze_held(result.halvings > 0);
-    if (o.momentum) {
-      m_carried_for = result.halvings > 0 ? 0 : m_carried_for + 1;
-      m_last_dx = m_dx;
-    } else {
-      forget();
-    }
+    if (o.momentum) m_carried_for = result.halvings > 0 ? 0 : m_carried_for + 1;
+    else forget();
+    m_last_dx = m_dx;
   }
   m_residual.clear();
   for (std::size_t i = 0; i < n; ++i) {

@@ -14,7 +14,7 @@ class MembraneEffect : public Effect {
 public:
   explicit MembraneEffect(const ClothMesh& mesh);
   const char* name() const override { return "membrane"; }
-  void declare(std::vector<std::array<int, 2>>& pairs) const override { declare_pairs(m_maps, pairs); }
+  void declare(Couplings& couplings) const override { declare_pairs(m_maps, couplings.full); }
   void bind(const BlockMatrix& matrix) override { find_slots(m_maps, matrix); }
   void add(StepContext& c) override;
   /// Potential at x, J.

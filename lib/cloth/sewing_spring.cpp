@@ -18,9 +18,9 @@ void SewingSpringEffect::add(StepContext& c) {
     const double stiffness = m_stiffness * std::min(1.0, m_reach / std::max(gap, 1e-12));
     c.force[i] += stiffness * d;
     c.force[j] -= stiffness * d;
-    c.stiffness.add_diagonal(i, stiffness * Mat3::Identity());
-    c.stiffness.add_diagonal(j, stiffness * Mat3::Identity());
-    c.stiffness.add_off_diagonal(m_slots[k], -stiffness * Mat3::Identity());
+    c.stiffness.add_isotropic_diagonal(i, stiffness);
+    c.stiffness.add_isotropic_diagonal(j, stiffness);
+    c.stiffness.add_isotropic(m_slots[k], -stiffness);
   }
 }
 

@@ -11,7 +11,7 @@ public:
   SewingSpringEffect(std::vector<std::array<int, 2>> stitches, double stiffness_n_m, double reach_m)
       : m_stitches(std::move(stitches)), m_stiffness(stiffness_n_m), m_reach(reach_m) {}
   const char* name() const override { return "sewing"; }
-  void declare(std::vector<std::array<int, 2>>& pairs) const override { pairs.insert(pairs.end(), m_stitches.begin(), m_stitches.end()); }
+  void declare(Couplings& couplings) const override { couplings.isotropic.insert(couplings.isotropic.end(), m_stitches.begin(), m_stitches.end()); }
   void bind(const BlockMatrix& matrix) override;
   /// Potential at x, J: k/2 gap^2 within reach, growing linearly beyond.
   double energy(const std::vector<Vec3>& x) const override;

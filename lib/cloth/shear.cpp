@@ -63,9 +63,9 @@ void add_shear(const std::vector<ShearTriangle>& shear, const std::vector<Vec3>&
   }
 }
 
-void ShearEffect::declare(std::vector<std::array<int, 2>>& pairs) const {
+void ShearEffect::declare(Couplings& couplings) const {
   for (const ShearTriangle& s : m_shear)
-    for (int k = 0; k < 3; ++k) pairs.push_back({s.particle[k], s.particle[(k + 1) % 3]});
+    for (int k = 0; k < 3; ++k) couplings.full.push_back({s.particle[k], s.particle[(k + 1) % 3]});
 }
 
 } // namespace sloper::cloth

@@ -33,7 +33,7 @@ public:
     for (std::size_t k = 0; k < fresh.size() && k < m_shear.size(); ++k) fresh[k].slots = m_shear[k].slots;
     m_shear = std::move(fresh);
   }
-  void declare(std::vector<std::array<int, 2>>& pairs) const override;
+  void declare(Couplings& couplings) const override;
   void bind(const BlockMatrix& matrix) override { find_slots(m_shear, matrix); }
   /// Potential at x, J.
   double energy(const std::vector<Vec3>& x) const override { return shear_energy(m_shear, x); }

@@ -21,7 +21,7 @@ public:
   /// @param shrink  #F or empty (no triangle shrinks)
   explicit TriangleStretchEffect(const ClothMesh& mesh, std::vector<Shrink> shrink = {});
   const char* name() const override { return "triangle_stretch"; }
-  void declare(std::vector<std::array<int, 2>>& pairs) const override { declare_pairs(m_maps, pairs); }
+  void declare(Couplings& couplings) const override { declare_pairs(m_maps, couplings.full); }
   void bind(const BlockMatrix& matrix) override { find_slots(m_maps, matrix); }
   void add(StepContext& c) override;
   /// Potential at x, J.

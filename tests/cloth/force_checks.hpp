@@ -27,9 +27,9 @@ inline std::vector<Vec3> force_of(Effect& effect, int n, const std::vector<Vec3>
 
 /// -dE/dx of the effect's own energy() against the force that it adds.
 template<class SomeEffect> void expect_gradient(SomeEffect& effect, const ClothMesh& mesh, const std::vector<Vec3>& x, bool keeps_momentum = true) {
-  std::vector<std::array<int, 2>> pairs;
-  effect.declare(pairs);
-  BlockMatrix matrix(mesh.n_particles, pairs);
+  Couplings couplings;
+  effect.declare(couplings);
+  BlockMatrix matrix(mesh.n_particles, couplings);
   effect.bind(matrix);
   const auto force = force_of(effect, mesh.n_particles, x, matrix);
   const double step = 1e-6;
@@ -52,9 +52,9 @@ template<class SomeEffect> void expect_gradient(SomeEffect& effect, const ClothM
 
 /// -df/dx along a random direction against the assembled matrix, for states in which nothing is clamped.
 inline void expect_jacobian(Effect& effect, const ClothMesh& mesh, const std::vector<Vec3>& x, double tolerance) {
-  std::vector<std::array<int, 2>> pairs;
-  effect.declare(pairs);
-  BlockMatrix matrix(mesh.n_particles, pairs), unused(mesh.n_particles, pairs);
+  Couplings couplings;
+  effect.declare(couplings);
+  BlockMatrix matrix(mesh.n_particles, couplings), unused(mesh.n_particles, couplings);
   effect.bind(matrix);
   force_of(effect, mesh.n_particles, x, matrix);
   const auto direction = jittered(std::vector<Vec3>(x.size(), Vec3::Zero()), 1, 5);
@@ -77,9 +77,9 @@ inline void expect_jacobian(Effect& effect, const ClothMesh& mesh, const std::ve
 
 /// Turned and moved as a whole, cloth has the same energy and its forces turn with it; forces at rest make no moment.
 template<class SomeEffect> void expect_rigid_motion_invariance(SomeEffect& effect, const ClothMesh& mesh, const std::vector<Vec3>& x) {
-  std::vector<std::array<int, 2>> pairs;
-  effect.declare(pairs);
-  BlockMatrix matrix(mesh.n_particles, pairs);
+  Couplings couplings;
+  effect.declare(couplings);
+  BlockMatrix matrix(mesh.n_particles, couplings);
   effect.bind(matrix);
   const Mat3 turn = Eigen::AngleAxisd(0.8, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
   auto moved = x;
@@ -105,6 +105,8 @@ inline Eigen::MatrixXd dense(const BlockMatrix& m) {
       a.block<3, 3>(3 * i, 3 * m.column()[k]) = m.value()[k];
       a.block<3, 3>(3 * m.column()[k], 3 * i) = m.value()[k].transpose();
     }
+    for (int k = m.isotropic_start()[i]; k < m.isotropic_start()[i + 1]; ++k)
+      a.block<3, 3>(3 * i, 3 * m.isotropic()[k].column) = m.isotropic_value()[m.isotropic()[k].slot] * Mat3::Identity();
   }
   return a;
 }

@@ -60,9 +60,9 @@ Filled fill(Effect& effect, int n, const std::vector<Vec3>& x, BlockMatrix& matr
 }
 
 Filled fill_alone(Effect& effect, const Grid& grid) {
-  std::vector<std::array<int, 2>> pairs;
-  effect.declare(pairs);
-  BlockMatrix matrix(grid.mesh.n_particles, pairs);
+  Couplings couplings;
+  effect.declare(couplings);
+  BlockMatrix matrix(grid.mesh.n_particles, couplings);
   effect.bind(matrix);
   return fill(effect, grid.mesh.n_particles, grid.x, matrix);
 }
@@ -75,9 +75,9 @@ double upward(const Filled& filled) {
 
 /// Force against central differences of the energy over the pairs of the last search, relative to the largest force.
 double gradient_error(Effect& effect, const ClothMesh& mesh, std::vector<Vec3> x) {
-  std::vector<std::array<int, 2>> pairs;
-  effect.declare(pairs);
-  BlockMatrix matrix(mesh.n_particles, pairs);
+  Couplings couplings;
+  effect.declare(couplings);
+  BlockMatrix matrix(mesh.n_particles, couplings);
   effect.bind(matrix);
   const auto force = fill(effect, mesh.n_particles, x, matrix).force;
   double largest = 0, worst = 0;
@@ -188,9 +188,9 @@ TEST(Contact, WhatIsNotLookedAtIsNeitherFeltNorPassed) {
   for (Vec3& p : grid.x) p += Vec3(0.02, 0.0045, -0.02); // seen, but beyond the reach
   BodyContactEffect contact(grid.mesh, body, {});
   EXPECT_FALSE(fill_alone(contact, grid).limits.guards.empty()); // the first step measures all pairs
-  std::vector<std::array<int, 2>> pairs;
-  contact.declare(pairs);
-  BlockMatrix matrix(grid.mesh.n_particles, pairs);
+  Couplings couplings;
+  contact.declare(couplings);
+  BlockMatrix matrix(grid.mesh.n_particles, couplings);
   Filled again;
   again.force.assign(grid.x.size(), Vec3::Zero());
   again.limits.reset(grid.x.size());

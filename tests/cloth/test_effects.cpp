@@ -92,9 +92,9 @@ TEST(TriangleStretch, one_percent_compression_makes_the_assembled_exact_matrix_i
     stretch.set_exact(exact);
     membrane.set_exact(exact);
     for (Effect* effect : {static_cast<Effect*>(&stretch), static_cast<Effect*>(&membrane)}) {
-      std::vector<std::array<int, 2>> pairs;
-      effect->declare(pairs);
-      BlockMatrix matrix(g.mesh.n_particles, pairs);
+      Couplings couplings;
+      effect->declare(couplings);
+      BlockMatrix matrix(g.mesh.n_particles, couplings);
       effect->bind(matrix);
       force_of(*effect, g.mesh.n_particles, scaled(g.x, 0.99), matrix);
       const double h = 1.0 / 30; // with the inertia of the paper's own step

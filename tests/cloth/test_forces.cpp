@@ -37,9 +37,9 @@ TEST(EdgeSpring, assembled_matrix_is_definite_at_any_compression) {
     Grid g = make_grid(5, 0.1);
     for (Vec3& p : g.x) p *= scale;
     EdgeSpringEffect effect(g.mesh);
-    std::vector<std::array<int, 2>> pairs;
-    effect.declare(pairs);
-    BlockMatrix matrix(g.mesh.n_particles, pairs);
+    Couplings couplings;
+    effect.declare(couplings);
+    BlockMatrix matrix(g.mesh.n_particles, couplings);
     effect.bind(matrix);
     force_of(effect, g.mesh.n_particles, jittered(g.x, 0.0003, 3), matrix);
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(dense(matrix));

@@ -29,9 +29,9 @@ Field random_field(std::size_t n, std::uint64_t seed) { return jittered(Field(n,
 
 /// Largest difference of K d from -(f(x + s d) - f(x - s d)) / 2 s, over the largest of K d.
 double jacobian_error(Effect& effect, const ClothMesh& mesh, const Field& x, const Field& direction, double step = 1e-7) {
-  std::vector<std::array<int, 2>> pairs;
-  effect.declare(pairs);
-  BlockMatrix matrix(mesh.n_particles, pairs), unused(mesh.n_particles, pairs);
+  Couplings couplings;
+  effect.declare(couplings);
+  BlockMatrix matrix(mesh.n_particles, couplings), unused(mesh.n_particles, couplings);
   effect.bind(matrix);
   effect.begin_step(x, 1e30);
   const auto fill = [&](const Field& at, BlockMatrix& stiffness, std::vector<ContactElement>& elements) {
@@ -72,9 +72,9 @@ struct Linearised {
   }
 };
 Linearised linearised(Effect& effect, const Field& x, double h) {
-  std::vector<std::array<int, 2>> pairs;
-  effect.declare(pairs);
-  Linearised made{BlockMatrix(static_cast<int>(x.size()), pairs), Field(x.size(), Vec3::Zero())};
+  Couplings couplings;
+  effect.declare(couplings);
+  Linearised made{BlockMatrix(static_cast<int>(x.size()), couplings), Field(x.size(), Vec3::Zero())};
   effect.bind(made.matrix);
   std::vector<ContactElement> elements;
   StepContext c{x, h, made.force, made.matrix, elements, nullptr};

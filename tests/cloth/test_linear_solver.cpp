@@ -1,6 +1,6 @@
-#include "grid.hpp"
+#include "force_checks.hpp"
 
-#include <base/random.hpp>
+#include <base/error.hpp>
 #include <cloth/aggregation.hpp>
 #include <cloth/bending.hpp>
 #include <cloth/edge_spring.hpp>
@@ -26,10 +26,10 @@ System make_system(int n, double h) {
   for (Vec3& p : s.grid.x) p.y() += random.uniform(-0.002, 0.002);
   EdgeSpringEffect springs(s.grid.mesh);
   BendingEffect bending(s.grid.mesh);
-  std::vector<std::array<int, 2>> pairs;
-  springs.declare(pairs);
-  bending.declare(pairs);
-  s.matrix = BlockMatrix(s.grid.mesh.n_particles, pairs);
+  Couplings couplings;
+  springs.declare(couplings);
+  bending.declare(couplings);
+  s.matrix = BlockMatrix(s.grid.mesh.n_particles, couplings);
   s.rhs.assign(s.grid.x.size(), Vec3::Zero());
   StepContext c{s.grid.x, h, s.rhs, s.matrix, s.elements};
   springs.bind(s.matrix);
@@ -55,17 +55,64 @@ System make_system(int n, double h) {
 } // namespace
 
 TEST(BlockMatrix, multiplies_as_the_dense_matrix_does) {
-  BlockMatrix m(3, {{0, 1}, {2, 1}, {1, 0}});
+  BlockMatrix m(3, {{{0, 1}, {2, 1}, {1, 0}}, {{2, 0}, {1, 2}}});
   Mat3 a;
   a << 1, 2, 3, 4, 5, 6, 7, 8, 9;
   m.add_diagonal(0, Mat3::Identity());
   m.add_off_diagonal(m.slot(0, 1), a);
   m.add_off_diagonal(m.slot(1, 2), 2 * a);
+  m.add_isotropic(m.slot(2, 0), 7);
   std::vector<Vec3> x{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, y(3);
   m.multiply(x, y);
-  EXPECT_EQ(y[0], Vec3(1 + 2, 5, 8));
+  EXPECT_EQ(y[0], Vec3(1 + 2, 5, 8 + 7));
   EXPECT_EQ(y[1], a.transpose() * x[0] + 2 * a * x[2]);
-  EXPECT_EQ(y[2], 2 * a.transpose() * x[1]);
+  EXPECT_EQ(y[2], 2 * a.transpose() * x[1] + 7 * x[0]);
+}
+
+TEST(BlockMatrix, keeps_as_one_number_what_is_isotropic_for_all_and_refuses_what_nobody_declared) {
+  BlockMatrix m(4, {{{0, 1}, {3, 3}}, {{1, 0}, {2, 0}, {0, 2}, {2, 1}}});
+  EXPECT_EQ(m.value().size(), 1U); // (1, 0) is full for one, and so for all
+  EXPECT_EQ(m.isotropic_value().size(), 2U);
+  m.add_isotropic(m.slot(0, 1), 3);
+  EXPECT_EQ(m.value()[0], 3 * Mat3::Identity());
+  EXPECT_THROW(m.slot(1, 3), Error);
+  EXPECT_THROW(m.slot(3, 3), Error);
+}
+
+/// Column c of the matrix that multiply(x, y) stands for, c over all.
+template<class Multiply> Eigen::MatrixXd columns_of(int n, const Multiply& multiply) {
+  Eigen::MatrixXd a(3 * n, 3 * n);
+  for (int c = 0; c < 3 * n; ++c) {
+    std::vector<Vec3> x(n, Vec3::Zero()), y(n);
+    x[c / 3][c % 3] = 1;
+    multiply(x, y);
+    for (int i = 0; i < n; ++i) a.block<3, 1>(3 * i, c) = y[i];
+  }
+  return a;
+}
+
+TEST(BlockMatrix, is_the_same_matrix_in_all_its_forms) {
+  const System s = make_system(7, 0.1);
+  const int n = s.matrix.size();
+  const Eigen::MatrixXd a = dense(s.matrix);
+  EXPECT_FALSE(s.matrix.isotropic_value().empty());
+  EXPECT_EQ((columns_of(n, [&](const auto& x, auto& y) { s.matrix.multiply(x, y); }) - a).norm(), 0);
+  const BlockRows rows = expand(s.matrix);
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+  for (int i = 0; i < n; ++i)
+    for (int k = rows.start[i]; k < rows.start[i + 1]; ++k) b.block<3, 3>(3 * i, 3 * rows.column[k]) += rows.value[k];
+  EXPECT_EQ((b - a).norm(), 0);
+  const FloatRows single = to_float(s.matrix), of_rows = to_float(rows);
+  EXPECT_LT(single.value.size(), of_rows.value.size());
+  for (const FloatRows* f : {&single, &of_rows}) {
+    const Eigen::MatrixXd c = columns_of(n, [&](const auto& x, auto& y) {
+      std::vector<Float4> fx(n), fy(n);
+      for (int i = 0; i < n; ++i) fx[i] = to_float(x[i]);
+      f->multiply(fx, fy);
+      for (int i = 0; i < n; ++i) y[i] = to_double(fy[i]);
+    });
+    EXPECT_LT((c - a).norm(), 1e-6 * a.norm());
+  }
 }
 
 /// The system solved with a preconditioner fresh for it.

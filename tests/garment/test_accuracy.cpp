@@ -23,26 +23,32 @@ double rms(const Garment& a, const Garment& b) {
 
 } // namespace
 
-/// The table's figures are of three samples. On another scene presets may be farther off; on this one they are not.
-TEST(Presets, are_within_ten_times_their_table_on_a_scene_that_it_was_not_made_from_and_each_is_nearer_than_the_last) {
+/// The table's figures are of three samples. On other scenes presets may be farther off; on these they are not. Of a single scene the
+/// rest within half a millimetre is a matter of chance, so that only the mean says which preset is nearer.
+TEST(Presets, are_within_ten_times_their_table_on_scenes_that_it_was_not_made_from_and_each_is_nearer_than_the_last) {
   const body::Body pillar = make_pillar();
-  Garment start = make_skirt(0.76, 0.28, 0.04);
-  start.materials[""] = material_preset("wool-suiting");
-  DrapeSettings sewn = preset_settings("standard");
-  sewn.settle_force_ratio = 10;
-  sewn.settle_speed_m_s = 1;
-  drape(start, &pillar, sewn, silent_reporter());
-  Garment reference = start;
-  const DrapeReport finest = drape(reference, &pillar, preset_settings("reference"), silent_reporter());
-  ASSERT_TRUE(finest.converged) << finest.stop_reason;
-  double coarser = rms(start, reference);
-  for (const Preset& p : PRESETS) {
-    Garment cloth = start;
-    EXPECT_TRUE(drape(cloth, &pillar, preset_settings(p.name), silent_reporter()).converged) << p.name;
-    EXPECT_LE(rms(cloth, reference), 10e-3 * p.worst_rms_mm) << p.name;
-    EXPECT_LT(rms(cloth, reference), coarser) << p.name;
-    coarser = rms(cloth, reference);
+  double before = 0;
+  std::array<double, std::size(PRESETS)> off{}; // m, sums over the fabrics
+  for (const char* fabric : {"cotton-poplin", "denim", "silk", "wool-suiting", "jersey"}) {
+    Garment start = make_skirt(0.76, 0.28, 0.04);
+    start.materials[""] = material_preset(fabric);
+    DrapeSettings sewn = preset_settings("standard");
+    sewn.settle_force_ratio = 10;
+    sewn.settle_speed_m_s = 1;
+    drape(start, &pillar, sewn, silent_reporter());
+    Garment reference = start;
+    const DrapeReport finest = drape(reference, &pillar, preset_settings("reference"), silent_reporter());
+    ASSERT_TRUE(finest.converged) << fabric << ": " << finest.stop_reason;
+    before += rms(start, reference);
+    for (std::size_t k = 0; k < off.size(); ++k) {
+      const Preset& p = PRESETS[k];
+      Garment cloth = start;
+      EXPECT_TRUE(drape(cloth, &pillar, preset_settings(p.name), silent_reporter()).converged) << fabric << ", " << p.name;
+      EXPECT_LE(rms(cloth, reference), 10e-3 * p.worst_rms_mm) << fabric << ", " << p.name;
+      off[k] += rms(cloth, reference);
+    }
   }
+  for (std::size_t k = 0; k < off.size(); ++k) EXPECT_LT(off[k], k == 0 ? before : off[k - 1]) << PRESETS[k].name;
 }
 
 /// A placed garment is re-draped with rougher steps: that must be cheaper, and what is at rest must stay as strict.

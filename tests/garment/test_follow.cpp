@@ -236,7 +236,8 @@ TEST(Follow, an_edit_that_asks_for_another_mesh_carries_the_draped_state_across)
   const FollowReport report = play(skirt, pillar,
                                    {HEAD, R"({"edit": "split", "panel": "front", "from": [0, -1], "to": [0, 41], "names": ["west", "east"], "sew": true})",
                                     R"({"edit": "move-edge", "panel": "back", "edge": "hem", "by": [0, -1]})"},
-                                   &frames, 150);
+                                   &frames);
+  EXPECT_TRUE(report.drape.converged) << report.drape.stop_reason;
   EXPECT_EQ(report.remeshed, 1);
   ASSERT_EQ(frames.size(), 3u);
   EXPECT_TRUE(frames[0].remeshed);

@@ -93,7 +93,8 @@ case_a_motion_killed_dead_goes_on_to_the_same_bytes() {
   local k
   mkdir skins
   for k in 1 2 3 4; do awk -v k=$k '/^v / { $2 += 0.01 * k } { print }' a.body.obj > "skins/s.000$k.obj"; done
-  local of=(--from "$data/skirt.json" --body a.body.json --set settle_force_ratio=10 --set settle_speed_m_s=1 --checkpoint-steps 6
+  # without weight: it slides, and may be long in coming to rest
+  local of=(--from "$data/skirt.json" --body a.body.json --effects auto,-gravity --set settle_force_ratio=10 --set settle_speed_m_s=1 --checkpoint-steps 6
     --motion skins/s.0001.obj --motion-fps 25 --frames %-frames)
   local again=(--body a.body.json --motion skins/s.0001.obj --frames %-frames) written=(%)
   local when=('"phase": "move"' '"phase": "move"')
