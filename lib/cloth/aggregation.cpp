@@ -81,8 +81,7 @@ BlockRows prolongator(const BlockRows& a, const std::vector<Mat3>& d_inverse, co
 } // namespace
 
 /// What the contacts of the finest level do, by contact; rows gather it.
-void Aggregation::pull_contacts(std::size_t l, const std::vector<Float4>& x) {
-  if (l > 0) return;
+void Aggregation::pull_contacts(const std::vector<Float4>& x) {
   parallel_for(m_contacts.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
       const FloatContact& c = m_contacts[e];
@@ -95,22 +94,21 @@ void Aggregation::pull_contacts(std::size_t l, const std::vector<Float4>& x) {
   });
 }
 
-/// Row i of the level's matrix times x, contacts included; pull_contacts() was called for this x.
-Float4 Aggregation::row_times(std::size_t l, std::size_t i, const std::vector<Float4>& x) const {
-  Float4 row = m_levels[l].a.row_times(i, x);
-  if (l > 0) return row;
-  for (int k = m_index->start[i]; k < m_index->start[i + 1]; ++k) {
-    const auto [e, at] = m_index->entry[k];
-    row = row + Float4::all(m_contacts[e].weight[at]) * m_contact_pull[e];
-  }
-  return row;
+/// put(i, row i of the level's matrix times x) for all rows, contacts included, on all threads.
+template<class Put> void Aggregation::multiply(std::size_t l, const std::vector<Float4>& x, const Put& put) {
+  if (l > 0) m_levels[l].a.multiply(x, put);
+  else multiply_finest(m_levels[0].a, x, put);
 }
 
-/// put(i, row i of the level's matrix times x) for all rows, on all threads.
-template<class Put> void Aggregation::multiply(std::size_t l, const std::vector<Float4>& x, const Put& put) {
-  pull_contacts(l, x);
-  parallel_for(x.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) put(i, row_times(l, i, x));
+/// Likewise with `rows` and the contacts.
+template<class Put> void Aggregation::multiply_finest(const FloatRows& rows, const std::vector<Float4>& x, const Put& put) {
+  pull_contacts(x);
+  rows.multiply(x, [&](std::size_t i, Float4 row) {
+    for (int k = m_index->start[i]; k < m_index->start[i + 1]; ++k) {
+      const auto [e, at] = m_index->entry[k];
+      row = row + Float4::all(m_contacts[e].weight[at]) * m_contact_pull[e];
+    }
+    put(i, row);
   });
 }
 
@@ -118,6 +116,11 @@ template<class Put> void Aggregation::multiply(std::size_t l, const std::vector<
 void Aggregation::copy_finest(const LinearSystem& system) {
   Level& finest = m_levels[0];
   refill(system.matrix, finest.a);
+  m_has_whole = system.whole != nullptr;
+  if (m_has_whole) {
+    if (m_whole.rows() != system.whole->size()) m_whole = to_float(*system.whole);
+    else refill(*system.whole, m_whole);
+  }
   m_index = &system.index;
   m_contacts.clear();
   for (const ContactElement& e : system.elements) {
@@ -136,10 +139,17 @@ void Aggregation::copy_finest(const LinearSystem& system) {
   for (std::size_t i = 0; i < finest.d_inverse.size(); ++i) finest.d_inverse[i] = to_float(m_jacobi.inverse()[i]);
 }
 
-static double squared_norm(const std::vector<Float4>& v) {
-  double sum = 0;
-  for (const Float4& q : v) sum += to_double(q).squaredNorm();
-  return sum;
+/// Eight products are summed in single precision at a time.
+static double dot(const std::vector<Float4>& a, const std::vector<Float4>& b, std::vector<double>& part) {
+  return parallel_sum(a.size(), ROW_GRAIN, part, [&](std::size_t begin, std::size_t end) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t first = begin; first < end; first += 8) {
+      Float4 some = Float4::all(0);
+      for (std::size_t i = first; i < std::min(first + 8, end); ++i) some = some + a[i] * b[i];
+      sum += to_double(some);
+    }
+    return sum.sum();
+  });
 }
 
 void Aggregation::estimate_lambda(std::size_t l, int iterations) {
@@ -151,11 +161,11 @@ void Aggregation::estimate_lambda(std::size_t l, int iterations) {
   }
   double lambda = 1;
   for (int it = 0; it < iterations; ++it) {
-    const Float4 scale = Float4::all(static_cast<float>(1 / std::sqrt(std::max(squared_norm(e), 1e-30))));
+    const Float4 scale = Float4::all(static_cast<float>(1 / std::sqrt(std::max(dot(e, e, m_part), 1e-30))));
     for (Float4& v : e) v = scale * v;
     multiply(l, e, [&](std::size_t i, Float4 row) { level.t[i] = level.d_inverse[i] * row; });
     std::swap(e, level.t);
-    lambda = std::sqrt(squared_norm(e));
+    lambda = std::sqrt(dot(e, e, m_part));
   }
   level.lambda = static_cast<float>(std::min(1.15 * lambda, LAMBDA_LIMIT));
 }
@@ -195,33 +205,35 @@ void Aggregation::build(const LinearSystem& system) {
     m_levels.emplace_back();
   }
   const int n = a.rows;
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(3 * n, 3 * n);
-  for (int i = 0; i < n; ++i)
-    for (int k = a.start[i]; k < a.start[i + 1]; ++k) dense.block<3, 3>(3 * i, 3 * a.column[k]) += a.value[k];
-  if (n > 4 * COARSEST) m_levels.clear(); // no coarsening found: plain block Jacobi
-  else m_coarsest.compute(dense);
-  if (n <= 4 * COARSEST && m_coarsest.info() != Eigen::Success) m_levels.clear();
+  m_coarsened = n <= 4 * COARSEST;
+  if (m_coarsened) {
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+    for (int i = 0; i < n; ++i)
+      for (int k = a.start[i]; k < a.start[i + 1]; ++k) dense.block<3, 3>(3 * i, 3 * a.column[k]) += a.value[k];
+    m_coarsest.compute(dense);
+    m_coarsened = m_coarsest.info() == Eigen::Success;
+  }
+  if (!m_coarsened) m_levels.resize(1); // plain block Jacobi
   m_coarse_vector.resize(3 * n);
   m_age = 0;
 }
 
 double Aggregation::complexity() const {
   double blocks = 0;
-  for (const Level& level : m_levels) blocks += static_cast<double>(level.a.column.size());
-  return m_levels.empty() ? 1 : blocks / static_cast<double>(m_levels[0].a.column.size());
+  for (const Level& level : m_levels) blocks += static_cast<double>(level.a.blocks());
+  return m_levels.empty() ? 1 : blocks / static_cast<double>(m_levels[0].a.blocks());
 }
 
 void Aggregation::update(const LinearSystem& system) {
   m_jacobi.update(system);
   const bool tired = m_last_iterations > m_iterations_when_fresh + PATIENCE;
-  if (m_levels.empty() || static_cast<int>(m_levels[0].d_inverse.size()) != system.matrix.size() || tired) build(system);
+  if (m_levels.empty() || !m_coarsened || static_cast<int>(m_levels[0].d_inverse.size()) != system.matrix.size() || tired) build(system);
   else copy_finest(system);
-  if (m_levels.empty()) return;
   if (m_age++ > 0) estimate_lambda(0, 2);
 }
 
 bool Aggregation::renew(const LinearSystem& system, int iterations) {
-  if (m_levels.empty() || m_age == 1 || iterations < m_iterations_when_fresh + PATIENCE) return false;
+  if (m_age == 1 || iterations < m_iterations_when_fresh + PATIENCE) return false;
   build(system);
   m_age = 1;
   return true;
@@ -267,18 +279,14 @@ void Aggregation::cycle(std::size_t l) {
   smooth(l, true);
   multiply(l, level.z, [&](std::size_t i, Float4 row) { level.t[i] = level.r[i] - row; });
   Level& coarse = m_levels[l + 1];
-  level.pt.multiply(level.t, coarse.r);
+  level.pt.multiply(level.t, [&](std::size_t i, Float4 row) { coarse.r[i] = row; });
   cycle(l + 1);
-  level.p.multiply_add(coarse.z, level.z);
+  level.p.multiply(coarse.z, [&](std::size_t i, Float4 row) { level.z[i] = level.z[i] + row; });
   smooth(l, false);
 }
 
-/// Scaled to unit size on the way in: single precision has its range around 1.
-void Aggregation::apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) {
-  if (m_levels.size() < 2) {
-    m_jacobi.apply(r, z);
-    return;
-  }
+/// r, scaled to unit size, as the finest level's: single precision has its range around 1. Returns what that size was.
+double Aggregation::take_in(const std::vector<Vec3>& r) {
   double largest = 0;
   for (const Vec3& v : r) largest = std::max(largest, v.cwiseAbs().maxCoeff());
   if (largest == 0) largest = 1;
@@ -286,10 +294,85 @@ void Aggregation::apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) {
   parallel_for(r.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) m_levels[0].r[i] = to_float(Vec3(shrink * r[i]));
   });
-  cycle(0);
-  parallel_for(r.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) z[i] = largest * to_double(m_levels[0].z[i]);
+  return largest;
+}
+
+static void hand_out(const std::vector<Float4>& from, double scale, std::vector<Vec3>& to) {
+  parallel_for(from.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) to[i] = scale * to_double(from[i]);
   });
+}
+
+/// The finest level's z from its r; block Jacobi without a hierarchy.
+void Aggregation::precondition_finest() {
+  if (m_levels.size() > 1) return cycle(0);
+  Level& finest = m_levels[0];
+  for (std::size_t i = 0; i < finest.r.size(); ++i) finest.z[i] = finest.d_inverse[i] * finest.r[i];
+}
+
+void Aggregation::apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) {
+  const double scale = take_in(r);
+  precondition_finest();
+  hand_out(m_levels[0].z, scale, z);
+}
+
+static double longest(const std::vector<Float4>& v) {
+  Float4 most = Float4::all(0);
+  for (const Float4& p : v) {
+    const Float4 squares = p * p;
+    most = max(most, lane<0>(squares) + lane<1>(squares) + lane<2>(squares));
+  }
+  return std::sqrt(to_double(most).x());
+}
+
+struct Aggregation::SingleSpace {
+  Aggregation& a;
+  const LinearSystem& system;
+
+  double precondition() {
+    a.precondition_finest();
+    return dot(a.m_levels[0].r, a.m_levels[0].z, a.m_part);
+  }
+  void turn(double beta) {
+    const Float4 keep = Float4::all(static_cast<float>(beta));
+    const std::vector<Float4>& z = a.m_levels[0].z;
+    parallel_for(z.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) a.m_p[i] = z[i] + keep * a.m_p[i];
+    });
+  }
+  double multiply() {
+    a.multiply_finest(a.m_has_whole ? a.m_whole : a.m_levels[0].a, a.m_p, [&](std::size_t i, Float4 row) { a.m_q[i] = row; });
+    return dot(a.m_p, a.m_q, a.m_part);
+  }
+  double advance(double alpha) {
+    const Float4 way = Float4::all(static_cast<float>(alpha));
+    std::vector<Float4>& r = a.m_levels[0].r;
+    parallel_for(r.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        a.m_x[i] = a.m_x[i] + way * a.m_p[i];
+        r[i] = r[i] - way * a.m_q[i];
+      }
+    });
+    return dot(r, r, a.m_part);
+  }
+  double longest_x() const { return longest(a.m_x); }
+  double longest_p() const { return longest(a.m_p); }
+  bool renew(int iterations) {
+    std::vector<Float4> r = std::move(a.m_levels[0].r); // a new hierarchy has new vectors
+    const bool renewed = a.renew(system, iterations);
+    a.m_levels[0].r = std::move(r);
+    return renewed;
+  }
+};
+
+bool Aggregation::solve_in_single(const LinearSystem& system, const std::vector<Vec3>& r, double share, int max_iterations, double radius, std::vector<Vec3>& x,
+                                  CgResult& result) {
+  const double scale = take_in(r);
+  for (auto* v : {&m_x, &m_p, &m_q}) v->assign(r.size(), Float4::all(0));
+  const double r_norm2 = dot(m_levels[0].r, m_levels[0].r, m_part);
+  conjugate_gradient_loop(SingleSpace{*this, system}, r_norm2, share * share * r_norm2, max_iterations, radius / scale, result);
+  hand_out(m_x, scale, x);
+  return true;
 }
 
 } // namespace sloper::cloth

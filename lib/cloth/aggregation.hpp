@@ -5,7 +5,7 @@
 /// block Jacobi, Chebyshev smoother of degree 2, coarsest level factorised. There is no geometric coarsening, so narrow
 /// straps are no special case. The hierarchy lags: it is rebuilt, within a solve too, only where the iterations that it costs have
 /// grown by what a new one costs; the finest level always sees the current matrix. It is built in double and applied in single
-/// precision: the conjugate gradients around it, in double, have the last word.
+/// precision, and the conjugate gradients run on the finest level in single precision too: refinement in double has the last word.
 #include <Eigen/Dense>
 #include <cloth/conjugate_gradient.hpp>
 #include <cloth/float_rows.hpp>
@@ -17,8 +17,13 @@ public:
   void update(const LinearSystem& system) override;
   void apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) override;
   bool renew(const LinearSystem& system, int iterations) override;
+  bool solve_in_single(const LinearSystem& system, const std::vector<Vec3>& r, double share, int max_iterations, double radius, std::vector<Vec3>& x,
+                       CgResult& result) override;
   void report_iterations(int iterations) override;
-  void reset() override { m_levels.clear(); }
+  void reset() override {
+    m_levels.clear();
+    m_whole = {};
+  }
   long rebuilds = 0;
   /// Blocks of all levels' matrices over those of the finest: what a cycle costs in multiplications by the matrix. 1 without levels.
   double complexity() const;
@@ -30,6 +35,8 @@ private:
     float lambda = 2; // largest eigenvalue of D^-1 A, bounded from above
     std::vector<Float4> r, z, t, d, eigenvector;
   };
+  /// The vectors of conjugate gradients on the finest level; its r and z are theirs.
+  struct SingleSpace;
   /// A contact as the finest level sees it.
   struct FloatContact {
     std::array<int, 4> particle;
@@ -39,18 +46,25 @@ private:
   };
   void build(const LinearSystem& system);
   void copy_finest(const LinearSystem& system);
-  void pull_contacts(std::size_t level, const std::vector<Float4>& x);
-  Float4 row_times(std::size_t level, std::size_t i, const std::vector<Float4>& x) const;
+  void pull_contacts(const std::vector<Float4>& x);
   template<class Put> void multiply(std::size_t level, const std::vector<Float4>& x, const Put& put);
+  template<class Put> void multiply_finest(const FloatRows& rows, const std::vector<Float4>& x, const Put& put);
   void estimate_lambda(std::size_t level, int iterations);
   void smooth(std::size_t level, bool zero_start);
   void cycle(std::size_t level);
+  void precondition_finest();
+  double take_in(const std::vector<Vec3>& r);
 
   BlockJacobi m_jacobi;
+  std::vector<Float4> m_x, m_p, m_q;
+  std::vector<double> m_part;
+  FloatRows m_whole; // of the system's `whole`
+  bool m_has_whole = false;
   std::vector<FloatContact> m_contacts;
   std::vector<Float4> m_contact_pull;
   const ContactIndex* m_index = nullptr; // of the system that the finest level is a copy of
   std::vector<Level> m_levels;
+  bool m_coarsened = false; // whether the last build found its way to a coarsest level
   Eigen::LLT<Eigen::MatrixXd> m_coarsest;
   Eigen::VectorXd m_coarse_vector;
   int m_iterations_when_fresh = 0, m_last_iterations = 0, m_age = 0;

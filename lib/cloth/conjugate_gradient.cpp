@@ -7,6 +7,7 @@
 namespace sloper::cloth {
 
 double LinearSystem::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y, std::vector<Vec3>& pull, std::vector<double>& part) const {
+  const BlockMatrix& a = whole ? *whole : matrix;
   pull.resize(elements.size());
   parallel_for(elements.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) pull[e] = elements[e].pull(x);
@@ -14,7 +15,7 @@ double LinearSystem::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y, 
   return parallel_sum(x.size(), ROW_GRAIN, part, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      Vec3 row = matrix.row_times(static_cast<int>(i), x);
+      Vec3 row = a.row_times(static_cast<int>(i), x);
       for (int k = index.start[i]; k < index.start[i + 1]; ++k) row += elements[index.entry[k].element].weight[index.entry[k].k] * pull[index.entry[k].element];
       y[i] = row;
       sum += x[i].dot(row);
@@ -48,49 +49,77 @@ static double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b, std::v
   });
 }
 
-CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& preconditioner, const std::vector<Vec3>& b, double tolerance, int max_iterations,
-                            std::vector<Vec3>& x, CgWork& work) {
-  const std::size_t n = b.size();
-  std::vector<Vec3>&r = work.r, &z = work.z, &p = work.p, &q = work.q, &pull = work.pull;
-  std::vector<double>& part = work.part;
-  for (auto* v : {&r, &z, &p, &q}) v->resize(n);
-  x.assign(n, Vec3::Zero());
-  r = b;
-  CgResult result;
-  const double b_norm2 = dot(b, b, part);
-  if (b_norm2 == 0) return {0, 0, true, false};
-  preconditioner.apply(r, z);
-  p = z;
-  double rz = dot(r, z, part);
-  const double target2 = tolerance * tolerance * b_norm2;
-  double r_norm2 = b_norm2;
-  while (result.iterations < max_iterations && r_norm2 > target2) {
-    const double curvature = system.multiply(p, q, pull, part);
-    if (!(curvature > 0)) {
-      result.indefinite = true;
-      break;
-    }
-    const double alpha = rz / curvature;
-    r_norm2 = parallel_sum(n, ROW_GRAIN, part, [&](std::size_t begin, std::size_t end) {
+static double longest(const std::vector<Vec3>& v) {
+  double most = 0;
+  for (const Vec3& p : v) most = std::max(most, p.squaredNorm());
+  return std::sqrt(most);
+}
+
+namespace {
+
+struct DoubleSpace {
+  const LinearSystem& system;
+  Preconditioner& preconditioner;
+  std::vector<Vec3>& x;
+  CgWork& work;
+
+  double precondition() {
+    preconditioner.apply(work.r, work.z);
+    return dot(work.r, work.z, work.part);
+  }
+  void turn(double beta) {
+    parallel_for(x.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) work.p[i] = work.z[i] + beta * work.p[i];
+    });
+  }
+  double multiply() { return system.multiply(work.p, work.q, work.pull, work.part); }
+  double advance(double alpha) {
+    return parallel_sum(x.size(), ROW_GRAIN, work.part, [&](std::size_t begin, std::size_t end) {
       double sum = 0;
       for (std::size_t i = begin; i < end; ++i) {
-        x[i] += alpha * p[i];
-        r[i] -= alpha * q[i];
-        sum += r[i].squaredNorm();
+        x[i] += alpha * work.p[i];
+        work.r[i] -= alpha * work.q[i];
+        sum += work.r[i].squaredNorm();
       }
       return sum;
     });
-    ++result.iterations, ++result.since_renewal;
-    if (r_norm2 <= target2) break;
-    const bool renewed = preconditioner.renew(system, result.since_renewal);
-    if (renewed) result.since_renewal = 0;
-    preconditioner.apply(r, z);
-    const double rz_next = dot(r, z, part), beta = renewed ? 0 : rz_next / rz; // with another preconditioner the directions start anew
-    rz = rz_next;
-    parallel_for(n, ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) p[i] = z[i] + beta * p[i];
-    });
   }
+  double longest_x() const { return longest(x); }
+  double longest_p() const { return longest(work.p); }
+  bool renew(int iterations) { return preconditioner.renew(system, iterations); }
+};
+
+constexpr double AIM = 0.95;          // of the tolerance, in single precision: the residual in double is to be within it too
+constexpr double FINEST_SHARE = 1e-4; // of the residual, that a round in single precision is asked for
+
+} // namespace
+
+CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& preconditioner, const std::vector<Vec3>& b, double tolerance, int max_iterations,
+                            std::vector<Vec3>& x, CgWork& work, double radius) {
+  const std::size_t n = b.size();
+  for (auto* v : {&work.r, &work.z, &work.p, &work.q}) v->resize(n);
+  x.assign(n, Vec3::Zero());
+  work.r = b;
+  CgResult result;
+  const double b_norm2 = dot(b, b, work.part);
+  if (b_norm2 == 0) return {0, 0, 0, true, false, false};
+  const double target2 = tolerance * tolerance * b_norm2;
+  double r_norm2 = b_norm2;
+  while (result.iterations < max_iterations && r_norm2 > target2) {
+    const double share = std::max(AIM * std::sqrt(target2 / r_norm2), FINEST_SHARE);
+    if (!preconditioner.solve_in_single(system, work.r, share, max_iterations, radius, work.z, result)) break;
+    for (std::size_t i = 0; i < n; ++i) work.p[i] = x[i] + work.z[i];
+    system.multiply(work.p, work.q, work.pull, work.part);
+    for (std::size_t i = 0; i < n; ++i) work.z[i] = b[i] - work.q[i];
+    const double after2 = dot(work.z, work.z, work.part);
+    if (!(result.bounded ? std::isfinite(after2) : after2 < r_norm2)) break;
+    const bool halved = after2 < 0.25 * r_norm2;
+    r_norm2 = after2;
+    std::swap(x, work.p);
+    std::swap(work.r, work.z);
+    if (result.bounded || !halved) break;
+  }
+  if (!result.bounded) r_norm2 = conjugate_gradient_loop(DoubleSpace{system, preconditioner, x, work}, r_norm2, target2, max_iterations, radius, result);
   result.residual = std::sqrt(r_norm2 / b_norm2);
   result.converged = r_norm2 <= target2;
   return result;

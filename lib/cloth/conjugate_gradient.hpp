@@ -3,14 +3,26 @@
 #include <cloth/block_matrix.hpp>
 #include <cloth/contact_element.hpp>
 
+#include <limits>
+
 namespace sloper::cloth {
 
 struct LinearSystem {
-  const BlockMatrix& matrix;
+  const BlockMatrix& matrix; ///< definite; what preconditioners stand on
   const std::vector<ContactElement>& elements;
-  const ContactIndex& index; ///< of the elements
+  const ContactIndex& index;          ///< of the elements
+  const BlockMatrix* whole = nullptr; ///< where not null, what is solved in place of `matrix`, of the same pattern; may be indefinite
   /// y = A x; returns x . y. pull, part: work
   double multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y, std::vector<Vec3>& pull, std::vector<double>& part) const;
+};
+
+struct CgResult {
+  int iterations = 0;
+  int since_renewal = 0; ///< iterations with the preconditioner as it is now
+  double residual = 1;   ///< |b - A x| / |b|
+  bool converged = false;
+  bool indefinite = false; ///< p'Ap <= 0 was met; x is the best iterate before, and with a radius, a way from there along p
+  bool bounded = false;    ///< x was stopped by the radius
 };
 
 /// z = P^-1 r for a symmetric positive definite P near the system.
@@ -24,6 +36,12 @@ public:
   /// Asked within a solve that is not done after so many iterations: a preconditioner that lags may bring itself up to date, and returns
   /// true where it did.
   virtual bool renew(const LinearSystem&, int /*iterations*/) { return false; }
+  /// A rough solve of A x = r, x from 0, by a copy of the system in single precision: the loop below, until the residual that it carries
+  /// along is at most `share` of r. Adds to the result's iterations. False, and nothing done, for a preconditioner without such a copy.
+  virtual bool solve_in_single(const LinearSystem&, const std::vector<Vec3>& /*r*/, double /*share*/, int /*max_iterations*/, double /*radius*/,
+                               std::vector<Vec3>& /*x*/, CgResult&) {
+    return false;
+  }
   /// How many iterations the last solve took since the preconditioner was last changed.
   virtual void report_iterations(int) {}
 };
@@ -39,13 +57,35 @@ private:
   std::vector<Mat3> m_inverse;
 };
 
-struct CgResult {
-  int iterations = 0;
-  int since_renewal = 0; ///< iterations with the preconditioner as it is now
-  double residual = 1;   ///< |b - A x| / |b|
-  bool converged = false;
-  bool indefinite = false; ///< p'Ap <= 0 was met; x is the best iterate before
-};
+/// The loop of preconditioned conjugate gradients, for vectors of any precision: r is the residual of x on entry and stays it.
+/// `space` has the vectors: precondition() sets z = P^-1 r and returns r . z; turn(beta) sets p = z + beta p; multiply() sets q = A p and
+/// returns p . q; advance(alpha) adds alpha p to x and takes alpha q from r and returns |r|^2; longest_x() and longest_p() are the lengths
+/// of their longest vectors of three; renew(iterations) as in Preconditioner.
+/// Ends where |r|^2 <= target2, at max_iterations of the result, which counts on, at an indefinite matrix, or where x would get longer
+/// than `radius` (Steihaug 1983, with the greatest length of three for a norm). Returns |r|^2.
+template<class Space> double conjugate_gradient_loop(Space&& space, double r_norm2, double target2, int max_iterations, double radius, CgResult& result) {
+  const bool bounded = radius < std::numeric_limits<double>::infinity();
+  result.indefinite = result.bounded = false;
+  if (!(result.iterations < max_iterations && r_norm2 > target2)) return r_norm2;
+  double rz = space.precondition();
+  space.turn(0);
+  for (;;) {
+    const double curvature = space.multiply();
+    result.indefinite = !(curvature > 0);
+    if (result.indefinite && !bounded) break;
+    ++result.iterations, ++result.since_renewal;
+    const double room = bounded ? (radius - space.longest_x()) / space.longest_p() : 0;
+    result.bounded = bounded && !(curvature * room > rz);
+    r_norm2 = space.advance(result.bounded ? room : rz / curvature);
+    if (result.bounded || r_norm2 <= target2 || result.iterations >= max_iterations) break;
+    const bool renewed = space.renew(result.since_renewal);
+    if (renewed) result.since_renewal = 0;
+    const double rz_next = space.precondition();
+    space.turn(renewed ? 0 : rz_next / rz); // with another preconditioner the directions start anew
+    rz = rz_next;
+  }
+  return r_norm2;
+}
 
 /// Work vectors, kept so that a step allocates nothing.
 struct CgWork {
@@ -53,8 +93,10 @@ struct CgWork {
   std::vector<double> part;
 };
 
-/// Solves A x = b from x = 0. Stops when |r| <= tolerance |b|, after max_iterations, or where the matrix is not definite.
+/// Solves A x = b from x = 0. Stops when |r| <= tolerance |b|, after max_iterations, where the matrix is not definite, or where a vector
+/// of three of x would get longer than the radius. Preconditioners that solve in single precision do so, in rounds whose residual is
+/// taken in double (iterative refinement, Wilkinson 1963), as long as a round halves it; what is left is done in double.
 CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& preconditioner, const std::vector<Vec3>& b, double tolerance, int max_iterations,
-                            std::vector<Vec3>& x, CgWork& work);
+                            std::vector<Vec3>& x, CgWork& work, double radius = std::numeric_limits<double>::infinity());
 
 } // namespace sloper::cloth

@@ -51,6 +51,21 @@ void add_edge_springs(const ClothMesh& mesh, const std::vector<Vec3>& x, double 
   }
 }
 
+void EdgeSpringEffect::add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
+  for (std::size_t s = 0; s < m_mesh.springs.size(); ++s) {
+    const EdgeSpring& spring = m_mesh.springs[s];
+    const Vec3 d = x[spring.j] - x[spring.i];
+    const double length = d.norm();
+    if (length < SHORTEST || length >= spring.rest_length) continue;
+    const double side = (1 - spring.rest_length / length) * spring.stiffness;
+    Mat3 block = -side / (length * length) * d * d.transpose();
+    block.diagonal().array() += side;
+    stiffness.add_diagonal(spring.i, block);
+    stiffness.add_diagonal(spring.j, block);
+    stiffness.add_off_diagonal(m_slots[s], -block);
+  }
+}
+
 double edge_springs_energy(const ClothMesh& mesh, const std::vector<Vec3>& x) {
   double sum = 0;
   for (const EdgeSpring& s : mesh.springs) sum += edge_spring_energy(x[s.i], x[s.j], s.rest_length, s.stiffness);

@@ -31,6 +31,8 @@ public:
   /// Does now what the next begin_step() at x would do first, where that can be done twice.
   virtual void look_ahead(const std::vector<Vec3>& /*x*/, double /*h*/) {}
   virtual void add(StepContext& context) = 0;
+  /// Adds what add() leaves out of d2E/dx2 at x to keep its part definite: then it is whole. Nothing where nothing is left out, or not told.
+  virtual void add_left_out(const std::vector<Vec3>& /*x*/, BlockMatrix& /*stiffness*/) const {}
   /// Potential at x, J; 0 for what has none (damping, friction).
   virtual double energy(const std::vector<Vec3>& /*x*/) const { return 0; }
   /// Looks at a displacement that keeps `limits`, and adds limits for what it would yet pass through.

@@ -1,18 +1,148 @@
-#include <base/parallel.hpp>
 #include <cloth/float_rows.hpp>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
 
 namespace sloper::cloth {
 
-void FloatRows::multiply(const std::vector<Float4>& x, std::vector<Float4>& y) const {
-  parallel_for(static_cast<std::size_t>(rows), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) y[i] = row_times(i, x);
-  });
+/// Slots of each group of rows, and their columns; what pads them reads the first particle.
+static void group_rows(const std::vector<int>& start, const std::vector<int>& column, std::vector<int>& group_start, std::vector<FloatRows::Slot>& slot) {
+  const int n = static_cast<int>(start.size()) - 1;
+  group_start.assign(1, 0);
+  for (int first = 0; first < n; first += FloatRows::GROUP) {
+    int longest = 0;
+    for (int i = first; i < std::min(first + FloatRows::GROUP, n); ++i) longest = std::max(longest, start[i + 1] - start[i]);
+    group_start.push_back(group_start.back() + longest);
+  }
+  slot.assign(group_start.back(), {});
+  for (int i = 0; i < n; ++i)
+    for (int k = start[i]; k < start[i + 1]; ++k) slot[group_start[i / FloatRows::GROUP] + k - start[i]].column[i % FloatRows::GROUP] = column[k];
 }
 
-void FloatRows::multiply_add(const std::vector<Float4>& x, std::vector<Float4>& y) const {
-  parallel_for(static_cast<std::size_t>(rows), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) y[i] = y[i] + row_times(i, x);
-  });
+FloatRows::FloatRows(const std::vector<int>& start, const std::vector<int>& column, const std::vector<int>& isotropic_start,
+                     const std::vector<int>& isotropic_column)
+    : m_rows(static_cast<int>(start.size()) - 1), m_blocks(column.size()) {
+  group_rows(start, column, m_start, m_column);
+  if (isotropic_start.empty()) m_isotropic_start.assign(m_start.size(), 0);
+  else group_rows(isotropic_start, isotropic_column, m_isotropic_start, m_isotropic_column);
+  m_value.resize(9 * m_column.size());
+  m_isotropic_value.resize(m_isotropic_column.size());
+}
+
+namespace {
+
+/// What a product reads of a group: blocks and isotropic blocks, with their columns.
+struct Group {
+  const FloatRows::Slot *slot, *slot_end;
+  const Float8* value;
+  const FloatRows::Slot *isotropic_slot, *isotropic_slot_end;
+  const Float8* isotropic_value;
+};
+
+/// Four rows at a time.
+void times_narrow(const Group& group, const Float4* x, Float4* row) {
+  for (int half = 0; half < FloatRows::GROUP; half += 4) {
+    Float4 sum[4] = {Float4::all(0), Float4::all(0), Float4::all(0), Float4::all(0)};
+    const auto gather = [&](const FloatRows::Slot& slot, Float4& px, Float4& py, Float4& pz) {
+      const int* column = slot.column + half;
+      Float4 unused;
+      px = x[column[0]], py = x[column[1]], pz = x[column[2]], unused = x[column[3]];
+      transpose(px, py, pz, unused);
+    };
+    Float4 px, py, pz;
+    const Float8* v = group.value;
+    for (const FloatRows::Slot* slot = group.slot; slot != group.slot_end; ++slot, v += 9) {
+      gather(*slot, px, py, pz);
+      for (int r = 0; r < 3; ++r)
+        sum[r] = sum[r] + (Float4::load(v[r].lane + half) * px + Float4::load(v[r + 3].lane + half) * py + Float4::load(v[r + 6].lane + half) * pz);
+    }
+    v = group.isotropic_value;
+    for (const FloatRows::Slot* slot = group.isotropic_slot; slot != group.isotropic_slot_end; ++slot, ++v) {
+      gather(*slot, px, py, pz);
+      const Float4 a = Float4::load(v->lane + half);
+      sum[0] = sum[0] + a * px, sum[1] = sum[1] + a * py, sum[2] = sum[2] + a * pz;
+    }
+    transpose(sum[0], sum[1], sum[2], sum[3]);
+    for (int i = 0; i < 4; ++i) row[half + i] = sum[i];
+  }
+}
+
+#if defined(__x86_64__)
+#define SLOPER_WIDE [[gnu::target("avx")]] inline
+
+/// Two particles' vectors.
+SLOPER_WIDE __m256 pair(Float4 low, Float4 high) { return _mm256_insertf128_ps(_mm256_castps128_ps256(low.v), high.v, 1); }
+
+/// x, y and z of eight particles: particle i's in lane i.
+SLOPER_WIDE void gather_wide(const FloatRows::Slot& slot, const Float4* x, __m256& px, __m256& py, __m256& pz) {
+  const int* c = slot.column;
+  const __m256 p0 = pair(x[c[0]], x[c[4]]), p1 = pair(x[c[1]], x[c[5]]), p2 = pair(x[c[2]], x[c[6]]), p3 = pair(x[c[3]], x[c[7]]);
+  const __m256 xy01 = _mm256_unpacklo_ps(p0, p1), xy23 = _mm256_unpacklo_ps(p2, p3), z01 = _mm256_unpackhi_ps(p0, p1), z23 = _mm256_unpackhi_ps(p2, p3);
+  px = _mm256_shuffle_ps(xy01, xy23, _MM_SHUFFLE(1, 0, 1, 0));
+  py = _mm256_shuffle_ps(xy01, xy23, _MM_SHUFFLE(3, 2, 3, 2));
+  pz = _mm256_shuffle_ps(z01, z23, _MM_SHUFFLE(1, 0, 1, 0));
+}
+
+/// Row r of eight blocks times their vectors. Product and sum apart, as elsewhere: fused ones would round otherwise.
+SLOPER_WIDE __m256 row_wide(const Float8* v, int r, __m256 px, __m256 py, __m256 pz) {
+  return _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(_mm256_load_ps(v[r].lane), px), _mm256_mul_ps(_mm256_load_ps(v[r + 3].lane), py)),
+                       _mm256_mul_ps(_mm256_load_ps(v[r + 6].lane), pz));
+}
+
+/// Eight rows at a time.
+SLOPER_WIDE void times_wide(const Group& group, const Float4* x, Float4* row) {
+  __m256 sx = _mm256_setzero_ps(), sy = sx, sz = sx, px, py, pz;
+  const Float8* v = group.value;
+  for (const FloatRows::Slot* slot = group.slot; slot != group.slot_end; ++slot, v += 9) {
+    gather_wide(*slot, x, px, py, pz);
+    sx = _mm256_add_ps(sx, row_wide(v, 0, px, py, pz));
+    sy = _mm256_add_ps(sy, row_wide(v, 1, px, py, pz));
+    sz = _mm256_add_ps(sz, row_wide(v, 2, px, py, pz));
+  }
+  v = group.isotropic_value;
+  for (const FloatRows::Slot* slot = group.isotropic_slot; slot != group.isotropic_slot_end; ++slot, ++v) {
+    gather_wide(*slot, x, px, py, pz);
+    const __m256 a = _mm256_load_ps(v->lane);
+    sx = _mm256_add_ps(sx, _mm256_mul_ps(a, px));
+    sy = _mm256_add_ps(sy, _mm256_mul_ps(a, py));
+    sz = _mm256_add_ps(sz, _mm256_mul_ps(a, pz));
+  }
+  const __m256 zero = _mm256_setzero_ps();
+  const __m256 xy_low = _mm256_unpacklo_ps(sx, sy), xy_high = _mm256_unpackhi_ps(sx, sy), z_low = _mm256_unpacklo_ps(sz, zero),
+               z_high = _mm256_unpackhi_ps(sz, zero);
+  const __m256 rows[4] = {_mm256_shuffle_ps(xy_low, z_low, _MM_SHUFFLE(1, 0, 1, 0)), _mm256_shuffle_ps(xy_low, z_low, _MM_SHUFFLE(3, 2, 3, 2)),
+                          _mm256_shuffle_ps(xy_high, z_high, _MM_SHUFFLE(1, 0, 1, 0)), _mm256_shuffle_ps(xy_high, z_high, _MM_SHUFFLE(3, 2, 3, 2))};
+  for (int i = 0; i < 4; ++i) {
+    row[i].v = _mm256_castps256_ps128(rows[i]);
+    row[i + 4].v = _mm256_extractf128_ps(rows[i], 1);
+  }
+}
+
+#undef SLOPER_WIDE
+
+const bool HAS_WIDE = __builtin_cpu_supports("avx");
+bool wide = HAS_WIDE;
+#endif
+
+} // namespace
+
+void FloatRows::times(std::size_t g, const Float4* x, Float4* row) const {
+  const Group group{m_column.data() + m_start[g],
+                    m_column.data() + m_start[g + 1],
+                    m_value.data() + 9 * static_cast<std::size_t>(m_start[g]),
+                    m_isotropic_column.data() + m_isotropic_start[g],
+                    m_isotropic_column.data() + m_isotropic_start[g + 1],
+                    m_isotropic_value.data() + m_isotropic_start[g]};
+#if defined(__x86_64__)
+  if (wide) return times_wide(group, x, row);
+#endif
+  times_narrow(group, x, row);
+}
+
+void FloatRows::allow_wide([[maybe_unused]] bool allowed) {
+#if defined(__x86_64__)
+  wide = allowed && HAS_WIDE;
+#endif
 }
 
 Float4 to_float(const Vec3& v) {
@@ -29,17 +159,18 @@ Vec3 to_double(Float4 v) {
 }
 
 FloatRows to_float(const BlockRows& rows) {
-  FloatRows out{rows.rows, rows.columns, rows.start, rows.column, {}, {}, {}, {}};
-  out.value.assign(9 * rows.value.size() + 3, 0);
-  for (std::size_t k = 0; k < rows.value.size(); ++k) out.put(static_cast<int>(k), rows.value[k]);
+  FloatRows out(rows.start, rows.column, {}, {});
+  for (int i = 0; i < rows.rows; ++i)
+    for (int k = rows.start[i]; k < rows.start[i + 1]; ++k) out.put(i, k - rows.start[i], rows.value[k]);
   return out;
 }
 
 /// How many blocks of row i of the whole matrix are not isotropic.
 static int full_blocks(const BlockMatrix& m, int i) { return 1 + m.lower_start()[i + 1] - m.lower_start()[i] + m.row_start()[i + 1] - m.row_start()[i]; }
 
-/// Calls put(k, column, block) for those, by rising column, k counting from `at`.
-template<class Put> static void visit_row(const BlockMatrix& m, int i, int at, const Put& put) {
+/// Calls put(k, column, block) for those, by rising column, k counting from 0.
+template<class Put> static void visit_row(const BlockMatrix& m, int i, const Put& put) {
+  int at = 0;
   for (int k = m.lower_start()[i]; k < m.lower_start()[i + 1]; ++k) put(at++, m.lower()[k].column, Mat3(m.value()[m.lower()[k].slot].transpose()));
   put(at++, i, m.diagonal(i));
   for (int k = m.row_start()[i]; k < m.row_start()[i + 1]; ++k) put(at++, m.column()[k], m.value()[k]);
@@ -52,13 +183,13 @@ BlockRows expand(const BlockMatrix& m) {
   for (int i = 0; i < m.size(); ++i) out.start[i + 1] = out.start[i] + full_blocks(m, i) + m.isotropic_start()[i + 1] - m.isotropic_start()[i];
   out.column.resize(out.start.back());
   out.value.resize(out.start.back());
-  const auto put = [&](int k, int column, const Mat3& value) {
-    out.column[k] = column;
-    out.value[k] = value;
-  };
   for (int i = 0; i < m.size(); ++i) {
-    visit_row(m, i, out.start[i], put);
-    int at = out.start[i] + full_blocks(m, i);
+    const auto put = [&](int k, int column, const Mat3& value) {
+      out.column[out.start[i] + k] = column;
+      out.value[out.start[i] + k] = value;
+    };
+    visit_row(m, i, put);
+    int at = full_blocks(m, i);
     for (int k = m.isotropic_start()[i]; k < m.isotropic_start()[i + 1]; ++k)
       put(at++, m.isotropic()[k].column, m.isotropic_value()[m.isotropic()[k].slot] * Mat3::Identity());
   }
@@ -66,16 +197,13 @@ BlockRows expand(const BlockMatrix& m) {
 }
 
 FloatRows to_float(const BlockMatrix& m) {
-  FloatRows out;
-  out.rows = out.columns = m.size();
-  out.start.assign(m.size() + 1, 0);
-  for (int i = 0; i < m.size(); ++i) out.start[i + 1] = out.start[i] + full_blocks(m, i);
-  out.column.resize(out.start.back());
-  out.value.assign(9 * static_cast<std::size_t>(out.start.back()) + 3, 0);
-  for (int i = 0; i < m.size(); ++i) visit_row(m, i, out.start[i], [&](int k, int column, const Mat3&) { out.column[k] = column; });
-  out.isotropic_start = m.isotropic_start();
-  for (const BlockMatrix::Entry& e : m.isotropic()) out.isotropic_column.push_back(e.column);
-  out.isotropic_value.resize(out.isotropic_column.size());
+  std::vector<int> start(m.size() + 1, 0), column, isotropic_column;
+  for (int i = 0; i < m.size(); ++i) {
+    start[i + 1] = start[i] + full_blocks(m, i);
+    visit_row(m, i, [&](int, int j, const Mat3&) { column.push_back(j); });
+  }
+  for (const BlockMatrix::Entry& e : m.isotropic()) isotropic_column.push_back(e.column);
+  FloatRows out(start, column, m.isotropic_start(), isotropic_column);
   refill(m, out);
   return out;
 }
@@ -83,9 +211,9 @@ FloatRows to_float(const BlockMatrix& m) {
 void refill(const BlockMatrix& m, FloatRows& rows) {
   parallel_for(static_cast<std::size_t>(m.size()), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
     for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i) {
-      visit_row(m, i, rows.start[i], [&](int k, int, const Mat3& value) { rows.put(k, value); });
-      for (int k = m.isotropic_start()[i]; k < m.isotropic_start()[i + 1]; ++k)
-        rows.isotropic_value[k] = static_cast<float>(m.isotropic_value()[m.isotropic()[k].slot]);
+      visit_row(m, i, [&](int k, int, const Mat3& value) { rows.put(i, k, value); });
+      const int first = m.isotropic_start()[i];
+      for (int k = first; k < m.isotropic_start()[i + 1]; ++k) rows.put_isotropic(i, k - first, m.isotropic_value()[m.isotropic()[k].slot]);
     }
   });
 }

@@ -1,7 +1,10 @@
 #pragma once
 /// Sparse matrices of 3x3 blocks, in double to build a preconditioner and in single precision to apply it.
+#include <base/parallel.hpp>
 #include <base/simd4.hpp>
 #include <cloth/block_matrix.hpp>
+
+#include <algorithm>
 
 namespace sloper::cloth {
 
@@ -18,33 +21,56 @@ struct FloatBlock {
 };
 inline Float4 operator*(const FloatBlock& a, Float4 x) { return a.column[0] * lane<0>(x) + a.column[1] * lane<1>(x) + a.column[2] * lane<2>(x); }
 
-/// Blocks are packed, since reading them is what a product costs: the fourth lane of what a row gives is anything. Multiples of the
-/// identity may be kept apart, as BlockMatrix does.
-struct FloatRows {
-  int rows = 0, columns = 0;
-  std::vector<int> start, column;
-  std::vector<float> value;                           ///< nine numbers a block, by columns, and room that the last one's read runs into
-  std::vector<int> isotropic_start, isotropic_column; ///< rows + 1, or none
-  std::vector<float> isotropic_value;                 ///< one number a block
-  /// Row i of A x
-  Float4 row_times(std::size_t i, const std::vector<Float4>& x) const {
-    Float4 sum = Float4::all(0);
-    const float* v = value.data() + 9 * static_cast<std::size_t>(start[i]);
-    for (int k = start[i]; k < start[i + 1]; ++k, v += 9) {
-      const Float4 p = x[column[k]];
-      sum = sum + (Float4::load_any(v) * lane<0>(p) + Float4::load_any(v + 3) * lane<1>(p) + Float4::load_any(v + 6) * lane<2>(p));
-    }
-    if (isotropic_start.empty()) return sum;
-    for (int k = isotropic_start[i]; k < isotropic_start[i + 1]; ++k) sum = sum + Float4::all(isotropic_value[k]) * x[isotropic_column[k]];
-    return sum;
+/// Numbers of eight rows, one each; aligned for the widest registers in use.
+struct alignas(32) Float8 {
+  float lane[8] = {};
+};
+
+/// Rows of 3x3 blocks, eight to a group, so that one instruction multiplies for eight rows (four, where registers are narrower) and no
+/// lane idles. Each group has as many slots as its longest row has blocks; a slot is one block of each row, 0 where a row has no more.
+/// Multiples of the identity may be kept apart, as BlockMatrix does. Sums go along each row in the order of its blocks, the isotropic
+/// ones last: the same bytes whatever the registers.
+class FloatRows {
+public:
+  static constexpr int GROUP = 8;
+  struct Slot {
+    int column[GROUP] = {};
+  };
+  FloatRows() = default;
+  /// A pattern, all 0. Row i has blocks at `column`, from start[i] to start[i + 1] - 1, and isotropic ones likewise (none if empty).
+  FloatRows(const std::vector<int>& start, const std::vector<int>& column, const std::vector<int>& isotropic_start, const std::vector<int>& isotropic_column);
+  /// Sets the k-th block of row i.
+  void put(int i, int k, const Mat3& block) {
+    float* lane = m_value[9 * static_cast<std::size_t>(m_start[i / GROUP] + k)].lane + i % GROUP;
+    for (int e = 0; e < 9; ++e) lane[GROUP * e] = static_cast<float>(block.data()[e]);
   }
-  void put(int k, const Mat3& block) {
-    for (int i = 0; i < 9; ++i) value[9 * static_cast<std::size_t>(k) + i] = static_cast<float>(block.data()[i]);
+  /// Sets the k-th isotropic block of row i to value times the identity.
+  void put_isotropic(int i, int k, double value) { m_isotropic_value[m_isotropic_start[i / GROUP] + k].lane[i % GROUP] = static_cast<float>(value); }
+  int rows() const { return m_rows; }
+  /// Blocks, isotropic ones and padding not counted.
+  std::size_t blocks() const { return m_blocks; }
+  /// put(i, row i of A x) for all rows, on all threads. The fourth lane of a row is 0.
+  template<class Put> void multiply(const std::vector<Float4>& x, const Put& put) const {
+    parallel_for(m_start.size() - 1, ROW_GRAIN / GROUP, [&](std::size_t begin, std::size_t end) {
+      Float4 row[GROUP];
+      for (std::size_t g = begin; g < end; ++g) {
+        times(g, x.data(), row);
+        const int first = static_cast<int>(g) * GROUP, last = std::min(first + GROUP, m_rows);
+        for (int i = first; i < last; ++i) put(static_cast<std::size_t>(i), row[i - first]);
+      }
+    });
   }
-  /// y = A x
-  void multiply(const std::vector<Float4>& x, std::vector<Float4>& y) const;
-  /// y += A x
-  void multiply_add(const std::vector<Float4>& x, std::vector<Float4>& y) const;
+  /// Turns the wide registers off, or on again where the processor has them: for tests. Not while another thread multiplies.
+  static void allow_wide(bool allowed);
+
+private:
+  void times(std::size_t group, const Float4* x, Float4* row) const;
+
+  int m_rows = 0;
+  std::size_t m_blocks = 0;
+  std::vector<int> m_start, m_isotropic_start; // slots of each group
+  std::vector<Slot> m_column, m_isotropic_column;
+  std::vector<Float8> m_value, m_isotropic_value; // nine a slot, by the block's columns; one a slot
 };
 
 Float4 to_float(const Vec3& v);

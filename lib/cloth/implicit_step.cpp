@@ -20,6 +20,8 @@ constexpr double OUTLIER = 10;         // times that percentile
 constexpr double TIGHTEST = 0.01;      // of the tolerance
 constexpr std::size_t REMEMBERED = 20; // energies of the steps before: a step may end as high as the highest of them
 constexpr double MOST_CARRIED = 0.9;   // share of the last step's way
+constexpr double TRUSTED = 0.2;        // of an edge: how far a step with the whole stiffness goes
+constexpr double LOOSER = 3;           // the tolerance of such a step, whose matrix is all but singular
 constexpr double TURNED_BACK = 0.5;    // cosine of the angle between a step and the way back
 
 /// Adds the wall seconds of its own life to a counter.
@@ -210,20 +212,23 @@ static std::vector<double>::iterator percentile_95(std::vector<double>& values) 
   return at;
 }
 
-/// Near rest a few particles in a pinch can have forces a thousand times those of all others, and a residual relative to theirs would
-/// leave the others where they are, for hundreds of steps. There they count as outliers, and the tolerance is relative to the rest, but
-/// not so tight that it asks for more than rest does.
-double ClothSolver::tolerance(const StepOptions& o) {
-  if (!o.line_search) return o.cg_tolerance;
-  double all = 0, capped = 0;
+std::array<double, 2> ClothSolver::measure_rhs() {
+  double all = 0;
   m_residual.clear();
   for (const Vec3& r : m_rhs) {
     m_residual.push_back(r.squaredNorm());
     all += m_residual.back();
   }
-  const double p95 = *percentile_95(m_residual), near = NEAR_REST * m_mean_weight;
-  if (!(all > 0) || p95 > near * near) return o.cg_tolerance;
+  return {*percentile_95(m_residual), all};
+}
+
+/// Near rest a few particles in a pinch can have forces a thousand times those of all others, and a residual relative to theirs would
+/// leave the others where they are, for hundreds of steps. There they count as outliers, and the tolerance is relative to the rest, but
+/// not so tight that it asks for more than rest does.
+double ClothSolver::near_tolerance(const StepOptions& o, const std::array<double, 2>& squares) const {
+  const auto [p95, all] = squares;
   const double most = OUTLIER * OUTLIER * p95;
+  double capped = 0;
   for (double r : m_residual) capped += std::min(r, most);
   const double fine_enough = o.least_residual_ratio * m_mean_weight * std::sqrt(static_cast<double>(m_rhs.size()) / all);
   return std::max(std::min(fine_enough, o.cg_tolerance), o.cg_tolerance * std::max(TIGHTEST, std::sqrt(capped / all)));
@@ -235,6 +240,34 @@ void ClothSolver::look_ahead(double h) {
     const Stopwatch watch(e->wall_s);
     e->look_ahead(m_x, h);
   }
+}
+
+/// Of what is assembled, for m_dx.
+CgResult ClothSolver::solve(const StepOptions& o) {
+  double tolerance = o.cg_tolerance, radius = std::numeric_limits<double>::infinity();
+  bool whole = false;
+  if (o.line_search) {
+    const std::array<double, 2> squares = measure_rhs();
+    const double near = NEAR_REST * m_mean_weight;
+    if (squares[1] > 0 && squares[0] <= near * near) {
+      tolerance = near_tolerance(o, squares);
+      whole = o.whole_near_rest;
+    }
+  }
+  if (whole) {
+    const Stopwatch watch(assembly_s);
+    m_whole = m_matrix;
+    for (const auto& e : m_effects) e->add_left_out(m_x, m_whole);
+    radius = TRUSTED * m_mean_edge;
+    tolerance *= LOOSER;
+  }
+  const Stopwatch watch(solve_s);
+  m_contacts.build(m_elements, m_x.size());
+  const LinearSystem system{m_matrix, m_elements, m_contacts, whole ? &m_whole : nullptr};
+  m_preconditioner->update(system);
+  const CgResult result = conjugate_gradient(system, *m_preconditioner, m_rhs, tolerance, o.cg_max_iterations, m_dx, m_work, radius);
+  m_preconditioner->report_iterations(result.since_renewal);
+  return result;
 }
 
 StepResult ClothSolver::step(const StepOptions& o) {
@@ -266,14 +299,7 @@ StepResult ClothSolver::step(const StepOptions& o) {
     result.finite = false;
     return result;
   }
-  {
-    const Stopwatch watch(solve_s);
-    m_contacts.build(m_elements, n);
-    const LinearSystem system{m_matrix, m_elements, m_contacts};
-    m_preconditioner->update(system);
-    result.cg = conjugate_gradient(system, *m_preconditioner, m_rhs, tolerance(o), o.cg_max_iterations, m_dx, m_work);
-    m_preconditioner->report_iterations(result.cg.since_renewal);
-  }
+  result.cg = solve(o);
   if (o.line_search && o.momentum && m_carried_for > 0) carry_on();
   double largest2 = 0;
   for (const Vec3& d : m_dx) largest2 = std::max(largest2, d.squaredNorm());

@@ -27,6 +27,10 @@ struct StepOptions {
   /// them (sums over six; singly 0.6 to 1.3), squares of 2300 in 1.1. Not for garments that friction holds: momentum carries cloth over it, on a
   /// slope of 40 degrees up to 1.27 of the friction that should hold it, and where tied cloth is left out of it, nothing is gained.
   bool momentum = false;
+  /// With line_search: near rest the stiffness is whole, without what is left out of it elsewhere to keep it definite, and the solve ends
+  /// at a trust radius (Steihaug 1983). Where cloth has buckled the part left out is about as large as what resists: without it steps go
+  /// a small part of the way.
+  bool whole_near_rest = false;
   double largest_move_m = 0.05; ///< no particle moves farther in one step
 };
 
@@ -82,7 +86,10 @@ private:
   int search_along(const StepOptions& options);
   void forget(); ///< of the way so far; what was learnt holds no more
   void freeze_held(bool search_failed);
-  double tolerance(const StepOptions& options); ///< of the solve for m_rhs
+  /// Of the squares of m_rhs, by particle, which it leaves in m_residual: 95th percentile and sum, N2.
+  std::array<double, 2> measure_rhs();
+  double near_tolerance(const StepOptions& options, const std::array<double, 2>& squares) const; ///< of the solve for m_rhs, near rest
+  CgResult solve(const StepOptions& options);
 
   const ClothMesh& m_mesh;
   std::vector<Vec3> m_x, m_v, m_force, m_rhs, m_dx, m_step, m_trial, m_trial_dx; // m_step: as solved, before limits
@@ -97,7 +104,7 @@ private:
   std::vector<int> m_freeze, m_frozen_for; // #P, steps: of the last freeze; still to go
   std::vector<double> m_residual;
   double m_mean_edge = 0, m_mean_weight = 0; // of a particle; m, N
-  BlockMatrix m_matrix;
+  BlockMatrix m_matrix, m_whole;
   bool m_pattern_stale = true;
   std::unique_ptr<Preconditioner> m_preconditioner;
   CgWork m_work;

@@ -19,17 +19,17 @@ public:
   void add(StepContext& c) override;
   /// Potential at x, J.
   double energy(const std::vector<Vec3>& x) const override;
-  /// Adds the exact second derivative instead of its definite part: for tests, and to show what clamping is for.
-  void set_exact(bool exact) { m_exact = exact; }
+  void add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const override;
 
 private:
   struct Elasticity {
     double uu, uv, vv, shear; ///< N/m
     double damping_s;
   };
+  Eigen::Matrix2d stress_of(const TriangleMap& map, const Vec3& u, const Vec3& v) const; ///< by weft and warp, times the area, J
+
   std::vector<TriangleMap> m_maps;
   std::vector<Elasticity> m_elasticity; ///< by fabric
-  bool m_exact = false;
 };
 
 } // namespace sloper::cloth

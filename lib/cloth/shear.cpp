@@ -68,4 +68,17 @@ void ShearEffect::declare(Couplings& couplings) const {
     for (int k = 0; k < 3; ++k) couplings.full.push_back({s.particle[k], s.particle[(k + 1) % 3]});
 }
 
+void ShearEffect::add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
+  for (const ShearTriangle& s : m_shear) {
+    Vec3 wu, wv;
+    images(s, x, wu, wv);
+    const double tension = s.stiffness * wu.dot(wv);
+    for (int k = 0; k < 3; ++k) {
+      const int l = (k + 1) % 3;
+      stiffness.add_isotropic_diagonal(s.particle[k], 2 * tension * s.du[k] * s.dv[k]);
+      stiffness.add_isotropic(s.slots[k], tension * (s.du[k] * s.dv[l] + s.dv[k] * s.du[l]));
+    }
+  }
+}
+
 } // namespace sloper::cloth

@@ -23,6 +23,15 @@ double TriangleStretchEffect::energy(const std::vector<Vec3>& x) const {
   return sum;
 }
 
+/// @param block  of the weft's and of the warp's direction, both symmetric
+static void add_blocks(const TriangleMap& m, const Mat3 (&block)[2], BlockMatrix& stiffness) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    stiffness.add_diagonal(m.particle[i], m.du[i] * m.du[i] * block[0] + m.dv[i] * m.dv[i] * block[1]);
+    stiffness.add_off_diagonal(m.slots[i], m.du[i] * m.du[j] * block[0] + m.dv[i] * m.dv[j] * block[1]);
+  }
+}
+
 void TriangleStretchEffect::add(StepContext& c) {
   for (std::size_t f = 0; f < m_maps.size(); ++f) {
     const TriangleMap& m = m_maps[f];
@@ -40,15 +49,31 @@ void TriangleStretchEffect::add(StepContext& c) {
       }
       const Vec3 along = w / length, pull = k * (length - rest) * along;
       for (int i = 0; i < 3; ++i) c.force[m.particle[i]] -= d[i] * pull;
-      const double across = k * (m_exact ? 1 - rest / length : std::max(1 - rest / length, 0.0));
+      const double across = k * std::max(1 - rest / length, 0.0);
       block[side] = (k * (1 + fabric.damping_s / c.h) - across) * along * along.transpose();
       block[side].diagonal().array() += across;
     }
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3;
-      c.stiffness.add_diagonal(m.particle[i], m.du[i] * m.du[i] * block[0] + m.dv[i] * m.dv[i] * block[1]);
-      c.stiffness.add_off_diagonal(m.slots[i], m.du[i] * m.du[j] * block[0] + m.dv[i] * m.dv[j] * block[1]); // symmetric
+    add_blocks(m, block, c.stiffness);
+  }
+}
+
+void TriangleStretchEffect::add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
+  for (std::size_t f = 0; f < m_maps.size(); ++f) {
+    const TriangleMap& m = m_maps[f];
+    const Fabric& fabric = m_mesh.fabrics[m.fabric];
+    Mat3 block[2] = {Mat3::Zero(), Mat3::Zero()};
+    bool squeezed = false;
+    for (int side = 0; side < 2; ++side) {
+      const double rest = side ? m_shrink[f].warp : m_shrink[f].weft;
+      const Vec3 w = side ? m.v(x) : m.u(x);
+      const double length = w.norm();
+      if (length < LEAST_STRETCH || length >= rest) continue;
+      squeezed = true;
+      const double across = m.area * (side ? fabric.stretch_warp_n_m : fabric.stretch_weft_n_m) * (1 - rest / length);
+      block[side] = -across / (length * length) * w * w.transpose();
+      block[side].diagonal().array() += across;
     }
+    if (squeezed) add_blocks(m, block, stiffness);
   }
 }
 

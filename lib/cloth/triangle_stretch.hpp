@@ -26,14 +26,12 @@ public:
   void add(StepContext& c) override;
   /// Potential at x, J.
   double energy(const std::vector<Vec3>& x) const override;
-  /// Adds the exact second derivative instead of its definite part: for tests, and to show what clamping is for.
-  void set_exact(bool exact) { m_exact = exact; }
+  void add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const override;
 
 private:
   const ClothMesh& m_mesh;
   std::vector<TriangleMap> m_maps;
   std::vector<Shrink> m_shrink;
-  bool m_exact = false;
 };
 
 } // namespace sloper::cloth

@@ -71,7 +71,7 @@ struct Checkpoints {
   std::string file; ///< replaced as a whole each time; empty: none is written
   int every_steps = 100;
   bool renew = false;                     ///< without a file too: what a run with a file does, to the bit
-  std::optional<MotionInput> motion;      ///< of a drape in motion; drape_in_motion() and drape_layers() fill it in where it is not given
+  std::optional<MotionInput> motion = {}; ///< of a drape in motion; drape_in_motion() and drape_layers() fill it in where it is not given
   const LayersProgress* layers = nullptr; ///< set by drape_layers(): of the drapes around this one
 };
 

@@ -50,13 +50,14 @@ template<class SomeEffect> void expect_gradient(SomeEffect& effect, const ClothM
   }
 }
 
-/// -df/dx along a random direction against the assembled matrix, for states in which nothing is clamped.
-inline void expect_jacobian(Effect& effect, const ClothMesh& mesh, const std::vector<Vec3>& x, double tolerance) {
+/// -df/dx along a random direction against the assembled matrix: all of it, or for states in which nothing is left out what add() gives.
+inline void expect_jacobian(Effect& effect, const ClothMesh& mesh, const std::vector<Vec3>& x, double tolerance, bool whole = false) {
   Couplings couplings;
   effect.declare(couplings);
   BlockMatrix matrix(mesh.n_particles, couplings), unused(mesh.n_particles, couplings);
   effect.bind(matrix);
   force_of(effect, mesh.n_particles, x, matrix);
+  if (whole) effect.add_left_out(x, matrix);
   const auto direction = jittered(std::vector<Vec3>(x.size(), Vec3::Zero()), 1, 5);
   const double step = 1e-7;
   auto plus = x, minus = x;

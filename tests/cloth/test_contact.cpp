@@ -296,7 +296,9 @@ TEST(Contact, LookingAheadChangesNoStep) {
       end[look] = solver.x();
     }
     EXPECT_EQ(end[0], end[1]) << height;
-    if (height > 0) EXPECT_GT(ahead, 0);
+    if (height > 0) {
+      EXPECT_GT(ahead, 0);
+    }
   }
 }
 

@@ -23,6 +23,12 @@ TEST(EdgeSpring, stiffness_is_minus_force_gradient_when_stretched) {
   expect_jacobian(effect, g.mesh, jittered(g.x, 0.0005, 2), 1e-5);
 }
 
+TEST(EdgeSpring, stiffness_with_what_is_left_out_of_it_is_minus_force_gradient) {
+  const Grid g = make_grid(5, 0.1);
+  EdgeSpringEffect effect(g.mesh);
+  expect_jacobian(effect, g.mesh, jittered(g.x, 0.004, 2), 1e-5, true);
+}
+
 TEST(EdgeSpring, one_percent_compression_makes_the_unclamped_matrix_indefinite) {
   // The paper says that the left side of eq. (1) is always positive definite. It is not.
   const Vec3 a(0, 0, 0), b(0.0099, 0, 0);
@@ -66,6 +72,12 @@ TEST(Shear, pure_shear_costs_half_k_angle_squared_per_area) {
   const double angle = 0.01;
   for (Vec3& p : x) p.x() += angle * p.z();
   EXPECT_NEAR(shear_energy(make_shear(g.mesh), x), 0.5 * fabric.shear_n_m * angle * angle * 0.04, 1e-3 * fabric.shear_n_m * angle * angle * 0.04);
+}
+
+TEST(Shear, stiffness_with_what_is_left_out_of_it_is_minus_force_gradient) {
+  const Grid g = make_grid(5, 0.1);
+  ShearEffect effect(g.mesh);
+  expect_jacobian(effect, g.mesh, jittered(g.x, 0.004, 5), 1e-5, true);
 }
 
 TEST(Bending, force_is_minus_energy_gradient) {

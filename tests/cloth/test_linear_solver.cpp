@@ -7,6 +7,8 @@
 #include <cloth/factorisation.hpp>
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 using namespace sloper;
 using namespace sloper::cloth;
 
@@ -103,16 +105,37 @@ TEST(BlockMatrix, is_the_same_matrix_in_all_its_forms) {
     for (int k = rows.start[i]; k < rows.start[i + 1]; ++k) b.block<3, 3>(3 * i, 3 * rows.column[k]) += rows.value[k];
   EXPECT_EQ((b - a).norm(), 0);
   const FloatRows single = to_float(s.matrix), of_rows = to_float(rows);
-  EXPECT_LT(single.value.size(), of_rows.value.size());
+  EXPECT_LT(single.blocks(), of_rows.blocks());
   for (const FloatRows* f : {&single, &of_rows}) {
     const Eigen::MatrixXd c = columns_of(n, [&](const auto& x, auto& y) {
-      std::vector<Float4> fx(n), fy(n);
-      for (int i = 0; i < n; ++i) fx[i] = to_float(x[i]);
-      f->multiply(fx, fy);
-      for (int i = 0; i < n; ++i) y[i] = to_double(fy[i]);
+      std::vector<Float4> single_x(n);
+      for (int i = 0; i < n; ++i) single_x[i] = to_float(x[i]);
+      f->multiply(single_x, [&](std::size_t i, Float4 row) { y[i] = to_double(row); });
     });
     EXPECT_LT((c - a).norm(), 1e-6 * a.norm());
   }
+}
+
+TEST(FloatRows, gives_the_same_bytes_with_wide_registers_and_without) {
+  const System s = make_system(7, 0.1);
+  const std::size_t n = s.matrix.size();
+  ASSERT_NE(n % FloatRows::GROUP, 0U); // the last group is not full
+  std::vector<Float4> x(n);
+  Random random(5);
+  for (Float4& v : x) {
+    Vec3 p;
+    for (double& c : p) c = random.uniform(-1, 1);
+    v = to_float(p);
+  }
+  const FloatRows rows = to_float(s.matrix);
+  std::vector<float> result[2];
+  for (int wide : {0, 1}) {
+    FloatRows::allow_wide(wide != 0);
+    result[wide].resize(4 * n);
+    rows.multiply(x, [&](std::size_t i, Float4 row) { std::memcpy(&result[wide][4 * i], &row, sizeof row); });
+  }
+  EXPECT_EQ(result[0], result[1]);
+  EXPECT_EQ(result[0][3], 0);
 }
 
 /// The system solved with a preconditioner fresh for it.
@@ -199,6 +222,39 @@ TEST(Aggregation, iterations_hardly_grow_with_the_mesh) {
     iterations[at++] = r.iterations;
   }
   EXPECT_LT(iterations[1], 3 * iterations[0] + 5) << iterations[0] << " and " << iterations[1];
+}
+
+TEST(ConjugateGradient, goes_along_negative_curvature_to_the_radius_and_no_farther) {
+  const System s = make_system(12, 10);
+  ContactIndex index;
+  index.build(s.elements, s.matrix.size());
+  BlockMatrix whole = s.matrix;
+  for (int i = 0; i < whole.size(); ++i) whole.add_isotropic_diagonal(i, -20);
+  const LinearSystem definite{s.matrix, s.elements, index}, indefinite{s.matrix, s.elements, index, &whole};
+  const double radius = 0.001;
+  const auto longest = [](const std::vector<Vec3>& x) {
+    double most = 0;
+    for (const Vec3& v : x) most = std::max(most, v.norm());
+    return most;
+  };
+  BlockJacobi jacobi;
+  Aggregation aggregation;
+  for (Preconditioner* preconditioner : {static_cast<Preconditioner*>(&jacobi), static_cast<Preconditioner*>(&aggregation)})
+    for (const LinearSystem* system : {&definite, &indefinite}) {
+      preconditioner->update(*system);
+      CgWork work;
+      std::vector<Vec3> x;
+      const CgResult r = conjugate_gradient(*system, *preconditioner, s.rhs, 1e-6, 1000, x, work, radius);
+      EXPECT_TRUE(r.bounded);
+      EXPECT_FALSE(r.converged);
+      EXPECT_NEAR(longest(x), radius, 1e-6 * radius); // the direction that is left shares its longest with the way so far, here
+      double falls = 0;
+      for (std::size_t i = 0; i < x.size(); ++i) falls += x[i].dot(s.rhs[i]);
+      EXPECT_GT(falls, 0);
+      const CgResult free = conjugate_gradient(*system, *preconditioner, s.rhs, 1e-6, 1000, x, work);
+      EXPECT_EQ(free.converged, system == &definite);
+      EXPECT_EQ(free.indefinite, system == &indefinite);
+    }
 }
 
 TEST(ConjugateGradient, stops_at_an_indefinite_matrix_and_keeps_what_it_has) {
