@@ -107,7 +107,7 @@ CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& precondi
   double r_norm2 = b_norm2;
   while (result.iterations < max_iterations && r_norm2 > target2) {
     const double share = std::max(AIM * std::sqrt(target2 / r_norm2), FINEST_SHARE);
-    if (!preconditioner.solve_in_single(system, work.r, share, max_iterations, radius, work.z, result)) break;
+    if (!preconditioner.solve_in_single(system, work.r, share, max_iterations, radius - longest(x), work.z, result)) break;
     for (std::size_t i = 0; i < n; ++i) work.p[i] = x[i] + work.z[i];
     system.multiply(work.p, work.q, work.pull, work.part);
     for (std::size_t i = 0; i < n; ++i) work.z[i] = b[i] - work.q[i];

@@ -37,7 +37,7 @@ public:
   /// true where it did.
   virtual bool renew(const LinearSystem&, int /*iterations*/) { return false; }
   /// A rough solve of A x = r, x from 0, by a copy of the system in single precision: the loop below, until the residual that it carries
-  /// along is at most `share` of r. Adds to the result's iterations. False, and nothing done, for a preconditioner without such a copy.
+  /// along is at most `share` of r, or x at the radius. Adds to the result's iterations. False, and nothing done, for a preconditioner without such a copy.
   virtual bool solve_in_single(const LinearSystem&, const std::vector<Vec3>& /*r*/, double /*share*/, int /*max_iterations*/, double /*radius*/,
                                std::vector<Vec3>& /*x*/, CgResult&) {
     return false;

@@ -68,7 +68,7 @@ private:
 
   int m_rows = 0;
   std::size_t m_blocks = 0;
-  std::vector<int> m_start, m_isotropic_start; // slots of each group
+  std::vector<int> m_start = {0}, m_isotropic_start = {0}; // slots of each group
   std::vector<Slot> m_column, m_isotropic_column;
   std::vector<Float8> m_value, m_isotropic_value; // nine a slot, by the block's columns; one a slot
 };
