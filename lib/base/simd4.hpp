@@ -11,8 +11,7 @@ namespace sloper {
 #if defined(__SSE2__)
 struct Float4 {
   __m128 v;
-  static Float4 load(const float* p) { return {_mm_load_ps(p)}; }      ///< p aligned to 16 bytes
-  static Float4 load_any(const float* p) { return {_mm_loadu_ps(p)}; } ///< p aligned to nothing
+  static Float4 load(const float* p) { return {_mm_load_ps(p)}; } ///< p aligned to 16 bytes
   static Float4 all(float x) { return {_mm_set1_ps(x)}; }
   void store(float* p) const { _mm_store_ps(p, v); }
 };
@@ -38,7 +37,6 @@ inline int less_equal(Float4 a, Float4 b) { return _mm_movemask_ps(_mm_cmple_ps(
 struct Float4 {
   float v[4];
   static Float4 load(const float* p) { return {{p[0], p[1], p[2], p[3]}}; }
-  static Float4 load_any(const float* p) { return load(p); }
   static Float4 all(float x) { return {{x, x, x, x}}; }
   void store(float* p) const {
     for (int i = 0; i < 4; ++i) p[i] = v[i];
