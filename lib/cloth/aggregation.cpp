@@ -53,11 +53,12 @@ std::vector<int> aggregates(const BlockRows& a, const std::vector<Mat3>& diagona
 }
 
 /// P = (I - omega D^-1 A) P0 with P0 the indicator of the aggregates: what a row has in one aggregate is summed.
-BlockRows prolongator(const BlockRows& a, const std::vector<Mat3>& d_inverse, const std::vector<int>& of, int count, double omega) {
-  BlockRows p;
+void prolongator(const BlockRows& a, const std::vector<Mat3>& d_inverse, const std::vector<int>& of, int count, double omega, BlockRows& p) {
   p.rows = a.rows;
   p.columns = count;
   p.start.assign(1, 0);
+  p.column.clear();
+  p.value.clear();
   std::vector<int> where(count, -1);
   for (int i = 0; i < a.rows; ++i) {
     const int begin = p.start.back();
@@ -75,7 +76,6 @@ BlockRows prolongator(const BlockRows& a, const std::vector<Mat3>& d_inverse, co
     }
     p.start.push_back(static_cast<int>(p.column.size()));
   }
-  return p;
 }
 
 } // namespace
@@ -174,7 +174,8 @@ void Aggregation::build(const LinearSystem& system) {
   ++rebuilds;
   m_levels.clear();
   m_levels.emplace_back();
-  BlockRows a = expand(system.matrix);
+  auto& [a, p, pt, ap] = m_build;
+  expand(system.matrix, a);
   for (const ContactElement& e : system.elements) { // contacts enter by their diagonal blocks: the pattern stays
     const Mat3 k = e.stiffness();
     for (int c = 0; c < e.n; ++c)
@@ -198,10 +199,12 @@ void Aggregation::build(const LinearSystem& system) {
     int count = 0;
     const std::vector<int> of = aggregates(a, diagonal, count);
     if (count == 0 || count > a.rows * 3 / 4) break;
-    const BlockRows p = prolongator(a, d_inverse, of, count, 4.0 / 3.0 / fine.lambda), pt = transpose(p);
+    prolongator(a, d_inverse, of, count, 4.0 / 3.0 / fine.lambda, p);
+    transpose(p, pt);
     fine.p = to_float(p);
     fine.pt = to_float(pt);
-    a = product(pt, product(a, p));
+    product(a, p, ap);
+    product(pt, ap, a);
     m_levels.emplace_back();
   }
   const int n = a.rows;

@@ -56,6 +56,9 @@ private:
   double take_in(const std::vector<Vec3>& r);
 
   BlockJacobi m_jacobi;
+  struct {
+    BlockRows a, p, pt, ap;
+  } m_build; // its work: kept for its memory
   std::vector<Float4> m_x, m_p, m_q;
   std::vector<double> m_part;
   FloatRows m_whole; // of the system's `whole`

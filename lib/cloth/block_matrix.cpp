@@ -15,7 +15,8 @@ static void tidy(std::vector<std::array<int, 2>>& pairs) {
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [](const auto& p) { return p[0] == p[1]; }), pairs.end());
 }
 
-BlockMatrix::BlockMatrix(int n, Couplings couplings) : m_n(n) {
+BlockMatrix::BlockMatrix(int n, Couplings couplings) : m_n(n), m_all_symmetric(couplings.full.empty()) {
+  couplings.full.insert(couplings.full.end(), couplings.symmetric.begin(), couplings.symmetric.end());
   tidy(couplings.full);
   tidy(couplings.isotropic);
   m_row_start.assign(static_cast<std::size_t>(n) + 1, 0);

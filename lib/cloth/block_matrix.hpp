@@ -9,10 +9,12 @@ namespace sloper::cloth {
 /// Rows of blocks that one thread takes at a time.
 inline constexpr std::size_t ROW_GRAIN = 512;
 
-/// Pairs of particles whose blocks of a matrix may be filled, in any order and any number of times.
+/// Pairs of particles whose blocks of a matrix may be filled, in any order and any number of times; one that is in several lists is what
+/// the first of them says.
 struct Couplings {
   std::vector<std::array<int, 2>> full;
-  std::vector<std::array<int, 2>> isotropic; ///< with multiples of the identity only; those that are in `full` too are full
+  std::vector<std::array<int, 2>> symmetric; ///< with symmetric blocks only
+  std::vector<std::array<int, 2>> isotropic; ///< with multiples of the identity only
 };
 
 class BlockMatrix {
@@ -23,6 +25,7 @@ public:
   BlockMatrix(int n, Couplings couplings);
 
   int size() const { return m_n; }
+  bool all_symmetric() const { return m_all_symmetric; } ///< every block, not only the whole; by what was declared
   /// Index of block (min(i,j), max(i,j)) for add_off_diagonal and add_isotropic. O(log row). @throws Error  it is not in the pattern
   int slot(int i, int j) const;
   void set_zero();
@@ -66,6 +69,7 @@ public:
 
 private:
   int m_n = 0;
+  bool m_all_symmetric = true;
   std::vector<int> m_row_start, m_column, m_lower_start, m_isotropic_start;
   std::vector<Entry> m_lower, m_isotropic;
   std::vector<Mat3> m_value, m_diagonal;

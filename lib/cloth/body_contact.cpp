@@ -65,7 +65,9 @@ void BodyContactEffect::weigh_skin() {
   for (double& w : m_body_vertex_weight) w /= w + edge_disc;
 }
 
-void BodyContactEffect::declare(Couplings& couplings) const { couplings.full.insert(couplings.full.end(), m_topology.edges.begin(), m_topology.edges.end()); }
+void BodyContactEffect::declare(Couplings& couplings) const {
+  couplings.symmetric.insert(couplings.symmetric.end(), m_topology.edges.begin(), m_topology.edges.end());
+}
 
 void BodyContactEffect::bind(const BlockMatrix& matrix) {
   m_edge_slot.clear();

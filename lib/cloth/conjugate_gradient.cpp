@@ -119,7 +119,10 @@ CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& precondi
     std::swap(work.r, work.z);
     if (result.bounded || !halved) break;
   }
-  if (!result.bounded) r_norm2 = conjugate_gradient_loop(DoubleSpace{system, preconditioner, x, work}, r_norm2, target2, max_iterations, radius, result);
+  if (!result.bounded) {
+    work.p.assign(n, Vec3::Zero()); // it may hold what is no number, and 0 times that is none either
+    r_norm2 = conjugate_gradient_loop(DoubleSpace{system, preconditioner, x, work}, r_norm2, target2, max_iterations, radius, result);
+  }
   result.residual = std::sqrt(r_norm2 / b_norm2);
   result.converged = r_norm2 <= target2;
   return result;

@@ -73,7 +73,7 @@ double edge_springs_energy(const ClothMesh& mesh, const std::vector<Vec3>& x) {
 }
 
 void EdgeSpringEffect::declare(Couplings& couplings) const {
-  for (const EdgeSpring& s : m_mesh.springs) couplings.full.push_back({s.i, s.j});
+  for (const EdgeSpring& s : m_mesh.springs) couplings.symmetric.push_back({s.i, s.j});
 }
 
 void EdgeSpringEffect::bind(const BlockMatrix& matrix) {

@@ -23,7 +23,8 @@ class Effect {
 public:
   virtual ~Effect() = default;
   virtual const char* name() const = 0;
-  /// Appends the particle pairs whose off-diagonal blocks add() fills; as isotropic those of which it adds multiples of the identity only.
+  /// Appends the particle pairs whose off-diagonal blocks add() and add_left_out() fill, by what they add there: as symmetric or isotropic
+  /// if that is all that these blocks ever are.
   virtual void declare(Couplings& /*couplings*/) const {}
   virtual void bind(const BlockMatrix&) {}
   /// Before assembly: find contacts for the positions x.

@@ -6,7 +6,7 @@
 namespace sloper::cloth {
 
 void ElasticBandEffect::declare(Couplings& couplings) const {
-  for (const BandLink& l : m_links) couplings.full.push_back({l.i, l.j});
+  for (const BandLink& l : m_links) couplings.symmetric.push_back({l.i, l.j});
 }
 
 void ElasticBandEffect::bind(const BlockMatrix& matrix) {

@@ -20,12 +20,12 @@ static void group_rows(const std::vector<int>& start, const std::vector<int>& co
 }
 
 FloatRows::FloatRows(const std::vector<int>& start, const std::vector<int>& column, const std::vector<int>& isotropic_start,
-                     const std::vector<int>& isotropic_column)
-    : m_rows(static_cast<int>(start.size()) - 1), m_blocks(column.size()) {
+                     const std::vector<int>& isotropic_column, bool symmetric)
+    : m_rows(static_cast<int>(start.size()) - 1), m_blocks(column.size()), m_numbers(symmetric ? 6 : 9) {
   group_rows(start, column, m_start, m_column);
   if (isotropic_start.empty()) m_isotropic_start.assign(m_start.size(), 0);
   else group_rows(isotropic_start, isotropic_column, m_isotropic_start, m_isotropic_column);
-  m_value.resize(9 * m_column.size());
+  m_value.resize(m_numbers * m_column.size());
   m_isotropic_value.resize(m_isotropic_column.size());
 }
 
@@ -39,8 +39,14 @@ struct Group {
   const Float8* isotropic_value;
 };
 
+/// Where a block's numbers are: of row r and column c at AT[r][c].
+template<bool SYMMETRIC> struct Places {
+  static constexpr int NUMBERS = 9, AT[3][3] = {{0, 3, 6}, {1, 4, 7}, {2, 5, 8}};
+};
+template<> struct Places<true> { static constexpr int NUMBERS = 6, AT[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}; };
+
 /// Four rows at a time.
-void times_narrow(const Group& group, const Float4* x, Float4* row) {
+template<bool SYMMETRIC> void times_narrow(const Group& group, const Float4* x, Float4* row) {
   for (int half = 0; half < FloatRows::GROUP; half += 4) {
     Float4 sum[4] = {Float4::all(0), Float4::all(0), Float4::all(0), Float4::all(0)};
     const auto gather = [&](const FloatRows::Slot& slot, Float4& px, Float4& py, Float4& pz) {
@@ -51,10 +57,10 @@ void times_narrow(const Group& group, const Float4* x, Float4* row) {
     };
     Float4 px, py, pz;
     const Float8* v = group.value;
-    for (const FloatRows::Slot* slot = group.slot; slot != group.slot_end; ++slot, v += 9) {
+    for (const FloatRows::Slot* slot = group.slot; slot != group.slot_end; ++slot, v += Places<SYMMETRIC>::NUMBERS) {
       gather(*slot, px, py, pz);
-      for (int r = 0; r < 3; ++r)
-        sum[r] = sum[r] + (Float4::load(v[r].lane + half) * px + Float4::load(v[r + 3].lane + half) * py + Float4::load(v[r + 6].lane + half) * pz);
+      const auto number = [&](int r, int c) { return Float4::load(v[Places<SYMMETRIC>::AT[r][c]].lane + half); };
+      for (int r = 0; r < 3; ++r) sum[r] = sum[r] + (number(r, 0) * px + number(r, 1) * py + number(r, 2) * pz);
     }
     v = group.isotropic_value;
     for (const FloatRows::Slot* slot = group.isotropic_slot; slot != group.isotropic_slot_end; ++slot, ++v) {
@@ -84,20 +90,21 @@ SLOPER_WIDE void gather_wide(const FloatRows::Slot& slot, const Float4* x, __m25
 }
 
 /// Row r of eight blocks times their vectors. Product and sum apart, as elsewhere: fused ones would round otherwise.
-SLOPER_WIDE __m256 row_wide(const Float8* v, int r, __m256 px, __m256 py, __m256 pz) {
-  return _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(_mm256_load_ps(v[r].lane), px), _mm256_mul_ps(_mm256_load_ps(v[r + 3].lane), py)),
-                       _mm256_mul_ps(_mm256_load_ps(v[r + 6].lane), pz));
+template<bool SYMMETRIC, int R> SLOPER_WIDE __m256 row_wide(const Float8* v, __m256 px, __m256 py, __m256 pz) {
+  constexpr const int* AT = Places<SYMMETRIC>::AT[R];
+  return _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(_mm256_load_ps(v[AT[0]].lane), px), _mm256_mul_ps(_mm256_load_ps(v[AT[1]].lane), py)),
+                       _mm256_mul_ps(_mm256_load_ps(v[AT[2]].lane), pz));
 }
 
 /// Eight rows at a time.
-SLOPER_WIDE void times_wide(const Group& group, const Float4* x, Float4* row) {
+template<bool SYMMETRIC> SLOPER_WIDE void times_wide(const Group& group, const Float4* x, Float4* row) {
   __m256 sx = _mm256_setzero_ps(), sy = sx, sz = sx, px, py, pz;
   const Float8* v = group.value;
-  for (const FloatRows::Slot* slot = group.slot; slot != group.slot_end; ++slot, v += 9) {
+  for (const FloatRows::Slot* slot = group.slot; slot != group.slot_end; ++slot, v += Places<SYMMETRIC>::NUMBERS) {
     gather_wide(*slot, x, px, py, pz);
-    sx = _mm256_add_ps(sx, row_wide(v, 0, px, py, pz));
-    sy = _mm256_add_ps(sy, row_wide(v, 1, px, py, pz));
-    sz = _mm256_add_ps(sz, row_wide(v, 2, px, py, pz));
+    sx = _mm256_add_ps(sx, row_wide<SYMMETRIC, 0>(v, px, py, pz));
+    sy = _mm256_add_ps(sy, row_wide<SYMMETRIC, 1>(v, px, py, pz));
+    sz = _mm256_add_ps(sz, row_wide<SYMMETRIC, 2>(v, px, py, pz));
   }
   v = group.isotropic_value;
   for (const FloatRows::Slot* slot = group.isotropic_slot; slot != group.isotropic_slot_end; ++slot, ++v) {
@@ -129,14 +136,14 @@ bool wide = HAS_WIDE;
 void FloatRows::times(std::size_t g, const Float4* x, Float4* row) const {
   const Group group{m_column.data() + m_start[g],
                     m_column.data() + m_start[g + 1],
-                    m_value.data() + 9 * static_cast<std::size_t>(m_start[g]),
+                    m_value.data() + m_numbers * m_start[g],
                     m_isotropic_column.data() + m_isotropic_start[g],
                     m_isotropic_column.data() + m_isotropic_start[g + 1],
                     m_isotropic_value.data() + m_isotropic_start[g]};
 #if defined(__x86_64__)
-  if (wide) return times_wide(group, x, row);
+  if (wide) return m_numbers == 9 ? times_wide<false>(group, x, row) : times_wide<true>(group, x, row);
 #endif
-  times_narrow(group, x, row);
+  return m_numbers == 9 ? times_narrow<false>(group, x, row) : times_narrow<true>(group, x, row);
 }
 
 void FloatRows::allow_wide([[maybe_unused]] bool allowed) {
@@ -159,7 +166,7 @@ Vec3 to_double(Float4 v) {
 }
 
 FloatRows to_float(const BlockRows& rows) {
-  FloatRows out(rows.start, rows.column, {}, {});
+  FloatRows out(rows.start, rows.column, {}, {}, false);
   for (int i = 0; i < rows.rows; ++i)
     for (int k = rows.start[i]; k < rows.start[i + 1]; ++k) out.put(i, k - rows.start[i], rows.value[k]);
   return out;
@@ -176,8 +183,7 @@ template<class Put> static void visit_row(const BlockMatrix& m, int i, const Put
   for (int k = m.row_start()[i]; k < m.row_start()[i + 1]; ++k) put(at++, m.column()[k], m.value()[k]);
 }
 
-BlockRows expand(const BlockMatrix& m) {
-  BlockRows out;
+void expand(const BlockMatrix& m, BlockRows& out) {
   out.rows = out.columns = m.size();
   out.start.assign(m.size() + 1, 0);
   for (int i = 0; i < m.size(); ++i) out.start[i + 1] = out.start[i] + full_blocks(m, i) + m.isotropic_start()[i + 1] - m.isotropic_start()[i];
@@ -193,7 +199,6 @@ BlockRows expand(const BlockMatrix& m) {
     for (int k = m.isotropic_start()[i]; k < m.isotropic_start()[i + 1]; ++k)
       put(at++, m.isotropic()[k].column, m.isotropic_value()[m.isotropic()[k].slot] * Mat3::Identity());
   }
-  return out;
 }
 
 FloatRows to_float(const BlockMatrix& m) {
@@ -203,7 +208,7 @@ FloatRows to_float(const BlockMatrix& m) {
     visit_row(m, i, [&](int, int j, const Mat3&) { column.push_back(j); });
   }
   for (const BlockMatrix::Entry& e : m.isotropic()) isotropic_column.push_back(e.column);
-  FloatRows out(start, column, m.isotropic_start(), isotropic_column);
+  FloatRows out(start, column, m.isotropic_start(), isotropic_column, m.all_symmetric());
   refill(m, out);
   return out;
 }
@@ -218,8 +223,7 @@ void refill(const BlockMatrix& m, FloatRows& rows) {
   });
 }
 
-BlockRows transpose(const BlockRows& a) {
-  BlockRows t;
+void transpose(const BlockRows& a, BlockRows& t) {
   t.rows = a.columns;
   t.columns = a.rows;
   t.start.assign(t.rows + 1, 0);
@@ -234,14 +238,14 @@ BlockRows transpose(const BlockRows& a) {
       t.column[slot] = i;
       t.value[slot] = a.value[k].transpose();
     }
-  return t;
 }
 
-BlockRows product(const BlockRows& a, const BlockRows& b) {
-  BlockRows c;
+void product(const BlockRows& a, const BlockRows& b, BlockRows& c) {
   c.rows = a.rows;
   c.columns = b.columns;
   c.start.assign(1, 0);
+  c.column.clear();
+  c.value.clear();
   std::vector<int> where(b.columns, -1);
   for (int i = 0; i < a.rows; ++i) {
     const int begin = static_cast<int>(c.column.size());
@@ -257,7 +261,6 @@ BlockRows product(const BlockRows& a, const BlockRows& b) {
       }
     c.start.push_back(static_cast<int>(c.column.size()));
   }
-  return c;
 }
 
 std::vector<Mat3> block_diagonal(const BlockRows& a) {

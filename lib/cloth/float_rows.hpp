@@ -28,8 +28,8 @@ struct alignas(32) Float8 {
 
 /// Rows of 3x3 blocks, eight to a group, so that one instruction multiplies for eight rows (four, where registers are narrower) and no
 /// lane idles. Each group has as many slots as its longest row has blocks; a slot is one block of each row, 0 where a row has no more.
-/// Multiples of the identity may be kept apart, as BlockMatrix does. Sums go along each row in the order of its blocks, the isotropic
-/// ones last: the same bytes whatever the registers.
+/// Multiples of the identity may be kept apart, as BlockMatrix does, and of blocks that are all symmetric one half is kept. Sums go along
+/// each row in the order of its blocks, the isotropic ones last: the same bytes whatever the registers.
 class FloatRows {
 public:
   static constexpr int GROUP = 8;
@@ -38,11 +38,14 @@ public:
   };
   FloatRows() = default;
   /// A pattern, all 0. Row i has blocks at `column`, from start[i] to start[i + 1] - 1, and isotropic ones likewise (none if empty).
-  FloatRows(const std::vector<int>& start, const std::vector<int>& column, const std::vector<int>& isotropic_start, const std::vector<int>& isotropic_column);
-  /// Sets the k-th block of row i.
+  /// @param symmetric  every block will be
+  FloatRows(const std::vector<int>& start, const std::vector<int>& column, const std::vector<int>& isotropic_start, const std::vector<int>& isotropic_column,
+            bool symmetric);
+  /// Sets the k-th block of row i; of a symmetric one what is below the diagonal counts.
   void put(int i, int k, const Mat3& block) {
-    float* lane = m_value[9 * static_cast<std::size_t>(m_start[i / GROUP] + k)].lane + i % GROUP;
-    for (int e = 0; e < 9; ++e) lane[GROUP * e] = static_cast<float>(block.data()[e]);
+    float* lane = m_value[m_numbers * (m_start[i / GROUP] + k)].lane + i % GROUP;
+    for (int c = 0; c < 3; ++c)
+      for (int r = m_numbers == 9 ? 0 : c; r < 3; ++r, lane += GROUP) *lane = static_cast<float>(block(r, c));
   }
   /// Sets the k-th isotropic block of row i to value times the identity.
   void put_isotropic(int i, int k, double value) { m_isotropic_value[m_isotropic_start[i / GROUP] + k].lane[i % GROUP] = static_cast<float>(value); }
@@ -67,10 +70,10 @@ private:
   void times(std::size_t group, const Float4* x, Float4* row) const;
 
   int m_rows = 0;
-  std::size_t m_blocks = 0;
+  std::size_t m_blocks = 0, m_numbers = 9;                 // the latter of a block: nine, or six of a symmetric one
   std::vector<int> m_start = {0}, m_isotropic_start = {0}; // slots of each group
   std::vector<Slot> m_column, m_isotropic_column;
-  std::vector<Float8> m_value, m_isotropic_value; // nine a slot, by the block's columns; one a slot
+  std::vector<Float8> m_value, m_isotropic_value; // of each slot the block's columns, one after the other; one a slot
 };
 
 Float4 to_float(const Vec3& v);
@@ -79,13 +82,14 @@ Vec3 to_double(Float4 v);
 FloatRows to_float(const BlockRows& rows);
 
 /// The whole matrix of a symmetric one that keeps its upper triangle; isotropic blocks come last in a row.
-BlockRows expand(const BlockMatrix& m);
+void expand(const BlockMatrix& m, BlockRows& out);
 /// The same in single precision, isotropic blocks apart.
 FloatRows to_float(const BlockMatrix& m);
 /// Writes the numbers of m into rows that to_float() made of the same pattern.
 void refill(const BlockMatrix& m, FloatRows& rows);
-BlockRows transpose(const BlockRows& a);
-BlockRows product(const BlockRows& a, const BlockRows& b);
+/// The results' memory is used again; they are neither a nor b.
+void transpose(const BlockRows& a, BlockRows& t);
+void product(const BlockRows& a, const BlockRows& b, BlockRows& c);
 std::vector<Mat3> block_diagonal(const BlockRows& a);
 
 } // namespace sloper::cloth

@@ -15,7 +15,7 @@ static constexpr double PLANE_MARGIN = 0.1;
 /// Contact thickness is at most this share of the shortest edge around, so that cloth does not push its own next row away.
 static constexpr double THICKNESS_PER_EDGE = 0.35;
 /// The search radius is at most this share of the mean edge: flat cloth finds few of its own next rows.
-static constexpr double SEARCH_PER_EDGE = 0.75;
+static constexpr double SEARCH_PER_EDGE = 0.6;
 /// A seam counts as closed at a stitch of this length, m.
 static constexpr double CLOSED_SEAM = 0.0015;
 /// Friction reaches its full size at this sliding distance per step, m.
@@ -179,9 +179,7 @@ void SelfContactEffect::guard(const Near& near, const Closest& c, MotionLimits& 
 }
 
 /// How far a particle may go whatever the others do, m.
-double SelfContactEffect::safe_move(std::size_t particle, const std::vector<Vec3>& x) const {
-  return std::max(0.0, GAMMA * m_radius - (x[particle] - m_searched_at[particle]).norm());
-}
+double SelfContactEffect::safe_move(std::size_t particle) const { return std::max(0.0, GAMMA * m_radius - m_moved[particle]); }
 
 bool SelfContactEffect::guard_closing(const std::vector<std::array<int, 2>>& pairs, bool is_edge, const std::vector<Vec3>& x, MotionLimits& limits) {
   bool added = false;
@@ -223,14 +221,14 @@ bool SelfContactEffect::guard_near(const std::vector<Vec3>& x, const std::vector
 
 bool SelfContactEffect::guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) {
   const bool more = guard_near(x, dx, limits);
-  bool near = true;
-  for (std::size_t i = 0; near && i < x.size(); ++i) near = dx[i].norm() <= safe_move(i, x) + 1e-12;
-  if (near) return more;
+  m_far.resize(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) m_far[i] = m_length[i] > safe_move(i) + 1e-12;
+  if (std::find(m_far.begin(), m_far.end(), 1) == m_far.end()) return more;
   if (last || !m_crossings.empty()) { // of cloth that crosses nobody can tell which side is right
-    for (std::size_t i = 0; i < x.size(); ++i) limits.most[i] = std::min(limits.most[i], safe_move(i, x));
+    for (std::size_t i = 0; i < x.size(); ++i) limits.most[i] = std::min(limits.most[i], safe_move(i));
     return true;
   }
-  m_closing.find(x, dx, !m_closing_stale);
+  m_closing.find(x, dx, m_far, !m_closing_stale);
   m_closing_stale = false;
   ++far_searches;
   const bool faces = guard_closing(m_closing.vertex_face(), false, x, limits);

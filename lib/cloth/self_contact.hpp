@@ -87,11 +87,12 @@ private:
   bool guard_near(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits);
   void guard(const Near& near, const Closest& c, MotionLimits& limits) const;
   bool guard_closing(const std::vector<std::array<int, 2>>& pairs, bool is_edge, const std::vector<Vec3>& x, MotionLimits& limits);
-  double safe_move(std::size_t particle, const std::vector<Vec3>& x) const;
+  double safe_move(std::size_t particle) const;
   std::vector<Near> m_pairs;
   std::vector<Vec3> m_searched_at, m_x_before, m_last_dx;
   std::vector<double> m_moved;          // #P, m: from m_searched_at to the positions of this step
   mutable std::vector<double> m_length; // #P, m: work
+  std::vector<char> m_far;              // #P: the displacement goes beyond what the search covers
   std::vector<std::array<int, 2>> m_crossings;
   bool m_stale = true, m_look_for_crossings = true;
 };

@@ -106,32 +106,36 @@ void ClosingPairs::refit(const std::vector<Vec3>& x, const std::vector<Vec3>& dx
   m_edge_motion.refit(dx, false);
 }
 
-void ClosingPairs::mark_changes(const std::vector<Vec3>& dx, bool again) {
-  m_changed.assign(dx.size(), 1);
-  for (std::size_t i = 0; again && i < dx.size(); ++i) m_changed[i] = dx[i] != m_last_dx[i];
+/// Whose pairs are looked for: what is marked or, if that is less, what has changed.
+void ClosingPairs::choose(const std::vector<Vec3>& dx, const std::vector<char>& may_meet, bool again) {
+  m_chosen = may_meet;
+  if (again) {
+    std::vector<char> changed(dx.size());
+    for (std::size_t i = 0; i < dx.size(); ++i) changed[i] = dx[i] != m_last_dx[i];
+    if (std::count(changed.begin(), changed.end(), 1) < std::count(may_meet.begin(), may_meet.end(), 1)) m_chosen = std::move(changed);
+  }
   m_last_dx = dx;
-  if (!again) return;
-  mark_nodes(m_faces, m_changed_faces, [&](int slot) {
+  mark_nodes(m_faces, m_chosen_faces, [&](int slot) {
     const Triangle& t = m_triangles[m_faces.triangle_of_slot(slot)];
-    return m_changed[t[0]] || m_changed[t[1]] || m_changed[t[2]];
+    return m_chosen[t[0]] || m_chosen[t[1]] || m_chosen[t[2]];
   });
-  mark_nodes(m_edges, m_changed_edges, [&](int slot) {
+  mark_nodes(m_edges, m_chosen_edges, [&](int slot) {
     const std::array<int, 2>& e = m_topology.edges[m_edges.triangle_of_slot(slot)];
-    return m_changed[e[0]] || m_changed[e[1]];
+    return m_chosen[e[0]] || m_chosen[e[1]];
   });
 }
 
-void ClosingPairs::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool again) {
+void ClosingPairs::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, const std::vector<char>& may_meet, bool again) {
   m_vertex_face.clear();
   m_edge_edge.clear();
   if (m_triangles.empty()) return;
   refit(x, dx, again);
-  mark_changes(dx, again);
+  choose(dx, may_meet, again);
   const double share2 = SHARE * SHARE;
   collect(x.size(), m_vertex_face, [&](int v, Pairs& found) {
-    if (m_topology.triangles_of_vertex(v).empty() || (!m_changed[v] && !m_changed_faces[0])) return;
+    if (m_topology.triangles_of_vertex(v).empty() || (!m_chosen[v] && !m_chosen_faces[0])) return;
     const std::array<int, 1> own{v};
-    visit_meeting(m_faces, m_face_motion, bounds_of(own, x, dx), 0, m_changed[v] ? nullptr : m_changed_faces.data(), [&](int slot) {
+    visit_meeting(m_faces, m_face_motion, bounds_of(own, x, dx), 0, m_chosen[v] ? nullptr : m_chosen_faces.data(), [&](int slot) {
       const int f = m_faces.triangle_of_slot(slot);
       const Triangle& t = m_triangles[f];
       if (v == t[0] || v == t[1] || v == t[2]) return;
@@ -141,9 +145,9 @@ void ClosingPairs::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx,
   collect(m_topology.edges.size(), m_edge_edge, [&](int slot, Pairs& found) {
     const int e = m_edges.triangle_of_slot(slot);
     const std::array<int, 2>& a = m_topology.edges[e];
-    const bool changed = m_changed[a[0]] || m_changed[a[1]];
-    if (!changed && !m_changed_edges[0]) return;
-    visit_meeting(m_edges, m_edge_motion, bounds_of(a, x, dx), slot + 1, changed ? nullptr : m_changed_edges.data(), [&](int other) {
+    const bool chosen = m_chosen[a[0]] || m_chosen[a[1]];
+    if (!chosen && !m_chosen_edges[0]) return;
+    visit_meeting(m_edges, m_edge_motion, bounds_of(a, x, dx), slot + 1, chosen ? nullptr : m_chosen_edges.data(), [&](int other) {
       const int f = m_edges.triangle_of_slot(other);
       const std::array<int, 2>& b = m_topology.edges[f];
       if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) return;

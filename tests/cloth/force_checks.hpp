@@ -50,6 +50,12 @@ template<class SomeEffect> void expect_gradient(SomeEffect& effect, const ClothM
   }
 }
 
+/// What is declared symmetric is, but for rounding.
+inline void expect_blocks_as_declared(const BlockMatrix& matrix) {
+  if (!matrix.all_symmetric()) return;
+  for (const Mat3& block : matrix.value()) EXPECT_LE((block - block.transpose()).norm(), 1e-14 * block.norm());
+}
+
 /// -df/dx along a random direction against the assembled matrix: all of it, or for states in which nothing is left out what add() gives.
 inline void expect_jacobian(Effect& effect, const ClothMesh& mesh, const std::vector<Vec3>& x, double tolerance, bool whole = false) {
   Couplings couplings;
@@ -58,6 +64,7 @@ inline void expect_jacobian(Effect& effect, const ClothMesh& mesh, const std::ve
   effect.bind(matrix);
   force_of(effect, mesh.n_particles, x, matrix);
   if (whole) effect.add_left_out(x, matrix);
+  expect_blocks_as_declared(matrix);
   const auto direction = jittered(std::vector<Vec3>(x.size(), Vec3::Zero()), 1, 5);
   const double step = 1e-7;
   auto plus = x, minus = x;

@@ -43,6 +43,7 @@ double jacobian_error(Effect& effect, const ClothMesh& mesh, const Field& x, con
   };
   std::vector<ContactElement> elements, of_plus, of_minus;
   fill(x, matrix, elements);
+  expect_blocks_as_declared(matrix);
   Field plus = x, minus = x, product(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) plus[i] += step * direction[i], minus[i] -= step * direction[i];
   const Field fp = fill(plus, unused, of_plus), fm = fill(minus, unused, of_minus);

@@ -5,6 +5,7 @@
 #include <cloth/bending.hpp>
 #include <cloth/edge_spring.hpp>
 #include <cloth/factorisation.hpp>
+#include <cloth/shear.hpp>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -21,23 +22,26 @@ struct System {
   std::vector<ContactElement> elements;
 };
 
-System make_system(int n, double h) {
+/// @param sheared  with shear: not all blocks are symmetric then
+System make_system(int n, double h, bool sheared = false) {
   System s;
   s.grid = make_grid(n, 1.0);
   Random random(3);
   for (Vec3& p : s.grid.x) p.y() += random.uniform(-0.002, 0.002);
   EdgeSpringEffect springs(s.grid.mesh);
   BendingEffect bending(s.grid.mesh);
+  ShearEffect shear(s.grid.mesh);
+  std::vector<Effect*> effects = {&springs, &bending};
+  if (sheared) effects.push_back(&shear);
   Couplings couplings;
-  springs.declare(couplings);
-  bending.declare(couplings);
+  for (const Effect* e : effects) e->declare(couplings);
   s.matrix = BlockMatrix(s.grid.mesh.n_particles, couplings);
   s.rhs.assign(s.grid.x.size(), Vec3::Zero());
   StepContext c{s.grid.x, h, s.rhs, s.matrix, s.elements};
-  springs.bind(s.matrix);
-  bending.bind(s.matrix);
-  springs.add(c);
-  bending.add(c);
+  for (Effect* e : effects) {
+    e->bind(s.matrix);
+    e->add(c);
+  }
   for (int i = 0; i < s.matrix.size(); ++i) {
     s.matrix.add_diagonal(i, s.grid.mesh.mass[i] / (h * h) * Mat3::Identity());
     s.rhs[i].y() -= 9.81 * s.grid.mesh.mass[i];
@@ -57,7 +61,7 @@ System make_system(int n, double h) {
 } // namespace
 
 TEST(BlockMatrix, multiplies_as_the_dense_matrix_does) {
-  BlockMatrix m(3, {{{0, 1}, {2, 1}, {1, 0}}, {{2, 0}, {1, 2}}});
+  BlockMatrix m(3, {.full = {{0, 1}, {2, 1}, {1, 0}}, .symmetric = {}, .isotropic = {{2, 0}, {1, 2}}});
   Mat3 a;
   a << 1, 2, 3, 4, 5, 6, 7, 8, 9;
   m.add_diagonal(0, Mat3::Identity());
@@ -72,13 +76,21 @@ TEST(BlockMatrix, multiplies_as_the_dense_matrix_does) {
 }
 
 TEST(BlockMatrix, keeps_as_one_number_what_is_isotropic_for_all_and_refuses_what_nobody_declared) {
-  BlockMatrix m(4, {{{0, 1}, {3, 3}}, {{1, 0}, {2, 0}, {0, 2}, {2, 1}}});
+  BlockMatrix m(4, {.full = {{0, 1}, {3, 3}}, .symmetric = {}, .isotropic = {{1, 0}, {2, 0}, {0, 2}, {2, 1}}});
   EXPECT_EQ(m.value().size(), 1U); // (1, 0) is full for one, and so for all
   EXPECT_EQ(m.isotropic_value().size(), 2U);
   m.add_isotropic(m.slot(0, 1), 3);
   EXPECT_EQ(m.value()[0], 3 * Mat3::Identity());
   EXPECT_THROW(m.slot(1, 3), Error);
   EXPECT_THROW(m.slot(3, 3), Error);
+}
+
+TEST(BlockMatrix, tells_whether_every_block_was_declared_symmetric) {
+  EXPECT_TRUE(BlockMatrix(3, {.full = {}, .symmetric = {{0, 1}}, .isotropic = {{1, 2}}}).all_symmetric());
+  BlockMatrix m(3, {.full = {{1, 0}}, .symmetric = {{0, 1}, {1, 2}}, .isotropic = {{1, 2}}});
+  EXPECT_FALSE(m.all_symmetric());
+  EXPECT_EQ(m.value().size(), 2U);
+  EXPECT_TRUE(m.isotropic_value().empty()); // symmetric for one, and so for all
 }
 
 /// Column c of the matrix that multiply(x, y) stands for, c over all.
@@ -94,48 +106,54 @@ template<class Multiply> Eigen::MatrixXd columns_of(int n, const Multiply& multi
 }
 
 TEST(BlockMatrix, is_the_same_matrix_in_all_its_forms) {
-  const System s = make_system(7, 0.1);
-  const int n = s.matrix.size();
-  const Eigen::MatrixXd a = dense(s.matrix);
-  EXPECT_FALSE(s.matrix.isotropic_value().empty());
-  EXPECT_EQ((columns_of(n, [&](const auto& x, auto& y) { s.matrix.multiply(x, y); }) - a).norm(), 0);
-  const BlockRows rows = expand(s.matrix);
-  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(3 * n, 3 * n);
-  for (int i = 0; i < n; ++i)
-    for (int k = rows.start[i]; k < rows.start[i + 1]; ++k) b.block<3, 3>(3 * i, 3 * rows.column[k]) += rows.value[k];
-  EXPECT_EQ((b - a).norm(), 0);
-  const FloatRows single = to_float(s.matrix), of_rows = to_float(rows);
-  EXPECT_LT(single.blocks(), of_rows.blocks());
-  for (const FloatRows* f : {&single, &of_rows}) {
-    const Eigen::MatrixXd c = columns_of(n, [&](const auto& x, auto& y) {
-      std::vector<Float4> single_x(n);
-      for (int i = 0; i < n; ++i) single_x[i] = to_float(x[i]);
-      f->multiply(single_x, [&](std::size_t i, Float4 row) { y[i] = to_double(row); });
-    });
-    EXPECT_LT((c - a).norm(), 1e-6 * a.norm());
+  for (bool sheared : {false, true}) {
+    const System s = make_system(7, 0.1, sheared);
+    const int n = s.matrix.size();
+    EXPECT_NE(s.matrix.all_symmetric(), sheared);
+    const Eigen::MatrixXd a = dense(s.matrix);
+    EXPECT_FALSE(s.matrix.isotropic_value().empty());
+    EXPECT_EQ((columns_of(n, [&](const auto& x, auto& y) { s.matrix.multiply(x, y); }) - a).norm(), 0);
+    BlockRows rows;
+    expand(s.matrix, rows);
+    Eigen::MatrixXd b = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+    for (int i = 0; i < n; ++i)
+      for (int k = rows.start[i]; k < rows.start[i + 1]; ++k) b.block<3, 3>(3 * i, 3 * rows.column[k]) += rows.value[k];
+    EXPECT_EQ((b - a).norm(), 0);
+    const FloatRows single = to_float(s.matrix), of_rows = to_float(rows);
+    EXPECT_LT(single.blocks(), of_rows.blocks());
+    for (const FloatRows* f : {&single, &of_rows}) {
+      const Eigen::MatrixXd c = columns_of(n, [&](const auto& x, auto& y) {
+        std::vector<Float4> single_x(n);
+        for (int i = 0; i < n; ++i) single_x[i] = to_float(x[i]);
+        f->multiply(single_x, [&](std::size_t i, Float4 row) { y[i] = to_double(row); });
+      });
+      EXPECT_LT((c - a).norm(), 1e-6 * a.norm());
+    }
   }
 }
 
 TEST(FloatRows, gives_the_same_bytes_with_wide_registers_and_without) {
-  const System s = make_system(7, 0.1);
-  const std::size_t n = s.matrix.size();
-  ASSERT_NE(n % FloatRows::GROUP, 0U); // the last group is not full
-  std::vector<Float4> x(n);
-  Random random(5);
-  for (Float4& v : x) {
-    Vec3 p;
-    for (double& c : p) c = random.uniform(-1, 1);
-    v = to_float(p);
+  for (bool sheared : {false, true}) {
+    const System s = make_system(7, 0.1, sheared);
+    const std::size_t n = s.matrix.size();
+    ASSERT_NE(n % FloatRows::GROUP, 0U); // the last group is not full
+    std::vector<Float4> x(n);
+    Random random(5);
+    for (Float4& v : x) {
+      Vec3 p;
+      for (double& c : p) c = random.uniform(-1, 1);
+      v = to_float(p);
+    }
+    const FloatRows rows = to_float(s.matrix);
+    std::vector<float> result[2];
+    for (int wide : {0, 1}) {
+      FloatRows::allow_wide(wide != 0);
+      result[wide].resize(4 * n);
+      rows.multiply(x, [&](std::size_t i, Float4 row) { std::memcpy(&result[wide][4 * i], &row, sizeof row); });
+    }
+    EXPECT_EQ(result[0], result[1]);
+    EXPECT_EQ(result[0][3], 0);
   }
-  const FloatRows rows = to_float(s.matrix);
-  std::vector<float> result[2];
-  for (int wide : {0, 1}) {
-    FloatRows::allow_wide(wide != 0);
-    result[wide].resize(4 * n);
-    rows.multiply(x, [&](std::size_t i, Float4 row) { std::memcpy(&result[wide][4 * i], &row, sizeof row); });
-  }
-  EXPECT_EQ(result[0], result[1]);
-  EXPECT_EQ(result[0][3], 0);
 }
 
 /// The system solved with a preconditioner fresh for it.
@@ -162,6 +180,19 @@ TEST(Aggregation, solves_the_same_system_as_block_jacobi_in_far_fewer_iterations
     scale = std::max(scale, x_jacobi[i].norm());
   }
   EXPECT_LT(difference, 1e-5 * scale);
+}
+
+TEST(ConjugateGradient, what_the_work_vectors_hold_does_not_matter) {
+  const System s = make_system(7, 0.1);
+  ContactIndex index;
+  index.build(s.elements, s.matrix.size());
+  const LinearSystem system{s.matrix, s.elements, index};
+  BlockJacobi preconditioner;
+  preconditioner.update(system);
+  CgWork work;
+  for (auto* v : {&work.r, &work.z, &work.p, &work.q}) v->assign(s.rhs.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+  std::vector<Vec3> x;
+  EXPECT_TRUE(conjugate_gradient(system, preconditioner, s.rhs, 1e-6, 5000, x, work).converged);
 }
 
 TEST(Factorisation, solves_the_same_system_contacts_too_at_once) {

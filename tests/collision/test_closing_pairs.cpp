@@ -41,6 +41,8 @@ std::vector<Vec3> random_motion(const Sheets& s, std::uint64_t seed) {
   return dx;
 }
 
+std::vector<char> all(const Sheets& s) { return std::vector<char>(s.x.size(), 1); }
+
 /// The least distance of the pair on the way, by trying.
 template<class Distance> double least_on_the_way(const Sheets& s, const std::vector<Vec3>& dx, const Distance& distance) {
   double least = 1e300;
@@ -60,7 +62,7 @@ TEST(ClosingPairs, WhatIsNotFoundStaysApart) {
   for (std::size_t i = 0; i < dx.size(); ++i) // the upper sheet falls through the lower, and both drift
     dx[i] = Vec3(0.05, i < dx.size() / 2 ? 0 : -0.03, 0) + 0.002 * Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
   ClosingPairs closing(s.triangles, topology);
-  closing.find(s.x, dx, false);
+  closing.find(s.x, dx, all(s), false);
   EXPECT_FALSE(closing.vertex_face().empty());
   EXPECT_FALSE(closing.edge_edge().empty());
   const auto listed = [](const auto& pairs, int a, int b) { return std::binary_search(pairs.begin(), pairs.end(), std::array<int, 2>{a, b}); };
@@ -85,9 +87,26 @@ TEST(ClosingPairs, WhatMovesTogetherIsNotFound) {
   const Sheets s = two_sheets(6);
   const Topology topology = make_topology(s.x.size(), s.triangles);
   ClosingPairs closing(s.triangles, topology);
-  closing.find(s.x, std::vector<Vec3>(s.x.size(), Vec3(0.3, -1, 0.2)), false);
+  closing.find(s.x, std::vector<Vec3>(s.x.size(), Vec3(0.3, -1, 0.2)), all(s), false);
   EXPECT_TRUE(closing.vertex_face().empty());
   EXPECT_TRUE(closing.edge_edge().empty());
+}
+
+/// Of all pairs `some` has those with a marked particle.
+void expect_those_of_marked(const ClosingPairs& some, const ClosingPairs& all, const Sheets& s, const Topology& topology, const std::vector<char>& marked) {
+  std::vector<std::array<int, 2>> vertex_face, edge_edge;
+  for (const auto& [v, f] : all.vertex_face()) {
+    const Triangle& t = s.triangles[f];
+    if (marked[v] || marked[t[0]] || marked[t[1]] || marked[t[2]]) vertex_face.push_back({v, f});
+  }
+  for (const auto& [e, f] : all.edge_edge()) {
+    const auto &a = topology.edges[e], &b = topology.edges[f];
+    if (marked[a[0]] || marked[a[1]] || marked[b[0]] || marked[b[1]]) edge_edge.push_back({e, f});
+  }
+  EXPECT_FALSE(vertex_face.empty());
+  EXPECT_LT(edge_edge.size(), all.edge_edge().size());
+  EXPECT_EQ(some.vertex_face(), vertex_face);
+  EXPECT_EQ(some.edge_edge(), edge_edge);
 }
 
 TEST(ClosingPairs, AgainLooksForPairsOfWhatMovesOtherwise) {
@@ -95,8 +114,8 @@ TEST(ClosingPairs, AgainLooksForPairsOfWhatMovesOtherwise) {
   const Topology topology = make_topology(s.x.size(), s.triangles);
   std::vector<Vec3> dx = random_motion(s, 10);
   ClosingPairs closing(s.triangles, topology), fresh(s.triangles, topology);
-  closing.find(s.x, dx, false);
-  closing.find(s.x, dx, true);
+  closing.find(s.x, dx, all(s), false);
+  closing.find(s.x, dx, all(s), true);
   EXPECT_TRUE(closing.vertex_face().empty());
   EXPECT_TRUE(closing.edge_edge().empty());
   std::vector<char> other(dx.size(), 0);
@@ -104,21 +123,21 @@ TEST(ClosingPairs, AgainLooksForPairsOfWhatMovesOtherwise) {
     dx[i] *= -1.5;
     other[i] = 1;
   }
-  closing.find(s.x, dx, true);
-  fresh.find(s.x, dx, false);
-  std::vector<std::array<int, 2>> vertex_face, edge_edge;
-  for (const auto& [v, f] : fresh.vertex_face()) {
-    const Triangle& t = s.triangles[f];
-    if (other[v] || other[t[0]] || other[t[1]] || other[t[2]]) vertex_face.push_back({v, f});
-  }
-  for (const auto& [e, f] : fresh.edge_edge()) {
-    const auto &a = topology.edges[e], &b = topology.edges[f];
-    if (other[a[0]] || other[a[1]] || other[b[0]] || other[b[1]]) edge_edge.push_back({e, f});
-  }
-  EXPECT_FALSE(vertex_face.empty());
-  EXPECT_LT(edge_edge.size(), fresh.edge_edge().size());
-  EXPECT_EQ(closing.vertex_face(), vertex_face);
-  EXPECT_EQ(closing.edge_edge(), edge_edge);
+  closing.find(s.x, dx, all(s), true);
+  fresh.find(s.x, dx, all(s), false);
+  expect_those_of_marked(closing, fresh, s, topology, other);
+}
+
+TEST(ClosingPairs, FindsThePairsOfWhatIsMarked) {
+  const Sheets s = two_sheets(12);
+  const Topology topology = make_topology(s.x.size(), s.triangles);
+  const std::vector<Vec3> dx = random_motion(s, 12);
+  std::vector<char> marked(dx.size(), 0);
+  for (std::size_t i = 0; i < dx.size(); i += 23) marked[i] = 1;
+  ClosingPairs some(s.triangles, topology), every(s.triangles, topology);
+  some.find(s.x, dx, marked, false);
+  every.find(s.x, dx, all(s), false);
+  expect_those_of_marked(some, every, s, topology, marked);
 }
 
 TEST(ClosingPairs, TheSameForAnyNumberOfThreads) {
@@ -127,9 +146,9 @@ TEST(ClosingPairs, TheSameForAnyNumberOfThreads) {
   const std::vector<Vec3> dx = random_motion(s, 9);
   ClosingPairs one(s.triangles, topology), many(s.triangles, topology);
   set_thread_count(1);
-  one.find(s.x, dx, false);
+  one.find(s.x, dx, all(s), false);
   set_thread_count(4);
-  many.find(s.x, dx, false);
+  many.find(s.x, dx, all(s), false);
   set_thread_count(1);
   EXPECT_EQ(one.vertex_face(), many.vertex_face());
   EXPECT_EQ(one.edge_edge(), many.edge_edge());
