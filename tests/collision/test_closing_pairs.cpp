@@ -92,19 +92,19 @@ TEST(ClosingPairs, WhatMovesTogetherIsNotFound) {
   EXPECT_TRUE(closing.edge_edge().empty());
 }
 
-/// Of all pairs `some` has those with a marked particle.
-void expect_those_of_marked(const ClosingPairs& some, const ClosingPairs& all, const Sheets& s, const Topology& topology, const std::vector<char>& marked) {
+/// Of the pairs of `every` `some` has those with a marked particle.
+void expect_those_of_marked(const ClosingPairs& some, const ClosingPairs& every, const Sheets& s, const Topology& topology, const std::vector<char>& marked) {
   std::vector<std::array<int, 2>> vertex_face, edge_edge;
-  for (const auto& [v, f] : all.vertex_face()) {
+  for (const auto& [v, f] : every.vertex_face()) {
     const Triangle& t = s.triangles[f];
     if (marked[v] || marked[t[0]] || marked[t[1]] || marked[t[2]]) vertex_face.push_back({v, f});
   }
-  for (const auto& [e, f] : all.edge_edge()) {
+  for (const auto& [e, f] : every.edge_edge()) {
     const auto &a = topology.edges[e], &b = topology.edges[f];
     if (marked[a[0]] || marked[a[1]] || marked[b[0]] || marked[b[1]]) edge_edge.push_back({e, f});
   }
   EXPECT_FALSE(vertex_face.empty());
-  EXPECT_LT(edge_edge.size(), all.edge_edge().size());
+  EXPECT_LT(edge_edge.size(), every.edge_edge().size());
   EXPECT_EQ(some.vertex_face(), vertex_face);
   EXPECT_EQ(some.edge_edge(), edge_edge);
 }
