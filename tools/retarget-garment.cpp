@@ -82,7 +82,7 @@ int run(cli::Tool& tool, const Options& o) {
     throw Error(ErrorKind::USAGE, "", "--pattern", "keep-fabric does not change the pattern", "say --mode keep-fit");
   if (o.pattern == "-")
     throw Error(ErrorKind::USAGE, "", "--pattern", "a regraded pattern is three files and cannot go to standard output", "give a file name");
-  garment::DrapeSettings settings = garment::redrape_settings(o.accuracy);
+  garment::DrapeSettings settings = garment::preset_settings(o.accuracy);
   for (const std::string& assignment : o.set) garment::set_knob(settings, assignment);
   if (o.max_seconds > 0) settings.max_seconds = o.max_seconds;
   const garment::FitPolicy policy = o.policy.empty() ? garment::standard_fit_policy() : garment::read_fit_policy(o.policy);

@@ -368,12 +368,13 @@ struct Aggregation::SingleSpace {
   }
 };
 
-bool Aggregation::solve_in_single(const LinearSystem& system, const std::vector<Vec3>& r, double share, int max_iterations, double radius, std::vector<Vec3>& x,
-                                  CgResult& result) {
+bool Aggregation::solve_in_single(const LinearSystem& system, const std::vector<Vec3>& r, CgTolerance tolerance, int max_iterations, double radius,
+                                  std::vector<Vec3>& x, CgResult& result) {
   const double scale = take_in(r);
   for (auto* v : {&m_x, &m_p, &m_q}) v->assign(r.size(), Float4::all(0));
   const double r_norm2 = dot(m_levels[0].r, m_levels[0].r, m_part);
-  conjugate_gradient_loop(SingleSpace{*this, system}, r_norm2, share * share * r_norm2, max_iterations, radius / scale, result);
+  conjugate_gradient_loop(SingleSpace{*this, system}, r_norm2, tolerance.residual * tolerance.residual * r_norm2, tolerance.energy, max_iterations,
+                          radius / scale, result);
   hand_out(m_x, scale, x);
   return true;
 }

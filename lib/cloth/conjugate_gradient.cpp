@@ -92,39 +92,51 @@ struct DoubleSpace {
 constexpr double AIM = 0.95;          // of the tolerance, in single precision: the residual in double is to be within it too
 constexpr double FINEST_SHARE = 1e-4; // of the residual, that a round in single precision is asked for
 
+/// Whether the energy of the system, 1/2 x' A x - b' x, is less at x than at 0.
+bool falls(const std::vector<Vec3>& x, const std::vector<Vec3>& b, const std::vector<Vec3>& residual) {
+  double twice = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) twice += x[i].dot(b[i] + residual[i]);
+  return twice > 0;
+}
+
 } // namespace
 
-CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& preconditioner, const std::vector<Vec3>& b, double tolerance, int max_iterations,
+CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& preconditioner, const std::vector<Vec3>& b, CgTolerance tolerance, int max_iterations,
                             std::vector<Vec3>& x, CgWork& work, double radius) {
   const std::size_t n = b.size();
   for (auto* v : {&work.r, &work.z, &work.p, &work.q}) v->resize(n);
   x.assign(n, Vec3::Zero());
   work.r = b;
+  if (!preconditioner.is_near()) tolerance.energy = 0;
   CgResult result;
   const double b_norm2 = dot(b, b, work.part);
-  if (b_norm2 == 0) return {0, 0, 0, true, false, false};
-  const double target2 = tolerance * tolerance * b_norm2;
+  if (b_norm2 == 0) return {0, 0, 0, true, false, false, false};
+  const double target2 = tolerance.residual * tolerance.residual * b_norm2;
   double r_norm2 = b_norm2;
   while (result.iterations < max_iterations && r_norm2 > target2) {
     const double share = std::max(AIM * std::sqrt(target2 / r_norm2), FINEST_SHARE);
-    if (!preconditioner.solve_in_single(system, work.r, share, max_iterations, radius - longest(x), work.z, result)) break;
+    if (!preconditioner.solve_in_single(system, work.r, {share, tolerance.energy}, max_iterations, radius - longest(x), work.z, result)) break;
     for (std::size_t i = 0; i < n; ++i) work.p[i] = x[i] + work.z[i];
     system.multiply(work.p, work.q, work.pull, work.part);
     for (std::size_t i = 0; i < n; ++i) work.z[i] = b[i] - work.q[i];
     const double after2 = dot(work.z, work.z, work.part);
-    if (!(result.bounded ? std::isfinite(after2) : after2 < r_norm2)) break;
+    const bool ended = result.bounded || result.near; // by what lets the residual grow
+    if (!(ended ? std::isfinite(after2) && (result.bounded || falls(work.p, b, work.z)) : after2 < r_norm2)) {
+      result.bounded = result.near = false;
+      break;
+    }
     const bool halved = after2 < 0.25 * r_norm2;
     r_norm2 = after2;
     std::swap(x, work.p);
     std::swap(work.r, work.z);
-    if (result.bounded || !halved) break;
+    if (ended || !halved) break;
   }
-  if (!result.bounded) {
+  if (!result.bounded && !result.near) {
     work.p.assign(n, Vec3::Zero()); // it may hold what is no number, and 0 times that is none either
-    r_norm2 = conjugate_gradient_loop(DoubleSpace{system, preconditioner, x, work}, r_norm2, target2, max_iterations, radius, result);
+    r_norm2 = conjugate_gradient_loop(DoubleSpace{system, preconditioner, x, work}, r_norm2, target2, tolerance.energy, max_iterations, radius, result);
   }
   result.residual = std::sqrt(r_norm2 / b_norm2);
-  result.converged = r_norm2 <= target2;
+  result.converged = result.near || r_norm2 <= target2;
   return result;
 }
 

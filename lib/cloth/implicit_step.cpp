@@ -244,13 +244,14 @@ void ClothSolver::look_ahead(double h) {
 
 /// Of what is assembled, for m_dx.
 CgResult ClothSolver::solve(const StepOptions& o) {
-  double tolerance = o.cg_tolerance, radius = std::numeric_limits<double>::infinity();
+  CgTolerance tolerance(o.cg_tolerance, o.cg_energy_tolerance);
+  double radius = std::numeric_limits<double>::infinity();
   bool whole = false;
   if (o.line_search) {
     const std::array<double, 2> squares = measure_rhs();
     const double near = NEAR_REST * m_mean_weight;
     if (squares[1] > 0 && squares[0] <= near * near) {
-      tolerance = near_tolerance(o, squares);
+      tolerance.residual = near_tolerance(o, squares);
       whole = o.whole_near_rest;
     }
   }
@@ -259,7 +260,7 @@ CgResult ClothSolver::solve(const StepOptions& o) {
     m_whole = m_matrix;
     for (const auto& e : m_effects) e->add_left_out(m_x, m_whole);
     radius = TRUSTED * m_mean_edge;
-    tolerance *= LOOSER;
+    tolerance.residual *= LOOSER;
   }
   const Stopwatch watch(solve_s);
   m_contacts.build(m_elements, m_x.size());

@@ -14,6 +14,9 @@ struct StepOptions {
   double h = 1.0 / 30;        ///< s
   double inertia = 0;         ///< 0..1: share of the velocity that is carried over
   double cg_tolerance = 1e-2; ///< relative residual; near rest, with a line search, relative to that without outliers
+  /// A solve also ends where this share of its error is left in the energy norm (CgTolerance::energy; 0: never): of the energy that the
+  /// step's model gains, all but the square of that share.
+  double cg_energy_tolerance = 0;
   /// What a solve near rest need not go below, root mean square over the particles, over the mean weight of a particle: no more than the
   /// residual that counts as rest.
   double least_residual_ratio = 0;

@@ -141,12 +141,6 @@ DrapeSettings preset_settings(const std::string& accuracy) {
   throw Error(ErrorKind::USAGE, "", "--accuracy", "\"" + accuracy + "\" is not known", "known are draft, standard, fine, reference");
 }
 
-DrapeSettings redrape_settings(const std::string& accuracy) {
-  DrapeSettings s = preset_settings(accuracy);
-  if (s.accuracy == "standard") s.cg_tolerance = std::max(s.cg_tolerance, preset_settings("draft").cg_tolerance);
-  return s;
-}
-
 void set_knob(DrapeSettings& settings, const std::string& name, double value) {
   std::string names;
   std::vector<std::string> words;

@@ -27,10 +27,6 @@ void apply_scene(const Scene& scene, Garment& garment);
 
 /// The settings of a preset: draft, standard, fine, reference. @throws Error USAGE
 DrapeSettings preset_settings(const std::string& accuracy);
-/// The same for a garment that has only been placed on a body: standard solves each step as roughly as draft. A step from there is far from
-/// exact whatever it is solved to, and what is at rest is decided as ever: draped on at `fine`, a skirt moves by 0.6 mm RMS from there, and by
-/// 0.7 mm from where exact steps end. At 5,000 to 7,500 particles a step takes a sixth to a quarter less CPU time; their number is as it falls.
-DrapeSettings redrape_settings(const std::string& accuracy);
 std::vector<std::string> accuracy_names();
 
 /// Sets one knob by its name in report.json's `settings`. @throws Error USAGE naming the knobs, or the range

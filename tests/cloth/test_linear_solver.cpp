@@ -307,6 +307,39 @@ TEST(ConjugateGradient, goes_along_negative_curvature_to_the_radius_and_no_farth
     }
 }
 
+TEST(ConjugateGradient, ends_at_a_share_of_the_error_in_the_energy_norm) {
+  const System s = make_system(20, 1);
+  ContactIndex index;
+  index.build(s.elements, s.matrix.size());
+  const LinearSystem system{s.matrix, s.elements, index};
+  CgWork work;
+  Aggregation aggregation;
+  aggregation.update(system);
+  std::vector<Vec3> exact, x, product(s.rhs.size());
+  std::vector<double> part;
+  ASSERT_TRUE(conjugate_gradient(system, aggregation, s.rhs, 1e-9, 5000, exact, work).converged);
+  const auto error = [&](const std::vector<Vec3>& at) { // in the energy norm
+    std::vector<Vec3> off(exact);
+    for (std::size_t i = 0; i < at.size(); ++i) off[i] -= at[i];
+    return std::sqrt(system.multiply(off, product, work.pull, part));
+  };
+  const double all = error(std::vector<Vec3>(exact.size(), Vec3::Zero()));
+  const CgResult r = conjugate_gradient(system, aggregation, s.rhs, {1e-9, 0.1}, 5000, x, work);
+  EXPECT_TRUE(r.near);
+  EXPECT_TRUE(r.converged);
+  EXPECT_GT(r.residual, 1e-6);
+  EXPECT_LT(error(x), 0.3 * all);
+  EXPECT_GT(error(x), 0.01 * all);
+  const CgResult by_residual = conjugate_gradient(system, aggregation, s.rhs, {0.5, 1e-9}, 5000, x, work); // whichever is reached first
+  EXPECT_FALSE(by_residual.near);
+  EXPECT_LE(by_residual.residual, 0.5);
+  BlockJacobi jacobi; // cannot tell what is soft
+  jacobi.update(system);
+  const CgResult blind = conjugate_gradient(system, jacobi, s.rhs, {1e-6, 0.1}, 5000, x, work);
+  EXPECT_FALSE(blind.near);
+  EXPECT_LE(blind.residual, 1e-6);
+}
+
 TEST(ConjugateGradient, stops_at_an_indefinite_matrix_and_keeps_what_it_has) {
   BlockMatrix m(1, {});
   m.add_diagonal(0, -Mat3::Identity());
