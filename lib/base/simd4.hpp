@@ -33,6 +33,13 @@ inline void transpose(Float4& x, Float4& y, Float4& z, Float4& w) { _MM_TRANSPOS
 inline int both_less_equal(Float4 a, Float4 b, Float4 c, Float4 d) { return _mm_movemask_ps(_mm_and_ps(_mm_cmple_ps(a.v, b.v), _mm_cmple_ps(c.v, d.v))); }
 /// Bit i is set where a_i <= b_i.
 inline int less_equal(Float4 a, Float4 b) { return _mm_movemask_ps(_mm_cmple_ps(a.v, b.v)); }
+/// Bit i is set where a_i or b_i is x or y. @param a, b four each, aligned to 16 bytes
+inline int either_is(const int* a, const int* b, int x, int y) {
+  const __m128i u = _mm_load_si128(reinterpret_cast<const __m128i*>(a)), v = _mm_load_si128(reinterpret_cast<const __m128i*>(b));
+  const __m128i xs = _mm_set1_epi32(x), ys = _mm_set1_epi32(y);
+  const __m128i is_x = _mm_or_si128(_mm_cmpeq_epi32(u, xs), _mm_cmpeq_epi32(v, xs)), is_y = _mm_or_si128(_mm_cmpeq_epi32(u, ys), _mm_cmpeq_epi32(v, ys));
+  return _mm_movemask_ps(_mm_castsi128_ps(_mm_or_si128(is_x, is_y)));
+}
 #else
 struct Float4 {
   float v[4];
@@ -84,6 +91,11 @@ inline int both_less_equal(Float4 a, Float4 b, Float4 c, Float4 d) {
 inline int less_equal(Float4 a, Float4 b) {
   int mask = 0;
   for (int i = 0; i < 4; ++i) mask |= (a.v[i] <= b.v[i]) << i;
+  return mask;
+}
+inline int either_is(const int* a, const int* b, int x, int y) {
+  int mask = 0;
+  for (int i = 0; i < 4; ++i) mask |= (a[i] == x || b[i] == x || a[i] == y || b[i] == y) << i;
   return mask;
 }
 #endif

@@ -3,6 +3,7 @@
 #include <collision/chunks.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -39,6 +40,35 @@ void measure_all(const std::vector<Candidate>& candidates, double reach, std::ve
   });
   out.clear();
   for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
+}
+
+/// What overlaps each of `begin` to `end`, things that lie beside each other where their numbers do: a group goes down the tree
+/// together, then each asks the lowest nodes that the group came to.
+/// @param only_later the things are the tree's own slots, and each is asked only of those from its group on
+/// @param dop_of dop_of(i): bounds of i   @param visit visit(i, first slot of a lowest node, lanes that overlap i)
+template<class DopOf, class Visit>
+void search_groups(const TriangleTree& tree, std::size_t begin, std::size_t end, bool only_later, const DopOf& dop_of, const Visit& visit) {
+  constexpr std::size_t GROUP = 8;
+  Dop dops[GROUP];
+  std::vector<int> nodes;
+  for (std::size_t group = begin; group < end; group += GROUP) {
+    const std::size_t n = std::min(GROUP, end - group);
+    Dop whole;
+    std::fill_n(whole.low, MAX_AXES, std::numeric_limits<float>::infinity());
+    std::fill_n(whole.high, MAX_AXES, -std::numeric_limits<float>::infinity());
+    for (std::size_t i = 0; i < n; ++i) {
+      dops[i] = dop_of(group + i);
+      for (int a = 0; a < tree.k() / 2; ++a) {
+        whole.low[a] = std::min(whole.low[a], dops[i].low[a]);
+        whole.high[a] = std::max(whole.high[a], dops[i].high[a]);
+      }
+    }
+    nodes.clear();
+    tree.visit_lowest(whole, only_later ? static_cast<int>(group) : 0, [&](int node) { nodes.push_back(node); });
+    for (std::size_t i = 0; i < n; ++i)
+      for (int node : nodes)
+        if (const int lanes = tree.overlapping(node, dops[i])) visit(group + i, tree.nodes()[node].first_slot(), lanes);
+  }
 }
 
 /// Not above the root of x.
@@ -88,82 +118,67 @@ bool SelfProximity::candidates_hold(const std::vector<Vec3>& x, double radius) {
 void SelfProximity::search_vertices(std::size_t begin, std::size_t end, std::vector<Candidate>& found) const {
   const std::vector<Vec3>& x = m_candidates_x;
   const double radius2 = m_candidates_radius * m_candidates_radius;
-  for (auto v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
-    if (m_topology.triangles_of_vertex(v).empty()) continue;
-    const Box3 box{x[v].array() - m_candidates_radius, x[v].array() + m_candidates_radius};
-    const std::size_t first = found.size();
-    m_tree.visit_slots(m_tree.dop_of(box), 0, [&](int slot) {
-      const int f = m_tree.triangle_of_slot(slot);
-      const Triangle& t = m_triangles[f];
-      if (v == t[0] || v == t[1] || v == t[2]) return;
-      const auto& corner = m_tree.corners(slot);
-      const double d2 = point_triangle(x[v], corner[0], corner[1], corner[2]).squared_distance;
-      if (d2 <= radius2) found.push_back({v, f, root_below(d2)});
-    });
-    if (!m_never.empty() && m_never_begin[v] != m_never_begin[v + 1])
-      found.erase(std::remove_if(found.begin() + static_cast<long>(first), found.end(),
-                                 [&](const Candidate& c) {
-                                   const Triangle& t = m_triangles[c.b];
-                                   return never_collide(v, t[0]) || never_collide(v, t[1]) || never_collide(v, t[2]);
-                                 }),
-                  found.end());
-  }
+  search_groups(
+      m_tree, begin, end, false,
+      [&](std::size_t at) {
+        const Vec3& p = x[m_tree_vertices[at]];
+        return m_tree.dop_of(Box3{p.array() - m_candidates_radius, p.array() + m_candidates_radius});
+      },
+      [&](std::size_t at, int first_slot, int lanes) {
+        const int v = m_tree_vertices[at];
+        for (; lanes; lanes &= lanes - 1) {
+          const int slot = first_slot + std::countr_zero(static_cast<unsigned>(lanes)), f = m_tree.triangle_of_slot(slot);
+          const Triangle& t = m_triangles[f];
+          if (v == t[0] || v == t[1] || v == t[2]) continue;
+          const auto& corner = m_tree.corners(slot);
+          const double d2 = point_triangle(x[v], corner[0], corner[1], corner[2]).squared_distance;
+          if (!(d2 <= radius2)) continue;
+          if (!m_never.empty() && (never_collide(v, t[0]) || never_collide(v, t[1]) || never_collide(v, t[2]))) continue;
+          found.push_back({v, f, root_below(d2)});
+        }
+      });
 }
 
 void SelfProximity::search_edges(std::size_t begin, std::size_t end, std::vector<Candidate>& found) const {
   const std::vector<Vec3>& x = m_candidates_x;
   const double radius2 = m_candidates_radius * m_candidates_radius;
   const Float4 zero = Float4::all(0), one = Float4::all(1), tiny = Float4::all(1e-30f), parallel = Float4::all(1e-5f);
-  std::vector<int> near; // slots
-  for (auto slot = static_cast<int>(begin); slot < static_cast<int>(end); ++slot) {
-    const int ea = m_edge_tree.triangle_of_slot(slot);
-    const int a0 = m_topology.edges[ea][0], a1 = m_topology.edges[ea][1]; // clang 14 captures no structured binding
-    near.clear();
-    m_edge_tree.visit_slots(m_edge_tree.dop_of_slot(slot, m_candidates_radius), slot + 1, [&](int other) {
-      const auto& [b0, b1] = m_slot_edges[other];
-      if (a0 != b0 && a0 != b1 && a1 != b0 && a1 != b1) near.push_back(other);
-    });
-    if (near.empty()) continue;
-    // Four at a time in float, with slack for rounding and for edges so parallel that float cannot tell where they are
-    // nearest (an angle below 3.2e-3); what passes is measured in double.
-    const FloatEdge& a = m_float_edges[slot];
-    const Float4 ux = Float4::all(a.d[0]), uy = Float4::all(a.d[1]), uz = Float4::all(a.d[2]);
-    const Float4 px = Float4::all(a.p[0]), py = Float4::all(a.p[1]), pz = Float4::all(a.p[2]);
-    const float length2 = a.d[0] * a.d[0] + a.d[1] * a.d[1] + a.d[2] * a.d[2];
-    const Float4 uu = Float4::all(length2), uu_safe = max(uu, tiny);
-    const float within = static_cast<float>(m_candidates_radius) + 0.004f * std::sqrt(length2) + m_float_slack;
-    const Float4 within2 = Float4::all(within * within);
-    const std::size_t n = near.size();
-    while (near.size() % 4) near.push_back(near.back());
-    for (std::size_t i = 0; i < n; i += 4) {
-      const FloatEdge* b[4];
-      for (int k = 0; k < 4; ++k) b[k] = &m_float_edges[near[i + k]];
-      Float4 qx = Float4::load(b[0]->p), qy = Float4::load(b[1]->p), qz = Float4::load(b[2]->p), q = Float4::load(b[3]->p);
-      Float4 vx = Float4::load(b[0]->d), vy = Float4::load(b[1]->d), vz = Float4::load(b[2]->d), v = Float4::load(b[3]->d);
-      transpose(qx, qy, qz, q);
-      transpose(vx, vy, vz, v);
-      const Float4 wx = px - qx, wy = py - qy, wz = pz - qz;
-      const Float4 vv = max(vx * vx + vy * vy + vz * vz, tiny), uv = ux * vx + uy * vy + uz * vz;
-      const Float4 uw = ux * wx + uy * wy + uz * wz, vw = vx * wx + vy * wy + vz * wz;
-      const Float4 uuvv = uu * vv, det = uuvv - uv * uv;
-      Float4 s = where_less((uv * vw - vv * uw) / max(det, tiny), parallel * uuvv, det);
-      s = min(max(s, zero), one);
-      const Float4 t = min(max((uv * s + vw) / vv, zero), one);
-      s = min(max((uv * t - uw) / uu_safe, zero), one);
-      const Float4 dx = wx + s * ux - t * vx, dy = wy + s * uy - t * vy, dz = wz + s * uz - t * vz;
-      int mask = less_equal(dx * dx + dy * dy + dz * dz, within2);
-      if (n - i < 4) mask &= (1 << (n - i)) - 1;
-      for (int k = 0; k < 4; ++k) {
-        if (!(mask & (1 << k))) continue;
-        const int eb = m_edge_tree.triangle_of_slot(near[i + k]);
-        const auto [b0, b1] = m_topology.edges[eb];
-        const double d2 = collision::edge_edge(x[a0], x[a1], x[b0], x[b1]).squared_distance;
-        if (!(d2 <= radius2)) continue;
-        if (!m_never.empty() && (never_collide(a0, b0) || never_collide(a0, b1) || never_collide(a1, b0) || never_collide(a1, b1))) continue;
-        found.push_back({std::min(ea, eb), std::max(ea, eb), root_below(d2)});
-      }
-    }
-  }
+  search_groups(
+      m_edge_tree, begin, end, true, [&](std::size_t slot) { return m_edge_tree.dop_of_slot(static_cast<int>(slot), m_candidates_radius); },
+      [&](std::size_t at, int first_slot, int lanes) {
+        // each pair once: from its lower slot
+        const int slot = static_cast<int>(at), behind = slot - first_slot;
+        if (behind >= 3) return;
+        if (behind >= 0) lanes &= ~((2 << behind) - 1);
+        const FourEdges &of_a = m_four_edges[slot / 4], &b = m_four_edges[first_slot / 4];
+        const int k = slot % 4, a0 = of_a.first[k], a1 = of_a.second[k];
+        lanes &= ~either_is(b.first, b.second, a0, a1);
+        if (!lanes) return;
+        // Four at a time in float, with slack for rounding and for edges so parallel that float cannot tell where they are
+        // nearest (an angle below 3.2e-3); what passes is measured in double.
+        const Float4 ux = Float4::all(of_a.d[0][k]), uy = Float4::all(of_a.d[1][k]), uz = Float4::all(of_a.d[2][k]);
+        const Float4 vx = Float4::load(b.d[0]), vy = Float4::load(b.d[1]), vz = Float4::load(b.d[2]);
+        const Float4 wx = Float4::all(of_a.p[0][k]) - Float4::load(b.p[0]), wy = Float4::all(of_a.p[1][k]) - Float4::load(b.p[1]),
+                     wz = Float4::all(of_a.p[2][k]) - Float4::load(b.p[2]);
+        const Float4 uu = ux * ux + uy * uy + uz * uz, vv = max(vx * vx + vy * vy + vz * vz, tiny), uv = ux * vx + uy * vy + uz * vz;
+        const Float4 uw = ux * wx + uy * wy + uz * wz, vw = vx * wx + vy * wy + vz * wz;
+        const Float4 uuvv = uu * vv, det = uuvv - uv * uv;
+        Float4 s = where_less((uv * vw - vv * uw) / max(det, tiny), parallel * uuvv, det);
+        s = min(max(s, zero), one);
+        const Float4 t = min(max((uv * s + vw) / vv, zero), one);
+        s = min(max((uv * t - uw) / max(uu, tiny), zero), one);
+        const Float4 dx = wx + s * ux - t * vx, dy = wy + s * uy - t * vy, dz = wz + s * uz - t * vz;
+        const Float4 within = Float4::all(static_cast<float>(m_candidates_radius) + m_float_slack) + Float4::all(0.004f) * square_root(uu);
+        lanes &= less_equal(dx * dx + dy * dy + dz * dz, within * within);
+        for (; lanes; lanes &= lanes - 1) {
+          const int lane = std::countr_zero(static_cast<unsigned>(lanes)), b0 = b.first[lane], b1 = b.second[lane];
+          const double d2 = collision::edge_edge(x[a0], x[a1], x[b0], x[b1]).squared_distance;
+          if (!(d2 <= radius2)) continue;
+          if (!m_never.empty() && (never_collide(a0, b0) || never_collide(a0, b1) || never_collide(a1, b0) || never_collide(a1, b1))) continue;
+          const int ea = m_edge_tree.triangle_of_slot(slot), eb = m_edge_tree.triangle_of_slot(first_slot + lane);
+          found.push_back({std::min(ea, eb), std::max(ea, eb), root_below(d2)});
+        }
+      });
 }
 
 void SelfProximity::find_candidates(const std::vector<Vec3>& x, double radius) {
@@ -178,8 +193,12 @@ void SelfProximity::find_candidates(const std::vector<Vec3>& x, double radius) {
     std::vector<Triangle> flat;
     for (const auto& [a, b] : m_topology.edges) flat.push_back({a, b, b});
     m_edge_tree = TriangleTree(x, flat, m_k);
-    for (int s = 0; s < m_edge_tree.n_slots(); ++s) m_slot_edges.push_back(m_topology.edges[m_edge_tree.triangle_of_slot(s)]);
-    m_float_edges.resize(m_slot_edges.size());
+    m_four_edges.resize((flat.size() + 3) / 4);
+    for (int s = 0; s < m_edge_tree.n_slots(); ++s) {
+      const std::array<int, 2>& edge = m_topology.edges[m_edge_tree.triangle_of_slot(s)];
+      m_four_edges[s / 4].first[s % 4] = edge[0];
+      m_four_edges[s / 4].second[s % 4] = edge[1];
+    }
   } else {
     m_edge_tree.refit(x, false);
   }
@@ -187,27 +206,36 @@ void SelfProximity::find_candidates(const std::vector<Vec3>& x, double radius) {
   for (const Vec3& p : x)
     if (p.allFinite()) size = std::max(size, p.lpNorm<Eigen::Infinity>());
   m_float_slack = static_cast<float>(2e-6 * size);
-  parallel_for(m_slot_edges.size(), PAIR_GRAIN, [&](std::size_t begin, std::size_t end) {
+  parallel_for(m_four_edges.size(), SEARCH_GRAIN, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
-      const Vec3 &p = x[m_slot_edges[s][0]], d = x[m_slot_edges[s][1]] - p;
-      for (int i = 0; i < 3; ++i) {
-        m_float_edges[s].p[i] = static_cast<float>(p[i]);
-        m_float_edges[s].d[i] = static_cast<float>(d[i]);
-      }
-      m_float_edges[s].p[3] = m_float_edges[s].d[3] = 0;
+      FourEdges& edges = m_four_edges[s];
+      for (int k = 0; k < 4; ++k)
+        for (int i = 0; i < 3; ++i) {
+          edges.p[i][k] = static_cast<float>(x[edges.first[k]][i]);
+          edges.d[i][k] = static_cast<float>(x[edges.second[k]][i] - x[edges.first[k]][i]);
+        }
     }
   });
-  std::vector<std::vector<Candidate>> chunks(n_chunks(m_particles));
-  parallel_for(m_particles, SEARCH_GRAIN, [&](std::size_t begin, std::size_t end) { search_vertices(begin, end, chunks[begin / SEARCH_GRAIN]); });
+  std::vector<std::vector<Candidate>> chunks(n_chunks(m_tree_vertices.size()));
+  parallel_for(m_tree_vertices.size(), SEARCH_GRAIN, [&](std::size_t begin, std::size_t end) { search_vertices(begin, end, chunks[begin / SEARCH_GRAIN]); });
   join_sorted(m_particles, m_vertex_face_candidates, chunks);
-  chunks.assign(n_chunks(m_slot_edges.size()), {});
-  parallel_for(m_slot_edges.size(), SEARCH_GRAIN, [&](std::size_t begin, std::size_t end) { search_edges(begin, end, chunks[begin / SEARCH_GRAIN]); });
+  chunks.assign(n_chunks(m_topology.edges.size()), {});
+  parallel_for(m_topology.edges.size(), SEARCH_GRAIN, [&](std::size_t begin, std::size_t end) { search_edges(begin, end, chunks[begin / SEARCH_GRAIN]); });
   join_sorted(m_topology.edges.size(), m_edge_edge_candidates, chunks);
 }
 
 void SelfProximity::update(const std::vector<Vec3>& x, double radius, const std::vector<std::array<int, 2>>& intersecting) {
-  if (m_tree.n_slots() == 0 && !m_triangles.empty()) m_tree = TriangleTree(x, m_triangles, m_k);
-  else m_tree.refit(x, false);
+  if (m_tree.n_slots() == 0 && !m_triangles.empty()) {
+    m_tree = TriangleTree(x, m_triangles, m_k);
+    std::vector<char> seen(m_particles, 0);
+    for (int f : m_tree.triangle_order())
+      for (int v : m_triangles[f]) {
+        if (!seen[v]) m_tree_vertices.push_back(v);
+        seen[v] = 1;
+      }
+  } else {
+    m_tree.refit(x, false);
+  }
   ++m_updates;
   if (!candidates_hold(x, radius)) find_candidates(x, radius);
   const double radius2 = radius * radius, reach = (radius + 2 * m_moved) * (1 + 1e-9);

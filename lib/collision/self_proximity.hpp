@@ -50,9 +50,10 @@ private:
     int a, b;
     float distance; ///< when it was found, rounded down
   };
-  /// An edge in float, in the order of the edge tree: from p, along d.
-  struct alignas(16) FloatEdge {
-    float p[4], d[4];
+  /// Four edges that follow each other in the edge tree: between which particles, and in float from p along d, by axis and lane.
+  struct alignas(16) FourEdges {
+    int first[4] = {}, second[4] = {};
+    float p[3][4] = {}, d[3][4] = {};
   };
   bool candidates_hold(const std::vector<Vec3>& x, double radius);
   void find_candidates(const std::vector<Vec3>& x, double radius);
@@ -63,10 +64,10 @@ private:
 
   std::vector<Triangle> m_triangles;
   Topology m_topology;
-  TriangleTree m_tree, m_edge_tree;             ///< the latter over edges as triangles without area
-  std::vector<int> m_never_begin, m_never;      ///< symmetric, sorted
-  std::vector<std::array<int, 2>> m_slot_edges; ///< particles of the edges, in the order of the edge tree
-  std::vector<FloatEdge> m_float_edges;
+  TriangleTree m_tree, m_edge_tree;        ///< the latter over edges as triangles without area
+  std::vector<int> m_never_begin, m_never; ///< symmetric, sorted
+  std::vector<FourEdges> m_four_edges;
+  std::vector<int> m_tree_vertices;                                        ///< those of triangles, in the order in which the tree has them
   float m_float_slack = 0;                                                 ///< m, what rounding to float may cost
   std::vector<Candidate> m_vertex_face_candidates, m_edge_edge_candidates; ///< sorted
   std::vector<Vec3> m_candidates_x;

@@ -64,8 +64,7 @@ void sort_slots(std::vector<int>& order, const std::vector<Vec3>& centers, int b
   cut(begin, border[2], end);
   if (border[1] < border[2]) cut(begin, border[1], border[2]);
   if (border[3] < end) cut(border[2], border[3], end);
-  for (int i = 0; i < 4; ++i)
-    if (border[i + 1] - border[i] > 1) sort_slots(order, centers, border[i], border[i + 1]);
+  for (int i = 0; i < 4; ++i) sort_slots(order, centers, border[i], border[i + 1]);
 }
 
 std::vector<int> sorted_triangles(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles) {
@@ -106,7 +105,7 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& positions, const std::vector
   m_extra.resize(m_nodes.size() * (m_axes - 3));
   m_leaves_of_node.assign(m_nodes.size(), -1);
   for (std::size_t node = 0; node < m_nodes.size(); ++node) {
-    if (std::any_of(m_nodes[node].child, m_nodes[node].child + 4, [](int child) { return child >= 0; })) continue;
+    if (!m_nodes[node].is_lowest()) continue;
     m_leaves_of_node[node] = static_cast<int>(m_leaves.size());
     m_leaves.emplace_back();
   }
@@ -156,7 +155,7 @@ int TriangleTree::build(int begin, int end) {
   for (int i = 0; i < 4; ++i) {
     const int from = border[i], to = border[i + 1];
     if (from >= to) continue;
-    const int child = to - from == 1 ? -2 - from : build(from, to);
+    const int child = build(from, to); // which moves m_nodes
     m_nodes[index].child[lane] = child;
     m_nodes[index].slot_end[lane] = to;
     ++lane;
@@ -176,7 +175,9 @@ void TriangleTree::refit_node(int index) {
         interval(m_corners[-2 - child], a, m_axes, l, h);
         low = float_below(l);
         high = float_above(h);
-      } else if (child >= 0) {
+      } else if (child == EMPTY) {
+        low = high = std::numeric_limits<float>::quiet_NaN(); // overlaps nothing, not even what is infinite
+      } else {
         const float* lows = a < 3 ? m_nodes[child].low[a] : m_extra[static_cast<std::size_t>(child) * (m_axes - 3) + a - 3].data();
         const float* highs = a < 3 ? m_nodes[child].high[a] : lows + 4;
         for (int j = 0; j < 4; ++j) {

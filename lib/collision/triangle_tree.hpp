@@ -29,11 +29,14 @@ extern const std::array<Vec3, MAX_AXES> DOP_DIRECTIONS; ///< x, y, z, then compo
 
 class TriangleTree {
 public:
-  /// Four children: boxes in x, y, z, lane by lane, and where they lead.
+  /// Four children: boxes in x, y, z, lane by lane, and where they lead. Either all are nodes or, of a lowest node, all are slots:
+  /// four that follow each other, the first a multiple of four; the last lowest node may have fewer.
   struct alignas(16) Node {
     float low[3][4], high[3][4];
     int child[4];    ///< >= 0 a node, EMPTY, or <= -2: slot -2 - child
     int slot_end[4]; ///< one past the last slot below the child; slots of a subtree are consecutive
+    bool is_lowest() const { return child[0] <= -2; }
+    int first_slot() const { return -2 - child[0]; } ///< of a lowest node
   };
   static constexpr int EMPTY = -1;
 
@@ -59,9 +62,19 @@ public:
 
   /// Calls visit(slot) for every slot >= first_slot whose k-DOP overlaps `query` (k/2 intervals used).
   template<class Visit> void visit_slots(const Dop& query, int first_slot, Visit&& visit) const {
-    if (m_axes == 3) visit_slots_of<false>(query, first_slot, visit);
-    else visit_slots_of<true>(query, first_slot, visit);
+    visit_lowest(query, first_slot, [&](int node) {
+      const int slot = m_nodes[node].first_slot();
+      for (int lanes = overlapping(node, query); lanes; lanes &= lanes - 1) {
+        const int i = std::countr_zero(static_cast<unsigned>(lanes));
+        if (slot + i >= first_slot) visit(slot + i);
+      }
+    });
   }
+  /// Calls visit(node) for every lowest node with a slot >= first_slot whose k-DOP overlaps `query`: for a query that holds
+  /// several, each of which is then asked of the node with overlapping().
+  template<class Visit> void visit_lowest(const Dop& query, int first_slot, Visit&& visit) const;
+  /// Bit i is set where the k-DOP of child i of the node overlaps `query`.
+  int overlapping(int node, const Dop& query) const;
 
   Dop dop_of(const Box3& box) const;
   Dop dop_of_slot(int slot, double margin) const; ///< bounds of a triangle, each face moved out by margin (m)
@@ -80,7 +93,6 @@ private:
     float a[3][4], ab[3][4], ac[3][4];
   };
   static Float4 squared_distances(const Leaves& leaves, const Float4 (&p)[3]);
-  template<bool EXTRA, class Visit> void visit_slots_of(const Dop& query, int first_slot, Visit& visit) const;
   void fill_leaves();
   int build(int begin, int end);
   void refit_node(int node);
@@ -99,30 +111,32 @@ private:
   std::vector<int> m_triangle_of_slot, m_slot_of_triangle;
 };
 
-template<bool EXTRA, class Visit> void TriangleTree::visit_slots_of(const Dop& query, int first_slot, Visit& visit) const {
+inline int TriangleTree::overlapping(int node, const Dop& query) const {
+  const Node& n = m_nodes[node];
+  int mask = (1 << 4) - 1;
+  for (int a = 0; a < 3; ++a) mask &= both_less_equal(Float4::load(n.low[a]), Float4::all(query.high[a]), Float4::all(query.low[a]), Float4::load(n.high[a]));
+  if (m_axes == 3) return mask;
+  const auto* extra = m_extra.data() + static_cast<std::size_t>(node) * (m_axes - 3);
+  for (int a = 3; a < m_axes && mask; ++a, ++extra)
+    for (int i = 0; i < 4; ++i)
+      if (!((*extra)[i] <= query.high[a] && query.low[a] <= (*extra)[4 + i])) mask &= ~(1 << i);
+  return mask;
+}
+
+template<class Visit> void TriangleTree::visit_lowest(const Dop& query, int first_slot, Visit&& visit) const {
   if (m_nodes.empty()) return;
-  const Float4 low_x = Float4::all(query.low[0]), low_y = Float4::all(query.low[1]), low_z = Float4::all(query.low[2]);
-  const Float4 high_x = Float4::all(query.high[0]), high_y = Float4::all(query.high[1]), high_z = Float4::all(query.high[2]);
   int stack[128], top = 0; // at most three waiting siblings a level, and the tree is balanced
   stack[top++] = 0;
   while (top > 0) {
     const int index = stack[--top];
     const Node& node = m_nodes[index];
-    int mask = both_less_equal(Float4::load(node.low[0]), high_x, low_x, Float4::load(node.high[0]));
-    mask &= both_less_equal(Float4::load(node.low[1]), high_y, low_y, Float4::load(node.high[1]));
-    mask &= both_less_equal(Float4::load(node.low[2]), high_z, low_z, Float4::load(node.high[2]));
-    if constexpr (EXTRA) {
-      const auto* extra = m_extra.data() + static_cast<std::size_t>(index) * (m_axes - 3);
-      for (int a = 3; a < m_axes && mask; ++a, ++extra)
-        for (int i = 0; i < 4; ++i)
-          if (!((*extra)[i] <= query.high[a] && query.low[a] <= (*extra)[4 + i])) mask &= ~(1 << i);
+    if (node.is_lowest()) {
+      visit(index);
+      continue;
     }
-    while (mask) {
-      const int i = std::countr_zero(static_cast<unsigned>(mask));
-      mask &= mask - 1;
-      if (node.child[i] == EMPTY || node.slot_end[i] <= first_slot) continue;
-      if (node.child[i] >= 0) stack[top++] = node.child[i];
-      else visit(-2 - node.child[i]);
+    for (int lanes = overlapping(index, query); lanes; lanes &= lanes - 1) {
+      const int i = std::countr_zero(static_cast<unsigned>(lanes));
+      if (node.slot_end[i] > first_slot) stack[top++] = node.child[i];
     }
   }
 }

@@ -115,6 +115,27 @@ TEST_P(TreeOfEachK, VisitsEachUnorderedSlotPairWithinTheMarginOnce) {
     }
 }
 
+TEST_P(TreeOfEachK, LowestNodesHoldFourSlotsEachAndABoxWithoutBordersOverlapsThemAllOnce) {
+  const double all = std::numeric_limits<double>::infinity();
+  for (int n : {1, 4, 5, 6, 9, 17, 33, 101}) {
+    const TriangleMesh mesh = shapes::soup(n, 0.3, 7);
+    const TriangleTree tree(mesh.positions, mesh.triangles, GetParam());
+    const Dop everything = tree.dop_of({Vec3::Constant(-all), Vec3::Constant(all)});
+    std::vector<int> slots, first;
+    tree.visit_slots(everything, 0, [&](int slot) { slots.push_back(slot); });
+    tree.visit_lowest(everything, 0, [&](int node) {
+      ASSERT_TRUE(tree.nodes()[node].is_lowest());
+      first.push_back(tree.nodes()[node].first_slot());
+    });
+    std::sort(slots.begin(), slots.end());
+    std::sort(first.begin(), first.end());
+    ASSERT_EQ(static_cast<int>(slots.size()), n);
+    ASSERT_EQ(static_cast<int>(first.size()), (n + 3) / 4);
+    for (int i = 0; i < n; ++i) ASSERT_EQ(slots[i], i);
+    for (std::size_t i = 0; i < first.size(); ++i) ASSERT_EQ(first[i], 4 * static_cast<int>(i));
+  }
+}
+
 TEST(TriangleTree, MoreDirectionsVisitFewerPairs) {
   TriangleMesh mesh = shapes::sphere(4);
   std::vector<long> visits;
