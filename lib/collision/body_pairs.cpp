@@ -16,7 +16,10 @@ struct alignas(16) FourBoxes {
   float low[3][4], high[3][4];
   FourBoxes() {
     for (int a = 0; a < 3; ++a)
-      for (int i = 0; i < 4; ++i) low[a][i] = high[a][i] = std::numeric_limits<float>::quiet_NaN();
+      for (int i = 0; i < 4; ++i) {
+        low[a][i] = std::numeric_limits<float>::infinity();
+        high[a][i] = -low[a][i];
+      }
   }
   /// Rounded outward, with room for the rounding of what is compared.
   void set(int lane, const Box3& box) {

@@ -175,9 +175,7 @@ void TriangleTree::refit_node(int index) {
         interval(m_corners[-2 - child], a, m_axes, l, h);
         low = float_below(l);
         high = float_above(h);
-      } else if (child == EMPTY) {
-        low = high = std::numeric_limits<float>::quiet_NaN(); // overlaps nothing, not even what is infinite
-      } else {
+      } else if (child >= 0) {
         const float* lows = a < 3 ? m_nodes[child].low[a] : m_extra[static_cast<std::size_t>(child) * (m_axes - 3) + a - 3].data();
         const float* highs = a < 3 ? m_nodes[child].high[a] : lows + 4;
         for (int j = 0; j < 4; ++j) {

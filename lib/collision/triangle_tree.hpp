@@ -114,6 +114,9 @@ private:
 inline int TriangleTree::overlapping(int node, const Dop& query) const {
   const Node& n = m_nodes[node];
   int mask = (1 << 4) - 1;
+  if (n.child[3] == EMPTY) // what is infinite overlaps the bounds of what is not there, too
+    for (int i = 1; i < 4; ++i)
+      if (n.child[i] == EMPTY) mask &= ~(1 << i);
   for (int a = 0; a < 3; ++a) mask &= both_less_equal(Float4::load(n.low[a]), Float4::all(query.high[a]), Float4::all(query.low[a]), Float4::load(n.high[a]));
   if (m_axes == 3) return mask;
   const auto* extra = m_extra.data() + static_cast<std::size_t>(node) * (m_axes - 3);
