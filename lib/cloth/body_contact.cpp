@@ -274,7 +274,7 @@ void BodyContactEffect::guard(const Pair& pair, const Closest& c, MotionLimits& 
 }
 
 void BodyContactEffect::add_pair(const Pair& pair, const Closest& c, StepContext& context) {
-  const double stiffness = share_of(pair, context.x) * pair.stiffness;
+  const double stiffness = pair.share * pair.stiffness;
   const Push push = pair.crossed ? push_out_of(c.distance, pair.reach, m_push * stiffness) : push_of(c.distance, pair.reach, stiffness);
   if (push.force <= 0) return;
   const Mat3 block = push.stiffness * c.normal * c.normal.transpose();
@@ -307,11 +307,13 @@ void BodyContactEffect::add(StepContext& context) {
   m_added_at = x;
   for (Pair& pair : m_pairs) {
     pair.guarded = false;
+    pair.share = -1;
     pair.clear -= farthest(pair);
     if (!pair.crossed && pair.clear >= pair.reach) continue;
     const Closest c = closest(pair, x);
     pair.clear = c.valid ? c.distance : 0;
     if (!c.valid) continue;
+    pair.share = share_of(pair, x);
     if (c.distance < pair.reach) add_pair(pair, c, context);
     if (pair.crossed || !context.limits || !guarded()) continue;
     guard(pair, c, *context.limits);
@@ -354,7 +356,7 @@ double BodyContactEffect::energy(const std::vector<Vec3>& x) const {
     if (!pair.crossed && pair.clear - farthest(pair) >= pair.reach) continue;
     const Closest c = closest(pair, x);
     if (!c.valid || (!pair.crossed && c.distance >= pair.reach)) continue;
-    const double k = share_of(pair, x) * pair.stiffness;
+    const double k = (pair.share >= 0 ? pair.share : share_of(pair, x)) * pair.stiffness;
     sum += pair.crossed ? push_out_of(c.distance, pair.reach, m_push * k).energy : push_of(c.distance, pair.reach, k).energy;
   }
   if (m_n_crossing > 0)

@@ -95,6 +95,7 @@ private:
     int n, n_body;           // particles and body vertices in use
     bool crossed;            // pushed along the skin's normal, not guarded
     double reach, stiffness; // m, N/m
+    double share = -1;       // see share_of(): of add(), which leaves its change out of the force; < 0: not looked at there
     double clear = 0;        // m: not nearer than this at m_added_at; 0: not known
     bool guarded = false;    // against the present step
   };

@@ -123,13 +123,12 @@ SelfContactEffect::Closest SelfContactEffect::closest(const Near& near, const st
   return c;
 }
 
-Push SelfContactEffect::push(const Near& near, const Closest& c, const std::vector<Vec3>& x) const {
-  if (c.distance >= near.reach) return {};
+double SelfContactEffect::stiffness_of(const Near& near, const Closest& c, const std::vector<Vec3>& x) const {
   const auto& p = near.particle;
   double area = 0;
   for (int k = 0; k < 4; ++k) area += std::abs(c.weight[k]) * m_mesh.area[p[k]];
   const double share = near.is_edge ? crossing_share(x[p[1]] - x[p[0]], x[p[3]] - x[p[2]]) : 1;
-  return push_of(c.distance, near.reach, 0.5 * share * m_options.stiffness_n_m3 * area);
+  return 0.5 * share * m_options.stiffness_n_m3 * area;
 }
 
 double SelfContactEffect::closing(const Near& near, const std::vector<double>& length) {
@@ -142,13 +141,15 @@ double SelfContactEffect::closing(const Near& near, const std::vector<double>& l
 void SelfContactEffect::add(StepContext& context) {
   for (Near& near : m_pairs) {
     near.guarded = false;
+    near.stiffness = -1;
     if (near.distance - closing(near, m_moved) >= near.reach) continue;
     const Closest c = closest(near, context.x);
     if (c.distance < 1e-12) {
       near.guarded = true;
       continue;
     }
-    const Push p = push(near, c, context.x);
+    near.stiffness = stiffness_of(near, c, context.x);
+    const Push p = push_of(c.distance, near.reach, near.stiffness);
     if (p.force > 0) {
       ContactElement e;
       e.n = 4;
@@ -240,8 +241,11 @@ double SelfContactEffect::energy(const std::vector<Vec3>& x) const {
   m_length.resize(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) m_length[i] = (x[i] - m_searched_at[i]).norm();
   double sum = 0;
-  for (const Near& near : m_pairs)
-    if (near.distance - closing(near, m_length) < near.reach) sum += push(near, closest(near, x), x).energy;
+  for (const Near& near : m_pairs) {
+    if (near.distance - closing(near, m_length) >= near.reach) continue;
+    const Closest c = closest(near, x);
+    if (c.distance < near.reach) sum += push_of(c.distance, near.reach, near.stiffness >= 0 ? near.stiffness : stiffness_of(near, c, x)).energy;
+  }
   return sum;
 }
 

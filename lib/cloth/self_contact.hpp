@@ -69,9 +69,10 @@ private:
   struct Near {
     std::array<int, 4> particle; // vertex and face, or edge and edge
     bool is_edge;
-    double distance = 0;  // m, at the search
-    double reach = 0;     // m, at which they begin to repel each other; 0 for those that do not
-    bool guarded = false; // in this step
+    double distance = 0;   // m, at the search
+    double stiffness = -1; // N/m, of add(), which leaves its change out of the force; < 0: not looked at there
+    double reach = 0;      // m, at which they begin to repel each other; 0 for those that do not
+    bool guarded = false;  // in this step
     int n_first() const { return is_edge ? 2 : 1; }
   };
   /// A pair's closest points now.
@@ -81,7 +82,7 @@ private:
     double distance;              // m
   };
   Closest closest(const Near& near, const std::vector<Vec3>& x) const;
-  Push push(const Near& near, const Closest& c, const std::vector<Vec3>& x) const;
+  double stiffness_of(const Near& near, const Closest& c, const std::vector<Vec3>& x) const; ///< N/m, at x
   /// What a pair's ends can close in at most when particles move by these lengths, m.
   static double closing(const Near& near, const std::vector<double>& length);
   bool guard_near(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits);
