@@ -51,7 +51,7 @@ TEST(Presets, are_within_ten_times_their_table_on_scenes_that_it_was_not_made_fr
   for (std::size_t k = 0; k < off.size(); ++k) EXPECT_LT(off[k], k == 0 ? before : off[k - 1]) << PRESETS[k].name;
 }
 
-/// The presets whose steps are rough end them at the error in the energy norm: how small a residual they ask for beyond that costs nothing.
+/// From a residual of 0.01 on, a solve also ends at its error in the energy norm, which is reached before the residual is small.
 TEST(Presets, that_end_solves_at_the_error_in_the_energy_norm_take_fewer_iterations_than_for_a_small_residual) {
   const body::Body pillar = make_pillar();
   Garment placed = make_skirt(0.76, 0.28, 0.04);
