@@ -19,6 +19,8 @@ namespace {
 constexpr double REACH_BEYOND = 0.03;  // m above and below a level that cloth must reach, or it may slide to where it is wide enough
 constexpr double SLIDE_BEYOND = 0.06;  // m as far as cloth that is tight slides at most: three times what was seen, it holds on
 constexpr double SLIDE_STRIDE = 0.01;  // m between sections of the skin on that way
+constexpr double UNHELD_SLIP = 0.10;   // m that what hangs from the waist may sink where no hip is known to hold it
+constexpr double SLID = 0.10;          // m from which it is said of what the hip holds
 constexpr double CERTAIN_SLIP = 1.1;   // of what the policy bears: what has sunk so far does not rise
 constexpr double CERTAIN_STRAIN = 1.5; // of what the policy bears: cloth that seems still was seen to creep down by a quarter until it was at rest
 constexpr double OVER_THE_HAND = 0.02; // m beyond the wrist from which a cuff lies on the hand
@@ -134,6 +136,17 @@ void tell_long_sleeve(const FitLines& lines, FitRow& row) {
     row.reason = "has the " + spoken_girth(row.name) + " " + centimetres(beyond) + " beyond the wrist, on the hand, where it does not close";
 }
 
+/// A waistband slides down to where the body is as wide as itself: what hangs from the waist falls off where its top edge has come below the
+/// level of the hip. m from where it was placed, of which `report` tells how far it is.
+double slip_borne(const FitPolicy& policy, const FitLines& lines, const body::Body& body, const FitReport& report) {
+  const double said = policy.slip_m(report.garment_class, report.fabric);
+  if (report.garment_class != "skirt" && report.garment_class != "trousers") return said;
+  const auto top = std::find_if(lines.hems.begin(), lines.hems.end(), [](const FitHem& hem) { return hem.name == "top"; });
+  const auto hip = body.levels.find("hip");
+  if (top == lines.hems.end() || hip == body.levels.end()) return std::min(said, UNHELD_SLIP);
+  return std::min(said, report.slip_m + top->height_m - hip->second.y);
+}
+
 /// The verdict of all rows, the strain and the slip.
 void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& report) {
   const FitRow* worst = nullptr;
@@ -142,7 +155,7 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
     if (worse) worst = &row;
     if (&row == report.rows.data() || row.margin_m < report.margin_m) report.margin_m = row.margin_m, report.margin_at = row.name;
   }
-  const bool slips = report.slip_m > policy.slip_m(report.garment_class, report.fabric);
+  const bool slips = report.slip_m > report.slip_borne_m;
   const std::string slides_down = "slides down by " + centimetres(report.slip_m);
   if (!worst) { // or it has slid off all of them
     report.fits = false;
@@ -157,9 +170,13 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
   if (certain && report.verdict <= FitVerdict::TOO_LARGE && slips) {
     report.verdict = FitVerdict::TOO_LARGE;
     report.reason = slides_down;
+  } else if (certain && report.verdict <= FitVerdict::LOOSE && report.slip_m > SLID) {
+    report.verdict = FitVerdict::LOOSE;
+    report.reason = slides_down + " to where the hip holds it";
   }
   report.fits = report.verdict < FitVerdict::TOO_LARGE && !(report.verdict == FitVerdict::TIGHT && policy.refuse_tight);
-  if (report.fits && policy.refuse_loose)
+  if (report.fits && policy.refuse_loose && report.verdict == FitVerdict::LOOSE) report.fits = false;
+  if (report.fits && policy.refuse_loose) // behind a tight one
     for (const FitRow& row : report.rows)
       if (row.verdict == FitVerdict::LOOSE) report.fits = false, report.reason = row.reason;
   if (report.fits && !unfit.empty()) { // measured where it was then, it might be of another class, with limits of its own
@@ -217,6 +234,7 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
   for (const FitHem& hem : report.lines.hems) add(measure_edge(cloth, body, hem, report.convergence_m, why), hem.name + " edge");
   for (const auto& [name, girth] : body.girths)
     if (!measured.count(name)) report.left_out.emplace_back(name, "where it was measured is not told by the body document");
+  if (placed) report.slip_borne_m = slip_borne(policy, report.lines, body, report);
   conclude(policy, unfit, report);
   return report;
 }
@@ -272,7 +290,9 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
     if (missing > 0) refuse(place, *line, limits, missing);
     else accept(place, *line, limits);
   }
-  for (const FitHem& hem : fit_lines(garment, body).hems) {
+  const FitLines lines = fit_lines(garment, body);
+  report.slip_borne_m = slip_borne(policy, lines, body, report);
+  for (const FitHem& hem : lines.hems) {
     if (hem.name != "top") continue; // others slide along a limb, over a hand or a foot
     std::string why;
     const auto edge = edge_line(garment, body, hem, why);
@@ -292,8 +312,7 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
 }
 
 FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before) {
-  const std::string &kind = before.garment_class, &fabric = before.fabric;
-  return {CERTAIN_SLIP * policy.slip_m(kind, fabric), CERTAIN_STRAIN * policy.strain_p99(kind, fabric), before.margin_m < 0};
+  return {CERTAIN_SLIP * before.slip_borne_m, CERTAIN_STRAIN * policy.strain_p99(before.garment_class, before.fabric), before.margin_m < 0};
 }
 
 FitReport impossible_fit(const std::string& reason, const FitPolicy& policy) {

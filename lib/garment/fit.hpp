@@ -18,6 +18,8 @@
 #include <garment/garment.hpp>
 #include <io/json_fwd.hpp>
 
+#include <limits>
+
 namespace sloper::garment {
 
 struct FitRow {
@@ -55,9 +57,11 @@ struct FitReport {
   std::string fabric;        ///< name of the material of most of it
   std::vector<FitRow> rows;
   std::vector<FitRegion> regions;
-  FitLines lines;                                            ///< hems, coverage, balance
-  double strain_p99 = 0, strain_max = 0;                     ///< over all cloth
-  double slip_m = 0;                                         ///< how far the garment as a whole sank from where it was placed
+  FitLines lines;                        ///< hems, coverage, balance
+  double strain_p99 = 0, strain_max = 0; ///< over all cloth
+  double slip_m = 0;                     ///< how far the garment as a whole sank from where it was placed
+  /// Farther than this it falls off; what hangs from the waist does where its top edge is below the level of the hip.
+  double slip_borne_m = std::numeric_limits<double>::infinity();
   double margin_m = 0;                                       ///< least of the rows'
   std::string margin_at;                                     ///< its girth
   std::vector<std::pair<std::string, std::string>> left_out; ///< girth, why
@@ -84,7 +88,7 @@ FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before);
 /// reach round. That is so where the girth is too small by the policy though the garment slides 6 cm up or down, which no tight cloth does, or, to
 /// be told of less of the body, though it slides 3 cm and is stretched by all that the policy bears; and as far as it was stretched on the first body
 /// where that is further (an elastic band). Only `fits`, `verdict`, `reason`, the refused rows and, where it may go on, a `margin_m`
-/// below zero for a tight girth are told.
+/// below zero for a tight girth, class, fabric and `slip_borne_m` are told.
 /// @param placed on `body`, bound to any body   @param source_position #P: where it hung when it was at rest
 FitReport fit_before_drape(const Garment& placed, const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy);
 

@@ -94,6 +94,7 @@ FitRuleSet woven_rules() {
   for (FitRules* rules : {&skirt, &trousers}) {
     say(*rules, WAISTS, 0.08, 0.15);
     rules->girths["top_edge"] = roomy(0.08, 0.15);
+    rules->slip_m = std::numeric_limits<double>::infinity();
   }
   for (FitRules* rules : {&trousers, &whole}) {
     say(*rules, HIPS, 0.25, 0.45);

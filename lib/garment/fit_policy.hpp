@@ -52,7 +52,8 @@ struct FitPolicy {
   FitLimits limits(const std::string& girth, const std::string& garment_class = {}, const std::string& fabric = {}) const;
   double strain_p99(const std::string& garment_class, const std::string& fabric) const; ///< of all edges: stretched further, it does not fit
   double strain_max(const std::string& garment_class, const std::string& fabric) const; ///< of any edge
-  double slip_m(const std::string& garment_class, const std::string& fabric) const;     ///< m that it may sink before it counts as falling off
+  /// m that it may sink before it counts as falling off; infinite: as far as the hip holds it
+  double slip_m(const std::string& garment_class, const std::string& fabric) const;
 };
 
 /// For woven cloth that gives little. Loose and too large are by class: what hangs from the waist must hold there, what hangs from the

@@ -243,18 +243,44 @@ TEST(fit, a_skirt_that_hangs_askew_is_out_of_balance) {
   EXPECT_NEAR(hem->height_m, body.landmark("knee_l").y(), 0.03);
 }
 
-TEST(fit, a_garment_that_sank_has_slipped_down) {
+TEST(fit, a_skirt_that_sank_has_slipped_down_where_the_hip_does_not_hold_it) {
   const body::Body body = measured("f-165-a");
+  const double top = body.levels.at("waist_semantic").y, hip = body.levels.at("hip").y;
+  FitPolicy policy = standard_fit_policy();
+  for (FitRules* rules : {&policy.own.all, &policy.own.classes["skirt"]}) rules->standard.loose_ease = rules->standard.too_large_ease = 9;
+  for (const char* girth : {"waist_semantic", "waist_girth_min", "waist_width_min", "omphalion", "top_edge"})
+    policy.own.classes["skirt"].girths[girth].loose_ease = 9; // only the way counts here
+  const collision::BodyCollider skin(body.skin);
+  const auto sunk = [&](double way, double top_edge) { // m
+    Garment g = tube_skirt(body);
+    for (Vec3& p : g.position) p.y() += top_edge - top;
+    bind_garment(g, body);
+    std::vector<Vec3> placed = g.position;
+    for (Vec3& p : placed) p.y() += way;
+    const FitReport report = fit_garment(g, body, skin, policy, &placed);
+    EXPECT_EQ(report.garment_class, "skirt");
+    EXPECT_NEAR(report.slip_m, way, 1e-9);
+    EXPECT_NEAR(report.slip_borne_m, way + top_edge - hip, 0.01);
+    return report;
+  };
+  const FitReport held = sunk(0.15, top);
+  EXPECT_TRUE(held.fits) << held.reason;
+  EXPECT_EQ(held.verdict, FitVerdict::LOOSE);
+  EXPECT_EQ(held.reason, "slides down by 15.0 cm to where the hip holds it");
+  EXPECT_EQ(sunk(0.05, top).verdict, FitVerdict::OK);
+  const FitReport fallen = sunk(0.15, hip - 0.03);
+  EXPECT_FALSE(fallen.fits);
+  EXPECT_EQ(fallen.verdict, FitVerdict::TOO_LARGE);
+  EXPECT_EQ(fallen.reason, "slides down by 15.0 cm");
+  policy.own.all.slip_m = 0.1; // what a policy says goes before
   Garment g = tube_skirt(body);
   bind_garment(g, body);
   std::vector<Vec3> placed = g.position;
   for (Vec3& p : placed) p.y() += 0.15;
-  const collision::BodyCollider skin(body.skin);
-  const FitReport report = fit_garment(g, body, skin, standard_fit_policy(), &placed);
-  EXPECT_NEAR(report.slip_m, 0.15, 1e-9);
-  EXPECT_FALSE(report.fits);
-  EXPECT_EQ(report.verdict, FitVerdict::TOO_LARGE);
-  EXPECT_NE(report.reason.find("slides down by 15.0 cm"), std::string::npos) << report.reason;
+  EXPECT_EQ(fit_garment(g, body, skin, policy, &placed).reason, "slides down by 15.0 cm");
+  policy.own.all.slip_m.reset();
+  policy.refuse_loose = true;
+  EXPECT_FALSE(fit_garment(g, body, skin, policy, &placed).fits);
 }
 
 TEST(fit, every_figure_is_in_the_document_the_csv_and_the_page) {
