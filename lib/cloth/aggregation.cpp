@@ -136,7 +136,9 @@ void Aggregation::copy_finest(const LinearSystem& system) {
     m_contacts.push_back(c);
   }
   m_contact_pull.resize(m_contacts.size());
-  for (std::size_t i = 0; i < finest.d_inverse.size(); ++i) finest.d_inverse[i] = to_float(m_jacobi.inverse()[i]);
+  parallel_for(finest.d_inverse.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) finest.d_inverse[i] = to_float(m_jacobi.inverse()[i]);
+  });
 }
 
 /// Eight products are summed in single precision at a time.

@@ -44,6 +44,7 @@ public:
   void declare(Couplings& couplings) const override;
   void bind(const BlockMatrix& matrix) override;
   void begin_step(const std::vector<Vec3>& x, double h) override;
+  bool is_search() const override { return true; }
   void look_ahead(const std::vector<Vec3>& x, double h) override {
     if (m_n_crossing == 0) begin_step(x, h); // what crosses is pushed harder with every search
   }

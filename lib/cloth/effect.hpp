@@ -29,6 +29,8 @@ public:
   virtual void bind(const BlockMatrix&) {}
   /// Before assembly: find contacts for the positions x.
   virtual void begin_step(const std::vector<Vec3>& /*x*/, double /*h*/) {}
+  /// Whether begin_step() is long, and touches nothing that another effect has to do with: then it may run beside their add().
+  virtual bool is_search() const { return false; }
   /// Does now what the next begin_step() at x would do first, where that can be done twice.
   virtual void look_ahead(const std::vector<Vec3>& /*x*/, double /*h*/) {}
   virtual void add(StepContext& context) = 0;

@@ -243,24 +243,38 @@ void transpose(const BlockRows& a, BlockRows& t) {
 void product(const BlockRows& a, const BlockRows& b, BlockRows& c) {
   c.rows = a.rows;
   c.columns = b.columns;
-  c.start.assign(1, 0);
-  c.column.clear();
-  c.value.clear();
-  std::vector<int> where(b.columns, -1);
-  for (int i = 0; i < a.rows; ++i) {
-    const int begin = static_cast<int>(c.column.size());
-    for (int k = a.start[i]; k < a.start[i + 1]; ++k)
-      for (int l = b.start[a.column[k]]; l < b.start[a.column[k] + 1]; ++l) {
-        const int j = b.column[l];
-        if (where[j] < begin) {
-          where[j] = static_cast<int>(c.column.size());
-          c.column.push_back(j);
-          c.value.push_back(Mat3::Zero());
-        }
+  c.start.assign(a.rows + 1, 0);
+  /// For rows begin to end - 1: put(i, k, l, j) for each pair of blocks k of a and l of b that meet in column j of row i.
+  const auto visit = [&](std::size_t begin, std::size_t end, const auto& put) {
+    for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
+      for (int k = a.start[i]; k < a.start[i + 1]; ++k)
+        for (int l = b.start[a.column[k]]; l < b.start[a.column[k] + 1]; ++l) put(i, k, l, b.column[l]);
+  };
+  const auto rows = static_cast<std::size_t>(a.rows);
+  parallel_for(rows, ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+    std::vector<int> met_in(b.columns, -1);
+    visit(begin, end, [&](int i, int, int, int j) {
+      c.start[i + 1] += met_in[j] != i;
+      met_in[j] = i;
+    });
+  });
+  for (int i = 0; i < a.rows; ++i) c.start[i + 1] += c.start[i];
+  c.column.resize(c.start.back());
+  c.value.resize(c.start.back());
+  parallel_for(rows, ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
+    std::vector<int> where(b.columns, -1);
+    int row = -1, next = 0;
+    visit(begin, end, [&](int i, int k, int l, int j) {
+      if (i != row) row = i, next = c.start[i];
+      if (where[j] < c.start[i]) {
+        where[j] = next++;
+        c.column[where[j]] = j;
+        c.value[where[j]].noalias() = a.value[k] * b.value[l];
+      } else {
         c.value[where[j]].noalias() += a.value[k] * b.value[l];
       }
-    c.start.push_back(static_cast<int>(c.column.size()));
-  }
+    });
+  });
 }
 
 std::vector<Mat3> block_diagonal(const BlockRows& a) {

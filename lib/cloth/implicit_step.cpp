@@ -1,4 +1,5 @@
 #include <base/error.hpp>
+#include <base/parallel.hpp>
 #include <base/units.hpp>
 #include <cloth/aggregation.hpp>
 #include <cloth/implicit_step.hpp>
@@ -86,9 +87,8 @@ void ClothSolver::rebuild_pattern() {
 }
 
 double ClothSolver::energy(const std::vector<Vec3>& x) const {
-  double sum = 0;
-  for (const auto& e : m_effects) sum += e->energy(x);
-  return sum;
+  std::vector<double> part;
+  return parallel_sum(m_effects.size(), 1, part, [&](std::size_t k, std::size_t) { return m_effects[k]->energy(x); });
 }
 
 double ClothSolver::energy_after(const std::vector<Vec3>& dx) {
@@ -271,21 +271,40 @@ CgResult ClothSolver::solve(const StepOptions& o) {
   return result;
 }
 
+/// Forces, stiffness, elements and limits of all effects, in their order: the same sums for any number of threads. What the first effects add
+/// is added while those that search do so.
+void ClothSolver::assemble(double h) {
+  m_matrix.set_zero();
+  m_elements.clear();
+  m_limits.reset(m_x.size());
+  std::fill(m_force.begin(), m_force.end(), Vec3::Zero());
+  const auto add = [&](Effect& e) {
+    const Stopwatch watch(e.wall_s);
+    if (!e.is_search()) e.begin_step(m_x, h);
+    StepContext context{m_x, h, m_force, m_matrix, m_elements, &m_limits};
+    e.add(context);
+    ++e.calls;
+  };
+  const auto first_search = std::find_if(m_effects.begin(), m_effects.end(), [](const auto& e) { return e->is_search(); });
+  parallel_for(2, 1, [&](std::size_t task, std::size_t) {
+    if (task == 0) {
+      std::for_each(m_effects.begin(), first_search, [&](const auto& e) { add(*e); });
+      return;
+    }
+    for (const auto& e : m_effects) {
+      if (!e->is_search()) continue;
+      const Stopwatch watch(e->wall_s);
+      e->begin_step(m_x, h);
+    }
+  });
+  std::for_each(first_search, m_effects.end(), [&](const auto& e) { add(*e); });
+}
+
 StepResult ClothSolver::step(const StepOptions& o) {
   if (m_pattern_stale) rebuild_pattern();
   const std::size_t n = m_x.size();
   StepResult result;
-  m_matrix.set_zero();
-  m_elements.clear();
-  m_limits.reset(n);
-  std::fill(m_force.begin(), m_force.end(), Vec3::Zero());
-  for (const auto& e : m_effects) {
-    const Stopwatch watch(e->wall_s);
-    e->begin_step(m_x, o.h);
-    StepContext context{m_x, o.h, m_force, m_matrix, m_elements, &m_limits};
-    e->add(context);
-    ++e->calls;
-  }
+  assemble(o.h);
   {
     const Stopwatch watch(assembly_s);
     add_forces(m_elements, m_force);

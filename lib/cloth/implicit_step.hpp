@@ -82,6 +82,7 @@ public:
 
 private:
   void rebuild_pattern();
+  void assemble(double h);
   double energy(const std::vector<Vec3>& x) const;
   double energy_after(const std::vector<Vec3>& dx); ///< potential, J
   void limit(std::vector<Vec3>& dx, std::vector<char>& held);

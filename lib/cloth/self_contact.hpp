@@ -31,6 +31,7 @@ public:
   SelfContactEffect(const ClothMesh& mesh, const SelfContactOptions& options, std::vector<int> seam_class = {});
   const char* name() const override { return "self_contact"; }
   void begin_step(const std::vector<Vec3>& x, double h) override;
+  bool is_search() const override { return true; }
   void look_ahead(const std::vector<Vec3>& x, double h) override {
     if (m_crossings.empty()) begin_step(x, h);
   }
