@@ -244,7 +244,7 @@ void product(const BlockRows& a, const BlockRows& b, BlockRows& c) {
   c.rows = a.rows;
   c.columns = b.columns;
   c.start.assign(a.rows + 1, 0);
-  /// For rows begin to end - 1: put(i, k, l, j) for each pair of blocks k of a and l of b that meet in column j of row i.
+  // For rows begin to end - 1: put(i, k, l, j) for each pair of blocks k of a and l of b that meet in column j of row i.
   const auto visit = [&](std::size_t begin, std::size_t end, const auto& put) {
     for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
       for (int k = a.start[i]; k < a.start[i + 1]; ++k)

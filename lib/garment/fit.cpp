@@ -19,8 +19,7 @@ namespace {
 constexpr double REACH_BEYOND = 0.03;  // m above and below a level that cloth must reach, or it may slide to where it is wide enough
 constexpr double SLIDE_BEYOND = 0.06;  // m as far as cloth that is tight slides at most: three times what was seen, it holds on
 constexpr double SLIDE_STRIDE = 0.01;  // m between sections of the skin on that way
-constexpr double UNHELD_SLIP = 0.10;   // m that what hangs from the waist may sink where no hip is known to hold it
-constexpr double SLID = 0.10;          // m from which it is said of what the hip holds
+constexpr double SLID = 0.10;          // m that what hangs from the waist may sink wherever it is; held by the hip it may more, and that is said
 constexpr double CERTAIN_SLIP = 1.1;   // of what the policy bears: what has sunk so far does not rise
 constexpr double CERTAIN_STRAIN = 1.5; // of what the policy bears: cloth that seems still was seen to creep down by a quarter until it was at rest
 constexpr double OVER_THE_HAND = 0.02; // m beyond the wrist from which a cuff lies on the hand
@@ -136,15 +135,17 @@ void tell_long_sleeve(const FitLines& lines, FitRow& row) {
     row.reason = "has the " + spoken_girth(row.name) + " " + centimetres(beyond) + " beyond the wrist, on the hand, where it does not close";
 }
 
+bool hangs_from_waist(const FitReport& report) { return report.garment_class == "skirt" || report.garment_class == "trousers"; }
+
 /// A waistband slides down to where the body is as wide as itself: what hangs from the waist falls off where its top edge has come below the
 /// level of the hip. m from where it was placed, of which `report` tells how far it is.
 double slip_borne(const FitPolicy& policy, const FitLines& lines, const body::Body& body, const FitReport& report) {
   const double said = policy.slip_m(report.garment_class, report.fabric);
-  if (report.garment_class != "skirt" && report.garment_class != "trousers") return said;
+  if (!hangs_from_waist(report)) return said;
   const auto top = std::find_if(lines.hems.begin(), lines.hems.end(), [](const FitHem& hem) { return hem.name == "top"; });
   const auto hip = body.levels.find("hip");
-  if (top == lines.hems.end() || hip == body.levels.end()) return std::min(said, UNHELD_SLIP);
-  return std::min(said, report.slip_m + top->height_m - hip->second.y);
+  if (top == lines.hems.end() || hip == body.levels.end()) return std::min(said, SLID);
+  return std::min(said, std::max(SLID, report.slip_m + top->height_m - hip->second.y));
 }
 
 /// The verdict of all rows, the strain and the slip.
@@ -170,7 +171,7 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
   if (certain && report.verdict <= FitVerdict::TOO_LARGE && slips) {
     report.verdict = FitVerdict::TOO_LARGE;
     report.reason = slides_down;
-  } else if (certain && report.verdict <= FitVerdict::LOOSE && report.slip_m > SLID) {
+  } else if (certain && report.verdict <= FitVerdict::LOOSE && hangs_from_waist(report) && report.slip_m > SLID) {
     report.verdict = FitVerdict::LOOSE;
     report.reason = slides_down + " to where the hip holds it";
   }

@@ -60,7 +60,7 @@ struct FitReport {
   FitLines lines;                        ///< hems, coverage, balance
   double strain_p99 = 0, strain_max = 0; ///< over all cloth
   double slip_m = 0;                     ///< how far the garment as a whole sank from where it was placed
-  /// Farther than this it falls off; what hangs from the waist does where its top edge is below the level of the hip.
+  /// Farther than this it falls off, m; what hangs from the waist does where its top edge is below the level of the hip, 10 cm down at least.
   double slip_borne_m = std::numeric_limits<double>::infinity();
   double margin_m = 0;                                       ///< least of the rows'
   std::string margin_at;                                     ///< its girth
