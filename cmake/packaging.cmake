@@ -60,6 +60,6 @@ set(CPACK_COMPONENT_TOOLS_DESCRIPTION "Dresses scanned people\n From a raw body 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsloper-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libeigen3-dev, nlohmann-json3-dev, libassimp-dev, libpng-dev, zlib1g-dev, libssl-dev, libgeos-dev, libosmesa6-dev, libegl-dev, libfreetype-dev, libtbb-dev")
+    "libeigen3-dev, nlohmann-json3-dev, libassimp-dev, libmeshoptimizer-dev, libpng-dev, zlib1g-dev, libssl-dev, libgeos-dev, libosmesa6-dev, libegl-dev, libfreetype-dev, libtbb-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers and static libraries of Sloper\n One library for each module, with pkg-config and CMake files.")
 include(CPack)

@@ -18,9 +18,12 @@ struct DrapeSettings {
   /// energy norm, 0.025 where all is as slow as at rest.
   double cg_tolerance = 1e-2;
   int cg_max_iterations = 400;
-  int solver = 0;                  ///< preconditioner of conjugate gradients: 0 smoothed aggregation, 1 block Jacobi, 2 exact factorisation
-  int contact_level = 4;           ///< cloth::ContactLevel with the body: 1 vertex, 2 face, 3 edge, 4 continuous
-  double contact_gap_m = 0.003;    ///< distance to the skin at which contact begins
+  int solver = 0;               ///< preconditioner of conjugate gradients: 0 smoothed aggregation, 1 block Jacobi, 2 exact factorisation
+  int contact_level = 4;        ///< cloth::ContactLevel with the body: 1 vertex, 2 face, 3 edge, 4 continuous
+  double contact_gap_m = 0.003; ///< distance to the skin at which contact begins
+  /// By how much the coarser skin may be off that stands for a dense one, of more than 60,000 triangles, until the cloth is at rest on it
+  /// (coarse_skin.hpp); 0: none does. The cloth then comes to rest on the skin itself.
+  double skin_tolerance_m = 3e-4;
   double self_thickness_m = 0.002; ///< distance at which cloth feels cloth
   double settle_speed_m_s = 0.01;  ///< at rest below this speed
   double settle_force_ratio = 0.2; ///< residual force over a particle's weight

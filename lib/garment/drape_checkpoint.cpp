@@ -58,7 +58,7 @@ void DrapeRun::resume(const DrapeCheckpoint& c) {
     if (m_at.shrunk) m_shrink.emplace(*m_body);
     if (motion.frame > 0) {
       const std::vector<Vec3> skin = m_moves->skin(motion.frame - 1);
-      m_collider->set_positions(m_mitten ? m_mitten->positions(skin) : skin);
+      m_collider->set_positions(as_met(skin));
       if (motion.over) stand_in(skin);
     } else if (m_at.shrunk) {
       const bool inflating = m_at.phase == DrapePhase::INFLATE;

@@ -69,7 +69,7 @@ void DrapeRun::follow_motion() {
     for (std::size_t s = 1; s <= substeps && !m_stopped; ++s) {
       const double t = static_cast<double>(s) / static_cast<double>(substeps);
       for (std::size_t v = 0; v < skin.size(); ++v) target[v] = s < substeps ? Vec3((1 - t) * from[v] + t * skin[v]) : skin[v];
-      m_at.last = motion->advance(m_mitten ? m_mitten->positions(target) : target, options);
+      m_at.last = motion->advance(as_met(target), options);
       m_at.cg_iterations.push_back(m_at.last.cg.iterations);
       frame.speed_m_s = std::max(frame.speed_m_s, m_at.last.largest_move_m / options.h);
       if (m_at.last.finite) continue;

@@ -7,6 +7,7 @@
 #include <collision/skin_cache.hpp>
 #include <garment/audit.hpp>
 #include <garment/body_shrink.hpp>
+#include <garment/coarse_skin.hpp>
 #include <garment/drape_state.hpp>
 #include <garment/mitten.hpp>
 #include <garment/motion.hpp>
@@ -52,9 +53,12 @@ private:
 
   void collide_with(const TriangleMesh& skin); ///< makes m_collider
   void prepare_body(bool near_hands);
-  void start_outside_body(bool unsewn);          ///< shrink until nothing of the garment is inside
-  std::vector<Vec3> skin_at(double scale) const; ///< as the collider has it
-  void build_solver(bool open_seams);            ///< cloth, effects and solver for the garment as it stands
+  void start_outside_body(bool unsewn);                          ///< shrink until nothing of the garment is inside
+  std::vector<Vec3> skin_at(double scale) const;                 ///< as the collider has it
+  std::vector<Vec3> as_met(const std::vector<Vec3>& skin) const; ///< likewise
+  void meet_the_skin();                                          ///< itself from now on, no mitten and nothing coarse
+  void meet_whole_skin();                                        ///< no coarse one from now on, while the garment settles
+  void build_solver(bool open_seams);                            ///< cloth, effects and solver for the garment as it stands
   void sew();
   void log_crossings(const char* when) const; ///< to the log, with -v
   std::string crossing_text() const;          ///< for the log: what is through the skin, and where
@@ -97,6 +101,7 @@ private:
 
   std::optional<collision::BodyCollider> m_collider;
   std::optional<MittenSkin> m_mitten; ///< only where cloth is near a hand
+  std::optional<CoarseSkin> m_coarse; ///< of a dense scan, until the cloth is at rest on it
   std::optional<BodyShrink> m_shrink;
   DrapeState m_at;
   Checkpoints m_checkpoints;

@@ -104,7 +104,7 @@ Json state_json(const DrapeState& s) {
   Json j;
   j["phase"] = PHASES[static_cast<int>(s.phase)];
   j["step"] = s.step;
-  j["mitten"] = s.mitten, j["shrunk"] = s.shrunk, j["disturbed"] = s.disturbed;
+  j["mitten"] = s.mitten, j["whole_skin"] = s.whole_skin, j["shrunk"] = s.shrunk, j["disturbed"] = s.disturbed;
   j["scale"] = s.scale;
   j["skin"] = flat(s.skin);
   j["last"] = step_json(s.last);
@@ -130,7 +130,8 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   if (found == std::end(PHASES)) node.at("phase").fail("is no phase of a drape");
   s.phase = static_cast<DrapePhase>(found - std::begin(PHASES));
   s.step = node.at("step").integer();
-  s.mitten = node.at("mitten").boolean(), s.shrunk = node.at("shrunk").boolean(), s.disturbed = node.at("disturbed").boolean();
+  s.mitten = node.at("mitten").boolean(), s.whole_skin = node.has("whole_skin") && node.at("whole_skin").boolean(), s.shrunk = node.at("shrunk").boolean(),
+  s.disturbed = node.at("disturbed").boolean();
   s.scale = node.at("scale").number();
   s.skin = read_flat(node.at("skin"));
   s.last = read_step(node.at("last"));
@@ -174,6 +175,7 @@ Json progress_json(const DrapeReport& r) {
 
 DrapeSettings read_settings(const Node& node) {
   DrapeSettings s;
+  s.skin_tolerance_m = 0; // of those that do not name it: there was only the whole skin
   for (const std::string& name : node.keys())
     if (name == "accuracy") s.accuracy = node.at(name).string();
     else if (name == "effects") s.effects = node.at(name).string();

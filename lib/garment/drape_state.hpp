@@ -32,14 +32,15 @@ struct MotionState {
 
 struct DrapeState {
   DrapePhase phase = DrapePhase::START;
-  int step = 0;           ///< of the phase: the next one
-  bool mitten = false;    ///< cloth is near a hand
-  bool shrunk = false;    ///< the body was drawn in at some time
-  double scale = 1;       ///< of the body, see BodyShrink
-  std::vector<Vec3> skin; ///< INFLATE: of the body as the cloth meets it, m
-  bool disturbed = false; ///< by sewing, or by a body that was drawn in
-  cloth::StepResult last; ///< of the last step
-  double last_h = 0;      ///< s, of that step
+  int step = 0;            ///< of the phase: the next one
+  bool mitten = false;     ///< cloth is near a hand
+  bool whole_skin = false; ///< it meets no coarser one any more
+  bool shrunk = false;     ///< the body was drawn in at some time
+  double scale = 1;        ///< of the body, see BodyShrink
+  std::vector<Vec3> skin;  ///< INFLATE: of the body as the cloth meets it, m
+  bool disturbed = false;  ///< by sewing, or by a body that was drawn in
+  cloth::StepResult last;  ///< of the last step
+  double last_h = 0;       ///< s, of that step
   cloth::BodyContactEffect::Memory contact;
   std::vector<int> cg_iterations; ///< of each step
   std::vector<std::string> rejected;

@@ -32,6 +32,7 @@ const std::vector<Knob>& knobs() {
       {"solver", 0, 2, nullptr, &S::solver},
       {"contact_level", 1, 4, nullptr, &S::contact_level},
       {"contact_gap_m", 1e-4, 0.02, &S::contact_gap_m, nullptr},
+      {"skin_tolerance_m", 0, 0.005, &S::skin_tolerance_m, nullptr},
       {"self_thickness_m", 1e-4, 0.02, &S::self_thickness_m, nullptr},
       {"settle_speed_m_s", 1e-6, 1, &S::settle_speed_m_s, nullptr},
       {"settle_force_ratio", 1e-6, 10, &S::settle_force_ratio, nullptr},
