@@ -20,25 +20,23 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double SEW_SEARCH = 0.75;       // of the mesh edge: cloth nearer than this is watched while sewing
-constexpr double ENERGY_LEFT = 0.15;      // of a solve's error in the energy norm; 0.07 and 0.3 took as long or longer over three garments
-constexpr double LEFT_AT_REST = 0.025;    // likewise, where all is as slow as at rest: what is slack and still on its way has little of the energy
-constexpr double ROUGH = 0.01;            // relative residual; who asks for less means it
-constexpr double SEW_TOLERANCE = 0.05;    // relative residual of a step: only where the panels end up counts
-constexpr double SEW_LEG_SCALE = 0.7;     // of the body's thickness while trousers are sewn
-constexpr double SEW_BENDING = 30;        // times that of the fabric
-constexpr double INFLATE_MOTION = 0.002;  // m: how far the skin moves per step while the body is inflated
-constexpr double LATEST = 0.01;           // m: how far skin may stay back where cloth is in its way
-constexpr int LATE_STEPS = 40;            // in which what stayed back comes home
-constexpr int GLIDE_STEPS = 40;           // after sewing, free of weight and friction, which would keep the strain that sewing left
-constexpr int STALLED_STEPS = 400;        // without a residual that is a tenth less, and more than the weight: it will not come to rest
-constexpr int UNMOVED_STEPS = 25;         // one after the other in which nothing can move at all
-constexpr int MOST_UNTANGLINGS = 8;       // of cloth at rest that crosses itself
-constexpr int PART_EVERY = 40;            // steps between looks whether a few faces are still through the skin
-constexpr int JUDGE_EVERY = 10;           // steps between looks whether the garment can still fit
-constexpr std::size_t DENSE_SKIN = 60000; // triangles: with less, a coarser skin saves too little
-constexpr double NEAR_RESIDUAL = 1;       // weights: below, steps may grow faster
-constexpr double LARGEST_STEP_S = 0.2;    // s, while settling
+constexpr double SEW_SEARCH = 0.75;      // of the mesh edge: cloth nearer than this is watched while sewing
+constexpr double ENERGY_LEFT = 0.15;     // of a solve's error in the energy norm; 0.07 and 0.3 took as long or longer over three garments
+constexpr double LEFT_AT_REST = 0.025;   // likewise, where all is as slow as at rest: what is slack and still on its way has little of the energy
+constexpr double ROUGH = 0.01;           // relative residual; who asks for less means it
+constexpr double SEW_TOLERANCE = 0.05;   // relative residual of a step: only where the panels end up counts
+constexpr double SEW_BENDING = 30;       // times that of the fabric
+constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step while the body is inflated
+constexpr double LATEST = 0.01;          // m: how far skin may stay back where cloth is in its way
+constexpr int LATE_STEPS = 40;           // in which what stayed back comes home
+constexpr int GLIDE_STEPS = 40;          // after sewing, free of weight and friction, which would keep the strain that sewing left
+constexpr int STALLED_STEPS = 400;       // without a residual that is a tenth less, and more than the weight: it will not come to rest
+constexpr int UNMOVED_STEPS = 25;        // one after the other in which nothing can move at all
+constexpr int MOST_UNTANGLINGS = 8;      // of cloth at rest that crosses itself
+constexpr int PART_EVERY = 40;           // steps between looks whether a few faces are still through the skin
+constexpr int JUDGE_EVERY = 10;          // steps between looks whether the garment can still fit
+constexpr double NEAR_RESIDUAL = 1;      // weights: below, steps may grow faster
+constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
 
 } // namespace
 
@@ -76,91 +74,6 @@ void DrapeRun::activate(const char* effect, const char* why) {
 }
 
 bool DrapeRun::active(const char* effect) const { return is_active(m_report.effects, effect); }
-
-void DrapeRun::collide_with(const TriangleMesh& skin) { m_collider.emplace(collision::make_collider(skin, m_body->skin_cache.get())); }
-
-void DrapeRun::prepare_body(bool near_hands) {
-  if (near_hands) m_mitten.emplace(*m_body);
-  if (m_mitten && !(m_mitten->has_shells() && (m_at.mitten || m_mitten->concerns(m_garment.position)))) m_mitten.reset();
-  const TriangleMesh& whole = m_mitten ? m_mitten->mesh() : m_body->skin;
-  if (!m_at.whole_skin && m_settings.skin_tolerance_m > 0 && whole.triangles.size() > DENSE_SKIN) {
-    m_coarse.emplace(whole, m_settings.skin_tolerance_m);
-    if (!m_coarse->pays()) m_coarse.reset();
-  }
-  collide_with(m_coarse ? m_coarse->mesh() : whole);
-  m_at.mitten = m_mitten.has_value();
-  if (m_coarse)
-    m_reporter.info("a coarser skin: " + std::to_string(m_coarse->mesh().triangles.size()) + " of " + std::to_string(whole.triangles.size()) + " triangles");
-  if (m_mitten) m_reporter.info("hands as mittens: cloth is near them");
-}
-
-void DrapeRun::start_outside_body(bool unsewn) {
-  if (!m_body || m_body->skin.triangles.empty()) return;
-  const Phase phase(*this, "prepare body");
-  const auto has_part = [&](const char* begins) { // of the garment's panels
-    const auto& panels = m_garment.panels.panels;
-    return std::any_of(panels.begin(), panels.end(), [&](const pattern::PanelInfo& p) { return p.part.rfind(begins, 0) == 0; });
-  };
-  prepare_body(has_part("arm"));
-  const std::vector<Triangle> triangles = m_garment.particle_triangles();
-  auto trouble = [&] {
-    std::size_t count = m_collider->faces_through(m_garment.position, triangles).size();
-    for (const Vec3& p : m_garment.position) count += m_collider->is_inside(p);
-    return count;
-  };
-  // Trousers are sewn around legs drawn in: between thighs that touch there is no room for a seam to close.
-  const bool tight = unsewn && has_part("leg");
-  std::size_t least = trouble();
-  if (least == 0 && tight) {
-    m_shrink.emplace(*m_body);
-    m_at.scale = SEW_LEG_SCALE;
-    m_collider->set_positions(skin_at(m_at.scale));
-  }
-  if (least == 0) return;
-  m_shrink.emplace(*m_body);
-  double best = 1;
-  const std::size_t at_start = least;
-  for (double s : {0.9, 0.8, 0.65, 0.5, 0.35, 0.2}) {
-    m_collider->set_positions(skin_at(s));
-    const std::size_t count = trouble();
-    if (count < least) {
-      least = count;
-      best = s;
-    }
-    if (count == 0) break;
-  }
-  m_at.scale = best;
-  m_collider->set_positions(skin_at(best));
-  m_report.repairs.push_back("start: " + std::to_string(at_start) + " vertices or faces in the body; body drawn in to " +
-                             std::to_string(std::lround(best * 100)) + " % of its thickness and inflated again" +
-                             (least ? ", " + std::to_string(least) + " remained" : ""));
-}
-
-std::vector<Vec3> DrapeRun::skin_at(double scale) const {
-  const std::vector<Vec3> skin = scale < 1 ? m_shrink->positions(scale) : m_body->skin.positions;
-  return as_met(skin);
-}
-
-std::vector<Vec3> DrapeRun::as_met(const std::vector<Vec3>& skin) const {
-  std::vector<Vec3> all = m_mitten ? m_mitten->positions(skin) : skin;
-  return m_coarse ? m_coarse->positions(all) : all;
-}
-
-void DrapeRun::meet_the_skin() {
-  if (!m_mitten && !m_coarse) return;
-  m_mitten.reset();
-  m_coarse.reset();
-  collide_with(m_body->skin);
-}
-
-void DrapeRun::meet_whole_skin() {
-  m_garment.position = m_solver->x();
-  if (m_body_contact) m_at.contact = m_body_contact->memory();
-  m_at.whole_skin = true;
-  m_coarse.reset();
-  prepare_body(m_at.mitten);
-  rebuild();
-}
 
 void DrapeRun::build_solver(bool open_seams) {
   if (m_solver) report_effects();
