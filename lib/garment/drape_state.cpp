@@ -175,7 +175,6 @@ Json progress_json(const DrapeReport& r) {
 
 DrapeSettings read_settings(const Node& node) {
   DrapeSettings s;
-  s.skin_tolerance_m = 0; // of those that do not name it: there was only the whole skin
   for (const std::string& name : node.keys())
     if (name == "accuracy") s.accuracy = node.at(name).string();
     else if (name == "effects") s.effects = node.at(name).string();
