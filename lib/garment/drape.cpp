@@ -260,7 +260,7 @@ void DrapeRun::settle() {
     if (m_body_contact && m_body_contact->n_crossing() > 0 && ++m_at.pushed < MOST_PUSH_STEPS) continue; // what is through the skin is pushed harder each step
     if (m_coarse) {
       m_reporter.info("at rest on the coarser skin after " + std::to_string(k) + " steps, on to the whole one");
-      meet_whole_skin();
+      leave_coarse_skin();
       calm = 0;
       continue;
     }

@@ -67,7 +67,7 @@ void DrapeRun::finish() {
     report_effects();
   }
   const Phase phase(*this, "audit");
-  meet_the_skin(); // mittens and the coarser skin were only means
+  meet_bare_skin(); // mittens and the coarser skin were only means
   const Audit a = audit(m_garment, m_collider ? &*m_collider : nullptr);
   if (!a.clean() && m_report.converged) {
     m_report.converged = false;

@@ -56,8 +56,8 @@ private:
   void start_outside_body(bool unsewn);                          ///< shrink until nothing of the garment is inside
   std::vector<Vec3> skin_at(double scale) const;                 ///< as the collider has it
   std::vector<Vec3> as_met(const std::vector<Vec3>& skin) const; ///< likewise
-  void meet_the_skin();                                          ///< itself from now on, no mitten and nothing coarse
-  void meet_whole_skin();                                        ///< no coarse one from now on, while the garment settles
+  void meet_bare_skin();                                         ///< itself from now on, no mitten and nothing coarse
+  void leave_coarse_skin();                                      ///< no coarse one from now on, while the garment settles
   void build_solver(bool open_seams);                            ///< cloth, effects and solver for the garment as it stands
   void sew();
   void log_crossings(const char* when) const; ///< to the log, with -v

@@ -82,14 +82,14 @@ std::vector<Vec3> DrapeRun::as_met(const std::vector<Vec3>& skin) const {
   return m_coarse ? m_coarse->positions(all) : all;
 }
 
-void DrapeRun::meet_the_skin() {
+void DrapeRun::meet_bare_skin() {
   if (!m_mitten && !m_coarse) return;
   m_mitten.reset();
   m_coarse.reset();
   collide_with(m_body->skin);
 }
 
-void DrapeRun::meet_whole_skin() {
+void DrapeRun::leave_coarse_skin() {
   m_garment.position = m_solver->x();
   if (m_body_contact) m_at.contact = m_body_contact->memory();
   m_at.whole_skin = true;

@@ -155,7 +155,7 @@ DrapeReport DrapeRun::run_untangle_only() {
     m_garment.position = m_solver->x();
     report_effects();
     m_solver.reset();
-    meet_the_skin();
+    meet_bare_skin();
     const std::size_t now = part_all(PART_ROUNDS, m_report.steps); // what the push leaves is shallow
     if (now >= least) m_garment.position = shallow;
     least = std::min(least, now);
