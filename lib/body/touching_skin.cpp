@@ -16,6 +16,7 @@ constexpr int PARTING_ROUNDS = 6, SMOOTHINGS = 3;
 constexpr double OPPOSED = -0.5;      ///< cosine of the two normals
 constexpr double DEEPEST = 0.006;     ///< m: skin that passes farther into other skin is left alone
 constexpr double LARGEST_WAY = 0.003; ///< m
+constexpr double LEAST_TURN = 0.5;    ///< cosine of the angle by which a triangle may turn
 
 /// Unit normals of the vertices, weighted by area: all that is asked of them is which way the skin faces.
 std::vector<Vec3> rough_normals(const TriangleMesh& skin, const std::vector<Triangle>& triangles) {
@@ -27,6 +28,20 @@ std::vector<Vec3> rough_normals(const TriangleMesh& skin, const std::vector<Tria
   for (Vec3& n : normals)
     if (const double length = n.norm(); length > 1e-300) n /= length;
   return normals;
+}
+
+/// One round of spreading: the ways of the marked vertices go halfway to the mean of their neighbours'.
+void spread(const std::vector<std::array<int, 2>>& edges, const std::vector<char>& mark, std::vector<Vec3>& way) {
+  std::vector<Vec3> sum(way.size(), Vec3::Zero());
+  std::vector<int> count(way.size(), 0);
+  for (const auto& [a, b] : edges) {
+    sum[a] += way[b];
+    sum[b] += way[a];
+    ++count[a];
+    ++count[b];
+  }
+  for (std::size_t v = 0; v < way.size(); ++v)
+    if (mark[v] && count[v] > 0) way[v] = 0.5 * way[v] + 0.5 * sum[v] / count[v];
 }
 
 /// The triangles within so many rings of the marked vertices: `mark` grows with them.
@@ -102,7 +117,7 @@ std::vector<Vec3> wanted_ways(const TriangleMesh& skin, const std::vector<char>&
     tree.visit_overlaps({p.array() - reach, p.array() + reach}, [&](int f) {
       const Triangle& t = near[f];
       const Vec3 &a = skin.positions[t[0]], &b = skin.positions[t[1]], &c = skin.positions[t[2]];
-      const Vec3 facing = area_normal(a, b, c).normalized();
+      const Vec3 facing = (normals[t[0]] + normals[t[1]] + normals[t[2]]).normalized(); // of its vertices: one triangle of a rough skin looks anywhere
       if (!(facing.dot(normals[v]) < OPPOSED)) return;
       const Vec3 away = p - collision::point_triangle(p, a, b, c).point;
       const double gap = away.dot(facing);
@@ -115,6 +130,28 @@ std::vector<Vec3> wanted_ways(const TriangleMesh& skin, const std::vector<char>&
   return way;
 }
 
+/// Evens out the ways around triangles that they turn over or nearly so: where the walls of a slot meet, each vertex would go its own way,
+/// and fine skin would lie in folds across the slot.
+void unfold(const std::vector<Vec3>& before, const std::vector<Triangle>& triangles, const std::vector<std::array<int, 2>>& edges,
+            const std::vector<char>& may_move, std::vector<Vec3>& way) {
+  constexpr int MOST_ROUNDS = 100;
+  std::vector<char> folded(way.size());
+  for (int round = 0; round < MOST_ROUNDS; ++round) {
+    std::fill(folded.begin(), folded.end(), 0);
+    bool any = false;
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+      const auto& [a, b, c] = triangles[f];
+      const Vec3 was = area_normal(before[a], before[b], before[c]);
+      const Vec3 is = area_normal(before[a] + way[a], before[b] + way[b], before[c] + way[c]);
+      if (is.dot(was) >= LEAST_TURN * is.norm() * was.norm()) continue;
+      for (const int v : {a, b, c}) folded[v] = may_move[v];
+      any = true;
+    }
+    if (!any) return;
+    spread(edges, folded, way);
+  }
+}
+
 } // namespace
 
 OpenedSkin open_touching_skin(TriangleMesh& skin, const std::vector<char>& may_move, double gap_m) {
@@ -123,29 +160,25 @@ OpenedSkin open_touching_skin(TriangleMesh& skin, const std::vector<char>& may_m
   if (std::find(candidate.begin(), candidate.end(), 1) == candidate.end()) return {};
   std::vector<char> wants;
   const std::vector<Triangle> near = triangles_around(skin, candidate, 0);
-  std::vector<std::array<int, 2>> edges; // of what a way can spread to
+  std::vector<Triangle> around; // what a way can spread to
+  std::vector<std::array<int, 2>> edges;
   for (int round = 0; round < PARTING_ROUNDS; ++round) {
     std::vector<Vec3> way = wanted_ways(skin, candidate, near, gap_m, wants);
     if (std::find(wants.begin(), wants.end(), 1) == wants.end()) break;
-    if (edges.empty()) edges = edges_of(triangles_around(skin, candidate, SMOOTHINGS));
-    for (int k = 0; k < SMOOTHINGS; ++k) { // the rim takes part; what must move keeps its own way
-      std::vector<Vec3> sum(way.size(), Vec3::Zero());
-      std::vector<int> count(way.size(), 0);
-      for (const auto& [a, b] : edges) {
-        sum[a] += way[b];
-        sum[b] += way[a];
-        ++count[a];
-        ++count[b];
-      }
-      for (std::size_t v = 0; v < way.size(); ++v)
-        if (!wants[v] && may_move[v] && count[v] > 0) way[v] = 0.5 * way[v] + 0.5 * sum[v] / count[v];
+    if (edges.empty()) {
+      around = triangles_around(skin, candidate, SMOOTHINGS);
+      edges = edges_of(around);
     }
+    std::vector<char> rim(way.size()); // takes part; what must move keeps its own way
+    for (std::size_t v = 0; v < way.size(); ++v) rim[v] = may_move[v] && !wants[v];
+    for (int k = 0; k < SMOOTHINGS; ++k) spread(edges, rim, way);
     for (std::size_t v = 0; v < way.size(); ++v) {
-      Vec3 whole = skin.positions[v] + way[v] - before[v];
-      const double length = whole.norm();
-      if (length > LARGEST_WAY) whole *= LARGEST_WAY / length;
-      skin.positions[v] = before[v] + whole;
+      way[v] += skin.positions[v] - before[v];
+      const double length = way[v].norm();
+      if (length > LARGEST_WAY) way[v] *= LARGEST_WAY / length;
     }
+    unfold(before, around, edges, may_move, way);
+    for (std::size_t v = 0; v < way.size(); ++v) skin.positions[v] = before[v] + way[v];
   }
   OpenedSkin opened;
   for (std::size_t v = 0; v < before.size(); ++v) {

@@ -4,7 +4,7 @@
 ///
 /// Edges are collapsed by quadric error (Garland and Heckbert 1997; meshoptimizer). Its vertices are some of the skin's, so it moves with it.
 /// Test: tests/garment/test_coarse_skin.cpp
-#include <geometry/types.hpp>
+#include <geometry/triangle_mesh.hpp>
 
 namespace sloper::garment {
 
