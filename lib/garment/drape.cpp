@@ -10,6 +10,7 @@
 #include <garment/materials.hpp>
 #include <garment/scene_effects.hpp>
 #include <garment/sewing.hpp>
+#include <garment/sleeve_ends.hpp>
 #include <io/json.hpp>
 
 #include <algorithm>
@@ -92,7 +93,7 @@ void DrapeRun::build_solver(bool open_seams) {
   if (active("shear")) m_solver->emplace<cloth::ShearEffect>(*m_cloth);
   if (active("bending")) m_solver->emplace<cloth::BendingEffect>(*m_cloth);
   add_scene_effects(*m_solver, *m_cloth, m_garment, m_body, m_report.effects, open_seams);
-  m_breath = nullptr;
+  m_breath = m_hold = nullptr;
   m_sewing = nullptr;
   if (open_seams) m_sewing = &m_solver->emplace<cloth::SewingSpringEffect>(open_stitches(m_garment), 1.0, SEW_REACH);
   m_body_contact = nullptr;
@@ -192,6 +193,20 @@ void DrapeRun::inflate() {
   m_body_contact->refresh();
 }
 
+void DrapeRun::hold_sleeves() {
+  std::vector<cloth::Pin> pins;
+  if (!m_at.held.empty()) pins = hold_sleeve_ends(m_garment);
+  if (pins.empty() || pins.size() != m_at.held.size()) return;
+  for (std::size_t k = 0; k < pins.size(); ++k) pins[k].target = m_at.held[k];
+  if (!active("pins")) activate("pins", "sleeve ends are held at the wrists while the body is inflated");
+  m_hold = &m_solver->emplace<cloth::PinsEffect>(std::move(pins));
+}
+
+void DrapeRun::let_sleeves_go() {
+  take_back(m_hold);
+  m_at.held.clear();
+}
+
 int DrapeRun::glide() const { return m_at.disturbed ? GLIDE_STEPS : 0; }
 
 void DrapeRun::add_load() {
@@ -220,6 +235,7 @@ void DrapeRun::settle() {
     if (k < glide()) breathe();
     if (k == glide()) {
       stop_breathing();
+      let_sleeves_go();
       add_load();
       h = m_settings.time_step_s;
     }
@@ -288,6 +304,8 @@ DrapeReport DrapeRun::run() {
     if (m_moves) activate("body_motion", "the body moves");
     start_outside_body(unsewn);
     m_at.disturbed = unsewn || m_at.scale < 1;
+    if (!unsewn && m_at.scale < 1 && may_pass("pins"))
+      for (const cloth::Pin& pin : hold_sleeve_ends(m_garment)) m_at.held.push_back(pin.target);
     if (unsewn && active("sewing")) sew();
   } else if (m_at.phase == DrapePhase::SEW) {
     sew();
@@ -296,6 +314,7 @@ DrapeReport DrapeRun::run() {
     if (m_at.phase == DrapePhase::START || m_at.phase == DrapePhase::SEW) {
       untangle();
       build_solver(false);
+      hold_sleeves();
     }
     if (m_at.phase != DrapePhase::SETTLE && m_at.phase != DrapePhase::MOVE) inflate();
     if (m_at.phase != DrapePhase::MOVE) settle();

@@ -75,6 +75,10 @@ private:
   void activate(const char* effect, const char* why);
   void breathe(); ///< a little pressure from within, until stop_breathing()
   void stop_breathing();
+  void hold_sleeves(); ///< where m_at says, until let_sleeves_go()
+  void let_sleeves_go();
+  bool may_pass(const std::string& effect) const;
+  void take_back(const cloth::Effect*& effect);                      ///< a passing one of m_solver, if it is there; into the report
   void add_load();                                                   ///< weight and friction
   int glide() const;                                                 ///< step of SETTLE at which they come
   bool checkpoint();                                                 ///< between steps: where one is due, renew(); whether it was
@@ -113,7 +117,7 @@ private:
   std::unique_ptr<cloth::ClothSolver> m_solver;
   cloth::BodyContactEffect* m_body_contact = nullptr;
   cloth::SelfContactEffect* m_self_contact = nullptr;
-  const cloth::Effect* m_breath = nullptr; // of m_solver
+  const cloth::Effect *m_breath = nullptr, *m_hold = nullptr; // of m_solver
   cloth::SewingSpringEffect* m_sewing = nullptr;
   bool m_loaded = false; ///< with weight and friction
   const BodyMoves* m_moves = nullptr;

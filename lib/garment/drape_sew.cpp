@@ -67,16 +67,23 @@ void DrapeRun::sew() {
 
 /// A flared hem that sewing has dented inwards may stay so: a cone turned in is a state of rest too. Cloth without seams would fly off.
 void DrapeRun::breathe() {
-  if (m_breath || !active("sewing") || m_settings.effects.rfind("auto", 0) != 0 || m_settings.effects.find("-pressure") != std::string::npos) return;
+  if (m_breath || !active("sewing") || !may_pass("pressure")) return;
   if (!active("pressure")) activate("pressure", "for a moment after sewing: it turns out dents");
   const double weight = material_of(m_garment, "").density_kg_m2 * units::GRAVITY;
   m_breath = &m_solver->emplace<cloth::PressureEffect>(m_cloth->particle_triangles(), BREATH * weight);
 }
 
-void DrapeRun::stop_breathing() {
-  if (!m_breath) return;
-  const std::unique_ptr<cloth::Effect> taken = m_solver->remove(*m_breath);
-  m_breath = nullptr;
+/// Effects that help for a moment come with `auto` only, and not where they are switched off.
+bool DrapeRun::may_pass(const std::string& effect) const {
+  return m_settings.effects.starts_with("auto") && m_settings.effects.find("-" + effect) == std::string::npos;
+}
+
+void DrapeRun::stop_breathing() { take_back(m_breath); }
+
+void DrapeRun::take_back(const cloth::Effect*& effect) {
+  if (!effect) return;
+  const std::unique_ptr<cloth::Effect> taken = m_solver->remove(*effect);
+  effect = nullptr;
   for (EffectReport& r : m_report.effects)
     if (r.name == taken->name()) r.calls += taken->calls, r.wall_s += taken->wall_s;
 }

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double SEW_LEG_SCALE = 0.7;     // of the body's thickness while trousers are sewn
 constexpr std::size_t DENSE_SKIN = 60000; // triangles: with less, a coarser skin saves too little
+constexpr double ROUGHEST = 4;            // of the tolerance: what a noisy scan is given, which at less has no triangle to spare
 
 } // namespace
 
@@ -20,8 +21,10 @@ void DrapeRun::prepare_body(bool near_hands) {
   if (m_mitten && !(m_mitten->has_shells() && (m_at.mitten || m_mitten->concerns(m_garment.position)))) m_mitten.reset();
   const TriangleMesh& whole = m_mitten ? m_mitten->mesh() : m_body->skin;
   if (!m_at.whole_skin && m_settings.skin_tolerance_m > 0 && whole.triangles.size() > DENSE_SKIN) {
-    m_coarse.emplace(whole, m_settings.skin_tolerance_m);
-    if (!m_coarse->pays()) m_coarse.reset();
+    for (double tolerance = m_settings.skin_tolerance_m; !m_coarse && tolerance <= ROUGHEST * m_settings.skin_tolerance_m; tolerance *= 2) {
+      m_coarse.emplace(whole, tolerance);
+      if (!m_coarse->pays()) m_coarse.reset();
+    }
   }
   collide_with(m_coarse ? m_coarse->mesh() : whole);
   m_at.mitten = m_mitten.has_value();

@@ -50,6 +50,7 @@ struct DrapeState {
   std::vector<double> gaps; ///< m, largest, by step
   // INFLATE
   double latest = 0, farthest = 0; ///< m, how far skin may stay back, and does
+  std::vector<Vec3> held;          ///< m, where sleeve ends are held (sleeve_ends.hpp), until weight and friction come
   // SETTLE
   double h = 0; ///< s
   int calm = 0, unmoved = 0, pushed = 0, best_at = 0, untanglings = 0, partings = 0;

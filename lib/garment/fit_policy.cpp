@@ -91,8 +91,8 @@ FitRuleSet woven_rules() {
   }
   say(top, HIPS, 0.35, 0.65);
   dress.standard = skirt.standard = roomy(1.50, 0);
+  say(trousers, WAISTS, 0.08, 0.15); // a skirt may flare below its top edge
   for (FitRules* rules : {&skirt, &trousers}) {
-    say(*rules, WAISTS, 0.08, 0.15);
     rules->girths["top_edge"] = roomy(0.08, 0.15);
     rules->slip_m = std::numeric_limits<double>::infinity();
   }

@@ -75,6 +75,16 @@ template<class Flat, class Place> int add_panel(Garment& garment, const std::str
   return k;
 }
 
+/// As if it was the sleeve of a forearm of 0.3 m with the wrist at a height.
+inline Bind bind_as_sleeve(const Garment& garment, double wrist_y) {
+  Bind bind;
+  bind.frames = {"forearm_l"};
+  bind.lengths_m = {0.3};
+  bind.marks.resize(1);
+  for (const Vec3& p : garment.position) bind.particles.push_back({{0, 1, 0, (p.y() - wrist_y) / 0.3, 0.003}});
+  return bind;
+}
+
 /// Front and back rectangle, each half the girth wide, side seams open; `girth` at rest, m.
 inline Garment make_skirt(double girth, double length, double edge, double top_y = 1.02, double distance = 0.25) {
   Garment garment;

@@ -7,6 +7,7 @@
 #include <garment/coarse_skin.hpp>
 #include <garment/drape.hpp>
 #include <gtest/gtest.h>
+#include <random>
 
 using namespace sloper;
 using namespace sloper::garment;
@@ -50,8 +51,15 @@ TEST(CoarseSkin, what_has_no_triangle_to_spare_does_not_pay) {
   EXPECT_FALSE(CoarseSkin(jagged, TOLERANCE).pays());
 }
 
-TEST(CoarseSkin, cloth_ends_at_rest_on_the_skin_itself_where_it_hung_before) {
-  const body::Body pillar = dense_pillar();
+class OnCoarseSkin : public testing::TestWithParam<double> {}; // m, noise of the skin
+
+TEST_P(OnCoarseSkin, cloth_ends_at_rest_on_the_skin_itself_where_it_hung_before) {
+  body::Body pillar = dense_pillar();
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 1);
+  for (Vec3& p : pillar.skin.positions)
+    for (double& coordinate : p) coordinate += GetParam() * noise(random);
+  EXPECT_EQ(CoarseSkin(pillar.skin, TOLERANCE).pays(), GetParam() == 0) << "noise takes twice the tolerance";
   const collision::BodyCollider skin(pillar.skin);
   DrapeSettings settings;
   settings.settle_speed_m_s = 0.002;
@@ -73,3 +81,5 @@ TEST(CoarseSkin, cloth_ends_at_rest_on_the_skin_itself_where_it_hung_before) {
   EXPECT_GT(nearest, 0);
   EXPECT_LT(nearest, settings.contact_gap_m) << "the skirt touches";
 }
+
+INSTANTIATE_TEST_SUITE_P(Noise, OnCoarseSkin, testing::Values(0, 3e-4));

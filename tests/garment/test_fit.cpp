@@ -353,6 +353,7 @@ TEST(fit_policy, what_hangs_from_the_waist_may_not_be_far_wider_than_it) {
   EXPECT_LT(woven.limits("waist_semantic", "top").loose_ease, 0.42);
   EXPECT_GT(woven.limits("hip", "skirt").loose_ease, 1);
   EXPECT_TRUE(std::isinf(woven.limits("hip", "skirt").too_large_ease));
+  EXPECT_TRUE(std::isinf(woven.limits("omphalion", "skirt").too_large_ease)); // it may flare from its top edge on
 }
 
 TEST(fit_policy, a_limit_that_is_said_pushes_those_that_are_not) {
