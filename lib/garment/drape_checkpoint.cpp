@@ -55,7 +55,7 @@ void DrapeRun::resume(const DrapeCheckpoint& c) {
   m_checkpoints.renew = true;
   if (m_body && !m_body->skin.triangles.empty()) {
     const Phase phase(*this, "prepare body");
-    prepare_body(m_at.mitten);
+    prepare_body(m_at.covered);
     if (m_at.shrunk) m_shrink.emplace(*m_body);
     if (motion.frame > 0) {
       const std::vector<Vec3> skin = m_moves->skin(motion.frame - 1);

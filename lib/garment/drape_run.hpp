@@ -51,8 +51,8 @@ private:
   };
   void add_phase_time(const char* name, double wall_s);
 
-  void collide_with(const TriangleMesh& skin); ///< makes m_collider
-  void prepare_body(bool near_hands);
+  void collide_with(const TriangleMesh& skin);                   ///< makes m_collider
+  void prepare_body(unsigned covered);                           ///< @param covered of MittenSkin::Ends
   void start_outside_body(bool unsewn);                          ///< shrink until nothing of the garment is inside
   std::vector<Vec3> skin_at(double scale) const;                 ///< as the collider has it
   std::vector<Vec3> as_met(const std::vector<Vec3>& skin) const; ///< likewise
@@ -104,7 +104,7 @@ private:
   std::chrono::steady_clock::time_point m_start;
 
   std::optional<collision::BodyCollider> m_collider;
-  std::optional<MittenSkin> m_mitten; ///< only where cloth is near a hand
+  std::optional<MittenSkin> m_mitten; ///< only where cloth is near a hand or foot
   std::optional<CoarseSkin> m_coarse; ///< of a dense scan, until the cloth is at rest on it
   std::optional<BodyShrink> m_shrink;
   DrapeState m_at;

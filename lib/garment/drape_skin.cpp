@@ -1,4 +1,4 @@
-/// The part of a drape that decides which skin the cloth meets: with hands as mittens, coarser than a dense scan's, drawn in.
+/// The part of a drape that decides which skin the cloth meets: with hands as mittens and toes in a sock, coarser than a dense scan's, drawn in.
 #include <garment/drape_run.hpp>
 
 #include <algorithm>
@@ -16,9 +16,10 @@ constexpr double ROUGHEST = 4;            // of the tolerance: what a noisy scan
 
 void DrapeRun::collide_with(const TriangleMesh& skin) { m_collider.emplace(collision::make_collider(skin, m_body->skin_cache.get())); }
 
-void DrapeRun::prepare_body(bool near_hands) {
-  if (near_hands) m_mitten.emplace(*m_body);
-  if (m_mitten && !(m_mitten->has_shells() && (m_at.mitten || m_mitten->concerns(m_garment.position)))) m_mitten.reset();
+void DrapeRun::prepare_body(unsigned covered) {
+  m_at.covered = covered;
+  m_mitten.reset();
+  if (covered) m_mitten.emplace(*m_body, covered);
   const TriangleMesh& whole = m_mitten ? m_mitten->mesh() : m_body->skin;
   if (!m_at.whole_skin && m_settings.skin_tolerance_m > 0 && whole.triangles.size() > DENSE_SKIN) {
     for (double tolerance = m_settings.skin_tolerance_m; !m_coarse && tolerance <= ROUGHEST * m_settings.skin_tolerance_m; tolerance *= 2) {
@@ -27,10 +28,10 @@ void DrapeRun::prepare_body(bool near_hands) {
     }
   }
   collide_with(m_coarse ? m_coarse->mesh() : whole);
-  m_at.mitten = m_mitten.has_value();
   if (m_coarse)
     m_reporter.info("a coarser skin: " + std::to_string(m_coarse->mesh().triangles.size()) + " of " + std::to_string(whole.triangles.size()) + " triangles");
-  if (m_mitten) m_reporter.info("hands as mittens: cloth is near them");
+  if (covered & MittenSkin::HANDS) m_reporter.info("hands as mittens: cloth is near them");
+  if (covered & MittenSkin::FEET) m_reporter.info("toes as in a sock: cloth is near them");
 }
 
 void DrapeRun::start_outside_body(bool unsewn) {
@@ -40,7 +41,8 @@ void DrapeRun::start_outside_body(bool unsewn) {
     const auto& panels = m_garment.panels.panels;
     return std::any_of(panels.begin(), panels.end(), [&](const pattern::PanelInfo& p) { return p.part.rfind(begins, 0) == 0; });
   };
-  prepare_body(has_part("arm"));
+  const unsigned ends = (has_part("arm") ? MittenSkin::HANDS : 0u) | (has_part("leg") ? MittenSkin::FEET : 0u);
+  prepare_body(ends ? MittenSkin(*m_body, ends).concerned(m_garment.position) : 0);
   const std::vector<Triangle> triangles = m_garment.particle_triangles();
   auto trouble = [&] {
     std::size_t count = m_collider->faces_through(m_garment.position, triangles).size();
@@ -97,7 +99,7 @@ void DrapeRun::leave_coarse_skin() {
   if (m_body_contact) m_at.contact = m_body_contact->memory();
   m_at.whole_skin = true;
   m_coarse.reset();
-  prepare_body(m_at.mitten);
+  prepare_body(m_at.covered);
   rebuild();
 }
 

@@ -1,5 +1,6 @@
 #include <garment/drape_state.hpp>
 #include <garment/garment_json.hpp>
+#include <garment/mitten.hpp>
 #include <garment/scene.hpp>
 
 #include <base/error.hpp>
@@ -104,7 +105,7 @@ Json state_json(const DrapeState& s) {
   Json j;
   j["phase"] = PHASES[static_cast<int>(s.phase)];
   j["step"] = s.step;
-  j["mitten"] = s.mitten, j["whole_skin"] = s.whole_skin, j["shrunk"] = s.shrunk, j["disturbed"] = s.disturbed;
+  j["covered"] = s.covered, j["whole_skin"] = s.whole_skin, j["shrunk"] = s.shrunk, j["disturbed"] = s.disturbed;
   j["scale"] = s.scale;
   j["skin"] = flat(s.skin);
   j["last"] = step_json(s.last);
@@ -130,7 +131,10 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   if (found == std::end(PHASES)) node.at("phase").fail("is no phase of a drape");
   s.phase = static_cast<DrapePhase>(found - std::begin(PHASES));
   s.step = node.at("step").integer();
-  s.mitten = node.at("mitten").boolean(), s.whole_skin = node.has("whole_skin") && node.at("whole_skin").boolean(), s.shrunk = node.at("shrunk").boolean(),
+  const int covered = node.has("covered") ? node.at("covered").integer() : node.at("mitten").boolean() ? MittenSkin::HANDS : 0; // older ones: hands alone
+  if (covered < 0 || covered > static_cast<int>(MittenSkin::HANDS | MittenSkin::FEET)) node.at("covered").fail("names no ends of limbs");
+  s.covered = static_cast<unsigned>(covered);
+  s.whole_skin = node.has("whole_skin") && node.at("whole_skin").boolean(), s.shrunk = node.at("shrunk").boolean();
   s.disturbed = node.at("disturbed").boolean();
   s.scale = node.at("scale").number();
   s.skin = read_flat(node.at("skin"));

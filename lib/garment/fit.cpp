@@ -20,6 +20,7 @@ constexpr double REACH_BEYOND = 0.03;  // m above and below a level that cloth m
 constexpr double SLIDE_BEYOND = 0.06;  // m as far as cloth that is tight slides at most: three times what was seen, it holds on
 constexpr double SLIDE_STRIDE = 0.01;  // m between sections of the skin on that way
 constexpr double SLID = 0.10;          // m that what hangs from the waist may sink wherever it is; held by the hip it may more, and that is said
+constexpr double TRAILS = 0.01;        // m below the soles: such a hem is trodden on
 constexpr double CERTAIN_SLIP = 1.1;   // of what the policy bears: what has sunk so far does not rise
 constexpr double CERTAIN_STRAIN = 1.5; // of what the policy bears: cloth that seems still was seen to creep down by a quarter until it was at rest
 constexpr double OVER_THE_HAND = 0.02; // m beyond the wrist from which a cuff lies on the hand
@@ -148,7 +149,16 @@ double slip_borne(const FitPolicy& policy, const FitLines& lines, const body::Bo
   return std::min(said, std::max(SLID, report.slip_m + top->height_m - hip->second.y));
 }
 
-/// The verdict of all rows, the strain and the slip.
+/// Height of the lowest skin of the legs, m.
+double soles_of(const body::Body& body) {
+  double y = 1e300;
+  for (std::size_t f = 0; f < body.face_part.size(); ++f)
+    if (body.face_part[f] == body::Part::LEG_L || body.face_part[f] == body::Part::LEG_R)
+      for (int v : body.skin.triangles[f]) y = std::min(y, body.skin.positions[v].y());
+  return y;
+}
+
+/// The verdict of all rows, the strain, the slip and the length.
 void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& report) {
   const FitRow* worst = nullptr;
   for (const FitRow& row : report.rows) {
@@ -174,6 +184,9 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
   } else if (certain && report.verdict <= FitVerdict::LOOSE && hangs_from_waist(report) && report.slip_m > SLID) {
     report.verdict = FitVerdict::LOOSE;
     report.reason = slides_down + " to where the hip holds it";
+  } else if (certain && report.verdict <= FitVerdict::LOOSE && report.below_soles_m > TRAILS) {
+    report.verdict = FitVerdict::LOOSE;
+    report.reason = "is too long: it reaches " + centimetres(report.below_soles_m) + " below the soles";
   }
   report.fits = report.verdict < FitVerdict::TOO_LARGE && !(report.verdict == FitVerdict::TIGHT && policy.refuse_tight);
   if (report.fits && policy.refuse_loose && report.verdict == FitVerdict::LOOSE) report.fits = false;
@@ -198,6 +211,7 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
   report.convergence_m = garment.converged ? 0 : NOT_AT_REST;
   report.hem_height_m = 1e300, report.top_height_m = -1e300;
   for (const Vec3& p : garment.position) report.hem_height_m = std::min(report.hem_height_m, p.y()), report.top_height_m = std::max(report.top_height_m, p.y());
+  if (body.has_landmark("foot_tip_l") || body.has_landmark("foot_tip_r")) report.below_soles_m = std::max(0.0, soles_of(body) - report.hem_height_m);
   if (placed) {
     std::vector<double> sunk;
     for (std::size_t i = 0; i < placed->size(); ++i) sunk.push_back((*placed)[i].y() - garment.position[i].y());

@@ -66,6 +66,7 @@ struct FitReport {
   std::string margin_at;                                     ///< its girth
   std::vector<std::pair<std::string, std::string>> left_out; ///< girth, why
   double hem_height_m = 0, top_height_m = 0;                 ///< lowest and highest point of the garment
+  double below_soles_m = 0;                                  ///< how far it reaches below the feet; 0 where it does not
   double convergence_m = 0;                                  ///< how far it may still move: 0 at rest
   bool fits = true;
   FitVerdict verdict = FitVerdict::OK; ///< the worst of all

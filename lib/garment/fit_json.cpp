@@ -18,6 +18,7 @@ io::Json fit_json(const FitReport& report, const std::string& tool) {
   document["strain"] = {{"p99", report.strain_p99}, {"max", report.strain_max}};
   document["slip_m"] = report.slip_m;
   document["hem_height_m"] = report.hem_height_m;
+  document["below_soles_m"] = report.below_soles_m;
   document["top_height_m"] = report.top_height_m;
   document["convergence_m"] = report.convergence_m;
   document["girths"] = io::Json::object();

@@ -10,8 +10,19 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double OFF_THE_SKIN = 0.001; // m: the shell does not touch the hand
-constexpr double BESIDE = 0.15;        // m from the line through the hand
+constexpr double OFF_THE_SKIN = 0.001; // m: the shell does not touch the skin in it
+constexpr double BESIDE = 0.15;        // m from the line through a hand or foot
+constexpr double BALL = 0.6;           // of a foot, from heel to tip: toes part before it
+
+struct Place {
+  double along, beside; // m, of the line from root to tip
+};
+
+Place place_of(const Vec3& p, const Vec3& root, const Vec3& tip) {
+  const Vec3 direction = (tip - root).normalized();
+  const double along = (p - root).dot(direction);
+  return {along, (p - root - along * direction).norm()};
+}
 
 bool sees(const std::vector<Vec3>& p, const Triangle& t, int v) { return collision::orientation(p[t[0]], p[t[1]], p[t[2]], p[v]) < 0; }
 
@@ -54,20 +65,31 @@ std::vector<Triangle> convex_hull_of(const std::vector<Vec3>& p) {
   return hull;
 }
 
-MittenSkin::MittenSkin(const body::Body& body) : m_mesh(body.skin) {
-  for (const auto& [part, side] : {std::pair{body::Part::ARM_L, std::string("_l")}, std::pair{body::Part::ARM_R, std::string("_r")}}) {
-    if (!body.has_landmark("wrist" + side) || !body.has_landmark("hand_tip" + side)) continue;
-    const Hand hand{body.landmark("wrist" + side), body.landmark("hand_tip" + side)};
-    const Vec3 along = hand.tip - hand.wrist;
-    std::vector<char> of_hand(body.skin.positions.size(), 0);
+MittenSkin::MittenSkin(const body::Body& body, unsigned ends) : m_mesh(body.skin) {
+  struct Candidate {
+    Ends end;
+    body::Part part;
+    std::string root, tip;
+    double from; // of the way from the root to the tip
+  };
+  for (const Candidate& c :
+       {Candidate{HANDS, body::Part::ARM_L, "wrist_l", "hand_tip_l", 0}, Candidate{HANDS, body::Part::ARM_R, "wrist_r", "hand_tip_r", 0},
+        Candidate{FEET, body::Part::LEG_L, "heel_l", "foot_tip_l", BALL}, Candidate{FEET, body::Part::LEG_R, "heel_r", "foot_tip_r", BALL}}) {
+    if (!(ends & c.end) || !body.has_landmark(c.root) || !body.has_landmark(c.tip)) continue;
+    Shell shell{c.end, body.landmark(c.root), body.landmark(c.tip)};
+    shell.root += c.from * (shell.tip - shell.root);
+    std::vector<char> of_end(body.skin.positions.size(), 0);
     for (std::size_t f = 0; f < body.skin.triangles.size(); ++f)
-      if (body.face_part[f] == part)
-        for (int v : body.skin.triangles[f]) of_hand[v] = (body.skin.positions[v] - hand.wrist).dot(along) > 0;
+      if (body.face_part[f] == c.part)
+        for (int v : body.skin.triangles[f]) {
+          const Place at = place_of(body.skin.positions[v], shell.root, shell.tip);
+          of_end[v] = at.along > 0 && at.beside < BESIDE;
+        }
     std::vector<int> source;
     std::vector<Vec3> points;
     Vec3 middle = Vec3::Zero();
-    for (std::size_t v = 0; v < of_hand.size(); ++v)
-      if (of_hand[v]) source.push_back(static_cast<int>(v)), points.push_back(body.skin.positions[v]), middle += points.back();
+    for (std::size_t v = 0; v < of_end.size(); ++v)
+      if (of_end[v]) source.push_back(static_cast<int>(v)), points.push_back(body.skin.positions[v]), middle += points.back();
     const std::vector<Triangle> hull = convex_hull_of(points);
     if (hull.empty()) continue;
     middle /= static_cast<double>(points.size());
@@ -80,7 +102,7 @@ MittenSkin::MittenSkin(const body::Body& body) : m_mesh(body.skin) {
         m_outward.push_back(OFF_THE_SKIN * (points[v] - middle).normalized());
       }
     for (const Triangle& t : hull) m_mesh.triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
-    m_hands.push_back(hand);
+    m_shells.push_back(shell);
   }
   m_mesh.positions = positions(body.skin.positions);
 }
@@ -91,15 +113,14 @@ std::vector<Vec3> MittenSkin::positions(const std::vector<Vec3>& skin) const {
   return all;
 }
 
-bool MittenSkin::concerns(const std::vector<Vec3>& points) const {
-  for (const Hand& hand : m_hands) {
-    const Vec3 along = (hand.tip - hand.wrist).normalized();
+unsigned MittenSkin::concerned(const std::vector<Vec3>& points) const {
+  unsigned ends = 0;
+  for (const Shell& shell : m_shells)
     for (const Vec3& p : points) {
-      const double t = (p - hand.wrist).dot(along);
-      if (t > -0.02 && t < 2 * (hand.tip - hand.wrist).norm() && (p - hand.wrist - t * along).norm() < BESIDE) return true;
+      const Place at = place_of(p, shell.root, shell.tip);
+      if (at.along > -0.02 && at.along < 2 * (shell.tip - shell.root).norm() && at.beside < BESIDE) ends |= shell.end;
     }
-  }
-  return false;
+  return ends;
 }
 
 } // namespace sloper::garment

@@ -284,6 +284,31 @@ TEST(fit, a_skirt_that_sank_has_slipped_down_where_the_hip_does_not_hold_it) {
   EXPECT_FALSE(fit_garment(g, body, skin, policy, &placed).fits);
 }
 
+TEST(fit, legs_that_reach_below_the_soles_are_too_long) {
+  const body::Body body = measured("f-165-a");
+  const double knee = body.landmark("knee_l").y();
+  FitPolicy policy = standard_fit_policy();
+  for (FitRules* rules : {&policy.own.all, &policy.own.classes["trousers"]}) rules->standard.loose_ease = rules->standard.too_large_ease = 9;
+  policy.own.classes["trousers"].girths["top_edge"].loose_ease = 9; // it runs in a zigzag along the faces
+  const auto lengthened = [&](double by) {                          // m, below the knee
+    const Garment trousers = skin_trousers(body);
+    std::vector<Vec3> position = trousers.position;
+    const double hem = std::min_element(position.begin(), position.end(), [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); })->y();
+    for (Vec3& p : position)
+      if (p.y() < knee) p.y() -= by * (knee - p.y()) / (knee - hem);
+    return std::pair(dressed(body, sheet(position, trousers.panels.triangles), policy).report, hem - by);
+  };
+  const auto [fitting, above] = lengthened(0);
+  EXPECT_GT(above, 0);
+  EXPECT_EQ(fitting.below_soles_m, 0);
+  EXPECT_EQ(fitting.verdict, FitVerdict::OK) << fitting.reason;
+  const auto [trailing, below] = lengthened(0.15);
+  EXPECT_NEAR(trailing.below_soles_m, -below, 0.005);
+  EXPECT_TRUE(trailing.fits);
+  EXPECT_EQ(trailing.verdict, FitVerdict::LOOSE);
+  EXPECT_EQ(trailing.reason.rfind("is too long: it reaches ", 0), 0u) << trailing.reason;
+}
+
 TEST(fit, every_figure_is_in_the_document_the_csv_and_the_page) {
   const body::Body body = measured("f-165-a");
   const Dressed d = dressed(body, skin_shirt(body));
