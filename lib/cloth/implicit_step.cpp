@@ -20,6 +20,7 @@ constexpr double NEAR_REST = 1;        // weights, of the 95th percentile of the
 constexpr double OUTLIER = 10;         // times that percentile
 constexpr double TIGHTEST = 0.01;      // of the tolerance
 constexpr std::size_t REMEMBERED = 20; // energies of the steps before: a step may end as high as the highest of them
+constexpr double GAIN = 0.2;           // of how far they go up and down: with less, such steps lead round in a circle
 constexpr double MOST_CARRIED = 0.9;   // share of the last step's way
 constexpr double TRUSTED = 0.2;        // of an edge: how far a step with the whole stiffness goes
 constexpr double LOOSER = 3;           // the tolerance of such a step, whose matrix is all but singular
@@ -110,6 +111,7 @@ void ClothSolver::limit(std::vector<Vec3>& dx, std::vector<char>& held) {
 
 void ClothSolver::forget() {
   m_energies.clear();
+  m_falls_for = 0;
   m_last_dx.clear();
   m_carried_for = 0;
 }
@@ -144,17 +146,28 @@ bool ClothSolver::turns_back() const {
   return same_way < -TURNED_BACK * std::sqrt(now * last);
 }
 
+/// Whether steps that cost energy do not gain any: the lowest of the last half of those remembered is below the lowest of the first half by
+/// less than a fifth of how far energies went up and down.
+bool ClothSolver::goes_round() const {
+  if (m_energies.size() < REMEMBERED) return false;
+  const auto half = m_energies.begin() + REMEMBERED / 2;
+  const auto [low, high] = std::minmax_element(half, m_energies.end());
+  return *std::min_element(m_energies.begin(), half) - *low < GAIN * (*high - *low);
+}
+
 /// Halves the step until the energy falls, or doubles it while it keeps falling: where cloth buckles the definite part is far stiffer
 /// than the cloth, and whole steps are much too short. With momentum one step may cost energy which the next ones regain (Grippo,
-/// Lampariello and Lucidi 1986). A look ahead costs a fraction of a solve. Each length is limited anew: what limits cut from a long step
-/// bends it away from where the energy falls, and a short one they leave alone.
+/// Lampariello and Lucidi 1986), unless they do not: then for a while each must fall. A look ahead costs a fraction of a solve. Each length is limited anew:
+/// what limits cut from a long step bends it away from where the energy falls, and a short one they leave alone.
 int ClothSolver::search_along(const StepOptions& o) {
   const Stopwatch watch(search_s);
   double best = energy(m_x), allowed = best;
   if (o.momentum) {
     m_energies.push_back(best);
     if (m_energies.size() > REMEMBERED) m_energies.erase(m_energies.begin());
-    allowed = *std::max_element(m_energies.begin(), m_energies.end());
+    if (m_falls_for == 0 && goes_round()) m_falls_for = REMEMBERED / 2;
+    if (m_falls_for == 0) allowed = *std::max_element(m_energies.begin(), m_energies.end());
+    else if (--m_falls_for == 0) m_energies.clear();
   }
   double largest = 0;
   for (const Vec3& d : m_step) largest = std::max(largest, d.norm());

@@ -88,6 +88,7 @@ private:
   void limit(std::vector<Vec3>& dx, std::vector<char>& held);
   void carry_on();
   bool turns_back() const;
+  bool goes_round() const;
   int search_along(const StepOptions& options);
   void forget(); ///< of the way so far; what was learnt holds no more
   void freeze_held(bool search_failed);
@@ -101,6 +102,7 @@ private:
   std::vector<Vec3> m_last_dx;                                                   // #P: the way of the last step
   int m_carried_for = 0;                                                         // steps since the last start of the momentum
   std::vector<double> m_energies;                                                // J, before the last steps
+  int m_falls_for = 0;                                                           // steps that may not go up
   std::vector<std::unique_ptr<Effect>> m_effects;
   std::vector<ContactElement> m_elements;
   ContactIndex m_contacts; // of m_elements

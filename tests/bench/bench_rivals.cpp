@@ -1,7 +1,7 @@
 /// Scenes that other cloth programs were timed on, simulated as they were (dynamics, 60 frames), and then brought to rest.
 /// Usage: bench_rivals FOLDER [SCENE ...]: FOLDER holds scenes.json and its OBJ files (z up). A scene's name may end in "+self"
 /// (self contact), "+rest" (on to rest: the scene's frames, then steps without inertia, which alone would crumple cloth in free fall) or both. Prints one
-/// line a scene. One thread.
+/// line a scene, to rest one for each of SLOPER_BENCH_STARTS starts from SLOPER_BENCH_START on, and their mean. One thread.
 #include <base/parallel.hpp>
 #include <base/random.hpp>
 #include <chrono>
@@ -79,24 +79,24 @@ Quality measure(const ClothMesh& mesh, const std::vector<Vec3>& x, const collisi
   return q;
 }
 
-/// Where the cloth starts: SLOPER_BENCH_START moves each coordinate by up to half a micrometre, each number otherwise. How many steps lead
-/// to rest is up to chance by a factor of two: a figure is a mean over several.
-std::vector<Vec3> start_of(std::vector<Vec3> x) {
-  const int seed = std::atoi(environment("SLOPER_BENCH_START", "0"));
+/// Where the cloth starts: each number but 0 moves each coordinate by up to half a micrometre, otherwise. How many steps lead to rest is up to
+/// chance by a factor of two: a figure is a mean over several.
+std::vector<Vec3> start_of(std::vector<Vec3> x, int seed) {
   Random random(static_cast<std::uint64_t>(seed));
   for (Vec3& p : x)
     for (double& c : p) c += seed > 0 ? random.uniform(-0.5e-6, 0.5e-6) : 0;
   return x;
 }
 
-void run(const std::string& folder, const std::string& name, bool self, bool to_rest, const io::Json& scene) {
+/// Prints its line. @returns CPU seconds
+double run(const std::string& folder, const std::string& name, bool self, bool to_rest, const io::Json& scene, int seed) {
   const auto load = [&](const std::string& file) {
     const io::ObjMesh obj = io::read_obj(folder + "/" + file);
     return TriangleMesh{obj.positions, obj.triangles};
   };
   const TriangleMesh start = load(scene.at("cloth"));
   const ClothMesh mesh = cloth_of(start, scene.at("areal_density"));
-  ClothSolver solver(mesh, start_of(start.positions));
+  ClothSolver solver(mesh, start_of(start.positions, seed));
   solver.emplace<EdgeSpringEffect>(mesh);
   solver.emplace<BendingEffect>(mesh);
   const auto g = scene.at("gravity").get<std::array<double, 3>>();
@@ -181,6 +181,7 @@ void run(const std::string& folder, const std::string& name, bool self, bool to_
     std::fclose(file);
   }
   std::fflush(stdout);
+  return seconds;
 }
 
 } // namespace
@@ -201,7 +202,11 @@ int main(int argc, char** argv) {
               "inside", "thru", "deep mm", "self", "res p95", "res max");
   for (const std::string& w : wanted) {
     const std::string name = w.substr(0, w.find('+'));
-    run(folder, name, w.find("+self") != std::string::npos, w.find("+rest") != std::string::npos, scenes.at(name));
+    const bool to_rest = w.find("+rest") != std::string::npos;
+    const int first = std::atoi(environment("SLOPER_BENCH_START", "0")), starts = to_rest ? std::atoi(environment("SLOPER_BENCH_STARTS", "1")) : 1;
+    double seconds = 0;
+    for (int seed = first; seed < first + starts; ++seed) seconds += run(folder, name, w.find("+self") != std::string::npos, to_rest, scenes.at(name), seed);
+    if (starts > 1) std::printf("%-20s %8.3f s to rest, mean of %d starts\n", w.c_str(), seconds / starts, starts);
   }
   return 0;
 }
