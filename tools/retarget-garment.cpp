@@ -114,7 +114,8 @@ int run(cli::Tool& tool, const Options& o) {
   else if (!o.no_drape) report = garment::drape(garment, &body, settings, tool.reporter(), garment::hopeless_beyond(policy, fit));
   garment::bind_garment(garment, body);
   garment::write_garment(o.output, garment, tool.name());
-  if (!hopeless) fit = garment::fit_garment(garment, body, skin, policy, &placed.placed, report.unfit);
+  const auto& made_for = mode == garment::RetargetMode::KEEP_FIT ? garment.body_girths_m : source.body_girths_m; // keep-fit cuts it anew
+  if (!hopeless) fit = garment::fit_garment(garment, body, skin, policy, &placed.placed, report.unfit, made_for);
   if (const std::string why = garment::why_stuck(garment, body); fit.fits && !o.no_drape && !report.converged && !why.empty())
     fit.fits = false, fit.verdict = garment::FitVerdict::IMPOSSIBLE, fit.reason = why;
   write_fit(o, fit, tool.name(), report.converged, inputs);

@@ -202,27 +202,34 @@ int ClothSolver::search_along(const StepOptions& o) {
   return MOST_HALVINGS;
 }
 
-/// A particle stuck in a pinch bends the step away from where the energy falls, and the line search then stops all the cloth for its
-/// sake. It is kept in place for a while, longer each time, while the rest goes on.
-void ClothSolver::freeze_held(bool search_failed) {
+/// The 95th percentile, which ends up in its place; not of nothing.
+static std::vector<double>::iterator percentile_95(std::vector<double>& values) {
+  const auto at = values.begin() + static_cast<long>(0.95 * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return at;
+}
+
+/// A particle stuck in a pinch bends the step away from where the energy falls, or is pressed there harder than all others, and the line
+/// search then stops all the cloth for its sake. It is kept in place for a while, longer each time, while the rest goes on. With momentum,
+/// which lets energy rise, only what limits hold: there the rest comes no sooner for the others.
+void ClothSolver::freeze_held(bool search_failed, bool momentum) {
+  double wedged2 = std::numeric_limits<double>::infinity();
+  if (search_failed && !momentum) {
+    m_residual.clear();
+    for (const Vec3& f : m_force) m_residual.push_back(f.squaredNorm());
+    wedged2 = OUTLIER * OUTLIER * std::max(*percentile_95(m_residual), m_mean_weight * m_mean_weight);
+  }
   for (std::size_t i = 0; i < m_held.size(); ++i) {
     if (m_frozen_for[i] > 0) {
       --m_frozen_for[i];
       m_held[i] = 1;
-    } else if (m_held[i] && search_failed) {
+    } else if (search_failed && (m_held[i] || m_force[i].squaredNorm() > wedged2)) {
       m_freeze[i] = std::clamp(2 * m_freeze[i], 1, LONGEST_FREEZE);
       m_frozen_for[i] = m_freeze[i];
     } else {
       m_freeze[i] /= 2;
     }
   }
-}
-
-/// The 95th percentile, which ends up in its place; not of nothing.
-static std::vector<double>::iterator percentile_95(std::vector<double>& values) {
-  const auto at = values.begin() + static_cast<long>(0.95 * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return at;
 }
 
 std::array<double, 2> ClothSolver::measure_rhs() {
@@ -360,7 +367,7 @@ StepResult ClothSolver::step(const StepOptions& o) {
   }
   if (o.line_search) {
     result.halvings = search_along(o);
-    freeze_held(result.halvings > 0);
+    freeze_held(result.halvings > 0, o.momentum);
     if (o.momentum) m_carried_for = result.halvings > 0 ? 0 : m_carried_for + 1;
     else forget();
     m_last_dx = m_dx;

@@ -203,7 +203,7 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
 } // namespace
 
 FitReport fit_garment(const Garment& garment, const body::Body& body, const collision::BodyCollider& skin, const FitPolicy& policy,
-                      const std::vector<Vec3>* placed, const std::string& unfit) {
+                      const std::vector<Vec3>* placed, const std::string& unfit, const std::map<std::string, double>& made_for) {
   if (garment.bind.empty()) throw input_error("", "/bind", "the garment is not bound to a body", "drape it on the body first");
   FitReport report;
   report.policy = policy.name;
@@ -237,6 +237,9 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
       return;
     }
     row->limits = policy.limits(row->name, report.garment_class, report.fabric);
+    for (const std::string& name : {row->name, "level:" + row->name})
+      if (const auto girth = made_for.find(name); girth != made_for.end())
+        row->limits.too_large_ease = policy.too_large_ease(row->limits, row->rest_m / girth->second - 1, row->name, report.garment_class, report.fabric);
     judge(garment.converged, *row);
     tell_long_sleeve(report.lines, *row);
     report.rows.push_back(std::move(*row));

@@ -50,6 +50,9 @@ struct FitPolicy {
   bool refuse_loose = false, refuse_tight = false; ///< "too small" and "too large" are always refused
 
   FitLimits limits(const std::string& girth, const std::string& garment_class = {}, const std::string& fabric = {}) const;
+  /// too_large_ease of `limits` (of limits()) for a garment that was cut with `designed` ease, a share of the girth of the body it was cut for:
+  /// half of that limit beyond the design where this is more, unless the document says a limit of its own.
+  double too_large_ease(const FitLimits& limits, double designed, const std::string& girth, const std::string& garment_class, const std::string& fabric) const;
   double strain_p99(const std::string& garment_class, const std::string& fabric) const; ///< of all edges: stretched further, it does not fit
   double strain_max(const std::string& garment_class, const std::string& fabric) const; ///< of any edge
   /// m that it may sink before it counts as falling off; infinite: as far as the hip holds it

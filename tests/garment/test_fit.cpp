@@ -402,6 +402,27 @@ TEST(fit_policy, a_girth_above_its_limit_is_too_large_and_refused) {
   EXPECT_NE(fit_page(d.report, "a", "b").find("class=\"limit\""), std::string::npos);
 }
 
+TEST(fit_policy, what_was_cut_wide_is_not_too_large_for_being_wide) {
+  FitPolicy policy = standard_fit_policy();
+  const FitLimits limits = policy.limits("waist_semantic", "top");
+  const double limit = limits.too_large_ease;
+  EXPECT_EQ(policy.too_large_ease(limits, 0.1, "waist_semantic", "top", ""), limit);
+  EXPECT_DOUBLE_EQ(policy.too_large_ease(limits, 0.9, "waist_semantic", "top", ""), 0.9 + 0.5 * limit);
+  policy.own.classes["top"].girths["waist_semantic"].too_large_ease = 0.3;
+  EXPECT_EQ(policy.too_large_ease(policy.limits("waist_semantic", "top"), 0.9, "waist_semantic", "top", ""), 0.3) << "said is said";
+
+  const body::Body body = measured("f-165-a");
+  Garment tent = skin_shirt(body, 0.12);
+  bind_garment(tent, body);
+  const collision::BodyCollider skin(body.skin);
+  std::map<std::string, double> stouter = tent.body_girths_m;
+  EXPECT_EQ(fit_garment(tent, body, skin, standard_fit_policy()).verdict, FitVerdict::TOO_LARGE);
+  EXPECT_TRUE(fit_garment(tent, body, skin, standard_fit_policy(), nullptr, "", tent.body_girths_m).fits);
+  for (auto& [name, girth] : stouter) girth *= 1.6; // cut for a much stouter person
+  const FitReport report = fit_garment(tent, body, skin, standard_fit_policy(), nullptr, "", stouter);
+  EXPECT_EQ(report.verdict, FitVerdict::TOO_LARGE) << report.reason;
+}
+
 TEST(fit_policy, what_it_does_not_know_is_refused) {
   EXPECT_THROW(read_fit_policy(policy_file(R"("defualt": {})")), Error);
   EXPECT_THROW(read_fit_policy(policy_file(R"("default": {"tight": 1})")), Error);
