@@ -34,16 +34,23 @@ SelfContactEffect::SelfContactEffect(const ClothMesh& mesh, const SelfContactOpt
 }
 
 SelfContactEffect::Pair SelfContactEffect::kind_of(const int* a, int n_a, const int* b, int n_b) const {
+  const auto passes = [&](int particle) { return m_passes[particle] != 0; };
+  if (!m_passes.empty() && std::all_of(a, a + n_a, passes) && std::all_of(b, b + n_b, passes)) return Pair::PASSES;
   if (m_seam_class.empty()) return Pair::FREE;
   Pair kind = Pair::FREE;
   for (int i = 0; i < n_a; ++i)
     for (int j = 0; j < n_b; ++j) {
       const int c = m_seam_class[a[i]];
       if (c < 0 || c != m_seam_class[b[j]]) continue;
-      if (m_closed[c]) return Pair::CLOSED_SEAM;
+      if (m_closed[c]) return Pair::PASSES;
       kind = Pair::OPEN_SEAM;
     }
   return kind;
+}
+
+void SelfContactEffect::let_pass(std::vector<char> passes) {
+  m_passes = std::move(passes);
+  refresh();
 }
 
 void SelfContactEffect::find_closed_seams(const std::vector<Vec3>& x) {
@@ -69,7 +76,7 @@ void SelfContactEffect::search(const std::vector<Vec3>& x) {
   m_pairs.clear();
   auto take = [&](const std::array<int, 4>& p, int n_first, bool is_edge, double distance) {
     const Pair kind = kind_of(p.data(), n_first, p.data() + n_first, 4 - n_first);
-    if (kind == Pair::CLOSED_SEAM) return;
+    if (kind == Pair::PASSES) return;
     Near near{p, is_edge, distance};
     if (kind == Pair::FREE) near.reach = std::min(std::min(m_thickness[p[0]], m_thickness[p[1]]), std::min(m_thickness[p[2]], m_thickness[p[3]]));
     m_pairs.push_back(near);
@@ -195,7 +202,7 @@ bool SelfContactEffect::guard_closing(const std::vector<std::array<int, 2>>& pai
       near.particle = {pair[0], t[0], t[1], t[2]};
     }
     const int n_first = is_edge ? 2 : 1;
-    if (kind_of(near.particle.data(), n_first, near.particle.data() + n_first, 4 - n_first) == Pair::CLOSED_SEAM) continue;
+    if (kind_of(near.particle.data(), n_first, near.particle.data() + n_first, 4 - n_first) == Pair::PASSES) continue;
     const Closest c = closest(near, x);
     if (c.distance < 1e-12 || !m_guarded_closing[is_edge].insert(pair).second) continue;
     guard(near, c, limits);

@@ -40,6 +40,8 @@ public:
   bool guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) override;
   void end_step(const std::vector<Vec3>& x) override;
   void set_friction(double mu) { m_options.friction = mu; }
+  /// @param passes #P or empty: elements all of whose particles are marked neither repel each other nor bind each other's motion from now on
+  void let_pass(std::vector<char> passes);
   /// Crossing pairs of triangles at the last search; while there are any, each search looks for them anew.
   const std::vector<std::array<int, 2>>& crossings() const { return m_crossings; }
   /// The same at x, looked for now: pairs that crossed and came apart are watched less closely for a while.
@@ -50,7 +52,7 @@ public:
   long far_searches = 0; ///< for pairs that close in on each other from beyond the search radius
 
 private:
-  enum class Pair { FREE, OPEN_SEAM, CLOSED_SEAM };
+  enum class Pair { FREE, OPEN_SEAM, PASSES };
   Pair kind_of(const int* a, int n_a, const int* b, int n_b) const;
   void find_closed_seams(const std::vector<Vec3>& x);
   void search(const std::vector<Vec3>& x);
@@ -63,6 +65,7 @@ private:
   std::set<std::array<int, 2>> m_guarded_closing[2]; // in this step: vertex and face, edges
   std::vector<int> m_seam_class;                     // #P or empty
   std::vector<char> m_closed;                        // by seam class
+  std::vector<char> m_passes;                        // #P or empty
   std::vector<double> m_thickness;                   // #P
   double m_reach = 0;                                // m, at which any pair may begin to repel
   double m_radius = 0;                               // m, of the last search

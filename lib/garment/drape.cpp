@@ -235,6 +235,7 @@ void DrapeRun::settle() {
     if (k < glide()) breathe();
     if (k == glide()) {
       stop_breathing();
+      close_tucks();
       let_sleeves_go();
       add_load();
       h = m_settings.time_step_s;
@@ -280,13 +281,9 @@ void DrapeRun::settle() {
       calm = 0;
       continue;
     }
-    m_garment.position = m_solver->x();
     if (m_at.untanglings < MOST_UNTANGLINGS && m_self_contact && !m_self_contact->find_crossings(m_solver->x()).empty()) {
       ++m_at.untanglings;
-      untangle();
-      m_solver->set_positions(m_garment.position);
-      m_self_contact->refresh();
-      if (m_body_contact) m_body_contact->refresh();
+      untangle_now();
       calm = 0;
       continue;
     }
@@ -315,6 +312,7 @@ DrapeReport DrapeRun::run() {
       untangle();
       build_solver(false);
       hold_sleeves();
+      let_tucks_pass();
     }
     if (m_at.phase != DrapePhase::SETTLE && m_at.phase != DrapePhase::MOVE) inflate();
     if (m_at.phase != DrapePhase::MOVE) settle();

@@ -34,6 +34,7 @@ void DrapeRun::renew() {
 void DrapeRun::rebuild() {
   build_solver(m_at.phase == DrapePhase::SEW);
   hold_sleeves();
+  let_tucks_pass();
   if ((m_at.phase == DrapePhase::SETTLE && m_at.step > glide()) || m_at.phase == DrapePhase::MOVE) add_load();
   if (m_body_contact) m_body_contact->recall(m_at.contact);
   if (m_at.phase == DrapePhase::MOVE) m_solver->shift(std::vector<Vec3>(m_at.motion.velocity.size(), Vec3::Zero()), m_at.motion.velocity);

@@ -63,6 +63,7 @@ private:
   void log_crossings(const char* when) const; ///< to the log, with -v
   std::string crossing_text() const;          ///< for the log: what is through the skin, and where
   std::size_t untangle();                     ///< draws crossing cloth apart; the pairs that remain
+  void untangle_now();                        ///< the same in the middle of settling
   std::size_t part_from_body(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, std::vector<Vec3>& move) const;
   std::size_t part_all(int most_rounds, int& rounds);
   bool part_the_few(); ///< moves the last faces through the skin out of it, while the garment settles; whether there were any
@@ -75,6 +76,9 @@ private:
   void activate(const char* effect, const char* why);
   void breathe(); ///< a little pressure from within, until stop_breathing()
   void stop_breathing();
+  void find_tucks();     ///< that sewing left, for let_tucks_pass()
+  void let_tucks_pass(); ///< each through itself, until close_tucks()
+  void close_tucks();
   void hold_sleeves(); ///< where m_at says, until let_sleeves_go()
   void let_sleeves_go();
   bool may_pass(const std::string& effect) const;

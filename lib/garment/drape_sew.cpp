@@ -1,5 +1,6 @@
 /// The part of a drape that draws the panels together, and the breath after it.
 #include <cloth/pressure.hpp>
+#include <collision/intersections.hpp>
 #include <garment/drape_run.hpp>
 #include <garment/effects.hpp>
 #include <garment/materials.hpp>
@@ -21,6 +22,7 @@ constexpr double SEW_GROWTH = 1.6; // of the pull where seams hardly close on, i
 constexpr double SEW_SLOW = 0.06;  // at 0.04 a tenth more steps; at 0.1 a long sleeve is strained by up to 20 % instead of 10
 constexpr double SEW_STEP_S = 0.1;
 constexpr double SEW_STRONGEST = 20; // N at reach: closes seams of garments that fit tightly
+constexpr double TUCK = 0.04;        // m: how far around what crosses after sewing cloth may be tucked in
 constexpr double BREATH = 1;         // weights of the cloth on its area: pressure from within meanwhile, which turns out dents that sewing left
 
 std::string millimetres(double m) { return std::to_string(std::lround(m * 1e4) / 10) + "." + std::to_string(std::lround(m * 1e4) % 10) + " mm"; }
@@ -63,6 +65,42 @@ void DrapeRun::sew() {
   log_crossings("sewn");
   weld(m_garment, vertex_position);
   log_crossings("welded");
+  find_tucks();
+}
+
+/// Where seams meet, panels that were drawn together may be tucked into each other, and once nothing crosses contact would keep them so.
+/// What crosses, and cloth around it, passes through itself until weight comes; bending and the breath smooth it meanwhile.
+void DrapeRun::find_tucks() {
+  m_at.tucks.clear();
+  if (!active("self_contact")) return;
+  const std::vector<Triangle> triangles = m_garment.particle_triangles();
+  const collision::TriangleTree tree(m_garment.position, triangles);
+  std::vector<char> tucked(m_garment.position.size(), 0);
+  for (const auto& pair : collision::self_intersections(m_garment.position, triangles, tree))
+    for (int f : pair)
+      for (int i : triangles[f]) tucked[i] = 1;
+  const int rings = static_cast<int>(std::lround(TUCK / mean_edge()));
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::vector<char> before = tucked;
+    for (const Triangle& t : triangles)
+      if (before[t[0]] || before[t[1]] || before[t[2]]) tucked[t[0]] = tucked[t[1]] = tucked[t[2]] = 1;
+  }
+  for (std::size_t i = 0; i < tucked.size(); ++i)
+    if (tucked[i]) m_at.tucks.push_back(static_cast<int>(i));
+}
+
+void DrapeRun::let_tucks_pass() {
+  if (m_at.tucks.empty() || !m_self_contact) return;
+  std::vector<char> passes(m_garment.position.size(), 0);
+  for (int i : m_at.tucks) passes[i] = 1;
+  m_self_contact->let_pass(std::move(passes));
+}
+
+void DrapeRun::close_tucks() {
+  if (m_at.tucks.empty() || !m_self_contact) return;
+  m_at.tucks.clear();
+  m_self_contact->let_pass({});
+  untangle_now();
 }
 
 /// A flared hem that sewing has dented inwards may stay so: a cone turned in is a state of rest too. Cloth without seams would fly off.

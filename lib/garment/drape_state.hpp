@@ -50,6 +50,7 @@ struct DrapeState {
   std::vector<double> gaps; ///< m, largest, by step
   // INFLATE
   double latest = 0, farthest = 0; ///< m, how far skin may stay back, and does
+  std::vector<int> tucks;          ///< particles that may pass through each other until weight and friction come: sewing left them tucked in
   std::vector<Vec3> held;          ///< m, where sleeve ends are held (sleeve_ends.hpp), until weight and friction come
   // SETTLE
   double h = 0; ///< s

@@ -52,6 +52,14 @@ std::size_t DrapeRun::untangle() {
   return least;
 }
 
+void DrapeRun::untangle_now() {
+  m_garment.position = m_solver->x();
+  untangle();
+  m_solver->set_positions(m_garment.position);
+  m_self_contact->refresh();
+  if (m_body_contact) m_body_contact->refresh();
+}
+
 /// What of the garment crosses the skin or lies inside goes out along the skin's normal; moves are added to `move` where they are longer.
 std::size_t DrapeRun::part_from_body(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, std::vector<Vec3>& move) const {
   if (!m_collider) return 0;

@@ -292,6 +292,46 @@ TEST(Contact, ClothThatFallsTogetherFallsFreely) {
   for (std::size_t i = 0; i < s.x.size(); ++i) EXPECT_NEAR(s.x[i].y() - solver.x()[i].y(), fallen, 1e-3 * fallen);
 }
 
+TEST(Contact, WhatMayPassPassesUntilItMayNot) {
+  FallingSheet s = sheet_above_sheet(0.0012);
+  SelfContactEffect contact(s.mesh, {});
+  const int n = static_cast<int>(s.x.size());
+  Couplings couplings;
+  contact.declare(couplings);
+  BlockMatrix matrix(n, couplings);
+  contact.bind(matrix);
+  const auto pushes = [&] {
+    const Filled f = fill(contact, n, s.x, matrix);
+    double most = 0;
+    for (const Vec3& force : f.force) most = std::max(most, force.norm());
+    return most;
+  };
+  const double most = pushes();
+  EXPECT_GT(most, 0);
+  std::vector<char> passes(s.x.size(), 1);
+  contact.let_pass(passes);
+  EXPECT_EQ(pushes(), 0);
+  std::fill(passes.begin(), passes.begin() + n / 2, 0); // one sheet alone may not
+  contact.let_pass(passes);
+  EXPECT_EQ(pushes(), most);
+  contact.let_pass({});
+  EXPECT_EQ(pushes(), most);
+  for (const bool may : {false, true}) { // and in motion
+    ClothSolver solver(s.mesh, s.x);
+    auto& held = solver.emplace<SelfContactEffect>(s.mesh, SelfContactOptions{});
+    if (may) held.let_pass(std::vector<char>(s.x.size(), 1));
+    solver.emplace<GravityEffect>(s.mesh, Vec3(0, -9.81, 0));
+    std::vector<Vec3> velocity(s.x.size(), Vec3::Zero());
+    for (int i = n / 2; i < n; ++i) velocity[i] = Vec3(0, -1, 0);
+    solver.shift(std::vector<Vec3>(s.x.size(), Vec3::Zero()), velocity);
+    StepOptions options;
+    options.inertia = 1;
+    options.largest_move_m = 1;
+    for (int k = 0; k < 3; ++k) solver.step(options);
+    EXPECT_EQ(solver.x().back().y() < solver.x().front().y(), may);
+  }
+}
+
 TEST(Contact, LookingAheadChangesNoStep) {
   collision::BodyCollider body(table(7, 0.2));
   for (const double height : {0.004, -0.001}) { // outside, and with faces in the skin, which are pushed harder with every search

@@ -52,6 +52,13 @@ Case sleeve() { // its end is held while the body is inflated
   return c;
 }
 
+Case tucked() { // sheared against each other, panels are drawn through each other while they are sewn
+  Case c{"tucked", make_pillar(), make_skirt(0.75, 0.25, 0.04)};
+  for (Vec3& p : c.garment.panels.placed)
+    if (p.z() > 0) p += Vec3(p.y() - 0.9, p.x(), 0);
+  return c;
+}
+
 Case dense() { // meets a coarser skin first, where the settings say so
   return {"dense", make_pillar(256, 240), make_skirt(0.75, 0.25, 0.04)};
 }
@@ -77,16 +84,20 @@ private:
 TEST_F(CheckpointTest, a_run_killed_at_any_step_goes_on_to_the_bytes_of_one_that_was_not) {
   DrapeSettings settings;
   settings.skin_tolerance_m = 3e-4;
-  for (const Case& c : {Case{"sewn", make_pillar(), make_skirt(0.75, 0.25, 0.04)}, drawn_in(), sleeve(), dense()}) {
+  for (const Case& c : {Case{"sewn", make_pillar(), make_skirt(0.75, 0.25, 0.04)}, drawn_in(), sleeve(), tucked(), dense()}) {
     Garment whole = c.garment;
     const DrapeReport undisturbed = drape(whole, &c.body, settings, silent_reporter(), {}, {file("whole.json"), 17});
     EXPECT_TRUE(undisturbed.converged) << undisturbed.stop_reason;
     std::set<DrapePhase> phases;
-    for (int at = 20; at < undisturbed.steps; at += std::max(5, undisturbed.steps / 4)) {
+    const bool tucked = c.name == std::string("tucked");
+    std::size_t tucks = 0;
+    for (int at = 20; at < undisturbed.steps; at += std::max(5, undisturbed.steps / (tucked ? 12 : 4))) {
       Garment killed = c.garment;
       Killer killer(at);
       drape(killed, &c.body, settings, killer, {}, {file("killed.json"), 17});
-      phases.insert(read_checkpoint(file("killed.json")).state.phase);
+      const DrapeState state = read_checkpoint(file("killed.json")).state;
+      phases.insert(state.phase);
+      tucks += state.tucks.size();
       Garment resumed;
       set_thread_count(1 + at % 2);
       const DrapeReport report = resume_drape(file("killed.json"), resumed, &c.body, silent_reporter());
@@ -97,6 +108,7 @@ TEST_F(CheckpointTest, a_run_killed_at_any_step_goes_on_to_the_bytes_of_one_that
       EXPECT_EQ(report.solver, undisturbed.solver);
       for (std::size_t k = 0; k < report.effects.size(); ++k) EXPECT_EQ(report.effects[k].calls, undisturbed.effects[k].calls) << report.effects[k].name;
     }
+    EXPECT_EQ(tucks > 0, tucked) << c.name;
     const bool inflates = c.name == std::string("drawn_in") || c.name == std::string("sleeve");
     EXPECT_TRUE(phases.count(DrapePhase::SETTLE) && phases.count(inflates ? DrapePhase::INFLATE : DrapePhase::SEW)) << c.name;
   }
