@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <base/units.hpp>
 #include <cmath>
+#include <map>
 
 namespace sloper::garment {
 
@@ -23,6 +24,7 @@ constexpr double SEW_SLOW = 0.06;  // at 0.04 a tenth more steps; at 0.1 a long 
 constexpr double SEW_STEP_S = 0.1;
 constexpr double SEW_STRONGEST = 20; // N at reach: closes seams of garments that fit tightly
 constexpr double TUCK = 0.04;        // m: how far around what crosses after sewing cloth may be tucked in
+constexpr double TUCKED = 0.25;      // m: crossing pairs of such a place times the mesh edge; knots had 0.4 and more, what comes apart 0.2 and less
 constexpr double BREATH = 1;         // weights of the cloth on its area: pressure from within meanwhile, which turns out dents that sewing left
 
 std::string millimetres(double m) { return std::to_string(std::lround(m * 1e4) / 10) + "." + std::to_string(std::lround(m * 1e4) % 10) + " mm"; }
@@ -69,24 +71,32 @@ void DrapeRun::sew() {
 }
 
 /// Where seams meet, panels that were drawn together may be tucked into each other, and once nothing crosses contact would keep them so.
-/// What crosses, and cloth around it, passes through itself until weight comes; bending and the breath smooth it meanwhile.
+/// What crosses, and cloth around it, passes through itself until weight comes; bending and the breath smooth it meanwhile. Where only
+/// a little crosses, it is drawn apart for good: letting that pass too left knots in arm pits.
 void DrapeRun::find_tucks() {
   m_at.tucks.clear();
   if (!active("self_contact")) return;
   const std::vector<Triangle> triangles = m_garment.particle_triangles();
   const collision::TriangleTree tree(m_garment.position, triangles);
-  std::vector<char> tucked(m_garment.position.size(), 0);
-  for (const auto& pair : collision::self_intersections(m_garment.position, triangles, tree))
+  const auto crossing = collision::self_intersections(m_garment.position, triangles, tree);
+  std::vector<char> near(m_garment.position.size(), 0);
+  for (const auto& pair : crossing)
     for (int f : pair)
-      for (int i : triangles[f]) tucked[i] = 1;
+      for (int i : triangles[f]) near[i] = 1;
   const int rings = static_cast<int>(std::lround(TUCK / mean_edge()));
   for (int ring = 0; ring < rings; ++ring) {
-    const std::vector<char> before = tucked;
+    const std::vector<char> before = near;
     for (const Triangle& t : triangles)
-      if (before[t[0]] || before[t[1]] || before[t[2]]) tucked[t[0]] = tucked[t[1]] = tucked[t[2]] = 1;
+      if (before[t[0]] || before[t[1]] || before[t[2]]) near[t[0]] = near[t[1]] = near[t[2]] = 1;
   }
-  for (std::size_t i = 0; i < tucked.size(); ++i)
-    if (tucked[i]) m_at.tucks.push_back(static_cast<int>(i));
+  std::vector<Triangle> patches;
+  for (const Triangle& t : triangles)
+    if (near[t[0]] && near[t[1]] && near[t[2]]) patches.push_back(t);
+  const std::vector<int> patch = connected_components(near.size(), patches);
+  std::map<int, int> pairs; // by patch
+  for (const auto& pair : crossing) ++pairs[patch[triangles[pair[0]][0]]];
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (near[i] && pairs[patch[i]] * mean_edge() > TUCKED) m_at.tucks.push_back(static_cast<int>(i));
 }
 
 void DrapeRun::let_tucks_pass() {
