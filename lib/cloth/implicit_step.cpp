@@ -157,8 +157,8 @@ bool ClothSolver::goes_round() const {
 
 /// Halves the step until the energy falls, or doubles it while it keeps falling: where cloth buckles the definite part is far stiffer
 /// than the cloth, and whole steps are much too short. With momentum one step may cost energy which the next ones regain (Grippo,
-/// Lampariello and Lucidi 1986), unless they do not: then for a while each must fall. A look ahead costs a fraction of a solve. Each length is limited anew:
-/// what limits cut from a long step bends it away from where the energy falls, and a short one they leave alone.
+/// Lampariello and Lucidi 1986); where they do not, each must fall for a while. A look ahead costs a fraction of a solve. Each length is
+/// limited anew: what limits cut from a long step bends it away from where the energy falls, and a short one they leave alone.
 int ClothSolver::search_along(const StepOptions& o) {
   const Stopwatch watch(search_s);
   double best = energy(m_x), allowed = best;

@@ -21,14 +21,15 @@ struct StepOptions {
   /// residual that counts as rest.
   double least_residual_ratio = 0;
   int cg_max_iterations = 400;
-  /// Halves the step until the energy falls, doubles it while it falls on, halves one that takes back the last; else no motion. Off:
-  /// limits that cut half an edge shorten all.
+  /// Halves the step until the energy falls, doubles it while it falls on, halves one that takes back the last; else no motion. Where it
+  /// halves, particles that limits hold, and without momentum those with ten times the force of nearly all others, stay in place for up to 16 steps.
+  /// Off: limits that cut half an edge shorten all.
   bool line_search = false;
   /// With line_search: a share of the last step's way goes on top (O'Donoghue and Candes 2015), and a step may end as high as the highest
-  /// of the last 20 energies (Grippo et al. 1986). Pays where the energy alone bounds the steps, with h far above 0.2 s: there a skirt of
-  /// 3000 particles comes to rest in half the steps (290 instead of 552, means of jittered starts), squares of 1000 that fold in 0.9 of
-  /// them (sums over six; singly 0.6 to 1.3), squares of 2300 in 1.1. Not for garments that friction holds: momentum carries cloth over it, on a
-  /// slope of 40 degrees up to 1.27 of the friction that should hold it, and where tied cloth is left out of it, nothing is gained.
+  /// of the last 20 energies (Grippo et al. 1986); where these only go up and down, each step must fall for 10 steps. Pays where the energy alone bounds the
+  /// steps, with h far above 0.2 s: there a skirt of 3000 particles comes to rest in half the steps (290 instead of 552, means of jittered starts), squares of
+  /// 1000 that fold in 0.9 of them (sums over six; singly 0.6 to 1.3), squares of 2300 in 1.1. Not for garments that friction holds: momentum carries cloth
+  /// over it, on a slope of 40 degrees up to 1.27 of the friction that should hold it, and where tied cloth is left out of it, nothing is gained.
   bool momentum = false;
   /// With line_search: near rest, at 95 % of the forces below a mean weight, the stiffness is whole, with the negative parts that are left
   /// out of it elsewhere to keep it definite, and the solve ends at a trust radius of a fifth of an edge (Steihaug 1983). Where cloth has

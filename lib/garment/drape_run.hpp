@@ -8,8 +8,8 @@
 #include <garment/audit.hpp>
 #include <garment/body_shrink.hpp>
 #include <garment/coarse_skin.hpp>
+#include <garment/covered_skin.hpp>
 #include <garment/drape_state.hpp>
-#include <garment/mitten.hpp>
 #include <garment/motion.hpp>
 
 #include <chrono>
@@ -52,7 +52,7 @@ private:
   void add_phase_time(const char* name, double wall_s);
 
   void collide_with(const TriangleMesh& skin);                   ///< makes m_collider
-  void prepare_body(unsigned covered);                           ///< @param covered of MittenSkin::Ends
+  void prepare_body(unsigned covered);                           ///< @param covered of CoveredSkin::Ends
   void start_outside_body(bool unsewn);                          ///< shrink until nothing of the garment is inside
   std::vector<Vec3> skin_at(double scale) const;                 ///< as the collider has it
   std::vector<Vec3> as_met(const std::vector<Vec3>& skin) const; ///< likewise
@@ -108,8 +108,8 @@ private:
   std::chrono::steady_clock::time_point m_start;
 
   std::optional<collision::BodyCollider> m_collider;
-  std::optional<MittenSkin> m_mitten; ///< only where cloth is near a hand or foot
-  std::optional<CoarseSkin> m_coarse; ///< of a dense scan, until the cloth is at rest on it
+  std::optional<CoveredSkin> m_covered; ///< only where cloth is near a hand or foot
+  std::optional<CoarseSkin> m_coarse;   ///< of a dense scan, until the cloth is at rest on it
   std::optional<BodyShrink> m_shrink;
   DrapeState m_at;
   Checkpoints m_checkpoints;

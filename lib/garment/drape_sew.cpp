@@ -97,6 +97,8 @@ void DrapeRun::find_tucks() {
   for (const auto& pair : crossing) ++pairs[patch[triangles[pair[0]][0]]];
   for (std::size_t i = 0; i < near.size(); ++i)
     if (near[i] && pairs[patch[i]] * mean_edge() > TUCKED) m_at.tucks.push_back(static_cast<int>(i));
+  if (!m_at.tucks.empty())
+    m_report.repairs.push_back("sewing left cloth tucked in: " + std::to_string(m_at.tucks.size()) + " particles passed through each other until weight came");
 }
 
 void DrapeRun::let_tucks_pass() {

@@ -18,9 +18,9 @@ void DrapeRun::collide_with(const TriangleMesh& skin) { m_collider.emplace(colli
 
 void DrapeRun::prepare_body(unsigned covered) {
   m_at.covered = covered;
-  m_mitten.reset();
-  if (covered) m_mitten.emplace(*m_body, covered);
-  const TriangleMesh& whole = m_mitten ? m_mitten->mesh() : m_body->skin;
+  m_covered.reset();
+  if (covered) m_covered.emplace(*m_body, covered);
+  const TriangleMesh& whole = m_covered ? m_covered->mesh() : m_body->skin;
   if (!m_at.whole_skin && m_settings.skin_tolerance_m > 0 && whole.triangles.size() > DENSE_SKIN) {
     for (double tolerance = m_settings.skin_tolerance_m; !m_coarse && tolerance <= ROUGHEST * m_settings.skin_tolerance_m; tolerance *= 2) {
       m_coarse.emplace(whole, tolerance);
@@ -30,8 +30,8 @@ void DrapeRun::prepare_body(unsigned covered) {
   collide_with(m_coarse ? m_coarse->mesh() : whole);
   if (m_coarse)
     m_reporter.info("a coarser skin: " + std::to_string(m_coarse->mesh().triangles.size()) + " of " + std::to_string(whole.triangles.size()) + " triangles");
-  if (covered & MittenSkin::HANDS) m_reporter.info("hands as mittens: cloth is near them");
-  if (covered & MittenSkin::FEET) m_reporter.info("toes as in a sock: cloth is near them");
+  if (covered & CoveredSkin::HANDS) m_reporter.info("hands as mittens: cloth is near them");
+  if (covered & CoveredSkin::FEET) m_reporter.info("toes as in a sock: cloth is near them");
 }
 
 void DrapeRun::start_outside_body(bool unsewn) {
@@ -41,8 +41,8 @@ void DrapeRun::start_outside_body(bool unsewn) {
     const auto& panels = m_garment.panels.panels;
     return std::any_of(panels.begin(), panels.end(), [&](const pattern::PanelInfo& p) { return p.part.rfind(begins, 0) == 0; });
   };
-  const unsigned ends = (has_part("arm") ? MittenSkin::HANDS : 0u) | (has_part("leg") ? MittenSkin::FEET : 0u);
-  prepare_body(ends ? MittenSkin(*m_body, ends).concerned(m_garment.position) : 0);
+  const unsigned ends = (has_part("arm") ? CoveredSkin::HANDS : 0u) | (has_part("leg") ? CoveredSkin::FEET : 0u);
+  prepare_body(ends ? CoveredSkin(*m_body, ends).concerned(m_garment.position) : 0);
   const std::vector<Triangle> triangles = m_garment.particle_triangles();
   auto trouble = [&] {
     std::size_t count = m_collider->faces_through(m_garment.position, triangles).size();
@@ -83,13 +83,13 @@ std::vector<Vec3> DrapeRun::skin_at(double scale) const {
 }
 
 std::vector<Vec3> DrapeRun::as_met(const std::vector<Vec3>& skin) const {
-  std::vector<Vec3> all = m_mitten ? m_mitten->positions(skin) : skin;
+  std::vector<Vec3> all = m_covered ? m_covered->positions(skin) : skin;
   return m_coarse ? m_coarse->positions(all) : all;
 }
 
 void DrapeRun::meet_bare_skin() {
-  if (!m_mitten && !m_coarse) return;
-  m_mitten.reset();
+  if (!m_covered && !m_coarse) return;
+  m_covered.reset();
   m_coarse.reset();
   collide_with(m_body->skin);
 }

@@ -33,7 +33,7 @@ struct MotionState {
 struct DrapeState {
   DrapePhase phase = DrapePhase::START;
   int step = 0;            ///< of the phase: the next one
-  unsigned covered = 0;    ///< of MittenSkin::Ends: cloth is near them
+  unsigned covered = 0;    ///< of CoveredSkin::Ends: cloth is near them
   bool whole_skin = false; ///< it meets no coarser one any more
   bool shrunk = false;     ///< the body was drawn in at some time
   double scale = 1;        ///< of the body, see BodyShrink
