@@ -68,7 +68,7 @@ FitOverride roomy(double loose, double too_large) {
   return o;
 }
 
-constexpr double BEYOND_DESIGN = 0.5; // of the ease that is too large: what a wide garment may have beyond what it was cut with
+constexpr double BEYOND_DESIGN = 0.5; // of the ease that is too large: how much smaller than the body it was cut for one in a wide garment may be
 
 constexpr const char* WAISTS[] = {"waist_semantic", "waist_girth_min", "waist_width_min", "omphalion"};
 constexpr const char* CHESTS[] = {"bust", "chest_axilla"};
@@ -151,7 +151,7 @@ double FitPolicy::too_large_ease(const FitLimits& limits, double designed, const
   FitPolicy ours;
   ours.standard = standard;
   const bool said = limits.too_large_ease != ours.limits(girth, garment_class, fabric).too_large_ease;
-  return said ? limits.too_large_ease : std::max(limits.too_large_ease, designed + BEYOND_DESIGN * limits.too_large_ease);
+  return said ? limits.too_large_ease : std::max(limits.too_large_ease, (1 + designed) * (1 + BEYOND_DESIGN * limits.too_large_ease) - 1);
 }
 
 double FitPolicy::strain_p99(const std::string& garment_class, const std::string& fabric) const {

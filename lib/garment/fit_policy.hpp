@@ -51,7 +51,8 @@ struct FitPolicy {
 
   FitLimits limits(const std::string& girth, const std::string& garment_class = {}, const std::string& fabric = {}) const;
   /// too_large_ease of `limits` (of limits()) for a garment that was cut with `designed` ease, a share of the girth of the body it was cut for:
-  /// half of that limit beyond the design where this is more, unless the document says a limit of its own.
+  /// where that is more, the ease that the design has on a body whose girth goes into that of the other 1 plus half of that limit times. A limit
+  /// that the document says holds.
   double too_large_ease(const FitLimits& limits, double designed, const std::string& girth, const std::string& garment_class, const std::string& fabric) const;
   double strain_p99(const std::string& garment_class, const std::string& fabric) const; ///< of all edges: stretched further, it does not fit
   double strain_max(const std::string& garment_class, const std::string& fabric) const; ///< of any edge

@@ -1,9 +1,12 @@
 /// GarmentCode specifications (Korosteleva and Sorkine-Hornung 2023). A panel's normal, by the sense of its loop, points away from
 /// the body, so a panel drawn clockwise is one whose inside we look at: it is turned over, and every loop ends up
-/// counter-clockwise seen from outside. Ordinary stitches then join edges that run in opposite directions.
+/// counter-clockwise seen from outside. Ordinary stitches then join edges that run in opposite directions. GarmentCode sees to that sense itself
+/// (Panel.autonorm); specifications written or changed by hand may not.
 #include <base/units.hpp>
 #include <io/json.hpp>
 #include <pattern/read_pattern.hpp>
+
+#include <algorithm>
 
 namespace sloper::pattern {
 namespace {
@@ -48,6 +51,29 @@ struct EdgeReader {
   }
 };
 
+constexpr double FACES_BODY = 0.3; // cosine
+
+/// Whether the panel's outside, by the sense of its loop, is placed towards the axis of the body, and towards the origin too: of a panel that lies on
+/// a shoulder one of these says nothing.
+bool faces_body(const Panel& panel) {
+  std::vector<Path> outline;
+  Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+  for (const PanelEdge& e : panel.loops[0]) {
+    outline.push_back(e.path);
+    for (const Segment& s : e.path) low = low.cwiseMin(s.p[0]), high = high.cwiseMax(s.p[0]);
+  }
+  const Vec2 middle = 0.5 * (low + high);
+  const Vec3 center = (*panel.hint.rigid * Eigen::Vector4d(middle.x(), middle.y(), 0, 1)).head<3>(), away(center.x(), 0, center.z());
+  const Vec3 outwards = (signed_area(outline) < 0 ? -1 : 1) * panel.hint.rigid->col(2).head<3>();
+  return outwards.dot(away) < -FACES_BODY * away.norm() && outwards.dot(center) < 0;
+}
+
+/// The same loop walked the other way; edge k of n comes to be edge n - 1 - k.
+void reverse_sense(std::vector<PanelEdge>& loop) {
+  std::reverse(loop.begin(), loop.end());
+  for (PanelEdge& e : loop) e.path = reversed(e.path);
+}
+
 } // namespace
 
 Pattern read_garmentcode(const io::Json& json, const std::string& file) {
@@ -63,6 +89,7 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
     reader.unit = 1 / per_meter;
     reader.relative = properties.string("curvature_coords", "relative") == "relative";
   }
+  std::vector<char> against; // #panels: listed against their loops' sense
   if (!panels.is_object() || panels.size() == 0) panels.fail("there are no panels");
   for (const std::string& name : panels.keys()) {
     const io::Node node = panels.at(name), vertices = node.at("vertices"), edges = node.at("edges");
@@ -96,6 +123,11 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
     }
     panel.loops.push_back(std::move(loop));
     if (node.has("translation") && node.has("rotation")) panel.hint.rigid = placement_of(node, reader.unit);
+    against.push_back(panel.hint.rigid && faces_body(panel));
+    if (against.back()) {
+      reverse_sense(panel.loops[0]);
+      pattern.findings.push_back(name + ": placed with its outside towards the body, so its outline is taken the other way round");
+    }
     pattern.panels.push_back(std::move(panel));
   }
   if (source.has("stitches")) {
@@ -119,7 +151,8 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
         if (item.has("right_wrong")) same_direction = same_direction || item.boolean("right_wrong", false);
         auto& runs = seam.a.empty() ? seam.a : seam.b;
         if (!seam.b.empty()) item.fail("stitch " + std::to_string(k) + " joins more than two edges");
-        runs.push_back({panel, edge, 0, 1});
+        const auto p = static_cast<std::size_t>(panel);
+        runs.push_back({panel, against[p] ? pattern.panels[p].n_edges() - 1 - edge : edge, 0, 1});
       }
       if (seam.b.empty()) stitch.fail("stitch " + std::to_string(k) + " joins fewer than two edges");
       const auto& pa = pattern.panels[static_cast<std::size_t>(seam.a[0].panel)];

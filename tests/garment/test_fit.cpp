@@ -407,7 +407,7 @@ TEST(fit_policy, what_was_cut_wide_is_not_too_large_for_being_wide) {
   const FitLimits limits = policy.limits("waist_semantic", "top");
   const double limit = limits.too_large_ease;
   EXPECT_EQ(policy.too_large_ease(limits, 0.1, "waist_semantic", "top", ""), limit);
-  EXPECT_DOUBLE_EQ(policy.too_large_ease(limits, 0.9, "waist_semantic", "top", ""), 0.9 + 0.5 * limit);
+  EXPECT_DOUBLE_EQ(policy.too_large_ease(limits, 0.9, "waist_semantic", "top", ""), 1.9 * (1 + 0.5 * limit) - 1);
   policy.own.classes["top"].girths["waist_semantic"].too_large_ease = 0.3;
   EXPECT_EQ(policy.too_large_ease(policy.limits("waist_semantic", "top"), 0.9, "waist_semantic", "top", ""), 0.3) << "said is said";
 

@@ -54,6 +54,29 @@ TEST(GarmentCode, StitchesRunAgainstEachOtherUnlessRightWrong) {
   EXPECT_LT(p.seams[1].b[0].from, p.seams[1].b[0].to);
 }
 
+TEST(GarmentCode, APanelPlacedWithItsOutsideTowardsTheBodyIsTheOneDrawnTheOtherWayRound) {
+  std::string text = GARMENTCODE;
+  const auto replace = [&](const std::string& from, const std::string& to) { text.replace(text.find(from), from.size(), to); };
+  replace(R"([[0, 0], [0, 30], [40, 30], [40, 0]], "edges": [
+    {"endpoints": [0, 1], "curvature": [0.5, 0.1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}])",
+          R"([[0, 0], [40, 0], [40, 30], [0, 30]], "edges": [
+    {"endpoints": [0, 1]}, {"endpoints": [1, 2]}, {"endpoints": [2, 3]}, {"endpoints": [3, 0], "curvature": [0.5, -0.1]}])");
+  replace(R"("panel": "back", "edge": 2)", R"("panel": "back", "edge": 1)");
+  replace(R"("panel": "back", "edge": 0)", R"("panel": "back", "edge": 3)");
+  Pattern p = read_garmentcode(io::parse_json(text, "spec.json"), "spec.json");
+  finish_pattern(p, "spec.json");
+  const Pattern right = garmentcode();
+  EXPECT_TRUE(right.findings.size() == 1 && p.findings.size() == 2 && p.findings[0].starts_with("back: placed with its outside towards the body"));
+  EXPECT_TRUE(p.panels[1].hint.rigid->isApprox(*right.panels[1].hint.rigid));
+  for (std::size_t k = 0; k < p.seams.size(); ++k) {
+    const pattern::Run &run = p.seams[k].b[0], &same = right.seams[k].b[0];
+    const ArcLength edge(p.panels[1].edge(run.edge).path), like(right.panels[1].edge(same.edge).path);
+    for (double t : {0.0, 0.3, 1.0})
+      EXPECT_LT((edge.at((run.from + t * (run.to - run.from)) * edge.length()) - like.at((same.from + t * (same.to - same.from)) * like.length())).norm(),
+                1e-9);
+  }
+}
+
 TEST(GarmentCode, RotationsAreIntrinsicXYZ) {
   std::string text = GARMENTCODE;
   const std::string from = "\"translation\": [0, 100, 20], \"rotation\": [0, 0, 0]";
