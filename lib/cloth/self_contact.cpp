@@ -66,7 +66,8 @@ void SelfContactEffect::find_closed_seams(const std::vector<Vec3>& x) {
 
 void SelfContactEffect::search(const std::vector<Vec3>& x) {
   m_radius = m_fast && !m_look_for_crossings ? m_reach : m_options.search_m;
-  m_proximity.update(x, m_radius, m_crossings);
+  m_crossings.clear(); // those of before say nothing of x
+  m_proximity.update(x, m_radius);
   if (m_look_for_crossings) {
     m_crossings = collision::self_intersections(x, m_proximity.triangles(), m_proximity.tree());
     if (!m_crossings.empty()) m_proximity.update(x, m_radius, m_crossings);

@@ -33,8 +33,8 @@ constexpr int LATE_STEPS = 40;           // in which what stayed back comes home
 constexpr int GLIDE_STEPS = 40;          // after sewing, free of weight and friction, which would keep the strain that sewing left
 constexpr int STALLED_STEPS = 400;       // without a residual that is a tenth less, and more than the weight: it will not come to rest
 constexpr int UNMOVED_STEPS = 25;        // one after the other in which nothing can move at all
-constexpr int MOST_UNTANGLINGS = 8;      // of cloth at rest that crosses itself
-constexpr int PART_EVERY = 40;           // steps between looks whether a few faces are still through the skin
+constexpr int MOST_UNTANGLINGS = 8;      // of cloth that crosses itself, half of them before it is at rest
+constexpr int PART_EVERY = 40;           // steps between looks whether cloth still crosses itself or a few faces are still through the skin
 constexpr int JUDGE_EVERY = 10;          // steps between looks whether the garment can still fit
 constexpr double NEAR_RESIDUAL = 1;      // weights: below, steps may grow faster
 constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
@@ -270,6 +270,7 @@ void DrapeRun::settle() {
       m_report.stop_reason = "stuck: nothing could move in " + std::to_string(UNMOVED_STEPS) + " steps";
       break;
     }
+    if (k > glide() && k % PART_EVERY == 0 && m_self_contact && !m_self_contact->crossings().empty() && m_at.untanglings < MOST_UNTANGLINGS / 2) untangle_now();
     if (k > glide() && k % JUDGE_EVERY == 0) judge_fit();
     const bool still = speed < m_settings.settle_speed_m_s && residual < m_settings.settle_force_ratio;
     calm = still && k >= glide() ? calm + 1 : 0;
@@ -282,7 +283,6 @@ void DrapeRun::settle() {
       continue;
     }
     if (m_at.untanglings < MOST_UNTANGLINGS && m_self_contact && !m_self_contact->find_crossings(m_solver->x()).empty()) {
-      ++m_at.untanglings;
       untangle_now();
       calm = 0;
       continue;

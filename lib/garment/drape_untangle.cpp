@@ -53,6 +53,7 @@ std::size_t DrapeRun::untangle() {
 }
 
 void DrapeRun::untangle_now() {
+  ++m_at.untanglings;
   m_garment.position = m_solver->x();
   untangle();
   m_solver->set_positions(m_garment.position);

@@ -332,6 +332,23 @@ TEST(Contact, WhatMayPassPassesUntilItMayNot) {
   }
 }
 
+TEST(Contact, WhatCrossedIsGuardedAsAllElseOnceItIsParted) {
+  const FallingSheet s = sheet_above_sheet(0.0012);
+  const int n = static_cast<int>(s.x.size());
+  std::vector<Vec3> crossing = s.x;
+  for (int i = n / 2; i < n; ++i) crossing[i].y() += 0.2 * (crossing[i].x() - s.x[n / 2].x()) - 0.005;
+  SelfContactEffect contact(s.mesh, {}), fresh(s.mesh, {});
+  BlockMatrix matrix(n, {});
+  fill(contact, n, crossing, matrix);
+  EXPECT_FALSE(contact.crossings().empty());
+  contact.refresh();
+  const Filled parted = fill(contact, n, s.x, matrix), expected = fill(fresh, n, s.x, matrix);
+  EXPECT_TRUE(contact.crossings().empty());
+  EXPECT_GT(expected.limits.guards.size(), 0u);
+  EXPECT_EQ(parted.limits.guards.size(), expected.limits.guards.size());
+  EXPECT_EQ(parted.force, expected.force);
+}
+
 TEST(Contact, LookingAheadChangesNoStep) {
   collision::BodyCollider body(table(7, 0.2));
   for (const double height : {0.004, -0.001}) { // outside, and with faces in the skin, which are pushed harder with every search
