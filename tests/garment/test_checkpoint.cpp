@@ -63,6 +63,14 @@ Case dense() { // meets a coarser skin first, where the settings say so
   return {"dense", make_pillar(256, 240), make_skirt(0.75, 0.25, 0.04)};
 }
 
+Case case_of(const std::string& name) {
+  if (name == "drawn_in") return drawn_in();
+  if (name == "sleeve") return sleeve();
+  if (name == "tucked") return tucked();
+  if (name == "dense") return dense();
+  return {"sewn", make_pillar(), make_skirt(0.75, 0.25, 0.04)};
+}
+
 } // namespace
 
 class CheckpointTest : public testing::Test {
@@ -81,38 +89,40 @@ private:
   std::filesystem::path m_folder;
 };
 
-TEST_F(CheckpointTest, a_run_killed_at_any_step_goes_on_to_the_bytes_of_one_that_was_not) {
+class KilledRun : public CheckpointTest, public testing::WithParamInterface<const char*> {};
+
+TEST_P(KilledRun, goes_on_from_any_step_to_the_bytes_of_one_that_was_not_killed) {
   DrapeSettings settings;
   settings.skin_tolerance_m = 3e-4;
-  for (const Case& c : {Case{"sewn", make_pillar(), make_skirt(0.75, 0.25, 0.04)}, drawn_in(), sleeve(), tucked(), dense()}) {
-    Garment whole = c.garment;
-    const DrapeReport undisturbed = drape(whole, &c.body, settings, silent_reporter(), {}, {file("whole.json"), 17});
-    EXPECT_TRUE(undisturbed.converged) << undisturbed.stop_reason;
-    std::set<DrapePhase> phases;
-    const bool tucked = c.name == std::string("tucked");
-    std::size_t tucks = 0;
-    for (int at = 20; at < undisturbed.steps; at += std::max(5, undisturbed.steps / (tucked ? 12 : 4))) {
-      Garment killed = c.garment;
-      Killer killer(at);
-      drape(killed, &c.body, settings, killer, {}, {file("killed.json"), 17});
-      const DrapeState state = read_checkpoint(file("killed.json")).state;
-      phases.insert(state.phase);
-      tucks += state.tucks.size();
-      Garment resumed;
-      set_thread_count(1 + at % 2);
-      const DrapeReport report = resume_drape(file("killed.json"), resumed, &c.body, silent_reporter());
-      set_thread_count(1);
-      EXPECT_EQ(text(resumed), text(whole)) << c.name << " killed at step " << at << " of " << undisturbed.steps;
-      EXPECT_EQ(report.steps, undisturbed.steps);
-      EXPECT_EQ(report.repairs, undisturbed.repairs);
-      EXPECT_EQ(report.solver, undisturbed.solver);
-      for (std::size_t k = 0; k < report.effects.size(); ++k) EXPECT_EQ(report.effects[k].calls, undisturbed.effects[k].calls) << report.effects[k].name;
-    }
-    EXPECT_EQ(tucks > 0, tucked) << c.name;
-    const bool inflates = c.name == std::string("drawn_in") || c.name == std::string("sleeve");
-    EXPECT_TRUE(phases.count(DrapePhase::SETTLE) && phases.count(inflates ? DrapePhase::INFLATE : DrapePhase::SEW)) << c.name;
+  const Case c = case_of(GetParam());
+  Garment whole = c.garment;
+  const DrapeReport undisturbed = drape(whole, &c.body, settings, silent_reporter(), {}, {file("whole.json"), 17});
+  EXPECT_TRUE(undisturbed.converged) << undisturbed.stop_reason;
+  std::set<DrapePhase> phases;
+  const bool tucked = c.name == std::string("tucked");
+  std::size_t tucks = 0;
+  for (int at = 20; at < undisturbed.steps; at += std::max(5, undisturbed.steps / (tucked ? 12 : 4))) {
+    Garment killed = c.garment;
+    Killer killer(at);
+    drape(killed, &c.body, settings, killer, {}, {file("killed.json"), 17});
+    const DrapeState state = read_checkpoint(file("killed.json")).state;
+    phases.insert(state.phase);
+    tucks += state.tucks.size();
+    Garment resumed;
+    set_thread_count(1 + at % 2);
+    const DrapeReport report = resume_drape(file("killed.json"), resumed, &c.body, silent_reporter());
+    set_thread_count(1);
+    EXPECT_EQ(text(resumed), text(whole)) << "killed at step " << at << " of " << undisturbed.steps;
+    EXPECT_EQ(report.steps, undisturbed.steps);
+    EXPECT_EQ(report.repairs, undisturbed.repairs);
+    EXPECT_EQ(report.solver, undisturbed.solver);
+    for (std::size_t k = 0; k < report.effects.size(); ++k) EXPECT_EQ(report.effects[k].calls, undisturbed.effects[k].calls) << report.effects[k].name;
   }
+  EXPECT_EQ(tucks > 0, tucked);
+  const bool inflates = c.name == std::string("drawn_in") || c.name == std::string("sleeve");
+  EXPECT_TRUE(phases.count(DrapePhase::SETTLE) && phases.count(inflates ? DrapePhase::INFLATE : DrapePhase::SEW));
 }
+INSTANTIATE_TEST_SUITE_P(starts, KilledRun, testing::Values("sewn", "drawn_in", "sleeve", "tucked", "dense"));
 
 TEST_F(CheckpointTest, a_run_that_was_resumed_can_be_killed_and_resumed_again) {
   const Case c{"", make_pillar(), make_skirt(0.75, 0.3, 0.04)};
