@@ -168,14 +168,14 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
   }
   const bool slips = report.slip_m > report.slip_borne_m;
   const std::string slides_down = "slides down by " + centimetres(report.slip_m);
-  if (!worst) { // or it has slid off all of them
+  if (!worst && (slips || !std::isfinite(report.slip_borne_m))) { // it has slid off all of them, or may have
     report.fits = false;
     report.verdict = FitVerdict::TOO_LARGE;
     report.reason = slips ? slides_down : "goes round no girth of the body";
     return;
   }
-  report.verdict = worst->verdict;
-  report.reason = worst->reason;
+  report.verdict = worst ? worst->verdict : FitVerdict::OK; // an apron goes round none
+  report.reason = worst ? worst->reason : "goes round no girth of the body: strain and slip alone were judged";
   const bool certain = report.convergence_m == 0 || !unfit.empty();
   if (certain) judge_strain(policy, report);
   if (certain && report.verdict <= FitVerdict::TOO_LARGE && slips) {
@@ -237,8 +237,8 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
       return;
     }
     row->limits = policy.limits(row->name, report.garment_class, report.fabric);
-    for (const std::string& name : {row->name, "level:" + row->name})
-      if (const auto girth = made_for.find(name); girth != made_for.end())
+    for (const std::string& known : {row->name, "level:" + row->name})
+      if (const auto girth = made_for.find(known); girth != made_for.end())
         row->limits.too_large_ease = policy.too_large_ease(row->limits, row->rest_m / girth->second - 1, row->name, report.garment_class, report.fabric);
     judge(garment.converged, *row);
     tell_long_sleeve(report.lines, *row);

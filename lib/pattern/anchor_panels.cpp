@@ -63,7 +63,7 @@ void Placer::anchor_trunk() {
   } else if (const double chest = strapless_height(top); chest > 0) {
     shift = chest - top;
   } else {
-    const auto [around, edge] = lengths_around(top);
+    const auto [around, edge] = hanging_lengths(top);
     const double crotch = m_space.body().has_landmark("crotch") ? m_space.body().landmark("crotch").y() : 0.47 * m_space.stature();
     shift = m_space.hang_height(around, crotch + edge - legs_part(m_mesh, m_graph, m_roles, m_spots).value_or(-1e3)) - edge;
   }
@@ -71,11 +71,36 @@ void Placer::anchor_trunk() {
     if (m_roles[k].region == Region::TRUNK) m_spots[k].offset.y() += shift;
 }
 
-std::pair<std::vector<double>, double> Placer::lengths_around(double top) {
+std::vector<std::vector<std::size_t>> Placer::hanging_pieces() const {
+  std::vector<std::vector<std::size_t>> pieces;
+  std::vector<char> met(m_roles.size(), 0);
+  for (std::size_t first = 0; first < m_roles.size(); ++first) {
+    if (met[first]) continue;
+    std::vector<std::size_t> sewn_together = {first};
+    met[first] = 1;
+    for (std::size_t at = 0; at < sewn_together.size(); ++at)
+      for (int q : m_graph.neighbours(static_cast<int>(sewn_together[at])))
+        if (const auto k = static_cast<std::size_t>(q); !met[k]) met[k] = 1, sewn_together.push_back(k);
+    pieces.emplace_back();
+    for (std::size_t k : sewn_together)
+      if (m_roles[k].region == Region::TRUNK && m_mesh.panels[k].layer == m_innermost) pieces.back().push_back(k);
+  }
+  return pieces;
+}
+
+std::pair<std::vector<double>, double> Placer::hanging_lengths(double top) {
+  std::pair<std::vector<double>, double> narrowest{{}, top};
+  for (const std::vector<std::size_t>& piece : hanging_pieces()) {
+    auto lengths = lengths_around(piece, top);
+    if (!lengths.first.empty() && (narrowest.first.empty() || lengths.first[0] < narrowest.first[0])) narrowest = std::move(lengths);
+  }
+  return narrowest;
+}
+
+std::pair<std::vector<double>, double> Placer::lengths_around(const std::vector<std::size_t>& piece, double top) {
   // The top edge: boundary within 6 cm of the top on the way round, as far as it is level and not sewn. It may be an arc.
   double length = 0, height = 0, dip = top;
-  for (std::size_t k = 0; k < m_roles.size(); ++k) {
-    if (m_roles[k].region != Region::TRUNK || m_mesh.panels[k].layer != m_innermost) continue;
+  for (std::size_t k : piece) {
     const auto& outline = m_mesh.panels[k].outline;
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const int a = outline[i], b = outline[(i + 1) % outline.size()];
@@ -90,17 +115,15 @@ std::pair<std::vector<double>, double> Placer::lengths_around(double top) {
   for (int row = 1; row <= 15; ++row) {
     const double line = edge - 0.01 * row;
     double widest = 0; // rows of panels are laid a little apart: look around the gap
-    for (double off : {-0.012, -0.006, 0.0, 0.006, 0.012}) widest = std::max(widest, covered(line + off));
+    for (double off : {-0.012, -0.006, 0.0, 0.006, 0.012}) widest = std::max(widest, covered(piece, line + off));
     around.push_back(line > dip - 0.002 ? std::max(length, widest) : widest);
   }
   return {around, edge};
 }
 
-double Placer::covered(double v) const {
+double Placer::covered(const std::vector<std::size_t>& piece, double v) const {
   double sum = 0;
-  for (std::size_t k = 0; k < m_roles.size(); ++k)
-    if (m_roles[k].region == Region::TRUNK && m_mesh.panels[k].layer == m_innermost)
-      sum += pattern::covered(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k), v);
+  for (std::size_t k : piece) sum += pattern::covered(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k), v);
   return sum;
 }
 

@@ -92,7 +92,8 @@ private:
     const Vec3 center = (*hint.rigid * Eigen::Vector4d(m.x(), m.y(), 0, 1)).head<3>();
     const Words& words = m_words[k];
     const bool legs = panel.label == "leg" || says_legs(words) || says_skirt(words);
-    const bool arm = !legs && (says_sleeve(words) || says_cuff(words) || (panel.label == "arm" && !any_begins(words, {"torso", "bodice", "ftorso", "btorso"})));
+    const bool arm =
+        !legs && (says_sleeve(words) || cuff_of_sleeve(k) || (panel.label == "arm" && !any_begins(words, {"torso", "bodice", "ftorso", "btorso"})));
     if (arm) role.region = center.x() > 0 ? Region::ARM_L : Region::ARM_R;
     else if (!legs && says_neck(words)) role.region = Region::NECK;
     else role.part = legs ? "lower_body" : "torso";

@@ -51,10 +51,15 @@ private:
   /// (they are those of its body, of about 1.7 m), else by words.
   double strapless_height(double top) const;
   void anchor_trunk();
-  /// Cloth around a skirt's or trousers' uppermost 15 cm, one length for every centimetre, m, and the mean height of its top edge.
-  std::pair<std::vector<double>, double> lengths_around(double top);
-  /// How much of the level line v is covered by panels about the trunk, m.
-  double covered(double v) const;
+  /// The innermost layer's panels about the trunk, by what is sewn together: of two skirts, one over the other, each is a piece.
+  std::vector<std::vector<std::size_t>> hanging_pieces() const;
+  /// Cloth around the uppermost 15 cm of such a piece, one length for every centimetre, m, and the mean height of its top edge; nothing
+  /// where it ends below `top`.
+  std::pair<std::vector<double>, double> lengths_around(const std::vector<std::size_t>& piece, double top);
+  /// Those of the piece that is narrowest at the top: it lies nearest to the body.
+  std::pair<std::vector<double>, double> hanging_lengths(double top);
+  /// How much of the level line v is covered by a piece's panels, m.
+  double covered(const std::vector<std::size_t>& piece, double v) const;
   bool sewn(int vertex);
   void anchor_neck();
 

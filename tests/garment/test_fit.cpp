@@ -218,6 +218,17 @@ TEST(fit, what_has_slid_off_all_girths_is_told_as_sliding_down) {
   EXPECT_EQ(fit_garment(trousers, body, skin, standard_fit_policy(), nullptr).reason, "goes round no girth of the body");
 }
 
+TEST(fit, what_goes_round_no_girth_and_stays_where_it_was_placed_fits) { // an apron
+  const body::Body body = measured("f-165-a");
+  Garment trousers = dressed(body, skin_trousers(body)).garment;
+  for (Vec3& p : trousers.position) p.y() += 3;
+  const std::vector<Vec3> placed = trousers.position;
+  const FitReport lying = fit_garment(trousers, body, collision::BodyCollider(body.skin), standard_fit_policy(), &placed);
+  EXPECT_TRUE(lying.rows.empty());
+  EXPECT_TRUE(lying.fits) << lying.reason;
+  EXPECT_EQ(lying.reason, "goes round no girth of the body: strain and slip alone were judged");
+}
+
 TEST(fit, sleeves_and_legs_are_covered_to_where_they_end) {
   const body::Body body = measured("f-165-a");
   const Dressed shirt = dressed(body, skin_shirt(body)), trousers = dressed(body, skin_trousers(body));

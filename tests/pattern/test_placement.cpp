@@ -197,6 +197,20 @@ Pattern box_skirt(double width) {
                              {"name": "b", "a": [{"panel": "skirt_back", "edge": "l"}], "b": [{"panel": "skirt_front", "edge": "r"}]}]})");
 }
 
+/// Two of them in one pattern, not sewn to each other.
+Pattern two_box_skirts(double inner, double outer) {
+  Pattern both = box_skirt(inner);
+  const Pattern other = box_skirt(outer);
+  const int panels = static_cast<int>(both.panels.size());
+  for (Panel panel : other.panels) both.panels.push_back(std::move(panel)), both.panels.back().name += "_over";
+  for (Seam seam : other.seams) {
+    for (auto* side : {&seam.a, &seam.b})
+      for (auto& part : *side) part.panel += panels;
+    both.seams.push_back(std::move(seam)), both.seams.back().name += "_over";
+  }
+  return both;
+}
+
 /// The stick body with a waist: a fifth narrower at 1.05 m.
 body::Body waisted_body() {
   body::Body body = stick_body(45);
@@ -235,6 +249,16 @@ TEST(Placement, ATightWaistbandStartsAtTheNarrowestPlace) {
   PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
   place_panels(pattern, body, mesh);
   EXPECT_NEAR(top_of(mesh), 1.05 + 0.06, 0.015) << "12 cm of cloth lie half above and half below the waist";
+}
+
+TEST(Placement, OfTwoSkirtsOneOverTheOtherTheNarrowerSaysWhereTheyHang) {
+  const body::Body body = waisted_body();
+  const Pattern one = box_skirt(36), two = two_box_skirts(36, 40);
+  PanelMesh single = mesh_pattern(one, 0.02, "t"), both = mesh_pattern(two, 0.02, "t");
+  place_panels(one, body, single);
+  const PlacementReport report = place_panels(two, body, both);
+  EXPECT_NEAR(top_of(both), top_of(single), 1e-6);
+  EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
 }
 
 TEST(Placement, LeggingsInOnePieceGoAroundTheirLegs) {
@@ -438,17 +462,27 @@ TEST(Placement, CuffsOfTrousersGoAroundTheirLegs) {
         seams += R"(, {"name": ")" + cuff + ends + R"(", "a": [{"panel": ")" + cuff + R"(", "edge": ")" + ends[0] + R"("}], "b": [{"panel": "cuff_back_)" +
                  side + R"(", "edge": ")" + ends[1] + R"("}]})";
     }
-  const Pattern pattern = box_trousers(panels, seams);
-  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
-  const PlacementReport report = place_panels(pattern, body_with_ankles(), mesh);
-  EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
-  for (std::size_t k = 4; k < 8; ++k) {
-    const std::string& name = mesh.panels[k].name;
-    EXPECT_EQ(mesh.panels[k].part, name.back() == 'l' ? "leg_l" : "leg_r") << name;
-    const Vec3 m = middle(mesh, static_cast<int>(k));
-    EXPECT_NEAR(m.x(), name.back() == 'l' ? 0.09 : -0.09, 0.06) << name;
-    EXPECT_GT(m.z() * (name.find("front") != std::string::npos ? 1 : -1), 0.02) << name;
-    EXPECT_LT(m.y(), 0.25) << name;
+  for (bool hinted : {false, true}) {
+    Pattern pattern = box_trousers(panels, seams);
+    if (hinted)
+      for (Panel& panel : pattern.panels) {
+        const bool front = panel.name.find("front") != std::string::npos, cuff = panel.name.rfind("cuff", 0) == 0;
+        panel.hint.rigid = Mat4::Identity();
+        if (!front) panel.hint.rigid->topLeftCorner<3, 3>() = Vec3(-1, 1, -1).asDiagonal();
+        const double middle = cuff ? (front ? -0.1 : 0.1) + (panel.name.back() == 'l' ? 0.13 : -0.13) : 0; // a cuff is drawn from x = 0 on
+        panel.hint.rigid->topRightCorner<3, 1>() = Vec3(middle, cuff ? -0.06 : 0, front ? 0.3 : -0.3);
+      }
+    PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+    const PlacementReport report = place_panels(pattern, body_with_ankles(), mesh);
+    EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0) << hinted;
+    for (std::size_t k = 4; k < 8; ++k) {
+      const std::string& name = mesh.panels[k].name;
+      EXPECT_EQ(mesh.panels[k].part, name.back() == 'l' ? "leg_l" : "leg_r") << name << hinted;
+      const Vec3 m = middle(mesh, static_cast<int>(k));
+      EXPECT_NEAR(m.x(), name.back() == 'l' ? 0.09 : -0.09, 0.06) << name << hinted;
+      EXPECT_GT(m.z() * (name.find("front") != std::string::npos ? 1 : -1), 0.02) << name << hinted;
+      EXPECT_LT(m.y(), 0.25) << name << hinted;
+    }
   }
 }
 
