@@ -7,6 +7,7 @@
 namespace sloper::pattern {
 
 constexpr double SHOULDER_RAISE = 0.02; // m above the shoulders, so that the shoulder seam closes downwards
+constexpr double MOST_YOKE = 0.2;       // m that a yoke reaches over the shoulder
 
 std::array<Vec2, 2> Placer::bounds(const PanelGroup& group) const {
   std::array<Vec2, 2> all = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
@@ -25,7 +26,7 @@ bool Placer::hangs_on_shoulders(double top) const {
       if (m_roles[static_cast<std::size_t>(q)].side != Side::BACK) continue;
       for (const auto& seam : m_graph.between(static_cast<int>(k), q)) { // a level seam at the top
         const Vec2 a = uv(k, seam.front()[0]), b = uv(k, seam.back()[0]);
-        if (std::abs(a.x() - b.x()) > 1.2 * std::abs(a.y() - b.y()) && std::min(a.y(), b.y()) > top - 0.15) return true;
+        if (std::abs(a.x() - b.x()) > 1.2 * std::abs(a.y() - b.y()) && std::min(a.y(), b.y()) > top - MOST_YOKE) return true;
       }
     }
   }

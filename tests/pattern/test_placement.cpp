@@ -540,6 +540,26 @@ TEST(Placement, AShirtWithACollarStartsTheSameHoweverItsPiecesLie) {
   for (const std::vector<int>& quarters : {std::vector<int>{1, 1, 1}, {-1, -1, -1}, {0, 1, -1}, {0, 2, 1}}) EXPECT_NEAR(start(shirt(quarters)), upright, 0.01);
 }
 
+TEST(Placement, AYokeOverTheShouldersCarriesFrontsThatEndFarBelowItsTop) { // where they are drawn as they stand, not as they hang
+  Pattern pattern = own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "vest", "panels": [)" + rectangle("front", 52, 38) + "," +
+                        rectangle("back", 52, 36) + "," + rectangle("yoke", 52, 18) + R"(], "seams": [
+    {"name": "side_l", "a": [{"panel": "front", "edge": "l", "from": 0, "to": 0.5}], "b": [{"panel": "back", "edge": "r", "from": 1, "to": 0.5}]},
+    {"name": "side_r", "a": [{"panel": "back", "edge": "l", "from": 0, "to": 0.5}], "b": [{"panel": "front", "edge": "r", "from": 1, "to": 0.5}]},
+    {"name": "yoke", "a": [{"panel": "back", "edge": "top"}], "b": [{"panel": "yoke", "edge": "hem"}]},
+    {"name": "shoulder_l", "a": [{"panel": "front", "edge": "top", "from": 0, "to": 0.3}], "b": [{"panel": "yoke", "edge": "top", "from": 1, "to": 0.7}]},
+    {"name": "shoulder_r", "a": [{"panel": "yoke", "edge": "top", "from": 0, "to": 0.3}], "b": [{"panel": "front", "edge": "top", "from": 1, "to": 0.7}]}]})");
+  for (Panel& panel : pattern.panels) {
+    panel.hint.rigid = Mat4::Identity();
+    const bool front = panel.name == "front";
+    if (!front) panel.hint.rigid->topLeftCorner<3, 3>() = Vec3(-1, 1, -1).asDiagonal();
+    panel.hint.rigid->topRightCorner<3, 1>() = Vec3(front ? -0.26 : 0.26, panel.name == "yoke" ? 1.26 : 0.9, front ? 0.3 : -0.3);
+  }
+  const body::Body body = stick_body(45);
+  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  place_panels(pattern, body, mesh);
+  EXPECT_GT(top_of(mesh), body.landmark("neck_side_l").y() - 0.05);
+}
+
 TEST(Placement, AStraplessTopIsPutOnTheChest) {
   std::string text = tube_text();
   text.replace(text.find("\"front\""), 7, "\"bodice_front\"");
