@@ -84,17 +84,16 @@ bool guess_seams(cli::Tool& tool, pattern::Pattern& source) {
 
 int run(cli::Tool& tool, const Options& o) {
   pattern::Pattern source = pattern::read_pattern(o.pattern, o.sewing, o.size, o.grade_rules);
-  if (o.check) return check(tool, source, o);
   io::Json edits;
   if (!o.edits.empty()) edits = io::read_json(o.edits);
   if (!o.undo.empty()) {
     if (o.edits.empty()) throw Error(ErrorKind::USAGE, o.undo, "", "there are no edits to take back", "give --edits too");
     io::write_json(o.undo, pattern::inverse_edits(source, edits, o.edits, tool.name()));
   }
-  if (o.output.empty() && (!o.write_pattern.empty() || !o.undo.empty())) { // nothing to mesh
+  if (o.check || (o.output.empty() && (!o.write_pattern.empty() || !o.undo.empty()))) { // nothing to mesh
     if (!o.edits.empty()) pattern::apply_edits(source, edits, o.edits);
     if (!o.write_pattern.empty()) write_pattern(tool, source, o.write_pattern);
-    return 0;
+    return o.check ? check(tool, source, o) : 0;
   }
   if (source.seams.empty() && source.source_format == "dxf" && source.panels.size() > 1 && !o.unsewn && !guess_seams(tool, source)) return 1;
   if (o.output.empty()) throw Error(ErrorKind::USAGE, "", "", "--output is missing", "say for example -o panels.json");
@@ -118,6 +117,7 @@ int run(cli::Tool& tool, const Options& o) {
     if (r.crossings + r.vertices_inside + r.faces_through > 0)
       tool.reporter().warning("the start is not free: " + std::to_string(r.crossings) + " pairs of triangles cross, " + std::to_string(r.vertices_inside) +
                               " vertices lie in the body, " + std::to_string(r.faces_through) + " faces go through its skin");
+    if (r.is_guess) tool.reporter().warning(mesh.findings.back());
     tool.reporter().info("seam gap at the start: mean " + pattern::centimetres(r.seam_gap_mean) + ", largest " + pattern::centimetres(r.seam_gap_max));
   }
   for (const std::string& finding : mesh.findings) tool.reporter().info(finding);

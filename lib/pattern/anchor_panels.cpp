@@ -1,3 +1,4 @@
+#include <base/units.hpp>
 #include <pattern/leg_layout.hpp>
 #include <pattern/placer.hpp>
 
@@ -137,7 +138,54 @@ bool Placer::sewn(int vertex) {
   return m_sewn[static_cast<std::size_t>(vertex)] != 0;
 }
 
+void Placer::face_neck() {
+  constexpr double AROUND = 0.4, HALF_WIDTH = 0.075; // m, of a neck
+  for (std::size_t k = 0; k < m_roles.size(); ++k) {
+    const PlacementHint& hint = m_pattern.panels[k].hint;
+    if (m_roles[k].region != Region::NECK || hint.rigid || !hint.part.empty()) continue;
+    const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
+    Vec2 sum = Vec2::Zero();
+    double stitches = 0;
+    for (int q : m_graph.neighbours(static_cast<int>(k))) {
+      const auto trunk = static_cast<std::size_t>(q);
+      if (m_roles[trunk].region != Region::TRUNK || m_roles[trunk].side == Side::RING) continue;
+      for (const auto& seam : m_graph.between(static_cast<int>(k), q))
+        for (const auto& [here, there] : seam) {
+          const double aside = std::asin(std::clamp(uv(trunk, there).x() / HALF_WIDTH, -1.0, 1.0)); // u of a back runs to the right
+          const double at = m_roles[trunk].side == Side::FRONT ? aside : units::PI + aside;
+          const double middle = at - 2 * units::PI * (uv(k, here).x() - 0.5 * (own[0].x() + own[1].x())) / AROUND;
+          sum += Vec2(std::cos(middle), std::sin(middle)), ++stitches;
+        }
+    }
+    if (stitches > 0 && sum.norm() > 0.3 * stitches) m_roles[k].theta = std::round(std::atan2(sum.y(), sum.x()) / (units::PI / 4)) * (units::PI / 4);
+  }
+}
+
+void Placer::level_neck() {
+  std::vector<std::optional<double>> raise(m_roles.size());
+  double lowest = 1e300;
+  for (std::size_t k = 0; k < m_roles.size(); ++k) {
+    double sum = 0, stitches = 0;
+    for (int q : m_graph.neighbours(static_cast<int>(k)))
+      if (m_roles[k].region == Region::NECK && m_roles[static_cast<std::size_t>(q)].region == Region::TRUNK)
+        for (const auto& seam : m_graph.between(static_cast<int>(k), q))
+          for (const auto& s : seam) sum += uv(k, s[0]).y(), ++stitches;
+    if (stitches == 0) continue;
+    raise[k] = -sum / stitches;
+    lowest = std::min(lowest, sum / stitches);
+  }
+  const std::vector<std::optional<double>> of_sewn_on = raise;
+  for (std::size_t k = 0; k < m_roles.size(); ++k) { // a leaf goes with its stand
+    if (m_roles[k].region != Region::NECK) continue;
+    for (int q : m_graph.neighbours(static_cast<int>(k)))
+      if (!raise[k]) raise[k] = of_sewn_on[static_cast<std::size_t>(q)];
+    if (raise[k]) m_spots[k].offset.y() += *raise[k] + lowest;
+  }
+}
+
 void Placer::anchor_neck() {
+  face_neck();
+  level_neck();
   for (const PanelGroup& g : m_groups) {
     if (g.region != Region::NECK) continue;
     const auto b = bounds(g);

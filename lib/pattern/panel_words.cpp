@@ -5,8 +5,28 @@
 
 namespace sloper::pattern {
 
+/// Adds the words that parts of Chinese, Japanese and Korean names stand for, which are written without gaps, in UTF-8.
+static void add_east_asian(const std::string& name, Words& words) {
+  const auto add = [&](const char* word, std::initializer_list<const char*> parts) {
+    if (std::any_of(parts.begin(), parts.end(), [&](const char* part) { return name.find(part) != std::string::npos; })) words.insert(word);
+  };
+  add("front", {"\u524d", "\uc55e"});
+  add("back", {"\u540e", "\u5f8c", "\ub4a4"});
+  add("yoke", {"\u8fc7\u80a9", "\u30e8\u30fc\u30af", "\uc694\ud06c"});
+  add("sleeve", {"\u8896", "\uc18c\ub9e4"});
+  add("cuff", {"\u514b\u592b", "\u30ab\u30d5\u30b9", "\ucee4\ud504\uc2a4"});
+  add("collar", {"\u9886", "\u9818", "\u887f", "\u895f", "\uce7c\ub77c"});
+  add("hood", {"\u5e3d", "\u30d5\u30fc\u30c9", "\ud6c4\ub4dc"});
+  add("trousers", {"\u88e4", "\u8932", "\u30d1\u30f3\u30c4", "\u30ba\u30dc\u30f3", "\ubc14\uc9c0"});
+  add("skirt", {"\u88d9", "\u30b9\u30ab\u30fc\u30c8", "\uc2a4\ucee4\ud2b8", "\uce58\ub9c8"});
+  add("waist", {"\u8170", "\u30a6\u30a8\u30b9\u30c8", "\ud5c8\ub9ac"});
+  add("left", {"\u5de6", "\uc67c"});
+  add("right", {"\u53f3", "\uc624\ub978"});
+}
+
 Words words_of(const std::string& name) {
   Words words;
+  add_east_asian(name, words);
   std::string word;
   char last = 0;
   for (char c : name + "_") {
@@ -51,5 +71,9 @@ bool says_back(const Words& words) {
 }
 bool says_left(const Words& words) { return any_of(words, {"l", "left", "lft", "links", "linke", "linker", "gauche", "izquierda"}); }
 bool says_right(const Words& words) { return any_of(words, {"r", "right", "rgt", "rechts", "rechte", "rechter", "droit", "droite", "derecha"}); }
+
+bool says_anything(const Words& words) {
+  return says_sleeve(words) || says_cuff(words) || says_neck(words) || says_legs(words) || says_skirt(words) || says_front(words) || says_back(words);
+}
 
 } // namespace sloper::pattern

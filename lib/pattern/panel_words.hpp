@@ -8,7 +8,7 @@ namespace sloper::pattern {
 
 using Words = std::set<std::string>;
 
-/// Lower-case words of a name: "skirtFront_L2" is skirt, front, l.
+/// Lower-case words of a name: "skirtFront_L2" is skirt, front, l. Of a Chinese, Japanese or Korean one the English words that its parts stand for.
 Words words_of(const std::string& name);
 bool any_of(const Words& words, std::initializer_list<const char*> wanted);
 /// Whether some word begins with one of these.
@@ -24,5 +24,6 @@ bool says_front(const Words& words);
 bool says_back(const Words& words);
 bool says_left(const Words& words);
 bool says_right(const Words& words);
+bool says_anything(const Words& words); ///< of where a piece goes, other than left or right
 
 } // namespace sloper::pattern

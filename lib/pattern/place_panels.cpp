@@ -1,6 +1,7 @@
 #include <collision/intersections.hpp>
 #include <pattern/leg_layout.hpp>
 #include <pattern/leg_roles.hpp>
+#include <pattern/panel_words.hpp>
 #include <pattern/placer.hpp>
 
 #include <algorithm>
@@ -29,7 +30,22 @@ PlacementReport Placer::run() {
   PlacementReport report = push_free();
   for (std::size_t k = 0; k < m_roles.size(); ++k) m_mesh.panels[k].part = m_roles[k].part.empty() ? region_name(m_roles[k].region) : m_roles[k].part;
   measure_gaps(report);
+  report.is_guess = m_roles.size() > 1 && find_untold() == static_cast<int>(m_roles.size());
   return report;
+}
+
+int Placer::find_untold() {
+  std::string names;
+  int count = 0;
+  for (std::size_t k = 0; k < m_roles.size(); ++k) {
+    const Panel& panel = m_pattern.panels[k];
+    if (panel.hint.rigid || !panel.hint.part.empty() || m_roles[k].side != Side::FRONT || says_anything(words_of(panel.name))) continue;
+    names += (count++ ? ", " : "") + panel.name;
+  }
+  if (count > 0)
+    m_mesh.findings.push_back("start: nothing tells where " + names + (count > 1 ? " go" : " goes") +
+                              ": taken for the front; words like front, back, sleeve, cuff, collar, skirt or trousers in a name tell, or a hint");
+  return count;
 }
 
 void Placer::make_groups() {

@@ -42,6 +42,8 @@ private:
   /// grows the gap of groups that meet the body.
   PlacementReport push_free();
   void measure_gaps(PlacementReport& report) const;
+  /// Names panels of which neither name nor hint nor seams tell where they go, in the findings; their number.
+  int find_untold();
 
   // anchor_panels.cpp
   std::array<Vec2, 2> bounds(const PanelGroup& group) const;
@@ -61,6 +63,10 @@ private:
   /// How much of the level line v is covered by a piece's panels, m.
   double covered(const std::vector<std::size_t>& piece, double v) const;
   bool sewn(int vertex);
+  /// PanelRole::theta of collars and hoods without hints, to an eighth of a turn: where what they are sewn to has the seam.
+  void face_neck();
+  /// Collars and hoods in pieces stand beside each other: their seams with the trunk at one height.
+  void level_neck();
   void anchor_neck();
 
   // wrap_panels.cpp

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <gtest/gtest.h>
+#include <pattern/panel_words.hpp>
 #include <pattern/place_panels.hpp>
 #include <pattern/sleeve_bend.hpp>
 
@@ -259,6 +260,26 @@ TEST(Placement, OfTwoSkirtsOneOverTheOtherTheNarrowerSaysWhereTheyHang) {
   const PlacementReport report = place_panels(two, body, both);
   EXPECT_NEAR(top_of(both), top_of(single), 1e-6);
   EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
+}
+
+TEST(Placement, ChineseJapaneseAndKoreanNamesTellWhereAPieceGoes) {
+  EXPECT_EQ(words_of("\u5de6\u524d\u88e4\u7247"), (Words{"left", "front", "trousers"}));
+  EXPECT_EQ(words_of("\u53f3\u5f8c\u8eab\u9803"), (Words{"right", "back"}));
+  EXPECT_EQ(words_of("\uc18c\ub9e4 1"), (Words{"sleeve"}));
+  EXPECT_EQ(words_of("\u886c\u886b"), Words{});
+}
+
+TEST(Placement, WhereNoNameTellsWhereAPieceGoesThatIsFound) {
+  Pattern pattern = box_skirt(42);
+  pattern.panels[0].name = "P1", pattern.panels[1].name = "P2";
+  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  EXPECT_TRUE(place_panels(pattern, waisted_body(), mesh).is_guess);
+  ASSERT_FALSE(mesh.findings.empty());
+  EXPECT_EQ(mesh.findings.back().rfind("start: nothing tells where P1, P2 go", 0), 0u) << mesh.findings.back();
+  pattern.panels[1].name = "rear";
+  mesh = mesh_pattern(pattern, 0.02, "t");
+  EXPECT_FALSE(place_panels(pattern, waisted_body(), mesh).is_guess);
+  EXPECT_EQ(mesh.findings.back().rfind("start: nothing tells where P1 goes", 0), 0u) << mesh.findings.back();
 }
 
 TEST(Placement, LeggingsInOnePieceGoAroundTheirLegs) {
@@ -538,6 +559,28 @@ TEST(Placement, AShirtWithACollarStartsTheSameHoweverItsPiecesLie) {
   };
   const double upright = start(shirt({0, 0, 0}));
   for (const std::vector<int>& quarters : {std::vector<int>{1, 1, 1}, {-1, -1, -1}, {0, 1, -1}, {0, 2, 1}}) EXPECT_NEAR(start(shirt(quarters)), upright, 0.01);
+}
+
+TEST(Placement, PiecesOfACollarStandWhereTheyAreSewnOn) {
+  Pattern pattern = box_shirt();
+  const auto piece = [&](const std::string& name, double w, double h) {
+    return own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "piece", "panels": [)" + rectangle(name, w, h) + R"(], "seams": []})")
+        .panels[0];
+  };
+  const int front = pattern.find_panel("front"), back = pattern.find_panel("back"), first = static_cast<int>(pattern.panels.size());
+  pattern.panels.push_back(piece("collar 1", 20.8, 20)), pattern.panels.push_back(piece("collar 2", 20.8, 20));
+  const auto sew = [&](const std::string& name, pattern::Run a, pattern::Run b) { pattern.seams.push_back({name, "seam", {a}, {b}, "", false}); };
+  enum { HEM, LEFT, TOP, RIGHT }; // edges of a rectangle
+  sew("neck front", {front, TOP, 0.3, 0.7}, {first, HEM, 1, 0});
+  sew("neck back", {back, TOP, 0.3, 0.7}, {first + 1, HEM, 1, 0});
+  sew("collar left", {first, LEFT, 0, 1}, {first + 1, RIGHT, 1, 0});
+  sew("collar right", {first, RIGHT, 0, 1}, {first + 1, LEFT, 1, 0});
+  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  const PlacementReport report = place_panels(pattern, stick_body(45), mesh);
+  EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
+  EXPECT_GT(middle(mesh, first).z(), 0.03);
+  EXPECT_LT(middle(mesh, first + 1).z(), -0.03);
+  EXPECT_NEAR(middle(mesh, first).y(), middle(mesh, first + 1).y(), 0.01);
 }
 
 TEST(Placement, AYokeOverTheShouldersCarriesFrontsThatEndFarBelowItsTop) { // where they are drawn as they stand, not as they hang

@@ -21,3 +21,27 @@ case_what_is_no_pattern_is_told_with_a_next_step() {
   run 5 bash -c '"$0" --check skirt.pattern.json > /dev/full' "$program"
   run 5 "$program" --write-pattern no/such/folder/x.json -o out.json skirt.pattern.json
 }
+
+case_a_check_is_of_the_edited_pattern() {
+  echo '{"format": "edits", "version": 1, "length_unit": "cm", "edits": [{"edit": "scale", "x": 2, "y": 2}]}' > twice.json
+  run 0 "$program" --check skirt.pattern.json
+  cp stdout as_drawn
+  run 0 "$program" --check --edits twice.json --write-pattern twice.pattern.json skirt.pattern.json
+  cmp -s stdout as_drawn && fail "the edits changed no measure"
+  cp stdout edited
+  run 0 "$program" --check twice.pattern.json
+  cmp stdout edited || fail "the pattern that was written measures otherwise"
+}
+
+case_names_that_tell_nothing_are_warned_of() {
+  local outline='[{"edge": "hem", "path": [["M", 0, 0], ["L", 42, 0]]}, {"edge": "l", "path": [["L", 42, 12]]}, {"edge": "top", "path": [["L", 0, 12]]},
+    {"edge": "r", "path": [["L", 0, 0]]}]'
+  cat > tube.json << EOF
+{"format": "pattern", "version": 1, "length_unit": "cm", "name": "tube",
+ "panels": [{"name": "P1", "outline": $outline}, {"name": "P2", "outline": $outline}],
+ "seams": [{"name": "a", "a": [{"panel": "P1", "edge": "l"}], "b": [{"panel": "P2", "edge": "r"}]},
+           {"name": "b", "a": [{"panel": "P2", "edge": "l"}], "b": [{"panel": "P1", "edge": "r"}]}]}
+EOF
+  run 0 "$program" --edge-length 0.05 --body a.body.json -o out.json tube.json
+  says "nothing tells where P1, P2 go"
+}
