@@ -22,9 +22,10 @@ std::array<Vec2, 2> Placer::bounds(const PanelGroup& group) const {
 bool Placer::hangs_on_shoulders(double top) const {
   for (std::size_t k = 0; k < m_roles.size(); ++k) {
     if (m_roles[k].region != Region::TRUNK) return true;
-    if (m_roles[k].side != Side::FRONT) continue;
+    if (m_roles[k].side != Side::FRONT || m_roles[k].part == "lower_body") continue; // the sides of a circle skirt may be drawn level
     for (int q : m_graph.neighbours(static_cast<int>(k))) {
-      if (m_roles[static_cast<std::size_t>(q)].side != Side::BACK) continue;
+      const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
+      if (other.side != Side::BACK || other.part == "lower_body") continue;
       for (const auto& seam : m_graph.between(static_cast<int>(k), q)) { // a level seam at the top
         const Vec2 a = uv(k, seam.front()[0]), b = uv(k, seam.back()[0]);
         if (std::abs(a.x() - b.x()) > 1.2 * std::abs(a.y() - b.y()) && std::min(a.y(), b.y()) > top - MOST_YOKE) return true;

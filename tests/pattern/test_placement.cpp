@@ -282,6 +282,19 @@ TEST(Placement, WhereNoNameTellsWhereAPieceGoesThatIsFound) {
   EXPECT_EQ(mesh.findings.back().rfind("start: nothing tells where P1 goes", 0), 0u) << mesh.findings.back();
 }
 
+TEST(Placement, ACircleSkirtHangsOnTheWaistThoughItsSidesAreDrawnLevel) {
+  std::string half = R"({"name": "skirt_front", "outline": [{"edge": "hem", "path": [["M", -50, 0], ["C", -50, -66, 50, -66, 50, 0]]},
+    {"edge": "l", "path": [["L", 13, 0]]}, {"edge": "waist", "path": [["C", 13, -17, -13, -17, -13, 0]]}, {"edge": "r", "path": [["L", -50, 0]]}]})";
+  std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "skirt", "panels": [)" + half + ",";
+  half.replace(half.find("front"), 5, "back");
+  text += half + R"(], "seams": [{"name": "a", "a": [{"panel": "skirt_front", "edge": "l"}], "b": [{"panel": "skirt_back", "edge": "r", "from": 1, "to": 0}]},
+    {"name": "b", "a": [{"panel": "skirt_back", "edge": "l"}], "b": [{"panel": "skirt_front", "edge": "r", "from": 1, "to": 0}]}]})";
+  const Pattern pattern = own(text);
+  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  place_panels(pattern, waisted_body(), mesh);
+  EXPECT_NEAR(top_of(mesh), 1.05, 0.15);
+}
+
 TEST(Placement, LeggingsInOnePieceGoAroundTheirLegs) {
   // Seen from outside a left leg has the front's middle seam on the left and the back's, which is longer, on the right.
   std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "leggings", "panels": [
