@@ -9,6 +9,7 @@ namespace sloper::pattern {
 
 constexpr double SHOULDER_RAISE = 0.02; // m above the shoulders, so that the shoulder seam closes downwards
 constexpr double MOST_YOKE = 0.2;       // m that a yoke reaches over the shoulder
+constexpr double WIDE_SPREAD = 2.4;     // rad between the sides of a panel: laid on a cylinder, a skirt that is wider reaches beyond the arms
 
 std::array<Vec2, 2> Placer::bounds(const PanelGroup& group) const {
   std::array<Vec2, 2> all = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
@@ -17,6 +18,45 @@ std::array<Vec2, 2> Placer::bounds(const PanelGroup& group) const {
     all[0] = all[0].cwiseMin(b[0]), all[1] = all[1].cwiseMax(b[1]);
   }
   return all;
+}
+
+std::optional<Sector> Placer::sector_of(std::size_t k) const {
+  if (m_roles[k].part != "lower_body" || is_leg(m_roles[k])) return std::nullopt;
+  std::vector<std::array<Vec2, 2>> sides; // from the waist to the hem
+  for (int q : m_graph.neighbours(static_cast<int>(k)))
+    if (const PanelRole& other = m_roles[static_cast<std::size_t>(q)]; other.part == "lower_body" && other.side != m_roles[k].side)
+      for (const auto& seam : m_graph.between(static_cast<int>(k), q)) sides.push_back({uv(k, seam.front()[0]), uv(k, seam.back()[0])});
+  if (sides.size() != 2) return std::nullopt;
+  const std::vector<std::array<Vec2, 2>> as_sewn = sides;
+  for (std::size_t i : {0, 1}) { // the waist's ends are nearer to each other than those of the hem; of a band the upper ones
+    const auto away = [&](const Vec2& end) { return std::min((end - as_sewn[1 - i][0]).norm(), (end - as_sewn[1 - i][1]).norm()); };
+    auto& [in, out] = sides[i];
+    const double wider = away(out) - away(in);
+    if (std::abs(wider) < 0.2 * (out - in).norm() ? in.y() < out.y() : wider < 0) std::swap(in, out);
+  }
+  if (sides[0][0].x() > sides[1][0].x()) std::swap(sides[0], sides[1]);
+  // Where the lines of the sides meet; of lines that are all but one, between their upper ends.
+  Eigen::Matrix2d a = 1e-3 * Eigen::Matrix2d::Identity();
+  Vec2 c = 0.5e-3 * (sides[0][0] + sides[1][0]);
+  double spread = 0;
+  for (const auto& [in, out] : sides) {
+    const Vec2 along = (out - in).normalized(), across(-along.y(), along.x());
+    a += across * across.transpose(), c += across.dot(in) * across;
+    spread += std::atan2((&in == &sides[0][0] ? -1 : 1) * along.x(), -along.y()); // from straight down
+  }
+  if (!(spread > WIDE_SPREAD)) return std::nullopt;
+  const Vec2 tip = a.ldlt().solve(c);
+  const auto reach = [&](std::size_t end) { return 0.5 * ((sides[0][end] - tip).norm() + (sides[1][end] - tip).norm()); };
+  const double inner = reach(0), outer = reach(1);
+  double area = 0; // which tells a ring from what narrows downwards
+  const auto& outline = m_mesh.panels[k].outline;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 p = uv(k, outline[i]), q = uv(k, outline[(i + 1) % outline.size()]);
+    area += 0.5 * (p.x() * q.y() - p.y() * q.x());
+  }
+  const double ring = 0.5 * spread * (outer * outer - inner * inner);
+  if (!(std::abs(std::abs(area) - ring) < 0.25 * ring)) return std::nullopt;
+  return Sector{tip, spread, inner, outer - inner};
 }
 
 bool Placer::hangs_on_shoulders(double top) const {
@@ -50,8 +90,11 @@ double Placer::strapless_height(double top) const {
 
 void Placer::anchor_trunk() {
   double top = -1e300;
-  for (const PanelGroup& g : m_groups)
-    if (g.region == Region::TRUNK) top = std::max(top, bounds(g)[1].y());
+  for (std::size_t k = 0; k < m_roles.size(); ++k) {
+    if (m_roles[k].region != Region::TRUNK) continue;
+    const auto sector = sector_of(k); // its sides may be drawn upwards
+    top = std::max(top, sector ? sector->top() : laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k))[1].y());
+  }
   if (top < -1e299) return;
   double shift = 0;
   if (hangs_on_shoulders(top)) {
@@ -105,6 +148,14 @@ std::pair<std::vector<double>, double> Placer::lengths_around(const std::vector<
   double length = 0, height = 0, dip = top;
   for (std::size_t k : piece) {
     const auto& outline = m_mesh.panels[k].outline;
+    if (const auto sector = sector_of(k)) {
+      const double waist = sector->spread * sector->inner;
+      const bool band = std::any_of(outline.begin(), outline.end(), [&](int v) {
+        return sewn(v) && std::abs(uv(k, v).x() - sector->tip.x()) < 0.2 * waist && (uv(k, v) - sector->tip).norm() < sector->inner + 0.02;
+      });
+      if (!band && sector->top() > top - 0.06) length += waist, height += waist * sector->top(), dip = std::min(dip, sector->top());
+      continue;
+    }
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const int a = outline[i], b = outline[(i + 1) % outline.size()];
       const Vec2 p = uv(k, a), q = uv(k, b);
@@ -126,7 +177,12 @@ std::pair<std::vector<double>, double> Placer::lengths_around(const std::vector<
 
 double Placer::covered(const std::vector<std::size_t>& piece, double v) const {
   double sum = 0;
-  for (std::size_t k : piece) sum += pattern::covered(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k), v);
+  for (std::size_t k : piece) {
+    const auto sector = sector_of(k);
+    const double down = sector ? sector->top() - v : 0;
+    if (!sector) sum += pattern::covered(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k), v);
+    else if (down >= 0 && down <= sector->length) sum += sector->spread * (sector->inner + down);
+  }
   return sum;
 }
 

@@ -23,6 +23,13 @@ struct PanelGroup {
   std::string leg;  ///< of trousers: leg_l or leg_r, all around
 };
 
+/// A panel of a circle skirt as it is laid out: a sector of a ring, which opens downwards.
+struct Sector {
+  Vec2 tip;                     ///< of its sides
+  double spread, inner, length; ///< rad between them; m from the tip to the waist, and from there to the hem
+  double top() const { return tip.y() - inner * std::sin(0.5 * spread) / (0.5 * spread); } ///< mean height of the waist
+};
+
 class Placer {
 public:
   Placer(const Pattern& pattern, const body::Body& body, PanelMesh& mesh, const Folding& folding);
@@ -47,6 +54,8 @@ private:
 
   // anchor_panels.cpp
   std::array<Vec2, 2> bounds(const PanelGroup& group) const;
+  /// Of a skirt's front or back that is nearly half a circle or more; nothing for others.
+  std::optional<Sector> sector_of(std::size_t k) const;
   /// Whether the garment hangs on the shoulders: front and back are sewn together near their tops, or there are sleeves or a collar.
   bool hangs_on_shoulders(double top) const;
   /// Height for the top of what hangs on the chest without straps; 0 for skirts and trousers. Told by the pattern's own heights
@@ -80,6 +89,9 @@ private:
   /// z in front of which (or behind which, for backs) the wings must stay: past the arms that hang within the panels' reach.
   double wing_limit(const PanelGroup& group, const Axis& axis, const std::array<Vec2, 2>& b, const std::vector<Vec2>& hull) const;
   void place_trunk(const PanelGroup& group);
+  /// Around half the body on a cone, in folds that take up what is wider than the cone: level as it is drawn it would reach beyond the arms,
+  /// and its side seams would close around them.
+  void place_in_folds(const PanelGroup& group, std::size_t k, const Sector& sector, const Axis& axis, const std::vector<Vec2>& hull);
   /// Of sleeves cut in one with the panels of a group that lies on this curve.
   std::vector<SleeveBend> sleeve_bends(const PanelGroup& group, const Axis& axis, const WrapCurve& curve) const;
   /// Gores that widen downwards stand on a cone: each is a sector of it, so that neighbours' sides lie along each other. Not where they

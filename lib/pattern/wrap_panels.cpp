@@ -1,4 +1,5 @@
 #include <base/error.hpp>
+#include <base/units.hpp>
 #include <pattern/arm_tube.hpp>
 #include <pattern/leg_layout.hpp>
 #include <pattern/leg_roles.hpp>
@@ -106,6 +107,33 @@ double Placer::wing_limit(const PanelGroup& group, const Axis& axis, const std::
   return limit + group.wing;
 }
 
+/// m for which a wave of slope m cos t is `ratio` times as long as the line that it is on.
+static double wave_slope(double ratio) {
+  double low = 0, high = 2 * ratio;
+  for (int halving = 0; halving < 30; ++halving) {
+    const double m = 0.5 * (low + high);
+    double length = 0;
+    for (int i = 0; i < 16; ++i) length += std::sqrt(1 + std::pow(m * std::cos((i + 0.5) * units::PI / 32), 2)) / 16;
+    (length < ratio ? low : high) = m;
+  }
+  return low;
+}
+
+void Placer::place_in_folds(const PanelGroup& group, std::size_t k, const Sector& sector, const Axis& axis, const std::vector<Vec2>& hull) {
+  constexpr double SLOPE = 0.45, FOLDS = 12; // sine of the angle to the vertical; around the body
+  const Vec2 low(plane_low(hull), hull_end(hull, -1)), high(plane_high(hull), hull_end(hull, 1)), center = 0.5 * (low + high);
+  const Vec2 half = 0.5 * (high - low) + Vec2::Constant(GAP + group.extra + LAYER * m_depth[k]);
+  put(k, [&](const Vec2& p) {
+    const Vec2 d = p - sector.tip;
+    const double rho = d.norm(), phi = std::atan2(d.x(), -d.y()), down = rho - sector.inner, out = SLOPE * std::max(down, 0.0);
+    const double radius = half.mean() + out, ratio = sector.spread * rho / (units::PI * radius);
+    const double t = ratio > 1 ? phi * units::PI / sector.spread : phi * rho / radius;
+    const double fold = ratio > 1 ? wave_slope(ratio) * radius / FOLDS * (1 - std::cos(FOLDS * t)) : 0;
+    const Vec2 plane = center + (half + Vec2::Constant(out + fold)).cwiseProduct(Vec2(std::sin(t), std::cos(t)));
+    return axis.point(plane, sector.top() - std::sqrt(1 - SLOPE * SLOPE) * down);
+  });
+}
+
 void Placer::place_trunk(const PanelGroup& group) {
   const auto b = bounds(group);
   std::vector<Part> parts = {Part::TORSO};
@@ -137,6 +165,10 @@ void Placer::place_trunk(const PanelGroup& group) {
       const double out = group.extra + LAYER * depth;
       curves.emplace(depth, WrapCurve::front_of(hull, GAP + out, wing + out, FILLET, axis.plane(Vec3(0, 0, 0)).x()));
     }
+    if (const auto sector = sector_of(k)) {
+      place_in_folds(group, k, *sector, axis, hull);
+      continue;
+    }
     const WrapCurve& curve = curves.at(depth);
     const std::vector<SleeveBend> bends = sleeve_bends(group, axis, curve);
     put(k, [&](const Vec2& p) {
@@ -151,6 +183,7 @@ std::vector<SleeveBend> Placer::sleeve_bends(const PanelGroup& group, const Axis
   std::vector<SleeveBend> out;
   std::vector<std::vector<Vec2>> outlines;
   for (std::size_t k : group.panels) {
+    if (m_roles[k].part == "lower_body") continue;
     outlines.emplace_back();
     for (int v : m_mesh.panels[k].outline) outlines.back().push_back(uv(k, v));
   }

@@ -282,7 +282,7 @@ TEST(Placement, WhereNoNameTellsWhereAPieceGoesThatIsFound) {
   EXPECT_EQ(mesh.findings.back().rfind("start: nothing tells where P1 goes", 0), 0u) << mesh.findings.back();
 }
 
-TEST(Placement, ACircleSkirtHangsOnTheWaistThoughItsSidesAreDrawnLevel) {
+TEST(Placement, ACircleSkirtHangsOnTheWaistInFoldsThoughItsSidesAreDrawnLevel) {
   std::string half = R"({"name": "skirt_front", "outline": [{"edge": "hem", "path": [["M", -50, 0], ["C", -50, -66, 50, -66, 50, 0]]},
     {"edge": "l", "path": [["L", 13, 0]]}, {"edge": "waist", "path": [["C", 13, -17, -13, -17, -13, 0]]}, {"edge": "r", "path": [["L", -50, 0]]}]})";
   std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "skirt", "panels": [)" + half + ",";
@@ -291,8 +291,18 @@ TEST(Placement, ACircleSkirtHangsOnTheWaistThoughItsSidesAreDrawnLevel) {
     {"name": "b", "a": [{"panel": "skirt_back", "edge": "l"}], "b": [{"panel": "skirt_front", "edge": "r", "from": 1, "to": 0}]}]})";
   const Pattern pattern = own(text);
   PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
-  place_panels(pattern, waisted_body(), mesh);
+  const PlacementReport report = place_panels(pattern, waisted_body(), mesh);
+  EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
   EXPECT_NEAR(top_of(mesh), 1.05, 0.15);
+  double widest = 0, drawn = 0, placed = 0;
+  for (const Vec3& p : mesh.placed) widest = std::max(widest, std::abs(p.x()));
+  EXPECT_LT(widest, 0.45) << "it stays between the arms; laid on a cylinder it reaches out to 0.5 m";
+  const auto& hem = mesh.panels[0].outline;
+  for (std::size_t i = 0; i < hem.size(); ++i) {
+    const int a = hem[i], b = hem[(i + 1) % hem.size()];
+    drawn += (mesh.pattern[a] - mesh.pattern[b]).norm(), placed += (mesh.placed[a] - mesh.placed[b]).norm();
+  }
+  EXPECT_NEAR(placed / drawn, 1, 0.1) << "folds take up what is too wide";
 }
 
 TEST(Placement, LeggingsInOnePieceGoAroundTheirLegs) {
