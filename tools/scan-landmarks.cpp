@@ -9,7 +9,6 @@
 
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 
 using namespace sloper;
 
@@ -39,18 +38,7 @@ void strike_pose(cli::Tool& tool, const Options& o, body::Body& body) {
   } else body = body::posed_body(body, weights, body::read_pose(o.pose, body));
 }
 
-/// A scan cannot be made again, so nothing is written over it.
-void spare_the_scan(const Options& o) {
-  for (const std::string& path : {o.output, io::mesh_path_beside(o.output), o.parts, o.csv, o.vit, o.garmentcode, o.skeleton}) {
-    std::error_code absent;
-    if (!path.empty() && std::filesystem::equivalent(path, o.scan, absent))
-      throw Error(ErrorKind::USAGE, path, "", "would be written over the scan" + std::string(path == o.output ? "" : " that " + o.output + " is made from"),
-                  "name another output, for example -o " + std::filesystem::path(o.scan).stem().string() + ".body.json");
-  }
-}
-
 int run(cli::Tool& tool, const Options& o) {
-  spare_the_scan(o);
   body::ScanOptions options;
   options.unit = o.unit;
   options.up = o.up;

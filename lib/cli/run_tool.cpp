@@ -6,6 +6,7 @@
 #include <cli/option_table.hpp>
 #include <cli/tool_reporter.hpp>
 #include <io/files.hpp>
+#include <io/json_fwd.hpp>
 
 #include <sched.h>
 #include <sys/resource.h>
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <new>
@@ -184,6 +186,49 @@ static void check_outputs(CLI::App& app) {
   }
 }
 
+/// The files of an option that is read ("input_file") or written ("output_file"), each with its mesh beside it.
+static std::vector<std::filesystem::path> files_of(CLI::Option* option, const std::string& validator) {
+  std::vector<std::filesystem::path> files;
+  const auto& longs = option->get_lnames();
+  const bool output = validator == "output_file" && std::find(longs.begin(), longs.end(), "output") != longs.end();
+  if (!output && !has_validator(option, validator)) return files;
+  for (const std::string& path : option->results()) {
+    std::error_code absent;
+    if (path == "-" || (std::filesystem::exists(path, absent) && !std::filesystem::is_regular_file(path, absent))) continue;
+    files.emplace_back(path);
+    if (path.size() > 5 && path.compare(path.size() - 5, 5, ".json") == 0) files.emplace_back(io::mesh_path_beside(path));
+  }
+  return files;
+}
+
+/// Nothing that is read is written over, and nothing is written twice. What goes on from a document may take its place.
+static void spare_files(CLI::App& app) {
+  constexpr std::pair<const char*, const char*> GOES_ON[] = {
+      {"--from", "--output"}, {"--from", "--checkpoint"}, {"--over", "--over-output"}, {"PATTERN", "--write-pattern"}};
+  const auto same = [](const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code absent;
+    return std::filesystem::equivalent(a, b, absent) ||
+           std::filesystem::absolute(a, absent).lexically_normal() == std::filesystem::absolute(b, absent).lexically_normal();
+  };
+  const auto options = app.get_options([](const CLI::Option*) { return true; });
+  for (CLI::Option* writing : options)
+    for (const std::filesystem::path& written : files_of(writing, "output_file"))
+      for (CLI::Option* other : options) {
+        const auto goes_on = [&](const auto& names) { return other->get_name(other->get_positional()) == names.first && writing->get_name() == names.second; };
+        if (std::any_of(std::begin(GOES_ON), std::end(GOES_ON), goes_on)) continue;
+        for (const std::filesystem::path& read : files_of(other, "input_file"))
+          if (same(written, read))
+            throw Error(ErrorKind::USAGE, written, writing->get_name(),
+                        "would be written over what " + other->get_name() + " reads" +
+                            (written.extension() == ".obj" ? " (a mesh goes beside its document)" : ""),
+                        "name another output");
+        if (other == writing) continue;
+        for (const std::filesystem::path& twice : files_of(other, "output_file"))
+          if (same(written, twice))
+            throw Error(ErrorKind::USAGE, written, writing->get_name(), "would be written by " + other->get_name() + " too", "name two files");
+      }
+}
+
 static void report_options(CLI::App& app, Reporter& reporter) {
   for (CLI::Option* option : app.get_options([](const CLI::Option* o) { return !o->get_group().empty(); })) {
     if (option->count() == 0) continue;
@@ -239,6 +284,7 @@ static int parse_and_run(CLI::App& app, const std::vector<std::string>& words, c
   }
   parsed();
   check_outputs(app);
+  spare_files(app);
   report_options(app, reporter);
   const auto start = std::chrono::steady_clock::now();
   const int code = body();

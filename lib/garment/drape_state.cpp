@@ -131,7 +131,9 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   if (found == std::end(PHASES)) node.at("phase").fail("is no phase of a drape");
   s.phase = static_cast<DrapePhase>(found - std::begin(PHASES));
   s.step = node.at("step").integer();
-  const int covered = node.has("covered") ? node.at("covered").integer() : node.at("mitten").boolean() ? CoveredSkin::HANDS : 0; // older ones: hands alone
+  const int covered = node.has("covered")           ? node.at("covered").integer()
+                      : node.at("mitten").boolean() ? static_cast<int>(CoveredSkin::HANDS)
+                                                    : 0; // older ones: hands alone
   if (covered < 0 || covered > static_cast<int>(CoveredSkin::HANDS | CoveredSkin::FEET)) node.at("covered").fail("names no ends of limbs");
   s.covered = static_cast<unsigned>(covered);
   s.whole_skin = node.has("whole_skin") && node.at("whole_skin").boolean(), s.shrunk = node.at("shrunk").boolean();

@@ -7,7 +7,7 @@ case_a_scan_is_never_written_over() {
   local scan=out.obj
   cp a.ply a.obj && cp a.obj "$scan" && cp a.obj before
   run 2 "$program" -o out.json "$scan"
-  says "out.obj: would be written over the scan that out.json is made from; name another output, for example -o out.body.json"
+  says "out.obj: --output: would be written over what SCAN reads (a mesh goes beside its document); name another output"
   run 2 "$program" -o "./$scan" "$scan"
   run 2 "$program" -o other.json --csv "$scan" "$scan"
   cmp "$scan" before || fail "the scan is another one"
