@@ -110,6 +110,11 @@ int run(cli::Tool& tool, const Options& o) {
     }
   }
   if (!o.write_pattern.empty()) write_pattern(tool, source, o.write_pattern);
+  for (const pattern::PatternFinding& f : pattern::check_pattern(source)) {
+    if (f.severity != "error") continue; // of those that can be sewn nevertheless
+    mesh.findings.push_back(f.place + ": " + f.fact);
+    tool.reporter().warning(mesh.findings.back());
+  }
   if (o.body.empty()) pattern::lay_flat(source, mesh);
   else {
     mesh.body_sha256 = body::skin_sha256(o.body);

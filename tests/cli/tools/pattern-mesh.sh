@@ -45,3 +45,11 @@ EOF
   run 0 "$program" --edge-length 0.05 --body a.body.json -o out.json tube.json
   says "nothing tells where P1, P2 go"
 }
+
+case_sides_that_differ_in_length_are_sewn_with_a_warning() {
+  sed 's/"L", 26.2852, -18.9647/"L", 26.2852, -14.9647/; s/"M", 26.2852, -18.9647/"M", 26.2852, -14.9647/' skirt.pattern.json > longer.json
+  run 1 "$program" --check longer.json
+  run 0 "$program" --edge-length 0.05 -o out.json longer.json
+  says "apart"
+  grep -q "apart" out.json || fail "no finding"
+}
