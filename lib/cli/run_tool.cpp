@@ -186,17 +186,15 @@ static void check_outputs(CLI::App& app) {
   }
 }
 
-/// The files of an option that is read ("input_file") or written ("output_file"), each with its mesh beside it.
+/// The files of an option that is read ("input_file") or written ("output_file"), each with the mesh that a document has beside it.
 static std::vector<std::filesystem::path> files_of(CLI::Option* option, const std::string& validator) {
   std::vector<std::filesystem::path> files;
-  const auto& longs = option->get_lnames();
-  const bool output = validator == "output_file" && std::find(longs.begin(), longs.end(), "output") != longs.end();
-  if (!output && !has_validator(option, validator)) return files;
+  if (!has_validator(option, validator)) return files;
   for (const std::string& path : option->results()) {
     std::error_code absent;
     if (path == "-" || (std::filesystem::exists(path, absent) && !std::filesystem::is_regular_file(path, absent))) continue;
     files.emplace_back(path);
-    if (path.size() > 5 && path.compare(path.size() - 5, 5, ".json") == 0) files.emplace_back(io::mesh_path_beside(path));
+    files.emplace_back(io::mesh_path_beside(path));
   }
   return files;
 }

@@ -148,7 +148,7 @@ std::pair<std::vector<double>, double> Placer::lengths_around(const std::vector<
   double length = 0, height = 0, dip = top;
   for (std::size_t k : piece) {
     const auto& outline = m_mesh.panels[k].outline;
-    if (const auto sector = sector_of(k)) {
+    if (const auto sector = sector_of(k)) { // as it hangs, not as it is drawn; with a waistband, that is the top
       const double waist = sector->spread * sector->inner;
       const bool band = std::any_of(outline.begin(), outline.end(), [&](int v) {
         return sewn(v) && std::abs(uv(k, v).x() - sector->tip.x()) < 0.2 * waist && (uv(k, v) - sector->tip).norm() < sector->inner + 0.02;

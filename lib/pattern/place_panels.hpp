@@ -12,7 +12,7 @@ struct PlacementReport {
   int vertices_inside = 0;                    ///< of the body
   int faces_through = 0;                      ///< that cross the skin
   double seam_gap_mean = 0, seam_gap_max = 0; ///< m
-  bool is_guess = false;                      ///< of no panel is it told where it goes: all are taken for fronts
+  bool is_guess = false;                      ///< of no panel is it told where it goes: all are taken for fronts, and the last finding says so
 };
 
 /// Fills mesh.placed, mesh.placement and PanelInfo::part; adds to mesh.findings what could not be made free.

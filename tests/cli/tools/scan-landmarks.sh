@@ -9,6 +9,7 @@ case_a_scan_is_never_written_over() {
   run 2 "$program" -o out.json "$scan"
   says "out.obj: --output: would be written over what SCAN reads (a mesh goes beside its document); name another output"
   run 2 "$program" -o "./$scan" "$scan"
+  run 2 "$program" -o out "$scan"
   run 2 "$program" -o other.json --csv "$scan" "$scan"
   cmp "$scan" before || fail "the scan is another one"
   [[ ! -e out.json && ! -e other.json ]] || fail "something was written"
