@@ -12,6 +12,7 @@ constexpr double STRONG = 0.08;      // |A_ij|^2 > STRONG^2 |A_ii| |A_jj|
 constexpr int COARSEST = 64;         // block rows that are factorised
 constexpr double LAMBDA_LIMIT = 4.0; // an element has at most four particles, which bounds the eigenvalues of D^-1 A
 constexpr int PATIENCE = 12;         // iterations beyond those of a fresh hierarchy that are borne: about what a new one costs
+constexpr int LONG = 5;              // iterations of a solve that went some way along what is soft: shorter ones mend what is stiff
 
 /// Aggregate of every row; greedy: whole free neighbourhoods first, then leftovers join their strongest neighbour. Rows without a strong
 /// neighbour, such as particles that a contact all but pins, get none (-1): smoothing solves them, and on coarser levels each of them
@@ -112,6 +113,11 @@ template<class Put> void Aggregation::multiply_finest(const FloatRows& rows, con
   });
 }
 
+/// y = A x, A what is to be solved.
+void Aggregation::multiply_system(const std::vector<Float4>& x, std::vector<Float4>& y) {
+  multiply_finest(m_has_whole ? m_whole : m_levels[0].a, x, [&](std::size_t i, Float4 row) { y[i] = row; });
+}
+
 /// The finest level's matrix, contacts and smoother as they are now.
 void Aggregation::copy_finest(const LinearSystem& system) {
   Level& finest = m_levels[0];
@@ -138,19 +144,6 @@ void Aggregation::copy_finest(const LinearSystem& system) {
   m_contact_pull.resize(m_contacts.size());
   parallel_for(finest.d_inverse.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) finest.d_inverse[i] = to_float(m_jacobi.inverse()[i]);
-  });
-}
-
-/// Eight products are summed in single precision at a time.
-static double dot(const std::vector<Float4>& a, const std::vector<Float4>& b, std::vector<double>& part) {
-  return parallel_sum(a.size(), ROW_GRAIN, part, [&](std::size_t begin, std::size_t end) {
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t first = begin; first < end; first += 8) {
-      Float4 some = Float4::all(0);
-      for (std::size_t i = first; i < std::min(first + 8, end); ++i) some = some + a[i] * b[i];
-      sum += to_double(some);
-    }
-    return sum.sum();
   });
 }
 
@@ -336,6 +329,7 @@ struct Aggregation::SingleSpace {
 
   double precondition() {
     a.precondition_finest();
+    a.m_deflation.project(a.m_levels[0].r, a.m_levels[0].z);
     return dot(a.m_levels[0].r, a.m_levels[0].z, a.m_part);
   }
   void turn(double beta) {
@@ -346,7 +340,7 @@ struct Aggregation::SingleSpace {
     });
   }
   double multiply() {
-    a.multiply_finest(a.m_has_whole ? a.m_whole : a.m_levels[0].a, a.m_p, [&](std::size_t i, Float4 row) { a.m_q[i] = row; });
+    a.multiply_system(a.m_p, a.m_q);
     return dot(a.m_p, a.m_q, a.m_part);
   }
   double advance(double alpha) {
@@ -370,13 +364,30 @@ struct Aggregation::SingleSpace {
   }
 };
 
+/// Starts the solve for r, which the finest level has as its own, from the ways of the last ones, if the system recurs and they lead no farther
+/// than the radius.
+void Aggregation::deflate(const LinearSystem& system, const std::vector<Vec3>& r, double radius) {
+  m_deflation.leave_out();
+  if (!system.recurs) return;
+  m_deflation.prepare(r.size(), [&](const std::vector<Float4>& x, std::vector<Float4>& y) { multiply_system(x, y); });
+  if (m_deflation.n_ways() == 0) return;
+  m_deflation.start(m_x, m_levels[0].r);
+  if (longest(m_x) < radius) return;
+  m_deflation.leave_out();
+  m_x.assign(r.size(), Float4::all(0));
+  take_in(r);
+}
+
 bool Aggregation::solve_in_single(const LinearSystem& system, const std::vector<Vec3>& r, CgTolerance tolerance, int max_iterations, double radius,
                                   std::vector<Vec3>& x, CgResult& result) {
   const double scale = take_in(r);
   for (auto* v : {&m_x, &m_p, &m_q}) v->assign(r.size(), Float4::all(0));
-  const double r_norm2 = dot(m_levels[0].r, m_levels[0].r, m_part);
-  conjugate_gradient_loop(SingleSpace{*this, system}, r_norm2, tolerance.residual * tolerance.residual * r_norm2, tolerance.energy, max_iterations,
-                          radius / scale, result);
+  const std::vector<Float4>& residual = m_levels[0].r;
+  const double target2 = tolerance.residual * tolerance.residual * dot(residual, residual, m_part);
+  deflate(system, r, radius / scale);
+  const int before = result.iterations;
+  conjugate_gradient_loop(SingleSpace{*this, system}, dot(residual, residual, m_part), target2, tolerance.energy, max_iterations, radius / scale, result);
+  if (system.recurs && result.iterations >= before + LONG) m_deflation.keep(m_x);
   hand_out(m_x, scale, x);
   return true;
 }

@@ -6,8 +6,10 @@
 /// straps are no special case. The hierarchy lags: it is rebuilt, within a solve too, only where the iterations that it costs have
 /// grown by what a new one costs; the finest level always sees the current matrix. It is built in double and applied in single
 /// precision, and the conjugate gradients run on the finest level in single precision too: refinement in double has the last word.
+/// Of systems that recur, solves begin with the ways of the last ones (Deflation).
 #include <Eigen/Dense>
 #include <cloth/conjugate_gradient.hpp>
+#include <cloth/deflation.hpp>
 #include <cloth/float_rows.hpp>
 
 namespace sloper::cloth {
@@ -24,6 +26,7 @@ public:
   void reset() override {
     m_levels.clear();
     m_whole = {};
+    m_deflation.forget();
   }
   long rebuilds = 0;
   /// Blocks of all levels' matrices over those of the finest: what a cycle costs in multiplications by the matrix. 1 without levels.
@@ -50,6 +53,8 @@ private:
   void pull_contacts(const std::vector<Float4>& x);
   template<class Put> void multiply(std::size_t level, const std::vector<Float4>& x, const Put& put);
   template<class Put> void multiply_finest(const FloatRows& rows, const std::vector<Float4>& x, const Put& put);
+  void multiply_system(const std::vector<Float4>& x, std::vector<Float4>& y);
+  void deflate(const LinearSystem& system, const std::vector<Vec3>& r, double radius);
   void estimate_lambda(std::size_t level, int iterations);
   void smooth(std::size_t level, bool zero_start);
   void cycle(std::size_t level);
@@ -61,6 +66,7 @@ private:
     BlockRows a, p, pt, ap;
   } m_build; // its work: kept for its memory
   std::vector<Float4> m_x, m_p, m_q;
+  Deflation m_deflation;
   std::vector<double> m_part;
   FloatRows m_whole; // of the system's `whole`
   bool m_has_whole = false;

@@ -12,6 +12,7 @@ struct LinearSystem {
   const std::vector<ContactElement>& elements;
   const ContactIndex& index;          ///< of the elements
   const BlockMatrix* whole = nullptr; ///< where not null, what is solved in place of `matrix`, of the same pattern; may be indefinite
+  bool recurs = false;                ///< one of many that differ little, for much the same ways: what the last solves found serves this one
   /// y = A x; returns x . y. pull, part: work
   double multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y, std::vector<Vec3>& pull, std::vector<double>& part) const;
 };
@@ -75,8 +76,8 @@ private:
 /// `space` has the vectors: precondition() sets z = P^-1 r and returns r . z; turn(beta) sets p = z + beta p; multiply() sets q = A p and
 /// returns p . q; advance(alpha) adds alpha p to x and takes alpha q from r and returns |r|^2; longest_x() and longest_p() are the lengths
 /// of their longest vectors of three; renew(iterations) as in Preconditioner.
-/// Ends where |r|^2 <= target2, where r . z <= energy^2 times what it was at first, at max_iterations of the result, which counts on, at an
-/// indefinite matrix, or where x would get longer than `radius` (Steihaug 1983, with the greatest length of three for a norm). Returns |r|^2.
+/// Ends where |r|^2 <= target2, where r . z <= energy^2 times what it was at first or is not above 0, at max_iterations of the result, which counts
+/// on, at an indefinite matrix, or where x would get longer than `radius` (Steihaug 1983, with the greatest length of three for a norm). Returns |r|^2.
 template<class Space>
 double conjugate_gradient_loop(Space&& space, double r_norm2, double target2, double energy, int max_iterations, double radius, CgResult& result) {
   const bool bounded = radius < std::numeric_limits<double>::infinity();
@@ -97,9 +98,9 @@ double conjugate_gradient_loop(Space&& space, double r_norm2, double target2, do
     const bool renewed = space.renew(result.since_renewal);
     if (renewed) result.since_renewal = 0;
     const double rz_next = space.precondition();
-    result.near = rz_next <= rz_end;
-    if (result.near) break;
-    space.turn(renewed ? 0 : rz_next / rz); // with another preconditioner the directions start anew
+    result.near = rz_next <= rz_end && rz_end > 0;
+    if (result.near || !(rz_next > 0)) break; // the latter where rounding has the last word
+    space.turn(renewed ? 0 : rz_next / rz);   // with another preconditioner the directions start anew
     rz = rz_next;
   }
   return r_norm2;

@@ -284,7 +284,7 @@ CgResult ClothSolver::solve(const StepOptions& o) {
   }
   const Stopwatch watch(solve_s);
   m_contacts.build(m_elements, m_x.size());
-  const LinearSystem system{m_matrix, m_elements, m_contacts, whole ? &m_whole : nullptr};
+  const LinearSystem system{m_matrix, m_elements, m_contacts, whole ? &m_whole : nullptr, o.line_search};
   m_preconditioner->update(system);
   const CgResult result = conjugate_gradient(system, *m_preconditioner, m_rhs, tolerance, o.cg_max_iterations, m_dx, m_work, radius);
   m_preconditioner->report_iterations(result.since_renewal);

@@ -23,7 +23,8 @@ struct StepOptions {
   int cg_max_iterations = 400;
   /// Halves the step until the energy falls, doubles it while it falls on, halves one that takes back the last; else no motion. Where it
   /// halves, particles that limits hold, and without momentum those with ten times the force of nearly all others, stay in place for up to 16 steps.
-  /// Off: limits that cut half an edge shorten all.
+  /// Off: limits that cut half an edge shorten all. With it solves begin with the ways of the last ones (Deflation): on the way to rest these lead
+  /// on, and take a third to a half of the iterations away, and steps with them; in motion they gain nothing.
   bool line_search = false;
   /// With line_search: a share of the last step's way goes on top (O'Donoghue and Candes 2015), and a step may end as high as the highest
   /// of the last 20 energies (Grippo et al. 1986); where these only go up and down, each step must fall for 10 steps. Pays where the energy alone bounds the
