@@ -56,6 +56,30 @@ private:
     return true;
   }
 
+  /// How many sides of panel k are sewn to panel q most of their height. A side may be drawn as several edges, one after the other.
+  int long_seams(std::size_t k, std::size_t q) const {
+    struct SewnSide {
+      double low = 1e300, high = -1e300;
+      std::vector<int> ends;
+    };
+    std::vector<SewnSide> sides;
+    for (const auto& seam : between(k, q)) {
+      SewnSide own;
+      for (const auto& s : seam) own.low = std::min(own.low, at(k, s[0]).y()), own.high = std::max(own.high, at(k, s[0]).y());
+      for (const auto& end : {seam.front(), seam.back()}) own.ends.insert(own.ends.end(), end.begin(), end.end());
+      for (std::size_t i = sides.size(); i-- > 0;) {
+        const SewnSide& other = sides[i];
+        if (std::find_first_of(own.ends.begin(), own.ends.end(), other.ends.begin(), other.ends.end()) == own.ends.end()) continue;
+        own.low = std::min(own.low, other.low), own.high = std::max(own.high, other.high);
+        own.ends.insert(own.ends.end(), other.ends.begin(), other.ends.end());
+        sides.erase(sides.begin() + static_cast<long>(i));
+      }
+      sides.push_back(std::move(own));
+    }
+    const double least = LONG * (bounds(k)[1].y() - bounds(k)[0].y());
+    return static_cast<int>(std::count_if(sides.begin(), sides.end(), [&](const SewnSide& side) { return side.high - side.low > least; }));
+  }
+
   /// Two front-back tubes that are sewn to each other.
   void four_pieces() {
     std::vector<std::size_t> tubes;
@@ -64,14 +88,7 @@ private:
       bool tube = says_legs(words_of(m_pattern.panels[k].name));
       for (int q : m_graph.neighbours(static_cast<int>(k))) {
         if (m_roles[static_cast<std::size_t>(q)].side == m_roles[k].side) continue;
-        int n_long = 0;
-        const double height = bounds(k)[1].y() - bounds(k)[0].y();
-        for (const auto& seam : between(k, static_cast<std::size_t>(q))) {
-          double low = 1e300, high = -1e300;
-          for (const auto& s : seam) low = std::min(low, at(k, s[0]).y()), high = std::max(high, at(k, s[0]).y());
-          if (high - low > LONG * height) ++n_long;
-        }
-        tube = tube || n_long >= 2;
+        tube = tube || long_seams(k, static_cast<std::size_t>(q)) >= 2;
       }
       if (tube) tubes.push_back(k);
     }

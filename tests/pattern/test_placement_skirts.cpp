@@ -1,3 +1,4 @@
+#include "drawn_pattern.hpp"
 #include "placement_patterns.hpp"
 
 #include <gtest/gtest.h>
@@ -133,6 +134,17 @@ TEST(Placement, APanelOfAnOuterLayerLiesOverTheOneThatItIsSewnTo) {
       EXPECT_GT(over.z(), under.z());
     }
   }
+}
+
+TEST(Placement, ASkirtInQuartersIsNoTrousersThoughItsSidesAreDrawnInTwoEdges) {
+  DrawnPattern skirt; // the upper part of a side is more than a third of it
+  skirt.quarters({{"hem", 30, -55}, {"side", 25, -20}, {"side_hip", 22, 0}, {"waist", 0, 0}, {"middle_hip", 0, -20}, {"middle", 0, -55}}, {"side", "side_hip"},
+                 {"middle", "middle_hip"});
+  const Pattern pattern = skirt.pattern();
+  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  const PlacementReport report = place_panels(pattern, waisted_body(), mesh);
+  for (const PanelInfo& panel : mesh.panels) EXPECT_EQ(panel.part, "torso") << panel.name;
+  EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
 }
 
 } // namespace
