@@ -2,7 +2,6 @@
 #include <pattern/finished_measures.hpp>
 #include <pattern/folds.hpp>
 #include <pattern/mesh_pattern.hpp>
-#include <pattern/panel_layout.hpp>
 
 #include <algorithm>
 #include <map>
@@ -75,6 +74,7 @@ std::vector<Opening> openings_of(const Pattern& pattern, const PanelMesh& mesh) 
     const int id = root(loop, ends.first);
     const Vec2 &a = mesh.pattern[static_cast<std::size_t>(side.a)], &b = mesh.pattern[static_cast<std::size_t>(side.b)];
     found[id].length += (a - b).norm();
+    found[id].rim.push_back({side.a, side.b});
     names[id][side.panel].insert(edge_at(pattern.panels[static_cast<std::size_t>(side.panel)], 0.5 * (a + b)));
   }
   std::vector<Opening> out;
@@ -93,7 +93,8 @@ FinishedMeasures finished_measures(const Pattern& pattern, const std::string& fi
   const PanelMesh mesh = mesh_pattern(pattern, coarse_for(pattern), file);
   FinishedMeasures out;
   out.openings = openings_of(pattern, mesh);
-  out.named = named_measures(pattern, mesh, out.openings);
+  TrunkMeasures trunk = measure_trunk(pattern, mesh, out.openings);
+  out.named = std::move(trunk.named), out.around = std::move(trunk.around);
   const Pattern sewn = with_folds(pattern, file);
   for (const Seam& s : sewn.seams)
     if (s.kind != "pleat") out.seams.push_back({s.name, 0.5 * (side_length(sewn, s.a) + side_length(sewn, s.b))});
@@ -103,22 +104,6 @@ FinishedMeasures finished_measures(const Pattern& pattern, const std::string& fi
       for (const PanelEdge& e : loop) paths.push_back(e.path);
       out.cloth_m2 += signed_area(paths);
     }
-  // Panels of the trunk laid beside each other as for placement: how much of each level is covered.
-  const SeamGraph graph(mesh);
-  std::vector<PanelRole> roles = panel_roles(pattern, mesh, graph);
-  const std::vector<PanelSpot> spots = lay_out(pattern, mesh, graph, roles);
-  double top = -1e300, bottom = 1e300;
-  for (std::size_t k = 0; k < roles.size(); ++k)
-    if (roles[k].region == Region::TRUNK) {
-      const auto b = laid_bounds(mesh, roles[k], spots[k], static_cast<int>(k));
-      top = std::max(top, b[1].y()), bottom = std::min(bottom, b[0].y());
-    }
-  for (double depth = 0.05; top - depth > bottom; depth += 0.05) {
-    double sum = 0;
-    for (std::size_t k = 0; k < roles.size(); ++k)
-      if (roles[k].region == Region::TRUNK) sum += covered(mesh, roles[k], spots[k], static_cast<int>(k), top - depth);
-    out.around.push_back({depth, sum});
-  }
   return out;
 }
 
