@@ -28,18 +28,19 @@ struct Options {
   bool check = false, unsewn = false;
 };
 
-/// Findings to standard output, as JSON too where an output is named. 1 where the pattern cannot be sewn as drawn.
+/// Findings to standard output, as JSON too where an output is named. 1 where the pattern cannot be sewn as drawn, or seems to be meant otherwise.
 int check(const cli::Tool& tool, const pattern::Pattern& source, const Options& o) {
   io::Json document = io::new_document("pattern-findings", 1, tool.name());
   document["findings"] = io::Json::array();
-  bool bad = false;
+  bool bad = false, sewable = true;
   const std::vector<pattern::PatternFinding> findings = pattern::check_pattern(source);
   for (const pattern::PatternFinding& f : findings) {
     std::cout << f.severity << ": " << f.rule << ": " << f.place << ": " << f.fact << '\n';
     document["findings"].push_back({{"severity", f.severity}, {"rule", f.rule}, {"place", f.place}, {"fact", f.fact}});
     bad = bad || f.severity == "error";
+    sewable = sewable && !pattern::forbids_sewing(f);
   }
-  if (!bad) { // what the finished garment measures
+  if (sewable) { // what the finished garment measures
     const pattern::FinishedMeasures measures = pattern::finished_measures(source, o.pattern);
     for (const pattern::NamedMeasure& m : measures.named) std::cout << "measure: " << m.name << ' ' << pattern::centimetres(m.value) << " (" << m.how << ")\n";
     for (const pattern::Opening& opening : measures.openings) {
@@ -153,7 +154,7 @@ int main(int argc, char** argv) {
   tool.option("-o,--output", o.output, "panels.json; panels.obj is written beside it").check(cli::document_file());
   tool.flag("--check", o.check,
             "validate only: findings and finished measures to standard output (as JSON or SARIF to -o FILE.json or FILE.sarif), exit 1 where the pattern "
-            "cannot be sewn as drawn");
+            "cannot be sewn as drawn or seems to be meant otherwise");
   tool.example("pattern-mesh --body body.json -o panels.json shirt.pattern.json", "mesh a pattern and place it around a scanned body");
   tool.example("pattern-mesh --check shirt.pattern.json", "list what is wrong with a pattern without meshing it");
   return tool.run(argc, argv, [&] { return run(tool, o); });

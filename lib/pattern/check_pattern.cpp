@@ -3,6 +3,7 @@
 #include <io/json.hpp>
 #include <pattern/check_pattern.hpp>
 #include <pattern/folds.hpp>
+#include <pattern/missing_seams.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,8 @@ constexpr double SAMPLE = 0.004; // m between points on curves
 constexpr double SPIKE = 10;     // degrees
 constexpr double TINY = 0.002;   // m
 constexpr double LEAST = 0.12;   // m: a garment whose largest panel is smaller was drawn in another unit than it states, or is a doll's
+constexpr double MOST = 12;      // m2, a panel's height times its width: a full circle to the floor has 10, a long flounce less
+constexpr double UNIT_STEP = 10; // from mm to cm, the commonest mistake
 
 struct Sampled {
   std::vector<Vec2> points;
@@ -63,32 +66,53 @@ std::string at_point(const Vec2& p) {
 class Check {
 public:
   explicit Check(const Pattern& pattern) : m_pattern(with_folds(pattern, "")) {} // lengths are those that are sewn
-  std::vector<PatternFinding> run() {
+  /// @param meant  with what can be sewn and seems to be meant otherwise, which a live edit does not wait for
+  std::vector<PatternFinding> run(bool meant = true) {
     for (const Panel& p : m_pattern.panels) check_outline(p);
     check_unit();
     check_runs();
     for (const Seam& s : m_pattern.seams)
       if (s.kind != "pleat") check_seam(s);
     check_unsewn();
+    if (meant) check_missing();
     return std::move(m_out);
   }
 
 private:
   void add(const char* severity, const char* rule, const std::string& place, const std::string& fact) { m_out.push_back({severity, rule, place, fact}); }
 
-  /// What can be no garment at all is refused when it is read; this is what can be one, of the wrong size.
+  /// What can be no garment at all is refused when it is read; this is what can be one, of a giant or a doll.
   void check_unit() {
-    double largest = 0;
+    Vec2 largest = Vec2::Zero();
     const Panel* which = nullptr;
     for (const Panel& panel : m_pattern.panels) {
       Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
       for (const Vec2& q : sample(panel).points) low = low.cwiseMin(q), high = high.cwiseMax(q);
-      if (const double size = (high - low).maxCoeff(); size > largest) largest = size, which = &panel;
+      if (const Vec2 size = high - low; size.prod() > largest.prod() || (size.prod() == largest.prod() && !which)) largest = size, which = &panel;
     }
-    if (which && largest < LEAST)
-      add("warning", "wrong-unit", which->name,
-          "the largest panel measures " + centimetres(largest) + ": too small for a garment; in a unit ten times larger it would be " +
-              centimetres(10 * largest));
+    if (!which) return;
+    const bool small = largest.maxCoeff() < LEAST;
+    if (!small && largest.prod() < MOST) return;
+    const double factor = small ? UNIT_STEP : 1 / UNIT_STEP;
+    const auto extent = [&](double by) { return centimetres(by * largest.x()) + " by " + centimetres(by * largest.y()); };
+    add("error", "wrong-unit", which->name,
+        "the largest panel measures " + extent(1) + ": no person is so " + (small ? "small" : "large") + "; in a unit ten times " +
+            (small ? "larger" : "smaller") + " it would be " + extent(factor) + ": check " + unit_key());
+  }
+
+  /// Where the file states its unit.
+  std::string unit_key() const {
+    if (m_pattern.source_format == "pattern") return "\"length_unit\"";
+    if (m_pattern.source_format == "garmentcode") return "\"units_in_meter\" in \"properties\"";
+    if (m_pattern.source_format == "dxf") return "the text \"Units\", or $INSUNITS";
+    return "that lengths are in millimetres, as the format asks for";
+  }
+
+  void check_missing() {
+    for (const MissingSeam& s : missing_seams(m_pattern))
+      add("error", "open-seam", place_of(m_pattern, s.a),
+          "is not sewn to " + place_of(m_pattern, s.b) + ", as it seems to be meant: " + s.why + "; add the seam" +
+              (m_pattern.source_format == "pattern" ? ", with \"open\": true where it shall stay open" : ""));
   }
 
   void check_outline(const Panel& panel) {
@@ -245,11 +269,11 @@ io::Json findings_sarif(const std::vector<PatternFinding>& findings, const std::
           {"runs", io::Json::array({io::Json{{"tool", {{"driver", driver}}}, {"results", results}}})}};
 }
 
+bool forbids_sewing(const PatternFinding& f) { return f.severity == "error" && f.rule != "length-mismatch" && f.rule != "wrong-unit" && f.rule != "open-seam"; }
+
 void require_sewable(const Pattern& pattern, const std::string& file) {
-  for (const PatternFinding& f : check_pattern(pattern)) {
-    // A difference in length can be sewn (it puckers); the mesher takes it and the report tells.
-    if (f.severity == "error" && f.rule != "length-mismatch") throw input_error(file, f.place, f.fact, "pattern-mesh --check lists all findings");
-  }
+  for (const PatternFinding& f : Check(pattern).run(false))
+    if (forbids_sewing(f)) throw input_error(file, f.place, f.fact, "pattern-mesh --check lists all findings");
 }
 
 } // namespace sloper::pattern

@@ -53,3 +53,27 @@ case_sides_that_differ_in_length_are_sewn_with_a_warning() {
   says "apart"
   grep -q "apart" out.json || fail "no finding"
 }
+
+case_a_size_of_no_person_is_meshed_with_a_warning() {
+  sed 's/"length_unit": "cm"/"length_unit": "mm"/' skirt.pattern.json > small.json
+  run 1 "$program" --check small.json
+  grep -q 'error: wrong-unit: .* no person is so small; .* check "length_unit"' stdout || fail "not told"
+  run 0 "$program" --edge-length 0.005 -o out.json small.json
+  says "no person is so small"
+  grep -q "no person is so small" out.json || fail "no finding"
+}
+
+case_a_missing_seam_is_meshed_with_a_warning() {
+  # A side of the skirt's left half, drawn in two edges; what is left is still JSON.
+  python3 - skirt.pattern.json > open.json << 'EOF'
+import json, sys
+document = json.load(open(sys.argv[1]))
+document["seams"] = [s for s in document["seams"] if s["name"] not in ("front_l.side", "front_l.side_hip")]
+print(json.dumps(document))
+EOF
+  run 1 "$program" --check open.json
+  [[ $(grep -c 'error: open-seam: front_l: side' stdout) -eq 2 ]] || fail "not both edges are told"
+  run 0 "$program" --edge-length 0.05 -o out.json open.json
+  says "front_l: side: is not sewn to back_l: side, as it seems to be meant"
+  grep -q "is not sewn to back_l: side" out.json || fail "no finding"
+}
