@@ -7,8 +7,11 @@
 #include <garment/frame_writer.hpp>
 #include <garment/layers.hpp>
 #include <garment/motion.hpp>
+#include <io/files.hpp>
 #include <io/json.hpp>
 #include <io/line_follower.hpp>
+
+#include <filesystem>
 
 namespace sloper::garment {
 
@@ -74,8 +77,21 @@ DrapeReport resume_with_motion(const DrapeJob& job, const DrapeCheckpoint& c, Ga
   });
 }
 
+/// A document of edits is whole, and nothing more comes after it: followed as lines, it would be waited on without end.
+void refuse_document(const std::string& path) {
+  if (path == "-" || !std::filesystem::is_regular_file(path)) return; // a stream must not be read twice
+  const std::string text = io::read_file(path);
+  if (!io::Json::accept(text)) return; // lines, or none yet
+  const io::Json json = io::Json::parse(text);
+  if (json.is_object() && json.contains("edits") && !json["edits"].empty())
+    throw input_error(path, "/edits", "is a document of edits, where --follow wants lines as they come",
+                      R"(write {"format": "edits", "version": 1, "length_unit": "cm"} on the first line, then one edit a line, at last {"edit": "end"}; )"
+                      "or give the document to pattern-mesh --edits");
+}
+
 DrapeOutcome follow_edits(const DrapeJob& job, Garment& garment, const body::Body* body, const DrapeSettings& settings, std::ostream& stream,
                           Reporter& reporter) {
+  refuse_document(job.follow);
   io::LineFollower lines(job.follow);
   FrameWriter write(job.frames, "frame of " + generator_stamp(job.tool), stream);
   const FollowSession session{[&](int wait_ms) { return lines.next(wait_ms); }, [&] { return lines.ended(); },

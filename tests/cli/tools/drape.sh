@@ -65,6 +65,19 @@ survives_kills() {
   done
 }
 
+case_a_document_of_edits_is_not_followed_line_by_line() {
+  local form
+  printf '{"format": "edits", "version": 1, "length_unit": "cm", "edits": [{"edit": "scale", "x": 1.02, "y": 1}]}' > document.json
+  { cat document.json; echo; } > line.json
+  python3 -m json.tool document.json > pretty.json
+  for form in document line pretty; do
+    run 3 timeout 60 "$program" --from "$data/skirt.json" --body a.body.json --follow $form.json -o out.json
+    says "$form.json: /edits: is a document of edits, where --follow wants lines"
+  done
+  printf '%s\n' '{"format": "edits", "version": 1, "length_unit": "cm"}' '{"edit": "end"}' > lines.jsonl
+  run "0|4" timeout 60 "$program" --from "$data/skirt.json" --body a.body.json --accuracy draft --set max_steps=5 --follow lines.jsonl -o out.json
+}
+
 case_a_run_killed_dead_goes_on_from_its_checkpoint_to_the_same_bytes() {
   local of=(--body a.body.json --panels panels.json --set max_steps=100 --checkpoint-steps 10) again=(--body a.body.json) written=(%) when=(phase phase phase)
   survives_kills
