@@ -111,6 +111,11 @@ static std::string expected_document(const std::string& format) {
 
 Json read_document(const std::string& path, const std::string& format, int newest) {
   Json document = read_json(path);
+  check_envelope(document, path, format, newest);
+  return document;
+}
+
+void check_envelope(const Json& document, const std::string& path, const std::string& format, int newest) {
   const std::string name = path == "-" ? "standard input" : path;
   const Node node(document, name);
   if (!node.is_object() || !node.has("format")) throw input_error(name, "/format", "is not a Sloper document", expected_document(format));
@@ -122,7 +127,6 @@ Json read_document(const std::string& path, const std::string& format, int newes
     throw input_error(name, "/version",
                       "version " + std::to_string(version) + " is newer than version " + std::to_string(newest) + ", the newest this program reads",
                       "update Sloper");
-  return document;
 }
 
 Json new_document(const std::string& format, int version, const std::string& tool) {

@@ -19,6 +19,8 @@ Json parse_json(const std::string& text, const std::string& name);
 /// Reads a document and checks its envelope. A newer version than `newest` is refused, older ones are returned as they are.
 /// @throws Error INPUT
 Json read_document(const std::string& path, const std::string& format, int newest);
+/// The same of a document that was read. @param path  for messages
+void check_envelope(const Json& document, const std::string& path, const std::string& format, int newest);
 
 /// {"format", "version", "generator", "length_unit": "m"}, to be filled.
 Json new_document(const std::string& format, int version, const std::string& tool);

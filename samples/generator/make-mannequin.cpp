@@ -1,5 +1,6 @@
 /// Makes a mannequin: a closed body mesh from proportions, girths and a stance, with its landmarks known by construction.
 #include "mannequin.hpp"
+#include "named_length.hpp"
 #include <base/error.hpp>
 #include <cli/run_tool.hpp>
 #include <cstdio>
@@ -19,10 +20,8 @@ struct Options {
 
 void read_girths(const std::vector<std::string>& texts, samples::Mannequin& shape) {
   for (const std::string& text : texts) {
-    const std::size_t equal = text.find('=');
-    if (equal == std::string::npos || !cli::finite_in(-10, 10, "m").fault(text.substr(equal + 1)).empty())
-      throw Error(ErrorKind::USAGE, "", "--girth", "\"" + text + "\" is not NAME=METRES", "for example --girth waist=0.72");
-    shape.girths_m[text.substr(0, equal)] = std::stod(text.substr(equal + 1));
+    const auto [name, metres] = samples::named_length("--girth", text);
+    shape.girths_m[name] = metres;
   }
 }
 
@@ -55,7 +54,7 @@ int main(int argc, char** argv) {
   const cli::Option arm = tool.option("--arm-deg", given.arm_deg, "angle of the arms from hanging down, 10 to 90");
   const cli::Option leg = tool.option("--leg-deg", given.leg_deg, "angle of each leg from vertical, 0 to 15");
   const cli::Option cell = tool.option("--cell", given.cell_m, "edge length of the mesh, m").type_name("M");
-  tool.option("--girth", o.girths, "neck, bust, underbust, waist, abdomen, hip, thigh, knee, calf, ankle, upper_arm, forearm or wrist")
+  tool.option("--girth", o.girths, "set one girth, m: neck, bust, underbust, waist, abdomen, hip, thigh, knee, calf, ankle, upper_arm, forearm or wrist")
       .type_name("NAME=METRES");
   tool.option("-o,--output", o.output, "OBJ file to write").check(cli::output_file());
   tool.option("--truth", o.truth, "write landmarks, levels and girths known by construction (JSON)").check(cli::output_file());

@@ -1,6 +1,7 @@
 /// Drafts a sewing pattern from body measures: shirt, tshirt, skirt or trousers.
 #include "mannequin.hpp"
 #include "measures.hpp"
+#include "named_length.hpp"
 #include <algorithm>
 #include <base/error.hpp>
 #include <cli/run_tool.hpp>
@@ -26,11 +27,8 @@ samples::Draft draft(const std::string& garment, const samples::Measures& measur
 
 void set_measures(const std::vector<std::string>& texts, samples::Measures& measures) {
   for (const std::string& text : texts) {
-    const std::size_t equal = text.find('=');
-    if (equal == std::string::npos || !cli::finite_in(-10, 10, "m").fault(text.substr(equal + 1)).empty())
-      throw Error(ErrorKind::USAGE, "", "--measure", "\"" + text + "\" is not NAME=METRES", "for example --measure bust=0.96");
-    const double value = std::stod(text.substr(equal + 1));
-    samples::set_measure(measures, text.substr(0, equal), value);
+    const auto [name, metres] = samples::named_length("--measure", text);
+    samples::set_measure(measures, name, metres);
   }
 }
 
@@ -59,7 +57,7 @@ int main(int argc, char** argv) {
   tool.option("GARMENT", garment, "shirt, tshirt, skirt or trousers").required();
   tool.option("--body", body, "take the measures from a body document (or from a mannequin's truth)").check(cli::input_file());
   tool.option("--preset", preset, "take the measures from a mannequin of the family").type_name("NAME");
-  tool.option("--measure", given, "set one measure: " + names).type_name("NAME=METRES");
+  tool.option("--measure", given, "set one measure, m: " + names).type_name("NAME=METRES");
   tool.flag("--band-collar", band_collar, "a shirt's collar is its stand alone");
   tool.option("-o,--output", output, "pattern document to write").required().check(cli::output_file());
   tool.example("make-pattern shirt --body body.json -o shirt.pattern.json", "a shirt for a measured body");

@@ -5,6 +5,8 @@
 namespace sloper::samples {
 namespace {
 
+constexpr int BODY_VERSION = 1; // newest that is read
+
 /// Landmark, level and girth by name; missing ones are nothing.
 class Reader {
 public:
@@ -77,6 +79,7 @@ void set_measure(Measures& m, const std::string& name, double value) {
 }
 
 Measures measures_from_body(const io::Json& body, const std::string& file) {
+  if (body.is_object() && body.contains("format")) io::check_envelope(body, file, "body", BODY_VERSION); // a mannequin's truth states none
   const Reader r(body, file);
   Measures m;
   Vec3 p, q;

@@ -1,0 +1,22 @@
+# shellcheck shell=bash disable=SC2034
+good=(0)
+inputs=(a.body.json)
+command_line=(skirt --body a.body.json -o out.json)
+
+case_a_measure_that_is_not_in_metres_is_told_what_to_write() {
+  run 2 "$program" skirt --measure waist=75 -o out.json
+  says '"waist=75" would be 75 m: lengths are in metres; where 75 cm are meant, say --measure waist=0.75'
+  run 2 "$program" skirt --measure waist=750 -o out.json
+  says "where 750 mm are meant, say --measure waist=0.75"
+  run 2 "$program" skirt --measure waist=75cm -o out.json
+  says '"waist=75cm" names a unit: lengths are in metres, without one; say --measure waist=0.75'
+  run 2 "$program" skirt --measure waist=7.5 -o out.json
+  says "for example --measure waist=0.75"
+  for text in waist waist= =0.75 waist=nan waist=0x1 waist=0.75ft; do
+    run 2 "$program" skirt --measure "$text" -o out.json
+    says "\"$text\" is not NAME=METRES; for example --measure waist=0.75"
+  done
+  run 2 "$program" skirt --measure wais=0.75 -o out.json
+  says 'did you mean "waist"?'
+  run 0 "$program" skirt --body a.body.json --measure waist=0.75 -o out.json
+}
