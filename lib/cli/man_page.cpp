@@ -51,7 +51,7 @@ std::string man_page(const ToolDescription& tool) {
   for (const Example& example : tool.examples) out += ".PP\n" + roff(example.what) + ":\n.PP\n.nf\n.RS\n" + roff(example.command_line) + "\n.RE\n.fi\n";
   out += ".SH SEE ALSO\n";
   std::string others;
-  for (const char* other : {"scan-landmarks", "pattern-mesh", "drape", "retarget-garment", "render-png"})
+  for (const char* other : {"scan-landmarks", "pattern-mesh", "drape", "retarget-garment", "render-png", "make-pattern", "make-mannequin"})
     if (tool.name != other) others += (others.empty() ? "" : ", ") + ("\\fB" + roff(other)) + "\\fR(1)";
   return out + others + "\n";
 }
