@@ -26,6 +26,7 @@ constexpr double MIN_MARK_DISTANCE = 0.04; // m, closer marks say more about the
 constexpr double ELBOW_FRACTION = 0.43, WRIST_FRACTION = 0.74;
 
 const char* MARKS_BY_WEIGHT[] = {"neck_side", "crotch", "acromion", "axilla", "knee", "waist", "bust", "hip"};
+const char* WAISTS[] = {"waist", "waist_girth_min", "waist_width_min"}; // by proportion, where the girth is least, where the width is
 
 bool in(Part part, std::initializer_list<Part> parts) { return std::find(parts.begin(), parts.end(), part) != parts.end(); }
 
@@ -115,6 +116,8 @@ std::map<std::string, double> torso_marks(const Body& body, const PartFrame& fra
   set("neck_side", find_middle(body, "neck_side"));
   set_level("hip", "hip");
   set_level("waist", "waist_semantic");
+  set_level("waist_girth_min", "waist_girth_min");
+  set_level("waist_width_min", "waist_width_min");
   set_level("bust", "bust");
   return marks;
 }
@@ -247,8 +250,28 @@ BindFrames make_bind_frames(const Body& body) {
   return all;
 }
 
-MarkMap::MarkMap(const std::map<std::string, double>& from, double from_length, const std::map<std::string, double>& to, double to_length)
+namespace {
+
+using Marks = std::map<std::string, double>;
+
+/// A waist is told in up to three ways, each off by a centimetre or two, so that they lie closer than cloth can follow and one above the other
+/// on one body as on no other: it lies where they do on average, of those that both bodies have.
+std::pair<Marks, Marks> with_one_waist(Marks from, Marks to) {
+  double from_sum = 0, to_sum = 0;
+  int n = 0;
+  for (const char* name : WAISTS) {
+    if (from.count(name) && to.count(name)) from_sum += from.at(name), to_sum += to.at(name), ++n;
+    from.erase(name), to.erase(name);
+  }
+  if (n > 0) from["waist"] = from_sum / n, to["waist"] = to_sum / n;
+  return {from, to};
+}
+
+} // namespace
+
+MarkMap::MarkMap(const std::map<std::string, double>& from_marks, double from_length, const std::map<std::string, double>& to_marks, double to_length)
     : m_outside_slope(from_length / to_length) {
+  const auto [from, to] = with_one_waist(from_marks, to_marks);
   std::vector<std::pair<double, double>> knots;
   const auto fits = [&](double x, double y) {
     for (const auto& [kx, ky] : knots) {

@@ -23,6 +23,7 @@ constexpr double CONTACT_LENGTH = 0.04;    // m over which a push is spread by t
 constexpr double CONTACT_STIFFNESS = 200;  // of a push against the spreading
 constexpr double SEARCH_DEPTH = 0.15;      // m, deeper is not looked for
 constexpr double FINAL_GAP_SHARE = 0.5;    // of the gap: near enough to stop
+constexpr double PRESSED_SHARE = 1.0 / 3;  // of the gap: as near tight cloth lies to the skin once it is at rest
 constexpr int LEAST_ROUNDS = 6;            // before which the shape has not found its rest
 constexpr double LONGEST_MOVE = 0.008;     // m of a particle in one round
 constexpr double LEAST_SLEEVE = 0.02;      // of a garment that hangs on one arm: it has a sleeve
@@ -185,6 +186,17 @@ int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, c
   return max_rounds;
 }
 
+std::vector<Vec3> as_near_as_placed(std::vector<Vec3> settled, const std::vector<Vec3>& placed, const collision::BodyCollider& skin, double gap) {
+  const double least = PRESSED_SHARE * gap;
+  for (std::size_t i = 0; i < settled.size(); ++i) {
+    const double lay = skin.signed_distance(placed[i], SEARCH_DEPTH).distance;
+    if (lay >= gap) continue;
+    const collision::SignedDistance now = skin.signed_distance(settled[i], SEARCH_DEPTH);
+    settled[i] -= std::clamp(now.distance - std::max(lay, least), 0.0, gap - least) * now.normal;
+  }
+  return settled;
+}
+
 std::string why_impossible(const Garment& garment, const body::Body& body) {
   if (!body.frames.count("torso") && !(body.has_landmark("hip_center") && body.has_landmark("neck_center")))
     return "cannot be hung on this body: neither hip_center nor neck_center make a torso";
@@ -239,11 +251,12 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
   report.placed = state_of(g.position, triangles, skin);
   const std::vector<Vec3>& placed = result.placed = g.position;
   // keep-fabric: the cloth wants the shape it had; keep-fit: the shape it was placed in, and is regraded to where the skin lets it lie.
-  report.clear_rounds = settle_shape(g.position, mode == RetargetMode::KEEP_FIT ? placed : garment.position, triangles, skin, g.offset_m);
-  if (mode == RetargetMode::KEEP_FIT) {
+  const bool keep_fit = mode == RetargetMode::KEEP_FIT;
+  report.clear_rounds = settle_shape(g.position, keep_fit ? placed : garment.position, triangles, skin, g.offset_m);
+  if (keep_fit) {
     GradeSides sides;
     for (const SideDifference& d : uneven_sides(to)) sides.apart[d.limb] += (sides.apart[d.limb].empty() ? "" : ", ") + d.text;
-    const GradeReport grade = regrade(g, garment.position, g.position, sides);
+    const GradeReport grade = regrade(g, garment.position, as_near_as_placed(g.position, placed, skin, g.offset_m), sides);
     report.mirrored_panels = grade.mirrored_panels, report.findings = grade.findings;
     for (const std::string& finding : grade.findings) reporter.warning(finding);
   }

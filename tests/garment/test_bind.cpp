@@ -147,6 +147,23 @@ TEST(bind, levels_go_to_their_like) {
   }
 }
 
+TEST(bind, a_waist_whose_places_lie_the_other_way_round_is_met_between_them) {
+  const body::Body from = measured("f-165-a"), to = measured("f-172-t");
+  const auto height = [](const body::Body& body, const char* level) { return body.levels.at(level).y; };
+  ASSERT_GT(height(from, "waist_girth_min"), height(from, "waist_semantic") + 0.015);
+  ASSERT_LT(height(to, "waist_girth_min"), height(to, "waist_semantic") - 0.015);
+  Garment g = skin_shirt(from);
+  bind_garment(g, from);
+  const std::vector<Vec3> placed = place_garment(g, to);
+  for (const char* level : {"waist_semantic", "waist_girth_min"}) {
+    double sum = 0, n = 0;
+    for (std::size_t i = 0; i < placed.size(); ++i)
+      if (std::abs(g.position[i].x()) < 0.1 && std::abs(g.position[i].y() - height(from, level)) < 0.01) sum += placed[i].y(), ++n;
+    ASSERT_GT(n, 5);
+    EXPECT_NEAR(sum / n, height(to, level), 0.03) << level;
+  }
+}
+
 TEST(bind, a_sleeveless_top_goes_on_a_body_without_arms) {
   const body::Body whole = measured("f-165-a"), armless = without_arms(measured("f-172-t"));
   Garment g = skin_garment(whole, {body::Part::TORSO}, whole.levels.at("hip").y, whole.landmark("axilla_l").y() - 0.02, 0.01);
@@ -186,6 +203,14 @@ TEST(mark_map, it_is_the_identity_between_equal_bodies_and_monotone_between_othe
     before = now;
   }
   EXPECT_NEAR(other(0.4), 0.5, 1e-12);
+}
+
+TEST(mark_map, a_waist_lies_where_what_both_bodies_tell_of_it_does_on_average) {
+  const std::map<std::string, double> a = {{"crotch", 0}, {"waist", 0.40}, {"waist_girth_min", 0.44}, {"bust", 0.7}},
+                                      b = {{"crotch", 0}, {"waist", 0.44}, {"waist_girth_min", 0.40}, {"bust", 0.7}},
+                                      c = {{"crotch", 0}, {"waist", 0.43}, {"waist_width_min", 0.5}, {"bust", 0.7}};
+  EXPECT_NEAR(MarkMap(a, 0.5, b, 0.5)(0.42), 0.42, 1e-12);
+  EXPECT_NEAR(MarkMap(a, 0.5, c, 0.5)(0.40), 0.43, 1e-12); // the one that both have
 }
 
 TEST(mark_map, marks_in_another_order_on_the_other_body_do_not_fold_the_cloth) {

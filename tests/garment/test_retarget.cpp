@@ -139,6 +139,19 @@ TEST(retarget, cloth_that_was_placed_too_long_slides_along_the_skin_to_its_own_l
   EXPECT_LT((high - low) / 0.4 - 1, 0.04); // a tenth, where the skin holds what is near it
 }
 
+TEST(retarget, cloth_is_graded_as_near_to_the_skin_as_it_was_placed) {
+  const collision::BodyCollider skin(cylinder(0.148, 1.6));
+  for (const auto& [placed, wanted] : {std::pair{0.1495, 0.0015}, std::pair{0.147, 0.001}, std::pair{0.156, 0.008}}) {
+    const Garment g = sewn_tube(placed, 0.3, 0.6);
+    std::vector<Vec3> x = g.position;
+    settle_shape(x, g.position, g.particle_triangles(), skin, 0.003);
+    x = as_near_as_placed(std::move(x), g.position, skin, 0.003);
+    double mean = 0;
+    for (const Vec3& p : x) mean += std::hypot(p.x(), p.z()) / static_cast<double>(x.size());
+    EXPECT_NEAR(mean - 0.148, wanted, 5e-4) << placed;
+  }
+}
+
 TEST(retarget, strain_is_waited_for_longer_where_no_girth_is_tight) {
   const body::Body body = measured("f-165-a");
   const FitPolicy policy = standard_fit_policy();
