@@ -1,3 +1,4 @@
+#include <pattern/leg_layout.hpp>
 #include <pattern/panel_layout.hpp>
 
 #include <algorithm>
@@ -71,8 +72,45 @@ private:
       m_block[best] = static_cast<int>(best);
       m_done[best] = true;
     }
+    if (trunk) align_rows();
     middle_blocks(region);
     if (trunk) close_level_seams();
+  }
+
+  bool upright(std::size_t p, std::size_t q) const {
+    Vec2 along = Vec2::Zero();
+    for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q))) along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
+    return along.y() > along.x();
+  }
+
+  /// Panels side by side that were attached one to the other, the first of them to a panel whose u is known, as halves of a skirt to its waistband:
+  /// all of their seams with such panels together say where the row goes, or it would be off to the side of the last.
+  void align_rows() {
+    std::vector<bool> met(count(), false);
+    const auto in_row = [&](std::size_t k) {
+      return m_roles[k].region == Region::TRUNK && m_roles[k].side != Side::RING && !is_leg(m_roles[k]) && !m_roles[k].du;
+    };
+    for (std::size_t first = 0; first < count(); ++first) {
+      if (met[first] || !in_row(first)) continue;
+      std::vector<std::size_t> row = {first};
+      met[first] = true;
+      double shift = 0;
+      int n = 0;
+      for (std::size_t i = 0; i < row.size(); ++i) // it grows
+        for (int neighbour : m_graph.neighbours(static_cast<int>(row[i]))) {
+          const std::size_t p = row[i], q = static_cast<std::size_t>(neighbour);
+          if (m_roles[q].side != m_roles[p].side || !same_layer(p, q)) continue;
+          if (m_roles[q].du) {
+            for (const auto& seam : m_graph.between(static_cast<int>(p), neighbour))
+              for (const auto& s : seam) shift += at(q, s[1]).x() - at(p, s[0]).x(), ++n;
+          } else if (!met[q] && in_row(q) && upright(p, q)) {
+            met[q] = true;
+            row.push_back(q);
+          }
+        }
+      if (row.size() < 2 || n == 0) continue;
+      for (std::size_t k : row) m_spots[k].offset.x() += shift / n;
+    }
   }
 
   /// Hints may leave panels above each other far apart, or overlapping: along level seams the lower one is brought to PANEL_GAP below.

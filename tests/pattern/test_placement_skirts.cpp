@@ -72,6 +72,51 @@ TEST(Placement, ACircleSkirtHangsOnTheWaistInFoldsThoughItsSidesAreDrawnLevel) {
   EXPECT_NEAR(placed / drawn, 1, 0.1) << "folds take up what is too wide";
 }
 
+/// A skirt of four panels with side seams in two lengths and middle seams that leave each other above the hip, sewn to a waistband.
+Pattern four_panel_skirt() {
+  std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "skirt", "panels": [)", seams;
+  for (const char* name : {"front_l", "front_r", "back_r", "back_l"}) {
+    const bool left = std::string(name) == "front_l" || std::string(name) == "back_r"; // its side seam is on the right as it is drawn
+    const std::string theta = std::string(name).find("front") == 0 ? "45" : "225";
+    text += R"({"name": ")" + std::string(name) + R"(", "place": {"part": "torso", "theta_deg": )" + (left ? "" : "-") + theta + R"(}, "outline": [)";
+    if (left)
+      text += R"({"edge": "hem", "path": [["M", 0, 0], ["L", 28, 0]]}, {"edge": "side", "path": [["L", 26, 36]]}, {"edge": "side_hip", "path": [["L", 20, 56]]},
+        {"edge": "waist", "path": [["L", 3, 56]]}, {"edge": "middle_hip", "path": [["L", 0, 36]]}, {"edge": "middle", "path": [["L", 0, 0]]}]},)";
+    else
+      text +=
+          R"({"edge": "hem", "path": [["M", -28, 0], ["L", 0, 0]]}, {"edge": "middle", "path": [["L", 0, 36]]}, {"edge": "middle_hip", "path": [["L", -3, 56]]},
+        {"edge": "waist", "path": [["L", -20, 56]]}, {"edge": "side_hip", "path": [["L", -26, 36]]}, {"edge": "side", "path": [["L", -28, 0]]}]},)";
+  }
+  for (const char* name : {"band_front", "band_back"})
+    text += R"({"name": ")" + std::string(name) + R"(", "place": {"part": "torso", "theta_deg": )" + (std::string(name) == "band_front" ? "0" : "180") +
+            R"(, "anchor": [0, 0], "height": 105}, "outline": [{"edge": "r", "path": [["M", -17, 4], ["L", -17, 0]]}, {"edge": "low_r", "path": [["L", 0, 0]]},
+            {"edge": "low_l", "path": [["L", 17, 0]]}, {"edge": "l", "path": [["L", 17, 4]]}, {"edge": "top", "path": [["L", -17, 4]]}]})" +
+            (std::string(name) == "band_front" ? "," : "");
+  const auto sew = [&](const std::string& a, const std::string& edge_a, const std::string& b, const std::string& edge_b, bool against) {
+    seams += std::string(seams.empty() ? "" : ",") + R"({"name": ")" + a + edge_a + R"(", "a": [{"panel": ")" + a + R"(", "edge": ")" + edge_a +
+             R"("}], "b": [{"panel": ")" + b + R"(", "edge": ")" + edge_b + (against ? R"("}]})" : R"(", "from": 0, "to": 1}]})");
+  };
+  for (const char* edge : {"side", "side_hip"}) sew("front_l", edge, "back_l", edge, true), sew("front_r", edge, "back_r", edge, true);
+  for (const char* edge : {"middle", "middle_hip"}) sew("front_l", edge, "front_r", edge, true), sew("back_l", edge, "back_r", edge, true);
+  sew("front_l", "waist", "band_front", "low_l", true), sew("front_r", "waist", "band_front", "low_r", true);
+  sew("back_r", "waist", "band_back", "low_l", true), sew("back_l", "waist", "band_back", "low_r", true);
+  sew("band_front", "l", "band_back", "r", true), sew("band_front", "r", "band_back", "l", true);
+  return own(text + R"(], "seams": [)" + seams + "]}");
+}
+
+TEST(Placement, ASkirtWhoseSideSeamsAreInTwoLengthsHasNoLegsAndItsHalvesHangBothSidesOfItsMiddle) {
+  const Pattern pattern = four_panel_skirt();
+  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  const PlacementReport report = place_panels(pattern, waisted_body(), mesh);
+  EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
+  for (const PanelInfo& info : mesh.panels) EXPECT_EQ(info.part, "torso") << info.name;
+  for (const int k : {0, 2}) { // front_l and front_r, back_r and back_l
+    const Vec3 a = middle(mesh, k), b = middle(mesh, k + 1);
+    EXPECT_NEAR(a.x() + b.x(), 0, 0.005);
+    EXPECT_GT(std::abs(a.x()), 0.08);
+  }
+}
+
 /// A skirt of gores as CAD lays pieces: along x, every other one upside down; their names tell nothing.
 Pattern lying_gores(int n) {
   std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "gores", "panels": [)", seams;
