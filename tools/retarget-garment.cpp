@@ -69,11 +69,12 @@ int refuse(cli::Tool& tool, const Options& o, const garment::FitReport& fit) {
 void write_pattern(cli::Tool& tool, const Options& o, const garment::Garment& regraded, const garment::Garment& source) {
   const pattern::Pattern before = garment::pattern_of(source, source), after = garment::pattern_of(regraded, source);
   const std::string stem = o.pattern.substr(0, o.pattern.size() - (o.pattern.ends_with(".json") ? 5 : 0));
-  std::vector<std::string> left_out = after.findings;
+  std::vector<std::string> left_out;
   io::write_json(o.pattern, pattern::pattern_json(after, tool.name()));
   io::write_file(stem + ".dxf", pattern::pattern_dxf(after, left_out));
   io::write_file(stem + ".csv", garment::grade_table(before, after));
-  for (const std::string& finding : left_out) tool.reporter().warning(finding);
+  for (const std::string& finding : after.findings) tool.reporter().warning(finding);
+  for (const std::string& what : left_out) tool.reporter().warning(io::file_name(stem) + ".dxf: " + what);
 }
 
 int run(cli::Tool& tool, const Options& o) {

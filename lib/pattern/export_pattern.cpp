@@ -12,10 +12,11 @@ namespace {
 constexpr double DXF_CHORD = 0.002; // m
 
 /// In metres to the last bit; else edits keep coordinates on a grid of a nanometre: ten of them are rounded away, so that 20 cm are written as 20.
+double rounded(double x, double unit) { return unit == 1 ? x + 0.0 : std::nearbyint(x / unit * 1e6) / 1e6 + 0.0; }
+
 io::Json path_json(const Path& path, double unit) {
   io::Json out = io::Json::array();
-  const auto rounded = [&](double x) { return unit == 1 ? x + 0.0 : std::nearbyint(x / unit * 1e6) / 1e6 + 0.0; };
-  const auto point = [&](io::Json& item, const Vec2& p) { item.push_back(rounded(p.x())), item.push_back(rounded(p.y())); };
+  const auto point = [&](io::Json& item, const Vec2& p) { item.push_back(rounded(p.x(), unit)), item.push_back(rounded(p.y(), unit)); };
   io::Json start = io::Json::array({"M"});
   point(start, path.front().p[0]);
   out.push_back(start);
@@ -151,9 +152,9 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNu
     io::Json place = io::Json::object();
     if (!p.hint.part.empty()) place["part"] = p.hint.part;
     if (p.hint.theta) place["theta_deg"] = exact_degrees(*p.hint.theta);
-    if (p.hint.radius) place["radius"] = *p.hint.radius / unit;
-    if (p.hint.anchor) place["anchor"] = io::to_json(Vec2(*p.hint.anchor / unit));
-    if (p.hint.height) place["height"] = *p.hint.height / unit;
+    if (p.hint.radius) place["radius"] = rounded(*p.hint.radius, unit);
+    if (p.hint.anchor) place["anchor"] = {rounded(p.hint.anchor->x(), unit), rounded(p.hint.anchor->y(), unit)};
+    if (p.hint.height) place["height"] = rounded(*p.hint.height, unit);
     if (p.hint.rigid) {
       io::Json rigid = io::Json::array();
       for (int r = 0; r < 3; ++r)
