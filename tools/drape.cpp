@@ -9,6 +9,7 @@
 #include <garment/inputs.hpp>
 #include <garment/kes.hpp>
 #include <garment/scene.hpp>
+#include <garment/stretch.hpp>
 #include <io/json.hpp>
 #include <pattern/folds.hpp>
 #include <pattern/panel_mesh_json.hpp>
@@ -225,6 +226,7 @@ int run(cli::Tool& tool, Options& o) {
   body::Body body;
   if (!o.body.empty()) body = read_body(tool, o);
   const std::string skin = o.body.empty() ? "" : body::skin_sha256(o.body);
+  const std::optional<double> before = garment::stretch_elsewhere(garment, skin);
   std::vector<std::string> findings = garment::start_findings(garment, {source, o.body, skin, !o.from.empty()});
   if (!o.body.empty()) {
     for (std::size_t k = 0; k < layers.size(); ++k)
@@ -237,6 +239,7 @@ int run(cli::Tool& tool, Options& o) {
   for (const std::string& path : o.over) inputs.push_back(garment::input_entry(path));
   garment::DrapeOutcome outcome =
       garment::do_drape(job_of(tool, o, scene, settings), garment, layers, o.body.empty() ? nullptr : &body, settings, std::cout, tool.reporter());
+  if (!o.untangle_only) garment::judge_stretch(garment, outcome, {source, o.body, skin, !o.from.empty()}, before, findings, tool.reporter());
   return write_out(tool, o, garment, layers, body, outcome, inputs, findings);
 }
 
