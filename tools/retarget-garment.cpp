@@ -59,9 +59,13 @@ void write_fit(const Options& o, const garment::FitReport& fit, const std::strin
   if (!o.fit_page.empty()) io::write_file(o.fit_page, garment::fit_page(fit, io::file_name(o.garment), io::file_name(o.to)));
 }
 
-/// The answer is no: said on stderr, exit 1 under a policy, else 4, since what was asked for could not be made.
+/// The answer is no: said on stderr, with the state that was written, exit 1 under a policy, else 4, since what was asked for could not be made.
 int refuse(cli::Tool& tool, const Options& o, const garment::FitReport& fit) {
-  tool.reporter().warning("does not fit: the garment " + fit.reason);
+  std::string written;
+  if (fit.state == "placed") written = "; " + o.output + " has it as it was placed, not draped";
+  if (fit.state == "not at rest") written = "; " + o.output + " has it as far as the drape came";
+  if (fit.state == "not placed") written = "; " + o.output + " is not written";
+  tool.reporter().warning("does not fit: the garment " + fit.reason + written);
   return o.policy.empty() ? static_cast<int>(ErrorKind::FAILED) : 1;
 }
 
@@ -111,7 +115,7 @@ int run(cli::Tool& tool, const Options& o) {
   report.settings = settings;
   report.stop_reason = "placed only";
   const bool hopeless = !fit.fits;
-  if (hopeless) report.stop_reason = "the garment " + fit.reason;
+  if (hopeless) report.stop_reason = "not draped: the garment " + fit.reason;
   else if (!o.no_drape) report = garment::drape(garment, &body, settings, tool.reporter(), garment::hopeless_beyond(policy, fit));
   garment::bind_garment(garment, body);
   garment::write_garment(o.output, garment, tool.name());
@@ -119,6 +123,7 @@ int run(cli::Tool& tool, const Options& o) {
   if (!hopeless) fit = garment::fit_garment(garment, body, skin, policy, &placed.placed, report.unfit, made_for);
   if (const std::string why = garment::why_stuck(garment, body); fit.fits && !o.no_drape && !report.converged && !why.empty())
     fit.fits = false, fit.verdict = garment::FitVerdict::IMPOSSIBLE, fit.reason = why;
+  if (o.no_drape) fit.state = "placed";
   write_fit(o, fit, tool.name(), report.converged, inputs);
   if (!o.report.empty()) {
     io::Json document = garment::report_json(report, tool.name());

@@ -23,6 +23,7 @@ constexpr double SLID = 0.10;          // m that what hangs from the waist may s
 constexpr double TRAILS = 0.01;        // m below the soles: such a hem is trodden on
 constexpr double CERTAIN_SLIP = 1.1;   // of what the policy bears: what has sunk so far does not rise
 constexpr double CERTAIN_STRAIN = 1.5; // of what the policy bears: cloth that seems still was seen to creep down by a quarter until it was at rest
+constexpr double GOES_ROUND = 0.99;    // of the body's girth: as long as cloth is that goes round it
 constexpr double OVER_THE_HAND = 0.02; // m beyond the wrist from which a cuff lies on the hand
 constexpr double NOT_AT_REST = 0.01;   // m that a drape which did not come to rest may still move
 
@@ -34,6 +35,17 @@ std::string centimetres(double m) {
 
 std::string percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
 
+/// Why a girth is too small. @param goes_round  it was seen to close, stretched
+std::string too_small(const FitRow& row, bool goes_round) {
+  const std::string where = " at the " + spoken_girth(row.name);
+  if (row.ease_m >= 0) return "has too little ease" + where + ": " + centimetres(row.ease_m); // a policy asks for some
+  const double cloth = row.rest_m - row.bridged_m;
+  if (!(cloth > 0)) return "does not close" + where + " by " + centimetres(row.ease_m);
+  if (goes_round)
+    return "closes" + where + " only stretched by " + percent((row.lying_m - row.rest_m) / cloth) + ": it is " + centimetres(row.ease_m) + " too small there";
+  return "does not close" + where + " by " + centimetres(row.ease_m) + " unless it is stretched by " + percent(-row.ease_m / cloth);
+}
+
 /// @param at_rest  strain is a fact only of cloth at rest
 void judge(bool at_rest, FitRow& row) {
   const FitLimits& limits = row.limits;
@@ -41,7 +53,7 @@ void judge(bool at_rest, FitRow& row) {
   row.margin_m = std::min(row.ease_m - limits.tight_ease * row.body_m, limits.loose_ease * row.body_m - row.ease_m);
   if (share < limits.too_small_ease) {
     row.verdict = FitVerdict::TOO_SMALL;
-    row.reason = "does not close at the " + spoken_girth(row.name) + " by " + centimetres(row.ease_m);
+    row.reason = too_small(row, at_rest && row.lying_m >= GOES_ROUND * row.body_m);
   } else if (at_rest && row.strain_girth > limits.too_small_strain) {
     row.verdict = FitVerdict::TOO_SMALL;
     row.reason = "is stretched by " + percent(row.strain_girth) + " at the " + spoken_girth(row.name);
@@ -125,7 +137,7 @@ void judge_strain(const FitPolicy& policy, FitReport& report) {
                          : "is stretched by " + percent(report.strain_max) + " at one place" + where + "; the cloth bears " + percent(most);
 }
 
-/// A cuff that does not close because it lies on the hand: that the sleeve is too long is the reason.
+/// A cuff that is too small because it lies on the hand: that the sleeve is too long is the reason.
 void tell_long_sleeve(const FitLines& lines, FitRow& row) {
   if (row.verdict != FitVerdict::TOO_SMALL || row.name.rfind("sleeve_hem_", 0) != 0) return;
   const std::string sleeve = "sleeve_" + row.name.substr(row.name.size() - 1);
@@ -133,7 +145,8 @@ void tell_long_sleeve(const FitLines& lines, FitRow& row) {
   if (share == lines.coverage.end() || share->second <= 1) return;
   const double beyond = lines.coverage_m.at(sleeve) * (1 - 1 / share->second);
   if (beyond > OVER_THE_HAND)
-    row.reason = "has the " + spoken_girth(row.name) + " " + centimetres(beyond) + " beyond the wrist, on the hand, where it does not close";
+    row.reason = "has the " + spoken_girth(row.name) + " " + centimetres(beyond) + " beyond the wrist, on the hand, where it is " + centimetres(row.ease_m) +
+                 " too small";
 }
 
 bool hangs_from_waist(const FitReport& report) { return report.garment_class == "skirt" || report.garment_class == "trousers"; }
@@ -209,6 +222,7 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
   report.policy = policy.name;
   report.fabric = main_fabric(garment);
   report.convergence_m = garment.converged ? 0 : NOT_AT_REST;
+  report.state = garment.converged ? "at rest" : "not at rest";
   report.hem_height_m = 1e300, report.top_height_m = -1e300;
   for (const Vec3& p : garment.position) report.hem_height_m = std::min(report.hem_height_m, p.y()), report.top_height_m = std::max(report.top_height_m, p.y());
   if (body.has_landmark("foot_tip_l") || body.has_landmark("foot_tip_r")) report.below_soles_m = std::max(0.0, soles_of(body) - report.hem_height_m);
@@ -260,6 +274,7 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
 FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy) {
   FitReport report;
   report.policy = policy.name;
+  report.state = "placed";
   report.fabric = main_fabric(garment);
   std::vector<std::string> region;
   for (std::size_t i = 0; i < garment.position.size(); ++i) region.push_back(region_of(garment, i, axilla_height(body)));
@@ -274,7 +289,7 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
     row.margin_m = row.ease_m;
     row.limits = limits;
     row.verdict = FitVerdict::TOO_SMALL;
-    row.reason = "does not close at the " + spoken_girth(row.name) + " by " + centimetres(row.ease_m);
+    row.reason = too_small(row, false);
     report.fits = false;
     report.verdict = row.verdict;
     if (missing / place.body_m > worst) worst = missing / place.body_m, report.reason = row.reason, report.margin_m = row.margin_m, report.margin_at = row.name;
@@ -336,6 +351,7 @@ FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before) {
 FitReport impossible_fit(const std::string& reason, const FitPolicy& policy) {
   FitReport report;
   report.policy = policy.name;
+  report.state = "not placed";
   report.fits = false;
   report.verdict = FitVerdict::IMPOSSIBLE;
   report.reason = reason;

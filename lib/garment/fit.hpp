@@ -70,8 +70,9 @@ struct FitReport {
   double convergence_m = 0;                                  ///< how far it may still move: 0 at rest
   bool fits = true;
   FitVerdict verdict = FitVerdict::OK; ///< the worst of all
-  std::string reason;                  ///< "does not close at the bust by 4.2 cm"
+  std::string reason;                  ///< "closes at the bust only stretched by 4 %: it is 3.6 cm too small there"
   std::string policy;                  ///< its name
+  std::string state;                   ///< of the cloth that was measured: "at rest", "not at rest", "placed" (not draped), "not placed" (not measured)
 };
 
 /// @param garment draped on `body` and bound to it (bind_garment)

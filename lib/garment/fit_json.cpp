@@ -11,6 +11,7 @@ io::Json fit_json(const FitReport& report, const std::string& tool) {
   document["fits"] = report.fits;
   document["verdict"] = verdict_name(report.verdict);
   document["reason"] = report.reason;
+  document["state"] = report.state;
   document["policy"] = report.policy;
   document["garment_class"] = report.garment_class;
   document["fabric"] = report.fabric;

@@ -125,6 +125,11 @@ std::string ease_bars(const std::vector<FitRow>& rows) {
          "loose. Red marks: below, too small; above, too large.</p>\n";
 }
 
+std::string said_of(const std::string& state) {
+  if (state == "placed") return "; measured as it was placed: it was not draped";
+  return state == "not at rest" ? "; the drape did not come to rest" : "";
+}
+
 } // namespace
 
 std::string fit_page(const FitReport& report, const std::string& garment, const std::string& body) {
@@ -133,8 +138,7 @@ std::string fit_page(const FitReport& report, const std::string& garment, const 
   page += std::string("<div class=\"verdict ") + css_class(report.verdict) + "\"><b>" + (report.fits ? "Fits" : "Does not fit") + ": " +
           verdict_name(report.verdict) + "</b>" + (report.reason.empty() ? "" : "<br>The garment " + escaped(report.reason) + ".") + "</div>\n";
   page += "<p class=\"pale\">Policy: " + escaped(report.policy) + (report.garment_class.empty() ? "" : "; class: " + report.garment_class) +
-          (report.fabric.empty() ? "" : "; fabric: " + escaped(report.fabric)) + (report.convergence_m > 0 ? "; the drape did not come to rest" : "") +
-          "</p>\n";
+          (report.fabric.empty() ? "" : "; fabric: " + escaped(report.fabric)) + said_of(report.state) + "</p>\n";
   if (!report.rows.empty()) {
     std::string rows;
     for (const FitRow& r : report.rows)

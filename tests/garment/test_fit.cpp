@@ -89,7 +89,9 @@ TEST(fit, cloth_stretched_by_a_tenth_is_too_small_and_presses) {
   EXPECT_LT(r->pressure_p95_pa, 3 * mean);
   EXPECT_FALSE(d.report.fits);
   EXPECT_EQ(d.report.verdict, FitVerdict::TOO_SMALL);
-  EXPECT_NE(d.report.reason.find("does not close at the"), std::string::npos) << d.report.reason;
+  EXPECT_EQ(d.report.reason.rfind("closes at the ", 0), 0u) << d.report.reason; // it does go round
+  EXPECT_NE(d.report.reason.find(" only stretched by 11 %: it is "), std::string::npos) << d.report.reason;
+  EXPECT_EQ(d.report.state, "at rest");
 }
 
 TEST(fit, free_edges_around_neck_and_arms_are_measured_against_the_skin_in_their_plane) {
@@ -411,6 +413,14 @@ TEST(fit_policy, a_girth_above_its_limit_is_too_large_and_refused) {
   const io::Json document = fit_json(d.report, "test");
   EXPECT_NEAR(document["girths"]["bust"]["limits_percent"]["too_large"].get<double>(), 2, 1e-9);
   EXPECT_NE(fit_page(d.report, "a", "b").find("class=\"limit\""), std::string::npos);
+}
+
+TEST(fit_policy, a_girth_with_less_ease_than_is_asked_for_is_not_told_as_one_that_does_not_close) {
+  const body::Body body = measured("f-165-a");
+  const FitPolicy policy = read_fit_policy(policy_file(R"("girths": {"bust": {"too_small_ease": 0.4, "tight_ease": 0.4}})"));
+  const Dressed d = dressed(body, skin_shirt(body, 0.01), policy);
+  EXPECT_EQ(d.report.verdict, FitVerdict::TOO_SMALL);
+  EXPECT_EQ(d.report.reason.rfind("has too little ease at the bust: ", 0), 0u) << d.report.reason;
 }
 
 TEST(fit_policy, what_was_cut_wide_is_not_too_large_for_being_wide) {

@@ -202,6 +202,8 @@ TEST(retarget, trousers_that_lack_a_twentieth_at_the_waist_are_refused_before_an
     const FitReport again = fit_before_drape(g, unstretched, body, policy);
     EXPECT_EQ(again.fits, lacks < 0.03) << again.reason;
     EXPECT_EQ(again.reason.rfind("does not close at the ", 0) == 0, lacks > 0.03) << again.reason;
+    EXPECT_EQ(again.reason.find(" unless it is stretched by ") != std::string::npos, lacks > 0.03) << again.reason;
+    EXPECT_EQ(again.state, "placed");
   }
 }
 

@@ -18,4 +18,9 @@ case_what_does_not_fit_ends_with_1_under_a_policy_and_with_4_without() {
   done
   run 4 "$program" "${of[@]}"
   says "does not fit: the garment slides down"
+  printf '{"format": "fit-policy", "version": 1, "default": {"too_small_ease": 0.9}}' > policy.json
+  run 1 "$program" "${of[@]}" --fit-page fit.html --policy policy.json
+  says "; out.json has it as it was placed, not draped"
+  grep -q '"state": "placed"' fit.json || fail "the fit report does not say that it was not draped"
+  grep -q "as it was placed" fit.html || fail "the page does not say that it was not draped"
 }
