@@ -26,7 +26,8 @@ constexpr double MIN_MARK_DISTANCE = 0.04; // m, closer marks say more about the
 constexpr double ELBOW_FRACTION = 0.43, WRIST_FRACTION = 0.74;
 
 const char* MARKS_BY_WEIGHT[] = {"neck_side", "crotch", "acromion", "axilla", "knee", "waist", "bust", "hip"};
-const char* WAISTS[] = {"waist", "waist_girth_min", "waist_width_min"}; // by proportion, where the girth is least, where the width is
+/// Heights that tell the waist: by proportion, where the girth is least, where the width is; and how far each may be off, m, as the rules of body say.
+constexpr std::pair<const char*, double> WAISTS[] = {{"waist", 0.015}, {"waist_girth_min", 0.010}, {"waist_width_min", 0.010}};
 
 bool in(Part part, std::initializer_list<Part> parts) { return std::find(parts.begin(), parts.end(), part) != parts.end(); }
 
@@ -255,15 +256,15 @@ namespace {
 using Marks = std::map<std::string, double>;
 
 /// A waist is told in up to three ways, each off by a centimetre or two, so that they lie closer than cloth can follow and one above the other
-/// on one body as on no other: it lies where they do on average, of those that both bodies have.
+/// on one body as on no other: it lies where they do on average, by how sure they are, of those that both bodies have.
 std::pair<Marks, Marks> with_one_waist(Marks from, Marks to) {
-  double from_sum = 0, to_sum = 0;
-  int n = 0;
-  for (const char* name : WAISTS) {
-    if (from.count(name) && to.count(name)) from_sum += from.at(name), to_sum += to.at(name), ++n;
+  double from_sum = 0, to_sum = 0, sum = 0;
+  for (const auto& [name, spread] : WAISTS) {
+    const double weight = 1 / (spread * spread);
+    if (from.count(name) && to.count(name)) from_sum += weight * from.at(name), to_sum += weight * to.at(name), sum += weight;
     from.erase(name), to.erase(name);
   }
-  if (n > 0) from["waist"] = from_sum / n, to["waist"] = to_sum / n;
+  if (sum > 0) from["waist"] = from_sum / sum, to["waist"] = to_sum / sum;
   return {from, to};
 }
 

@@ -155,12 +155,12 @@ TEST(bind, a_waist_whose_places_lie_the_other_way_round_is_met_between_them) {
   Garment g = skin_shirt(from);
   bind_garment(g, from);
   const std::vector<Vec3> placed = place_garment(g, to);
-  for (const char* level : {"waist_semantic", "waist_girth_min"}) {
+  for (const auto& [level, off] : {std::pair{"waist_semantic", 0.04}, std::pair{"waist_girth_min", 0.02}}) { // which is the surer one
     double sum = 0, n = 0;
     for (std::size_t i = 0; i < placed.size(); ++i)
       if (std::abs(g.position[i].x()) < 0.1 && std::abs(g.position[i].y() - height(from, level)) < 0.01) sum += placed[i].y(), ++n;
     ASSERT_GT(n, 5);
-    EXPECT_NEAR(sum / n, height(to, level), 0.03) << level;
+    EXPECT_NEAR(sum / n, height(to, level), off) << level;
   }
 }
 
@@ -209,7 +209,8 @@ TEST(mark_map, a_waist_lies_where_what_both_bodies_tell_of_it_does_on_average) {
   const std::map<std::string, double> a = {{"crotch", 0}, {"waist", 0.40}, {"waist_girth_min", 0.44}, {"bust", 0.7}},
                                       b = {{"crotch", 0}, {"waist", 0.44}, {"waist_girth_min", 0.40}, {"bust", 0.7}},
                                       c = {{"crotch", 0}, {"waist", 0.43}, {"waist_width_min", 0.5}, {"bust", 0.7}};
-  EXPECT_NEAR(MarkMap(a, 0.5, b, 0.5)(0.42), 0.42, 1e-12);
+  const double surer = 0.04 * 9 / 13; // the least girth is told to 1 cm, the proportion to 1.5
+  EXPECT_NEAR(MarkMap(a, 0.5, b, 0.5)(0.40 + surer), 0.44 - surer, 1e-12);
   EXPECT_NEAR(MarkMap(a, 0.5, c, 0.5)(0.40), 0.43, 1e-12); // the one that both have
 }
 
