@@ -43,7 +43,7 @@ void bind_garment(Garment& garment, const body::Body& body) {
   garment.body_girths_m = girths_of(body);
 }
 
-std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body) {
+std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body, Waist waist) {
   const Bind& bind = garment.bind;
   if (bind.empty()) throw input_error("", "/bind", "the garment is not bound to a body", "drape it on a body first");
   const BindFrames frames = make_bind_frames(body);
@@ -52,7 +52,9 @@ std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body) 
   for (std::size_t k = 0; k < bind.frames.size(); ++k) {
     target[k] = frames.index(bind.frames[k]);
     const BindFrame* to = target[k] < 0 ? nullptr : &frames.frames[target[k]];
-    maps.emplace_back(bind.marks[k], bind.lengths_m[k], to ? to->marks : std::map<std::string, double>(), to ? to->frame.length() : bind.lengths_m[k]);
+    auto marks = std::pair(bind.marks[k], to ? to->marks : Marks());
+    if (waist == Waist::OF_ALL) marks = with_one_waist(std::move(marks.first), std::move(marks.second));
+    maps.emplace_back(marks.first, bind.lengths_m[k], marks.second, to ? to->frame.length() : bind.lengths_m[k]);
   }
   std::vector<Vec3> placed(bind.particles.size(), Vec3::Zero());
   for (std::size_t i = 0; i < placed.size(); ++i) {

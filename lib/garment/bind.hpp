@@ -14,8 +14,14 @@ namespace sloper::garment {
 /// @throws Error INPUT when the garment is not sewn or the body has none of the frames it would hang on
 void bind_garment(Garment& garment, const body::Body& body);
 
+/// Where a garment's waist goes.
+enum class Waist {
+  SEMANTIC, ///< level waist_semantic to its like: cloth slides from there to where it is held
+  OF_ALL    ///< between all levels that tell it (with_one_waist): cloth that is graded has its girth from where it is placed
+};
+
 /// Positions of the particles on `body`, #P by 3, m. Pure geometry: no collision, no strain is looked at.
 /// @throws Error INPUT when the garment is not bound or hangs on a part that `body` lacks
-std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body);
+std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body, Waist waist = Waist::SEMANTIC);
 
 } // namespace sloper::garment

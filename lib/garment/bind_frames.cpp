@@ -251,12 +251,6 @@ BindFrames make_bind_frames(const Body& body) {
   return all;
 }
 
-namespace {
-
-using Marks = std::map<std::string, double>;
-
-/// A waist is told in up to three ways, each off by a centimetre or two, so that they lie closer than cloth can follow and one above the other
-/// on one body as on no other: it lies where they do on average, by how sure they are, of those that both bodies have.
 std::pair<Marks, Marks> with_one_waist(Marks from, Marks to) {
   double from_sum = 0, to_sum = 0, sum = 0;
   for (const auto& [name, spread] : WAISTS) {
@@ -268,11 +262,7 @@ std::pair<Marks, Marks> with_one_waist(Marks from, Marks to) {
   return {from, to};
 }
 
-} // namespace
-
-MarkMap::MarkMap(const std::map<std::string, double>& from_marks, double from_length, const std::map<std::string, double>& to_marks, double to_length)
-    : m_outside_slope(from_length / to_length) {
-  const auto [from, to] = with_one_waist(from_marks, to_marks);
+MarkMap::MarkMap(const Marks& from, double from_length, const Marks& to, double to_length) : m_outside_slope(from_length / to_length) {
   std::vector<std::pair<double, double>> knots;
   const auto fits = [&](double x, double y) {
     for (const auto& [kx, ky] : knots) {

@@ -13,11 +13,13 @@
 
 namespace sloper::garment {
 
+using Marks = std::map<std::string, double>; ///< z of named heights on a body
+
 struct BindFrame {
   std::string name; ///< torso, head, upper_arm_l, forearm_l, ..., leg_l, leg_r, lower_body
   PartFrame frame;
-  body::SkinProfile profile;           ///< smooth over about 1.5 cm; filled where the part has no skin
-  std::map<std::string, double> marks; ///< z of named heights on this body
+  body::SkinProfile profile; ///< smooth over about 1.5 cm; filled where the part has no skin
+  Marks marks;
 };
 
 struct BindFrames {
@@ -35,11 +37,16 @@ BindFrames make_bind_frames(const body::Body& body);
 /// @param sigma m, smoothing length
 body::SkinProfile fit_skin_profile(const PartFrame& frame, const std::vector<Vec3>& points, double z_low, double z_high, double sigma);
 
+/// A waist is told in up to three ways, by proportion and where girth or width is least, each off by a centimetre or two, so that they lie closer
+/// than cloth can follow and one above the other on one body as on no other: "waist" becomes where they lie on average, by how sure they are, of
+/// those that both bodies have.
+std::pair<Marks, Marks> with_one_waist(Marks from, Marks to);
+
 /// Monotone cubic map of z from one body to another through marks of the same name (Fritsch and Carlson 1980); beyond the
 /// outermost marks lengths in metres stay. Marks out of order or closer than 4 cm are left out, the less telling first.
 class MarkMap {
 public:
-  MarkMap(const std::map<std::string, double>& from, double from_length, const std::map<std::string, double>& to, double to_length);
+  MarkMap(const Marks& from, double from_length, const Marks& to, double to_length);
   double operator()(double z) const;
 
 private:

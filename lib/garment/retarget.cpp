@@ -234,7 +234,8 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
   Retargeted result{garment, {}, {}};
   Garment& g = result.garment;
   g.converged = false;
-  g.position = place_garment(garment, to);
+  const bool keep_fit = mode == RetargetMode::KEEP_FIT;
+  g.position = place_garment(garment, to, keep_fit ? Waist::OF_ALL : Waist::SEMANTIC);
   const std::vector<Triangle> triangles = g.particle_triangles();
   const auto measure = [&](double& p01, double& p50, double& p99) {
     std::vector<double> stretch;
@@ -251,7 +252,6 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
   report.placed = state_of(g.position, triangles, skin);
   const std::vector<Vec3>& placed = result.placed = g.position;
   // keep-fabric: the cloth wants the shape it had; keep-fit: the shape it was placed in, and is regraded to where the skin lets it lie.
-  const bool keep_fit = mode == RetargetMode::KEEP_FIT;
   report.clear_rounds = settle_shape(g.position, keep_fit ? placed : garment.position, triangles, skin, g.offset_m);
   if (keep_fit) {
     GradeSides sides;

@@ -154,7 +154,7 @@ TEST(bind, a_waist_whose_places_lie_the_other_way_round_is_met_between_them) {
   ASSERT_LT(height(to, "waist_girth_min"), height(to, "waist_semantic") - 0.015);
   Garment g = skin_shirt(from);
   bind_garment(g, from);
-  const std::vector<Vec3> placed = place_garment(g, to);
+  const std::vector<Vec3> placed = place_garment(g, to, Waist::OF_ALL);
   for (const auto& [level, off] : {std::pair{"waist_semantic", 0.04}, std::pair{"waist_girth_min", 0.02}}) { // which is the surer one
     double sum = 0, n = 0;
     for (std::size_t i = 0; i < placed.size(); ++i)
@@ -210,8 +210,14 @@ TEST(mark_map, a_waist_lies_where_what_both_bodies_tell_of_it_does_on_average) {
                                       b = {{"crotch", 0}, {"waist", 0.44}, {"waist_girth_min", 0.40}, {"bust", 0.7}},
                                       c = {{"crotch", 0}, {"waist", 0.43}, {"waist_width_min", 0.5}, {"bust", 0.7}};
   const double surer = 0.04 * 9 / 13; // the least girth is told to 1 cm, the proportion to 1.5
-  EXPECT_NEAR(MarkMap(a, 0.5, b, 0.5)(0.40 + surer), 0.44 - surer, 1e-12);
-  EXPECT_NEAR(MarkMap(a, 0.5, c, 0.5)(0.40), 0.43, 1e-12); // the one that both have
+  const auto waists = [&](const Marks& to) {
+    const auto [from, there] = with_one_waist(a, to);
+    return std::pair(from.at("waist"), there.at("waist"));
+  };
+  EXPECT_NEAR(waists(b).first, 0.40 + surer, 1e-12);
+  EXPECT_NEAR(waists(b).second, 0.44 - surer, 1e-12);
+  EXPECT_EQ(waists(c), std::pair(0.40, 0.43)) << "the one that both have";
+  EXPECT_EQ(with_one_waist(a, {{"crotch", 0.0}}).first.count("waist"), 0u);
 }
 
 TEST(mark_map, marks_in_another_order_on_the_other_body_do_not_fold_the_cloth) {
