@@ -44,7 +44,7 @@ int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, c
                  double gap, int max_rounds = 40);
 
 /// Settled cloth where it will lie once it is pressed to the skin: what was placed within `gap` of it is as near as it was placed, though no
-/// nearer than tight cloth lies, a third of the gap. Graded to where settle_shape() pushed it out of the gap, each girth that fits closely would
+/// nearer than tight cloth lies, half of the gap. Graded to where settle_shape() pushed it out of the gap, each girth that fits closely would
 /// get a centimetre of ease.
 /// @param settled, placed  #P by 3, m: after and before settle_shape()
 std::vector<Vec3> as_near_as_placed(std::vector<Vec3> settled, const std::vector<Vec3>& placed, const collision::BodyCollider& skin, double gap);
