@@ -104,14 +104,12 @@ bool has_goal(const Options& o, const garment::Scene& scene) {
 /// The way that the options ask for.
 garment::DrapeJob job_of(const cli::Tool& tool, const Options& o, const garment::Scene& scene, const garment::DrapeSettings& settings) {
   garment::DrapeJob job;
-  job.tool = tool.name();
+  job.tool = tool.name(), job.motion = o.motion;
   if (o.follow.empty() && o.motion.empty() && !o.untangle_only && has_goal(o, scene))
     job.goal = garment::AccuracyGoal{1e-3 * o.max_error_mm, settings.max_seconds};
   job.adjust = [&o, &scene](garment::DrapeSettings& s) { set_knobs(s, o, scene); };
-  job.motion = o.motion;
   if (o.motion_fps > 0) job.motion_fps = o.motion_fps;
-  job.untangle_only = o.untangle_only;
-  job.follow = o.follow, job.frames = o.frames, job.edit_log = o.edit_log;
+  job.untangle_only = o.untangle_only, job.follow = o.follow, job.frames = o.frames, job.edit_log = o.edit_log;
   job.checkpoints = {o.checkpoint, o.checkpoint_steps};
   return job;
 }
@@ -223,8 +221,7 @@ int run(cli::Tool& tool, Options& o) {
 
   std::vector<garment::Garment> layers;
   for (const std::string& path : o.over) layers.push_back(garment::read_garment(path));
-  body::Body body;
-  if (!o.body.empty()) body = read_body(tool, o);
+  const body::Body body = o.body.empty() ? body::Body{} : read_body(tool, o);
   const std::string skin = o.body.empty() ? "" : body::skin_sha256(o.body);
   const std::optional<double> before = garment::stretch_elsewhere(garment, skin);
   std::vector<std::string> findings = garment::start_findings(garment, {source, o.body, skin, !o.from.empty()});
