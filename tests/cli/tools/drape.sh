@@ -139,9 +139,7 @@ case_garments_over_each_other_move_with_the_body_and_go_on_from_a_checkpoint() {
 }
 
 case_untangling_and_motion_say_what_they_need() {
-  local skirt=(--from pushed.json --body a.body.json) # a centimetre forwards, so that its back goes through the body
-  awk '/^v / { print $1, $2, $3, $4 + 0.01; next } { print }' "$data/skirt.obj" > pushed.obj
-  sed 's/skirt\.obj/pushed.obj/' "$data/skirt.json" > pushed.json
+  local skirt=(--from "$data/skirt.json" --body a.body.json)
   run 2 "$program" --panels panels.json --untangle-only -o out.json
   says "--from"
   run 2 "$program" "${skirt[@]}" --untangle-only --checkpoint c.json -o out.json
