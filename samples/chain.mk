@@ -1,4 +1,5 @@
-# The chain of one sample: scan, landmarks, pattern, panels, drape, picture. A sample's Makefile sets GARMENT and FIGURE.
+# The chain of one sample: scan, landmarks, pattern, panels, drape, picture. A sample's Makefile sets GARMENT and FIGURE, and may
+# set DRAFT, options of make-pattern.
 OUT ?= $(BUILD)/samples/$(GARMENT)
 ACCURACY ?= draft
 EDGE ?= 0.02
@@ -7,7 +8,7 @@ include ../people.mk
 all: pictures
 
 $(OUT)/$(GARMENT).pattern.json: $(OUT)/$(FIGURE).body.json
-	$(MAKERS)/make-pattern $(GARMENT) --body $< -o $@
+	$(MAKERS)/make-pattern $(GARMENT) $(DRAFT) --body $< -o $@
 
 $(OUT)/panels.json: $(OUT)/$(GARMENT).pattern.json $(OUT)/$(FIGURE).body.json
 	$(BIN)/pattern-mesh --edge-length $(EDGE) --body $(OUT)/$(FIGURE).body.json -o $@ $<

@@ -1,9 +1,9 @@
 /// The four-panel skirt (the paper's Figure 4) and trousers, each with a waistband, drafted flat.
 ///
 /// Skirt: a quarter of the waist above, a quarter of the hip 20 cm lower, flared to the hem at the side seams, so that the middle hangs straight (flare in the
-/// middle seams sinks in between the thighs); the difference of hip and waist is taken half at the side, half at the middle seam, by curves. Trousers: body
-/// rise, crotch extensions of a sixteenth and an eighth of the hip (front and back), crease in the middle of the crotch line, as in the classic trouser block
-/// (for one, Aldrich, Metric Pattern Cutting); coefficients are our own. Metres; y = 0 is the waist.
+/// middle seams sinks in between the thighs and closes in knots), or by as much more as is asked for; the difference of hip and waist is taken half at the
+/// side, half at the middle seam, by curves. Trousers: body rise, crotch extensions of a sixteenth and an eighth of the hip (front and back), crease in the
+/// middle of the crotch line, as in the classic trouser block (for one, Aldrich, Metric Pattern Cutting); coefficients are our own. Metres; y = 0 is the waist.
 #include "draft.hpp"
 #include <cmath>
 namespace sloper::samples {
@@ -41,7 +41,9 @@ void add_quarters(Draft& d, const DraftPanel& front, const DraftPanel& back) {
 
 } // namespace
 
-Draft draft_skirt(const Measures& m) {
+Draft draft_skirt(const Measures& m) { return draft_flared_skirt(m, 0); }
+
+Draft draft_flared_skirt(const Measures& m, double more_flare) {
   Draft d{"skirt", {}, {}};
   const double waist = (m.waist + 0.005) / 4, hip = (m.hip + 0.05) / 4, length = 0.34 * m.stature, band = 0.035;
   const double flare = 0.035 + 0.03 * length;
@@ -50,17 +52,25 @@ Draft draft_skirt(const Measures& m) {
   const auto panel = [&](const char* name, double theta) {
     DraftPanel p;
     p.name = name;
-    const Vec2 hem_middle(0, -length), hem_side(hip + flare, -length), hip_side(hip, y_hip), hip_middle(0, y_hip);
+    const Vec2 hip_side(hip, y_hip), hip_middle(0, y_hip);
+    const double fall = length + y_hip; // a seam that leans out more is no longer for it: its end is higher
+    const auto drop = [&](double out) { return std::sqrt(fall * fall - out * out); };
+    const Vec2 hem_middle(0, -length), hem_side(hip + flare + more_flare, -length + drop(flare) - drop(flare + more_flare));
     const double x0 = inset;
     // The side is longer than the middle by the lean; the waist point at the side is raised so that neighbours meet level.
     const Vec2 waist_side(x0 + waist, 0.010), waist_middle(x0, 0);
     p.points = {hem_middle, hem_side, hip_side, waist_side, waist_middle, hip_middle};
-    const Vec2 up(0, -y_hip), side_down = (hip_side - hem_side).normalized(), middle_down = (hem_middle - hip_middle).normalized();
-    p.edges = {{"hem", {Vec2(hip * 0.3, -length - 0.008), Vec2(hip * 0.7, -length - 0.008)}},
+    const Vec2 up(0, -y_hip), side_up = (hip_side - hem_side).normalized(), middle_up = (hip_middle - hem_middle).normalized();
+    std::vector<Vec2> hem = {Vec2(hip * 0.3, -length - 0.008), Vec2(hip * 0.7, -length - 0.008)};
+    if (more_flare > 0) { // it meets the seams squarely
+      const double third = (hem_side - hem_middle).norm() / 3;
+      hem = {hem_middle + third * Vec2(middle_up.y(), -middle_up.x()), hem_side - third * Vec2(side_up.y(), -side_up.x())};
+    }
+    p.edges = {{"hem", hem},
                {"side", {}},
-               {"side_hip", {hip_side + 0.35 * up.norm() * side_down, waist_side - 0.35 * up + Vec2(0.012, 0)}},
+               {"side_hip", {hip_side + 0.35 * up.norm() * side_up, waist_side - 0.35 * up + Vec2(0.012, 0)}},
                {"waist", {waist_side - Vec2(0.33 * waist, 0.006), waist_middle + Vec2(0.33 * waist, -0.002)}},
-               {"middle_hip", {waist_middle - 0.35 * up - Vec2(0.010, 0), hip_middle - 0.35 * up.norm() * middle_down}},
+               {"middle_hip", {waist_middle - 0.35 * up - Vec2(0.010, 0), hip_middle + 0.35 * up.norm() * middle_up}},
                {"middle", {}}};
     p.placement = {"torso", theta, m.waist_height() - 0.5 * band, Vec2(x0 + 0.5 * waist, 0)};
     return p;

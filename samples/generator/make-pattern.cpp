@@ -54,11 +54,13 @@ int main(int argc, char** argv) {
   std::string garment, body, preset, output;
   std::vector<std::string> given;
   bool band_collar = false;
+  double flare = 0;
   tool.option("GARMENT", garment, "shirt, tshirt, skirt or trousers").required();
   tool.option("--body", body, "take the measures from a body document (or from a mannequin's truth)").check(cli::input_file());
   tool.option("--preset", preset, "take the measures from a mannequin of the family").type_name("NAME");
   tool.option("--measure", given, "set one measure, m: " + names).type_name("NAME=METRES");
   tool.flag("--band-collar", band_collar, "a shirt's collar is its stand alone");
+  tool.option("--flare", flare, "m by which each side seam of a skirt leans out more at its hem, on either side of it").check(cli::finite_in(0, 0.25, "m"));
   tool.option("-o,--output", output, "pattern document to write").required().check(cli::output_file());
   tool.example("make-pattern shirt --body body.json -o shirt.pattern.json", "a shirt for a measured body");
   tool.example("make-pattern shirt --band-collar --body body.json -o shirt.pattern.json", "with a collar that leaves the chin free");
@@ -72,6 +74,8 @@ int main(int argc, char** argv) {
     else if (!preset.empty()) measures = samples::measures_from_body(samples::make_mannequin(samples::preset(preset)).truth, preset);
     set_measures(given, measures);
     samples::Draft made = draft(garment, measures);
+    if (flare > 0 && garment != "skirt") throw Error(ErrorKind::USAGE, "", "--flare", "is of skirts, not of a " + garment, "leave it out");
+    if (flare > 0) made = samples::draft_flared_skirt(measures, flare);
     if (band_collar && garment != "shirt") throw Error(ErrorKind::USAGE, "", "--band-collar", "a " + garment + " has no collar", "leave it out");
     if (band_collar) made.remove("collar");
     if (body.empty() && preset.empty()) tool.reporter().warning("no --body is given: " + standard_measures(given));

@@ -18,8 +18,9 @@ Draft draft_band_shirt(const Measures& m) {
   d.remove("collar");
   return d;
 }
-const DraftedGarment GARMENTS[] = {
-    {"shirt", draft_shirt}, {"band_shirt", draft_band_shirt}, {"tshirt", draft_tshirt}, {"skirt", draft_skirt}, {"trousers", draft_trousers}};
+Draft draft_wide_skirt(const Measures& m) { return draft_flared_skirt(m, 0.1); }
+const DraftedGarment GARMENTS[] = {{"shirt", draft_shirt}, {"band_shirt", draft_band_shirt}, {"tshirt", draft_tshirt},
+                                   {"skirt", draft_skirt}, {"wide_skirt", draft_wide_skirt}, {"trousers", draft_trousers}};
 
 } // namespace
 

@@ -20,3 +20,14 @@ case_a_measure_that_is_not_in_metres_is_told_what_to_write() {
   says 'did you mean "waist"?'
   run 0 "$program" skirt --body a.body.json --measure waist=0.75 -o out.json
 }
+
+case_the_flare_of_a_skirt_is_at_its_hem() {
+  run 0 "$program" skirt --body a.body.json -o straight.json
+  run 0 "$program" skirt --body a.body.json --flare 0 -o out.json
+  cmp straight.json out.json || fail "no flare is one"
+  run 0 "$program" skirt --body a.body.json --flare 0.1 -o out.json
+  ! cmp -s straight.json out.json || fail "a flare is none"
+  run 2 "$program" shirt --body a.body.json --flare 0.1 -o out.json
+  says "is of skirts"
+  run 2 "$program" skirt --body a.body.json --flare 0.5 -o out.json
+}
