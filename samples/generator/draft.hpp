@@ -88,7 +88,8 @@ double solve(double low, double high, const std::function<double(double)>& f);
 Draft draft_shirt(const Measures& m);
 Draft draft_tshirt(const Measures& m);
 Draft draft_skirt(const Measures& m);
-/// @param more_flare  m, 0 or more: by which each side seam leans out more at the hem, on either side of it; less than 0.5 of the length below the hip
+/// @param more_flare  m, 0 or more: by which each side seam leans out more at the hem, on either side of it
+/// @throws Error USAGE where the seams would lie nearly level
 Draft draft_flared_skirt(const Measures& m, double more_flare);
 Draft draft_trousers(const Measures& m);
 

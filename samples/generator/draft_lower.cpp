@@ -5,9 +5,12 @@
 /// side, half at the middle seam, by curves. Trousers: body rise, crotch extensions of a sixteenth and an eighth of the hip (front and back), crease in the
 /// middle of the crotch line, as in the classic trouser block (for one, Aldrich, Metric Pattern Cutting); coefficients are our own. Metres; y = 0 is the waist.
 #include "draft.hpp"
+#include <base/error.hpp>
 #include <cmath>
 namespace sloper::samples {
 namespace {
+
+constexpr double STEEPEST = 0.9; // of a side seam's length: how far it leans out
 
 /// A band of two strips, sewn at the sides; `front` and `back` are the finished lengths of its lower edge, each cut in two at the middle.
 void add_waistband(Draft& d, const Measures& m, double front, double back, double height) {
@@ -49,13 +52,17 @@ Draft draft_flared_skirt(const Measures& m, double more_flare) {
   const double flare = 0.035 + 0.03 * length;
   // Middle seam at x = 0 from the hip down; above, both long sides lean in. The waist is an arc that meets both squarely.
   const double inset = 0.5 * (hip - waist) * 0.6, y_hip = -(m.waist_to_hip - 0.5 * band);
+  const double fall = length + y_hip; // a seam that leans out more is no longer for it: its end is higher
+  if (more_flare > 0 && flare + more_flare > STEEPEST * fall)
+    throw Error(ErrorKind::USAGE, "", "--flare", "is too much for a skirt that falls " + std::to_string(static_cast<int>(100 * fall)) + " cm below the hip",
+                "take less");
   const auto panel = [&](const char* name, double theta) {
     DraftPanel p;
     p.name = name;
     const Vec2 hip_side(hip, y_hip), hip_middle(0, y_hip);
-    const double fall = length + y_hip; // a seam that leans out more is no longer for it: its end is higher
     const auto drop = [&](double out) { return std::sqrt(fall * fall - out * out); };
-    const Vec2 hem_middle(0, -length), hem_side(hip + flare + more_flare, -length + drop(flare) - drop(flare + more_flare));
+    const double higher = more_flare > 0 ? drop(flare) - drop(flare + more_flare) : 0;
+    const Vec2 hem_middle(0, -length), hem_side(hip + flare + more_flare, -length + higher);
     const double x0 = inset;
     // The side is longer than the middle by the lean; the waist point at the side is raised so that neighbours meet level.
     const Vec2 waist_side(x0 + waist, 0.010), waist_middle(x0, 0);

@@ -30,4 +30,6 @@ case_the_flare_of_a_skirt_is_at_its_hem() {
   run 2 "$program" shirt --body a.body.json --flare 0.1 -o out.json
   says "is of skirts"
   run 2 "$program" skirt --body a.body.json --flare 0.5 -o out.json
+  run 2 "$program" skirt --measure stature=1 --flare 0.25 -o out.json
+  says "too much"
 }
