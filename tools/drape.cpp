@@ -104,10 +104,11 @@ bool has_goal(const Options& o, const garment::Scene& scene) {
 /// The way that the options ask for.
 garment::DrapeJob job_of(const cli::Tool& tool, const Options& o, const garment::Scene& scene, const garment::DrapeSettings& settings) {
   garment::DrapeJob job;
-  job.tool = tool.name(), job.motion = o.motion;
+  job.tool = tool.name();
   if (o.follow.empty() && o.motion.empty() && !o.untangle_only && has_goal(o, scene))
     job.goal = garment::AccuracyGoal{1e-3 * o.max_error_mm, settings.max_seconds};
   job.adjust = [&o, &scene](garment::DrapeSettings& s) { set_knobs(s, o, scene); };
+  job.motion = o.motion;
   if (o.motion_fps > 0) job.motion_fps = o.motion_fps;
   job.untangle_only = o.untangle_only, job.follow = o.follow, job.frames = o.frames, job.edit_log = o.edit_log;
   job.checkpoints = {o.checkpoint, o.checkpoint_steps};

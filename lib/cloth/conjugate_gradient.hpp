@@ -32,8 +32,8 @@ struct CgTolerance {
   CgTolerance(double of_residual, double of_energy = 0) : residual(of_residual), energy(of_energy) {}
   double residual; ///< |b - A x| over |b|
   /// Root of r' P^-1 r over that of b' P^-1 b, r = b - A x: with a preconditioner P that is_near() A, the error of x in the energy norm
-  /// over that of 0 (Arioli 2004); with others it does not count. Where stiff and soft go together it is reached long before the residual is
-  /// small, which is mostly of what is stiff.
+  /// over that of 0, or of the start where the system recurs (Arioli 2004); with others it does not count. Where stiff and soft go together it is reached long
+  /// before the residual is small, which is mostly of what is stiff.
   double energy;
 };
 
@@ -98,7 +98,7 @@ double conjugate_gradient_loop(Space&& space, double r_norm2, double target2, do
     const bool renewed = space.renew(result.since_renewal);
     if (renewed) result.since_renewal = 0;
     const double rz_next = space.precondition();
-    result.near = rz_next <= rz_end && rz_end > 0;
+    result.near = rz_next > 0 && rz_next <= rz_end;
     if (result.near || !(rz_next > 0)) break; // the latter where rounding has the last word
     space.turn(renewed ? 0 : rz_next / rz);   // with another preconditioner the directions start anew
     rz = rz_next;

@@ -17,7 +17,8 @@ class Deflation {
 public:
   static constexpr std::size_t MOST = 4; ///< ways; with 2 a skirt took a fifth longer to rest, with 6, 8 and 12 as long (means over 18 starts)
 
-  /// Takes x, where a solve led, for the newest way, in place of the oldest. @param x  not 0; of any length
+  /// Takes x, where a solve led, for the newest way, in place of the oldest.
+  /// @param x  #rows, of any unit and length; 0 and what is no number are no ways, and left out by prepare()
   void keep(const std::vector<Float4>& x);
   void forget() { m_n_kept = m_n_ways = 0; }
   /// Makes W of what is kept, newest first, for a matrix of so many rows. Left out are ways that others have already, and those along which A is
@@ -35,9 +36,9 @@ public:
   /// W is nothing for this system.
   void leave_out() { m_n_ways = 0; }
   std::size_t n_ways() const { return m_n_ways; }
-  /// From x = 0 with residual r to the best x in W.
+  /// From x = 0 with residual r to the best x in W. @param x, r  #rows
   void start(std::vector<Float4>& x, std::vector<Float4>& r);
-  /// z += W (W' r - (A W)' z), r the residual
+  /// z += W (W' r - (A W)' z). @param r, z  #rows, the residual and P^-1 r
   void project(const std::vector<Float4>& r, std::vector<Float4>& z);
 
 private:

@@ -340,6 +340,32 @@ TEST(ConjugateGradient, ends_at_a_share_of_the_error_in_the_energy_norm) {
   EXPECT_LE(blind.residual, 1e-6);
 }
 
+namespace {
+
+/// A space whose r . z rounding has made negative after the first step.
+struct RoundedSpace {
+  int asked = 0;
+  double precondition() { return asked++ == 0 ? 1 : -1e-9; }
+  void turn(double) {}
+  double multiply() { return 1; }
+  double advance(double) { return 0.5; }
+  double longest_x() const { return 0; }
+  double longest_p() const { return 1; }
+  bool renew(int) { return false; }
+};
+
+} // namespace
+
+TEST(ConjugateGradient, does_not_take_what_rounding_leaves_for_near) {
+  for (double energy : {0.0, 0.1}) {
+    CgResult result;
+    const double left2 = conjugate_gradient_loop(RoundedSpace{}, 1, 1e-8, energy, 100, std::numeric_limits<double>::infinity(), result);
+    EXPECT_EQ(left2, 0.5);
+    EXPECT_EQ(result.iterations, 1);
+    EXPECT_FALSE(result.near) << energy;
+  }
+}
+
 TEST(ConjugateGradient, stops_at_an_indefinite_matrix_and_keeps_what_it_has) {
   BlockMatrix m(1, {});
   m.add_diagonal(0, -Mat3::Identity());

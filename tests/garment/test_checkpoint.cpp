@@ -52,10 +52,10 @@ Case sleeve() { // its end is held while the body is inflated
   return c;
 }
 
-Case tucked() { // sheared against each other, panels are drawn through each other while they are sewn
+Case tucked() { // sheared against each other, panels are drawn through each other while they are sewn; sheared half as far they come apart again
   Case c{"tucked", make_pillar(), make_skirt(0.75, 0.25, 0.04)};
   for (Vec3& p : c.garment.panels.placed)
-    if (p.z() > 0) p += Vec3(p.y() - 0.9, p.x(), 0);
+    if (p.z() > 0) p += Vec3(1.3 * (p.y() - 0.9), 1.5 * p.x(), 0);
   return c;
 }
 
@@ -95,11 +95,12 @@ TEST_P(KilledRun, goes_on_from_any_step_to_the_bytes_of_one_that_was_not_killed)
   DrapeSettings settings;
   settings.skin_tolerance_m = 3e-4;
   const Case c = case_of(GetParam());
+  const bool tucked = c.name == std::string("tucked");
+  if (tucked) settings.max_steps = 300; // its knot takes thousands to come to rest
   Garment whole = c.garment;
   const DrapeReport undisturbed = drape(whole, &c.body, settings, silent_reporter(), {}, {file("whole.json"), 17});
-  EXPECT_TRUE(undisturbed.converged) << undisturbed.stop_reason;
+  EXPECT_EQ(undisturbed.converged, !tucked) << undisturbed.stop_reason;
   std::set<DrapePhase> phases;
-  const bool tucked = c.name == std::string("tucked");
   std::size_t tucks = 0;
   for (int at = 20; at < undisturbed.steps; at += std::max(5, undisturbed.steps / (tucked ? 12 : 4))) {
     Garment killed = c.garment;

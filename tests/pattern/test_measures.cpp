@@ -1,5 +1,5 @@
 /// Measures of the finished garment, on patterns whose measures can be worked out by hand.
-#include "drawn_pattern.hpp"
+#include "straight_patterns.hpp"
 
 #include <gtest/gtest.h>
 #include <pattern/finished_measures.hpp>

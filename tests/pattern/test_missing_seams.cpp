@@ -1,5 +1,5 @@
 /// Seams left out, and openings that look like them.
-#include "drawn_pattern.hpp"
+#include "straight_patterns.hpp"
 
 #include <gtest/gtest.h>
 #include <pattern/check_pattern.hpp>

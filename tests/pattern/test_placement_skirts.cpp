@@ -1,5 +1,5 @@
-#include "drawn_pattern.hpp"
 #include "placement_patterns.hpp"
+#include "straight_patterns.hpp"
 
 #include <gtest/gtest.h>
 #include <pattern/place_panels.hpp>
