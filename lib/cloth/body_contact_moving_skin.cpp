@@ -15,7 +15,21 @@ constexpr double SKIN_APPROACH = 1.0 / 3;
 constexpr double MOST_CLEARED = 0.002;
 constexpr int CLEAR_ROUNDS = 12;
 
+std::vector<double> lengths(const std::vector<Vec3>& vectors) {
+  std::vector<double> l(vectors.size());
+  for (std::size_t i = 0; i < vectors.size(); ++i) l[i] = vectors[i].norm();
+  return l;
+}
+
 } // namespace
+
+/// How much nearer a pair's ends can come.
+double BodyContactEffect::farthest(const Pair& pair, const std::vector<double>& skin_goes, const std::vector<double>& cloth_goes) {
+  double skin = 0, cloth = 0;
+  for (int k = 0; k < pair.n_body; ++k) skin = std::max(skin, skin_goes[pair.body[k]]);
+  for (int k = 0; k < pair.n; ++k) cloth = std::max(cloth, cloth_goes[pair.particle[k]]);
+  return skin + cloth;
+}
 
 std::vector<double> BodyContactEffect::skin_room(const std::vector<Vec3>& x) {
   search(x);
@@ -55,8 +69,11 @@ double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vect
     moved = 0;
   }
   double share = std::min(1.0, (seen - moved) / (longest + carried));
+  measure_way(x);
+  const std::vector<double> skin_goes = lengths(way), cloth_goes = lengths(carry);
   for (const Pair& pair : m_pairs) {
-    if (pair.crossed) continue;
+    const double nearer_at_most = farthest(pair, skin_goes, cloth_goes);
+    if (pair.crossed || nearer_at_most <= 0 || share * nearer_at_most <= SKIN_APPROACH * (pair.clear - farthest(pair))) continue;
     const Closest c = closest(pair, x);
     if (!c.valid) continue;
     // At the closest points: what turns with the skin, as carried cloth does, comes no nearer by turning.
@@ -79,8 +96,10 @@ void BodyContactEffect::clear_carry(const std::vector<Vec3>& x, const std::vecto
     double skin_toward; // m
   };
   std::vector<Near> near;
-  for (const Pair& pair : m_pairs) {
-    if (pair.crossed) continue;
+  measure_way(x);
+  const std::vector<double> skin_goes = lengths(way), cloth_goes = lengths(carry);
+  for (const Pair& pair : m_pairs) { // what is pushed away itself may come that much nearer to others
+    if (pair.crossed || farthest(pair, skin_goes, cloth_goes) + MOST_CLEARED <= 0.5 * SKIN_APPROACH * (pair.clear - farthest(pair))) continue;
     const Closest c = closest(pair, x);
     if (!c.valid) continue;
     double toward = 0;

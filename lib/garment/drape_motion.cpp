@@ -5,22 +5,64 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sloper::garment {
 
+namespace {
+
 /// s: with inertia, longer steps damp the swing of cloth away.
-static constexpr double LONGEST_MOTION_STEP = 1.0 / 60;
+constexpr double LONGEST_MOTION_STEP = 1.0 / 60;
 /// m: pairs are kept this far beyond their reach, so that parts can be long.
-static constexpr double MOTION_SLACK = 0.008;
+constexpr double MOTION_SLACK = 0.008;
+/// m: around the box of sleeping cloth; skin that moves in there wakes it.
+constexpr double WAKES = 0.05;
+
+/// For how long cloth has been at rest on a body that holds still: not by its speed or its force, since single particles between two states of
+/// contact go to and fro for good, but by how far it came.
+class Calm {
+public:
+  void end() { m_from.clear(); }
+  void note(const std::vector<Vec3>& x, double frame_s) {
+    bool same = m_from.size() == x.size();
+    for (std::size_t i = 0; same && i < x.size(); ++i) same = (x[i] - m_from[i]).norm() <= FARTHEST;
+    m_s = same ? m_s + frame_s : 0;
+    if (!same) m_from = x;
+  }
+  bool lasts() const { return !m_from.empty() && m_s >= LONG_ENOUGH; }
+
+private:
+  static constexpr double FARTHEST = 1e-4, LONG_ENOUGH = 0.2; // m, s
+  std::vector<Vec3> m_from;                                   // where the cloth was when the calm began; none: there is no calm
+  double m_s = 0;
+};
+
+} // namespace
 
 void DrapeRun::then_move(const BodyMoves& moves, OnMotionFrame on_frame) {
   m_moves = &moves;
   m_on_frame = std::move(on_frame);
 }
 
+/// Whether sleeping cloth must take part in a frame: skin near it moves, or wind blows.
+bool DrapeRun::wakes(const std::vector<Vec3>& from, const std::vector<Vec3>& to) const {
+  if (active("wind")) return true;
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const Vec3& p : m_solver->x()) {
+    low = low.cwiseMin(p - Vec3::Constant(WAKES));
+    high = high.cwiseMax(p + Vec3::Constant(WAKES));
+  }
+  for (std::size_t v = 0; v < from.size(); ++v) {
+    if (from[v] == to[v]) continue;
+    if ((from[v].cwiseMin(to[v]).array() <= high.array()).all() && (from[v].cwiseMax(to[v]).array() >= low.array()).all()) return true;
+  }
+  return false;
+}
+
 void DrapeRun::audit_frame(MotionFrame& frame) {
   const std::vector<Triangle> triangles = m_garment.particle_triangles();
   const collision::TriangleTree tree(m_garment.position, triangles);
+  frame.vertices_inside = 0;
   frame.self_intersections = collision::self_intersections(m_garment.position, triangles, tree).size();
   frame.faces_through = m_collider->faces_through(m_garment.position, triangles).size();
   for (const Vec3& p : m_garment.position) {
@@ -53,6 +95,8 @@ void DrapeRun::follow_motion() {
   options.largest_move_m = 1;
   options.cg_tolerance = std::min(m_settings.cg_tolerance, 1e-3);
   options.cg_max_iterations = m_settings.cg_max_iterations;
+  Calm calm;
+  MotionFrame last;
   std::vector<Vec3> skin = at.frame > 0 ? m_moves->skin(at.frame - 1) : m_body->skin.positions, target = skin;
   while (at.frame < m_moves->n_frames && !m_stopped) {
     if (renews() && at.parts - at.noted >= m_checkpoints.every_steps) {
@@ -61,12 +105,20 @@ void DrapeRun::follow_motion() {
       at.elapsed_s = elapsed() - began;
       renew();
       take_up();
+      calm.end(); // a run that goes on from here knows nothing of it
     }
     m_reporter.progress("body motion", static_cast<double>(at.frame) / static_cast<double>(m_moves->n_frames));
     const std::vector<Vec3> from = skin;
     skin = m_moves->skin(at.frame);
-    MotionFrame frame;
-    for (std::size_t s = 1; s <= substeps && !m_stopped; ++s) {
+    MotionFrame frame = last; // counts of an audit hold while nothing moves
+    frame.speed_m_s = 0;
+    if (wakes(from, skin)) calm.end();
+    const bool asleep = calm.lasts();
+    if (asleep) {
+      ++at.asleep_frames;
+      m_body_contact->move_body(as_met(skin));
+    }
+    for (std::size_t s = 1; !asleep && s <= substeps && !m_stopped; ++s) {
       const double t = static_cast<double>(s) / static_cast<double>(substeps);
       for (std::size_t v = 0; v < skin.size(); ++v) target[v] = s < substeps ? Vec3((1 - t) * from[v] + t * skin[v]) : skin[v];
       m_at.last = motion->advance(as_met(target), options);
@@ -78,6 +130,8 @@ void DrapeRun::follow_motion() {
       m_stopped = true;
       m_report.stop_reason = "diverged";
     }
+    if (!asleep) calm.note(m_solver->x(), m_moves->frame_s);
+    if (!asleep && calm.lasts()) m_solver->stop();
     at.simulated_s += m_moves->frame_s;
     frame.number = static_cast<int>(++at.frame);
     frame.time_s = at.simulated_s;
@@ -87,7 +141,8 @@ void DrapeRun::follow_motion() {
     at.largest_way_m = motion->largest_way_m, at.wall_s = motion->wall_s;
     at.forced_frames += frame.forced;
     m_garment.position = m_solver->x();
-    audit_frame(frame);
+    if (!asleep) audit_frame(frame);
+    last = frame;
     const std::size_t found[3] = {frame.faces_through, frame.vertices_inside, frame.self_intersections};
     for (int i = 0; i < 3; ++i) {
       at.bad_frames[i] += found[i] > 0;
@@ -130,6 +185,7 @@ io::Json DrapeRun::motion_report() const {
           {"frame_s", m_moves->frame_s},
           {"parts", m.parts},
           {"forced_frames", m.forced_frames},
+          {"asleep_frames", m.asleep_frames},
           {"largest_way_m", m.largest_way_m},
           {"ms_per_frame", 1000 * m.elapsed_s / static_cast<double>(std::max<std::size_t>(m.frame, 1))},
           {"faces_through_body", count(0)},

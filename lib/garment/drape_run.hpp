@@ -70,6 +70,7 @@ private:
   void inflate();
   void settle();
   void follow_motion(); ///< drape_motion.cpp
+  bool wakes(const std::vector<Vec3>& from, const std::vector<Vec3>& to) const;
   void audit_frame(MotionFrame& frame);
   void stand_in(const std::vector<Vec3>& skin); ///< the motion is over, with the body so
   io::Json motion_report() const;

@@ -72,19 +72,10 @@ cloth::StepResult read_step(const Node& node) {
 }
 
 Json motion_json(const MotionState& m) {
-  return {{"frame", m.frame},
-          {"over", m.over},
-          {"velocity", flat(m.velocity)},
-          {"parts", m.parts},
-          {"forced", m.forced},
-          {"noted", m.noted},
-          {"forced_frames", m.forced_frames},
-          {"bad_frames", m.bad_frames},
-          {"most", m.most},
-          {"largest_way_m", m.largest_way_m},
-          {"simulated_s", m.simulated_s},
-          {"wall_s", m.wall_s},
-          {"elapsed_s", m.elapsed_s}};
+  return {{"frame", m.frame},           {"over", m.over},          {"velocity", flat(m.velocity)},     {"parts", m.parts},
+          {"forced", m.forced},         {"noted", m.noted},        {"forced_frames", m.forced_frames}, {"asleep_frames", m.asleep_frames},
+          {"bad_frames", m.bad_frames}, {"most", m.most},          {"largest_way_m", m.largest_way_m}, {"simulated_s", m.simulated_s},
+          {"wall_s", m.wall_s},         {"elapsed_s", m.elapsed_s}};
 }
 
 MotionState read_motion(const Node& node) {
@@ -95,6 +86,7 @@ MotionState read_motion(const Node& node) {
   m.velocity = read_flat(node.at("velocity"));
   m.parts = node.at("parts").integer(), m.forced = node.at("forced").integer(), m.noted = node.at("noted").integer();
   m.forced_frames = node.at("forced_frames").integer();
+  if (node.has("asleep_frames")) m.asleep_frames = node.at("asleep_frames").integer(); // older ones have none
   for (std::size_t i = 0; i < 3; ++i) m.bad_frames[i] = node.at("bad_frames").at(i).integer(), m.most[i] = node.at("most").at(i).integer();
   m.largest_way_m = node.at("largest_way_m").number(), m.simulated_s = node.at("simulated_s").number();
   m.wall_s = node.at("wall_s").number(), m.elapsed_s = node.at("elapsed_s").number();

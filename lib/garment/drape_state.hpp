@@ -24,7 +24,7 @@ struct MotionState {
   std::vector<Vec3> velocity; ///< MOVE: #P by 3, m/s
   int parts = 0, forced = 0;  ///< see cloth/body_motion.hpp
   int noted = 0;              ///< parts at the last checkpoint
-  int forced_frames = 0;
+  int forced_frames = 0, asleep_frames = 0;
   int bad_frames[3] = {}, most[3] = {};      ///< faces through the body, vertices inside it, self intersections
   double largest_way_m = 0, simulated_s = 0; ///< m, of a skin vertex in one frame; s
   double wall_s = 0, elapsed_s = 0;          ///< of moving the skin alone; of all of it

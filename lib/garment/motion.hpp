@@ -39,15 +39,16 @@ struct MotionFrame {
   int number = 0;    ///< from 1
   double time_s = 0; ///< since the body began to move
   std::size_t faces_through = 0, vertices_inside = 0, self_intersections = 0;
-  long parts = 0;       ///< in which the body went, see cloth/body_motion.hpp
+  long parts = 0;       ///< in which the body went, see cloth/body_motion.hpp; 0: the cloth slept
   bool forced = false;  ///< cloth could not give way, and the skin went through it
   double speed_m_s = 0; ///< of the fastest particle, at most
 };
 using OnMotionFrame = std::function<void(const MotionFrame&, const Garment&)>;
 
 /// drape(), then the motion: the cloth keeps its velocity, sticks to and slides over the moving skin, and comes to rest again in the last
-/// pose. `quality.motion`: frames, lead_in, simulated_s, parts, forced_frames, largest_way_m (of skin in one frame), ms_per_frame, and
-/// frames and counts with faces through the body, vertices inside it and self intersections.
+/// pose. Cloth that comes nowhere for 0.2 s (no particle farther than 0.1 mm) sleeps until skin within 5 cm of its box moves, and in wind never: such
+/// frames cost no step. `quality.motion`: frames, lead_in, simulated_s, parts, forced_frames, asleep_frames, largest_way_m (of skin in one frame),
+/// ms_per_frame, and frames and counts with faces through the body, vertices inside it and self intersections.
 /// @param on_frame  after each frame; may be empty
 /// @param checkpoints  as for drape(); while the body moves between two frames, where so many of its parts have passed
 DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const BodyMoves& moves, const DrapeSettings& settings, const OnMotionFrame& on_frame,

@@ -41,6 +41,45 @@ TEST(Motion, a_skirt_on_a_swinging_body_is_clean_in_every_frame_and_at_rest_at_t
   EXPECT_EQ(report.quality["motion"]["frames"].get<int>(), 15);
 }
 
+TEST(Motion, cloth_at_rest_sleeps_until_skin_near_it_moves) {
+  const body::Body pillar = make_pillar(48, 40);
+  Garment skirt = make_skirt(0.75, 0.3, 0.04);
+  const BodyMoves swing = swinging(pillar, 10, 0.05);
+  const std::size_t n_still = 90;
+  BodyMoves moves = swing;
+  moves.n_frames = 10 + n_still + 5;
+  moves.skin = [&](std::size_t k) { // a swing, a hold in which only the foot of the pillar moves, far below the skirt, and another swing
+    std::vector<Vec3> x = swing.skin(k < 10 ? k : k < 10 + n_still ? 9 : k - n_still);
+    if (k >= 10 && k < 10 + n_still)
+      for (Vec3& p : x)
+        if (p.y() < 0.3) p.x() += 0.0005 * static_cast<double>(k - 9);
+    return x;
+  };
+  Garment last;
+  int asleep = 0;
+  const DrapeReport report = drape_in_motion(
+      skirt, pillar, moves, {},
+      [&](const MotionFrame& f, const Garment& g) {
+        EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U) << f.number;
+        const bool still = f.number > 10 && f.number <= 10 + static_cast<int>(n_still);
+        if (!still) {
+          EXPECT_GT(f.parts, 0) << f.number;
+        }
+        if (f.parts == 0) {
+          EXPECT_EQ(g.position, last.position) << f.number;
+          EXPECT_EQ(f.speed_m_s, 0);
+          ++asleep;
+        } else {
+          EXPECT_EQ(asleep > 0 && still, false) << "woke in frame " << f.number;
+        }
+        last = g;
+      },
+      silent_reporter());
+  EXPECT_GT(asleep, 20);
+  EXPECT_EQ(report.quality["motion"]["asleep_frames"].get<int>(), asleep);
+  EXPECT_TRUE(report.converged) << report.stop_reason;
+}
+
 TEST(Motion, a_skirt_below_a_skirt_goes_with_the_body_and_the_order_is_kept) {
   const body::Body pillar = make_pillar(48, 40);
   std::vector<Garment> garments = {make_skirt(0.72, 0.3, 0.04), make_skirt(0.76, 0.2, 0.04)};
