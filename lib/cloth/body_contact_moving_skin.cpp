@@ -92,31 +92,51 @@ void BodyContactEffect::clear_carry(const std::vector<Vec3>& x, const std::vecto
   begin_step(x, 0);
   struct Near {
     const Pair* pair;
+    double skin_goes, room; // m: at most; ends that come no nearer than that are left alone
+    int measured = -1;
+  };
+  struct Measured {
     Closest c;
     double skin_toward; // m
   };
   std::vector<Near> near;
+  std::vector<Measured> measured; // few pairs ever need it
   measure_way(x);
-  const std::vector<double> skin_goes = lengths(way), cloth_goes = lengths(carry);
-  for (const Pair& pair : m_pairs) { // what is pushed away itself may come that much nearer to others
-    if (pair.crossed || farthest(pair, skin_goes, cloth_goes) + MOST_CLEARED <= 0.5 * SKIN_APPROACH * (pair.clear - farthest(pair))) continue;
-    const Closest c = closest(pair, x);
-    if (!c.valid) continue;
-    double toward = 0;
-    for (int k = 0; k < pair.n_body; ++k) toward += c.body_weight[k] * c.normal.dot(way[pair.body[k]]);
-    near.push_back({&pair, c, toward});
+  const std::vector<double> skin_goes = lengths(way);
+  std::vector<double> cloth_goes = lengths(carry);
+  for (const Pair& pair : m_pairs) {
+    if (pair.crossed) continue;
+    double skin = 0;
+    for (int k = 0; k < pair.n_body; ++k) skin = std::max(skin, skin_goes[pair.body[k]]);
+    near.push_back({&pair, skin, 0.5 * SKIN_APPROACH * (pair.clear - farthest(pair))});
   }
+  const auto measure = [&](const Pair& pair) {
+    Measured m = {closest(pair, x), 0};
+    for (int k = 0; m.c.valid && k < pair.n_body; ++k) m.skin_toward += m.c.body_weight[k] * m.c.normal.dot(way[pair.body[k]]);
+    measured.push_back(m);
+    return static_cast<int>(measured.size()) - 1;
+  };
   for (int round = 0; round < CLEAR_ROUNDS; ++round) {
     bool more = false;
-    for (const Near& n : near) {
+    for (Near& n : near) {
+      double cloth = 0;
+      for (int k = 0; k < n.pair->n; ++k) cloth = std::max(cloth, cloth_goes[n.pair->particle[k]]);
+      if (n.skin_goes + cloth <= n.room || n.skin_goes + cloth <= 0) continue;
+      if (n.measured < 0) n.measured = measure(*n.pair);
+      const auto& [c, skin_toward] = measured[n.measured];
+      if (!c.valid) continue;
       double away = 0, share = 0;
       for (int k = 0; k < n.pair->n; ++k) {
-        away += n.c.weight[k] * n.c.normal.dot(carry[n.pair->particle[k]]);
-        share += n.c.weight[k] * n.c.weight[k];
+        away += c.weight[k] * c.normal.dot(carry[n.pair->particle[k]]);
+        share += c.weight[k] * c.weight[k];
       }
-      const double lack = n.skin_toward - away - 0.5 * SKIN_APPROACH * n.c.distance;
+      const double lack = skin_toward - away - 0.5 * SKIN_APPROACH * c.distance;
       if (lack <= 0 || lack > MOST_CLEARED) continue;
-      for (int k = 0; k < n.pair->n; ++k) carry[n.pair->particle[k]] += n.c.weight[k] / share * lack * n.c.normal;
+      for (int k = 0; k < n.pair->n; ++k) {
+        const int i = n.pair->particle[k];
+        carry[i] += c.weight[k] / share * lack * c.normal;
+        cloth_goes[i] = carry[i].norm();
+      }
       more = true;
     }
     if (!more) return;
