@@ -111,7 +111,7 @@ private:
   double share_of(const Pair& pair, const std::vector<Vec3>& x) const; ///< see crossing_share()
   void measure_way(const std::vector<Vec3>& x) const;
   double farthest(const Pair& pair) const;
-  static double farthest(const Pair& pair, const std::vector<double>& skin_goes, const std::vector<double>& cloth_goes);
+  static double approach(const Pair& pair, const std::vector<double>& skin_goes, const std::vector<double>& cloth_goes);
   void guard(const Pair& pair, const Closest& c, MotionLimits& limits) const;
   bool guarded() const { return m_options.level == ContactLevel::CONTINUOUS; }
   void weigh_skin();

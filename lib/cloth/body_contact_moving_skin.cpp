@@ -23,8 +23,8 @@ std::vector<double> lengths(const std::vector<Vec3>& vectors) {
 
 } // namespace
 
-/// How much nearer a pair's ends can come.
-double BodyContactEffect::farthest(const Pair& pair, const std::vector<double>& skin_goes, const std::vector<double>& cloth_goes) {
+/// How much nearer a pair's ends come at most, m.
+double BodyContactEffect::approach(const Pair& pair, const std::vector<double>& skin_goes, const std::vector<double>& cloth_goes) {
   double skin = 0, cloth = 0;
   for (int k = 0; k < pair.n_body; ++k) skin = std::max(skin, skin_goes[pair.body[k]]);
   for (int k = 0; k < pair.n; ++k) cloth = std::max(cloth, cloth_goes[pair.particle[k]]);
@@ -72,7 +72,7 @@ double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vect
   measure_way(x);
   const std::vector<double> skin_goes = lengths(way), cloth_goes = lengths(carry);
   for (const Pair& pair : m_pairs) {
-    const double nearer_at_most = farthest(pair, skin_goes, cloth_goes);
+    const double nearer_at_most = approach(pair, skin_goes, cloth_goes);
     if (pair.crossed || nearer_at_most <= 0 || share * nearer_at_most <= SKIN_APPROACH * (pair.clear - farthest(pair))) continue;
     const Closest c = closest(pair, x);
     if (!c.valid) continue;
