@@ -15,9 +15,21 @@ constexpr double SKIN_APPROACH = 1.0 / 3;
 constexpr double MOST_CLEARED = 0.002;
 constexpr int CLEAR_ROUNDS = 12;
 
-std::vector<double> lengths(const std::vector<Vec3>& vectors) {
-  std::vector<double> l(vectors.size());
-  for (std::size_t i = 0; i < vectors.size(); ++i) l[i] = vectors[i].norm();
+/// The way that skin and cloth have in common when a body walks, against which ways are counted; 0 where most of the cloth stays: skin that holds
+/// still is then left alone.
+Vec3 common_way(const std::vector<Vec3>& carry) {
+  Vec3 mean = Vec3::Zero();
+  double longest = 0;
+  for (const Vec3& c : carry) {
+    mean += c / static_cast<double>(carry.size());
+    longest = std::max(longest, c.norm());
+  }
+  return mean.norm() > 0.25 * longest ? mean : Vec3::Zero();
+}
+
+std::vector<double> lengths_against(const Vec3& common, const std::vector<Vec3>& ways) {
+  std::vector<double> l(ways.size());
+  for (std::size_t i = 0; i < ways.size(); ++i) l[i] = (ways[i] - common).norm();
   return l;
 }
 
@@ -44,8 +56,10 @@ std::vector<double> BodyContactEffect::skin_room(const std::vector<Vec3>& x) {
 
 double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry) {
   if (m_edge_slot.empty()) return 0; // not bound yet: there was no step
+  const Vec3 common = common_way(carry);
+  const std::vector<double> skin_goes = lengths_against(common, way), cloth_goes = lengths_against(common, carry);
   double longest = 0, carried = 0;
-  for (const Vec3& d : carry) carried = std::max(carried, d.norm());
+  for (const double d : cloth_goes) carried = std::max(carried, d);
   Vec3 low = Vec3::Constant(1e300), high = -low; // skin that no cloth is near may go as far as it likes
   const double reach = m_options.gap_m + m_options.slack_m;
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -57,7 +71,7 @@ double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vect
   for (std::size_t v = 0; v < way.size(); ++v) {
     const Vec3 to = skin[v] + way[v];
     const bool near = (skin[v].cwiseMin(to).array() <= high.array()).all() && (skin[v].cwiseMax(to).array() >= low.array()).all();
-    if (near) longest = std::max(longest, way[v].norm());
+    if (near) longest = std::max(longest, skin_goes[v]);
   }
   if (longest <= 0 && carried <= 0) return 1;
   const double seen = USED * (EDGE_REACH * m_options.gap_m + m_options.slack_m);
@@ -70,7 +84,6 @@ double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vect
   }
   double share = std::min(1.0, (seen - moved) / (longest + carried));
   measure_way(x);
-  const std::vector<double> skin_goes = lengths(way), cloth_goes = lengths(carry);
   for (const Pair& pair : m_pairs) {
     const double nearer_at_most = approach(pair, skin_goes, cloth_goes);
     if (pair.crossed || nearer_at_most <= 0 || share * nearer_at_most <= SKIN_APPROACH * (pair.clear - farthest(pair))) continue;
@@ -102,8 +115,9 @@ void BodyContactEffect::clear_carry(const std::vector<Vec3>& x, const std::vecto
   std::vector<Near> near;
   std::vector<Measured> measured; // few pairs ever need it
   measure_way(x);
-  const std::vector<double> skin_goes = lengths(way);
-  std::vector<double> cloth_goes = lengths(carry);
+  const Vec3 common = common_way(carry);
+  const std::vector<double> skin_goes = lengths_against(common, way);
+  std::vector<double> cloth_goes = lengths_against(common, carry);
   for (const Pair& pair : m_pairs) {
     if (pair.crossed) continue;
     double skin = 0;
@@ -135,7 +149,7 @@ void BodyContactEffect::clear_carry(const std::vector<Vec3>& x, const std::vecto
       for (int k = 0; k < n.pair->n; ++k) {
         const int i = n.pair->particle[k];
         carry[i] += c.weight[k] / share * lack * c.normal;
-        cloth_goes[i] = carry[i].norm();
+        cloth_goes[i] = (carry[i] - common).norm();
       }
       more = true;
     }

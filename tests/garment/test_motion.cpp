@@ -80,6 +80,28 @@ TEST(Motion, cloth_at_rest_sleeps_until_skin_near_it_moves) {
   EXPECT_TRUE(report.converged) << report.stop_reason;
 }
 
+TEST(Motion, a_body_that_only_walks_on_goes_in_few_parts) {
+  const body::Body pillar = make_pillar(48, 40);
+  Garment skirt = make_skirt(0.75, 0.3, 0.04);
+  BodyMoves moves;
+  moves.n_frames = 20;
+  moves.skin = [&](std::size_t k) { // up to 1 m/s within half a second
+    const double t = (static_cast<double>(k) + 1) / 30, way = t < 0.5 ? t * t : 0.25 + t - 0.5;
+    std::vector<Vec3> x = pillar.skin.positions;
+    for (Vec3& p : x) p.z() += way;
+    return x;
+  };
+  long parts = 0;
+  drape_in_motion(
+      skirt, pillar, moves, {},
+      [&](const MotionFrame& f, const Garment&) {
+        EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U) << f.number;
+        parts += f.parts;
+      },
+      silent_reporter());
+  EXPECT_LE(parts, 100);
+}
+
 TEST(Motion, a_skirt_below_a_skirt_goes_with_the_body_and_the_order_is_kept) {
   const body::Body pillar = make_pillar(48, 40);
   std::vector<Garment> garments = {make_skirt(0.72, 0.3, 0.04), make_skirt(0.76, 0.2, 0.04)};
