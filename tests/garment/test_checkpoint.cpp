@@ -96,7 +96,7 @@ TEST_P(KilledRun, goes_on_from_any_step_to_the_bytes_of_one_that_was_not_killed)
   settings.skin_tolerance_m = 3e-4;
   const Case c = case_of(GetParam());
   const bool tucked = c.name == std::string("tucked");
-  if (tucked) settings.max_steps = 300; // its knot takes thousands to come to rest
+  if (tucked) settings.max_steps = 300; // its knot is slow to come to rest
   Garment whole = c.garment;
   const DrapeReport undisturbed = drape(whole, &c.body, settings, silent_reporter(), {}, {file("whole.json"), 17});
   EXPECT_EQ(undisturbed.converged, !tucked) << undisturbed.stop_reason;
