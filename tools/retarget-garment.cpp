@@ -108,6 +108,7 @@ int run(cli::Tool& tool, const Options& o) {
   garment::Retargeted placed = garment::retarget(source, body, skin, mode, tool.reporter());
   garment::Garment& garment = placed.garment;
   garment.body_sha256 = skin_hash;
+  settings.hold_sleeve_ends = placed.has_folded_sleeves;
   if (!o.pattern.empty()) write_pattern(tool, o, garment, source);
   garment::FitReport fit;
   if (!o.no_drape) fit = garment::fit_before_drape(garment, source.position, body, policy);

@@ -113,20 +113,17 @@ private:
 /// Where an edit opens cloth, both sides of the opening start in one place, and nothing could tell which is which. Each goes back a little
 /// into its own cloth. Cost: free edges squared.
 void part_free_edges(const std::vector<Triangle>& triangles, std::vector<Vec3>& position) {
-  std::map<std::array<int, 2>, int> uses;
   std::vector<Vec3> around(position.size(), Vec3::Zero());
   std::vector<int> count(position.size(), 0);
   for (const Triangle& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = t[k], b = t[(k + 1) % 3];
-      ++uses[{std::min(a, b), std::max(a, b)}];
       around[static_cast<std::size_t>(a)] += position[static_cast<std::size_t>(b)], ++count[static_cast<std::size_t>(a)];
       around[static_cast<std::size_t>(b)] += position[static_cast<std::size_t>(a)], ++count[static_cast<std::size_t>(b)];
     }
-  std::vector<std::array<int, 2>> free;
+  const std::vector<std::array<int, 2>> free = free_edges_of(triangles);
   std::set<int> ends;
-  for (const auto& [edge, n] : uses)
-    if (n == 1) free.push_back(edge), ends.insert(edge.begin(), edge.end());
+  for (const auto& edge : free) ends.insert(edge.begin(), edge.end());
   std::vector<std::pair<std::size_t, Vec3>> moved;
   for (int p : ends) {
     const auto v = static_cast<std::size_t>(p);

@@ -200,7 +200,7 @@ void DrapeRun::hold_sleeves() {
   if (!m_at.held.empty()) pins = hold_sleeve_ends(m_garment);
   if (pins.empty() || pins.size() != m_at.held.size()) return;
   for (std::size_t k = 0; k < pins.size(); ++k) pins[k].target = m_at.held[k];
-  if (!active("pins")) activate("pins", "sleeve ends are held at the wrists while the body is inflated");
+  if (!active("pins")) activate("pins", "sleeve ends are held at the wrists until the cloth above has found its folds");
   m_hold = &m_solver->emplace<cloth::PinsEffect>(std::move(pins));
 }
 
@@ -302,8 +302,8 @@ DrapeReport DrapeRun::run() {
     m_report.effects = choose_effects(m_garment, m_body, m_settings);
     if (m_moves) activate("body_motion", "the body moves");
     start_outside_body(unsewn);
-    m_at.disturbed = unsewn || m_at.scale < 1;
-    if (!unsewn && m_at.scale < 1 && may_pass("pins"))
+    m_at.disturbed = unsewn || m_at.scale < 1 || m_settings.hold_sleeve_ends;
+    if (!unsewn && m_at.disturbed && may_pass("pins"))
       for (const cloth::Pin& pin : hold_sleeve_ends(m_garment)) m_at.held.push_back(pin.target);
     if (unsewn && active("sewing")) sew();
   } else if (m_at.phase == DrapePhase::SEW) {

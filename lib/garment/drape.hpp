@@ -33,6 +33,7 @@ struct DrapeSettings {
   double max_seconds = 0;       ///< wall clock, 0 = no limit
   std::string effects = "auto"; ///< "auto" or a list
   std::string accuracy = "standard";
+  bool hold_sleeve_ends = false; ///< until the cloth above them has found its folds (sleeve_ends.hpp): retarget() says so. Not of the report
 };
 
 /// Where a garment that is not yet at rest stands when it is plain that it will not fit; 0: never.

@@ -13,21 +13,17 @@ namespace {
 constexpr double SHORTEST_HEM = 0.08; // m: a shorter loop is a button hole or a slit's end
 
 /// Loops of edges that one triangle has: groups of edges that share particles.
-std::vector<std::vector<std::array<int, 2>>> free_edges(const std::vector<Triangle>& triangles, std::size_t n_particles) {
-  std::map<std::array<int, 2>, int> count;
-  for (const Triangle& t : triangles)
-    for (int k = 0; k < 3; ++k) ++count[{std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])}];
+std::vector<std::vector<std::array<int, 2>>> free_loops(const std::vector<Triangle>& triangles, std::size_t n_particles) {
+  const std::vector<std::array<int, 2>> free = free_edges_of(triangles);
   std::vector<int> parent(n_particles);
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int i) {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
   };
-  for (const auto& [e, n] : count)
-    if (n == 1) parent[std::max(root(e[0]), root(e[1]))] = std::min(root(e[0]), root(e[1]));
+  for (const auto& [a, b] : free) parent[std::max(root(a), root(b))] = std::min(root(a), root(b));
   std::map<int, std::vector<std::array<int, 2>>> loops;
-  for (const auto& [e, n] : count)
-    if (n == 1) loops[root(e[0])].push_back(e);
+  for (const auto& e : free) loops[root(e[0])].push_back(e);
   std::vector<std::vector<std::array<int, 2>>> result;
   for (auto& [first, edges] : loops) result.push_back(std::move(edges));
   return result;
@@ -91,7 +87,7 @@ FitLines fit_lines(const Garment& garment, const body::Body& body) {
   double low = 1e300, high = -1e300;
   for (const Vec3& p : garment.position) low = std::min(low, p.y()), high = std::max(high, p.y());
   std::map<std::string, int> seen;
-  for (const auto& loop : free_edges(garment.particle_triangles(), garment.position.size())) {
+  for (const auto& loop : free_loops(garment.particle_triangles(), garment.position.size())) {
     Vec3 center = Vec3::Zero();
     for (const auto& e : loop) center += garment.position[e[0]] / static_cast<double>(loop.size());
     FitHem hem = measure_hem(garment, loop, center);

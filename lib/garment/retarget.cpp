@@ -7,6 +7,7 @@
 #include <garment/bind_laplacian.hpp>
 #include <garment/body_sides.hpp>
 #include <garment/retarget_grade.hpp>
+#include <garment/sleeve_ends.hpp>
 #include <geometry/rotation.hpp>
 #include <geometry/sparse_solver.hpp>
 #include <io/json.hpp>
@@ -144,16 +145,18 @@ io::Json placement_json(const PlacementReport& r) {
 }
 
 int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, const std::vector<Triangle>& triangles, const collision::BodyCollider& body,
-                 double gap, int max_rounds) {
+                 double gap, const std::vector<int>& held, int max_rounds) {
   const std::size_t n = positions.size();
   const std::vector<Vec3> placed = positions;
   const collision::Topology topology = collision::make_topology(n, triangles);
   const SurfaceOperators ops = surface_operators(shape, triangles);
   const Rotations rotations(shape, ops);
-  const double attraction = 1 / (ATTRACTION_LENGTH * ATTRACTION_LENGTH), push_stiffness = CONTACT_STIFFNESS / (CONTACT_LENGTH * CONTACT_LENGTH);
+  const double push_stiffness = CONTACT_STIFFNESS / (CONTACT_LENGTH * CONTACT_LENGTH);
+  std::vector<double> attraction(n, 1 / (ATTRACTION_LENGTH * ATTRACTION_LENGTH));
+  for (int i : held) attraction[i] = push_stiffness;
   Eigen::SparseMatrix<double> free_system = ops.stiffness;
   for (std::size_t i = 0; i < n; ++i)
-    free_system.coeffRef(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += attraction * ops.mass[static_cast<Eigen::Index>(i)];
+    free_system.coeffRef(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += attraction[i] * ops.mass[static_cast<Eigen::Index>(i)];
   const SparseSolver free_solver(free_system);
   SparseSolver solver;
   solver.analyse(ops.stiffness);
@@ -165,7 +168,7 @@ int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, c
       return round;
     Field right = rotations.right_side(positions);
     for (std::size_t i = 0; i < n; ++i)
-      right.row(static_cast<Eigen::Index>(i)) += (attraction * ops.mass[static_cast<Eigen::Index>(i)] * placed[i]).transpose();
+      right.row(static_cast<Eigen::Index>(i)) += (attraction[i] * ops.mass[static_cast<Eigen::Index>(i)] * placed[i]).transpose();
     const Field wanted = free_solver.solve(right);
     Eigen::SparseMatrix<double> system = free_system;
     for (std::size_t i = 0; i < n; ++i) {
@@ -231,7 +234,7 @@ std::string why_stuck(const Garment& garment, const body::Body& body) {
 }
 
 Retargeted retarget(const Garment& garment, const body::Body& to, const collision::BodyCollider& skin, RetargetMode mode, Reporter& reporter) {
-  Retargeted result{garment, {}, {}};
+  Retargeted result{.garment = garment, .placed = {}, .report = {}};
   Garment& g = result.garment;
   g.converged = false;
   const bool keep_fit = mode == RetargetMode::KEEP_FIT;
@@ -252,7 +255,14 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
   report.placed = state_of(g.position, triangles, skin);
   const std::vector<Vec3>& placed = result.placed = g.position;
   // keep-fabric: the cloth wants the shape it had; keep-fit: the shape it was placed in, and is regraded to where the skin lets it lie.
-  report.clear_rounds = settle_shape(g.position, keep_fit ? placed : garment.position, triangles, skin, g.offset_m);
+  const std::vector<Vec3>& shape = keep_fit ? placed : garment.position;
+  report.clear_rounds = settle_shape(g.position, shape, triangles, skin, g.offset_m);
+  if (const std::vector<int> pushed = ends_pushed_on_hands(g, placed, garment.position); !pushed.empty()) {
+    g.position = placed;
+    report.clear_rounds += settle_shape(g.position, shape, triangles, skin, g.offset_m, pushed);
+    result.has_folded_sleeves = true;
+    reporter.info("a sleeve is longer than the arm and narrower than the hand: its end stays at the wrist");
+  }
   if (keep_fit) {
     GradeSides sides;
     for (const SideDifference& d : uneven_sides(to)) sides.apart[d.limb] += (sides.apart[d.limb].empty() ? "" : ", ") + d.text;

@@ -39,9 +39,10 @@ io::Json placement_json(const PlacementReport& report);
 /// (Sorkine and Alexa 2007) plus the squared way from where it was placed over 25 cm, under pushes that keep particles and faces
 /// `gap` off the skin. Quasi-static and without inertia; what strain remains is the drape's.
 /// @param positions #P by 3, m, in and out   @param shape #P by 3, m: the cloth at rest or nearly so
+/// @param held particles that are kept near where they were placed
 /// @return rounds taken; at most max_rounds, what then still touches is left to the drape. About 0.1 s a round for 7k particles.
 int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, const std::vector<Triangle>& triangles, const collision::BodyCollider& body,
-                 double gap, int max_rounds = 40);
+                 double gap, const std::vector<int>& held = {}, int max_rounds = 40);
 
 /// Settled cloth where it will lie once it is pressed to the skin: what was placed within `gap` of it is as near as it was placed, though no
 /// nearer than tight cloth lies, half of the gap. Graded to where settle_shape() pushed it out of the gap, each girth that fits closely would
@@ -59,8 +60,9 @@ std::string why_impossible(const Garment& garment, const body::Body& body);
 std::string why_stuck(const Garment& garment, const body::Body& body);
 
 struct Retargeted {
-  Garment garment;          ///< placed on the new body and clear of its skin, still bound to the old one; converged is false
-  std::vector<Vec3> placed; ///< #P by 3, m: by coordinates alone
+  Garment garment;                 ///< placed on the new body and clear of its skin, still bound to the old one; converged is false
+  std::vector<Vec3> placed;        ///< #P by 3, m: by coordinates alone
+  bool has_folded_sleeves = false; ///< longer than the arms, and their ends are at the wrists: for DrapeSettings::hold_sleeve_ends
   PlacementReport report;
 };
 /// @throws Error INPUT when the garment is not bound or hangs on a part that `to` lacks

@@ -32,14 +32,32 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
   return normals;
 }
 
-std::vector<std::array<int, 2>> edges_of(const std::vector<Triangle>& triangles) {
+namespace {
+
+/// As often as triangles have them.
+std::vector<std::array<int, 2>> sorted_edges(const std::vector<Triangle>& triangles) {
   std::vector<std::array<int, 2>> edges;
   edges.reserve(triangles.size() * 3);
   for (const Triangle& t : triangles)
     for (int k = 0; k < 3; ++k) edges.push_back({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
   std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+} // namespace
+
+std::vector<std::array<int, 2>> edges_of(const std::vector<Triangle>& triangles) {
+  std::vector<std::array<int, 2>> edges = sorted_edges(triangles);
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
+}
+
+std::vector<std::array<int, 2>> free_edges_of(const std::vector<Triangle>& triangles) {
+  const std::vector<std::array<int, 2>> edges = sorted_edges(triangles);
+  std::vector<std::array<int, 2>> free;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if ((i == 0 || edges[i] != edges[i - 1]) && (i + 1 == edges.size() || edges[i] != edges[i + 1])) free.push_back(edges[i]);
+  return free;
 }
 
 std::vector<int> connected_components(std::size_t n_vertices, const std::vector<Triangle>& triangles) {

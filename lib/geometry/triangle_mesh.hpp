@@ -29,6 +29,8 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
 
 /// Undirected edges, each once, as sorted pairs in lexicographic order.
 std::vector<std::array<int, 2>> edges_of(const std::vector<Triangle>& triangles);
+/// Those of them that only one triangle has.
+std::vector<std::array<int, 2>> free_edges_of(const std::vector<Triangle>& triangles);
 
 /// Component number of every vertex (0 is the component of the lowest vertex index); isolated vertices have their own.
 std::vector<int> connected_components(std::size_t n_vertices, const std::vector<Triangle>& triangles);

@@ -142,6 +142,24 @@ TEST(retarget, cloth_that_was_placed_too_long_slides_along_the_skin_to_its_own_l
   EXPECT_LT((high - low) / 0.4 - 1, 0.04); // a tenth, where the skin holds what is near it
 }
 
+TEST(retarget, cloth_that_is_held_at_its_end_does_not_slide_to_its_own_length) {
+  const Garment g = sewn_tube(0.15, 0.4, 0.6);
+  const collision::BodyCollider skin(cylinder(0.148, 1.6));
+  std::vector<Vec3> placed = g.position;
+  for (Vec3& p : placed) p.y() = 0.8 + 0.9 * (p.y() - 0.8); // as on a shorter limb
+  std::vector<int> end;
+  for (std::size_t i = 0; i < placed.size(); ++i)
+    if (g.position[i].y() < 0.63) end.push_back(static_cast<int>(i));
+  double way[2] = {0, 0};
+  for (const bool held : {false, true}) {
+    std::vector<Vec3> x = placed;
+    settle_shape(x, g.position, g.particle_triangles(), skin, 0.003, held ? end : std::vector<int>());
+    for (int i : end) way[held] += (placed[i].y() - x[i].y()) / static_cast<double>(end.size());
+  }
+  EXPECT_GT(way[0], 0.01);
+  EXPECT_LT(std::abs(way[1]), 0.003);
+}
+
 TEST(retarget, cloth_is_graded_as_near_to_the_skin_as_it_was_placed) {
   const collision::BodyCollider skin(cylinder(0.148, 1.6));
   for (const auto& [placed, wanted] : {std::pair{0.1495, 0.0015}, std::pair{0.147, 0.0015}, std::pair{0.156, 0.008}}) {

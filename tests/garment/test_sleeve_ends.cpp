@@ -49,6 +49,39 @@ TEST(SleeveEnds, only_what_ends_near_the_wrist_is_held_and_of_that_the_last_3_cm
   EXPECT_TRUE(hold_sleeve_ends(garment).empty()) << "it ends above the elbow";
 }
 
+TEST(SleeveEnds, that_slid_onto_a_hand_and_are_held_open_by_it_are_told) {
+  body::Body pillar = make_pillar();
+  Garment garment = hung(pillar);
+  garment.bind = bind_as_sleeve(garment, lowest(garment));
+  const std::size_t n_held = hold_sleeve_ends(garment).size();
+  const std::vector<Vec3> placed = garment.position;
+  const double end = lowest(garment) + 0.03;
+  const auto moved = [&](double down, double wider) {
+    Garment there = garment;
+    for (Vec3& p : there.position)
+      if (p.y() < end) p = Vec3(wider * p.x(), p.y() - down, wider * p.z());
+    return ends_pushed_on_hands(there, placed, placed);
+  };
+  EXPECT_EQ(moved(0.02, 1.05).size(), n_held);
+  EXPECT_TRUE(moved(0.02, 1).empty()) << "it is wider than the hand";
+  EXPECT_TRUE(moved(0.005, 1.05).empty()) << "it is where it was placed";
+  EXPECT_TRUE(moved(-0.02, 1.05).empty()) << "it is nearer to the elbow";
+}
+
+TEST(SleeveEnds, are_held_on_a_shorter_arm_until_there_are_folds_above) {
+  body::Body pillar = make_pillar();
+  Garment garment = hung(pillar);
+  garment.bind = bind_as_sleeve(garment, lowest(garment));
+  const double top = lowest(garment) + 0.25;
+  for (Vec3& p : garment.position) p.y() = top + 0.85 * (p.y() - top);
+  DrapeSettings settings;
+  settings.hold_sleeve_ends = true;
+  const DrapeReport report = drape(garment, &pillar, settings, silent_reporter());
+  EXPECT_TRUE(report.converged) << report.stop_reason;
+  EXPECT_GE(pins(report).calls, 40) << "steps without weight and friction";
+  EXPECT_LT(pins(report).calls, report.steps);
+}
+
 TEST(SleeveEnds, are_held_while_the_body_is_inflated_unless_that_is_switched_off) {
   body::Body pillar = make_pillar();
   Garment garment = hung(pillar);

@@ -41,6 +41,13 @@ TEST(TriangleMesh, lists_each_edge_once_in_order) {
   }
 }
 
+TEST(TriangleMesh, lists_the_edges_of_one_triangle_alone) {
+  EXPECT_TRUE(free_edges_of(cube().triangles).empty());
+  const std::vector<std::array<int, 2>> rim = {{0, 1}, {0, 2}, {1, 3}, {2, 3}};
+  EXPECT_EQ(free_edges_of({{0, 1, 2}, {2, 1, 3}}), rim);
+  EXPECT_TRUE(free_edges_of({}).empty());
+}
+
 TEST(TriangleMesh, numbers_components_by_their_lowest_vertex) {
   const std::vector<Triangle> triangles = {{4, 5, 6}, {0, 2, 6}};
   EXPECT_EQ(connected_components(8, triangles), (std::vector<int>{0, 1, 0, 2, 0, 0, 0, 3}));
