@@ -71,6 +71,7 @@ double BodyMotion::free_part(const std::vector<Vec3>& way, double longest) {
   find_carry(way);
   if (!m_self_contact) return m_contact.free_share(x, way, m_carry);
   MotionLimits limits;
+  limits.planes_follow = true;
   limits.reset(x.size());
   std::vector<Vec3> force(x.size(), Vec3::Zero());
   std::vector<ContactElement> elements;

@@ -324,6 +324,7 @@ StepResult ClothSolver::step(const StepOptions& o) {
   if (m_pattern_stale) rebuild_pattern();
   const std::size_t n = m_x.size();
   StepResult result;
+  m_limits.planes_follow = !o.line_search && o.inertia > 0;
   assemble(o.h);
   {
     const Stopwatch watch(assembly_s);

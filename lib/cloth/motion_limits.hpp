@@ -3,7 +3,8 @@
 ///
 /// Two elements (vertex and face, edge and edge) are convex: a plane square to the way between their closest points separates
 /// them. While every particle stays on its element's side, the two cannot cross (conservative bounds as in Offset Geometric
-/// Contact, Chen et al. 2025, with planes for balls, so that sliding along and moving apart are free).
+/// Contact, Chen et al. 2025, with planes for balls, so that sliding along and moving apart are free). A plane between two elements
+/// of cloth may go along its normal as fast as both let it: cloth in folds then moves as one where it flies or is carried.
 /// Test: tests/cloth/test_contact.cpp
 #include <geometry/types.hpp>
 #include <vector>
@@ -22,11 +23,13 @@ struct PlaneGuard {
 
 struct MotionLimits {
   std::vector<PlaneGuard> guards;
-  std::vector<double> most; ///< #P, m: no particle moves farther in this step
+  std::vector<double> most;   ///< #P, m: no particle moves farther in this step
+  bool planes_follow = false; ///< those between cloth and cloth; else they stay where they are, which on the way to rest is as good and sooner done
 
-  void reset(std::size_t n_particles);
-  /// Takes off what of a displacement runs into a plane, then shortens what still breaks a plane or is too long. The present
-  /// positions must keep all guards; then positions + dx do. @param dx #P by 3, m   @param held set to 1 where a plane stopped a particle
+  void reset(std::size_t n_particles); ///< all but planes_follow
+  /// Takes off what of a displacement runs into a plane, then shortens what still breaks a plane or is too long; pushes nothing. The present
+  /// positions must keep all guards; then positions + dx do, those with planes that follow by planes moved along. @param dx #P by 3, m   @param held set to 1
+  /// where a plane stopped a particle
   void apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std::vector<char>& held) const;
 };
 

@@ -10,6 +10,7 @@
 #include <cloth/self_contact.hpp>
 #include <collision/intersections.hpp>
 #include <gtest/gtest.h>
+#include <random>
 
 using namespace sloper;
 using namespace sloper::cloth;
@@ -276,20 +277,22 @@ FallingSheet sheet_above_sheet(double height) {
 }
 
 TEST(Contact, ClothThatFallsTogetherFallsFreely) {
-  FallingSheet s = sheet_above_sheet(0.02);
-  ClothSolver solver(s.mesh, s.x);
-  solver.emplace<EdgeSpringEffect>(s.mesh);
-  solver.emplace<GravityEffect>(s.mesh, Vec3(0, -9.81, 0));
-  solver.emplace<SelfContactEffect>(s.mesh, SelfContactOptions{});
-  StepOptions options;
-  options.inertia = 1;
-  options.largest_move_m = 1;
-  double fallen = 0;
-  for (int k = 1; k <= 8; ++k) {
-    solver.step(options);
-    fallen += 9.81 * k * options.h * options.h;
+  for (const double apart : {0.02, 0.003}) { // out of each other's sight, and near enough for planes between them
+    FallingSheet s = sheet_above_sheet(apart);
+    ClothSolver solver(s.mesh, s.x);
+    solver.emplace<EdgeSpringEffect>(s.mesh);
+    solver.emplace<GravityEffect>(s.mesh, Vec3(0, -9.81, 0));
+    solver.emplace<SelfContactEffect>(s.mesh, SelfContactOptions{});
+    StepOptions options;
+    options.inertia = 1;
+    options.largest_move_m = 1;
+    double fallen = 0;
+    for (int k = 1; k <= 8; ++k) {
+      solver.step(options);
+      fallen += 9.81 * k * options.h * options.h;
+    }
+    for (std::size_t i = 0; i < s.x.size(); ++i) EXPECT_NEAR(s.x[i].y() - solver.x()[i].y(), fallen, 1e-3 * fallen) << apart;
   }
-  for (std::size_t i = 0; i < s.x.size(); ++i) EXPECT_NEAR(s.x[i].y() - solver.x()[i].y(), fallen, 1e-3 * fallen);
 }
 
 TEST(Contact, WhatMayPassPassesUntilItMayNot) {
@@ -399,13 +402,14 @@ TEST_P(ContactFrom, ClothThatMeetsClothInOneStepDoesNotPassIt) {
   options.largest_move_m = 1;
   const std::vector<Triangle> triangles = s.mesh.particle_triangles();
   for (int k = 0; k < 30; ++k) {
+    const std::vector<Vec3> before = solver.x();
     ASSERT_TRUE(solver.step(options).finite);
-    const collision::TriangleTree tree(solver.x(), triangles);
-    ASSERT_TRUE(collision::self_intersections(solver.x(), triangles, tree).empty()) << "step " << k;
-    if (k >= 10) continue; // then they slip off each other
-    double above = 0;      // the sum of the upper sheet's heights over the lower's: a sheet that passes in one step leaves no crossing behind
-    for (std::size_t i = 0; i < s.x.size(); ++i) above += (i < s.x.size() / 2 ? -1 : 1) * solver.x()[i].y();
-    ASSERT_GT(above, 0) << "step " << k;
+    for (int part = 1; part <= 40; ++part) { // a sheet that passes in one step leaves no crossing behind
+      std::vector<Vec3> x = before;
+      for (std::size_t i = 0; i < x.size(); ++i) x[i] += part / 40.0 * (solver.x()[i] - before[i]);
+      const collision::TriangleTree tree(x, triangles);
+      ASSERT_TRUE(collision::self_intersections(x, triangles, tree).empty()) << "step " << k << ", part " << part;
+    }
   }
   EXPECT_GT(contact.far_searches, 0);
 }
@@ -426,6 +430,73 @@ TEST(Contact, LimitsKeepPlanesAndLengths) {
   EXPECT_LE(dx[1].norm(), 0.15 + 1e-12);
   EXPECT_LE(dx[1].x(), 0.2);
   EXPECT_TRUE(held[0] && held[1]);
+}
+
+TEST(Contact, PlanesThatFollowStopOnlyWhatWouldMeet) {
+  MotionLimits limits;
+  limits.reset(2);
+  limits.guards.push_back({2, 1, {0, 1, 0, 0}, Vec3::UnitY(), 0.55, 0.45});
+  const std::vector<Vec3> x = {{0, 1, 0}, {0, 0, 0}};
+  const auto limited = [&](double above, double below, bool follow) {
+    limits.planes_follow = follow;
+    std::vector<Vec3> dx = {{0.1, above, 0}, {-0.1, below, 0}};
+    std::vector<char> held(2, 0);
+    limits.apply(x, dx, held);
+    EXPECT_EQ(held[0], dx[0].y() != above);
+    EXPECT_EQ(held[1], dx[1].y() != below);
+    return Vec2(dx[0].y(), dx[1].y());
+  };
+  EXPECT_EQ(limited(3, 3, true), Vec2(3, 3));
+  EXPECT_EQ(limited(3, 3, false), Vec2(3, 0.45));
+  EXPECT_EQ(limited(-3, -3, true), Vec2(-3, -3));
+  EXPECT_NEAR((limited(3, 5, true) - Vec2(3, 3.9)).norm(), 0, 1e-12) << "the faster one comes up to the other";
+  EXPECT_NEAR((limited(-5, -3, true) - Vec2(-3.9, -3)).norm(), 0, 1e-12);
+  EXPECT_NEAR((limited(-5, 0.2, true) - limited(-5, 0.2, false) - Vec2(-0.25, 0)).norm(), 0, 1e-12) << "one takes the room that the other leaves";
+  EXPECT_EQ(limited(-5, 5, true), limited(-5, 5, false)) << "half the way each";
+}
+
+TEST(Contact, PlanesThatFollowLeaveTheElementsOnTheirSides) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> in(-1, 1);
+  const auto point = [&] { return Vec3(in(random), in(random), in(random)); };
+  for (int round = 0; round < 300; ++round) {
+    constexpr int N = 30;
+    std::vector<Vec3> x(N), dx(N);
+    const Vec3 wind = point();
+    for (Vec3& p : x) p = point();
+    for (Vec3& d : dx) d = wind + 0.5 * point();
+    MotionLimits limits;
+    limits.planes_follow = true;
+    limits.reset(N);
+    for (int i = 0; i < N; i += 7) limits.most[i] = 0.2;
+    for (int g = 0; g < 60; ++g) { // planes that present positions keep, between one and three or two and two, and some that stay
+      PlaneGuard guard;
+      guard.n = 4;
+      guard.n_above = g % 10 == 0 ? 4 : 1 + g % 2;
+      for (int k = 0; k < 4; ++k) guard.particle[k] = static_cast<int>(random() % N);
+      guard.normal = point().normalized();
+      guard.above = 1e300, guard.below = -1e300;
+      for (int k = 0; k < 4; ++k) {
+        const double height = guard.normal.dot(x[guard.particle[k]]);
+        if (k < guard.n_above) guard.above = std::min(guard.above, height - 0.02);
+        else guard.below = std::max(guard.below, height + 0.02);
+      }
+      if (guard.n_above == 4 || guard.above >= guard.below) limits.guards.push_back(guard);
+    }
+    const std::vector<Vec3> wanted = dx;
+    std::vector<char> held(N, 0);
+    limits.apply(x, dx, held);
+    for (int i = 0; i < N; ++i) EXPECT_LE(dx[i].norm(), std::min(wanted[i].norm(), limits.most[i]) + 1e-9);
+    for (const PlaneGuard& g : limits.guards) {
+      double most = 1e300, least = -1e300;
+      for (int k = 0; k < 4; ++k) {
+        const double way = g.normal.dot(x[g.particle[k]] + dx[g.particle[k]]);
+        if (k < g.n_above) most = std::min(most, way - g.above);
+        else least = std::max(least, way - g.below);
+      }
+      EXPECT_LE(g.n_above == 4 ? 0 : least, most + 1e-9);
+    }
+  }
 }
 
 TEST(Contact, WithLineSearchClothComesToRestOnTheTable) {
