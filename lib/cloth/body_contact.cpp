@@ -61,6 +61,7 @@ void BodyContactEffect::weigh_skin() {
     const double area = 0.5 * a.cross(b).norm();
     m_body_face_weight.push_back(area / (area + disc));
     for (int v : t) m_body_vertex_weight[v] += area / 3;
+    m_longest_body_edge = std::max({m_longest_body_edge, a.norm(), b.norm(), (b - a).norm()});
   }
   for (double& w : m_body_vertex_weight) w /= w + edge_disc;
 }

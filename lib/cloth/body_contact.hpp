@@ -64,7 +64,11 @@ public:
   /// 0 before the first step.
   double free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry);
   /// Moves the body (same topology). Anchors of friction go with the skin that they are on.
-  void move_body(const std::vector<Vec3>& positions);
+  /// @param common  m: skin and cloth go this way together, and what was found out about them holds as far as they go other ways
+  void move_body(const std::vector<Vec3>& positions, const Vec3& common = Vec3::Zero());
+  /// The way that skin and cloth have in common when a body walks, where cloth is carried so; 0 where most of it stays: skin that holds
+  /// still is then left alone. @param carry #P by 3, m
+  static Vec3 common_way(const std::vector<Vec3>& carry);
   /// How far beyond the reach pairs are kept, m: wide where skin and cloth pass each other fast.
   void set_slack(double slack_m) { m_options.slack_m = slack_m, m_stale = true; }
   void set_friction(double mu) { m_options.friction = mu; }
@@ -124,6 +128,7 @@ private:
   void add_friction(StepContext& context);
   double friction_energy(const std::vector<Vec3>& x) const; ///< J
   void carry_anchors(const std::vector<Vec3>& positions);
+  double longest_near(const Box3& cloth, const std::vector<Vec3>& way, const Vec3& common) const;
 
   const ClothMesh& m_mesh;
   collision::BodyCollider& m_body;
@@ -133,8 +138,21 @@ private:
   std::vector<int> m_edge_slot;                                 // by edge
   std::vector<double> m_edge_area, m_face_area, m_longest_edge; // by edge, triangle, triangle
   std::vector<double> m_body_face_weight, m_body_vertex_weight; // 0..1
+  double m_longest_body_edge = 0;                               // m, of the skin as it came
+
+  struct Nearing { // a pair that skin or carried cloth moves
+    const Pair* pair;
+    double skin_goes, room; // m: at most; ends that come no nearer than that are left alone
+    int measured = -1;
+  };
+  struct Measured {
+    Closest closest;
+    double skin_toward; // m
+  };
 
   std::vector<Pair> m_pairs;
+  std::vector<Nearing> m_nearing;   // of clear_carry()
+  std::vector<Measured> m_measured; // likewise; few pairs ever need it
   collision::BodyPairs m_found;
   std::vector<Vec3> m_searched_at, m_added_at; // #P by 3, m: where the last search and the last add() saw the cloth
   mutable std::vector<double> m_way;           // #P, m: of each particle since m_added_at, or of a displacement

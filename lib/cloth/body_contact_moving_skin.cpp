@@ -1,6 +1,7 @@
 #include <cloth/body_contact.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 /// Contact with skin that moves: how far it may go before it would pass cloth, and what it takes along.
 namespace sloper::cloth {
@@ -15,17 +16,10 @@ constexpr double SKIN_APPROACH = 1.0 / 3;
 constexpr double MOST_CLEARED = 0.002;
 constexpr int CLEAR_ROUNDS = 12;
 
-/// The way that skin and cloth have in common when a body walks, against which ways are counted; 0 where most of the cloth stays: skin that holds
-/// still is then left alone.
-Vec3 common_way(const std::vector<Vec3>& carry) {
-  Vec3 mean = Vec3::Zero();
-  double longest = 0;
-  for (const Vec3& c : carry) {
-    mean += c / static_cast<double>(carry.size());
-    longest = std::max(longest, c.norm());
-  }
-  return mean.norm() > 0.25 * longest ? mean : Vec3::Zero();
-}
+/// Of the longest carry: where the mean one is shorter, most of the cloth stays.
+constexpr double MOST_STAYS = 0.25;
+/// Skin whose longest edges have grown by this factor in a pose is still seen whole.
+constexpr double STRETCHED_SKIN = 1.5;
 
 std::vector<double> lengths_against(const Vec3& common, const std::vector<Vec3>& ways) {
   std::vector<double> l(ways.size());
@@ -34,6 +28,40 @@ std::vector<double> lengths_against(const Vec3& common, const std::vector<Vec3>&
 }
 
 } // namespace
+
+Vec3 BodyContactEffect::common_way(const std::vector<Vec3>& carry) {
+  Vec3 mean = Vec3::Zero(), median = Vec3::Zero();
+  double longest = 0;
+  for (const Vec3& c : carry) {
+    mean += c / static_cast<double>(carry.size());
+    longest = std::max(longest, c.norm());
+  }
+  if (mean.norm() <= MOST_STAYS * longest) return median;
+  std::vector<double> part;
+  for (int a = 0; a < 3; ++a) { // of what is carried at all: cloth that hangs free is not
+    part.clear();
+    for (const Vec3& c : carry)
+      if (c != Vec3::Zero()) part.push_back(c[a]);
+    const auto middle = part.begin() + static_cast<long>(part.size() / 2);
+    std::nth_element(part.begin(), middle, part.end());
+    median[a] = *middle;
+  }
+  return median;
+}
+
+/// The longest way of skin near cloth, against the common one, m: the rest may go as far as it likes.
+double BodyContactEffect::longest_near(const Box3& cloth, const std::vector<Vec3>& way, const Vec3& common) const {
+  const std::vector<Vec3>& skin = m_body.mesh().positions;
+  const Vec3 margin = Vec3::Constant(m_options.gap_m + m_options.slack_m + STRETCHED_SKIN * m_longest_body_edge);
+  const Vec3 low = cloth.low - margin, high = cloth.high + margin;
+  double longest2 = 0;
+  for (std::size_t v = 0; v < way.size(); ++v) {
+    const Vec3 goes = way[v] - common, to = skin[v] + goes;
+    const bool near = (skin[v].cwiseMin(to).array() <= high.array()).all() && (skin[v].cwiseMax(to).array() >= low.array()).all();
+    if (near) longest2 = std::max(longest2, goes.squaredNorm());
+  }
+  return std::sqrt(longest2);
+}
 
 /// How much nearer a pair's ends come at most, m.
 double BodyContactEffect::approach(const Pair& pair, const std::vector<double>& skin_goes, const std::vector<double>& cloth_goes) {
@@ -58,31 +86,18 @@ double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vect
   if (m_edge_slot.empty()) return 0; // not bound yet: there was no step
   const Vec3 common = common_way(carry);
   const std::vector<double> skin_goes = lengths_against(common, way), cloth_goes = lengths_against(common, carry);
-  double longest = 0, carried = 0;
-  for (const double d : cloth_goes) carried = std::max(carried, d);
-  Vec3 low = Vec3::Constant(1e300), high = -low; // skin that no cloth is near may go as far as it likes
-  const double reach = m_options.gap_m + m_options.slack_m;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    for (const Vec3& p : {x[i], Vec3(x[i] + carry[i])}) {
-      low = low.cwiseMin(p - Vec3::Constant(reach));
-      high = high.cwiseMax(p + Vec3::Constant(reach));
-    }
-  const std::vector<Vec3>& skin = m_body.mesh().positions;
-  for (std::size_t v = 0; v < way.size(); ++v) {
-    const Vec3 to = skin[v] + way[v];
-    const bool near = (skin[v].cwiseMin(to).array() <= high.array()).all() && (skin[v].cwiseMax(to).array() >= low.array()).all();
-    if (near) longest = std::max(longest, skin_goes[v]);
-  }
-  if (longest <= 0 && carried <= 0) return 1;
-  const double seen = USED * (EDGE_REACH * m_options.gap_m + m_options.slack_m);
+  Box3 cloth = bounding_box(x);
+  for (std::size_t i = 0; i < x.size(); ++i) cloth.add(x[i] + carry[i] - common);
+  const double longest = longest_near(cloth, way, common);
+  if (longest <= 0 && *std::max_element(cloth_goes.begin(), cloth_goes.end()) <= 0) return 1;
   begin_step(x, 0);
-  double moved = m_body_moved;
-  for (std::size_t i = 0; i < x.size(); ++i) moved = std::max(moved, m_body_moved + (x[i] - m_searched_at[i]).norm());
-  if (moved > 0.5 * seen) {
-    search(x);
-    moved = 0;
-  }
-  double share = std::min(1.0, (seen - moved) / (longest + carried));
+  const auto room = [&](std::size_t i) { return USED * m_reach_now[i] - m_body_moved - (x[i] - m_searched_at[i]).norm(); }; // m, to come nearer unseen
+  bool enough = true;
+  for (std::size_t i = 0; enough && i < x.size(); ++i) enough = room(i) >= 0.5 * USED * m_reach_now[i];
+  if (!enough) search(x);
+  double share = 1;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (const double nearer = longest + cloth_goes[i], left = room(i); share * nearer > left) share = left / nearer;
   measure_way(x);
   for (const Pair& pair : m_pairs) {
     const double nearer_at_most = approach(pair, skin_goes, cloth_goes);
@@ -103,17 +118,8 @@ double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vect
 void BodyContactEffect::clear_carry(const std::vector<Vec3>& x, const std::vector<Vec3>& way, std::vector<Vec3>& carry) {
   if (m_edge_slot.empty()) return;
   begin_step(x, 0);
-  struct Near {
-    const Pair* pair;
-    double skin_goes, room; // m: at most; ends that come no nearer than that are left alone
-    int measured = -1;
-  };
-  struct Measured {
-    Closest c;
-    double skin_toward; // m
-  };
-  std::vector<Near> near;
-  std::vector<Measured> measured; // few pairs ever need it
+  m_nearing.clear();
+  m_measured.clear();
   measure_way(x);
   const Vec3 common = common_way(carry);
   const std::vector<double> skin_goes = lengths_against(common, way);
@@ -122,22 +128,22 @@ void BodyContactEffect::clear_carry(const std::vector<Vec3>& x, const std::vecto
     if (pair.crossed) continue;
     double skin = 0;
     for (int k = 0; k < pair.n_body; ++k) skin = std::max(skin, skin_goes[pair.body[k]]);
-    near.push_back({&pair, skin, 0.5 * SKIN_APPROACH * (pair.clear - farthest(pair))});
+    m_nearing.push_back({&pair, skin, 0.5 * SKIN_APPROACH * (pair.clear - farthest(pair))});
   }
   const auto measure = [&](const Pair& pair) {
     Measured m = {closest(pair, x), 0};
-    for (int k = 0; m.c.valid && k < pair.n_body; ++k) m.skin_toward += m.c.body_weight[k] * m.c.normal.dot(way[pair.body[k]]);
-    measured.push_back(m);
-    return static_cast<int>(measured.size()) - 1;
+    for (int k = 0; m.closest.valid && k < pair.n_body; ++k) m.skin_toward += m.closest.body_weight[k] * m.closest.normal.dot(way[pair.body[k]]);
+    m_measured.push_back(m);
+    return static_cast<int>(m_measured.size()) - 1;
   };
   for (int round = 0; round < CLEAR_ROUNDS; ++round) {
     bool more = false;
-    for (Near& n : near) {
+    for (Nearing& n : m_nearing) {
       double cloth = 0;
       for (int k = 0; k < n.pair->n; ++k) cloth = std::max(cloth, cloth_goes[n.pair->particle[k]]);
       if (n.skin_goes + cloth <= n.room || n.skin_goes + cloth <= 0) continue;
       if (n.measured < 0) n.measured = measure(*n.pair);
-      const auto& [c, skin_toward] = measured[n.measured];
+      const auto& [c, skin_toward] = m_measured[n.measured];
       if (!c.valid) continue;
       double away = 0, share = 0;
       for (int k = 0; k < n.pair->n; ++k) {
@@ -176,16 +182,21 @@ void BodyContactEffect::carry_anchors(const std::vector<Vec3>& positions) {
   }
 }
 
-void BodyContactEffect::move_body(const std::vector<Vec3>& positions) {
-  double motion = 0;
-  for (std::size_t i = 0; i < positions.size(); ++i) motion = std::max(motion, (positions[i] - m_body.mesh().positions[i]).squaredNorm());
-  motion = std::sqrt(motion);
-  m_body_moved += motion;
+void BodyContactEffect::move_body(const std::vector<Vec3>& positions, const Vec3& common) {
   carry_anchors(positions);
+  Box3 cloth = bounding_box(m_searched_at);
+  std::vector<Vec3> way = m_body.mesh().positions;
+  for (std::size_t v = 0; v < way.size(); ++v) way[v] = positions[v] - way[v];
+  const double motion = longest_near(cloth, way, common);
   m_body.set_positions(positions);
+  m_body_moved += motion;
+  for (std::vector<Vec3>* seen : {&m_searched_at, &m_added_at})
+    for (Vec3& p : *seen) p += common;
   for (Pair& pair : m_pairs) pair.clear -= motion;
-  for (Clearance& c : m_clearance)
+  for (Clearance& c : m_clearance) {
+    c.at += common;
     if (c.distance >= 0) c.distance = std::max(0.0, c.distance - motion);
+  }
 }
 
 } // namespace sloper::cloth

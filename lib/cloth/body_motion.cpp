@@ -29,7 +29,7 @@ double longest_of(const std::vector<Vec3>& way) {
 BodyMotion::BodyMotion(ClothSolver& solver, BodyContactEffect& contact, collision::BodyCollider& body)
     : m_solver(solver), m_contact(contact), m_body(body), m_nearest(solver.x().size(), -1) {
   for (const auto& effect : solver.effects())
-    if (effect->name() == std::string("self_contact")) m_self_contact = effect.get();
+    if (effect->name() == std::string("self_contact")) m_self_contact = static_cast<SelfContactEffect*>(effect.get());
 }
 
 /// As the nearest skin goes: by the way of its triangle, in the barycentric coordinates of the nearest point.
@@ -49,18 +49,22 @@ void BodyMotion::find_carry(const std::vector<Vec3>& way) {
   m_contact.clear_carry(x, way, m_carry);
 }
 
-/// What brings no cloth through cloth, of this share of the carry.
+/// The carry, at the rate of the whole way, that brings no cloth through cloth when it goes this share of it. What all cloth has in common brings
+/// none together.
 std::vector<Vec3> BodyMotion::uncrossing_carry(double share, const MotionLimits& found) const {
   const std::vector<Vec3>& x = m_solver.x();
+  const Vec3 common = BodyContactEffect::common_way(m_carry);
   MotionLimits limits = found;
-  std::vector<Vec3> carry = m_carry;
-  for (Vec3& c : carry) c *= share;
+  std::vector<Vec3> wanted = m_carry;
+  for (Vec3& c : wanted) c = share * (c - common);
+  std::vector<Vec3> carry = wanted;
   std::vector<char> held(x.size(), 0);
   limits.apply(x, carry, held);
   for (int round = 1; round <= GUARD_ROUNDS; ++round) {
     if (!m_self_contact->guard_motion(x, carry, limits, round == GUARD_ROUNDS)) break;
     limits.apply(x, carry, held);
   }
+  for (std::size_t i = 0; i < carry.size(); ++i) carry[i] = carry[i] == wanted[i] ? m_carry[i] : Vec3(carry[i] / share + common);
   return carry;
 }
 
@@ -81,9 +85,9 @@ double BodyMotion::free_part(const std::vector<Vec3>& way, double longest) {
   m_self_contact->add(context);
   std::vector<Vec3> best_carry(x.size(), Vec3::Zero());
   double best = 0;
-  for (double asked = 1;; asked /= ASK_LESS) {
+  for (double asked = std::min(1.0, ASK_LESS * m_last_asked);; asked /= ASK_LESS) {
+    m_last_asked = asked;
     std::vector<Vec3> carry = uncrossing_carry(asked, limits);
-    for (Vec3& c : carry) c /= asked;
     const bool whole = carry == m_carry; // what else stops the skin does so on a shorter way too
     const double share = std::min(asked, m_contact.free_share(x, way, carry));
     if (share > best) best = share, best_carry = std::move(carry);
@@ -106,6 +110,7 @@ StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOption
     for (std::size_t v = 0; v < way.size(); ++v) way[v] = target[v] - skin[v];
     const double longest = longest_of(way);
     if (part == 1) {
+      m_last_asked = 1;
       largest_way_m = std::max(largest_way_m, longest);
       most_parts = MOST_PARTS + static_cast<int>(std::min(longest / SHORTEST_PART, 1e6));
     }
@@ -118,7 +123,9 @@ StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOption
     }
     if (share > 0 && longest > 0) {
       for (std::size_t v = 0; v < way.size(); ++v) skin[v] = share < 1 ? Vec3(skin[v] + share * way[v]) : target[v];
-      m_contact.move_body(skin);
+      const Vec3 common = share * BodyContactEffect::common_way(m_carry);
+      m_contact.move_body(skin, common);
+      if (m_self_contact) m_self_contact->moved_by(common);
     }
     if (force) {
       ++forced;

@@ -10,6 +10,7 @@
 /// as at a deep start; such moments are counted. Test: tests/cloth/test_body_motion.cpp
 #include <cloth/body_contact.hpp>
 #include <cloth/implicit_step.hpp>
+#include <cloth/self_contact.hpp>
 
 #include <functional>
 
@@ -40,7 +41,8 @@ private:
   ClothSolver& m_solver;
   BodyContactEffect& m_contact;
   collision::BodyCollider& m_body;
-  Effect* m_self_contact = nullptr;
+  SelfContactEffect* m_self_contact = nullptr;
+  double m_last_asked = 1;    // share of the way, of the last part
   std::vector<Vec3> m_carry;  // #P, m
   std::vector<int> m_nearest; // #P, triangle of the skin, or -1
 };

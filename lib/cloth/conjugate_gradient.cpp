@@ -120,7 +120,7 @@ CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& precondi
     system.multiply(work.p, work.q, work.pull, work.part);
     for (std::size_t i = 0; i < n; ++i) work.z[i] = b[i] - work.q[i];
     const double after2 = dot(work.z, work.z, work.part);
-    const bool ended = result.bounded || result.near; // by what lets the residual grow
+    const bool ended = result.bounded || result.near || result.iterations >= max_iterations; // by what lets the residual grow
     if (!(ended ? std::isfinite(after2) && (result.bounded || falls(work.p, b, work.z)) : after2 < r_norm2)) {
       result.bounded = result.near = false;
       break;

@@ -15,7 +15,7 @@ struct Push {
   double force = 0, stiffness = 0, energy = 0;
 };
 
-inline constexpr double BARRIER_BEGINS = 0.3, BARRIER_STIFFNESS = 2;
+inline constexpr double BARRIER_BEGINS = 0.3, BARRIER_STIFFNESS = 20;
 /// Below this share of the reach the barrier grows no more; no step brings elements nearer than that.
 inline constexpr double LEAST_DISTANCE = 1e-4;
 

@@ -46,6 +46,10 @@ public:
   const std::vector<std::array<int, 2>>& crossings() const { return m_crossings; }
   /// The same at x, looked for now: pairs that crossed and came apart are watched less closely for a while.
   const std::vector<std::array<int, 2>>& find_crossings(const std::vector<Vec3>& x);
+  /// All particles went this way together, m: what was found out about them holds.
+  void moved_by(const Vec3& common) {
+    for (Vec3& p : m_searched_at) p += common;
+  }
   /// Positions were changed from outside: search before the next step.
   void refresh() { m_stale = m_look_for_crossings = true; }
   long searches = 0;     ///< so far

@@ -340,6 +340,28 @@ TEST(ConjugateGradient, ends_at_a_share_of_the_error_in_the_energy_norm) {
   EXPECT_LE(blind.residual, 1e-6);
 }
 
+TEST(ConjugateGradient, cut_short_keeps_what_it_has_though_the_residual_grew) {
+  const System s = make_system(20, 1);
+  ContactIndex index;
+  index.build(s.elements, s.matrix.size());
+  const LinearSystem system{s.matrix, s.elements, index};
+  CgWork work;
+  std::vector<Vec3> x, product(s.rhs.size());
+  std::vector<double> part;
+  double least = 0;
+  int grew = 0;
+  for (int iterations = 1; iterations <= 12; ++iterations) {
+    Aggregation aggregation;
+    aggregation.update(system);
+    grew += conjugate_gradient(system, aggregation, s.rhs, 1e-9, iterations, x, work).residual > 1;
+    double energy = 0.5 * system.multiply(x, product, work.pull, part);
+    for (std::size_t i = 0; i < x.size(); ++i) energy -= x[i].dot(s.rhs[i]);
+    EXPECT_LT(energy, least) << iterations;
+    least = energy;
+  }
+  EXPECT_GT(grew, 0);
+}
+
 namespace {
 
 /// A space whose r . z rounding has made negative after the first step.

@@ -99,7 +99,7 @@ TEST(Motion, a_body_that_only_walks_on_goes_in_few_parts) {
         parts += f.parts;
       },
       silent_reporter());
-  EXPECT_LE(parts, 100);
+  EXPECT_LE(parts, 95);
 }
 
 TEST(Motion, a_skirt_below_a_skirt_goes_with_the_body_and_the_order_is_kept) {
