@@ -7,6 +7,8 @@
 namespace sloper::pattern {
 namespace {
 
+constexpr double ASIDE = 0.03; // m that a panel is off its seams, from which it was put at another's place
+
 class Layout {
 public:
   Layout(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph, std::vector<PanelRole>& roles)
@@ -77,10 +79,13 @@ private:
     if (trunk) close_level_seams();
   }
 
+  /// Of how far seams go across and up. The sides of a quarter of a circle, which go as far up as across, are upright ones.
+  static bool is_level(const Vec2& along) { return along.x() > 1.05 * along.y(); }
+
   bool upright(std::size_t p, std::size_t q) const {
     Vec2 along = Vec2::Zero();
     for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q))) along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
-    return along.y() > along.x();
+    return !is_level(along);
   }
 
   /// Panels side by side that were attached one to the other, the first of them to a panel whose u is known, as halves of a skirt to its waistband:
@@ -127,10 +132,14 @@ private:
         if (m_roles[p].side != m_roles[q].side && m_roles[p].side != Side::RING && m_roles[q].side != Side::RING) continue;
         if (!same_layer(p, q)) continue;
         Vec2 along = Vec2::Zero();
-        for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q))) along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
-        if (along.x() <= along.y() || along.x() < 0.05) continue; // no seam, an upright or a small one
+        double open = 1e300; // along the seam itself: gores stand aside of what they hang from, and columns that both cover may miss it
+        for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q))) {
+          along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
+          for (const auto& s : seam) open = std::min(open, at(q, s[1]).y() - at(p, s[0]).y());
+        }
+        if (!is_level(along) || along.x() < 0.05) continue; // no seam, an upright or a small one
         const double clearance = m_roles[p].side == m_roles[q].side ? column_clearance(p, q) : bounds(q)[0].y() - bounds(p)[1].y();
-        shift = std::min(shift, clearance - PANEL_GAP);
+        shift = std::min(shift, (open < clearance - ASIDE ? open : clearance) - PANEL_GAP);
       }
       if (shift < 1e299) m_spots[p].offset.y() += shift;
     }
@@ -173,6 +182,7 @@ private:
     }
     const bool same_side = m_roles[p].side == m_roles[q].side;
     m_spots[p].offset += (other - own) / std::max(n, 1);
+    if (same_side && is_level(along)) m_spots[p].offset.x() += off_its_row(p);
     m_done[p] = true;
     if (!same_side) {
       m_spots[p].offset.x() = 0;
@@ -181,10 +191,23 @@ private:
     }
     m_block[p] = m_block[q];
     m_u_known[p] = m_u_known[q];
-    if (!same_layer(p, q)) return;                          // it lies over the other, seam on seam
-    const std::size_t axis = along.x() > along.y() ? 1 : 0; // a level seam parts them in v, an upright one in u
+    if (!same_layer(p, q)) return;                    // it lies over the other, seam on seam
+    const std::size_t axis = is_level(along) ? 1 : 0; // a level seam parts them in v, an upright one in u
     const Vec2 mine = middle_of(p), theirs = middle_of(q);
     part(p, q, static_cast<long>(axis), mine[static_cast<long>(axis)] >= theirs[static_cast<long>(axis)] ? 1 : -1);
+  }
+
+  /// How far in u panel p is from all that it stands on, or hangs from, on its side, m: a bodice over gores is over the middle one, though it
+  /// was put over the first.
+  double off_its_row(std::size_t p) const {
+    double sum = 0, count = 0;
+    for (int neighbour : m_graph.neighbours(static_cast<int>(p))) {
+      const std::size_t o = static_cast<std::size_t>(neighbour);
+      if (!m_done[o] || m_roles[o].region != m_roles[p].region || m_roles[o].side != m_roles[p].side || !same_layer(p, o) || upright(p, o)) continue;
+      for (const auto& seam : m_graph.between(static_cast<int>(p), neighbour))
+        for (const auto& s : seam) sum += at(o, s[1]).x() - at(p, s[0]).x(), ++count;
+    }
+    return std::abs(sum) > ASIDE * count ? sum / count : 0;
   }
 
   Vec2 middle_of(std::size_t p) const {

@@ -26,6 +26,7 @@ PlacementReport Placer::run() {
   if (std::any_of(m_roles.begin(), m_roles.end(), [](const PanelRole& r) { return is_leg(r); })) level_trunk(m_mesh, m_graph, m_roles, m_spots);
   anchor_trunk();
   anchor_neck();
+  make_rings();
   place_all();
   PlacementReport report = push_free();
   for (std::size_t k = 0; k < m_roles.size(); ++k) m_mesh.panels[k].part = m_roles[k].part.empty() ? region_name(m_roles[k].region) : m_roles[k].part;
@@ -62,6 +63,20 @@ void Placer::make_groups() {
 
 void Placer::place_all() {
   for (const PanelGroup& g : m_groups) place_group(g);
+  for (std::size_t ring = 0; ring < m_rings.size(); ++ring) place_gores(ring);
+}
+
+void Placer::make_rings() {
+  m_in_ring.assign(m_roles.size(), 0);
+  m_rings = GoreRing::find(m_mesh, m_graph, m_roles, m_spots);
+  std::vector<Vec3> skin;
+  for (std::size_t v = 0; v < m_space.parts().size() && !m_rings.empty(); ++v)
+    if (const body::Part part = m_space.parts()[v]; part == body::Part::TORSO || part == body::Part::LEG_L || part == body::Part::LEG_R)
+      skin.push_back(m_space.body().skin.positions[v]);
+  for (const GoreRing& ring : m_rings) {
+    m_ring_tubes.emplace_back(ring, skin);
+    for (const Gore& g : ring.gores) m_in_ring[g.panel] = 1;
+  }
 }
 
 std::map<std::pair<int, int>, int> Placer::crossings() const {

@@ -5,6 +5,7 @@
 #include <map>
 #include <pattern/body_space.hpp>
 #include <pattern/folds.hpp>
+#include <pattern/gore_tube.hpp>
 #include <pattern/leg_tube.hpp>
 #include <pattern/panel_layout.hpp>
 #include <pattern/place_panels.hpp>
@@ -43,6 +44,7 @@ private:
 
   // place_panels.cpp
   void make_groups();
+  void make_rings();
   void place_all();
   std::map<std::pair<int, int>, int> crossings() const;
   /// Pushes what crosses apart, arms outwards along their axis, collars up, the smaller of two panels of one side outwards, and
@@ -80,10 +82,6 @@ private:
 
   // wrap_panels.cpp
   template<class Point> void put(std::size_t panel, Point point);
-  /// Angle between a panel's two sides, rad, and its width near the top, m.
-  std::array<double, 2> flare(std::size_t k) const;
-  /// Panels of a group that upright seams lead from one to the other.
-  std::vector<std::vector<std::size_t>> rows_of(const PanelGroup& group) const;
   /// Sum of the widths of the panels of a group that stand beside panel k, itself among them, with a little room between.
   double row_width(const PanelGroup& group, std::size_t k) const;
   /// z in front of which (or behind which, for backs) the wings must stay: past the arms that hang within the panels' reach.
@@ -94,9 +92,9 @@ private:
   void place_in_folds(const PanelGroup& group, std::size_t k, const Sector& sector, const Axis& axis, const std::vector<Vec2>& hull);
   /// Of sleeves cut in one with the panels of a group that lies on this curve.
   std::vector<SleeveBend> sleeve_bends(const PanelGroup& group, const Axis& axis, const WrapCurve& curve) const;
-  /// Gores that widen downwards stand on a cone: each is a sector of it, so that neighbours' sides lie along each other. Not where they
-  /// differ: in where their tops are, as gores and godets do, or in how far off the tip of their cone would be.
-  bool place_on_cone(const PanelGroup& group, const std::vector<std::size_t>& row, const std::vector<Vec2>& hull);
+  /// Panels with flare in the seams between them, row by row joined at the seams: a skirt on a tube that widens as they do, a dress above the
+  /// waist on what its front and back lie on as others do.
+  void place_gores(std::size_t ring);
   /// Height along the arm's axis at which a long sleeve may end: a little beyond the wrist.
   double arm_end(const Axis& axis, bool left) const;
   void place_arm(const PanelGroup& group);
@@ -123,6 +121,9 @@ private:
   double m_raised = 0;
   int m_innermost = 0;               ///< layer
   std::optional<LegTube> m_tubes[2]; ///< right, left
+  std::vector<GoreRing> m_rings;
+  std::vector<GoreTube> m_ring_tubes;
+  std::vector<char> m_in_ring; ///< of each panel
 };
 
 } // namespace sloper::pattern

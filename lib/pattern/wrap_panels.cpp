@@ -2,7 +2,6 @@
 #include <base/units.hpp>
 #include <pattern/arm_tube.hpp>
 #include <pattern/leg_layout.hpp>
-#include <pattern/leg_roles.hpp>
 #include <pattern/placer.hpp>
 
 #include <algorithm>
@@ -53,39 +52,6 @@ template<class Point> void Placer::put(std::size_t panel, Point point) {
   }
 }
 
-std::array<double, 2> Placer::flare(std::size_t k) const {
-  const auto b = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
-  double width[2] = {0, 0};
-  for (int end = 0; end < 2; ++end) {
-    const double line = b[1].y() - (end ? 0.85 : 0.15) * (b[1].y() - b[0].y());
-    double low = 1e300, high = -1e300;
-    const auto& outline = m_mesh.panels[k].outline;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-      const Vec2 p = uv(k, outline[i]), q = uv(k, outline[(i + 1) % outline.size()]);
-      if ((p.y() <= line) == (q.y() <= line)) continue;
-      const double x = p.x() + (line - p.y()) / (q.y() - p.y()) * (q.x() - p.x());
-      low = std::min(low, x), high = std::max(high, x);
-    }
-    width[end] = high - low;
-  }
-  return {2 * std::atan2(0.5 * (width[1] - width[0]), 0.7 * (b[1].y() - b[0].y())), width[0]};
-}
-
-std::vector<std::vector<std::size_t>> Placer::rows_of(const PanelGroup& group) const {
-  std::vector<std::vector<std::size_t>> rows;
-  std::vector<std::size_t> left = group.panels;
-  while (!left.empty()) {
-    std::vector<std::size_t> row = {left[0]};
-    left.erase(left.begin());
-    for (std::size_t i = 0; i < row.size(); ++i)
-      for (std::size_t j = 0; j < left.size();)
-        if (upright_seam(m_mesh, m_graph, m_roles, row[i], left[j])) row.push_back(left[j]), left.erase(left.begin() + static_cast<long>(j));
-        else ++j;
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
 double Placer::row_width(const PanelGroup& group, std::size_t k) const {
   const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
   double sum = 0;
@@ -134,7 +100,10 @@ void Placer::place_in_folds(const PanelGroup& group, std::size_t k, const Sector
   });
 }
 
-void Placer::place_trunk(const PanelGroup& group) {
+void Placer::place_trunk(const PanelGroup& all) {
+  PanelGroup group = all;
+  group.panels.erase(std::remove_if(group.panels.begin(), group.panels.end(), [&](std::size_t k) { return m_in_ring[k] != 0; }), group.panels.end());
+  if (group.panels.empty()) return;
   const auto b = bounds(group);
   std::vector<Part> parts = {Part::TORSO};
   if (b[0].y() < m_space.level("hip", 0.5)) parts.push_back(Part::LEG_L), parts.push_back(Part::LEG_R);
@@ -145,10 +114,7 @@ void Placer::place_trunk(const PanelGroup& group) {
   if (group.side == Side::RING) {
     double widest = 0; // panels of one height stand side by side: what overlaps in v adds up
     for (std::size_t k : group.panels) widest = std::max(widest, row_width(group, k));
-    std::vector<std::size_t> around;
-    for (const auto& row : rows_of(group))
-      if (!place_on_cone(group, row, hull)) around.insert(around.end(), row.begin(), row.end());
-    for (std::size_t k : around) {
+    for (std::size_t k : group.panels) {
       const int depth = m_depth[k];
       if (!curves.count(depth)) curves.emplace(depth, WrapCurve::around(hull, GAP + group.extra + LAYER * depth, widest));
       const WrapCurve& curve = curves.at(depth);
@@ -202,40 +168,45 @@ std::vector<SleeveBend> Placer::sleeve_bends(const PanelGroup& group, const Axis
   return out;
 }
 
-bool Placer::place_on_cone(const PanelGroup& group, const std::vector<std::size_t>& row, const std::vector<Vec2>& hull) {
-  std::vector<std::pair<double, std::size_t>> by_theta;
-  double total = 0, low_top = 1e300, high_top = -1e300, tallest = 0, near_tip = 1e300, far_tip = 0;
-  for (std::size_t k : row) {
-    const auto [angle, top_width] = flare(k);
-    if (angle < 0.03) return false;
-    total += angle;
-    by_theta.push_back({m_roles[k].theta, k});
-    const auto b = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
-    const double tip = 0.5 * top_width / std::tan(0.5 * angle);
-    low_top = std::min(low_top, b[1].y()), high_top = std::max(high_top, b[1].y()), tallest = std::max(tallest, b[1].y() - b[0].y());
-    near_tip = std::min(near_tip, tip), far_tip = std::max(far_tip, tip);
+void Placer::place_gores(std::size_t index) {
+  constexpr double INTO_SKIRT = 0.15; // m below the waist over which a dress goes over to the tube
+  const GoreRing& ring = m_rings[index];
+  GoreTube& tube = m_ring_tubes[index];
+  double extra = 0;
+  for (const Gore& g : ring.gores) extra = std::max(extra, m_groups[m_group_of[g.panel]].extra);
+  // What is on the chest has shoulders or armholes: there is no way all around.
+  const double waist = m_space.level("waist_semantic", 0.63);
+  const bool dress = ring.top > m_space.level("chest_axilla", 0.76) + 0.02;
+  tube.shape(GAP + extra, dress ? waist : 1e300);
+  for (const Side side : {Side::FRONT, Side::BACK, Side::RING}) {
+    std::map<int, WrapCurve> curves;
+    const Axis axis = m_space.trunk(side == Side::BACK);
+    const bool wings = dress && side != Side::RING;
+    double wing = 0;
+    std::vector<Vec2> hull;
+    if (wings) {
+      const double reach = tube.reach(side, waist);
+      const std::array<Vec2, 2> b = {Vec2(-reach, waist - INTO_SKIRT), Vec2(reach, ring.top)};
+      hull = m_space.points(axis, {Part::TORSO, Part::LEG_L, Part::LEG_R}, std::min(b[0].y(), m_space.level("hip", 0.5)) - 0.02, b[1].y() + 0.02);
+      if (hull.size() < 3) hull = m_space.points(axis, {Part::TORSO, Part::LEG_L, Part::LEG_R}, -1, 3);
+      for (const PanelGroup& group : m_groups)
+        if (group.region == Region::TRUNK && group.leg.empty() && group.side == side) wing = wing_limit(group, axis, b, hull);
+    }
+    for (std::size_t k = 0; k < ring.gores.size(); ++k) {
+      const Gore& gore = ring.gores[k];
+      if (gore.side != side) continue;
+      const double out = LAYER * m_depth[gore.panel];
+      if (wings && !curves.count(m_depth[gore.panel]))
+        curves.emplace(m_depth[gore.panel], WrapCurve::front_of(hull, GAP + extra + out, wing + extra + out, FILLET, axis.plane(Vec3(0, 0, 0)).x()));
+      put(gore.panel, [&](const Vec2& p) {
+        const Gore::Place place = gore.at(p);
+        const Vec3 low = tube.at(k, place, out);
+        if (!wings) return low;
+        const double t = std::clamp((waist - place.row) / INTO_SKIRT, 0.0, 1.0), share = t * t * (3 - 2 * t);
+        return Vec3(share * low + (1 - share) * axis.point(curves.at(m_depth[gore.panel]).at(tube.across(k, place)), place.row));
+      });
+    }
   }
-  if (row.size() < 3 || total < 0.3 || total > 5.5 || high_top - low_top > 0.25 * tallest || far_tip > 2 * near_tip) return false;
-  std::sort(by_theta.begin(), by_theta.end());
-  const double slope = std::asin(total / (2 * M_PI)); // half the cone's opening angle
-  const Vec2 center = 0.5 * (Vec2(plane_low(hull), hull_end(hull, -1)) + Vec2(plane_high(hull), hull_end(hull, 1)));
-  double theta = by_theta[0].first - 0.5 * flare(by_theta[0].second)[0] / std::sin(slope);
-  for (auto& [hint, k] : by_theta) {
-    const auto [angle, top_width] = flare(k);
-    const auto b = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
-    const double middle = theta + 0.5 * angle / std::sin(slope), u0 = 0.5 * (b[0].x() + b[1].x());
-    theta += angle / std::sin(slope);
-    const double top = b[1].y(), apex = top - 0.15 * (top - b[0].y()) + 0.5 * top_width / std::tan(0.5 * angle);
-    const double out = GAP + group.extra + LAYER * m_depth[k];
-    const Vec2 push(std::sin(middle) * out, std::cos(middle) * out); // each gore as a whole, so that it keeps its shape
-    put(k, [&](const Vec2& p) {
-      const Vec2 d(p.x() - u0, apex - p.y());
-      const double rho = d.norm(), t = middle + std::atan2(d.x(), d.y()) / std::sin(slope), r = rho * std::sin(slope);
-      const double y = top - (rho - (apex - top)) * std::cos(slope);
-      return Vec3(center.x() + r * std::sin(t) + push.x(), y, center.y() + r * std::cos(t) + push.y());
-    });
-  }
-  return true;
 }
 
 double Placer::arm_end(const Axis& axis, bool left) const {
