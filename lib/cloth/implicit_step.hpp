@@ -74,6 +74,8 @@ public:
   void shift(const std::vector<Vec3>& dx, const std::vector<Vec3>& dv) {
     for (std::size_t i = 0; i < m_x.size(); ++i) m_x[i] += dx[i], m_v[i] += dv[i];
   }
+  /// Lets go what a line search keeps in place for a while, a pinch that would stop all other cloth. @return whether there was any
+  bool thaw();
   void stop() {
     m_v.assign(m_v.size(), Vec3::Zero());
     forget();

@@ -36,6 +36,7 @@ constexpr int UNMOVED_STEPS = 25;        // one after the other in which nothing
 constexpr int MOST_UNTANGLINGS = 8;      // of cloth that crosses itself, half of them before it is at rest
 constexpr int PART_EVERY = 40;           // steps between looks whether cloth still crosses itself or a few faces are still through the skin
 constexpr int JUDGE_EVERY = 10;          // steps between looks whether the garment can still fit
+constexpr double SUNK = 2e-4;            // m that all cloth together may sink, when what was kept in place is let go, and be at rest
 constexpr double NEAR_RESIDUAL = 1;      // weights: below, steps may grow faster
 constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
 
@@ -220,6 +221,15 @@ void DrapeRun::add_load() {
   if (active("friction") && m_self_contact) m_self_contact->set_friction(material.friction_self);
 }
 
+/// Particles that a line search keeps in place for a while may be nails that a skirt hangs by. So rest counts once letting them go moves nothing.
+bool DrapeRun::thaw() {
+  double height = 0;
+  for (const Vec3& p : m_solver->x()) height += p.y() / static_cast<double>(m_solver->x().size());
+  if (m_at.thawed_at && std::abs(height - *m_at.thawed_at) < SUNK) return false;
+  m_at.thawed_at = height;
+  return m_solver->thaw();
+}
+
 void DrapeRun::settle() {
   const Phase phase(*this, "settle");
   m_settling = true;
@@ -227,6 +237,7 @@ void DrapeRun::settle() {
     m_at.phase = DrapePhase::SETTLE;
     m_at.step = 0;
     m_at.h = m_settings.time_step_s;
+    m_at.thawed_at.reset();
     m_at.start_height.clear();
     for (const Vec3& p : m_solver->x()) m_at.start_height.push_back(p.y());
   }
@@ -277,6 +288,10 @@ void DrapeRun::settle() {
     const bool still = speed < m_settings.settle_speed_m_s && residual < m_settings.settle_force_ratio;
     calm = still && k >= glide() ? calm + 1 : 0;
     if (calm < 3) continue;
+    if (thaw()) {
+      calm = 0;
+      continue;
+    }
     if (m_body_contact && m_body_contact->n_crossing() > 0 && ++m_at.pushed < MOST_PUSH_STEPS) continue; // what is through the skin is pushed harder each step
     if (m_coarse) {
       m_reporter.info("at rest on the coarser skin after " + std::to_string(k) + " steps, on to the whole one");

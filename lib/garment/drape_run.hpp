@@ -96,6 +96,7 @@ private:
   void report_effects(); ///< adds the solver's counts to the report
   bool active(const char* effect) const;
   void judge_fit();     ///< stops when the garment is beyond the bounds, and will stay there: drape_judge.cpp
+  bool thaw();          ///< calm cloth, of what may be all that it hangs by: whether there is more to wait for
   bool is_calm() const; ///< the strain hardly changes from look to look, and forces are nearly balanced
   double tension_ratio() const;
   double mean_edge() const; ///< mean rest length of the cloth's edges, m

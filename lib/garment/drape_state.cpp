@@ -112,6 +112,7 @@ Json state_json(const DrapeState& s) {
   j["calm"] = s.calm, j["unmoved"] = s.unmoved, j["pushed"] = s.pushed, j["best_at"] = s.best_at, j["untanglings"] = s.untanglings, j["partings"] = s.partings;
   if (s.best < std::numeric_limits<double>::infinity()) j["best"] = s.best;
   j["start_height"] = s.start_height;
+  if (s.thawed_at) j["thawed_at"] = *s.thawed_at;
   if (s.motion.frame > 0) j["motion"] = motion_json(s.motion);
   return j;
 }
@@ -155,6 +156,7 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   if (node.has("unmoved")) s.unmoved = node.at("unmoved").integer();
   if (node.has("best")) s.best = node.at("best").number();
   s.start_height = read_numbers(node.at("start_height"));
+  if (node.has("thawed_at")) s.thawed_at = node.at("thawed_at").number();
   if (s.phase == DrapePhase::SETTLE && s.start_height.size() != n_particles) node.at("start_height").fail("does not belong to this garment");
   if (node.has("motion") || s.phase == DrapePhase::MOVE) s.motion = read_motion(node.at("motion"));
   if (s.phase == DrapePhase::MOVE && s.motion.velocity.size() != n_particles) node.at("motion").at("velocity").fail("does not belong to this garment");

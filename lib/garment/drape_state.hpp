@@ -57,6 +57,7 @@ struct DrapeState {
   int calm = 0, unmoved = 0, pushed = 0, best_at = 0, untanglings = 0, partings = 0;
   double best = std::numeric_limits<double>::infinity(); ///< least residual so far, weights
   std::vector<double> start_height;                      ///< #P, m, where settling began
+  std::optional<double> thawed_at;                       ///< m, mean height when calm cloth was last let go of what a search kept in place
   MotionState motion;                                    ///< of a drape in motion
 };
 

@@ -24,3 +24,17 @@ case_what_does_not_fit_ends_with_1_under_a_policy_and_with_4_without() {
   grep -q '"state": "placed"' fit.json || fail "the fit report does not say that it was not draped"
   grep -q "as it was placed" fit.html || fail "the page does not say that it was not draped"
 }
+
+# Two particles that were kept in place for a pinch bore four fifths of the skirt's weight, 5 cm down, and it was said to be at rest.
+case_a_skirt_too_wide_slides_to_where_the_hip_bears_it() {
+  local shared=${SLOPER_SHARED:-}/data slip
+  [[ -d $shared ]] || { echo "SKIPPED: SLOPER_SHARED does not name a folder with data"; exit 77; }
+  local folder=${program%/*}
+  run 0 "$folder/scan-landmarks" -q -o f.json "$shared/bodies/smpl/f_smpl_average_A40.obj"
+  run 0 "$folder/scan-landmarks" -q -o slim.json "$shared/bodies/plain/body_008.obj"
+  run 0 "$folder/pattern-mesh" -q --body f.json -o p.json "$shared/patterns/garmentcode/pencil_skirt_f_smpl_average_A40_specification.json"
+  run 0 "$folder/drape" -q --body f.json --panels p.json -o f-skirt.json
+  run 0 "$program" -q --garment f-skirt.json --to slim.json --fit fit.json -o slim-skirt.json
+  slip=$(python3 -c 'import json; print(round(1e3 * json.load(open("fit.json"))["slip_m"]))')
+  ((slip > 90 && slip < 140)) || fail "it slid $slip mm; solved finely, 118"
+}
