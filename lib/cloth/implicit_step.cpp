@@ -232,13 +232,6 @@ void ClothSolver::freeze_held(bool search_failed, bool momentum) {
   }
 }
 
-bool ClothSolver::thaw() {
-  const bool any = std::any_of(m_frozen_for.begin(), m_frozen_for.end(), [](int steps) { return steps > 0; });
-  m_freeze.assign(m_x.size(), 0);
-  m_frozen_for = m_freeze;
-  return any;
-}
-
 std::array<double, 2> ClothSolver::measure_rhs() {
   double all = 0;
   m_residual.clear();

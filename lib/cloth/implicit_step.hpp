@@ -75,7 +75,12 @@ public:
     for (std::size_t i = 0; i < m_x.size(); ++i) m_x[i] += dx[i], m_v[i] += dv[i];
   }
   /// Lets go what a line search keeps in place for a while, a pinch that would stop all other cloth. @return whether there was any
-  bool thaw();
+  bool thaw() {
+    const std::vector<int> none(m_x.size(), 0);
+    const bool any = m_frozen_for != none;
+    m_freeze = m_frozen_for = none;
+    return any;
+  }
   void stop() {
     m_v.assign(m_v.size(), Vec3::Zero());
     forget();
