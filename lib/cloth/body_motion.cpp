@@ -32,18 +32,22 @@ BodyMotion::BodyMotion(ClothSolver& solver, BodyContactEffect& contact, collisio
     if (effect->name() == std::string("self_contact")) m_self_contact = static_cast<SelfContactEffect*>(effect.get());
 }
 
-/// As the nearest skin goes: by the way of its triangle, in the barycentric coordinates of the nearest point.
-void BodyMotion::find_carry(const std::vector<Vec3>& way) {
+/// As the nearest skin goes: by the way of its triangle, in the barycentric coordinates of the nearest point. Cloth that is farther off goes on as it
+/// flies, the more the farther: left behind, it would be torn from what is carried, and no step tells well where from there.
+/// @param time s, that the way takes cloth that flies
+void BodyMotion::find_carry(const std::vector<Vec3>& way, double time) {
   const std::vector<Vec3>& x = m_solver.x();
   m_carry.assign(x.size(), Vec3::Zero());
   parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const collision::SignedDistance d = m_body.signed_distance(x[i], NOT_CARRIED, m_nearest[i]);
       m_nearest[i] = d.triangle;
+      m_carry[i] = time * m_solver.v()[i];
       if (d.triangle < 0) continue;
-      const double far = std::clamp((d.distance - CARRIED_WHOLE) / (NOT_CARRIED - CARRIED_WHOLE), 0.0, 1.0);
+      const double far = std::clamp((d.distance - CARRIED_WHOLE) / (NOT_CARRIED - CARRIED_WHOLE), 0.0, 1.0), share = (1 - far) * (1 - far);
       const Triangle& t = m_body.mesh().triangles[d.triangle];
-      for (int k = 0; k < 3; ++k) m_carry[i] += (1 - far) * (1 - far) * d.barycentric[k] * way[t[k]];
+      m_carry[i] *= 1 - share;
+      for (int k = 0; k < 3; ++k) m_carry[i] += share * d.barycentric[k] * way[t[k]];
     }
   });
   m_contact.clear_carry(x, way, m_carry);
@@ -70,9 +74,9 @@ std::vector<Vec3> BodyMotion::uncrossing_carry(double share, const MotionLimits&
 
 /// The share of its way that the skin can go now, with m_carry that of the whole way at this rate. Cloth between skin and cloth cannot be
 /// carried all the way at once, and would stop the skin within a hair: carried on less of it, it goes with what lies over it.
-double BodyMotion::free_part(const std::vector<Vec3>& way, double longest) {
+double BodyMotion::free_part(const std::vector<Vec3>& way, double longest, double time) {
   const std::vector<Vec3>& x = m_solver.x();
-  find_carry(way);
+  find_carry(way, time);
   if (!m_self_contact) return m_contact.free_share(x, way, m_carry);
   MotionLimits limits;
   limits.planes_follow = true;
@@ -115,7 +119,7 @@ StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOption
       most_parts = MOST_PARTS + static_cast<int>(std::min(longest / SHORTEST_PART, 1e6));
     }
     m_carry = nothing;
-    double share = longest > 0 ? free_part(way, longest) : 1;
+    double share = longest > 0 ? free_part(way, longest, options.inertia * left * options.h) : 1;
     const bool force = part >= most_parts && share < 1;
     if (force) {
       share = 1;

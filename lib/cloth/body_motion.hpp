@@ -1,13 +1,13 @@
 #pragma once
 /// Body motion: a body that moves under cloth, in parts so short that no skin passes cloth that is clear of it.
 ///
-/// Cloth near the skin is first carried along with it, as far as self contact lets it (on less of the way where that is longer), so that a body under taut
-/// cloth meets as little of it as one that stands still. A part of the way ends where skin and carried cloth have come nearer by a third of the distance of any
-/// pair of them (BodyContactEffect::free_share()); then the cloth steps in its share of the time, from where it was carried to but with
-/// the inertia of where it was: (M/h^2 + K) dx = f(x + c) + M (v - c/h) / h, then v = (c + dx)/h, c being the carry. So the carry is
-/// where a step begins to look, and no motion: what swings freely, or slips, does so as without it. Then the next part. Where cloth cannot
-/// give way in many parts (it is pinned, or caught between two limbs) the skin goes through what is left and pushes out what it crosses,
-/// as at a deep start; such moments are counted. Test: tests/cloth/test_body_motion.cpp
+/// Cloth near the skin is first carried along with it, and cloth farther off as it flies, as far as self contact lets it (on less of the way where that
+/// is longer), so that a body under taut cloth meets as little of it as one that stands still. A part of the way ends where skin and carried
+/// cloth have come nearer by a third of the distance of any pair of them (BodyContactEffect::free_share()); then the cloth steps in its share of
+/// the time, from where it was carried to but with the inertia of where it was: (M/h^2 + K) dx = f(x + c) + M (v - c/h) / h, then
+/// v = (c + dx)/h, c being the carry. So the carry is where a step begins to look, and no motion: what swings freely, or slips, does so as
+/// without it. Then the next part. Where cloth cannot give way in many parts (it is pinned, or caught between two limbs) the skin goes through
+/// what is left and pushes out what it crosses, as at a deep start; such moments are counted. Test: tests/cloth/test_body_motion.cpp
 #include <cloth/body_contact.hpp>
 #include <cloth/implicit_step.hpp>
 #include <cloth/self_contact.hpp>
@@ -34,9 +34,9 @@ public:
   double wall_s = 0;        ///< of moving the skin and carrying cloth, without the cloth's steps
 
 private:
-  void find_carry(const std::vector<Vec3>& way);
+  void find_carry(const std::vector<Vec3>& way, double time);
   std::vector<Vec3> uncrossing_carry(double share, const MotionLimits& found) const;
-  double free_part(const std::vector<Vec3>& way, double longest);
+  double free_part(const std::vector<Vec3>& way, double longest, double time);
 
   ClothSolver& m_solver;
   BodyContactEffect& m_contact;

@@ -146,14 +146,14 @@ TEST_F(CheckpointTest, garments_over_each_other_killed_while_one_is_draped_alone
   const std::vector<Garment> start = {make_skirt(0.72, 0.25, 0.05), make_skirt(0.76, 0.15, 0.05)};
   std::vector<Garment> whole = start;
   Killer nobody(1 << 30);
-  const DrapeReport undisturbed = drape_layers(whole, &pillar, {}, nobody, {file("whole.json"), 23});
+  const DrapeReport undisturbed = drape_layers(whole, &pillar, {}, nobody, {file("whole.json"), 7});
   EXPECT_TRUE(undisturbed.converged) << undisturbed.stop_reason;
   std::set<std::size_t> stages;
   const int steps = nobody.asked();
   for (int at : {steps / 8, 3 * steps / 8, 5 * steps / 8, 7 * steps / 8, steps - 2}) { // all together take but a few steps
     std::vector<Garment> killed = start, resumed;
     Killer killer(at);
-    EXPECT_EQ(drape_layers(killed, &pillar, {}, killer, {file("killed.json"), 23}).stop_reason, "stopped by the user");
+    EXPECT_EQ(drape_layers(killed, &pillar, {}, killer, {file("killed.json"), 7}).stop_reason, "stopped by the user");
     const DrapeCheckpoint c = read_checkpoint(file("killed.json"));
     ASSERT_TRUE(c.layers);
     stages.insert(c.layers->alone);
@@ -189,14 +189,14 @@ TEST_F(CheckpointTest, a_body_in_motion_is_gone_on_with_from_between_its_frames_
     frames.push_back({f, g.position});
   };
   const MotionInput walk{"a walk", 30};
-  const DrapeReport undisturbed = drape_in_motion(whole, pillar, moves, {}, keep_and_count, nobody, {file("whole.json"), 25, false, walk});
+  const DrapeReport undisturbed = drape_in_motion(whole, pillar, moves, {}, keep_and_count, nobody, {file("whole.json"), 8, false, walk});
   EXPECT_TRUE(undisturbed.converged) << undisturbed.stop_reason;
   std::set<std::pair<DrapePhase, bool>> places;
   for (int at : {first - 3, first + 5, first + 10, nobody.asked() - 2}) {
     Garment killed = start, resumed;
     Killer killer(at);
     std::vector<Frame> before, after;
-    drape_in_motion(killed, pillar, moves, {}, keep(before), killer, {file("killed.json"), 25, false, walk});
+    drape_in_motion(killed, pillar, moves, {}, keep(before), killer, {file("killed.json"), 8, false, walk});
     const DrapeCheckpoint c = read_checkpoint(file("killed.json"));
     ASSERT_TRUE(c.motion);
     EXPECT_EQ(c.motion->sha256, "a walk");
@@ -237,14 +237,14 @@ TEST_F(CheckpointTest, garments_over_each_other_in_motion_killed_before_and_duri
     EXPECT_EQ(f.self_intersections, 0U) << f.number;
     frames.push_back(g.position);
   };
-  const DrapeReport undisturbed = drape_layers(whole, &pillar, {}, nobody, {file("whole.json"), 23}, &moves, count);
+  const DrapeReport undisturbed = drape_layers(whole, &pillar, {}, nobody, {file("whole.json"), 7}, &moves, count);
   EXPECT_TRUE(undisturbed.converged) << undisturbed.stop_reason;
   ASSERT_EQ(frames.size(), 6U);
   std::set<std::pair<std::size_t, DrapePhase>> places;
   for (int at : {60, first - 3, first + 4}) {
     std::vector<Garment> killed = start, resumed;
     Killer killer(at);
-    drape_layers(killed, &pillar, {}, killer, {file("killed.json"), 23}, &moves);
+    drape_layers(killed, &pillar, {}, killer, {file("killed.json"), 7}, &moves);
     const DrapeCheckpoint c = read_checkpoint(file("killed.json"));
     ASSERT_TRUE(c.layers && c.motion);
     EXPECT_EQ(c.motion->fps, 30);
