@@ -19,8 +19,6 @@ constexpr double DEEPEST = 0.002;
 constexpr double HARDER = 1.3, HARDEST = 100;
 /// The way between a crossed pair is its normal only within 60 degrees of the skin's: beyond, its sign would be noise.
 constexpr double CONE = 0.5;
-/// Distances to the skin are not measured beyond this, m.
-constexpr double FAR = 0.04;
 
 /// Of a crossed pair, d <= 0 below the skin: a spring of constant stiffness beyond the reach.
 Push push_out_of(double d, double reach, double k) {

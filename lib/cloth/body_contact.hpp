@@ -91,6 +91,8 @@ public:
 private:
   /// Reach of edges and faces, as a share of the gap: they matter where the skin bulges between the cloth's vertices.
   static constexpr double EDGE_REACH = 0.5;
+  /// Distances to the skin are not measured beyond this, m.
+  static constexpr double FAR = 0.04;
   /// Cloth is searched for again when a particle has used this share of what it may move unseen.
   static constexpr double USED = 0.6;
   struct Pair {

@@ -49,10 +49,10 @@ Vec3 BodyContactEffect::common_way(const std::vector<Vec3>& carry) {
   return median;
 }
 
-/// The longest way of skin near cloth, against the common one, m: the rest may go as far as it likes.
+/// The longest way of skin near cloth, against the common one, m: what stays out of all distances that are known may go as far as it likes.
 double BodyContactEffect::longest_near(const Box3& cloth, const std::vector<Vec3>& way, const Vec3& common) const {
   const std::vector<Vec3>& skin = m_body.mesh().positions;
-  const Vec3 margin = Vec3::Constant(m_options.gap_m + m_options.slack_m + STRETCHED_SKIN * m_longest_body_edge);
+  const Vec3 margin = Vec3::Constant(std::max(FAR, m_options.gap_m + m_options.slack_m) + STRETCHED_SKIN * m_longest_body_edge);
   const Vec3 low = cloth.low - margin, high = cloth.high + margin;
   double longest2 = 0;
   for (std::size_t v = 0; v < way.size(); ++v) {
