@@ -28,8 +28,9 @@ struct MotionLimits {
 
   void reset(std::size_t n_particles); ///< all but planes_follow
   /// Takes off what of a displacement runs into a plane, then shortens what still breaks a plane or is too long; pushes nothing. The present
-  /// positions must keep all guards; then positions + dx do, those with planes that follow by planes moved along. @param dx #P by 3, m   @param held set to 1
-  /// where a plane stopped a particle
+  /// positions must keep all guards; then positions + dx do, those between cloth and cloth by planes moved along where planes_follow.
+  /// @param x, dx #P by 3, m; no dx grows   @param held #P, set to 1 where a plane stopped a particle
+  /// Cost: a few passes over the guards; with planes_follow as many more as there are guards that hand on what they stop
   void apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std::vector<char>& held) const;
 };
 

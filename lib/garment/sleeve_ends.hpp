@@ -15,6 +15,7 @@ std::vector<cloth::Pin> hold_sleeve_ends(const Garment& garment);
 /// Those of hold_sleeve_ends() that a hand holds open: their edge went at least a centimetre farther from the elbow than it was placed, to where
 /// it is stretched. Such a sleeve is longer than the arm and narrower than the hand: its end belongs where it was placed, and its cloth in folds.
 /// @param garment where it went   @param placed #P by 3, m   @param shape #P by 3, m: as it lay on the body that it is bound to
+/// @return particles
 std::vector<int> ends_pushed_on_hands(const Garment& garment, const std::vector<Vec3>& placed, const std::vector<Vec3>& shape);
 
 } // namespace sloper::garment

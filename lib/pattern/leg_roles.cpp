@@ -151,7 +151,7 @@ bool upright_seam(const PanelMesh& mesh, const SeamGraph& graph, const std::vect
       const Vec2 p = roles[k].turn * mesh.pattern[static_cast<std::size_t>(s[0])];
       low = low.cwiseMin(p), high = high.cwiseMax(p);
     }
-    if (1.05 * (high.y() - low.y()) > high.x() - low.x()) return true; // as the sides of a quarter of a circle, at 45 degrees
+    if (high.y() > low.y() && !goes_level(high - low)) return true;
   }
   return false;
 }

@@ -79,13 +79,10 @@ private:
     if (trunk) close_level_seams();
   }
 
-  /// Of how far seams go across and up. The sides of a quarter of a circle, which go as far up as across, are upright ones.
-  static bool is_level(const Vec2& along) { return along.x() > 1.05 * along.y(); }
-
   bool upright(std::size_t p, std::size_t q) const {
     Vec2 along = Vec2::Zero();
     for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q))) along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
-    return !is_level(along);
+    return !goes_level(along);
   }
 
   /// Panels side by side that were attached one to the other, the first of them to a panel whose u is known, as halves of a skirt to its waistband:
@@ -137,7 +134,7 @@ private:
           along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
           for (const auto& s : seam) open = std::min(open, at(q, s[1]).y() - at(p, s[0]).y());
         }
-        if (!is_level(along) || along.x() < 0.05) continue; // no seam, an upright or a small one
+        if (!goes_level(along) || along.x() < 0.05) continue; // no seam, an upright or a small one
         const double clearance = m_roles[p].side == m_roles[q].side ? column_clearance(p, q) : bounds(q)[0].y() - bounds(p)[1].y();
         shift = std::min(shift, (open < clearance - ASIDE ? open : clearance) - PANEL_GAP);
       }
@@ -182,7 +179,7 @@ private:
     }
     const bool same_side = m_roles[p].side == m_roles[q].side;
     m_spots[p].offset += (other - own) / std::max(n, 1);
-    if (same_side && is_level(along)) m_spots[p].offset.x() += off_its_row(p);
+    if (same_side && goes_level(along)) m_spots[p].offset.x() += off_its_row(p);
     m_done[p] = true;
     if (!same_side) {
       m_spots[p].offset.x() = 0;
@@ -191,8 +188,8 @@ private:
     }
     m_block[p] = m_block[q];
     m_u_known[p] = m_u_known[q];
-    if (!same_layer(p, q)) return;                    // it lies over the other, seam on seam
-    const std::size_t axis = is_level(along) ? 1 : 0; // a level seam parts them in v, an upright one in u
+    if (!same_layer(p, q)) return;                      // it lies over the other, seam on seam
+    const std::size_t axis = goes_level(along) ? 1 : 0; // a level seam parts them in v, an upright one in u
     const Vec2 mine = middle_of(p), theirs = middle_of(q);
     part(p, q, static_cast<long>(axis), mine[static_cast<long>(axis)] >= theirs[static_cast<long>(axis)] ? 1 : -1);
   }

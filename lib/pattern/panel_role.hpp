@@ -1,12 +1,17 @@
 #pragma once
 /// What each panel is on the body: which region it covers, from which side, and how its drawing is turned there. From the pattern's
 /// hints where it gives them, else from names, else from how panels are sewn together.
+#include <cmath>
 #include <pattern/panel_mesh.hpp>
 #include <pattern/pattern.hpp>
 
 namespace sloper::pattern {
 
 inline constexpr double PANEL_GAP = 0.01; ///< m: between neighbouring edges when panels are placed
+
+/// Whether a seam goes more across than up. The sides of a quarter of a circle, which go as far up as across but for rounding, are upright ones.
+/// @param along (across, up) from one end to the other, any unit
+inline bool goes_level(const Vec2& along) { return std::abs(along.x()) > 1.05 * std::abs(along.y()); }
 
 enum class Region { TRUNK, ARM_L, ARM_R, NECK }; ///< TRUNK is everything about the vertical axis: bodice, skirt, trouser legs
 enum class Side { FRONT, BACK, RING };           ///< RING goes around: a one-piece sleeve, a waistband in one piece, side gores

@@ -105,7 +105,7 @@ private:
       const double length = std::sqrt(own.norm() * b.norm());
       if (!(length > 0)) return;
       total += length;
-      const bool level = std::abs(b.x()) > 1.05 * std::abs(b.y()), ring = m_roles[k].side == Side::RING || m_roles[o].side == Side::RING;
+      const bool level = goes_level(b), ring = m_roles[k].side == Side::RING || m_roles[o].side == Side::RING;
       const bool over = level && !ring && m_roles[k].side != m_roles[o].side; // over the shoulders, or between the legs
       for (std::size_t t = 0; t < turns.size(); ++t) {
         const Vec2 a = turns[t] * own;
