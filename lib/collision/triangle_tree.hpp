@@ -55,6 +55,9 @@ public:
   /// @param hint_triangle a triangle that may be near (the last answer), or -1; it changes the cost, never the answer.
   ClosestPoint closest_point(const Vec3& p, double max_distance, int hint_triangle = -1) const;
 
+  /// The least share of the way from a to b at which a triangle, seen from either side, is met, or infinity.
+  double first_hit(const Vec3& a, const Vec3& b) const;
+
   /// Calls visit(triangle) for every triangle whose bounds overlap the box, in no particular but fixed order.
   template<class Visit> void visit_overlaps(const Box3& box, Visit&& visit) const {
     visit_slots(dop_of(box), 0, [&](int slot) { visit(m_triangle_of_slot[slot]); });

@@ -317,7 +317,7 @@ DrapeReport DrapeRun::run() {
     m_report.effects = choose_effects(m_garment, m_body, m_settings);
     if (m_moves) activate("body_motion", "the body moves");
     start_outside_body(unsewn);
-    m_at.disturbed = unsewn || m_at.scale < 1 || m_settings.hold_sleeve_ends;
+    m_at.disturbed = unsewn || m_at.scale < 1 || m_settings.hold_sleeve_ends || m_settings.glides_first;
     if (!unsewn && m_at.disturbed && may_pass("pins"))
       for (const cloth::Pin& pin : hold_sleeve_ends(m_garment)) m_at.held.push_back(pin.target);
     if (unsewn && active("sewing")) sew();
@@ -326,6 +326,7 @@ DrapeReport DrapeRun::run() {
   }
   if (!m_stopped) {
     if (m_at.phase == DrapePhase::START || m_at.phase == DrapePhase::SEW) {
+      let_arms_hang();
       untangle();
       build_solver(false);
       hold_sleeves();

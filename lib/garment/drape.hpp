@@ -34,6 +34,7 @@ struct DrapeSettings {
   std::string effects = "auto"; ///< "auto" or a list
   std::string accuracy = "standard";
   bool hold_sleeve_ends = false; ///< until the cloth above them has found its folds (sleeve_ends.hpp): retarget() says so. Not of the report
+  bool glides_first = false;     ///< free of weight and friction, which would keep strain of the start: drape_layers() says so. Not of the report
 };
 
 /// Where a garment that is not yet at rest stands when it is plain that it will not fit; 0: never.

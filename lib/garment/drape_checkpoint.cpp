@@ -58,11 +58,12 @@ void DrapeRun::resume(const DrapeCheckpoint& c) {
     const Phase phase(*this, "prepare body");
     prepare_body(m_at.covered);
     if (m_at.shrunk) m_shrink.emplace(*m_body);
+    if (m_at.arms_aside) m_forearms.emplace(*m_body);
     if (motion.frame > 0) {
       const std::vector<Vec3> skin = m_moves->skin(motion.frame - 1);
       m_collider->set_positions(as_met(skin));
       if (motion.over) stand_in(skin);
-    } else if (m_at.shrunk) {
+    } else if (m_at.shrunk || m_at.arms_aside) {
       const bool inflating = m_at.phase == DrapePhase::INFLATE;
       if (inflating && m_at.skin.size() != m_collider->mesh().positions.size()) throw input_error(c.file, "", "belongs to another body");
       m_collider->set_positions(inflating ? m_at.skin : skin_at(m_at.scale));

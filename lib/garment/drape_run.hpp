@@ -11,6 +11,7 @@
 #include <garment/covered_skin.hpp>
 #include <garment/drape_state.hpp>
 #include <garment/motion.hpp>
+#include <garment/under_arms.hpp>
 
 #include <chrono>
 #include <optional>
@@ -57,6 +58,7 @@ private:
   std::vector<Vec3> skin_at(double scale) const;                 ///< as the collider has it
   std::vector<Vec3> as_met(const std::vector<Vec3>& skin) const; ///< likewise
   void meet_bare_skin();                                         ///< itself from now on, no mitten and nothing coarse
+  void let_arms_hang();                                          ///< outside of what was sewn while they were aside
   void leave_coarse_skin();                                      ///< no coarse one from now on, while the garment settles
   void build_solver(bool open_seams);                            ///< cloth, effects and solver for the garment as it stands
   void sew();
@@ -66,7 +68,8 @@ private:
   void untangle_now();                        ///< the same in the middle of settling
   std::size_t part_from_body(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, std::vector<Vec3>& move) const;
   std::size_t part_all(int most_rounds, int& rounds);
-  bool part_the_few(); ///< moves the last faces through the skin out of it, while the garment settles; whether there were any
+  bool part_few_at_start(std::size_t trouble); ///< by short moves alone; whether that was enough
+  bool part_the_few();                         ///< moves the last faces through the skin out of it, while the garment settles; whether there were any
   void inflate();
   void settle();
   void follow_motion(); ///< drape_motion.cpp
@@ -113,6 +116,7 @@ private:
   std::optional<CoveredSkin> m_covered; ///< only where cloth is near a hand or foot
   std::optional<CoarseSkin> m_coarse;   ///< of a dense scan, until the cloth is at rest on it
   std::optional<BodyShrink> m_shrink;
+  std::optional<Forearms> m_forearms; ///< while they are aside
   DrapeState m_at;
   Checkpoints m_checkpoints;
   int m_checkpoint_step = 0;   ///< of all steps, where the last one was

@@ -1,5 +1,6 @@
 /// The part of a drape that decides which skin the cloth meets: with hands as mittens and toes in a sock, coarser than a dense scan's, drawn in.
 #include <garment/drape_run.hpp>
+#include <garment/retarget.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -41,8 +42,12 @@ void DrapeRun::start_outside_body(bool unsewn) {
     const auto& panels = m_garment.panels.panels;
     return std::any_of(panels.begin(), panels.end(), [&](const pattern::PanelInfo& p) { return p.part.rfind(begins, 0) == 0; });
   };
-  const unsigned ends = (has_part("arm") ? CoveredSkin::HANDS : 0u) | (has_part("leg") ? CoveredSkin::FEET : 0u);
-  prepare_body(ends ? CoveredSkin(*m_body, ends).concerned(m_garment.position) : 0);
+  if (unsewn && !has_part("arm")) {
+    m_forearms.emplace(*m_body);
+    m_at.arms_aside = m_forearms->are_near(m_garment.position);
+  }
+  prepare_body(CoveredSkin(*m_body, CoveredSkin::HANDS | CoveredSkin::FEET).concerned(m_garment.position) | (m_at.arms_aside ? CoveredSkin::HANDS : 0u));
+  if (m_at.arms_aside) m_collider->set_positions(skin_at(1));
   const std::vector<Triangle> triangles = m_garment.particle_triangles();
   auto trouble = [&] {
     std::size_t count = m_collider->faces_through(m_garment.position, triangles).size();
@@ -57,7 +62,7 @@ void DrapeRun::start_outside_body(bool unsewn) {
     m_at.scale = SEW_LEG_SCALE;
     m_collider->set_positions(skin_at(m_at.scale));
   }
-  if (least == 0) return;
+  if (least == 0 || (!unsewn && part_few_at_start(least))) return;
   m_shrink.emplace(*m_body);
   double best = 1;
   const std::size_t at_start = least;
@@ -79,7 +84,7 @@ void DrapeRun::start_outside_body(bool unsewn) {
 
 std::vector<Vec3> DrapeRun::skin_at(double scale) const {
   const std::vector<Vec3> skin = scale < 1 ? m_shrink->positions(scale) : m_body->skin.positions;
-  return as_met(skin);
+  return as_met(m_at.arms_aside ? m_forearms->drawn_in(skin) : skin);
 }
 
 std::vector<Vec3> DrapeRun::as_met(const std::vector<Vec3>& skin) const {
@@ -92,6 +97,18 @@ void DrapeRun::meet_bare_skin() {
   m_covered.reset();
   m_coarse.reset();
   collide_with(m_body->skin);
+}
+
+void DrapeRun::let_arms_hang() {
+  if (!m_at.arms_aside) return;
+  m_at.arms_aside = false;
+  m_forearms.reset();
+  m_collider->set_positions(skin_at(m_at.scale));
+  const std::vector<Vec3> sewn = m_garment.position;
+  const std::size_t moved = bring_under_arms(m_garment.position, {}, *m_body, m_settings.contact_gap_m);
+  if (moved == 0) return;
+  settle_shape(m_garment.position, sewn, m_garment.particle_triangles(), *m_collider, m_settings.contact_gap_m);
+  m_report.repairs.push_back("sewn: " + std::to_string(moved) + " particles in forearms or hands or beyond them were brought between those and the body");
 }
 
 void DrapeRun::leave_coarse_skin() {

@@ -98,6 +98,7 @@ Json state_json(const DrapeState& s) {
   j["phase"] = PHASES[static_cast<int>(s.phase)];
   j["step"] = s.step;
   j["covered"] = s.covered, j["whole_skin"] = s.whole_skin, j["shrunk"] = s.shrunk, j["disturbed"] = s.disturbed;
+  j["arms_aside"] = s.arms_aside;
   j["scale"] = s.scale;
   j["skin"] = flat(s.skin);
   j["last"] = step_json(s.last);
@@ -131,6 +132,7 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   s.covered = static_cast<unsigned>(covered);
   s.whole_skin = node.has("whole_skin") && node.at("whole_skin").boolean(), s.shrunk = node.at("shrunk").boolean();
   s.disturbed = node.at("disturbed").boolean();
+  s.arms_aside = node.has("arms_aside") && node.at("arms_aside").boolean();
   s.scale = node.at("scale").number();
   s.skin = read_flat(node.at("skin"));
   s.last = read_step(node.at("last"));

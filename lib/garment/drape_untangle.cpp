@@ -18,6 +18,7 @@ constexpr double PART_STEP = 0.004;                    // m: of a particle out o
 constexpr double PART_CLEAR = 5e-4;                    // m: what was in the body ends this far outside
 constexpr int SETTLING_ROUNDS = 60, MOST_PARTINGS = 4; // while the garment settles
 constexpr double FEW = 0.01;                           // of the faces: more is no pinch but a garment too small
+constexpr double FEW_AT_START = 0.03;                  // likewise: nothing pulls yet
 constexpr double PART_REACH = 0.3;                     // m: deeper cloth has no way out along the skin's normal
 
 } // namespace
@@ -115,6 +116,19 @@ std::size_t DrapeRun::part_all(int most_rounds, int& rounds) {
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += move[i];
   }
   return least;
+}
+
+/// A garment that was in order but for a little, as where another was tucked below it: drawing in the body would undo how it hangs.
+bool DrapeRun::part_few_at_start(std::size_t trouble) {
+  if (static_cast<double>(trouble) > FEW_AT_START * static_cast<double>(m_garment.panels.triangles.size())) return false;
+  const std::vector<Vec3> start = m_garment.position;
+  int rounds = 0;
+  if (part_all(SETTLING_ROUNDS, rounds) > 0) {
+    m_garment.position = start;
+    return false;
+  }
+  m_report.repairs.push_back("start: " + std::to_string(trouble) + " vertices or faces in the body moved out");
+  return true;
 }
 
 /// Contact alone does not free cloth whose other side is held too, as in the fold of an arm pit.

@@ -21,30 +21,10 @@ constexpr double NEAR_SKIN = 0.5;  // m: cloth farther from the skin has no orde
 constexpr double LEAST_GAP = 5e-4; // m: inner cloth is not tucked nearer to the skin
 constexpr double PUSH = 5e-4;      // m: apart, of an edge and the face that it crosses, in one round
 constexpr int ROUNDS = 200;
-constexpr double SLACK = 0.001; // m, beyond thickness, by which an outer garment keeps off the skin while it is alone
+constexpr double MUCH_TUCKED = 0.01; // of the particles: an outer garment is stretched by so much cloth below it
+constexpr double SLACK = 0.001;      // m, beyond thickness, by which an outer garment keeps off the skin while it is alone
 
 std::string prefix_of(std::size_t layer) { return "layer " + std::to_string(layer) + ": "; }
-
-/// The least share of the way from a to b at which a triangle is met, or infinity.
-double first_hit(const collision::TriangleTree& tree, const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, const Vec3& a, const Vec3& b) {
-  double least = std::numeric_limits<double>::infinity();
-  const Box3 box = bounding_box({a, b});
-  const Vec3 way = b - a;
-  tree.visit_overlaps(box, [&](int f) {
-    const Triangle& t = triangles[f];
-    const Vec3 e1 = x[t[1]] - x[t[0]], e2 = x[t[2]] - x[t[0]], h = way.cross(e2); // Moeller and Trumbore 1997
-    const double det = e1.dot(h);
-    if (std::abs(det) < 1e-18) return;
-    const Vec3 s = a - x[t[0]];
-    const double u = s.dot(h) / det;
-    if (u < 0 || u > 1) return;
-    const Vec3 q = s.cross(e1);
-    const double v = way.dot(q) / det, at = e2.dot(q) / det;
-    if (v < 0 || u + v > 1 || at < 0 || at > 1) return;
-    least = std::min(least, at);
-  });
-  return least;
-}
 
 /// Moves what of `inner` lies beyond `outer` to below it. The way from the skin is the order; it also shows cloth that is too near.
 void tuck(std::vector<Vec3>& inner, const std::vector<Vec3>& outer, const std::vector<Triangle>& triangles, const collision::BodyCollider& body,
@@ -55,7 +35,7 @@ void tuck(std::vector<Vec3>& inner, const std::vector<Vec3>& outer, const std::v
     for (std::size_t i = begin; i < end; ++i) {
       const collision::SignedDistance d = body.signed_distance(inner[i], NEAR_SKIN);
       if (d.triangle < 0 || d.distance <= 0) continue;
-      const double seen = d.distance + thickness, hit = first_hit(tree, outer, triangles, d.point, d.point + seen * d.normal) * seen;
+      const double seen = d.distance + thickness, hit = tree.first_hit(d.point, d.point + seen * d.normal) * seen;
       if (!(hit < seen)) continue;
       const double keep = std::min(d.distance, std::max(hit - thickness, std::min(LEAST_GAP, 0.5 * hit)));
       moved[i] = hit < d.distance ? d.distance - keep : 0;
@@ -218,7 +198,7 @@ std::vector<std::size_t> order_violations(const std::vector<Garment>& garments, 
     for (std::size_t i = 0; i < k; ++i)
       for (const Vec3& p : garments[i].position) {
         const collision::SignedDistance d = body.signed_distance(p, NEAR_SKIN);
-        count[i] += d.triangle >= 0 && d.distance > 0 && first_hit(tree, outer, triangles, d.point, p) < 1;
+        count[i] += d.triangle >= 0 && d.distance > 0 && tree.first_hit(d.point, p) < 1;
       }
   }
   return count;
@@ -252,6 +232,7 @@ DrapeReport drape_from(LayersProgress& at, const DrapeCheckpoint* from, const bo
   }
   collision::BodyCollider collider = collision::make_collider(body->skin, body->skin_cache.get());
   Garment merged;
+  DrapeSettings joint = at.settings;
   if (!from) {
     const LayerOrder order = order_layers(garments, collider, at.settings.self_thickness_m);
     if (order.tucked > 0)
@@ -259,8 +240,9 @@ DrapeReport drape_from(LayersProgress& at, const DrapeCheckpoint* from, const bo
                            std::to_string(std::lround(1000 * order.farthest_m)) + " mm at most; " + std::to_string(order.crossed) + " crossings of layers, " +
                            std::to_string(order.remain) + " remained");
     merged = merge_layers(garments);
+    joint.glides_first = static_cast<double>(order.tucked) > MUCH_TUCKED * static_cast<double>(merged.position.size());
   }
-  DrapeReport report = drape_one(merged, at.settings, moves);
+  DrapeReport report = drape_one(merged, joint, moves);
   split_layers(merged, garments);
   report.repairs.insert(report.repairs.begin(), at.repairs.begin(), at.repairs.end());
   report.phases.insert(report.phases.begin(), {"garments alone", at.alone_s});

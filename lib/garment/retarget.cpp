@@ -2,18 +2,22 @@
 
 #include <base/error.hpp>
 #include <collision/intersections.hpp>
+#include <collision/skin_cache.hpp>
 #include <garment/bind.hpp>
 #include <garment/bind_frames.hpp>
 #include <garment/bind_laplacian.hpp>
 #include <garment/body_sides.hpp>
+#include <garment/covered_skin.hpp>
 #include <garment/retarget_grade.hpp>
 #include <garment/sleeve_ends.hpp>
+#include <garment/under_arms.hpp>
 #include <geometry/rotation.hpp>
 #include <geometry/sparse_solver.hpp>
 #include <io/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace sloper::garment {
 
@@ -239,6 +243,12 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
   g.converged = false;
   const bool keep_fit = mode == RetargetMode::KEEP_FIT;
   g.position = place_garment(garment, to, keep_fit ? Waist::OF_ALL : Waist::SEMANTIC);
+  std::optional<collision::BodyCollider> mittens;
+  if (const std::size_t moved = bring_under_arms(g.position, hanging_on_arms(g.bind), to, g.offset_m); moved > 0) {
+    reporter.info(std::to_string(moved) + " particles were placed in hands or forearms or beyond them: now between those and the body");
+    mittens.emplace(collision::make_collider(CoveredSkin(to, CoveredSkin::HANDS).mesh(), to.skin_cache.get()));
+  }
+  const collision::BodyCollider& met = mittens ? *mittens : skin;
   const std::vector<Triangle> triangles = g.particle_triangles();
   const auto measure = [&](double& p01, double& p50, double& p99) {
     std::vector<double> stretch;
@@ -256,10 +266,10 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
   const std::vector<Vec3>& placed = result.placed = g.position;
   // keep-fabric: the cloth wants the shape it had; keep-fit: the shape it was placed in, and is regraded to where the skin lets it lie.
   const std::vector<Vec3>& shape = keep_fit ? placed : garment.position;
-  report.clear_rounds = settle_shape(g.position, shape, triangles, skin, g.offset_m);
+  report.clear_rounds = settle_shape(g.position, shape, triangles, met, g.offset_m);
   if (const std::vector<int> pushed = ends_pushed_on_hands(g, placed, garment.position); !pushed.empty()) {
     g.position = placed;
-    report.clear_rounds += settle_shape(g.position, shape, triangles, skin, g.offset_m, pushed);
+    report.clear_rounds += settle_shape(g.position, shape, triangles, met, g.offset_m, pushed);
     result.has_folded_sleeves = true;
     reporter.info("a sleeve is longer than the arm and narrower than the hand: its end stays at the wrist");
   }

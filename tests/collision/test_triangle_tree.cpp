@@ -159,6 +159,21 @@ TEST(TriangleTree, EmptyAndOneTriangleTreesAnswer) {
   EXPECT_EQ(one.closest_point({0.2, 0.2, std::nan("")}, 1).triangle, -1);
 }
 
+TEST(TriangleTree, a_way_meets_the_first_triangle_on_it) {
+  const TriangleMesh mesh = shapes::sphere(3);
+  const TriangleTree tree(mesh.positions, mesh.triangles);
+  Random random(11);
+  for (int i = 0; i < 200; ++i) {
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
+    const Vec3 out = Vec3(x, y, z).normalized();
+    const double hit = tree.first_hit(2 * out, -2 * out); // from both sides the chords lie a little below the unit sphere
+    EXPECT_GT(hit, 0.25 - 1e-9);
+    EXPECT_LT(hit, 0.26);
+    EXPECT_FALSE(tree.first_hit(2 * out, 1.01 * out) <= 1) << "it ends before";
+    EXPECT_LT(tree.first_hit(0.5 * out, 1.5 * out), 0.51) << "from inside too";
+  }
+}
+
 TEST(TriangleTree, ManyEqualTrianglesDoNotUnbalanceIt) {
   TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

@@ -85,8 +85,8 @@ inline Bind bind_as_sleeve(const Garment& garment, double wrist_y) {
   return bind;
 }
 
-/// Front and back rectangle, each half the girth wide, side seams open; `girth` at rest, m.
-inline Garment make_skirt(double girth, double length, double edge, double top_y = 1.02, double distance = 0.25) {
+/// Front and back rectangle, each half the girth wide, side seams open; `girth` at rest, m. @param flare  width of the hem over that of the top
+inline Garment make_skirt(double girth, double length, double edge, double top_y = 1.02, double distance = 0.25, double flare = 1) {
   Garment garment;
   pattern::PanelMesh& p = garment.panels;
   p.name = "test skirt";
@@ -94,14 +94,18 @@ inline Garment make_skirt(double girth, double length, double edge, double top_y
   const int nx = std::max(2, static_cast<int>(std::lround(0.5 * girth / edge))), ny = std::max(2, static_cast<int>(std::lround(length / edge)));
   for (int side = 0; side < 2; ++side)
     add_panel(
-        garment, side ? "back" : "front", nx, ny, [&](int c, int r) { return Vec2(0.5 * girth * (static_cast<double>(c) / nx - 0.5), length * r / ny); },
+        garment, side ? "back" : "front", nx, ny,
+        [&](int c, int r) {
+          const double width = 0.5 * girth * (flare + (1 - flare) * r / ny);
+          return Vec2(width * (static_cast<double>(c) / nx - 0.5), length * r / ny);
+        },
         [&](const Vec2& uv) { return Vec3(side ? -uv.x() : uv.x(), top_y - length + uv.y(), side ? -distance : distance); });
   const int back = p.panels[1].first_vertex;
   for (int end = 0; end < 2; ++end) {
     pattern::MeshSeam seam;
     seam.name = end ? "left" : "right";
     seam.kind = "seam";
-    seam.length_a = seam.length_b = length;
+    seam.length_a = seam.length_b = std::hypot(length, 0.25 * girth * (flare - 1));
     for (int r = 0; r <= ny; ++r) {
       seam.a.push_back(r * (nx + 1) + (end ? nx : 0));
       seam.b.push_back(back + r * (nx + 1) + (end ? 0 : nx));

@@ -76,3 +76,22 @@ TEST(Layers, without_a_body_there_is_no_order_and_the_user_is_told) {
   std::vector<Garment> garments = {tube(1.0, 0.2, 0.05, 0.2), tube(1.0, 0.2, 0.05, 0.22)};
   EXPECT_THROW(drape_layers(garments, nullptr, {}, silent_reporter()), Error);
 }
+
+TEST(Layers, a_little_of_a_garment_in_the_body_moves_out_and_the_body_is_not_drawn_in) {
+  const body::Body pillar = make_pillar(48, 40);
+  Garment skirt = make_skirt(0.76, 0.3, 0.03);
+  ASSERT_TRUE(drape(skirt, &pillar, {}, silent_reporter()).converged);
+  const std::vector<Vec3> rest = skirt.position;
+  const collision::BodyCollider body(pillar.skin);
+  const auto nearer = [&](const Vec3& a, const Vec3& b) { return body.signed_distance(a, 1).distance < body.signed_distance(b, 1).distance; };
+  Vec3& pressed = *std::min_element(skirt.position.begin(), skirt.position.end(), nearer);
+  pressed -= 0.005 * Vec3(pressed.x(), 0, pressed.z()).normalized(); // as where something was tucked below it
+  const DrapeReport report = drape(skirt, &pillar, {}, silent_reporter());
+  EXPECT_TRUE(report.converged) << report.stop_reason;
+  ASSERT_EQ(report.repairs.size(), 1U);
+  EXPECT_NE(report.repairs[0].find("moved out"), std::string::npos) << report.repairs[0];
+  EXPECT_TRUE(audit(skirt, &body).clean());
+  double farthest = 0;
+  for (std::size_t i = 0; i < rest.size(); ++i) farthest = std::max(farthest, (skirt.position[i] - rest[i]).norm());
+  EXPECT_LT(farthest, 0.01) << "it hangs as it did";
+}
