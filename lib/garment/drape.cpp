@@ -38,6 +38,8 @@ constexpr int PART_EVERY = 40;           // steps between looks whether cloth st
 constexpr int JUDGE_EVERY = 10;          // steps between looks whether the garment can still fit
 constexpr double SUNK = 2e-4;            // m that all cloth together may sink, when what was kept in place is let go, and be at rest
 constexpr double NEAR_RESIDUAL = 1;      // weights: below, steps may grow faster
+constexpr double HUNG_SPEED = 0.02;      // m/s: slower, a skirt hangs, and arms that were held up can come down beside it
+constexpr double HUNG_RESIDUAL = 10;     // weights: likewise
 constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
 
 } // namespace
@@ -287,6 +289,12 @@ void DrapeRun::settle() {
     if (k > glide() && k % JUDGE_EVERY == 0) judge_fit();
     const bool still = speed < m_settings.settle_speed_m_s && residual < m_settings.settle_force_ratio;
     calm = still && k >= glide() ? calm + 1 : 0;
+    if (m_at.arms_aside && k > glide() && speed < HUNG_SPEED && residual < HUNG_RESIDUAL) {
+      let_arms_hang();
+      h = m_settings.time_step_s;
+      calm = 0;
+      continue;
+    }
     if (calm < 3) continue;
     if (thaw()) {
       calm = 0;
@@ -308,6 +316,7 @@ void DrapeRun::settle() {
     m_report.stop_reason = "at rest";
     break;
   }
+  if (m_at.arms_aside) let_arms_hang(); // stopped before
 }
 
 DrapeReport DrapeRun::run() {
@@ -326,7 +335,6 @@ DrapeReport DrapeRun::run() {
   }
   if (!m_stopped) {
     if (m_at.phase == DrapePhase::START || m_at.phase == DrapePhase::SEW) {
-      let_arms_hang();
       untangle();
       build_solver(false);
       hold_sleeves();

@@ -58,7 +58,7 @@ private:
   std::vector<Vec3> skin_at(double scale) const;                 ///< as the collider has it
   std::vector<Vec3> as_met(const std::vector<Vec3>& skin) const; ///< likewise
   void meet_bare_skin();                                         ///< itself from now on, no mitten and nothing coarse
-  void let_arms_hang();                                          ///< outside of what was sewn while they were aside
+  void let_arms_hang();                                          ///< outside of what came to hang while they were aside
   void leave_coarse_skin();                                      ///< no coarse one from now on, while the garment settles
   void build_solver(bool open_seams);                            ///< cloth, effects and solver for the garment as it stands
   void sew();

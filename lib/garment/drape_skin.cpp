@@ -38,13 +38,18 @@ void DrapeRun::prepare_body(unsigned covered) {
 void DrapeRun::start_outside_body(bool unsewn) {
   if (!m_body || m_body->skin.triangles.empty()) return;
   const Phase phase(*this, "prepare body");
-  const auto has_part = [&](const char* begins) { // of the garment's panels
-    const auto& panels = m_garment.panels.panels;
-    return std::any_of(panels.begin(), panels.end(), [&](const pattern::PanelInfo& p) { return p.part.rfind(begins, 0) == 0; });
+  const auto of_part = [&](const char* begins) { // the particles of such panels, m
+    std::vector<Vec3> points;
+    for (const pattern::PanelInfo& p : m_garment.panels.panels)
+      for (int v = p.first_vertex; p.part.starts_with(begins) && v < p.first_vertex + p.n_vertices; ++v)
+        points.push_back(m_garment.position[m_garment.particle_of[v]]);
+    return points;
   };
-  if (unsewn && !has_part("arm")) {
+  const bool sewn_on_legs = unsewn && !of_part("leg").empty();
+  if (unsewn) { // a skirt is sewn around the body as if the arms were held up, where no sleeve needs them
     m_forearms.emplace(*m_body);
-    m_at.arms_aside = m_forearms->are_near(m_garment.position);
+    const bool covered = m_forearms->is_covered(body::Part::ARM_L, of_part("arm_l")) || m_forearms->is_covered(body::Part::ARM_R, of_part("arm_r"));
+    m_at.arms_aside = !covered && m_forearms->are_near(of_part("lower_body"));
   }
   prepare_body(CoveredSkin(*m_body, CoveredSkin::HANDS | CoveredSkin::FEET).concerned(m_garment.position) | (m_at.arms_aside ? CoveredSkin::HANDS : 0u));
   if (m_at.arms_aside) m_collider->set_positions(skin_at(1));
@@ -55,9 +60,8 @@ void DrapeRun::start_outside_body(bool unsewn) {
     return count;
   };
   // Trousers are sewn around legs drawn in: between thighs that touch there is no room for a seam to close.
-  const bool tight = unsewn && has_part("leg");
   std::size_t least = trouble();
-  if (least == 0 && tight) {
+  if (least == 0 && sewn_on_legs) {
     m_shrink.emplace(*m_body);
     m_at.scale = SEW_LEG_SCALE;
     m_collider->set_positions(skin_at(m_at.scale));
@@ -100,15 +104,22 @@ void DrapeRun::meet_bare_skin() {
 }
 
 void DrapeRun::let_arms_hang() {
-  if (!m_at.arms_aside) return;
+  m_garment.position = m_solver->x();
+  m_at.contact = m_body_contact->memory();
   m_at.arms_aside = false;
   m_forearms.reset();
   m_collider->set_positions(skin_at(m_at.scale));
-  const std::vector<Vec3> sewn = m_garment.position;
-  const std::size_t moved = bring_under_arms(m_garment.position, {}, *m_body, m_settings.contact_gap_m);
-  if (moved == 0) return;
-  settle_shape(m_garment.position, sewn, m_garment.particle_triangles(), *m_collider, m_settings.contact_gap_m);
-  m_report.repairs.push_back("sewn: " + std::to_string(moved) + " particles in forearms or hands or beyond them were brought between those and the body");
+  const std::vector<Vec3> hung = m_garment.position;
+  std::vector<char> on_arms(hung.size(), 0);
+  for (const pattern::PanelInfo& p : m_garment.panels.panels)
+    for (int v = p.first_vertex; p.part.starts_with("arm") && v < p.first_vertex + p.n_vertices; ++v) on_arms[m_garment.particle_of[v]] = 1;
+  if (const std::size_t moved = bring_under_arms(m_garment.position, on_arms, *m_body, m_settings.contact_gap_m); moved > 0) {
+    settle_shape(m_garment.position, hung, m_garment.particle_triangles(), *m_collider, m_settings.contact_gap_m);
+    m_report.repairs.push_back("arms: " + std::to_string(moved) + " particles in forearms or hands or beyond them were brought between those and the body");
+    untangle();
+    m_at.contact = {};
+  }
+  rebuild();
 }
 
 void DrapeRun::leave_coarse_skin() {

@@ -35,7 +35,7 @@ struct DrapeState {
   int step = 0;            ///< of the phase: the next one
   unsigned covered = 0;    ///< of CoveredSkin::Ends: cloth is near them
   bool whole_skin = false; ///< it meets no coarser one any more
-  bool arms_aside = false; ///< SEW: forearms and hands are not in the way, see Forearms
+  bool arms_aside = false; ///< forearms and hands are not in the way until the garment hangs, see Forearms
   bool shrunk = false;     ///< the body was drawn in at some time
   double scale = 1;        ///< of the body, see BodyShrink
   std::vector<Vec3> skin;  ///< INFLATE: of the body as the cloth meets it, m

@@ -21,16 +21,16 @@ bool overlap(const Box3& a, const Box3& b) { return (a.low.array() <= b.high.arr
 Forearms::Forearms(const body::Body& body) {
   for (const body::Part part : {body::Part::ARM_L, body::Part::ARM_R}) {
     const std::string suffix = part == body::Part::ARM_L ? "_l" : "_r";
-    if (!body.has_landmark("elbow" + suffix) || !body.has_landmark("wrist" + suffix)) continue;
-    Arm arm{body.landmark("elbow" + suffix), {}, {}};
-    const Vec3 down = body.landmark("wrist" + suffix) - arm.elbow;
+    const std::string shoulder = "shoulder_joint" + suffix, elbow = "elbow" + suffix, wrist = "wrist" + suffix;
+    if (!body.has_landmark(shoulder) || !body.has_landmark(elbow) || !body.has_landmark(wrist)) continue;
+    Arm arm{part, body.landmark(elbow), body.landmark(wrist) - body.landmark(elbow), (body.landmark(elbow) - body.landmark(shoulder)).norm(), {}, {}};
     std::vector<char> beyond(body.skin.positions.size(), 0);
     for (std::size_t f = 0; f < body.skin.triangles.size(); ++f) {
       if (body.face_part[f] != part) continue;
       const Triangle& t = body.skin.triangles[f];
       bool all = true;
       for (int v : t) {
-        const bool is_beyond = (body.skin.positions[v] - arm.elbow).dot(down) > 0;
+        const bool is_beyond = (body.skin.positions[v] - arm.elbow).dot(arm.down) > 0;
         if (is_beyond) beyond[v] = 1;
         all &= is_beyond;
       }
@@ -46,8 +46,22 @@ Forearms::Forearms(const body::Body& body) {
 }
 
 bool Forearms::are_near(const std::vector<Vec3>& points) const {
+  if (points.empty()) return false;
   const Box3 box = bounding_box(points);
   return std::any_of(m_arms.begin(), m_arms.end(), [&](const Arm& arm) { return !arm.box.empty() && overlap(box, arm.box); });
+}
+
+bool Forearms::is_covered(body::Part part, const std::vector<Vec3>& sleeve) const {
+  for (const Arm& arm : m_arms) {
+    if (arm.part != part || sleeve.empty()) continue;
+    double low = 1e300, high = -1e300; // m along the forearm
+    for (const Vec3& p : sleeve) {
+      const double along = (p - arm.elbow).dot(arm.down.normalized());
+      low = std::min(low, along), high = std::max(high, along);
+    }
+    return high - low > arm.upper_length + 0.5 * arm.down.norm();
+  }
+  return false;
 }
 
 std::vector<Vec3> Forearms::drawn_in(std::vector<Vec3> skin) const {
@@ -71,7 +85,7 @@ std::size_t bring_under_arms(std::vector<Vec3>& positions, const std::vector<cha
   std::vector<std::size_t> hanging; // on trunk and legs alone
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < positions.size(); ++i)
-    if (on_arms.empty() || !on_arms[i]) hanging.push_back(i), points.push_back(positions[i]);
+    if (!on_arms[i]) hanging.push_back(i), points.push_back(positions[i]);
   const Forearms forearms(body);
   if (hanging.empty() || !forearms.are_near(points)) return 0;
   const CoveredSkin covered(body, CoveredSkin::HANDS);

@@ -7,12 +7,15 @@
 
 namespace sloper::garment {
 
-/// Forearms and hands of a body, of the arms whose elbow and wrist were found.
+/// Forearms and hands of a body, of the arms whose shoulder, elbow and wrist were found.
 class Forearms {
 public:
   explicit Forearms(const body::Body& body);
   /// Whether the box around these points, m, overlaps that of a forearm with its hand.
   bool are_near(const std::vector<Vec3>& points) const;
+  /// Whether a sleeve covers half of its forearm or more, by its length: wherever along the arm it lies before it is sewn.
+  /// @param part ARM_L or ARM_R   @param sleeve points, m; none covers nothing
+  bool is_covered(body::Part part, const std::vector<Vec3>& sleeve) const;
   /// The skin without them, drawn in to the elbows. @param skin as many as the body's has, m
   std::vector<Vec3> drawn_in(std::vector<Vec3> skin) const;
   /// Of the skin.
@@ -20,7 +23,9 @@ public:
 
 private:
   struct Arm {
-    Vec3 elbow;
+    body::Part part;
+    Vec3 elbow, down;          // from there to the wrist, m
+    double upper_length;       // m, of the upper arm
     std::vector<int> vertices; // of the skin, beyond the elbow
     Box3 box;
   };
@@ -33,7 +38,7 @@ std::vector<char> hanging_on_arms(const Bind& bind);
 
 /// Moves particles that lie in a forearm or hand, or beyond it as seen from the trunk and legs, along the way from those to before it.
 /// @param positions #P by 3, m, in and out: the garment around `body`
-/// @param on_arms  by particle: stays; empty: none do
+/// @param on_arms  #P: whether it stays
 /// @param gap  m kept to the arm, less where there is no room
 /// @return particles moved. Cost: nothing where the garment's box is clear of forearms and hands
 std::size_t bring_under_arms(std::vector<Vec3>& positions, const std::vector<char>& on_arms, const body::Body& body, double gap);

@@ -114,6 +114,28 @@ TEST(LineSearch, does_not_wait_for_a_particle_that_is_wedged) {
   EXPECT_LT(spring.energy(solver.x()), 1e-2 * before);
 }
 
+TEST(LineSearch, lets_go_of_a_wedged_particle_when_asked) {
+  const Grid cloth = make_grid(6, 0.1);
+  std::vector<Vec3> start = cloth.x;
+  for (Vec3& p : start) p.y() += 0.001;
+  ClothSolver solver(cloth.mesh, start);
+  solver.emplace<HalfKnownSpring>(cloth.x);
+  Effect& wedge = solver.emplace<Wedge>();
+  EXPECT_FALSE(solver.thaw()) << "nothing was kept in place yet";
+  StepOptions options;
+  options.h = 100;
+  options.line_search = true;
+  for (int k = 0; k < 20; ++k) solver.step(options);
+  solver.remove(wedge); // what wedged it is gone, and the search does not know
+  solver.emplace<PinsEffect>(std::vector<Pin>{{0, cloth.x[0] + Vec3(0, 0.01, 0)}});
+  solver.step(options);
+  EXPECT_LT(solver.x()[0].y(), 2e-4);
+  EXPECT_TRUE(solver.thaw());
+  EXPECT_FALSE(solver.thaw()) << "all was let go";
+  solver.step(options);
+  EXPECT_GT(solver.x()[0].y(), 0.005);
+}
+
 TEST(LineSearch, ends_the_to_and_fro_of_steps_that_each_take_the_last_one_back) {
   const Grid cloth = make_grid(4, 0.1);
   std::vector<Vec3> start = cloth.x;

@@ -25,6 +25,7 @@ body::Body pillar_with_arm() {
   }
   for (const Triangle& t : other.skin.triangles) body.skin.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   body.face_part.resize(body.skin.triangles.size(), body::Part::ARM_L);
+  body.landmarks["shoulder_joint_l"].p = Vec3(ARM_X, 1.18, 0);
   body.landmarks["elbow_l"].p = Vec3(ARM_X, ELBOW_Y, 0);
   body.landmarks["wrist_l"].p = Vec3(ARM_X, WRIST_Y, 0);
   body.landmarks["hand_tip_l"].p = Vec3(ARM_X, TIP_Y, 0);
@@ -51,7 +52,7 @@ TEST(UnderArms, without_an_elbow_nothing_moves) {
   body::Body body = pillar_with_arm();
   body.landmarks.erase("elbow_l");
   std::vector<Vec3> x = {{0.4, 0.9, 0}};
-  EXPECT_EQ(bring_under_arms(x, {}, body, 0.005), 0U);
+  EXPECT_EQ(bring_under_arms(x, {0}, body, 0.005), 0U);
   EXPECT_FALSE(Forearms(body).are_near(x));
 }
 
@@ -65,12 +66,23 @@ TEST(UnderArms, a_forearm_drawn_in_is_at_its_elbow) {
     else EXPECT_EQ(drawn[v], p);
   }
   EXPECT_TRUE(forearms.are_near({{0.3, 0.9, 0.1}, {-0.3, 0.9, -0.1}}));
+  EXPECT_FALSE(forearms.are_near({}));
   EXPECT_FALSE(forearms.are_near({{0.15, 0.9, 0.1}, {-0.3, 0.9, -0.1}}));
+}
+
+TEST(UnderArms, a_long_sleeve_covers_the_forearm) {
+  const Forearms forearms(pillar_with_arm());
+  EXPECT_TRUE(forearms.is_covered(body::Part::ARM_L, {{0.24, 1.2, 0}, {0.24, 0.9, 0}}));
+  EXPECT_TRUE(forearms.is_covered(body::Part::ARM_L, {{0.24, 1.0, 0}, {0.24, 0.7, 0}})) << "wherever it lies";
+  EXPECT_FALSE(forearms.is_covered(body::Part::ARM_L, {{0.24, 1.2, 0}, {0.24, 0.95, 0}}));
+  EXPECT_FALSE(forearms.is_covered(body::Part::ARM_L, {}));
+  EXPECT_FALSE(forearms.is_covered(body::Part::ARM_R, {{0.24, 1.2, 0}, {0.24, 0.7, 0}})) << "it was not found";
 }
 
 TEST(UnderArms, a_wide_skirt_is_sewn_inside_of_a_hanging_arm) {
   const body::Body body = pillar_with_arm();
   Garment skirt = make_skirt(0.74, 0.4, 0.03, 1.02, 0.25, 3);
+  for (pattern::PanelInfo& p : skirt.panels.panels) p.part = "lower_body";
   const DrapeReport report = drape(skirt, &body, {}, silent_reporter());
   EXPECT_TRUE(report.converged) << report.stop_reason;
   const collision::BodyCollider collider(body.skin);
@@ -78,5 +90,5 @@ TEST(UnderArms, a_wide_skirt_is_sewn_inside_of_a_hanging_arm) {
   const auto told = [](const std::string& r) { return r.find("forearms or hands") != std::string::npos; };
   EXPECT_TRUE(std::any_of(report.repairs.begin(), report.repairs.end(), told));
   std::vector<Vec3> x = skirt.position;
-  EXPECT_EQ(bring_under_arms(x, {}, body, 0), 0U) << "nothing of it is beyond the arm";
+  EXPECT_EQ(bring_under_arms(x, std::vector<char>(x.size(), 0), body, 0), 0U) << "nothing of it is beyond the arm";
 }
