@@ -168,7 +168,7 @@ int run_render(cli::Tool& tool, const Options& o) {
   if (o.as == "files" && (o.output == "-" || o.output.rfind("/dev/", 0) == 0))
     throw Error(ErrorKind::USAGE, "", "--as files", "needs a file name to number", "say for example -o turn.png");
   render::DrawOptions options = drawing_options(o);
-  const auto views = views_of(o);
+  auto views = views_of(o);
   const render::Show show = render::parse_show(o.show);
   const std::vector<int> colors = render::parse_colors(o.colors);
   const auto& maps = render::map_names();
@@ -197,6 +197,7 @@ int run_render(cli::Tool& tool, const Options& o) {
   const double left = fits ? render::label_share(scene, show, options.width, options.height) : 0;
   const int legend_width = render::legend_width(legend, options.width, options.height);
   const double right = fits ? left + static_cast<double>(legend_width) / options.width : 0;
+  if (fits && views.size() > 1) render::share_scale(meshes, views, static_cast<double>(options.width) / options.height, left, right);
   if (o.as != "files") render::check_pixels({options.width, options.height}, views.size());
   for (const auto& view : views) {
     if (tool.reporter().stop_requested()) throw Error(ErrorKind::FAILED, o.output, "", "stopped by the user; nothing is written");

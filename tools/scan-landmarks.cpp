@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
   tool.option("--pose-fps", o.pose_fps, "poses per second kept of a BVH motion; 0 keeps all (default: 30)").check(cli::finite_in(0, 1000, "1/s"));
   tool.flag("--anonymise", o.anonymise, "drop the skin and the scan's name; keep landmarks, measurements, frames and bones");
   tool.flag("--explain", o.explain, "print the decision path to stderr");
-  tool.option("-o,--output", o.output, "body.json; body.obj is written beside it").required().check(cli::output_file());
+  tool.option("-o,--output", o.output, "body.json; body.obj is written beside it").required().check(cli::document_file());
   tool.example("scan-landmarks -o body.json scan.obj", "measure a scan; unit, up axis and facing are found out");
   tool.example("scan-landmarks --unit mm --parts parts.u8 -o body.json scan.ply", "measure a scan in millimetres and label its vertices");
   tool.example("scan-landmarks --pose walk.bvh -o body.json scan.obj", "also write the body walking: body.0001.obj, body.0002.obj, ...");

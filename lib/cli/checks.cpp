@@ -52,7 +52,11 @@ Check output_file() {
 
 Check document_file() {
   auto check = [](const std::string& path) -> std::string {
-    return path.empty() ? "an empty file name" : path == "-" ? "the document has a mesh beside it and cannot go to standard output; name a file" : "";
+    if (path.empty()) return "an empty file name";
+    if (path == "-") return "the document has a mesh beside it and cannot go to standard output; name a file";
+    if (path.ends_with(".obj"))
+      return path + " names a mesh, where the document is asked for; say " + path.substr(0, path.size() - 4) + ".json, the mesh comes beside it";
+    return "";
   };
   return {"output_file", "FILE", check};
 }

@@ -95,8 +95,18 @@ void DrapeRun::finish() {
       {"residual", m_at.last.cg.residual},
       {"newton", 1},
       {"rejected_steps", m_at.rejected}};
-  if (m_moves) m_report.quality["motion"] = motion_report();
   m_garment.converged = m_report.converged;
+  if (m_moves) {
+    m_report.quality["motion"] = motion_report();
+    const MotionState& m = m_at.motion;
+    const int bad = *std::max_element(std::begin(m.bad_frames), std::end(m.bad_frames));
+    if (bad > 0 && m_report.converged) {
+      m_report.converged = false;
+      m_report.stop_reason = "at rest in the end, but of " + std::to_string(m.frame) + " frames before " + std::to_string(bad) + " are not clean: at most " +
+                             std::to_string(m.most[0]) + " faces through the body, " + std::to_string(m.most[1]) + " vertices inside it, " +
+                             std::to_string(m.most[2]) + " self intersections";
+    }
+  }
   m_garment.offset_m = m_settings.contact_gap_m;
 }
 

@@ -6,7 +6,10 @@ namespace sloper::garment {
 
 io::Json input_entry(const std::string& path) { return {{"file", io::file_name(path)}, {"sha256", io::sha256(io::read_file(path))}}; }
 
-std::vector<std::string> start_findings(const Garment& garment, const Start& start) {
+namespace {
+
+/// Whether it lies on the body that it was made for, or nothing.
+std::vector<std::string> body_findings(const Garment& garment, const Start& start) {
   const std::string file = io::file_name(start.file), body = io::file_name(start.body);
   if (start.body.empty()) {
     if (garment.body_sha256.empty() && garment.panels.body_sha256.empty()) return {};
@@ -21,6 +24,15 @@ std::vector<std::string> start_findings(const Garment& garment, const Start& sta
   const std::string& around = garment.panels.body_sha256;
   if (around.empty() || around == start.skin_sha256) return {};
   return {"the panels of " + file + " were placed around another body than " + body + place};
+}
+
+} // namespace
+
+std::vector<std::string> start_findings(const Garment& garment, const Start& start) {
+  std::vector<std::string> findings = body_findings(garment, start);
+  if (garment.panels.seams.empty() && garment.panels.panels.size() > 1)
+    findings.push_back(io::file_name(start.file) + " has no seam: nothing holds its " + std::to_string(garment.panels.panels.size()) + " panels together");
+  return findings;
 }
 
 } // namespace sloper::garment

@@ -235,6 +235,11 @@ private:
   }
 
   void check_unsewn() {
+    if (m_pattern.seams.empty() && m_pattern.panels.size() > 1 && m_pattern.source_format != "dxf") { // a DXF often has none: they are guessed
+      add("error", "unsewn-panel", m_pattern.name.empty() ? "pattern" : m_pattern.name,
+          "no seam holds its " + std::to_string(m_pattern.panels.size()) + " panels together");
+      return;
+    }
     std::vector<char> sewn(m_pattern.panels.size(), 0);
     for (const Seam& seam : m_pattern.seams)
       for (const auto* side : {&seam.a, &seam.b})
@@ -269,7 +274,9 @@ io::Json findings_sarif(const std::vector<PatternFinding>& findings, const std::
           {"runs", io::Json::array({io::Json{{"tool", {{"driver", driver}}}, {"results", results}}})}};
 }
 
-bool forbids_sewing(const PatternFinding& f) { return f.severity == "error" && f.rule != "length-mismatch" && f.rule != "wrong-unit" && f.rule != "open-seam"; }
+bool forbids_sewing(const PatternFinding& f) {
+  return f.severity == "error" && f.rule != "length-mismatch" && f.rule != "wrong-unit" && f.rule != "open-seam" && f.rule != "unsewn-panel";
+}
 
 void require_sewable(const Pattern& pattern, const std::string& file) {
   for (const PatternFinding& f : Check(pattern).run(false))

@@ -184,6 +184,7 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNu
 
 std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_out) {
   DxfWriter out;
+  std::vector<std::string> hinted; // panels
   out.tag(0, "SECTION"), out.tag(2, "HEADER"), out.tag(9, "$ACADVER"), out.tag(1, "AC1009"), out.tag(0, "ENDSEC");
   out.tag(0, "SECTION"), out.tag(2, "BLOCKS");
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
@@ -233,8 +234,7 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
       out.mark(notch_layer(n), arc.at(n.at * arc.length()));
     }
     if (panel.layer) left_out.push_back(panel.name + ": that it lies in layer " + std::to_string(panel.layer) + " is not written");
-    if (!panel.hint.part.empty() || panel.hint.theta || panel.hint.anchor || panel.hint.height || panel.hint.rigid)
-      left_out.push_back(panel.name + ": where it is to be placed is not written");
+    if (!panel.hint.part.empty() || panel.hint.theta || panel.hint.anchor || panel.hint.height || panel.hint.rigid) hinted.push_back(panel.name);
     for (const InnerLine& line : panel.lines) {
       const ArcLength arc(line.path);
       const bool bent = line.path.size() > 1 || !line.path[0].line;
@@ -252,6 +252,9 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
     out.entity("LINE", 7), out.point(from), out.tag(11, to.x() * 1000), out.tag(21, to.y() * 1000);
     out.entity("ENDBLK", 1);
   }
+  if (!hinted.empty()) // one line: nearly all panels of a garment have a hint, and names and seams tell most of it again
+    left_out.push_back(hinted[0] + (hinted.size() > 1 ? " and " + std::to_string(hinted.size() - 1) + " more" : "") +
+                       ": where it is to be placed is not written");
   out.tag(0, "ENDSEC"), out.tag(0, "SECTION"), out.tag(2, "ENTITIES");
   for (const Panel& panel : pattern.panels) out.entity("INSERT", 1), out.tag(2, word(panel.name)), out.point(Vec2(0, 0));
   out.text(1, Vec2(0, 0), "Style Name: " + pattern.name);

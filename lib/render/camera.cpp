@@ -105,6 +105,14 @@ Camera frame_beside(const std::vector<DrawMesh>& meshes, const CameraOptions& op
   return camera;
 }
 
+void share_scale(const std::vector<DrawMesh>& meshes, std::vector<std::optional<CameraOptions>>& views, double width_over_height, double left, double right) {
+  double half_height = 0;
+  for (const auto& view : views)
+    if (view) half_height = std::max(half_height, frame_beside(meshes, *view, width_over_height, left, right).half_height);
+  for (auto& view : views)
+    if (view) view->field_height = 2 * half_height;
+}
+
 CameraOptions named_view(const std::string& view) {
   CameraOptions options;
   options.elevation = units::radians(6);

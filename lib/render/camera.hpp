@@ -33,6 +33,9 @@ struct Camera {
 Camera frame_scene(const std::vector<DrawMesh>& meshes, const CameraOptions& options, double width_over_height);
 /// The same with shares of the picture's width left free on its left and right, for labels and a legend.
 Camera frame_beside(const std::vector<DrawMesh>& meshes, const CameraOptions& options, double width_over_height, double left, double right);
+/// Views at the largest scale at which each shows everything, so that a body is as tall on all pictures of a sheet. Arguments as above.
+/// @param views in and out; one that is null is left
+void share_scale(const std::vector<DrawMesh>& meshes, std::vector<std::optional<CameraOptions>>& views, double width_over_height, double left, double right);
 /// Azimuth and elevation of "front", "back", "left", "right", "iso". @throws Error USAGE
 CameraOptions named_view(const std::string& view);
 /// "front,iso,pattern,turntable:36": a camera for each view, none for the pattern laid flat. @throws Error USAGE

@@ -80,29 +80,38 @@ Vec3 middle_of(const Sheet& sheet, const Sheet::Panel& panel) {
   return best;
 }
 
-/// One of the two sides of a seam, as it lies on the sheet.
+/// What one panel has of one side of a seam, as it lies on the sheet.
 struct SeamSide {
   int seam; ///< its place among the garment's
   const pattern::PanelMesh* panels;
-  const std::vector<int>* run; ///< vertices of `panels`, two at least
-  std::vector<Vec2> at;        ///< pixels, of all vertices of `panels`
+  std::vector<int> run; ///< vertices of `panels`, two at least
+  std::vector<Vec2> at; ///< pixels, of all vertices of `panels`
 };
 
-/// Both sides of every seam, in the garments' order.
+int panel_of(const pattern::PanelMesh& panels, int vertex) {
+  const auto owns = [&](const pattern::PanelInfo& p) { return vertex >= p.first_vertex && vertex < p.first_vertex + p.n_vertices; };
+  return static_cast<int>(std::find_if(panels.panels.begin(), panels.panels.end(), owns) - panels.panels.begin());
+}
+
+/// Both sides of every seam, panel by panel, in the garments' order.
 template<class Visit> void for_each_seam_side(const Sheet& sheet, const Camera& camera, const io::Image& image, const Visit& visit) {
   const garment::Garment* done = nullptr;
   for (const Sheet::Panel& panel : sheet.panels) {
     if (panel.garment == done) continue;
     done = panel.garment;
     const pattern::PanelMesh& panels = panel.garment->panels;
-    SeamSide side{0, &panels, nullptr, {}};
+    SeamSide side{0, &panels, {}, {}};
     const int base = panel.first - panel.info->first_vertex;
     for (std::size_t v = 0; v < panels.pattern.size(); ++v)
       side.at.push_back(camera.pixel(sheet.mesh.positions[static_cast<std::size_t>(base) + v], image.width, image.height).head<2>());
     for (const pattern::MeshSeam& seam : panels.seams) {
       for (const std::vector<int>* run : {&seam.a, &seam.b}) {
-        side.run = run;
-        if (run->size() > 1) visit(side);
+        for (std::size_t first = 0, end = 0; first < run->size(); first = end) {
+          const int panel_index = panel_of(panels, (*run)[first]);
+          for (end = first; end < run->size() && panel_of(panels, (*run)[end]) == panel_index;) ++end;
+          side.run.assign(run->begin() + static_cast<long>(first), run->begin() + static_cast<long>(end));
+          if (side.run.size() > 1) visit(side);
+        }
       }
       ++side.seam;
     }
@@ -110,23 +119,22 @@ template<class Visit> void for_each_seam_side(const Sheet& sheet, const Camera& 
 }
 
 void draw_seam(io::Image& image, const SeamSide& side, double width) {
-  for (std::size_t k = 0; k + 1 < side.run->size(); ++k) {
-    const Vec2 &a = side.at[(*side.run)[k]], &b = side.at[(*side.run)[k + 1]];
+  for (std::size_t k = 0; k + 1 < side.run.size(); ++k) {
+    const Vec2 &a = side.at[side.run[k]], &b = side.at[side.run[k + 1]];
     draw_line(image, a.x(), a.y(), b.x(), b.y(), width, seam_color(side.seam));
   }
 }
 
 /// Where the number of a seam's side is written: beside its middle, inside the panel. None where there is no room, in a small picture.
 std::optional<Vec2> number_place(const SeamSide& side, int font) {
-  const std::vector<int>& run = *side.run;
+  const std::vector<int>& run = side.run;
   const std::vector<Vec2>& at = side.at;
   double length = 0;
   for (std::size_t i = 0; i + 1 < run.size(); ++i) length += (at[run[i + 1]] - at[run[i]]).norm();
   const int first = run[(run.size() - 1) / 2], second = run[(run.size() - 1) / 2 + 1];
   const Vec2 &a = at[first], &b = at[second];
   if (!((b - a).norm() > 0) || length < 2 * font) return {};
-  const auto owns = [&](const pattern::PanelInfo& p) { return first >= p.first_vertex && first < p.first_vertex + p.n_vertices; };
-  const pattern::PanelInfo& info = *std::find_if(side.panels->panels.begin(), side.panels->panels.end(), owns);
+  const pattern::PanelInfo& info = side.panels->panels[static_cast<std::size_t>(panel_of(*side.panels, first))];
   double low = 1e9, high = -1e9;
   for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) low = std::min(low, at[v].y()), high = std::max(high, at[v].y());
   if (high - low < 1.2 * font) return {};

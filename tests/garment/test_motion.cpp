@@ -111,6 +111,26 @@ TEST(Motion, cloth_on_a_body_that_walks_on_evenly_hangs_as_on_one_that_stands_st
   EXPECT_LE(parts, 45);
 }
 
+TEST(Motion, frames_that_are_not_clean_are_no_success) {
+  const body::Body pillar = make_pillar(48, 40);
+  Garment skirt = make_skirt(0.75, 0.3, 0.04);
+  ASSERT_TRUE(drape(skirt, &pillar, {}, silent_reporter()).converged);
+  for (const char* panel : {"front", "back"}) skirt.scene.pins.push_back({{panel, Vec2(0, 1), Vec2(1, 1)}, false, Vec3::Zero(), 1e5});
+  BodyMoves moves;
+  moves.n_frames = 12;
+  moves.skin = [&](std::size_t k) { // out of a skirt that is nailed to the air, and back
+    std::vector<Vec3> x = pillar.skin.positions;
+    for (Vec3& p : x) p.x() += 0.05 * static_cast<double>(std::min(k + 1, 11 - std::min<std::size_t>(k, 11)));
+    return x;
+  };
+  std::size_t through = 0;
+  const DrapeReport report = drape_in_motion(
+      skirt, pillar, moves, {}, [&](const MotionFrame& f, const Garment&) { through = std::max(through, f.faces_through); }, silent_reporter());
+  ASSERT_GT(through, 0U);
+  EXPECT_FALSE(report.converged);
+  EXPECT_TRUE(!skirt.converged || report.stop_reason.find("12 frames before") != std::string::npos) << report.stop_reason;
+}
+
 TEST(Motion, a_skirt_below_a_skirt_goes_with_the_body_and_the_order_is_kept) {
   const body::Body pillar = make_pillar(48, 40);
   std::vector<Garment> garments = {make_skirt(0.72, 0.3, 0.04), make_skirt(0.76, 0.2, 0.04)};

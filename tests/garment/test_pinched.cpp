@@ -47,7 +47,7 @@ body::Body two_columns() {
   return body;
 }
 
-/// Two curtains 0.6 mm apart in the slot, held at their top edges, drawn 60 mm into one column at a spot of 20 mm radius.
+/// Two curtains 0.6 mm apart in the slot, held at their top edges, drawn 60 mm into one column at a spot of 30 mm radius: more than is moved out at the start.
 Garment caught_curtains() {
   Garment g;
   g.panels.name = "two curtains";
@@ -64,7 +64,7 @@ Garment caught_curtains() {
   unsew(g);
   std::vector<Vec3> position = g.panels.placed;
   for (Vec3& p : position)
-    if (const double r = (p - Vec3(0, 0.7, 0)).norm(); r < 0.02) p.x() += 0.06 * (1 - r / 0.02);
+    if (const double r = (p - Vec3(0, 0.7, 0)).norm(); r < 0.03) p.x() += 0.06 * (1 - r / 0.03);
   weld(g, position);
   return g;
 }

@@ -67,5 +67,21 @@ TEST(FinishedMeasures, ATubeHasTwoOpeningsAndOneGirth) {
   EXPECT_NEAR(m.seams[0].second, 0.6, 1e-9);
 }
 
+TEST(BadPatterns, panels_without_any_seam_are_an_error_that_can_be_meshed) {
+  Pattern pattern = own(tube_text());
+  pattern.seams.clear();
+  const std::vector<PatternFinding> findings = check_pattern(pattern);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].severity, "error");
+  EXPECT_NE(findings[0].fact.find("2 panels"), std::string::npos) << findings[0].fact;
+  EXPECT_FALSE(forbids_sewing(findings[0]));
+  pattern.panels.pop_back();
+  EXPECT_EQ(check_pattern(pattern).at(0).severity, "info") << "a cloth";
+  pattern = own(tube_text());
+  pattern.seams.clear();
+  pattern.source_format = "dxf";
+  EXPECT_EQ(check_pattern(pattern).at(0).severity, "warning") << "its seams are guessed when it is meshed";
+}
+
 } // namespace
 } // namespace sloper::pattern::test

@@ -165,6 +165,43 @@ TEST(Maps, cloth_without_a_value_has_a_border_of_two_colours) {
   EXPECT_EQ(strange, 0);
 }
 
+TEST(PatternView, a_seam_that_goes_over_two_panels_is_drawn_on_each_and_not_between_them) {
+  garment::Garment three;
+  for (int k = 0; k < 3; ++k) {
+    const garment::Garment one = make_sheet(6, flat);
+    pattern::PanelInfo info = one.panels.panels[0];
+    info.first_vertex = static_cast<int>(three.position.size()), info.first_triangle = static_cast<int>(three.panels.triangles.size());
+    for (const Triangle& t : one.panels.triangles)
+      three.panels.triangles.push_back({t[0] + info.first_vertex, t[1] + info.first_vertex, t[2] + info.first_vertex});
+    for (int i : one.particle_of) three.particle_of.push_back(i + info.first_vertex);
+    three.panels.panels.push_back(info);
+    three.panels.pattern.insert(three.panels.pattern.end(), one.panels.pattern.begin(), one.panels.pattern.end());
+    three.panels.ids.insert(three.panels.ids.end(), one.panels.ids.begin(), one.panels.ids.end());
+    three.position.insert(three.position.end(), one.position.begin(), one.position.end());
+  }
+  three.panels.placed = three.position;
+  DrawOptions options;
+  options.width = 900, options.height = 300;
+  const io::Image without = draw_pattern(scene_of({three}), options);
+  pattern::MeshSeam seam; // all of the first panel's left edge, and halves of the others', which lie beside each other on the sheet
+  for (int r = 0; r <= 6; ++r) seam.a.push_back(7 * r), seam.b.push_back(7 * r + (r <= 3 ? 49 : 98));
+  three.panels.seams = {seam};
+  const io::Image with = draw_pattern(scene_of({three}), options);
+  const auto same = [](const std::uint8_t* a, const std::uint8_t* b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; };
+  int gaps = 0, drawn = 0, crossed = 0;
+  for (int x = 0; x < with.width; ++x) {
+    bool empty = true, changed = false;
+    for (int y = 0; y < 250; ++y) { // above the scale's bar
+      empty = empty && same(without.at(x, y), without.at(0, 0));
+      changed = changed || !same(without.at(x, y), with.at(x, y));
+    }
+    gaps += empty, drawn += changed, crossed += empty && changed;
+  }
+  EXPECT_LT(crossed, 15) << "the width of the lines beside the panels";
+  EXPECT_GT(gaps, 30);
+  EXPECT_GT(drawn, 10);
+}
+
 TEST(Maps, what_a_map_needs_is_named) {
   Scene scene = scene_of({make_sheet(2, flat)});
   EXPECT_THROW(apply_map(scene, Map::GAP), Error);

@@ -111,6 +111,26 @@ TEST(Camera, a_point_goes_where_the_picture_shows_it) {
   }
 }
 
+TEST(Camera, views_that_share_a_scale_show_all_from_all_sides) {
+  std::vector<DrawMesh> meshes{make_ball()};
+  for (Vec3& p : meshes[0].positions) p.x() *= 4; // arms out
+  std::vector<std::optional<CameraOptions>> views = {named_view("front"), named_view("left"), std::nullopt, named_view("iso")};
+  share_scale(meshes, views, 0.75, 0, 0);
+  EXPECT_FALSE(views[2]);
+  double widest = 0;
+  for (const auto& view : views) {
+    if (!view) continue;
+    const Camera camera = frame_scene(meshes, *view, 0.75);
+    EXPECT_NEAR(camera.half_height, frame_scene(meshes, *views[0], 0.75).half_height, 1e-12);
+    for (const Vec3& p : meshes[0].positions) {
+      const Vec3 at = camera.pixel(p, 300, 400);
+      EXPECT_TRUE(at.x() > 0 && at.x() < 300 && at.y() > 0 && at.y() < 400);
+      widest = std::max(widest, std::abs(at.x() - 150));
+    }
+  }
+  EXPECT_GT(widest, 120) << "and no smaller than need be";
+}
+
 TEST(Camera, a_document_with_an_unknown_key_or_an_absurd_angle_is_refused) {
   const std::string path = std::string(SLOPER_BINARY_DIR) + "/camera.json";
   io::write_file(path, R"({"azimuth_deg": 90, "orthographic": true})");

@@ -15,6 +15,12 @@ case_a_scan_is_never_written_over() {
   [[ ! -e out.json && ! -e other.json ]] || fail "something was written"
 }
 
+case_a_document_is_not_named_as_a_mesh() {
+  run 2 "$program" -o out.obj a.ply
+  says "out.obj names a mesh, where the document is asked for; say out.json"
+  [[ ! -e out.obj && ! -e out.obj.obj ]] || fail "something was written"
+}
+
 case_rules_of_another_kind_are_told_as_such() {
   run 3 "$program" --rules "$data/a.body.json" -o out.json a.ply
   says 'is a "body" document; give rules as'
