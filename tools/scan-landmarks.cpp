@@ -38,6 +38,21 @@ void strike_pose(cli::Tool& tool, const Options& o, body::Body& body) {
   } else body = body::posed_body(body, weights, body::read_pose(o.pose, body));
 }
 
+/// What is estimated or not found, a line each, and the widest hole; a scanner leaves a dozen, and a surface that must be closed again.
+void tell_findings(cli::Tool& tool, const body::Body& body) {
+  std::size_t n_holes = 0;
+  std::string widest;
+  for (const body::Finding& finding : body.scan.findings) {
+    if (finding.severity != "warning") continue; // what was not found is told at the end
+    const std::string text = finding.place + ": " + finding.what;
+    const bool is_hole = finding.place[0] == '('; // its place is a point, and they come widest first
+    if (is_hole && n_holes++ == 0) widest = text;
+    if (is_hole || finding.place == "body.obj") tool.reporter().info(text);
+    else tool.reporter().warning(text);
+  }
+  if (n_holes > 0) tool.reporter().warning(widest + (n_holes > 1 ? ", and " + std::to_string(n_holes - 1) + " less wide: scan.findings has them" : ""));
+}
+
 int run(cli::Tool& tool, const Options& o) {
   body::ScanOptions options;
   options.unit = o.unit;
@@ -64,8 +79,7 @@ int run(cli::Tool& tool, const Options& o) {
   if (!o.skeleton.empty()) io::write_file(o.skeleton, body::skeleton_obj(measured.body));
   if (o.explain)
     for (const std::string& line : measured.trail) std::fprintf(stderr, "%s\n", line.c_str());
-  for (const body::Finding& finding : measured.body.scan.findings)
-    if (finding.severity != "info") tool.reporter().info(finding.place + ": " + finding.what);
+  tell_findings(tool, measured.body);
   if (measured.missing.empty()) return 0;
   std::string names;
   for (const std::string& name : measured.missing) names += (names.empty() ? "" : ", ") + name;
