@@ -10,6 +10,7 @@
 #include <garment/retarget.hpp>
 #include <garment/retarget_pattern.hpp>
 #include <garment/scene.hpp>
+#include <garment/stretch.hpp>
 #include <io/files.hpp>
 #include <io/json.hpp>
 #include <pattern/export_pattern.hpp>
@@ -90,9 +91,13 @@ int run(cli::Tool& tool, const Options& o) {
   garment::DrapeSettings settings = garment::preset_settings(o.accuracy);
   for (const std::string& assignment : o.set) garment::set_knob(settings, assignment);
   if (o.max_seconds > 0) settings.max_seconds = o.max_seconds;
-  const garment::FitPolicy policy = o.policy.empty() ? garment::standard_fit_policy() : garment::read_fit_policy(o.policy);
+  garment::FitPolicy policy = o.policy.empty() ? garment::standard_fit_policy() : garment::read_fit_policy(o.policy);
 
   const garment::Garment source = garment::read_garment(o.garment);
+  if (o.policy.empty()) { // what it bears on its own body
+    const garment::Stretch worn = garment::stretch_of(source);
+    if (source.converged && worn.p99 <= worn.bound) policy.worn_p99 = worn.p99, policy.worn_max = worn.max;
+  }
   if (source.bind.empty()) throw input_error(o.garment, "/bind", "the garment is not bound to a body", "drape it with --body first");
   body::Body body = body::read_body(o.to);
   body.skin_cache = std::make_shared<collision::SkinCache>(o.cache, tool.reporter());

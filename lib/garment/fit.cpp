@@ -252,8 +252,11 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
     }
     row->limits = policy.limits(row->name, report.garment_class, report.fabric);
     for (const std::string& known : {row->name, "level:" + row->name})
-      if (const auto girth = made_for.find(known); girth != made_for.end())
-        row->limits.too_large_ease = policy.too_large_ease(row->limits, row->rest_m / girth->second - 1, row->name, report.garment_class, report.fabric);
+      if (const auto girth = made_for.find(known); girth != made_for.end()) {
+        const double designed = row->rest_m / girth->second - 1;
+        row->limits.too_large_ease = policy.too_large_ease(row->limits, designed, row->name, report.garment_class, report.fabric);
+        row->limits.too_small_ease = policy.too_small_ease(row->limits, designed, row->name, report.garment_class, report.fabric);
+      }
     judge(garment.converged, *row);
     tell_long_sleeve(report.lines, *row);
     report.rows.push_back(std::move(*row));

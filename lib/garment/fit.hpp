@@ -77,8 +77,8 @@ struct FitReport {
 
 /// @param garment draped on `body` and bound to it (bind_garment)
 /// @param placed  positions before the drape, #P, or nullptr: how far the garment slid is measured from them
-/// @param made_for  Garment::body_girths_m of the body it was cut for, if known: what was cut wide is not too large for being wide (see
-///                 FitPolicy::too_large_ease)
+/// @param made_for  Garment::body_girths_m of the body it was cut for, if known: what was cut wide is not too large for being wide, and what
+///                 was cut tight not too small for being tight (see FitPolicy::too_large_ease, too_small_ease)
 /// @param unfit  DrapeReport::unfit: where FitBounds ended the drape, strain and slip decide although it is not at rest, and the answer is no
 /// @throws Error INPUT when it is not bound
 FitReport fit_garment(const Garment& garment, const body::Body& body, const collision::BodyCollider& skin, const FitPolicy& policy,

@@ -69,6 +69,8 @@ FitOverride roomy(double loose, double too_large) {
 }
 
 constexpr double BEYOND_DESIGN = 0.5; // of the ease that is too large: how much smaller than the body it was cut for one in a wide garment may be
+constexpr double BELOW_DESIGN = 0.01; // of a girth: what it differs by from drape to drape
+constexpr double AS_WORN = 1.1;       // times the strain on the body that a garment comes from
 
 constexpr const char* WAISTS[] = {"waist_semantic", "waist_girth_min", "waist_width_min", "omphalion"};
 constexpr const char* CHESTS[] = {"bust", "chest_axilla"};
@@ -146,19 +148,30 @@ FitLimits FitPolicy::limits(const std::string& girth, const std::string& garment
   return limits;
 }
 
+static FitPolicy without_document(const FitPolicy& policy) {
+  FitPolicy ours;
+  ours.standard = policy.standard;
+  return ours;
+}
+
+double FitPolicy::too_small_ease(const FitLimits& limits, double designed, const std::string& girth, const std::string& garment_class,
+                                 const std::string& fabric) const {
+  if (worn_p99 == 0) return limits.too_small_ease;
+  const bool said = limits.too_small_ease != without_document(*this).limits(girth, garment_class, fabric).too_small_ease;
+  return said ? limits.too_small_ease : std::min(limits.too_small_ease, designed - BELOW_DESIGN);
+}
+
 double FitPolicy::too_large_ease(const FitLimits& limits, double designed, const std::string& girth, const std::string& garment_class,
                                  const std::string& fabric) const {
-  FitPolicy ours;
-  ours.standard = standard;
-  const bool said = limits.too_large_ease != ours.limits(girth, garment_class, fabric).too_large_ease;
+  const bool said = limits.too_large_ease != without_document(*this).limits(girth, garment_class, fabric).too_large_ease;
   return said ? limits.too_large_ease : std::max(limits.too_large_ease, (1 + designed) * (1 + BEYOND_DESIGN * limits.too_large_ease) - 1);
 }
 
 double FitPolicy::strain_p99(const std::string& garment_class, const std::string& fabric) const {
-  return last_said(*this, &FitRules::strain_p99, STRAIN_P99, garment_class, fabric);
+  return std::max(last_said(*this, &FitRules::strain_p99, STRAIN_P99, garment_class, fabric), AS_WORN * worn_p99);
 }
 double FitPolicy::strain_max(const std::string& garment_class, const std::string& fabric) const {
-  return last_said(*this, &FitRules::strain_max, STRAIN_MAX, garment_class, fabric);
+  return std::max(last_said(*this, &FitRules::strain_max, STRAIN_MAX, garment_class, fabric), AS_WORN * worn_max);
 }
 double FitPolicy::slip_m(const std::string& garment_class, const std::string& fabric) const {
   return last_said(*this, &FitRules::slip_m, SLIP, garment_class, fabric);

@@ -47,6 +47,7 @@ struct FitRuleSet {
 struct FitPolicy {
   std::string name = "woven";
   FitRuleSet standard, own;                        ///< what Sloper says, and what the document says
+  double worn_p99 = 0, worn_max = 0;               ///< strain of a garment on the body that it comes from, or 0: a tenth more is borne on another
   bool refuse_loose = false, refuse_tight = false; ///< "too small" and "too large" are always refused
 
   FitLimits limits(const std::string& girth, const std::string& garment_class = {}, const std::string& fabric = {}) const;
@@ -54,6 +55,9 @@ struct FitPolicy {
   /// where that is more, the ease that the design has on a body whose girth goes into that of the other 1 plus half of that limit times. A limit
   /// that the document says holds.
   double too_large_ease(const FitLimits& limits, double designed, const std::string& girth, const std::string& garment_class, const std::string& fabric) const;
+  /// too_small_ease of `limits` for a garment that is worn with `designed` ease: where that is less, a hundredth less than that. A limit that the
+  /// document says holds, and any where worn_p99 is 0.
+  double too_small_ease(const FitLimits& limits, double designed, const std::string& girth, const std::string& garment_class, const std::string& fabric) const;
   double strain_p99(const std::string& garment_class, const std::string& fabric) const; ///< of all edges: stretched further, it does not fit
   double strain_max(const std::string& garment_class, const std::string& fabric) const; ///< of any edge
   /// m that it may sink before it counts as falling off; infinite: as far as the hip holds it

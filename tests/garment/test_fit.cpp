@@ -58,6 +58,20 @@ SectionChain arc(double a, double b, double radius, bool backwards = false) {
 
 } // namespace
 
+TEST(FitPolicy, what_is_borne_on_its_own_body_is_borne_on_another) {
+  FitPolicy policy = standard_fit_policy();
+  const FitLimits limits = policy.limits("bust", "top");
+  EXPECT_EQ(policy.too_small_ease(limits, -0.06, "bust", "top", ""), limits.too_small_ease) << "nothing is known of it";
+  EXPECT_EQ(policy.strain_p99("top", ""), 0.05);
+  policy.worn_p99 = 0.07, policy.worn_max = 0.1;
+  EXPECT_NEAR(policy.strain_p99("top", ""), 0.077, 1e-12);
+  EXPECT_EQ(policy.strain_max("top", ""), 0.30) << "what any cloth bears stays";
+  EXPECT_NEAR(policy.too_small_ease(limits, -0.06, "bust", "top", ""), -0.07, 1e-12);
+  EXPECT_EQ(policy.too_small_ease(limits, 0.2, "bust", "top", ""), limits.too_small_ease) << "it was not tight";
+  policy.own.all.standard.too_small_ease = -0.02;
+  EXPECT_EQ(policy.too_small_ease(policy.limits("bust", "top"), -0.06, "bust", "top", ""), -0.02) << "a document says so";
+}
+
 TEST(fit, ease_is_the_gap_times_two_pi_on_a_garment_made_from_the_skin) {
   const Dressed d = dressed(measured("f-165-a"), skin_shirt(measured("f-165-a"), 0.01));
   for (const char* name : {"waist_semantic", "bust", "upper_arm_l"}) {
