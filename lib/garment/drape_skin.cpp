@@ -46,7 +46,7 @@ void DrapeRun::start_outside_body(bool unsewn) {
     return points;
   };
   const bool sewn_on_legs = unsewn && !of_part("leg").empty();
-  if (unsewn) { // a skirt is sewn around the body as if the arms were held up, where no sleeve needs them
+  if (unsewn && active("body_contact")) { // a skirt is sewn around the body as if the arms were held up, where no sleeve needs them
     m_forearms.emplace(*m_body);
     const bool covered = m_forearms->is_covered(body::Part::ARM_L, of_part("arm_l")) || m_forearms->is_covered(body::Part::ARM_R, of_part("arm_r"));
     m_at.arms_aside = !covered && m_forearms->are_near(of_part("lower_body"));

@@ -2,7 +2,7 @@
 #include "drape_scene.hpp"
 
 #include <garment/audit.hpp>
-#include <garment/drape.hpp>
+#include <garment/drape_state.hpp>
 #include <garment/under_arms.hpp>
 #include <gtest/gtest.h>
 
@@ -91,4 +91,41 @@ TEST(UnderArms, a_wide_skirt_is_sewn_inside_of_a_hanging_arm) {
   EXPECT_TRUE(std::any_of(report.repairs.begin(), report.repairs.end(), told));
   std::vector<Vec3> x = skirt.position;
   EXPECT_EQ(bring_under_arms(x, std::vector<char>(x.size(), 0), body, 0), 0U) << "nothing of it is beyond the arm";
+}
+
+TEST(UnderArms, without_contact_no_arm_is_held_up) {
+  const body::Body body = pillar_with_arm();
+  Garment skirt = make_skirt(0.74, 0.4, 0.05, 1.02, 0.25, 3);
+  for (pattern::PanelInfo& p : skirt.panels.panels) p.part = "lower_body";
+  DrapeSettings settings;
+  settings.effects = "auto,-body_contact";
+  settings.max_steps = 260; // it falls
+  const DrapeReport report = drape(skirt, &body, settings, silent_reporter());
+  EXPECT_FALSE(report.converged);
+  for (const std::string& r : report.repairs) EXPECT_EQ(r.find("forearms"), std::string::npos) << r;
+}
+
+TEST(UnderArms, a_run_that_goes_on_while_the_arms_are_up_ends_in_the_same_bytes) {
+  const body::Body body = pillar_with_arm();
+  const std::string file = std::string(SLOPER_BINARY_DIR) + "/arms.checkpoint.json";
+  const auto skirt = [] {
+    Garment g = make_skirt(0.74, 0.4, 0.05, 1.02, 0.25, 3);
+    for (pattern::PanelInfo& p : g.panels.panels) p.part = "lower_body";
+    return g;
+  };
+  Checkpoints checkpoints;
+  checkpoints.file = file;
+  checkpoints.every_steps = 10;
+  Garment whole = skirt(), stopped = skirt(), resumed;
+  ASSERT_TRUE(drape(whole, &body, {}, silent_reporter(), {}, checkpoints).converged);
+  DrapeSettings settings;
+  for (int steps : {25, 120, 150, 180, 200}) { // sewing, and the way to where the arms come down
+    settings.max_steps = steps;
+    stopped = skirt();
+    drape(stopped, &body, settings, silent_reporter(), {}, checkpoints);
+    DrapeCheckpoint c = read_checkpoint(file);
+    c.report.settings.max_steps = DrapeSettings{}.max_steps;
+    resume_drape(c, resumed, &body, silent_reporter(), checkpoints);
+    EXPECT_EQ(strict_hash(resumed), strict_hash(whole)) << steps;
+  }
 }
