@@ -172,7 +172,15 @@ StrainFigures strain_of(const ClothState& cloth, const std::vector<int>& triangl
     if (const TriangleStrain& s = cloth.strains[f]; s.area > 0) values.push_back({s.thread(), s.area});
   figures.n = values.size();
   if (values.empty()) return figures;
-  figures.p50 = area_quantile(values, 0.5), figures.p99 = area_quantile(values, 0.99), figures.max = values.back().value;
+  figures.p50 = area_quantile(values, 0.5), figures.p99 = area_quantile(values, 0.99);
+  std::vector<Weighted> around(cloth.garment.position.size(), {0, 0}); // by particle: strain times area, area
+  for (const int f : triangles)
+    if (const TriangleStrain& s = cloth.strains[f]; s.area > 0)
+      for (const int v : cloth.garment.panels.triangles[f])
+        around[cloth.garment.particle_of[v]].value += s.area * s.thread(), around[cloth.garment.particle_of[v]].area += s.area;
+  figures.max = values.front().value;
+  for (const Weighted& place : around)
+    if (place.area > 0) figures.max = std::max(figures.max, place.value / place.area);
   double warp = 0, weft = 0;
   for (const int f : triangles)
     if (const TriangleStrain& s = cloth.strains[f]; s.area > 0 && s.thread() >= figures.p99) (s.thread() == s.warp ? warp : weft) += s.area;

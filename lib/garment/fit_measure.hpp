@@ -19,7 +19,8 @@ struct ClothState {
 
 struct StrainFigures {
   std::size_t n = 0; ///< triangles
-  double p50 = 0, p99 = 0, max = 0;
+  double p50 = 0, p99 = 0;
+  double max = 0;        ///< of a place, the triangles around one particle: a single one that is flat may be high by a third, and its edges as they were
   std::string direction; ///< "warp" or "weft": of what is strained as much as the 99th percentile or more
 };
 /// Strain (cloth_strain.hpp) of some triangles, by area.
