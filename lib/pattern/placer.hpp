@@ -87,6 +87,9 @@ private:
   /// z in front of which (or behind which, for backs) the wings must stay: past the arms that hang within the panels' reach.
   double wing_limit(const PanelGroup& group, const Axis& axis, const std::array<Vec2, 2>& b, const std::vector<Vec2>& hull) const;
   void place_trunk(const PanelGroup& group);
+  /// How many times as long as the way to its edge on one side (sign of x) the cloth of a front or back starts, below the arm pits: where it
+  /// would stand before or behind a hanging arm beyond the arm's middle, its side seam would close around the arm. 1 where it does not.
+  double folded_beside_arm(const PanelGroup& group, const Axis& axis, const WrapCurve& curve, double sign) const;
   /// Around half the body on a cone, in folds that take up what is wider than the cone: level as it is drawn it would reach beyond the arms,
   /// and its side seams would close around them.
   void place_in_folds(const PanelGroup& group, std::size_t k, const Sector& sector, const Axis& axis, const std::vector<Vec2>& hull);

@@ -20,6 +20,10 @@ constexpr double SLEEVE_KEEPS = 0.4;  // of the arm's length, from the shoulder:
 constexpr double BELOW_CROTCH = 0.03; // m: where trousers' crotch starts below the body's
 constexpr double MOST_RISE = 1.25;    // stretch of the way from waist to crotch for that, at most
 constexpr double LEG_ROW = 0.01;      // m between the rows of cloth that a leg is laid out by
+constexpr double ARM_ROW = 0.02;      // m between the rows in which arms are looked at beside a trunk
+constexpr double BELOW_PIT = 0.04;    // m below the arm pits until cloth beside arms has come into its folds
+constexpr double FOLD_LENGTH = 0.08;  // m of such a fold
+constexpr double MOST_FOLDED = 2.5;   // length of cloth on a length of the way, at most
 
 static double hull_end(const std::vector<Vec2>& hull, double sense) {
   double z = -1e300;
@@ -85,6 +89,14 @@ static double wave_slope(double ratio) {
   return low;
 }
 
+/// A point of cloth that is `ratio` times as long as the curve it lies on, in folds to its outside; u along the cloth.
+static Vec2 in_folds(const WrapCurve& curve, double u, double ratio) {
+  constexpr double STEP = 1e-3, WAVES = 2 * units::PI / FOLD_LENGTH; // m; rad/m
+  const double s = u / ratio;
+  const Vec2 along = (curve.at(s + STEP) - curve.at(s - STEP)).normalized();
+  return curve.at(s) + wave_slope(ratio) / WAVES * (1 - std::cos(WAVES * s)) * Vec2(-along.y(), along.x());
+}
+
 void Placer::place_in_folds(const PanelGroup& group, std::size_t k, const Sector& sector, const Axis& axis, const std::vector<Vec2>& hull) {
   constexpr double SLOPE = 0.45, FOLDS = 12; // sine of the angle to the vertical; around the body
   const Vec2 low(plane_low(hull), hull_end(hull, -1)), high(plane_high(hull), hull_end(hull, 1)), center = 0.5 * (low + high);
@@ -98,6 +110,32 @@ void Placer::place_in_folds(const PanelGroup& group, std::size_t k, const Sector
     const Vec2 plane = center + (half + Vec2::Constant(out + fold)).cwiseProduct(Vec2(std::sin(t), std::cos(t)));
     return axis.point(plane, sector.top() - std::sqrt(1 - SLOPE * SLOPE) * down);
   });
+}
+
+double Placer::folded_beside_arm(const PanelGroup& group, const Axis& axis, const WrapCurve& curve, double sign) const {
+  const Part arm = sign * axis.right().x() > 0 ? Part::ARM_L : Part::ARM_R;
+  const auto b = bounds(group);
+  double most = 1;
+  for (double y = m_space.level("chest_axilla", 0.76) - BELOW_PIT; y > b[0].y(); y -= ARM_ROW) {
+    double inner = 1e300, outer = -1e300;
+    for (const Vec2& p : m_space.points(axis, {arm}, y - 0.5 * ARM_ROW, y + 0.5 * ARM_ROW))
+      inner = std::min(inner, sign * p.x()), outer = std::max(outer, sign * p.x());
+    if (inner > outer) continue;
+    double edge = 0; // of the cloth in this row, m from its middle
+    for (std::size_t k : group.panels) {
+      if (m_roles[k].part == "lower_body") continue;
+      const std::vector<int>& outline = m_mesh.panels[k].outline;
+      for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Vec2 p = uv(k, outline[i]), q = uv(k, outline[(i + 1) % outline.size()]);
+        if ((p.y() <= y) != (q.y() <= y)) edge = std::max(edge, sign * (p.x() + (y - p.y()) / (q.y() - p.y()) * (q.x() - p.x())));
+      }
+    }
+    if (edge <= 0 || sign * curve.at(sign * edge).x() < 0.5 * (inner + outer)) continue;
+    double room = edge;
+    while (room > edge / MOST_FOLDED && sign * curve.at(sign * room).x() > inner) room -= 0.002;
+    most = std::max(most, edge / room);
+  }
+  return most;
 }
 
 void Placer::place_trunk(const PanelGroup& all) {
@@ -137,10 +175,15 @@ void Placer::place_trunk(const PanelGroup& all) {
     }
     const WrapCurve& curve = curves.at(depth);
     const std::vector<SleeveBend> bends = sleeve_bends(group, axis, curve);
+    const bool beside_arms = bends.empty() && m_roles[k].part != "lower_body";
+    const std::array<double, 2> folded = {beside_arms ? folded_beside_arm(group, axis, curve, -1) : 1,
+                                          beside_arms ? folded_beside_arm(group, axis, curve, 1) : 1};
+    const double pit = m_space.level("chest_axilla", 0.76);
     put(k, [&](const Vec2& p) {
       Vec2 q = p;
       for (const SleeveBend& bend : bends) q = bend.at(q);
-      return axis.point(curve.at(q.x()), q.y());
+      const double t = std::clamp((pit - q.y()) / BELOW_PIT, 0.0, 1.0), ratio = 1 + t * t * (3 - 2 * t) * (folded[q.x() > 0] - 1);
+      return axis.point(ratio > 1 ? in_folds(curve, q.x(), ratio) : curve.at(q.x()), q.y());
     });
   }
 }

@@ -11,10 +11,10 @@ namespace sloper::pattern::test {
 namespace {
 
 /// A shirt of rectangles, without a word about placement: bodies with shoulder seams, one-piece sleeves.
-Pattern box_shirt(double sleeve_length = 30) {
+Pattern box_shirt(double sleeve_length = 30, double width = 52) {
   const std::string sleeve_seam = R"(, "b": [{"panel": "SLEEVE", "edge": "top", "from": 0.5, "to": 0}]})";
-  std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "box shirt", "panels": [)" + rectangle("front", 52, 62) + "," +
-                     rectangle("back", 52, 62) + "," + rectangle("sleeve_l", 44, sleeve_length) + "," + rectangle("sleeve_r", 44, sleeve_length) +
+  std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "box shirt", "panels": [)" + rectangle("front", width, 62) + "," +
+                     rectangle("back", width, 62) + "," + rectangle("sleeve_l", 44, sleeve_length) + "," + rectangle("sleeve_r", 44, sleeve_length) +
                      R"(], "seams": [
     {"name": "side_l", "a": [{"panel": "front", "edge": "l", "from": 0, "to": 0.645}], "b": [{"panel": "back", "edge": "r", "from": 1, "to": 0.355}]},
     {"name": "side_r", "a": [{"panel": "back", "edge": "l", "from": 0, "to": 0.645}], "b": [{"panel": "front", "edge": "r", "from": 1, "to": 0.355}]},
@@ -53,6 +53,35 @@ TEST(Placement, AShirtWithoutHintsStandsFreeAroundBodiesOfAnyStanceAndSize) {
       EXPECT_EQ(mesh.panels[2].part, "arm_l");
       EXPECT_EQ(mesh.panels[3].part, "arm_r");
     }
+}
+
+TEST(Placement, AWideTrunkStartsInFoldsBetweenHangingArms) { // its sides would close around the arms
+  for (double arm : {10.0, 15.0}) {
+    SCOPED_TRACE(std::to_string(arm) + " degrees");
+    const Pattern pattern = box_shirt(30, 70);
+    PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+    const body::Body body = stick_body(arm);
+    const PlacementReport report = place_panels(pattern, body, mesh);
+    EXPECT_EQ(report.crossings, 0);
+    EXPECT_EQ(report.vertices_inside, 0);
+    EXPECT_EQ(report.faces_through, 0);
+    const double a = arm * M_PI / 180;
+    for (int v = 0; v < mesh.panels[1].first_vertex + mesh.panels[1].n_vertices; ++v) {
+      const Vec3& p = mesh.placed[static_cast<std::size_t>(v)];
+      if (p.y() > 1.22) continue; // the arm pits are at 1.29 m
+      EXPECT_LT(std::abs(p.x()), 0.19 + (1.36 - p.y()) * std::tan(a) - 0.03) << "beyond the inner side of the arm at " << p.y();
+    }
+    double across = 0, cloth = 0; // a level row keeps its length
+    for (int f = mesh.panels[0].first_triangle; f < mesh.panels[0].first_triangle + mesh.panels[0].n_triangles; ++f) {
+      const Triangle& t = mesh.triangles[static_cast<std::size_t>(f)];
+      const auto at = [&](std::size_t k) { return static_cast<std::size_t>(t[k]); };
+      if (mesh.placed[at(0)].y() > 1.2) continue;
+      across += (mesh.placed[at(1)] - mesh.placed[at(0)]).cross(mesh.placed[at(2)] - mesh.placed[at(0)]).norm();
+      const Vec2 p = mesh.pattern[at(1)] - mesh.pattern[at(0)], q = mesh.pattern[at(2)] - mesh.pattern[at(0)];
+      cloth += std::abs(p.x() * q.y() - p.y() * q.x());
+    }
+    EXPECT_NEAR(across / cloth, 1, 0.06);
+  }
 }
 
 TEST(Placement, LongSleevesEndAtTheWristAndTheirEdgesMeetBeyondTheArm) {
