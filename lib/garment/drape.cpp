@@ -1,5 +1,6 @@
 #include <base/error.hpp>
 #include <base/units.hpp>
+#include <cloth/attachments.hpp>
 #include <cloth/bending.hpp>
 #include <cloth/edge_spring.hpp>
 #include <cloth/factorisation.hpp>
@@ -30,17 +31,6 @@ constexpr double SEW_BENDING = 30;       // times that of the fabric
 constexpr double INFLATE_MOTION = 0.002; // m: how far the skin moves per step while the body is inflated
 constexpr double LATEST = 0.01;          // m: how far skin may stay back where cloth is in its way
 constexpr int LATE_STEPS = 40;           // in which what stayed back comes home
-constexpr int GLIDE_STEPS = 40;          // after sewing, free of weight and friction, which would keep the strain that sewing left
-constexpr int STALLED_STEPS = 400;       // without a residual that is a tenth less, and more than the weight: it will not come to rest
-constexpr int UNMOVED_STEPS = 25;        // one after the other in which nothing can move at all
-constexpr int MOST_UNTANGLINGS = 8;      // of cloth that crosses itself, half of them before it is at rest
-constexpr int PART_EVERY = 40;           // steps between looks whether cloth still crosses itself or a few faces are still through the skin
-constexpr int JUDGE_EVERY = 10;          // steps between looks whether the garment can still fit
-constexpr double SUNK = 2e-4;            // m that all cloth together may sink, when what was kept in place is let go, and be at rest
-constexpr double NEAR_RESIDUAL = 1;      // weights: below, steps may grow faster
-constexpr double HUNG_SPEED = 0.02;      // m/s: slower, a skirt hangs, and arms that were held up can come down beside it
-constexpr double HUNG_RESIDUAL = 10;     // weights: likewise
-constexpr double LARGEST_STEP_S = 0.2;   // s, while settling
 
 } // namespace
 
@@ -49,6 +39,8 @@ std::string place_text(const Vec3& p) {
   std::snprintf(text, sizeof text, "(%.3f, %.3f, %.3f) m", p.x(), p.y(), p.z());
   return text;
 }
+
+std::string millimetres(double m) { return std::to_string(std::lround(m * 1e4) / 10) + "." + std::to_string(std::lround(m * 1e4) % 10) + " mm"; }
 
 void DrapeRun::add_phase_time(const char* name, double wall_s) {
   auto& phases = m_report.phases;
@@ -96,7 +88,7 @@ void DrapeRun::build_solver(bool open_seams) {
   if (active("shear")) m_solver->emplace<cloth::ShearEffect>(*m_cloth);
   if (active("bending")) m_solver->emplace<cloth::BendingEffect>(*m_cloth);
   add_scene_effects(*m_solver, *m_cloth, m_garment, m_body, m_report.effects, open_seams);
-  m_breath = m_hold = nullptr;
+  m_breath = m_hold = m_tether = nullptr;
   m_sewing = nullptr;
   if (open_seams) m_sewing = &m_solver->emplace<cloth::SewingSpringEffect>(open_stitches(m_garment), 1.0, SEW_REACH);
   m_body_contact = nullptr;
@@ -117,14 +109,15 @@ void DrapeRun::build_solver(bool open_seams) {
 bool DrapeRun::step(double h, double inertia, double largest_move_m) {
   cloth::StepOptions options;
   options.largest_move_m = largest_move_m;
-  options.line_search = m_settling;
+  const bool searched = m_settling && inertia == 0;
+  options.line_search = searched;
   options.h = h;
   options.inertia = inertia;
   options.cg_tolerance = m_sewing ? std::max(SEW_TOLERANCE, m_settings.cg_tolerance) : m_settings.cg_tolerance;
   // Not while it glides: seams just closed and pinched cloth have nearly all the energy, the strain that is to even out has little.
   const bool glides = m_at.phase == DrapePhase::SETTLE && m_at.step < glide();
-  if ((m_settling || m_sewing) && !glides && m_settings.cg_tolerance >= ROUGH) {
-    const bool slow = m_settling && m_at.last.largest_move_m < m_settings.settle_speed_m_s * m_at.last_h;
+  if ((searched || m_sewing) && !glides && m_settings.cg_tolerance >= ROUGH) {
+    const bool slow = searched && m_at.last.largest_move_m < m_settings.settle_speed_m_s * m_at.last_h;
     options.cg_energy_tolerance = slow ? LEFT_AT_REST : ENERGY_LEFT;
   }
   options.cg_max_iterations = m_settings.cg_max_iterations;
@@ -207,12 +200,20 @@ void DrapeRun::hold_sleeves() {
   m_hold = &m_solver->emplace<cloth::PinsEffect>(std::move(pins));
 }
 
-void DrapeRun::let_sleeves_go() {
-  take_back(m_hold);
-  m_at.held.clear();
+void DrapeRun::tether_sleeves() {
+  if (!m_at.tethered) return;
+  std::vector<cloth::Attachment> cords = tether_sleeve_ends(m_garment.panels, *m_body);
+  for (cloth::Attachment& cord : cords) cord.particle = m_garment.particle_of[cord.particle];
+  if (!active("attachments")) activate("attachments", "sleeves longer than the arms are kept at the wrists until the cloth above has found its folds");
+  m_tether = &m_solver->emplace<cloth::AttachmentsEffect>(std::move(cords));
 }
 
-int DrapeRun::glide() const { return m_at.disturbed ? GLIDE_STEPS : 0; }
+void DrapeRun::let_sleeves_go() {
+  take_back(m_hold);
+  take_back(m_tether);
+  m_at.tethered = false;
+  m_at.held.clear();
+}
 
 void DrapeRun::add_load() {
   if (m_loaded) return;
@@ -221,102 +222,6 @@ void DrapeRun::add_load() {
   const Material& material = material_of(m_garment, "");
   if (active("friction") && m_body_contact) m_body_contact->set_friction(material.friction_body);
   if (active("friction") && m_self_contact) m_self_contact->set_friction(material.friction_self);
-}
-
-/// Particles that a line search keeps in place for a while may be nails that a skirt hangs by. So rest counts once letting them go moves nothing.
-bool DrapeRun::thaw() {
-  double height = 0;
-  for (const Vec3& p : m_solver->x()) height += p.y() / static_cast<double>(m_solver->x().size());
-  if (m_at.thawed_at && std::abs(height - *m_at.thawed_at) < SUNK) return false;
-  m_at.thawed_at = height;
-  return m_solver->thaw();
-}
-
-void DrapeRun::settle() {
-  const Phase phase(*this, "settle");
-  m_settling = true;
-  if (m_at.phase != DrapePhase::SETTLE) {
-    m_at.phase = DrapePhase::SETTLE;
-    m_at.step = 0;
-    m_at.h = m_settings.time_step_s;
-    m_at.thawed_at.reset();
-    m_at.start_height.clear();
-    for (const Vec3& p : m_solver->x()) m_at.start_height.push_back(p.y());
-  }
-  int &k = m_at.step, &calm = m_at.calm;
-  double &h = m_at.h, &best = m_at.best;
-  for (; !m_stopped; ++k) {
-    checkpoint();
-    if (k < glide()) breathe();
-    if (k == glide()) {
-      stop_breathing();
-      close_tucks();
-      let_sleeves_go();
-      add_load();
-      h = m_settings.time_step_s;
-    }
-    if (!step(h, 0)) break;
-    const double speed = m_at.last.largest_move_m / h, residual = m_at.last.residual_force_ratio;
-    if (k % 20 == 0)
-      m_reporter.info("settle step " + std::to_string(k) + ": h " + std::to_string(h) + " s, speed " + std::to_string(speed) + " m/s, residual force " +
-                      std::to_string(residual) + " of the weight, at most " + std::to_string(m_at.last.residual_force_ratio_max) + crossing_text());
-    m_reporter.progress("settle", -1);
-    if (m_at.last.halvings > 0) h = std::max(h * 0.7, m_settings.time_step_s);
-    else if (m_at.last.largest_move_m < 0.003) h = std::min(h * (residual > NEAR_RESIDUAL ? 1.15 : 1.3), LARGEST_STEP_S);
-    else if (m_at.last.largest_move_m > 0.01) h = std::max(h * 0.8, m_settings.time_step_s);
-    if (k <= glide() || residual < 0.9 * best) {
-      best = residual;
-      m_at.best_at = k;
-    } else if (best > 1 && k > m_at.best_at + STALLED_STEPS) {
-      m_stopped = true;
-      m_report.stop_reason = "no nearer to rest in " + std::to_string(STALLED_STEPS) + " steps";
-      break;
-    }
-    m_at.unmoved = m_at.last.largest_move_m > 0 ? 0 : m_at.unmoved + 1;
-    const bool stuck = m_at.unmoved >= UNMOVED_STEPS && residual >= m_settings.settle_force_ratio;
-    if ((stuck || (k > glide() && k % PART_EVERY == 0)) && part_the_few()) {
-      h = m_settings.time_step_s;
-      calm = m_at.unmoved = 0;
-      m_at.best_at = k;
-      continue;
-    }
-    if (stuck) {
-      m_stopped = true;
-      m_report.stop_reason = "stuck: nothing could move in " + std::to_string(UNMOVED_STEPS) + " steps";
-      break;
-    }
-    if (k > glide() && k % PART_EVERY == 0 && m_self_contact && !m_self_contact->crossings().empty() && m_at.untanglings < MOST_UNTANGLINGS / 2) untangle_now();
-    if (k > glide() && k % JUDGE_EVERY == 0) judge_fit();
-    const bool still = speed < m_settings.settle_speed_m_s && residual < m_settings.settle_force_ratio;
-    calm = still && k >= glide() ? calm + 1 : 0;
-    if (m_at.arms_aside && k > glide() && speed < HUNG_SPEED && residual < HUNG_RESIDUAL) {
-      let_arms_hang();
-      h = m_settings.time_step_s;
-      calm = 0;
-      continue;
-    }
-    if (calm < 3) continue;
-    if (thaw()) {
-      calm = 0;
-      continue;
-    }
-    if (m_body_contact && m_body_contact->n_crossing() > 0 && ++m_at.pushed < MOST_PUSH_STEPS) continue; // what is through the skin is pushed harder each step
-    if (m_coarse) {
-      m_reporter.info("at rest on the coarser skin after " + std::to_string(k) + " steps, on to the whole one");
-      leave_coarse_skin();
-      calm = 0;
-      continue;
-    }
-    if (m_at.untanglings < MOST_UNTANGLINGS && m_self_contact && !m_self_contact->find_crossings(m_solver->x()).empty()) {
-      untangle_now();
-      calm = 0;
-      continue;
-    }
-    m_report.converged = true;
-    m_report.stop_reason = "at rest";
-    break;
-  }
-  if (m_at.arms_aside) let_arms_hang(); // stopped before
 }
 
 DrapeReport DrapeRun::run() {
@@ -329,6 +234,7 @@ DrapeReport DrapeRun::run() {
     m_at.disturbed = unsewn || m_at.scale < 1 || m_settings.hold_sleeve_ends || m_settings.glides_first;
     if (!unsewn && m_at.disturbed && may_pass("pins"))
       for (const cloth::Pin& pin : hold_sleeve_ends(m_garment)) m_at.held.push_back(pin.target);
+    m_at.tethered = unsewn && active("body_contact") && may_pass("attachments") && !tether_sleeve_ends(m_garment.panels, *m_body).empty();
     if (unsewn && active("sewing")) sew();
   } else if (m_at.phase == DrapePhase::SEW) {
     sew();
@@ -338,6 +244,7 @@ DrapeReport DrapeRun::run() {
       untangle();
       build_solver(false);
       hold_sleeves();
+      tether_sleeves();
       let_tucks_pass();
     }
     if (m_at.phase != DrapePhase::SETTLE && m_at.phase != DrapePhase::MOVE) inflate();

@@ -20,6 +20,7 @@ void DrapeRun::renew() {
   m_at.shrunk = m_shrink.has_value();
   m_at.skin.clear();
   if (m_at.phase == DrapePhase::INFLATE) m_at.skin = m_collider->mesh().positions;
+  if (m_at.free_steps > 0) m_at.velocity = m_solver->v();
   report_effects();
   m_solver.reset(); // reported, and not to be again
   if (!m_checkpoints.file.empty()) {
@@ -34,10 +35,13 @@ void DrapeRun::renew() {
 void DrapeRun::rebuild() {
   build_solver(m_at.phase == DrapePhase::SEW);
   hold_sleeves();
+  tether_sleeves();
   let_tucks_pass();
   if ((m_at.phase == DrapePhase::SETTLE && m_at.step > glide()) || m_at.phase == DrapePhase::MOVE) add_load();
   if (m_body_contact) m_body_contact->recall(m_at.contact);
   if (m_at.phase == DrapePhase::MOVE) m_solver->shift(std::vector<Vec3>(m_at.motion.velocity.size(), Vec3::Zero()), m_at.motion.velocity);
+  if (!m_at.velocity.empty()) m_solver->shift(std::vector<Vec3>(m_at.velocity.size(), Vec3::Zero()), m_at.velocity);
+  m_at.velocity.clear();
 }
 
 void DrapeRun::resume(const DrapeCheckpoint& c) {
@@ -58,7 +62,7 @@ void DrapeRun::resume(const DrapeCheckpoint& c) {
     const Phase phase(*this, "prepare body");
     prepare_body(m_at.covered);
     if (m_at.shrunk) m_shrink.emplace(*m_body);
-    if (m_at.arms_aside) m_forearms.emplace(*m_body);
+    if (m_at.arms_aside) take_forearms();
     if (motion.frame > 0) {
       const std::vector<Vec3> skin = m_moves->skin(motion.frame - 1);
       m_collider->set_positions(as_met(skin));

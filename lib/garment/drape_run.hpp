@@ -24,6 +24,7 @@ inline constexpr double SEW_REACH = 0.05;   ///< m: the pull of a stitch does no
 inline constexpr int MOST_PUSH_STEPS = 120; ///< for cloth at rest that is still through the skin
 
 std::string place_text(const Vec3& p); ///< for messages
+std::string millimetres(double m);     ///< likewise, to a tenth
 
 class DrapeRun {
 public:
@@ -55,6 +56,8 @@ private:
   void collide_with(const TriangleMesh& skin);                   ///< makes m_collider
   void prepare_body(unsigned covered);                           ///< @param covered of CoveredSkin::Ends
   void start_outside_body(bool unsewn);                          ///< shrink until nothing of the garment is inside
+  std::vector<Vec3> placed_on(const std::string& part) const;    ///< vertices of the panels of parts that begin so, m
+  void take_forearms();                                          ///< makes m_forearms, without what sleeves are sewn around
   std::vector<Vec3> skin_at(double scale) const;                 ///< as the collider has it
   std::vector<Vec3> as_met(const std::vector<Vec3>& skin) const; ///< likewise
   void meet_bare_skin();                                         ///< itself from now on, no mitten and nothing coarse
@@ -72,6 +75,8 @@ private:
   bool part_the_few();                         ///< moves the last faces through the skin out of it, while the garment settles; whether there were any
   void inflate();
   void settle();
+  void look_for_way(); ///< of cloth that settles: at times lets it go with its inertia
+  void end_free_step();
   void follow_motion(); ///< drape_motion.cpp
   bool wakes(const std::vector<Vec3>& from, const std::vector<Vec3>& to) const;
   void audit_frame(MotionFrame& frame);
@@ -83,7 +88,8 @@ private:
   void find_tucks();     ///< that sewing left, for let_tucks_pass()
   void let_tucks_pass(); ///< each through itself, until close_tucks()
   void close_tucks();
-  void hold_sleeves(); ///< where m_at says, until let_sleeves_go()
+  void hold_sleeves();   ///< where m_at says, until let_sleeves_go()
+  void tether_sleeves(); ///< likewise, while m_at.tethered
   void let_sleeves_go();
   bool may_pass(const std::string& effect) const;
   void take_back(const cloth::Effect*& effect);                      ///< a passing one of m_solver, if it is there; into the report
@@ -127,7 +133,7 @@ private:
   std::unique_ptr<cloth::ClothSolver> m_solver;
   cloth::BodyContactEffect* m_body_contact = nullptr;
   cloth::SelfContactEffect* m_self_contact = nullptr;
-  const cloth::Effect *m_breath = nullptr, *m_hold = nullptr; // of m_solver
+  const cloth::Effect *m_breath = nullptr, *m_hold = nullptr, *m_tether = nullptr; // of m_solver
   cloth::SewingSpringEffect* m_sewing = nullptr;
   bool m_loaded = false; ///< with weight and friction
   const BodyMoves* m_moves = nullptr;

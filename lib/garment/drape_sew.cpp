@@ -27,14 +27,13 @@ constexpr double TUCK = 0.04;        // m: how far around what crosses after sew
 constexpr double TUCKED = 0.25;      // m: crossing pairs of such a place times the mesh edge; knots had 0.4 and more, what comes apart 0.2 and less
 constexpr double BREATH = 1;         // weights of the cloth on its area: pressure from within meanwhile, which turns out dents that sewing left
 
-std::string millimetres(double m) { return std::to_string(std::lround(m * 1e4) / 10) + "." + std::to_string(std::lround(m * 1e4) % 10) + " mm"; }
-
 } // namespace
 
 void DrapeRun::sew() {
   const Phase phase(*this, "sew");
   if (m_at.phase != DrapePhase::SEW) { // it begins; else it goes on from a checkpoint
     build_solver(true);
+    tether_sleeves();
     log_crossings("start");
     double weight = 0;
     for (double m : m_cloth->mass) weight += m * units::GRAVITY / m_cloth->n_particles;

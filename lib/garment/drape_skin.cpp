@@ -35,21 +35,27 @@ void DrapeRun::prepare_body(unsigned covered) {
   if (covered & CoveredSkin::FEET) m_reporter.info("toes as in a sock: cloth is near them");
 }
 
+std::vector<Vec3> DrapeRun::placed_on(const std::string& part) const {
+  std::vector<Vec3> points;
+  for (const pattern::PanelInfo& p : m_garment.panels.panels)
+    for (int v = p.first_vertex; p.part.starts_with(part) && v < p.first_vertex + p.n_vertices; ++v) points.push_back(m_garment.panels.placed[v]);
+  return points;
+}
+
+void DrapeRun::take_forearms() {
+  m_forearms.emplace(*m_body);
+  m_forearms->leave_in(body::Part::ARM_L, placed_on("arm_l"));
+  m_forearms->leave_in(body::Part::ARM_R, placed_on("arm_r"));
+}
+
 void DrapeRun::start_outside_body(bool unsewn) {
   if (!m_body || m_body->skin.triangles.empty()) return;
   const Phase phase(*this, "prepare body");
-  const auto of_part = [&](const char* begins) { // the particles of such panels, m
-    std::vector<Vec3> points;
-    for (const pattern::PanelInfo& p : m_garment.panels.panels)
-      for (int v = p.first_vertex; p.part.starts_with(begins) && v < p.first_vertex + p.n_vertices; ++v)
-        points.push_back(m_garment.position[m_garment.particle_of[v]]);
-    return points;
-  };
-  const bool sewn_on_legs = unsewn && !of_part("leg").empty();
+  const bool sewn_on_legs = unsewn && !placed_on("leg").empty();
   if (unsewn && active("body_contact")) { // a skirt is sewn around the body as if the arms were held up, where no sleeve needs them
-    m_forearms.emplace(*m_body);
-    const bool covered = m_forearms->is_covered(body::Part::ARM_L, of_part("arm_l")) || m_forearms->is_covered(body::Part::ARM_R, of_part("arm_r"));
-    m_at.arms_aside = !covered && m_forearms->are_near(of_part("lower_body"));
+    take_forearms();
+    const bool covered = m_forearms->is_covered(body::Part::ARM_L, placed_on("arm_l")) || m_forearms->is_covered(body::Part::ARM_R, placed_on("arm_r"));
+    m_at.arms_aside = !covered && m_forearms->are_near(placed_on("lower_body"));
   }
   prepare_body(CoveredSkin(*m_body, CoveredSkin::HANDS | CoveredSkin::FEET).concerned(m_garment.position) | (m_at.arms_aside ? CoveredSkin::HANDS : 0u));
   if (m_at.arms_aside) m_collider->set_positions(skin_at(1));

@@ -108,12 +108,14 @@ Json state_json(const DrapeState& s) {
   j["cg_iterations"] = s.cg_iterations;
   j["rejected"] = s.rejected;
   j["pull"] = s.pull, j["pull_changed"] = s.pull_changed, j["gaps"] = s.gaps;
-  j["latest"] = s.latest, j["farthest"] = s.farthest, j["held"] = flat(s.held), j["tucks"] = s.tucks;
+  j["latest"] = s.latest, j["farthest"] = s.farthest, j["held"] = flat(s.held), j["tucks"] = s.tucks, j["tethered"] = s.tethered;
   j["h"] = s.h;
   j["calm"] = s.calm, j["unmoved"] = s.unmoved, j["pushed"] = s.pushed, j["best_at"] = s.best_at, j["untanglings"] = s.untanglings, j["partings"] = s.partings;
   if (s.best < std::numeric_limits<double>::infinity()) j["best"] = s.best;
   j["start_height"] = s.start_height;
   if (s.thawed_at) j["thawed_at"] = *s.thawed_at;
+  j["looked_at"] = s.looked_at, j["looked_from"] = flat(s.looked_from);
+  j["free_steps"] = s.free_steps, j["velocity"] = flat(s.velocity);
   if (s.motion.frame > 0) j["motion"] = motion_json(s.motion);
   return j;
 }
@@ -149,6 +151,7 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   if (s.phase == DrapePhase::SEW && static_cast<int>(s.gaps.size()) != s.step) node.at("gaps").fail("is not one number for each step");
   s.latest = node.at("latest").number(), s.farthest = node.at("farthest").number();
   if (node.has("held")) s.held = read_flat(node.at("held"));
+  s.tethered = node.has("tethered") && node.at("tethered").boolean();
   if (node.has("tucks")) s.tucks = read_integers(node.at("tucks"));
   for (int i : s.tucks)
     if (i < 0 || static_cast<std::size_t>(i) >= n_particles) node.at("tucks").fail("does not belong to this garment");
@@ -159,6 +162,12 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   if (node.has("best")) s.best = node.at("best").number();
   s.start_height = read_numbers(node.at("start_height"));
   if (node.has("thawed_at")) s.thawed_at = node.at("thawed_at").number();
+  if (node.has("looked_at")) { // older ones: from here on
+    s.looked_at = node.at("looked_at").integer(), s.looked_from = read_flat(node.at("looked_from"));
+    s.free_steps = node.at("free_steps").integer(), s.velocity = read_flat(node.at("velocity"));
+    for (const std::vector<Vec3>* of_particles : {&s.looked_from, &s.velocity})
+      if (!of_particles->empty() && of_particles->size() != n_particles) node.at("looked_from").fail("does not belong to this garment");
+  }
   if (s.phase == DrapePhase::SETTLE && s.start_height.size() != n_particles) node.at("start_height").fail("does not belong to this garment");
   if (node.has("motion") || s.phase == DrapePhase::MOVE) s.motion = read_motion(node.at("motion"));
   if (s.phase == DrapePhase::MOVE && s.motion.velocity.size() != n_particles) node.at("motion").at("velocity").fail("does not belong to this garment");

@@ -53,12 +53,17 @@ struct DrapeState {
   double latest = 0, farthest = 0; ///< m, how far skin may stay back, and does
   std::vector<int> tucks;          ///< particles that may pass through each other until weight and friction come: sewing left them tucked in
   std::vector<Vec3> held;          ///< m, where sleeve ends are held (sleeve_ends.hpp), until weight and friction come
+  bool tethered = false;           ///< likewise, of sleeves that are sewn on this body and longer than the arm
   // SETTLE
   double h = 0; ///< s
   int calm = 0, unmoved = 0, pushed = 0, best_at = 0, untanglings = 0, partings = 0;
   double best = std::numeric_limits<double>::infinity(); ///< least residual so far, weights
   std::vector<double> start_height;                      ///< #P, m, where settling began
   std::optional<double> thawed_at;                       ///< m, mean height when calm cloth was last let go of what a search kept in place
+  int looked_at = 0;                                     ///< step, when cloth that may still be on its way was last looked at
+  std::vector<Vec3> looked_from;                         ///< #P by 3, m, where it was some steps before the next look
+  int free_steps = 0;                                    ///< still to go with its inertia
+  std::vector<Vec3> velocity;                            ///< #P by 3, m/s, in the middle of those; else empty
   MotionState motion;                                    ///< of a drape in motion
 };
 

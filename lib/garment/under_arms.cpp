@@ -13,17 +13,18 @@ namespace {
 constexpr double ON_ARM = 0.05;   // of a particle's weights: it goes with the arm
 constexpr double REACH = 0.5;     // m from trunk or leg that such cloth may lie
 constexpr double DRAWN_IN = 0.02; // of its size: no forearm, and no triangle without an area
+constexpr double PAST_END = 0.02; // m of a forearm beyond the end of its sleeve
 
 bool overlap(const Box3& a, const Box3& b) { return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all(); }
 
 } // namespace
 
-Forearms::Forearms(const body::Body& body) {
+Forearms::Forearms(const body::Body& body) : m_skin(body.skin.positions) {
   for (const body::Part part : {body::Part::ARM_L, body::Part::ARM_R}) {
     const std::string suffix = part == body::Part::ARM_L ? "_l" : "_r";
     const std::string shoulder = "shoulder_joint" + suffix, elbow = "elbow" + suffix, wrist = "wrist" + suffix;
     if (!body.has_landmark(shoulder) || !body.has_landmark(elbow) || !body.has_landmark(wrist)) continue;
-    Arm arm{part, body.landmark(elbow), body.landmark(wrist) - body.landmark(elbow), (body.landmark(elbow) - body.landmark(shoulder)).norm(), {}, {}};
+    Arm arm{part, body.landmark(elbow), body.landmark(wrist) - body.landmark(elbow), (body.landmark(elbow) - body.landmark(shoulder)).norm(), 0, {}, {}};
     std::vector<char> beyond(body.skin.positions.size(), 0);
     for (std::size_t f = 0; f < body.skin.triangles.size(); ++f) {
       if (body.face_part[f] != part) continue;
@@ -51,22 +52,36 @@ bool Forearms::are_near(const std::vector<Vec3>& points) const {
   return std::any_of(m_arms.begin(), m_arms.end(), [&](const Arm& arm) { return !arm.box.empty() && overlap(box, arm.box); });
 }
 
-bool Forearms::is_covered(body::Part part, const std::vector<Vec3>& sleeve) const {
-  for (const Arm& arm : m_arms) {
-    if (arm.part != part || sleeve.empty()) continue;
-    double low = 1e300, high = -1e300; // m along the forearm
-    for (const Vec3& p : sleeve) {
-      const double along = (p - arm.elbow).dot(arm.down.normalized());
-      low = std::min(low, along), high = std::max(high, along);
-    }
-    return high - low > arm.upper_length + 0.5 * arm.down.norm();
+double Forearms::length_on(const Arm& arm, const std::vector<Vec3>& sleeve) {
+  if (sleeve.empty()) return -arm.upper_length;
+  double low = 1e300, high = -1e300; // m along the forearm
+  for (const Vec3& p : sleeve) {
+    const double along = (p - arm.elbow).dot(arm.down.normalized());
+    low = std::min(low, along), high = std::max(high, along);
   }
-  return false;
+  return high - low - arm.upper_length;
+}
+
+bool Forearms::is_covered(body::Part part, const std::vector<Vec3>& sleeve) const {
+  return std::any_of(m_arms.begin(), m_arms.end(), [&](const Arm& arm) { return arm.part == part && length_on(arm, sleeve) > 0.5 * arm.down.norm(); });
+}
+
+void Forearms::leave_in(body::Part part, const std::vector<Vec3>& sleeve) {
+  for (Arm& arm : m_arms) {
+    const double covered = length_on(arm, sleeve);
+    if (arm.part != part || covered <= 0) continue;
+    arm.begins = covered + PAST_END;
+    arm.vertices.erase(std::remove_if(arm.vertices.begin(), arm.vertices.end(),
+                                      [&](int v) { return (m_skin[static_cast<std::size_t>(v)] - arm.elbow).dot(arm.down.normalized()) < arm.begins; }),
+                       arm.vertices.end());
+  }
 }
 
 std::vector<Vec3> Forearms::drawn_in(std::vector<Vec3> skin) const {
-  for (const Arm& arm : m_arms)
-    for (int v : arm.vertices) skin[v] = arm.elbow + DRAWN_IN * (skin[v] - arm.elbow);
+  for (const Arm& arm : m_arms) {
+    const Vec3 end = arm.elbow + arm.begins * arm.down.normalized();
+    for (int v : arm.vertices) skin[v] = end + DRAWN_IN * (skin[v] - end);
+  }
   return skin;
 }
 

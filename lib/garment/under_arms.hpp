@@ -10,13 +10,16 @@ namespace sloper::garment {
 /// Forearms and hands of a body, of the arms whose shoulder, elbow and wrist were found.
 class Forearms {
 public:
+  /// `body` outlives it.
   explicit Forearms(const body::Body& body);
   /// Whether the box around these points, m, overlaps that of a forearm with its hand.
   bool are_near(const std::vector<Vec3>& points) const;
   /// Whether a sleeve covers half of its forearm or more, by its length: wherever along the arm it lies before it is sewn.
   /// @param part ARM_L or ARM_R   @param sleeve points, m; none covers nothing
   bool is_covered(body::Part part, const std::vector<Vec3>& sleeve) const;
-  /// The skin without them, drawn in to the elbows. @param skin as many as the body's has, m
+  /// From now on the forearm begins 2 cm beyond the end of this sleeve, which is sewn around what is above. @param sleeve points, m
+  void leave_in(body::Part part, const std::vector<Vec3>& sleeve);
+  /// The skin without them, drawn in to the elbows, or to where sleeves leave them. @param skin as many as the body's has, m
   std::vector<Vec3> drawn_in(std::vector<Vec3> skin) const;
   /// Of the skin.
   const std::vector<Triangle>& triangles() const { return m_triangles; }
@@ -26,9 +29,12 @@ private:
     body::Part part;
     Vec3 elbow, down;          // from there to the wrist, m
     double upper_length;       // m, of the upper arm
-    std::vector<int> vertices; // of the skin, beyond the elbow
+    double begins = 0;         // m beyond the elbow
+    std::vector<int> vertices; // of the skin, beyond that
     Box3 box;
   };
+  static double length_on(const Arm& arm, const std::vector<Vec3>& sleeve); ///< m of the forearm that a sleeve covers; negative: it ends above the elbow
+  const std::vector<Vec3>& m_skin;
   std::vector<Arm> m_arms;
   std::vector<Triangle> m_triangles;
 };

@@ -98,3 +98,45 @@ TEST(SleeveEnds, are_held_while_the_body_is_inflated_unless_that_is_switched_off
     EXPECT_LT(pins(report).calls, report.steps) << "and then let go";
   }
 }
+
+TEST(SleeveEnds, of_sleeves_placed_shorter_than_their_cloth_are_tethered_to_the_elbow) {
+  body::Body arm = make_arm();
+  Garment sleeve = long_sleeve();
+  const std::vector<cloth::Attachment> cords = tether_sleeve_ends(sleeve.panels, arm);
+  const auto low = std::count_if(sleeve.panels.placed.begin(), sleeve.panels.placed.end(), [](const Vec3& p) { return p.y() < 0.82 + 0.03; });
+  EXPECT_EQ(cords.size(), static_cast<std::size_t>(low));
+  for (const cloth::Attachment& cord : cords) {
+    EXPECT_EQ(cord.anchor, arm.landmark("elbow_l"));
+    EXPECT_NEAR(cord.rest_length, 0.3 - (sleeve.panels.placed[cord.particle].y() - 0.82), 1e-9);
+  }
+  for (Vec3& p : sleeve.panels.placed) p.y() = 1.02 + 1.5 * (p.y() - 1.02);
+  EXPECT_TRUE(tether_sleeve_ends(sleeve.panels, arm).empty()) << "it lies at its full length";
+  sleeve = long_sleeve();
+  for (Vec3& p : arm.skin.positions) p.x() *= 0.9, p.z() *= 0.9;
+  EXPECT_TRUE(tether_sleeve_ends(sleeve.panels, arm).empty()) << "the hand goes through";
+  arm = make_arm();
+  sleeve = long_sleeve();
+  arm.landmarks["wrist_l"].p.y() = 0.8;
+  EXPECT_TRUE(tether_sleeve_ends(sleeve.panels, arm).empty()) << "it ends above the wrist";
+  arm.landmarks.erase("wrist_l");
+  EXPECT_TRUE(tether_sleeve_ends(sleeve.panels, arm).empty()) << "no wrist was found";
+}
+
+TEST(SleeveEnds, are_not_pushed_over_the_hand_while_a_sleeve_is_sewn) {
+  body::Body arm = make_arm();
+  DrapeSettings settings;
+  settings.max_steps = 60; // still being sewn
+  for (const char* effects : {"auto", "auto,-attachments"}) {
+    settings.effects = effects;
+    Garment sleeve = long_sleeve();
+    drape(sleeve, &arm, settings, silent_reporter());
+    const bool tethered = settings.effects == "auto";
+    EXPECT_EQ(lowest(sleeve) > 0.845, tethered) << lowest(sleeve);
+  }
+  Garment sleeve = long_sleeve();
+  const DrapeReport report = drape(sleeve, &arm, {}, silent_reporter());
+  EXPECT_TRUE(report.converged) << report.stop_reason;
+  const auto attachments = std::find_if(report.effects.begin(), report.effects.end(), [](const EffectReport& e) { return e.name == "attachments"; });
+  EXPECT_GT(attachments->calls, 40) << "until the cloth has its folds";
+  EXPECT_LT(attachments->calls, report.steps) << "and then let go";
+}

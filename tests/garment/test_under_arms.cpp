@@ -79,6 +79,28 @@ TEST(UnderArms, a_long_sleeve_covers_the_forearm) {
   EXPECT_FALSE(forearms.is_covered(body::Part::ARM_R, {{0.24, 1.2, 0}, {0.24, 0.7, 0}})) << "it was not found";
 }
 
+TEST(UnderArms, what_a_sleeve_is_sewn_around_stays) {
+  const body::Body body = pillar_with_arm();
+  Forearms forearms(body);
+  forearms.leave_in(body::Part::ARM_L, {{0.24, 1.2, 0}, {0.24, 0.95, 0}}); // 5 cm of the forearm
+  const std::vector<Vec3> drawn = forearms.drawn_in(body.skin.positions);
+  const Vec3 elbow = body.landmark("elbow_l"), down = (body.landmark("wrist_l") - elbow).normalized();
+  const double covered = 0.25 - (elbow - body.landmark("shoulder_joint_l")).norm();
+  int left = 0, away = 0;
+  for (std::size_t v = 0; v < drawn.size(); ++v) {
+    const double along = (body.skin.positions[v] - elbow).dot(down);
+    if (drawn[v] == body.skin.positions[v]) {
+      left += along > 0;
+    } else {
+      EXPECT_LT((drawn[v] - elbow).dot(down), covered + 0.03);
+      EXPECT_GT(along, covered + 0.019);
+      ++away;
+    }
+  }
+  EXPECT_GT(left, 0);
+  EXPECT_GT(away, 0);
+}
+
 TEST(UnderArms, a_wide_skirt_is_sewn_inside_of_a_hanging_arm) {
   const body::Body body = pillar_with_arm();
   Garment skirt = make_skirt(0.74, 0.4, 0.03, 1.02, 0.25, 3);
