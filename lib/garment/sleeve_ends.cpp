@@ -4,7 +4,6 @@
 #include <geometry/triangle_mesh.hpp>
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 namespace sloper::garment {
@@ -18,8 +17,7 @@ constexpr double STIFFNESS = 1000;  // N/m, of each particle: 0.1 mm under a new
 constexpr double PUSHED = 0.01;     // m towards the fingers
 constexpr double STRETCHED = 0.01;  // of a sleeve's edge
 constexpr double SHORTENED = 0.97;  // area of the last centimetres as placed, of that of their cloth
-constexpr double NARROWER = 0.93;   // of the hand's girth: what is wider a hand gets through
-constexpr double HAND_ROW = 0.01;   // m
+constexpr double NARROWER = 0.87;   // of the girth of a spread hand: it gets through what is wider, with its thumb folded in
 
 struct Sleeve {
   std::vector<int> forearm; // particles
@@ -77,21 +75,16 @@ double end_girth(const pattern::PanelMesh& mesh, const std::vector<int>& vertice
   return girth;
 }
 
-/// m around the widest centimetre of what is beyond the wrist, drawn tight.
+/// m around what is beyond the wrist, drawn tight over the spread thumb.
 double hand_girth(const body::Body& body, body::Part arm, const Vec3& elbow, const Vec3& forearm) {
   const Vec3 down = forearm.normalized(), x = down.unitOrthogonal(), z = down.cross(x);
-  std::map<int, std::vector<Vec2>> rows;
+  std::vector<Vec2> shadow;
   for (std::size_t f = 0; f < body.skin.triangles.size(); ++f) {
     if (body.face_part[f] != arm) continue;
-    for (int v : body.skin.triangles[f]) {
-      const Vec3 p = body.skin.positions[v] - elbow;
-      const double past_wrist = p.dot(down) - forearm.norm();
-      if (past_wrist > 0) rows[static_cast<int>(past_wrist / HAND_ROW)].emplace_back(p.dot(x), p.dot(z));
-    }
+    for (int v : body.skin.triangles[f])
+      if (const Vec3 p = body.skin.positions[v] - elbow; p.dot(down) > forearm.norm()) shadow.emplace_back(p.dot(x), p.dot(z));
   }
-  double girth = 0;
-  for (const auto& [row, points] : rows) girth = std::max(girth, body::closed_length(body::convex_hull(points)));
-  return girth;
+  return body::closed_length(body::convex_hull(shadow));
 }
 
 } // namespace

@@ -120,7 +120,7 @@ inline body::Body make_arm() {
   body::Body arm = make_pillar();
   arm.face_part.assign(arm.skin.triangles.size(), body::Part::ARM_L);
   for (Vec3& p : arm.skin.positions)
-    if (p.y() < 0.8) p.x() *= 1.1, p.z() *= 1.1;
+    if (p.y() < 0.8) p.x() *= 1.15, p.z() *= 1.15;
   arm.landmarks["elbow_l"].p = Vec3(0, 1.15, 0);
   arm.landmarks["wrist_l"].p = Vec3(0, 0.85, 0);
   return arm;
