@@ -201,7 +201,7 @@ void DrapeRun::hold_sleeves() {
 }
 
 void DrapeRun::tether_sleeves() {
-  if (!m_at.tethered) return;
+  if (!m_at.tethered || !m_body) return;
   std::vector<cloth::Attachment> cords = tether_sleeve_ends(m_garment.panels, *m_body);
   for (cloth::Attachment& cord : cords) cord.particle = m_garment.particle_of[cord.particle];
   if (!active("attachments")) activate("attachments", "sleeves longer than the arms are kept at the wrists until the cloth above has found its folds");

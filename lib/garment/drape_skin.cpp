@@ -37,6 +37,7 @@ void DrapeRun::prepare_body(unsigned covered) {
 
 std::vector<Vec3> DrapeRun::placed_on(const std::string& part) const {
   std::vector<Vec3> points;
+  if (m_garment.panels.placed.empty()) return points;
   for (const pattern::PanelInfo& p : m_garment.panels.panels)
     for (int v = p.first_vertex; p.part.starts_with(part) && v < p.first_vertex + p.n_vertices; ++v) points.push_back(m_garment.panels.placed[v]);
   return points;
