@@ -162,12 +162,14 @@ void Placer::place_trunk(const PanelGroup& all) {
     }
     return;
   }
-  const double wing = wing_limit(group, axis, b, hull);
+  const double wing = wing_limit(group, axis, b, hull), pit = m_space.level("chest_axilla", 0.76);
+  std::map<int, std::array<double, 2>> folded; // by depth: on the sides of negative and of positive x
   for (std::size_t k : group.panels) {
     const int depth = m_depth[k];
     if (!curves.count(depth)) {
       const double out = group.extra + LAYER * depth;
-      curves.emplace(depth, WrapCurve::front_of(hull, GAP + out, wing + out, FILLET, axis.plane(Vec3(0, 0, 0)).x()));
+      const WrapCurve& curve = curves.emplace(depth, WrapCurve::front_of(hull, GAP + out, wing + out, FILLET, axis.plane(Vec3(0, 0, 0)).x())).first->second;
+      folded[depth] = {folded_beside_arm(group, axis, curve, -1), folded_beside_arm(group, axis, curve, 1)};
     }
     if (const auto sector = sector_of(k)) {
       place_in_folds(group, k, *sector, axis, hull);
@@ -176,14 +178,11 @@ void Placer::place_trunk(const PanelGroup& all) {
     const WrapCurve& curve = curves.at(depth);
     const std::vector<SleeveBend> bends = sleeve_bends(group, axis, curve);
     const bool beside_arms = bends.empty() && m_roles[k].part != "lower_body";
-    const std::array<double, 2> folded = {beside_arms ? folded_beside_arm(group, axis, curve, -1) : 1,
-                                          beside_arms ? folded_beside_arm(group, axis, curve, 1) : 1};
-    const double pit = m_space.level("chest_axilla", 0.76);
     put(k, [&](const Vec2& p) {
       Vec2 q = p;
       for (const SleeveBend& bend : bends) q = bend.at(q);
-      const double t = std::clamp((pit - q.y()) / BELOW_PIT, 0.0, 1.0), ratio = 1 + t * t * (3 - 2 * t) * (folded[q.x() > 0] - 1);
-      return axis.point(ratio > 1 ? in_folds(curve, q.x(), ratio) : curve.at(q.x()), q.y());
+      const double t = std::clamp((pit - q.y()) / BELOW_PIT, 0.0, 1.0), ratio = 1 + t * t * (3 - 2 * t) * (folded[depth][q.x() > 0] - 1);
+      return axis.point(beside_arms && ratio > 1 ? in_folds(curve, q.x(), ratio) : curve.at(q.x()), q.y());
     });
   }
 }
