@@ -1,6 +1,5 @@
 #include <base/error.hpp>
 #include <base/units.hpp>
-#include <cloth/attachments.hpp>
 #include <cloth/bending.hpp>
 #include <cloth/edge_spring.hpp>
 #include <cloth/factorisation.hpp>
@@ -88,7 +87,7 @@ void DrapeRun::build_solver(bool open_seams) {
   if (active("shear")) m_solver->emplace<cloth::ShearEffect>(*m_cloth);
   if (active("bending")) m_solver->emplace<cloth::BendingEffect>(*m_cloth);
   add_scene_effects(*m_solver, *m_cloth, m_garment, m_body, m_report.effects, open_seams);
-  m_breath = m_hold = m_tether = nullptr;
+  m_breath = m_hold = nullptr;
   m_sewing = nullptr;
   if (open_seams) m_sewing = &m_solver->emplace<cloth::SewingSpringEffect>(open_stitches(m_garment), 1.0, SEW_REACH);
   m_body_contact = nullptr;
@@ -200,18 +199,8 @@ void DrapeRun::hold_sleeves() {
   m_hold = &m_solver->emplace<cloth::PinsEffect>(std::move(pins));
 }
 
-void DrapeRun::tether_sleeves() {
-  if (!m_at.tethered || !m_body) return;
-  std::vector<cloth::Attachment> cords = tether_sleeve_ends(m_garment.panels, *m_body);
-  for (cloth::Attachment& cord : cords) cord.particle = m_garment.particle_of[cord.particle];
-  if (!active("attachments")) activate("attachments", "sleeves longer than the arms are kept at the wrists until the cloth above has found its folds");
-  m_tether = &m_solver->emplace<cloth::AttachmentsEffect>(std::move(cords));
-}
-
 void DrapeRun::let_sleeves_go() {
   take_back(m_hold);
-  take_back(m_tether);
-  m_at.tethered = false;
   m_at.held.clear();
 }
 
@@ -234,7 +223,6 @@ DrapeReport DrapeRun::run() {
     m_at.disturbed = unsewn || m_at.scale < 1 || m_settings.hold_sleeve_ends || m_settings.glides_first;
     if (!unsewn && m_at.disturbed && may_pass("pins"))
       for (const cloth::Pin& pin : hold_sleeve_ends(m_garment)) m_at.held.push_back(pin.target);
-    m_at.tethered = unsewn && active("body_contact") && may_pass("attachments") && !tether_sleeve_ends(m_garment.panels, *m_body).empty();
     if (unsewn && active("sewing")) sew();
   } else if (m_at.phase == DrapePhase::SEW) {
     sew();
@@ -244,7 +232,6 @@ DrapeReport DrapeRun::run() {
       untangle();
       build_solver(false);
       hold_sleeves();
-      tether_sleeves();
       let_tucks_pass();
     }
     if (m_at.phase != DrapePhase::SETTLE && m_at.phase != DrapePhase::MOVE) inflate();

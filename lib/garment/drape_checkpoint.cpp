@@ -35,7 +35,6 @@ void DrapeRun::renew() {
 void DrapeRun::rebuild() {
   build_solver(m_at.phase == DrapePhase::SEW);
   hold_sleeves();
-  tether_sleeves();
   let_tucks_pass();
   if ((m_at.phase == DrapePhase::SETTLE && m_at.step > glide()) || m_at.phase == DrapePhase::MOVE) add_load();
   if (m_body_contact) m_body_contact->recall(m_at.contact);

@@ -88,8 +88,7 @@ private:
   void find_tucks();     ///< that sewing left, for let_tucks_pass()
   void let_tucks_pass(); ///< each through itself, until close_tucks()
   void close_tucks();
-  void hold_sleeves();   ///< where m_at says, until let_sleeves_go()
-  void tether_sleeves(); ///< likewise, while m_at.tethered
+  void hold_sleeves(); ///< where m_at says, until let_sleeves_go()
   void let_sleeves_go();
   bool may_pass(const std::string& effect) const;
   void take_back(const cloth::Effect*& effect);                      ///< a passing one of m_solver, if it is there; into the report
@@ -133,7 +132,7 @@ private:
   std::unique_ptr<cloth::ClothSolver> m_solver;
   cloth::BodyContactEffect* m_body_contact = nullptr;
   cloth::SelfContactEffect* m_self_contact = nullptr;
-  const cloth::Effect *m_breath = nullptr, *m_hold = nullptr, *m_tether = nullptr; // of m_solver
+  const cloth::Effect *m_breath = nullptr, *m_hold = nullptr; // of m_solver
   cloth::SewingSpringEffect* m_sewing = nullptr;
   bool m_loaded = false; ///< with weight and friction
   const BodyMoves* m_moves = nullptr;

@@ -33,7 +33,6 @@ void DrapeRun::sew() {
   const Phase phase(*this, "sew");
   if (m_at.phase != DrapePhase::SEW) { // it begins; else it goes on from a checkpoint
     build_solver(true);
-    tether_sleeves();
     log_crossings("start");
     double weight = 0;
     for (double m : m_cloth->mass) weight += m * units::GRAVITY / m_cloth->n_particles;

@@ -108,7 +108,7 @@ Json state_json(const DrapeState& s) {
   j["cg_iterations"] = s.cg_iterations;
   j["rejected"] = s.rejected;
   j["pull"] = s.pull, j["pull_changed"] = s.pull_changed, j["gaps"] = s.gaps;
-  j["latest"] = s.latest, j["farthest"] = s.farthest, j["held"] = flat(s.held), j["tucks"] = s.tucks, j["tethered"] = s.tethered;
+  j["latest"] = s.latest, j["farthest"] = s.farthest, j["held"] = flat(s.held), j["tucks"] = s.tucks;
   j["h"] = s.h;
   j["calm"] = s.calm, j["unmoved"] = s.unmoved, j["pushed"] = s.pushed, j["best_at"] = s.best_at, j["untanglings"] = s.untanglings, j["partings"] = s.partings;
   if (s.best < std::numeric_limits<double>::infinity()) j["best"] = s.best;
@@ -151,7 +151,6 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   if (s.phase == DrapePhase::SEW && static_cast<int>(s.gaps.size()) != s.step) node.at("gaps").fail("is not one number for each step");
   s.latest = node.at("latest").number(), s.farthest = node.at("farthest").number();
   if (node.has("held")) s.held = read_flat(node.at("held"));
-  s.tethered = node.has("tethered") && node.at("tethered").boolean();
   if (node.has("tucks")) s.tucks = read_integers(node.at("tucks"));
   for (int i : s.tucks)
     if (i < 0 || static_cast<std::size_t>(i) >= n_particles) node.at("tucks").fail("does not belong to this garment");

@@ -53,7 +53,6 @@ struct DrapeState {
   double latest = 0, farthest = 0; ///< m, how far skin may stay back, and does
   std::vector<int> tucks;          ///< particles that may pass through each other until weight and friction come: sewing left them tucked in
   std::vector<Vec3> held;          ///< m, where sleeve ends are held (sleeve_ends.hpp), until weight and friction come
-  bool tethered = false;           ///< likewise, of sleeves that are sewn on this body and longer than the arm
   // SETTLE
   double h = 0; ///< s
   int calm = 0, unmoved = 0, pushed = 0, best_at = 0, untanglings = 0, partings = 0;

@@ -3,8 +3,6 @@
 /// friction, it would straighten out and push its end over the hand, where a cuff is stretched and stays. So it would where it is placed by its
 /// coordinates alone, shorter than its cloth. Who puts on a shirt holds the cuffs.
 /// Test: tests/garment/test_sleeve_ends.cpp
-#include <body/body.hpp>
-#include <cloth/attachments.hpp>
 #include <cloth/pins.hpp>
 #include <garment/garment.hpp>
 
@@ -13,13 +11,6 @@ namespace sloper::garment {
 /// Pins that hold the last 3 cm of each sleeve that ends near a wrist where it is: less than 8 cm beyond, since what covers the hand is to slide.
 /// None for a garment that is not bound.
 std::vector<cloth::Pin> hold_sleeve_ends(const Garment& garment);
-
-/// Cords from the elbows that keep the last 3 cm of sleeves no farther out than the wrist while they are sewn: of those that were placed shorter
-/// than their cloth, since they are longer than the arm, and are narrower than the hand. As boards they would straighten over the hand before
-/// their cuffs are closed. A cord only pulls.
-/// @param mesh  with its panels placed around `body`
-/// @return `particle` is a vertex of the mesh; none for an arm of which elbow or wrist was not found
-std::vector<cloth::Attachment> tether_sleeve_ends(const pattern::PanelMesh& mesh, const body::Body& body);
 
 /// Those of hold_sleeve_ends() that a hand holds open: their edge went at least a centimetre farther from the elbow than it was placed, to where
 /// it is stretched. Such a sleeve is longer than the arm and narrower than the hand: its end belongs where it was placed, and its cloth in folds.

@@ -115,32 +115,6 @@ inline Garment make_skirt(double girth, double length, double edge, double top_y
   return garment;
 }
 
-/// The pillar as a forearm with a wide hand below y = 0.8 m.
-inline body::Body make_arm() {
-  body::Body arm = make_pillar();
-  arm.face_part.assign(arm.skin.triangles.size(), body::Part::ARM_L);
-  for (Vec3& p : arm.skin.positions)
-    if (p.y() < 0.8) p.x() *= 1.15, p.z() *= 1.15;
-  arm.landmarks["elbow_l"].p = Vec3(0, 1.15, 0);
-  arm.landmarks["wrist_l"].p = Vec3(0, 0.85, 0);
-  return arm;
-}
-
-/// Front and back of a sleeve, placed shorter than their cloth around that arm, to 3 cm beyond the wrist.
-inline Garment long_sleeve() {
-  Garment sleeve = make_skirt(0.75, 0.3, 0.03);
-  const int n_up = 11, n_across = sleeve.panels.panels[0].n_vertices / n_up;
-  for (pattern::PanelInfo& p : sleeve.panels.panels) {
-    p.part = "arm_l";
-    for (int c = 0; c < n_across; ++c) p.outline.push_back(p.first_vertex + c);
-    for (int r = 1; r < n_up; ++r) p.outline.push_back(p.first_vertex + (r + 1) * n_across - 1);
-    for (int c = n_across - 2; c >= 0; --c) p.outline.push_back(p.first_vertex + (n_up - 1) * n_across + c);
-    for (int r = n_up - 2; r > 0; --r) p.outline.push_back(p.first_vertex + r * n_across);
-  }
-  for (Vec3& p : sleeve.panels.placed) p.y() = 1.02 + 0.2 / 0.3 * (p.y() - 1.02);
-  return sleeve;
-}
-
 /// The pillar swings to its side, by `way` m at most, and turns, as hips do; 30 frames a second. `body` outlives it.
 inline BodyMoves swinging(const body::Body& body, std::size_t frames, double way) {
   BodyMoves moves;
