@@ -38,8 +38,8 @@ void DrapeRun::rebuild() {
   let_tucks_pass();
   if ((m_at.phase == DrapePhase::SETTLE && m_at.step > glide()) || m_at.phase == DrapePhase::MOVE) add_load();
   if (m_body_contact) m_body_contact->recall(m_at.contact);
-  if (m_at.phase == DrapePhase::MOVE) m_solver->shift(std::vector<Vec3>(m_at.motion.velocity.size(), Vec3::Zero()), m_at.motion.velocity);
-  if (!m_at.velocity.empty()) m_solver->shift(std::vector<Vec3>(m_at.velocity.size(), Vec3::Zero()), m_at.velocity);
+  const std::vector<Vec3>& velocity = m_at.phase == DrapePhase::MOVE ? m_at.motion.velocity : m_at.velocity;
+  if (!velocity.empty()) m_solver->shift(std::vector<Vec3>(velocity.size(), Vec3::Zero()), velocity);
   m_at.velocity.clear();
 }
 

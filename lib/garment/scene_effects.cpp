@@ -201,7 +201,7 @@ void add_scene_effects(cloth::ClothSolver& solver, const cloth::ClothMesh& mesh,
   if (is_active(effects, "dihedral_bending")) solver.emplace<cloth::DihedralBendingEffect>(mesh, rest_angles_of(mesh, garment));
   if (is_active(effects, "pins") && !garment.scene.pins.empty()) solver.emplace<cloth::PinsEffect>(pins_of(garment));
   if (sewing) return;
-  if (is_active(effects, "attachments") && !garment.scene.attachments.empty()) solver.emplace<cloth::AttachmentsEffect>(attachments_of(garment, body));
+  if (is_active(effects, "attachments")) solver.emplace<cloth::AttachmentsEffect>(attachments_of(garment, body));
   if (is_active(effects, "elastic_bands")) solver.emplace<cloth::ElasticBandEffect>(bands_of(garment));
   if (is_active(effects, "wind")) {
     cloth::WindOptions options;
