@@ -59,7 +59,6 @@ void BodyContactEffect::weigh_skin() {
     const double area = 0.5 * a.cross(b).norm();
     m_body_face_weight.push_back(area / (area + disc));
     for (int v : t) m_body_vertex_weight[v] += area / 3;
-    m_longest_body_edge = std::max({m_longest_body_edge, a.norm(), b.norm(), (b - a).norm()});
   }
   for (double& w : m_body_vertex_weight) w /= w + edge_disc;
 }
@@ -89,9 +88,9 @@ Vec3 BodyContactEffect::crossing_place() const {
 
 void BodyContactEffect::begin_step(const std::vector<Vec3>& x, double) {
   const double edge_radius = EDGE_REACH * m_options.gap_m + m_options.slack_m;
-  m_stale = m_stale || m_n_crossing > 0 || m_body_moved > USED * m_options.slack_m;
+  m_stale = m_stale || m_n_crossing > 0;
   for (std::size_t i = 0; !m_stale && i < x.size(); ++i) {
-    const double moved = (x[i] - m_searched_at[i]).norm() + m_body_moved;
+    const double moved = (x[i] - m_searched_at[i]).norm() + m_skin_moved[i];
     m_stale = moved > (m_reach_now[i] > edge_radius ? USED * m_reach_now[i] : USED * m_options.slack_m);
   }
   if (m_stale) search(x);
@@ -194,7 +193,7 @@ void BodyContactEffect::search(const std::vector<Vec3>& x) {
   if (m_options.level < ContactLevel::FACE) m_found.face_vertex.clear();
   collect_pairs();
   m_searched_at = x;
-  m_body_moved = 0;
+  m_skin_moved.assign(x.size(), 0);
   m_stale = false;
   ++searches;
 }
@@ -325,7 +324,7 @@ void BodyContactEffect::add(StepContext& context) {
   if (context.limits && guarded())
     for (std::size_t i = 0; i < x.size(); ++i) {
       double& most = context.limits->most[i];
-      most = std::min(most, std::max(0.0, m_reach_now[i] - m_body_moved - (x[i] - m_searched_at[i]).norm()));
+      most = std::min(most, std::max(0.0, m_reach_now[i] - m_skin_moved[i] - (x[i] - m_searched_at[i]).norm()));
     }
   if (m_options.friction > 0) add_friction(context);
   m_carried.assign(x.size(), Vec3::Zero());

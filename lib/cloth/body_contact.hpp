@@ -15,6 +15,7 @@
 #include <cloth/cloth_mesh.hpp>
 #include <cloth/effect.hpp>
 #include <collision/body_collider.hpp>
+#include <collision/skin_ways.hpp>
 
 namespace sloper::cloth {
 
@@ -63,12 +64,9 @@ public:
   /// limit, and no farther than what is seen. Searches when it must. Cloth that crosses the skin already does not count. In [0, 1];
   /// 0 before the first step.
   double free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry);
-  /// Moves the body (same topology). Anchors of friction go with the skin that they are on.
-  /// @param common  m: skin and cloth go this way together, and what was found out about them holds as far as they go other ways
-  void move_body(const std::vector<Vec3>& positions, const Vec3& common = Vec3::Zero());
-  /// The way that skin and cloth have in common when a body walks, where cloth is carried so; 0 where most of it stays: skin that holds
-  /// still is then left alone. @param carry #P by 3, m
-  static Vec3 common_way(const std::vector<Vec3>& carry);
+  /// Moves the body (same topology), while the cloth at x goes by `carry` (#P by 3, m, or empty: it stays). Anchors of friction go with the skin that
+  /// they are on; what was found out holds as far as skin and the cloth near it go other ways.
+  void move_body(const std::vector<Vec3>& positions, const std::vector<Vec3>& x, const std::vector<Vec3>& carry = {});
   /// How far beyond the reach pairs are kept, m: wide where skin and cloth pass each other fast.
   void set_slack(double slack_m) { m_options.slack_m = slack_m, m_stale = true; }
   void set_friction(double mu) { m_options.friction = mu; }
@@ -117,7 +115,7 @@ private:
   double share_of(const Pair& pair, const std::vector<Vec3>& x) const; ///< see crossing_share()
   void measure_way(const std::vector<Vec3>& x) const;
   double farthest(const Pair& pair) const;
-  static double approach(const Pair& pair, const std::vector<double>& skin_goes, const std::vector<double>& cloth_goes);
+  static double against(const Pair& pair, const std::vector<Vec3>& way, const std::vector<Vec3>& carry);
   void guard(const Pair& pair, const Closest& c, MotionLimits& limits) const;
   bool guarded() const { return m_options.level == ContactLevel::CONTINUOUS; }
   void weigh_skin();
@@ -130,7 +128,7 @@ private:
   void add_friction(StepContext& context);
   double friction_energy(const std::vector<Vec3>& x) const; ///< J
   void carry_anchors(const std::vector<Vec3>& positions);
-  double longest_near(const Box3& cloth, const std::vector<Vec3>& way, const Vec3& common) const;
+  void measure_against(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry);
 
   const ClothMesh& m_mesh;
   collision::BodyCollider& m_body;
@@ -140,11 +138,10 @@ private:
   std::vector<int> m_edge_slot;                                 // by edge
   std::vector<double> m_edge_area, m_face_area, m_longest_edge; // by edge, triangle, triangle
   std::vector<double> m_body_face_weight, m_body_vertex_weight; // 0..1
-  double m_longest_body_edge = 0;                               // m, of the skin as it came
 
   struct Nearing { // a pair that skin or carried cloth moves
     const Pair* pair;
-    double skin_goes, room; // m: at most; ends that come no nearer than that are left alone
+    double room; // m: ends that come no nearer than that are left alone
     int measured = -1;
   };
   struct Measured {
@@ -159,7 +156,9 @@ private:
   std::vector<Vec3> m_searched_at, m_added_at; // #P by 3, m: where the last search and the last add() saw the cloth
   mutable std::vector<double> m_way;           // #P, m: of each particle since m_added_at, or of a displacement
   std::vector<double> m_reach_now;             // #P: may move this far from m_searched_at unseen
-  double m_body_moved = 0;                     // m, since the search
+  std::vector<double> m_skin_moved;            // #P, m: of skin near it against what carried it, at most, since the search
+  collision::SkinWays m_ways;
+  std::vector<double> m_against; // #P, m: of measure_against(), how far skin near it goes against its carry, at most
   bool m_stale = true, m_look_for_crossings = true;
   std::vector<char> m_inside, m_crossing, m_asked; // by particle, triangle, triangle
   std::size_t m_n_crossing = 0;

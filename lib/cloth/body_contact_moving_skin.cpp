@@ -1,3 +1,4 @@
+#include <base/parallel.hpp>
 #include <cloth/body_contact.hpp>
 
 #include <algorithm>
@@ -16,59 +17,52 @@ constexpr double SKIN_APPROACH = 1.0 / 3;
 constexpr double MOST_CLEARED = 0.002;
 constexpr int CLEAR_ROUNDS = 12;
 
-/// Of the longest carry: where the mean one is shorter, most of the cloth stays.
-constexpr double MOST_STAYS = 0.25;
-/// Skin whose longest edges have grown by this factor in a pose is still seen whole.
-constexpr double STRETCHED_SKIN = 1.5;
-
-std::vector<double> lengths_against(const Vec3& common, const std::vector<Vec3>& ways) {
-  std::vector<double> l(ways.size());
-  for (std::size_t i = 0; i < ways.size(); ++i) l[i] = (ways[i] - common).norm();
-  return l;
+/// Where it stands still, nothing is carried.
+const Vec3& carry_of(const std::vector<Vec3>& carry, std::size_t i) {
+  static const Vec3 none = Vec3::Zero();
+  return carry.empty() ? none : carry[i];
 }
 
 } // namespace
 
-Vec3 BodyContactEffect::common_way(const std::vector<Vec3>& carry) {
-  Vec3 mean = Vec3::Zero(), median = Vec3::Zero();
-  double longest = 0;
-  for (const Vec3& c : carry) {
-    mean += c / static_cast<double>(carry.size());
-    longest = std::max(longest, c.norm());
+/// Of what is known since the last search, all is about skin and cloth that may come as near as the particles of an element may yet go, or as a
+/// particle's clearance tells. Skin farther off may go as it likes, if it stays as far: so each particle is asked about the skin within twice its
+/// element's reach (what was not asked about when the particle was elsewhere counts from there), the element's size and what the fastest goes.
+void BodyContactEffect::measure_against(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry) {
+  m_against.assign(x.size(), 0);
+  if (m_reach_now.size() != x.size()) return; // nothing is known
+  std::vector<double> radius(x.size());
+  for (const Triangle& t : m_triangles) {
+    double reach = 0, size = 0;
+    for (int k = 0; k < 3; ++k) {
+      reach = std::max(reach, m_reach_now[t[k]]);
+      size = std::max(size, (x[t[k]] - x[t[(k + 1) % 3]]).norm());
+    }
+    for (int i : t) radius[i] = std::max(radius[i], 2 * reach + size);
   }
-  if (mean.norm() <= MOST_STAYS * longest) return median;
-  std::vector<double> part;
-  for (int a = 0; a < 3; ++a) { // of what is carried at all: cloth that hangs free is not
-    part.clear();
-    for (const Vec3& c : carry)
-      if (c != Vec3::Zero()) part.push_back(c[a]);
-    const auto middle = part.begin() + static_cast<long>(part.size() / 2);
-    std::nth_element(part.begin(), middle, part.end());
-    median[a] = *middle;
-  }
-  return median;
+  for (std::size_t i = 0; i < x.size(); ++i) radius[i] = std::max(radius[i], m_clearance[i].distance + (x[i] - m_clearance[i].at).norm());
+
+  const auto fastest = [&](const Box3& ways) {
+    double most = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) most = std::max(most, collision::SkinWays::farthest(ways, carry_of(carry, i)));
+    return most;
+  };
+  const Vec3 margin = Vec3::Constant(*std::max_element(radius.begin(), radius.end()) + fastest(bounding_box(way)));
+  const Box3 cloth = bounding_box(x);
+  m_ways.build(m_body.mesh(), way, {cloth.low - margin, cloth.high + margin});
+  const double most = fastest(m_ways.all());
+  if (most <= 0) return;
+  parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) m_against[i] = m_ways.longest_against(carry_of(carry, i), x[i], radius[i] + most);
+  });
 }
 
-/// The longest way of skin near cloth, against the common one, m: what stays out of all distances that are known may go as far as it likes.
-double BodyContactEffect::longest_near(const Box3& cloth, const std::vector<Vec3>& way, const Vec3& common) const {
-  const std::vector<Vec3>& skin = m_body.mesh().positions;
-  const Vec3 margin = Vec3::Constant(std::max(FAR, m_options.gap_m + m_options.slack_m) + STRETCHED_SKIN * m_longest_body_edge);
-  const Vec3 low = cloth.low - margin, high = cloth.high + margin;
-  double longest2 = 0;
-  for (std::size_t v = 0; v < way.size(); ++v) {
-    const Vec3 goes = way[v] - common, to = skin[v] + goes;
-    const bool near = (skin[v].cwiseMin(to).array() <= high.array()).all() && (skin[v].cwiseMax(to).array() >= low.array()).all();
-    if (near) longest2 = std::max(longest2, goes.squaredNorm());
-  }
-  return std::sqrt(longest2);
-}
-
-/// How much nearer a pair's ends come at most, m.
-double BodyContactEffect::approach(const Pair& pair, const std::vector<double>& skin_goes, const std::vector<double>& cloth_goes) {
-  double skin = 0, cloth = 0;
-  for (int k = 0; k < pair.n_body; ++k) skin = std::max(skin, skin_goes[pair.body[k]]);
-  for (int k = 0; k < pair.n; ++k) cloth = std::max(cloth, cloth_goes[pair.particle[k]]);
-  return skin + cloth;
+/// How far a pair's ends go against each other at most, m.
+double BodyContactEffect::against(const Pair& pair, const std::vector<Vec3>& way, const std::vector<Vec3>& carry) {
+  double most2 = 0;
+  for (int k = 0; k < pair.n; ++k)
+    for (int b = 0; b < pair.n_body; ++b) most2 = std::max(most2, (way[pair.body[b]] - carry_of(carry, pair.particle[k])).squaredNorm());
+  return std::sqrt(most2);
 }
 
 std::vector<double> BodyContactEffect::skin_room(const std::vector<Vec3>& x) {
@@ -84,33 +78,29 @@ std::vector<double> BodyContactEffect::skin_room(const std::vector<Vec3>& x) {
 
 double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry) {
   if (m_edge_slot.empty()) return 0; // not bound yet: there was no step
-  const Vec3 common = common_way(carry);
-  const std::vector<double> skin_goes = lengths_against(common, way), cloth_goes = lengths_against(common, carry);
-  Box3 cloth = bounding_box(x);
-  for (std::size_t i = 0; i < x.size(); ++i) cloth.add(x[i] + carry[i] - common);
-  const double longest = longest_near(cloth, way, common);
-  if (longest <= 0 && *std::max_element(cloth_goes.begin(), cloth_goes.end()) <= 0) return 1;
+  const auto stays = [](const std::vector<Vec3>& ways) { return std::all_of(ways.begin(), ways.end(), [](const Vec3& w) { return w == Vec3::Zero(); }); };
+  if (stays(way) && stays(carry)) return 1;
   begin_step(x, 0);
-  const auto room = [&](std::size_t i) { return USED * m_reach_now[i] - m_body_moved - (x[i] - m_searched_at[i]).norm(); }; // m, to come nearer unseen
+  const auto room = [&](std::size_t i) { return USED * m_reach_now[i] - m_skin_moved[i] - (x[i] - m_searched_at[i]).norm(); }; // m, to come nearer unseen
   bool enough = true;
   for (std::size_t i = 0; enough && i < x.size(); ++i) enough = room(i) >= 0.5 * USED * m_reach_now[i];
   if (!enough) search(x);
+  measure_against(x, way, carry);
   double share = 1;
   for (std::size_t i = 0; i < x.size(); ++i)
-    if (const double nearer = longest + cloth_goes[i], left = room(i); share * nearer > left) share = left / nearer;
+    if (const double left = room(i); share * m_against[i] > left) share = left / m_against[i];
   measure_way(x);
   for (const Pair& pair : m_pairs) {
-    const double nearer_at_most = approach(pair, skin_goes, cloth_goes);
-    if (pair.crossed || nearer_at_most <= 0 || share * nearer_at_most <= SKIN_APPROACH * (pair.clear - farthest(pair))) continue;
+    if (pair.crossed) continue;
+    const double nearer_at_most = against(pair, way, carry);
+    if (share * nearer_at_most <= SKIN_APPROACH * (pair.clear - farthest(pair))) continue;
     const Closest c = closest(pair, x);
     if (!c.valid) continue;
     // At the closest points: what turns with the skin, as carried cloth does, comes no nearer by turning.
     double skin_toward = 0, cloth_away = 0;
     for (int k = 0; k < pair.n_body; ++k) skin_toward += c.body_weight[k] * c.normal.dot(way[pair.body[k]]);
     for (int k = 0; k < pair.n; ++k) cloth_away += c.weight[k] * c.normal.dot(carry[pair.particle[k]]);
-    if (const double nearer = skin_toward - cloth_away; nearer > 0) {
-      share = std::min(share, SKIN_APPROACH * c.distance / nearer);
-    }
+    if (const double nearer = skin_toward - cloth_away; nearer > 0) share = std::min(share, SKIN_APPROACH * c.distance / nearer);
   }
   return share;
 }
@@ -121,15 +111,8 @@ void BodyContactEffect::clear_carry(const std::vector<Vec3>& x, const std::vecto
   m_nearing.clear();
   m_measured.clear();
   measure_way(x);
-  const Vec3 common = common_way(carry);
-  const std::vector<double> skin_goes = lengths_against(common, way);
-  std::vector<double> cloth_goes = lengths_against(common, carry);
-  for (const Pair& pair : m_pairs) {
-    if (pair.crossed) continue;
-    double skin = 0;
-    for (int k = 0; k < pair.n_body; ++k) skin = std::max(skin, skin_goes[pair.body[k]]);
-    m_nearing.push_back({&pair, skin, 0.5 * SKIN_APPROACH * (pair.clear - farthest(pair))});
-  }
+  for (const Pair& pair : m_pairs)
+    if (!pair.crossed) m_nearing.push_back({&pair, 0.5 * SKIN_APPROACH * (pair.clear - farthest(pair))});
   const auto measure = [&](const Pair& pair) {
     Measured m = {closest(pair, x), 0};
     for (int k = 0; m.closest.valid && k < pair.n_body; ++k) m.skin_toward += m.closest.body_weight[k] * m.closest.normal.dot(way[pair.body[k]]);
@@ -139,9 +122,7 @@ void BodyContactEffect::clear_carry(const std::vector<Vec3>& x, const std::vecto
   for (int round = 0; round < CLEAR_ROUNDS; ++round) {
     bool more = false;
     for (Nearing& n : m_nearing) {
-      double cloth = 0;
-      for (int k = 0; k < n.pair->n; ++k) cloth = std::max(cloth, cloth_goes[n.pair->particle[k]]);
-      if (n.skin_goes + cloth <= n.room || n.skin_goes + cloth <= 0) continue;
+      if (const double nearer_at_most = against(*n.pair, way, carry); nearer_at_most <= n.room || nearer_at_most <= 0) continue;
       if (n.measured < 0) n.measured = measure(*n.pair);
       const auto& [c, skin_toward] = m_measured[n.measured];
       if (!c.valid) continue;
@@ -155,7 +136,6 @@ void BodyContactEffect::clear_carry(const std::vector<Vec3>& x, const std::vecto
       for (int k = 0; k < n.pair->n; ++k) {
         const int i = n.pair->particle[k];
         carry[i] += c.weight[k] / share * lack * c.normal;
-        cloth_goes[i] = (carry[i] - common).norm();
       }
       more = true;
     }
@@ -182,21 +162,22 @@ void BodyContactEffect::carry_anchors(const std::vector<Vec3>& positions) {
   }
 }
 
-void BodyContactEffect::move_body(const std::vector<Vec3>& positions, const Vec3& common) {
+void BodyContactEffect::move_body(const std::vector<Vec3>& positions, const std::vector<Vec3>& x, const std::vector<Vec3>& carry) {
   carry_anchors(positions);
-  Box3 cloth = bounding_box(m_searched_at);
   std::vector<Vec3> way = m_body.mesh().positions;
   for (std::size_t v = 0; v < way.size(); ++v) way[v] = positions[v] - way[v];
-  const double motion = longest_near(cloth, way, common);
+  measure_against(x, way, carry);
   m_body.set_positions(positions);
-  m_body_moved += motion;
-  for (std::vector<Vec3>* seen : {&m_searched_at, &m_added_at})
-    for (Vec3& p : *seen) p += common;
-  for (Pair& pair : m_pairs) pair.clear -= motion;
-  for (Clearance& c : m_clearance) {
-    c.at += common;
-    if (c.distance >= 0) c.distance = std::max(0.0, c.distance - motion);
+  m_skin_moved.resize(x.size(), 0);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    m_skin_moved[i] += m_against[i];
+    Clearance& c = m_clearance[i];
+    if (c.distance >= 0) c.distance = std::max(0.0, c.distance - m_against[i]);
+    c.at += carry_of(carry, i);
+    for (std::vector<Vec3>* seen : {&m_searched_at, &m_added_at})
+      if (seen->size() == x.size()) (*seen)[i] += carry_of(carry, i);
   }
+  for (Pair& pair : m_pairs) pair.clear -= against(pair, way, carry);
 }
 
 } // namespace sloper::cloth

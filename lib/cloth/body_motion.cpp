@@ -18,6 +18,30 @@ constexpr double LEAST_TIME = 0.02;
 constexpr double CARRIED_WHOLE = 0.006, NOT_CARRIED = 0.03;
 constexpr double ASK_LESS = 4; ///< times: of the way, where cloth cannot be carried all that was asked for
 
+/// Of the longest carry: where the mean one is shorter, most of the cloth stays.
+constexpr double MOST_STAYS = 0.25;
+
+/// The way that all cloth has in common when a body walks, where it is carried so; 0 where most of it stays. @param carry #P by 3, m
+Vec3 common_way(const std::vector<Vec3>& carry) {
+  Vec3 mean = Vec3::Zero(), median = Vec3::Zero();
+  double longest = 0;
+  for (const Vec3& c : carry) {
+    mean += c / static_cast<double>(carry.size());
+    longest = std::max(longest, c.norm());
+  }
+  if (mean.norm() <= MOST_STAYS * longest) return median;
+  std::vector<double> part;
+  for (int a = 0; a < 3; ++a) { // of what is carried at all: cloth that hangs free is not
+    part.clear();
+    for (const Vec3& c : carry)
+      if (c != Vec3::Zero()) part.push_back(c[a]);
+    const auto middle = part.begin() + static_cast<long>(part.size() / 2);
+    std::nth_element(part.begin(), middle, part.end());
+    median[a] = *middle;
+  }
+  return median;
+}
+
 double longest_of(const std::vector<Vec3>& way) {
   double longest = 0;
   for (const Vec3& w : way) longest = std::max(longest, w.norm());
@@ -57,7 +81,7 @@ void BodyMotion::find_carry(const std::vector<Vec3>& way, double time) {
 /// none together.
 std::vector<Vec3> BodyMotion::uncrossing_carry(double share, const MotionLimits& found) const {
   const std::vector<Vec3>& x = m_solver.x();
-  const Vec3 common = BodyContactEffect::common_way(m_carry);
+  const Vec3 common = common_way(m_carry);
   MotionLimits limits = found;
   std::vector<Vec3> wanted = m_carry;
   for (Vec3& c : wanted) c = share * (c - common);
@@ -127,9 +151,10 @@ StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOption
     }
     if (share > 0 && longest > 0) {
       for (std::size_t v = 0; v < way.size(); ++v) skin[v] = share < 1 ? Vec3(skin[v] + share * way[v]) : target[v];
-      const Vec3 common = share * BodyContactEffect::common_way(m_carry);
-      m_contact.move_body(skin, common);
-      if (m_self_contact) m_self_contact->moved_by(common);
+      std::vector<Vec3> carried = m_carry;
+      for (Vec3& c : carried) c *= share;
+      m_contact.move_body(skin, m_solver.x(), carried);
+      if (m_self_contact) m_self_contact->moved_by(common_way(carried));
     }
     if (force) {
       ++forced;

@@ -181,12 +181,12 @@ void DrapeRun::inflate() {
         skin[v] = target[v];
       }
     }
-    m_body_contact->move_body(skin);
+    m_body_contact->move_body(skin, m_solver->x());
     if (m_at.farthest >= m_at.latest) m_body_contact->refresh(); // some of it had to go through
     step(1.0 / 30, 0);
     if (!m_stopped && checkpoint()) step(1.0 / 30, 0);
   }
-  m_body_contact->move_body(skin_at(1)); // also when stopped on the way
+  m_body_contact->move_body(skin_at(1), m_solver->x()); // also when stopped on the way
   m_body_contact->refresh();
 }
 

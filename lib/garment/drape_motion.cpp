@@ -116,7 +116,7 @@ void DrapeRun::follow_motion() {
     const bool asleep = calm.lasts();
     if (asleep) {
       ++at.asleep_frames;
-      m_body_contact->move_body(as_met(skin));
+      m_body_contact->move_body(as_met(skin), m_solver->x());
     }
     for (std::size_t s = 1; !asleep && s <= substeps && !m_stopped; ++s) {
       const double t = static_cast<double>(s) / static_cast<double>(substeps);

@@ -1,5 +1,6 @@
 #include "grid.hpp"
 
+#include <base/random.hpp>
 #include <cloth/body_motion.hpp>
 #include <cloth/edge_spring.hpp>
 #include <cloth/gravity.hpp>
@@ -104,4 +105,112 @@ TEST(BodyMotion, a_table_that_is_thrown_up_takes_all_cloth_with_it_and_passes_no
     }
     EXPECT_EQ(motion.forced, 0);
   }
+}
+
+namespace {
+
+/// Contact without a solver: bound to a matrix of its own.
+struct BareContact {
+  BodyContactEffect effect;
+  BlockMatrix matrix;
+  BareContact(const ClothMesh& mesh, collision::BodyCollider& body) : effect(mesh, body, BodyContactOptions{}) {
+    Couplings couplings;
+    effect.declare(couplings);
+    matrix = BlockMatrix(mesh.n_particles, std::move(couplings));
+    effect.bind(matrix);
+  }
+  double energy(const std::vector<Vec3>& x) {
+    effect.begin_step(x, 1);
+    std::vector<Vec3> force(x.size(), Vec3::Zero());
+    std::vector<ContactElement> elements;
+    matrix.set_zero();
+    StepContext context{x, 1, force, matrix, elements, nullptr};
+    effect.add(context);
+    return effect.energy(x);
+  }
+};
+
+/// Of what turns about z, and goes up.
+Vec3 turning(const Vec3& p, double angle, double up) { return Vec3(-angle * p.y(), angle * p.x() + up, 0); }
+
+void add_slab(TriangleMesh& skin, const TriangleMesh& slab, const Vec3& at) {
+  const int first = static_cast<int>(skin.positions.size());
+  for (const Triangle& t : slab.triangles) skin.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  for (const Vec3& p : slab.positions) skin.positions.push_back(p + at);
+}
+
+} // namespace
+
+/// What contact has found out about skin and cloth serves many parts of a motion. It must never hold less than a search from anew would find.
+TEST(BodyMotion, what_was_found_out_holds_where_cloth_goes_with_the_skin_beside_it) {
+  TriangleMesh skin = slab(0.2, 16);
+  const std::size_t below = skin.positions.size();
+  add_slab(skin, slab(0.15, 9), Vec3(0.02, 0.062, 0)); // its lower side 12 mm above
+  double touching = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Random random(seed);
+    const bool from_afar = seed % 4 == 0; // the skin is 3 cm off, and comes
+    TriangleMesh start = skin;
+    for (std::size_t v = 0; from_afar && v < skin.positions.size(); ++v) start.positions[v].y() += v < below ? -0.03 : 0.05;
+    collision::BodyCollider body(start);
+    Grid grid = make_grid(14, 0.26);
+    for (Vec3& p : grid.x) p += Vec3(-0.13, 0.0045 + 0.0012 * random.uniform(-1, 1), 0.13);
+    BareContact contact(grid.mesh, body);
+    contact.energy(grid.x);
+    for (int part = 0; part < 40; ++part) {
+      std::vector<Vec3> way, carry, positions = body.mesh().positions;
+      const double lower = 0.004 * random.uniform(-1, 1), upper = 0.004 * random.uniform(-1, 1), up = 0.002 * random.uniform(-1, 1);
+      for (std::size_t v = 0; v < positions.size(); ++v)
+        way.push_back(v < below ? turning(positions[v], lower, from_afar ? 0.003 : 0) : turning(positions[v], upper, up));
+      for (const Vec3& p : grid.x) {
+        const double to_side = random.uniform(-1, 1), up_or_down = random.uniform(-1, 1);
+        carry.push_back(turning(p, lower, 0) + 3e-4 * Vec3(to_side, up_or_down, 0));
+      }
+      const double share = contact.effect.free_share(grid.x, way, carry);
+      ASSERT_GT(share, 0);
+      for (std::size_t v = 0; v < positions.size(); ++v) positions[v] += share * way[v];
+      for (Vec3& c : carry) c *= share;
+      contact.effect.move_body(positions, grid.x, carry);
+      for (std::size_t i = 0; i < grid.x.size(); ++i) grid.x[i] += carry[i];
+      const double kept = contact.energy(grid.x);
+      BareContact anew(grid.mesh, body);
+      const double found = anew.energy(grid.x);
+      ASSERT_NEAR(kept, found, 1e-3 * found) << "seed " << seed << " part " << part; // the skin is stretched by less than that
+      touching += found > 0;
+      ASSERT_TRUE(body.faces_through(grid.x, grid.mesh.particle_triangles()).empty());
+    }
+    EXPECT_LT(contact.effect.searches, 60) << "it need not search for each part";
+  }
+  EXPECT_GT(touching, 100);
+}
+
+/// Parts are as long as cloth and the skin beside it go the same way, whatever other skin does.
+TEST(BodyMotion, cloth_that_turns_with_its_body_goes_in_few_parts) {
+  const TriangleMesh skin = slab(0.2, 16);
+  collision::BodyCollider body(skin);
+  Grid grid = make_grid(14, 0.26);
+  for (Vec3& p : grid.x) p += Vec3(-0.13, 0.003, 0.13);
+  ClothSolver solver(grid.mesh, grid.x);
+  solver.emplace<EdgeSpringEffect>(grid.mesh);
+  BodyContactOptions options;
+  options.friction = 0.6;
+  BodyContactEffect& contact = solver.emplace<BodyContactEffect>(grid.mesh, body, options);
+  solver.emplace<GravityEffect>(grid.mesh, Vec3(0, -9.80665, 0));
+  BodyMotion motion(solver, contact, body);
+  StepOptions o;
+  o.inertia = 1;
+  o.h = 1.0 / 60;
+  std::vector<Vec3> target = skin.positions;
+  for (int k = 0; k < 20; ++k) motion.advance(target, o); // comes to lie
+  motion.parts = 0;
+  for (int k = 1; k <= 20; ++k) {
+    const double angle = 0.002 * k * k; // corners go up to 14 mm in a step
+    for (std::size_t v = 0; v < target.size(); ++v) {
+      const Vec3& p = skin.positions[v];
+      target[v] = Vec3(std::cos(angle) * p.x() + std::sin(angle) * p.z(), p.y(), std::cos(angle) * p.z() - std::sin(angle) * p.x());
+    }
+    motion.advance(target, o);
+  }
+  EXPECT_LE(motion.parts, 80); // 167 if each were as long as the farthest skin allows
+  EXPECT_EQ(motion.forced, 0);
 }

@@ -545,7 +545,7 @@ TEST(BodyContact, skin_that_keeps_to_its_room_never_passes_the_cloth) {
   for (int k = 0; k < 30; ++k) {
     const std::vector<double> room = contact.skin_room(solver.x());
     for (std::size_t v = 0; v < moved.size(); ++v) moved[v].y() += room[v]; // up, into the cloth
-    contact.move_body(moved);
+    contact.move_body(moved, solver.x());
     EXPECT_TRUE(body.faces_through(solver.x(), triangles).empty());
     for (const Vec3& p : solver.x()) EXPECT_FALSE(body.is_inside(p));
   }

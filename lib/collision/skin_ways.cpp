@@ -1,0 +1,67 @@
+#include <collision/skin_ways.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::collision {
+
+namespace {
+
+constexpr double MOST_CUBES = 1 << 17;
+
+void merge(Box3& box, const Box3& other) {
+  box.low = box.low.cwiseMin(other.low);
+  box.high = box.high.cwiseMax(other.high);
+}
+
+} // namespace
+
+double SkinWays::farthest(const Box3& ways, const Vec3& carry) {
+  if (ways.empty()) return 0;
+  return (carry - ways.low).cwiseAbs().cwiseMax((ways.high - carry).cwiseAbs()).norm();
+}
+
+std::array<int, 3> SkinWays::cube_of(const Vec3& place) const {
+  std::array<int, 3> cube{};
+  for (int a = 0; a < 3; ++a) cube[a] = static_cast<int>(std::clamp(std::floor((place[a] - m_low[a]) / m_cell), 0.0, m_n[a] - 1.0));
+  return cube;
+}
+
+void SkinWays::build(const TriangleMesh& skin, const std::vector<Vec3>& way, const Box3& region) {
+  m_all = {};
+  m_low = region.low;
+  m_cell = CELL;
+  double cubes = 1;
+  const auto count = [&] {
+    cubes = 1;
+    for (int a = 0; a < 3; ++a) cubes *= std::max(1.0, std::ceil(region.size()[a] / m_cell));
+    return cubes;
+  };
+  while (count() > MOST_CUBES) m_cell *= 1.25;
+  for (int a = 0; a < 3; ++a) m_n[a] = static_cast<int>(std::max(1.0, std::ceil(region.size()[a] / m_cell)));
+  m_cube.assign(static_cast<std::size_t>(cubes), Box3{});
+  for (const Triangle& t : skin.triangles) {
+    Box3 place, ways;
+    for (int v : t) place.add(skin.positions[v]);
+    if (!((place.low.array() <= region.high.array()).all() && (place.high.array() >= region.low.array()).all())) continue;
+    for (int v : t) ways.add(way[v]);
+    merge(m_all, ways);
+    const std::array<int, 3> first = cube_of(place.low), last = cube_of(place.high);
+    for (int i = first[0]; i <= last[0]; ++i)
+      for (int j = first[1]; j <= last[1]; ++j)
+        for (int k = first[2]; k <= last[2]; ++k) merge(at(i, j, k), ways);
+  }
+}
+
+double SkinWays::longest_against(const Vec3& carry, const Vec3& place, double radius) const {
+  if (m_all.empty()) return 0;
+  const Vec3 around = Vec3::Constant(radius);
+  const std::array<int, 3> first = cube_of(place - around), last = cube_of(place + around);
+  Box3 ways;
+  for (int i = first[0]; i <= last[0]; ++i)
+    for (int j = first[1]; j <= last[1]; ++j)
+      for (int k = first[2]; k <= last[2]; ++k) merge(ways, at(i, j, k));
+  return farthest(ways, carry);
+}
+
+} // namespace sloper::collision
