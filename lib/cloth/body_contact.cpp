@@ -158,6 +158,7 @@ void BodyContactEffect::collect_pairs() {
            false,
            m_options.gap_m,
            k * m_mesh.area[found.vertex] * m_body_face_weight[found.body_triangle]};
+    p.clear = found.distance;
     m_pairs.push_back(p);
   }
   for (const auto& found : m_found.edge_edge) {
@@ -171,6 +172,7 @@ void BodyContactEffect::collect_pairs() {
       for (int f : m_topology.triangles_of_edge(found.edge)) crossed |= m_crossing[f];
     m_pairs.push_back(
         {{m_edge_slot[found.edge], 0, 0}, {e[0], e[1], 0}, {b0, b1, 0}, 2, 2, crossed, reach, k * m_edge_area[found.edge] * length / (length + 2 * reach)});
+    m_pairs.back().clear = found.distance;
   }
   for (const auto& found : m_found.face_vertex) {
     const auto& edges = m_topology.triangle_edges[found.triangle];
@@ -182,6 +184,7 @@ void BodyContactEffect::collect_pairs() {
                        !clean && m_crossing[found.triangle],
                        EDGE_REACH * m_options.gap_m,
                        k * m_face_area[found.triangle] * m_body_vertex_weight[found.body_vertex]});
+    m_pairs.back().clear = found.distance;
   }
 }
 
@@ -192,7 +195,7 @@ void BodyContactEffect::search(const std::vector<Vec3>& x) {
   if (m_options.level < ContactLevel::EDGE) m_found.edge_edge.clear();
   if (m_options.level < ContactLevel::FACE) m_found.face_vertex.clear();
   collect_pairs();
-  m_searched_at = x;
+  m_searched_at = m_added_at = x;
   m_skin_moved.assign(x.size(), 0);
   m_stale = false;
   ++searches;

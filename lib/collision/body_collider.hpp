@@ -41,13 +41,16 @@ struct FaceContact {
 struct BodyPairs {
   struct VertexFace {
     int vertex, body_triangle;
+    double distance; ///< m, as of the others
   };
   struct EdgeEdge {
     int edge;                ///< of the cloth's topology
     int body_triangle, side; ///< the body's edge from corner `side` to the next
+    double distance;
   };
   struct FaceVertex {
     int triangle, body_vertex;
+    double distance;
   };
   std::vector<VertexFace> vertex_face;
   std::vector<EdgeEdge> edge_edge; ///< convex edges of the body only: in a hollow its faces are at least as near
