@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 namespace sloper::cloth {
 
@@ -79,10 +80,11 @@ void BodyMotion::find_carry(const std::vector<Vec3>& way, double time) {
 
 /// The carry, at the rate of the whole way, that brings no cloth through cloth when it goes this share of it. What all cloth has in common brings
 /// none together.
-std::vector<Vec3> BodyMotion::uncrossing_carry(double share, const MotionLimits& found) const {
+/// @param limits  of the layers where they are: what they are kept apart by is added, since self contact names it once
+std::vector<Vec3> BodyMotion::uncrossing_carry(double share, MotionLimits& limits) const {
   const std::vector<Vec3>& x = m_solver.x();
   const Vec3 common = common_way(m_carry);
-  MotionLimits limits = found;
+  limits.most.assign(x.size(), std::numeric_limits<double>::infinity()); // those of a longer way
   std::vector<Vec3> wanted = m_carry;
   for (Vec3& c : wanted) c = share * (c - common);
   std::vector<Vec3> carry = wanted;

@@ -35,7 +35,7 @@ public:
 
 private:
   void find_carry(const std::vector<Vec3>& way, double time);
-  std::vector<Vec3> uncrossing_carry(double share, const MotionLimits& found) const;
+  std::vector<Vec3> uncrossing_carry(double share, MotionLimits& limits) const;
   double free_part(const std::vector<Vec3>& way, double longest, double time);
 
   ClothSolver& m_solver;

@@ -4,6 +4,8 @@
 #include <cloth/body_motion.hpp>
 #include <cloth/edge_spring.hpp>
 #include <cloth/gravity.hpp>
+#include <cloth/self_contact.hpp>
+#include <collision/intersections.hpp>
 #include <gtest/gtest.h>
 
 using namespace sloper;
@@ -213,4 +215,51 @@ TEST(BodyMotion, cloth_that_turns_with_its_body_goes_in_few_parts) {
   }
   EXPECT_LE(motion.parts, 80); // 167 if each were as long as the farthest skin allows
   EXPECT_EQ(motion.forced, 0);
+}
+
+/// Where cloth cannot be carried all the way that was asked for, it is asked for less; what kept layers apart on the long way must do so on the
+/// short one too.
+TEST(BodyMotion, layers_that_are_carried_less_far_do_not_pass_each_other) {
+  constexpr int N = 9, LAYER = N * N;
+  const Grid one = make_grid(N, 0.12);
+  std::vector<RestTriangle> triangles = one.mesh.triangles;
+  for (RestTriangle t : one.mesh.triangles) {
+    for (int& v : t.particle) v += LAYER;
+    triangles.push_back(t);
+  }
+  const ClothMesh mesh = make_cloth_mesh(2 * LAYER, triangles, {Fabric{}});
+  const std::vector<Triangle> faces = mesh.particle_triangles();
+  for (std::uint64_t seed = 1; seed <= 180; ++seed) {
+    Random random(seed);
+    const double low = random.uniform(0.003, 0.009), gap = random.uniform(0.0021, 0.006), high = random.uniform(0.003, 0.009),
+                 rise = random.uniform(0.01, 0.06);
+    const double bend = random.uniform(0, 0.05), bend_below = random.uniform(0, 0.05);
+    if (bend < bend_below) continue;
+    TriangleMesh skin = slab(0.2, 10);
+    const std::size_t coming = skin.positions.size();
+    add_slab(skin, slab(0.2, 10), Vec3(0, 0.05 + low + gap + high, 0)); // stays, above the layers
+    collision::BodyCollider body(skin);
+    std::vector<Vec3> x;
+    for (int layer = 0; layer < 2; ++layer)
+      for (const Vec3& p : one.x) x.push_back(p + Vec3(-0.06, low + layer * gap + (layer ? bend : bend_below) * std::abs(p.x() - 0.06), 0.06));
+    ClothSolver solver(mesh, x);
+    solver.emplace<EdgeSpringEffect>(mesh);
+    BodyContactEffect& contact = solver.emplace<BodyContactEffect>(mesh, body, BodyContactOptions{});
+    contact.set_slack(0.008);
+    solver.emplace<SelfContactEffect>(mesh, SelfContactOptions{});
+    BodyMotion motion(solver, contact, body);
+    StepOptions o;
+    o.inertia = 1;
+    o.h = 1.0 / 60;
+    o.largest_move_m = 1e-9;
+    std::vector<Vec3> target = skin.positions;
+    motion.advance(target, o); // contact knows the cloth from a first step
+    for (std::size_t v = 0; v < coming; ++v) target[v].y() += rise;
+    struct Enough {}; // of one part, before the cloth's own step
+    const auto look = [&](const StepOptions&) -> StepResult {
+      EXPECT_TRUE(collision::self_intersections(solver.x(), faces, collision::TriangleTree(solver.x(), faces)).empty()) << "seed " << seed;
+      throw Enough{};
+    };
+    EXPECT_THROW(motion.advance(target, o, look), Enough);
+  }
 }
