@@ -45,10 +45,16 @@ public:
   void declare(Couplings& couplings) const override;
   void bind(const BlockMatrix& matrix) override;
   void begin_step(const std::vector<Vec3>& x, double h) override;
+  void look_again(const std::vector<Vec3>& x, double h) override {
+    const double push = m_push; // what crosses is pushed harder with every step, and no harder within one
+    begin_step(x, h);
+    m_push = std::min(m_push, push);
+  }
   bool is_search() const override { return true; }
   void look_ahead(const std::vector<Vec3>& x, double h) override {
     if (m_n_crossing == 0) begin_step(x, h); // what crosses is pushed harder with every search
   }
+  bool crosses() const override { return m_n_crossing > 0; }
   void add(StepContext& c) override;
   double energy(const std::vector<Vec3>& x) const override; ///< of the pairs of the last search and of the ties of friction
   bool guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) override;

@@ -47,9 +47,11 @@ void BodyContactEffect::measure_against(const std::vector<Vec3>& x, const std::v
     for (std::size_t i = 0; i < x.size(); ++i) most = std::max(most, collision::SkinWays::farthest(ways, carry_of(carry, i)));
     return most;
   };
-  const Vec3 margin = Vec3::Constant(*std::max_element(radius.begin(), radius.end()) + fastest(bounding_box(way)));
+  const double anywhere = fastest(bounding_box(way));
+  const auto [least, widest] = std::minmax_element(radius.begin(), radius.end());
+  const Vec3 margin = Vec3::Constant(*widest + anywhere);
   const Box3 cloth = bounding_box(x);
-  m_ways.build(m_body.mesh(), way, {cloth.low - margin, cloth.high + margin});
+  m_ways.build(m_body.mesh(), way, {cloth.low - margin, cloth.high + margin}, *least + anywhere);
   const double most = fastest(m_ways.all());
   if (most <= 0) return;
   parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {

@@ -29,10 +29,14 @@ public:
   virtual void bind(const BlockMatrix&) {}
   /// Before assembly: find contacts for the positions x.
   virtual void begin_step(const std::vector<Vec3>& /*x*/, double /*h*/) {}
+  /// Within a step of several solves, which has come to x so far: find contacts there.
+  virtual void look_again(const std::vector<Vec3>& /*x*/, double /*h*/) {}
   /// Whether begin_step() is long, and touches nothing that another effect has to do with: then it may run beside their add().
   virtual bool is_search() const { return false; }
   /// Does now what the next begin_step() at x would do first, where that can be done twice.
   virtual void look_ahead(const std::vector<Vec3>& /*x*/, double /*h*/) {}
+  /// Whether cloth passed through something at the last search, which the effect pushes it out of.
+  virtual bool crosses() const { return false; }
   virtual void add(StepContext& context) = 0;
   /// Adds what add() leaves out of d2E/dx2 at x to keep its part definite: then it is whole. Nothing where nothing is left out, or not told.
   virtual void add_left_out(const std::vector<Vec3>& /*x*/, BlockMatrix& /*stiffness*/) const {}

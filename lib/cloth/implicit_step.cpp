@@ -293,14 +293,14 @@ CgResult ClothSolver::solve(const StepOptions& o) {
 
 /// Forces, stiffness, elements and limits of all effects, in their order: the same sums for any number of threads. What the first effects add
 /// is added while those that search do so.
-void ClothSolver::assemble(double h) {
+void ClothSolver::assemble(double h, bool again) {
   m_matrix.set_zero();
   m_elements.clear();
   m_limits.reset(m_x.size());
   std::fill(m_force.begin(), m_force.end(), Vec3::Zero());
   const auto add = [&](Effect& e) {
     const Stopwatch watch(e.wall_s);
-    if (!e.is_search()) e.begin_step(m_x, h);
+    if (!e.is_search() && !again) e.begin_step(m_x, h);
     StepContext context{m_x, h, m_force, m_matrix, m_elements, &m_limits};
     e.add(context);
     ++e.calls;
@@ -314,7 +314,8 @@ void ClothSolver::assemble(double h) {
     for (const auto& e : m_effects) {
       if (!e->is_search()) continue;
       const Stopwatch watch(e->wall_s);
-      e->begin_step(m_x, h);
+      if (again) e->look_again(m_x, h);
+      else e->begin_step(m_x, h);
     }
   });
   std::for_each(first_search, m_effects.end(), [&](const auto& e) { add(*e); });
@@ -322,6 +323,7 @@ void ClothSolver::assemble(double h) {
 
 StepResult ClothSolver::step(const StepOptions& o) {
   if (m_pattern_stale) rebuild_pattern();
+  if (o.newton_iterations > 1 && o.inertia > 0 && !o.line_search) return newton_step(o, o.newton_iterations);
   const std::size_t n = m_x.size();
   StepResult result;
   m_limits.planes_follow = !o.line_search && o.inertia > 0;
@@ -366,6 +368,7 @@ StepResult ClothSolver::step(const StepOptions& o) {
     result.finite = false;
     return result;
   }
+  if (o.guard_energy && o.inertia > 0 && !o.line_search && gains(o)) return newton_step(o, StepOptions::GUARD_SOLVES);
   if (o.line_search) {
     result.halvings = search_along(o);
     freeze_held(result.halvings > 0, o.momentum);
@@ -373,8 +376,13 @@ StepResult ClothSolver::step(const StepOptions& o) {
     else forget();
     m_last_dx = m_dx;
   }
+  conclude(o, result);
+  return result;
+}
+
+void ClothSolver::conclude(const StepOptions& o, StepResult& result) {
   m_residual.clear();
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < m_x.size(); ++i) {
     if (m_held[i]) ++result.held;
     else m_residual.push_back(m_force[i].norm());
   }
@@ -383,13 +391,12 @@ StepResult ClothSolver::step(const StepOptions& o) {
     result.residual_force_ratio = *p95 / m_mean_weight;
     result.residual_force_ratio_max = *std::max_element(p95, m_residual.end()) / m_mean_weight;
   }
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < m_x.size(); ++i) {
     result.largest_move_m = std::max(result.largest_move_m, m_dx[i].norm());
     m_x[i] += m_dx[i];
     m_v[i] = m_dx[i] / o.h;
   }
   for (const auto& e : m_effects) e->end_step(m_x);
-  return result;
 }
 
 } // namespace sloper::cloth

@@ -21,6 +21,16 @@ struct StepOptions {
   /// residual that counts as rest.
   double least_residual_ratio = 0;
   int cg_max_iterations = 400;
+  /// With inertia and without line_search: solves a step takes at most. One is the paper's linearised step, which is exact for small ways alone: cloth
+  /// that turns is stretched by it, and swings on with the energy. More go on to the minimum of the incremental potential
+  /// E(x) + |x - x0 - h v0|^2_M / (2 h^2), damping added, each with a line search on it (backward Euler; Kane et al. 2000), until its gradient is a
+  /// hundredth of a particle's weight, root mean square.
+  int newton_iterations = 1;
+  /// With inertia and without line_search: a step of one solve that would gain of that potential, damping aside, is made again, in up to GUARD_SOLVES.
+  /// What makes cloth burst that turns fast is not there then; other steps cost two looks at the energy more. Not where cloth crosses something:
+  /// the push out of it is meant to gain.
+  bool guard_energy = false;
+  static constexpr int GUARD_SOLVES = 8;
   /// Halves the step until the energy falls, doubles it while it falls on, halves one that takes back the last; else no motion. Where it
   /// halves, particles that limits hold, and without momentum those with ten times the force of nearly all others, stay in place for up to 16 steps.
   /// Off: limits that cut half an edge shorten all. With it solves begin with the ways of the last ones (Deflation): on the way to rest these lead
@@ -41,7 +51,8 @@ struct StepOptions {
 };
 
 struct StepResult {
-  CgResult cg;
+  CgResult cg;               ///< iterations: of all solves
+  int newton_iterations = 1; ///< solves
   double largest_move_m = 0; ///< after limits
   int halvings = 0;          ///< of the line search
   /// 95th percentile and maximum of |f0| over the particles that nothing holds back, over the mean weight of a particle. The
@@ -91,7 +102,12 @@ public:
 
 private:
   void rebuild_pattern();
-  void assemble(double h);
+  void assemble(double h, bool again = false); ///< @param again  the step has come some of its way
+  StepResult newton_step(const StepOptions& options, int most_solves);
+  bool gains(const StepOptions& options); ///< m_dx, in the incremental potential without damping
+  void assemble_drag(double h);
+  void drag_of(const std::vector<Vec3>& way, std::vector<Vec3>& drag);
+  void conclude(const StepOptions& options, StepResult& result); ///< moves by m_dx
   double energy(const std::vector<Vec3>& x) const;
   double energy_after(const std::vector<Vec3>& dx); ///< potential, J
   void limit(std::vector<Vec3>& dx, std::vector<char>& held);
@@ -121,6 +137,7 @@ private:
   std::vector<double> m_residual;
   double m_mean_edge = 0, m_mean_weight = 0; // of a particle; m, N
   BlockMatrix m_matrix, m_whole;
+  BlockMatrix m_with_drag, m_without_drag; // of newton_step()
   bool m_pattern_stale = true;
   std::unique_ptr<Preconditioner> m_preconditioner;
   CgWork m_work;

@@ -103,13 +103,23 @@ const std::vector<std::array<int, 2>>& SelfContactEffect::find_crossings(const s
 }
 
 void SelfContactEffect::begin_step(const std::vector<Vec3>& x, double) {
+  look(x);
+  m_x_before = x;
+  m_again = false;
+}
+
+void SelfContactEffect::look_again(const std::vector<Vec3>& x, double) {
+  look(x);
+  m_again = true;
+}
+
+void SelfContactEffect::look(const std::vector<Vec3>& x) {
   const double used = USED * GAMMA * m_radius;
   m_stale = m_stale || !m_crossings.empty();
   for (std::size_t i = 0; !m_stale && i < x.size(); ++i) m_stale = (x[i] - m_searched_at[i]).squaredNorm() > used * used;
   if (m_stale) search(x);
   m_moved.resize(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) m_moved[i] = (x[i] - m_searched_at[i]).norm();
-  m_x_before = x;
   m_closing_stale = true;
   for (auto& guarded : m_guarded_closing) guarded.clear();
 }
@@ -167,10 +177,14 @@ void SelfContactEffect::add(StepContext& context) {
       e.normal_stiffness = p.stiffness;
       e.force = p.force * e.normal;
       if (m_options.friction > 0) { // regularised Coulomb on the slide of the last step
-        Vec3 slide = Vec3::Zero();
-        for (int k = 0; k < 4; ++k) slide += c.weight[k] * m_last_dx[near.particle[k]];
-        slide -= slide.dot(e.normal) * e.normal;
-        e.tangent_stiffness = m_options.friction * p.force / std::max(slide.norm(), FULL_FRICTION_SLIDE);
+        Vec3 last = Vec3::Zero(), now = Vec3::Zero();
+        for (int k = 0; k < 4; ++k) {
+          last += c.weight[k] * m_last_dx[near.particle[k]];
+          if (m_again) now += c.weight[k] * (context.x[near.particle[k]] - m_x_before[near.particle[k]]);
+        }
+        last -= last.dot(e.normal) * e.normal;
+        e.tangent_stiffness = m_options.friction * p.force / std::max(last.norm(), FULL_FRICTION_SLIDE);
+        if (m_again) e.force -= e.tangent_stiffness * (now - now.dot(e.normal) * e.normal);
       }
       context.elements.push_back(e);
     }

@@ -31,10 +31,12 @@ public:
   SelfContactEffect(const ClothMesh& mesh, const SelfContactOptions& options, std::vector<int> seam_class = {});
   const char* name() const override { return "self_contact"; }
   void begin_step(const std::vector<Vec3>& x, double h) override;
+  void look_again(const std::vector<Vec3>& x, double h) override;
   bool is_search() const override { return true; }
   void look_ahead(const std::vector<Vec3>& x, double h) override {
     if (m_crossings.empty()) begin_step(x, h);
   }
+  bool crosses() const override { return !m_crossings.empty(); }
   void add(StepContext& c) override;
   double energy(const std::vector<Vec3>& x) const override;
   bool guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) override;
@@ -60,6 +62,7 @@ private:
   Pair kind_of(const int* a, int n_a, const int* b, int n_b) const;
   void find_closed_seams(const std::vector<Vec3>& x);
   void search(const std::vector<Vec3>& x);
+  void look(const std::vector<Vec3>& x); ///< search where it must be
 
   const ClothMesh& m_mesh;
   SelfContactOptions m_options;
@@ -73,6 +76,7 @@ private:
   std::vector<double> m_thickness;                   // #P
   double m_reach = 0;                                // m, at which any pair may begin to repel
   double m_radius = 0;                               // m, of the last search
+  bool m_again = false;                              // the step has come some of its way, from m_x_before
   bool m_fast = false;                               // the last step outran what a search covers
   struct Near {
     std::array<int, 4> particle; // vertex and face, or edge and edge

@@ -27,10 +27,10 @@ std::array<int, 3> SkinWays::cube_of(const Vec3& place) const {
   return cube;
 }
 
-void SkinWays::build(const TriangleMesh& skin, const std::vector<Vec3>& way, const Box3& region) {
+void SkinWays::build(const TriangleMesh& skin, const std::vector<Vec3>& way, const Box3& region, double radius) {
   m_all = {};
   m_low = region.low;
-  m_cell = CELL;
+  m_cell = std::max(CELL, 0.5 * radius);
   double cubes = 1;
   const auto count = [&] {
     cubes = 1;

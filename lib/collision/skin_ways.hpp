@@ -9,16 +9,16 @@ namespace sloper::collision {
 class SkinWays {
 public:
   /// Forgets what was. Cost: O(#F) and the cubes of the region, of which there are no more than 2^17; allocates only to grow.
-  /// @param way  #V by 3, m   @param region  skin that does not meet it is left out
-  void build(const TriangleMesh& skin, const std::vector<Vec3>& way, const Box3& region);
+  /// @param way  #V by 3, m   @param region  skin that does not meet it is left out   @param radius  that will be asked for, about: cost only
+  void build(const TriangleMesh& skin, const std::vector<Vec3>& way, const Box3& region, double radius);
   const Box3& all() const { return m_all; } ///< the ways of all skin in the region, m; empty without any
   /// The largest |way - carry| of a box of ways; 0 where it is empty.
   static double farthest(const Box3& ways, const Vec3& carry);
   /// An upper bound of |way - carry| over all skin in the region that comes nearer to `place` than `radius`, from where it is at first; 0 without
-  /// any. Cost: O((radius / CELL)^3)
+  /// any. Cost: O(1) at the radius that was told
   double longest_against(const Vec3& carry, const Vec3& place, double radius) const;
 
-  static constexpr double CELL = 0.03; ///< m, edge of a cube; more where the region is wide
+  static constexpr double CELL = 0.03; ///< m, edge of a cube, or half the radius; more where the region is wide
 
 private:
   std::array<int, 3> cube_of(const Vec3& place) const; ///< the nearest one of the region

@@ -18,9 +18,12 @@ struct DrapeSettings {
   /// energy norm, 0.025 where all is as slow as at rest.
   double cg_tolerance = 1e-2;
   int cg_max_iterations = 400;
-  int solver = 0;               ///< preconditioner of conjugate gradients: 0 smoothed aggregation, 1 block Jacobi, 2 exact factorisation
-  int contact_level = 4;        ///< cloth::ContactLevel with the body: 1 vertex, 2 face, 3 edge, 4 continuous
-  double contact_gap_m = 0.003; ///< distance to the skin at which contact begins
+  /// Of each step with inertia, where the body moves and where loose cloth is let go on its way to rest: StepOptions::newton_iterations.
+  int newton_iterations = 1;
+  double motion_step_s = 1.0 / 60; ///< while the body moves steps are at most so long; with inertia, longer ones damp the swing of cloth away
+  int solver = 0;                  ///< preconditioner of conjugate gradients: 0 smoothed aggregation, 1 block Jacobi, 2 exact factorisation
+  int contact_level = 4;           ///< cloth::ContactLevel with the body: 1 vertex, 2 face, 3 edge, 4 continuous
+  double contact_gap_m = 0.003;    ///< distance to the skin at which contact begins
   /// By how much the coarser skin may be off that stands for a dense one, of more than 60,000 triangles, until the cloth is at rest on it
   /// (coarse_skin.hpp), m; twice and four times that where noise leaves no triangle to spare; 0: none does. The cloth then comes to rest on
   /// the skin itself. It halves the time on 220,000 to 430,000 triangles.

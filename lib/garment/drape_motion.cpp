@@ -11,8 +11,6 @@ namespace sloper::garment {
 
 namespace {
 
-/// s: with inertia, longer steps damp the swing of cloth away.
-constexpr double LONGEST_MOTION_STEP = 1.0 / 60;
 /// m: pairs are kept this far beyond their reach, so that parts can be long.
 constexpr double MOTION_SLACK = 0.008;
 /// m: around the box of sleeping cloth; skin that moves in there wakes it.
@@ -88,13 +86,15 @@ void DrapeRun::follow_motion() {
     motion->parts = at.parts, motion->forced = at.forced, motion->largest_way_m = at.largest_way_m, motion->wall_s = at.wall_s;
   };
   take_up();
-  const std::size_t substeps = static_cast<std::size_t>(std::max(1.0, std::ceil(m_moves->frame_s / LONGEST_MOTION_STEP - 1e-9)));
+  const std::size_t substeps = static_cast<std::size_t>(std::max(1.0, std::ceil(m_moves->frame_s / m_settings.motion_step_s - 1e-9)));
   cloth::StepOptions options;
   options.h = m_moves->frame_s / static_cast<double>(substeps);
   options.inertia = 1;
   options.largest_move_m = 1;
   options.cg_tolerance = std::min(m_settings.cg_tolerance, 1e-3);
   options.cg_max_iterations = m_settings.cg_max_iterations;
+  options.newton_iterations = m_settings.newton_iterations;
+  options.guard_energy = true;
   Calm calm;
   MotionFrame last;
   std::vector<Vec3> skin = at.frame > 0 ? m_moves->skin(at.frame - 1) : m_body->skin.positions, target = skin;
@@ -122,7 +122,7 @@ void DrapeRun::follow_motion() {
       const double t = static_cast<double>(s) / static_cast<double>(substeps);
       for (std::size_t v = 0; v < skin.size(); ++v) target[v] = s < substeps ? Vec3((1 - t) * from[v] + t * skin[v]) : skin[v];
       m_at.last = motion->advance(as_met(target), options);
-      m_at.cg_iterations.push_back(m_at.last.cg.iterations);
+      note_solves();
       frame.speed_m_s = std::max(frame.speed_m_s, m_at.last.largest_move_m / options.h);
       if (m_at.last.finite) continue;
       m_at.rejected.push_back("frame " + std::to_string(at.frame + 1) + " of the motion: not finite, undone");

@@ -61,6 +61,11 @@ void DrapeRun::report_effects() {
     else if (r.name == "damping" && r.active) r.calls = m_report.steps;
 }
 
+void DrapeRun::note_solves() {
+  m_at.cg_iterations.push_back(m_at.last.cg.iterations);
+  m_at.solves += m_at.last.newton_iterations;
+}
+
 void DrapeRun::finish() {
   if (m_solver) {
     m_garment.position = m_solver->x();
@@ -93,7 +98,7 @@ void DrapeRun::finish() {
       {"cg_iterations",
        {{"mean", mean / static_cast<double>(n)}, {"p95", sorted.empty() ? 0 : sorted[(n - 1) * 95 / 100]}, {"max", sorted.empty() ? 0 : sorted.back()}}},
       {"residual", m_at.last.cg.residual},
-      {"newton", 1},
+      {"newton", static_cast<double>(m_at.solves) / static_cast<double>(n)},
       {"rejected_steps", m_at.rejected}};
   m_garment.converged = m_report.converged;
   if (m_moves) {

@@ -99,6 +99,7 @@ private:
   void renew();                                                      ///< writes the checkpoint where one is wanted, and rebuilds
   void rebuild();                                                    ///< all that a checkpoint does not hold, from m_at and the garment
   bool step(double h, double inertia, double largest_move_m = 0.02); ///< one guarded step; false when the run must end
+  void note_solves();                                                ///< of the last step
   double elapsed() const;
   void finish();
   void report_effects(); ///< adds the solver's counts to the report

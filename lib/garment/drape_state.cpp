@@ -106,6 +106,7 @@ Json state_json(const DrapeState& s) {
   j["contact"] = {
       {"anchor", flat(s.contact.anchor)}, {"has_anchor", std::vector<int>(s.contact.has_anchor.begin(), s.contact.has_anchor.end())}, {"push", s.contact.push}};
   j["cg_iterations"] = s.cg_iterations;
+  j["solves"] = s.solves;
   j["rejected"] = s.rejected;
   j["pull"] = s.pull, j["pull_changed"] = s.pull_changed, j["gaps"] = s.gaps;
   j["latest"] = s.latest, j["farthest"] = s.farthest, j["held"] = flat(s.held), j["tucks"] = s.tucks;
@@ -146,6 +147,7 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   if (s.contact.anchor.size() != s.contact.has_anchor.size() || (!s.contact.anchor.empty() && s.contact.anchor.size() != n_particles))
     contact.fail("does not belong to this garment");
   s.cg_iterations = read_integers(node.at("cg_iterations"));
+  s.solves = node.has("solves") ? node.at("solves").integer() : static_cast<int>(s.cg_iterations.size()); // older ones: one a step
   s.rejected = read_strings(node.at("rejected"));
   s.pull = node.at("pull").number(), s.pull_changed = node.at("pull_changed").integer(), s.gaps = read_numbers(node.at("gaps"));
   if (s.phase == DrapePhase::SEW && static_cast<int>(s.gaps.size()) != s.step) node.at("gaps").fail("is not one number for each step");

@@ -44,6 +44,7 @@ struct DrapeState {
   double last_h = 0;       ///< s, of that step
   cloth::BodyContactEffect::Memory contact;
   std::vector<int> cg_iterations; ///< of each step
+  int solves = 0;                 ///< of all of them: StepResult::newton_iterations
   std::vector<std::string> rejected;
   // SEW
   double pull = 0;          ///< N, of a stitch at its reach

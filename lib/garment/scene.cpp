@@ -29,6 +29,8 @@ const std::vector<Knob>& knobs() {
       {"time_step_s", 1e-4, 1, &S::time_step_s, nullptr},
       {"cg_tolerance", 1e-12, 0.5, &S::cg_tolerance, nullptr},
       {"cg_max_iterations", 1, 100000, nullptr, &S::cg_max_iterations},
+      {"newton_iterations", 1, 1000, nullptr, &S::newton_iterations},
+      {"motion_step_s", 1e-4, 1, &S::motion_step_s, nullptr},
       {"solver", 0, 2, nullptr, &S::solver},
       {"contact_level", 1, 4, nullptr, &S::contact_level},
       {"contact_gap_m", 1e-4, 0.02, &S::contact_gap_m, nullptr},

@@ -23,7 +23,7 @@ Box3 around_origin(double half) { return {Vec3::Constant(-half), Vec3::Constant(
 TEST(SkinWays, bounds_the_ways_of_all_skin_within_the_radius) {
   const Turning ball;
   SkinWays ways;
-  ways.build(ball.skin, ball.way, around_origin(0.4));
+  ways.build(ball.skin, ball.way, around_origin(0.4), 0.05);
   Random random(3);
   for (int k = 0; k < 300; ++k) {
     const Vec3 place = shapes::random_point(random, 0.45), carry = shapes::random_point(random, 0.05); // some outside of the region
@@ -39,7 +39,7 @@ TEST(SkinWays, bounds_the_ways_of_all_skin_within_the_radius) {
 TEST(SkinWays, does_not_count_skin_elsewhere) {
   const Turning ball;
   SkinWays ways;
-  ways.build(ball.skin, ball.way, around_origin(0.4));
+  ways.build(ball.skin, ball.way, around_origin(0.4), 0.05);
   const Vec3 place(0, 0, 0.3), carry = 0.2 * Vec3::UnitY().cross(place); // goes as the skin there: 6 cm along x
   EXPECT_GT(SkinWays::farthest(ways.all(), carry), 0.11);
   EXPECT_LT(ways.longest_against(carry, place, 0.02), 0.03);
@@ -49,10 +49,10 @@ TEST(SkinWays, does_not_count_skin_elsewhere) {
 TEST(SkinWays, of_a_region_without_skin_are_none_and_wide_regions_keep_their_bounds) {
   const Turning ball;
   SkinWays ways;
-  ways.build(ball.skin, ball.way, {Vec3(1, 1, 1), Vec3(2, 2, 2)});
+  ways.build(ball.skin, ball.way, {Vec3(1, 1, 1), Vec3(2, 2, 2)}, 0.05);
   EXPECT_TRUE(ways.all().empty());
   EXPECT_EQ(ways.longest_against(Vec3(1, 0, 0), Vec3(1, 1, 1), 0.5), 0);
-  ways.build(ball.skin, ball.way, around_origin(500));
+  ways.build(ball.skin, ball.way, around_origin(500), 0.05);
   EXPECT_GE(ways.longest_against(Vec3::Zero(), Vec3(0, 0, 0.3), 0.01), 0.06 * (1 - 1e-3));
 }
 

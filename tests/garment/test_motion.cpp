@@ -41,6 +41,25 @@ TEST(Motion, a_skirt_on_a_swinging_body_is_clean_in_every_frame_and_at_rest_at_t
   EXPECT_EQ(report.quality["motion"]["frames"].get<int>(), 15);
 }
 
+TEST(Motion, steps_may_take_more_solves_and_be_shorter) {
+  const body::Body pillar = make_pillar(48, 40);
+  const BodyMoves moves = swinging(pillar, 10, 0.15);
+  const auto run = [&](int newton_iterations, double motion_step_s) {
+    Garment skirt = make_skirt(0.75, 0.3, 0.04);
+    DrapeSettings settings;
+    settings.newton_iterations = newton_iterations;
+    settings.motion_step_s = motion_step_s;
+    return drape_in_motion(
+        skirt, pillar, moves, settings,
+        [&](const MotionFrame& f, const Garment&) { EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U) << f.number; },
+        silent_reporter());
+  };
+  const DrapeReport one = run(1, 1.0 / 60), more = run(6, 1.0 / 60), shorter = run(1, 1.0 / 240);
+  EXPECT_LT(one.solver["newton"].get<double>(), 1.1);
+  EXPECT_GT(more.solver["newton"].get<double>(), one.solver["newton"].get<double>() + 0.1);
+  EXPECT_GE(shorter.quality["motion"]["parts"].get<int>(), 80); // of 1/30 s, in eight
+  EXPECT_TRUE(more.converged && shorter.converged);
+}
 TEST(Motion, cloth_at_rest_sleeps_until_skin_near_it_moves) {
   const body::Body pillar = make_pillar(48, 40);
   Garment skirt = make_skirt(0.75, 0.3, 0.04);

@@ -112,6 +112,8 @@ Outcome sheet_scene(const Parameters& p, std::uint64_t seed) {
   o.inertia = p.number("inertia", 0);
   o.cg_tolerance = p.number("cg_tolerance", 1e-3);
   o.cg_max_iterations = p.whole("cg_max_iterations", 2000);
+  o.newton_iterations = p.whole("newton_iterations", 1);
+  o.guard_energy = p.flag("guard_energy", false);
   o.line_search = p.flag("line_search", true);
   o.largest_move_m = p.number("largest_move_m", 0.02);
   const int steps = p.whole("steps", 60);

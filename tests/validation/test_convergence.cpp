@@ -4,10 +4,13 @@
 #include "figures.hpp"
 
 #include <base/random.hpp>
+#include <cloth/bending.hpp>
 #include <cloth/edge_spring.hpp>
 #include <cloth/gravity.hpp>
 #include <cloth/membrane.hpp>
 #include <cloth/pins.hpp>
+
+#include <ctime>
 
 using namespace sloper;
 using namespace sloper::cloth;
@@ -52,6 +55,54 @@ template<class Model> double dropped(double h) {
   return solver.x()[s.at(1, s.ny)].y();
 }
 
+/// A cloth let go level, held by one edge, after three quarters of a second: it has swung through and far up again on the other side.
+struct Swung {
+  double lower_z = 0, lower_y = 0; ///< m, of the middle of the free edge
+  double gained = 0;               ///< J, the largest growth of energy in a step, over what the fall sets free
+  double cpu_ms = 0;               ///< a step
+  double distance(const Swung& o) const { return std::hypot(lower_z - o.lower_z, lower_y - o.lower_y); }
+};
+Swung swung(double h, int newton_iterations) {
+  Fabric f;
+  f.damping_s = 0;
+  Sheet s = make_sheet(8, 12, 0.025, 0.025, f);
+  ClothSolver solver(s.mesh, s.x);
+  solver.emplace<EdgeSpringEffect>(s.mesh);
+  solver.emplace<BendingEffect>(s.mesh);
+  solver.emplace<GravityEffect>(s.mesh, Vec3(0, -9.80665, 0));
+  std::vector<Pin> pins;
+  for (int c = 0; c <= s.nx; ++c) pins.push_back({s.at(c, 0), s.x[s.at(c, 0)], 1e4, Vec3::Zero()});
+  solver.emplace<PinsEffect>(pins);
+  const auto energy = [&] {
+    double sum = 0;
+    for (const auto& e : solver.effects()) sum += e->energy(solver.x());
+    for (std::size_t i = 0; i < s.x.size(); ++i) sum += 0.5 * s.mesh.mass[i] * solver.v()[i].squaredNorm();
+    return sum;
+  };
+  StepOptions o;
+  o.h = h;
+  o.inertia = 1;
+  o.cg_tolerance = 1e-3;
+  o.largest_move_m = 1;
+  o.newton_iterations = std::max(1, newton_iterations);
+  o.guard_energy = newton_iterations == 0;
+  Swung result;
+  double before = energy(), set_free = 0;
+  for (std::size_t i = 0; i < s.x.size(); ++i) set_free += 9.80665 * s.mesh.mass[i] * 0.15;
+  const int n = static_cast<int>(std::lround(0.75 / h));
+  const std::clock_t began = std::clock();
+  for (int k = 0; k < n; ++k) {
+    solver.step(o);
+    const double after = energy();
+    result.gained = std::max(result.gained, (after - before) / set_free);
+    before = after;
+  }
+  result.cpu_ms = 1e3 * static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC / n;
+  result.lower_z = solver.x()[s.at(4, s.ny)].z();
+  result.lower_y = solver.x()[s.at(4, s.ny)].y();
+  return result;
+}
+
 /// Sag of a strip of n cells that hangs between two points.
 double sag(int n) {
   Fabric f;
@@ -91,6 +142,26 @@ TEST(Convergence, in_the_time_step_is_of_first_order) {
   print_figure("order in the time step, finite elements", order(size, error_fem), 1);
   EXPECT_NEAR(order(size, error), 1, 0.25);
   EXPECT_NEAR(order(size, error_fem), 1, 0.25);
+}
+
+/// Steps of several solves gain no energy, at any length; how far they are off is what backward Euler's damping takes, of first order.
+TEST(Convergence, of_a_swing_in_the_time_step_and_its_solves) {
+  const Swung exact = swung(0.75 / 6000, 4);
+  std::vector<double> size, error;
+  for (int per_second : {8, 16, 32, 60, 120, 240, 480, 960})
+    for (int solves : {1, 0, 2, 8}) { // 0: one, guarded
+      const Swung s = swung(1.0 / per_second, solves);
+      const std::string what = "swing, 1/" + std::to_string(per_second) + " s, solves " + std::to_string(solves);
+      print_figure(what + ": off, mm", 1e3 * s.distance(exact), 1);
+      print_figure(what + ": energy gained in a step, of the fall's", s.gained, 1);
+      print_figure(what + ": CPU ms a step", s.cpu_ms, 1);
+      if (solves != 1) {
+        EXPECT_LT(s.gained, solves == 0 ? 0.5 : 2e-3) << what; // a single solve gains up to 3900
+      }
+      if (solves == 8 && per_second >= 120) size.push_back(1.0 / per_second), error.push_back(s.distance(exact));
+    }
+  print_figure("order in the time step, a swing", order(size, error), 1);
+  EXPECT_NEAR(order(size, error), 1, 0.35);
 }
 
 TEST(Convergence, in_the_mesh_is_of_second_order) {
