@@ -323,7 +323,7 @@ void ClothSolver::assemble(double h, bool again) {
 
 StepResult ClothSolver::step(const StepOptions& o) {
   if (m_pattern_stale) rebuild_pattern();
-  if (o.newton_iterations > 1 && o.inertia > 0 && !o.line_search) return newton_step(o, o.newton_iterations);
+  if (o.newton_iterations > 1 && o.inertia > 0 && !o.line_search) return newton_step(o, o.newton_iterations, false);
   const std::size_t n = m_x.size();
   StepResult result;
   m_limits.planes_follow = !o.line_search && o.inertia > 0;
@@ -368,7 +368,7 @@ StepResult ClothSolver::step(const StepOptions& o) {
     result.finite = false;
     return result;
   }
-  if (o.guard_energy && o.inertia > 0 && !o.line_search && gains(o)) return newton_step(o, StepOptions::GUARD_SOLVES);
+  if (o.guard_energy && o.inertia > 0 && !o.line_search && gains(o)) return newton_step(o, StepOptions::GUARD_SOLVES, true);
   if (o.line_search) {
     result.halvings = search_along(o);
     freeze_held(result.halvings > 0, o.momentum);

@@ -62,7 +62,7 @@ struct StepResult {
   bool finite = true;   ///< false: nothing was moved
 };
 
-/// State and effects of one cloth. Allocates at the first step only, apart from growing contact lists.
+/// State and effects of one cloth. Allocates at the first step only, apart from growing contact lists and steps of several solves.
 class ClothSolver {
 public:
   ClothSolver(const ClothMesh& mesh, std::vector<Vec3> x);
@@ -102,9 +102,9 @@ public:
 
 private:
   void rebuild_pattern();
-  void assemble(double h, bool again = false); ///< @param again  the step has come some of its way
-  StepResult newton_step(const StepOptions& options, int most_solves);
-  bool gains(const StepOptions& options); ///< m_dx, in the incremental potential without damping
+  void assemble(double h, bool again = false);                                     ///< @param again  the step has come some of its way
+  StepResult newton_step(const StepOptions& options, int most_solves, bool begun); ///< @param begun  effects have begun this step
+  bool gains(const StepOptions& options);                                          ///< m_dx, in the incremental potential without damping
   void assemble_drag(double h);
   void drag_of(const std::vector<Vec3>& way, std::vector<Vec3>& drag);
   void conclude(const StepOptions& options, StepResult& result); ///< moves by m_dx

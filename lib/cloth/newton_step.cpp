@@ -54,7 +54,7 @@ bool ClothSolver::gains(const StepOptions& o) {
   return energy_after(m_dx) + inertia > energy(m_x);
 }
 
-StepResult ClothSolver::newton_step(const StepOptions& o, int most_solves) {
+StepResult ClothSolver::newton_step(const StepOptions& o, int most_solves, bool begun) {
   const std::size_t n = m_x.size();
   const std::vector<Vec3> start = m_x;
   std::vector<Vec3> aim = m_x, way(n, Vec3::Zero()), drag(n, Vec3::Zero()), trial_drag(n); // aim: where inertia alone would bring it
@@ -74,7 +74,7 @@ StepResult ClothSolver::newton_step(const StepOptions& o, int most_solves) {
   m_trial.resize(n), m_trial_dx.resize(n);
   const double done2 = static_cast<double>(n) * std::pow(GRADIENT_DONE * m_mean_weight, 2);
   for (int k = 0; k < most_solves; ++k) {
-    assemble(o.h, k > 0);
+    assemble(o.h, begun || k > 0);
     add_forces(m_elements, m_force);
     if (k == 0) assemble_drag(o.h);
     for (std::size_t i = 0; i < n; ++i) {

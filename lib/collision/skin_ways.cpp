@@ -31,15 +31,10 @@ void SkinWays::build(const TriangleMesh& skin, const std::vector<Vec3>& way, con
   m_all = {};
   m_low = region.low;
   m_cell = std::max(CELL, 0.5 * radius);
-  double cubes = 1;
-  const auto count = [&] {
-    cubes = 1;
-    for (int a = 0; a < 3; ++a) cubes *= std::max(1.0, std::ceil(region.size()[a] / m_cell));
-    return cubes;
-  };
-  while (count() > MOST_CUBES) m_cell *= 1.25;
-  for (int a = 0; a < 3; ++a) m_n[a] = static_cast<int>(std::max(1.0, std::ceil(region.size()[a] / m_cell)));
-  m_cube.assign(static_cast<std::size_t>(cubes), Box3{});
+  const auto across = [&](int a) { return std::max(1.0, std::ceil(region.size()[a] / m_cell)); };
+  while (across(0) * across(1) * across(2) > MOST_CUBES) m_cell *= 1.25;
+  for (int a = 0; a < 3; ++a) m_n[a] = static_cast<int>(across(a));
+  m_cube.assign(static_cast<std::size_t>(m_n[0]) * static_cast<std::size_t>(m_n[1]) * static_cast<std::size_t>(m_n[2]), Box3{});
   for (const Triangle& t : skin.triangles) {
     Box3 place, ways;
     for (int v : t) place.add(skin.positions[v]);

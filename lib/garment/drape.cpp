@@ -120,8 +120,6 @@ bool DrapeRun::step(double h, double inertia, double largest_move_m) {
     options.cg_energy_tolerance = slow ? LEFT_AT_REST : ENERGY_LEFT;
   }
   options.cg_max_iterations = m_settings.cg_max_iterations;
-  options.newton_iterations = m_settings.newton_iterations;
-  options.guard_energy = true;
   m_at.last = m_solver->step(options);
   note_solves();
   ++m_report.steps;

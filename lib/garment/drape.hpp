@@ -18,8 +18,7 @@ struct DrapeSettings {
   /// energy norm, 0.025 where all is as slow as at rest.
   double cg_tolerance = 1e-2;
   int cg_max_iterations = 400;
-  /// Of each step with inertia, where the body moves and where loose cloth is let go on its way to rest: StepOptions::newton_iterations.
-  int newton_iterations = 1;
+  int newton_iterations = 1;       ///< of a step while the body moves: StepOptions::newton_iterations
   double motion_step_s = 1.0 / 60; ///< while the body moves steps are at most so long; with inertia, longer ones damp the swing of cloth away
   int solver = 0;                  ///< preconditioner of conjugate gradients: 0 smoothed aggregation, 1 block Jacobi, 2 exact factorisation
   int contact_level = 4;           ///< cloth::ContactLevel with the body: 1 vertex, 2 face, 3 edge, 4 continuous

@@ -190,6 +190,28 @@ TEST(NewtonStep, cloth_that_is_thrown_down_lies_on_the_table_and_on_itself) {
   EXPECT_LT(r.largest_move_m, 2e-4);
 }
 
+/// Effects that look back at the last step do so once a step, however often it is solved.
+TEST(NewtonStep, a_step_begins_once) {
+  class Counts : public Effect {
+  public:
+    const char* name() const override { return "counts"; }
+    void begin_step(const std::vector<Vec3>&, double) override { ++begun; }
+    void end_step(const std::vector<Vec3>&) override { ++ended; }
+    void add(StepContext&) override { ++added; }
+    int begun = 0, ended = 0, added = 0;
+  };
+  for (const int solves : {1, 20}) {
+    Swing swing(0);
+    auto& counts = swing.solver.emplace<Counts>();
+    StepOptions o = options_of(0.1, solves);
+    o.guard_energy = true;
+    for (int k = 0; k < 10; ++k) swing.solver.step(o);
+    EXPECT_EQ(counts.begun, 10);
+    EXPECT_EQ(counts.ended, 10);
+    EXPECT_GT(counts.added, 20);
+  }
+}
+
 TEST(NewtonStep, what_is_no_number_moves_nothing) {
   class BadForce : public Effect {
   public:
