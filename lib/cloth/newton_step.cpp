@@ -11,12 +11,18 @@ namespace {
 
 constexpr double GRADIENT_DONE = 0.01; // weights of a particle, root mean square
 constexpr double LEAST_MOVE = 1e-7;    // m of the farthest particle: more solves change nothing
-constexpr int SHORTEST = 10;           // halvings of a solve, at most
+constexpr int HALVINGS = 10;           // halvings of a solve, at most
 
 double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
   return sum;
+}
+
+double farthest_of(const std::vector<Vec3>& way) {
+  double most2 = 0;
+  for (const Vec3& w : way) most2 = std::max(most2, w.squaredNorm());
+  return std::sqrt(most2);
 }
 
 } // namespace
@@ -83,16 +89,15 @@ StepResult ClothSolver::newton_step(const StepOptions& o, int most_solves, bool 
     }
     const double gradient2 = dot(m_rhs, m_rhs);
     if (k > 0 && gradient2 <= done2) break;
-    double largest = gradient2; // of the solve's ways
+    double solved2 = gradient2;
     if (std::isfinite(gradient2)) {
       const CgResult cg = solve(o);
       result.cg.iterations += cg.iterations;
       result.cg.residual = cg.residual;
       result.cg.indefinite |= cg.indefinite;
-      largest = 0;
-      for (const Vec3& d : m_dx) largest = std::max(largest, d.norm());
+      solved2 = dot(m_dx, m_dx);
     }
-    if (!std::isfinite(largest)) { // as in step(): nothing is moved
+    if (!std::isfinite(solved2)) { // as in step(): nothing is moved
       m_x = start;
       result.finite = false;
       return result;
@@ -100,9 +105,9 @@ StepResult ClothSolver::newton_step(const StepOptions& o, int most_solves, bool 
     ++result.newton_iterations;
     m_step = m_dx;
     const double before = potential(m_x, drag);
-    double share = std::min(1.0, o.largest_move_m / std::max(largest, LEAST_MOVE));
+    double share = std::min(1.0, o.largest_move_m / std::max(farthest_of(m_dx), LEAST_MOVE));
     bool lower = false;
-    for (int halvings = 0; !lower && halvings <= SHORTEST; ++halvings, share *= 0.5) {
+    for (int halvings = 0; !lower && halvings <= HALVINGS; ++halvings, share *= 0.5) {
       for (std::size_t i = 0; i < n; ++i) m_dx[i] = share * m_step[i];
       m_held.assign(n, 0);
       limit(m_dx, m_held);
@@ -113,9 +118,7 @@ StepResult ClothSolver::newton_step(const StepOptions& o, int most_solves, bool 
     if (!lower) break;
     std::swap(m_x, m_trial);
     std::swap(drag, trial_drag);
-    largest = 0;
-    for (const Vec3& d : m_dx) largest = std::max(largest, d.norm());
-    if (largest < LEAST_MOVE) break;
+    if (farthest_of(m_dx) < LEAST_MOVE) break;
   }
   for (std::size_t i = 0; i < n; ++i) m_dx[i] = m_x[i] - start[i];
   m_x = start;
