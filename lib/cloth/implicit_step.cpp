@@ -262,6 +262,13 @@ void ClothSolver::look_ahead(double h) {
   }
 }
 
+/// False where a position, a force or a stiffness was no number: conjugate gradients would return no motion and hide it.
+bool ClothSolver::assembled_finite() const {
+  for (std::size_t i = 0; i < m_rhs.size(); ++i)
+    if (!std::isfinite(m_rhs[i].sum() + m_matrix.diagonal(static_cast<int>(i)).sum())) return false;
+  return true;
+}
+
 /// Of what is assembled, for m_dx.
 CgResult ClothSolver::solve(const StepOptions& o) {
   CgTolerance tolerance(o.cg_tolerance, o.cg_energy_tolerance);
@@ -338,7 +345,7 @@ StepResult ClothSolver::step(const StepOptions& o) {
       m_rhs[i] = m_force[i] + o.inertia * m_mesh.mass[i] / o.h * m_v[i];
     }
   }
-  if (!all_finite(m_rhs)) { // a position or a force was none: conjugate gradients would return no motion and hide it
+  if (!assembled_finite()) {
     result.finite = false;
     return result;
   }

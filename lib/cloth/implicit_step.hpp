@@ -118,6 +118,7 @@ private:
   void forget(); ///< of the way so far; what was learnt holds no more
   void freeze_held(bool search_failed, bool momentum);
   /// Of the squares of m_rhs, by particle, which it leaves in m_residual: 95th percentile and sum, N2.
+  bool assembled_finite() const;
   std::array<double, 2> measure_rhs();
   double near_tolerance(const StepOptions& options, const std::array<double, 2>& squares) const; ///< of the solve for m_rhs, near rest
   CgResult solve(const StepOptions& options);

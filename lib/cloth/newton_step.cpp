@@ -87,17 +87,16 @@ StepResult ClothSolver::newton_step(const StepOptions& o, int most_solves, bool 
       m_matrix.add_isotropic_diagonal(static_cast<int>(i), mass_h2(i));
       m_rhs[i] = m_force[i] - drag[i] + mass_h2(i) * (aim[i] - m_x[i]);
     }
-    const double gradient2 = dot(m_rhs, m_rhs);
-    if (k > 0 && gradient2 <= done2) break;
-    double solved2 = gradient2;
-    if (std::isfinite(gradient2)) {
+    bool finite = assembled_finite();
+    if (finite) {
+      if (k > 0 && dot(m_rhs, m_rhs) <= done2) break;
       const CgResult cg = solve(o);
       result.cg.iterations += cg.iterations;
       result.cg.residual = cg.residual;
       result.cg.indefinite |= cg.indefinite;
-      solved2 = dot(m_dx, m_dx);
+      finite = std::isfinite(dot(m_dx, m_dx));
     }
-    if (!std::isfinite(solved2)) { // as in step(): nothing is moved
+    if (!finite) { // as in step(): nothing is moved
       m_x = start;
       result.finite = false;
       return result;

@@ -225,9 +225,10 @@ TEST(NewtonStep, what_is_no_number_moves_nothing) {
   };
   const auto moves_nothing = [](Swing& swing) {
     const std::vector<Vec3> before = swing.solver.x();
-    const StepResult r = swing.solver.step(options_of(1.0 / 60, 5));
-    EXPECT_TRUE(!r.finite || r.cg.indefinite); // conjugate gradients stop before a matrix that is none
-    EXPECT_EQ(swing.solver.x(), before);
+    for (const int solves : {1, 5}) {
+      EXPECT_FALSE(swing.solver.step(options_of(1.0 / 60, solves)).finite);
+      EXPECT_EQ(swing.solver.x(), before);
+    }
   };
   Swing force(0.02), stiffness(0.02);
   force.solver.emplace<BadForce>();
