@@ -19,6 +19,8 @@ using namespace sloper;
 
 namespace {
 
+constexpr int MOST_GRADINGS = 4; // with keep-fit, of a garment that comes out too tight
+
 struct Options {
   std::string garment, to, mode = "keep-fabric", accuracy = "standard", policy, fit, fit_csv, fit_page, pattern, report, cache, output;
   std::vector<std::string> set;
@@ -114,19 +116,29 @@ int run(cli::Tool& tool, const Options& o) {
   garment::Garment& garment = placed.garment;
   garment.body_sha256 = skin_hash;
   settings.hold_sleeve_ends = placed.has_folded_sleeves;
-  if (!o.pattern.empty()) write_pattern(tool, o, garment, source);
   garment::FitReport fit;
   if (!o.no_drape) fit = garment::fit_before_drape(garment, source.position, body, policy);
   garment::DrapeReport report;
   report.settings = settings;
   report.stop_reason = "placed only";
-  const bool hopeless = !fit.fits;
+  const bool hopeless = !fit.fits, keep_fit = mode == garment::RetargetMode::KEEP_FIT;
   if (hopeless) report.stop_reason = "not draped: the garment " + fit.reason;
-  else if (!o.no_drape) report = garment::drape(garment, &body, settings, tool.reporter(), garment::hopeless_beyond(policy, fit));
-  garment::bind_garment(garment, body);
+  const garment::FitBounds bounds = garment::hopeless_beyond(policy, fit);
+  for (;;) {
+    if (!o.no_drape && !hopeless) report = garment::drape(garment, &body, settings, tool.reporter(), bounds);
+    garment::bind_garment(garment, body);
+    if (hopeless) break;
+    const auto& made_for = keep_fit ? garment.body_girths_m : source.body_girths_m; // keep-fit cuts it anew
+    fit = garment::fit_garment(garment, body, skin, policy, &placed.placed, report.unfit, made_for);
+    const bool too_tight = !fit.fits && fit.verdict == garment::FitVerdict::TOO_SMALL;
+    if (!keep_fit || o.no_drape || !too_tight || placed.report.gradings == MOST_GRADINGS) break;
+    if (settings.max_seconds > 0 && (settings.max_seconds -= report.wall_s) <= 0) break;
+    tool.reporter().info("the garment " + fit.reason + ": let out there");
+    garment::let_out(placed, source, body);
+  }
   garment::write_garment(o.output, garment, tool.name());
-  const auto& made_for = mode == garment::RetargetMode::KEEP_FIT ? garment.body_girths_m : source.body_girths_m; // keep-fit cuts it anew
-  if (!hopeless) fit = garment::fit_garment(garment, body, skin, policy, &placed.placed, report.unfit, made_for);
+  if (!o.pattern.empty()) write_pattern(tool, o, garment, source);
+  for (const std::string& finding : placed.report.findings) tool.reporter().warning(finding);
   if (const std::string why = garment::why_stuck(garment, body); fit.fits && !o.no_drape && !report.converged && !why.empty())
     fit.fits = false, fit.verdict = garment::FitVerdict::IMPOSSIBLE, fit.reason = why;
   if (o.no_drape) fit.state = "placed";

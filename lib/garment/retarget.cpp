@@ -7,6 +7,7 @@
 #include <garment/bind_frames.hpp>
 #include <garment/bind_laplacian.hpp>
 #include <garment/body_sides.hpp>
+#include <garment/cloth_strain.hpp>
 #include <garment/covered_skin.hpp>
 #include <garment/retarget_grade.hpp>
 #include <garment/sleeve_ends.hpp>
@@ -32,6 +33,8 @@ constexpr double PRESSED_SHARE = 0.5;      // of the gap: as near tight cloth li
 constexpr int LEAST_ROUNDS = 6;            // before which the shape has not found its rest
 constexpr double LONGEST_MOVE = 0.008;     // m of a particle in one round
 constexpr double LEAST_SLEEVE = 0.02;      // of a garment that hangs on one arm: it has a sleeve
+constexpr double EASY_STRAIN = 0.01;       // of cloth that is let out
+constexpr double FREELY = 2;               // by how much more than it is strained: some of it slides away, and much goes along its threads
 constexpr double STILL = 0.003;            // m that no particle moves any more in a round
 
 using Field = Eigen::Matrix<double, Eigen::Dynamic, 3>;
@@ -130,6 +133,16 @@ private:
   const Eigen::SparseMatrix<double>& m_stiffness;
 };
 
+/// Makes the pattern of `source` over for where its cloth lies on the other body. @param longer  regrade()'s let_out
+void grade(Retargeted& result, const Garment& source, const std::vector<Vec3>& after, const body::Body& to, const std::vector<Vec2>& longer = {}) {
+  GradeSides sides;
+  for (const SideDifference& d : uneven_sides(to)) sides.apart[d.limb] += (sides.apart[d.limb].empty() ? "" : ", ") + d.text;
+  result.garment.panels = source.panels;
+  const GradeReport report = regrade(result.garment, source.position, after, sides, longer);
+  result.report.mirrored_panels = report.mirrored_panels, result.report.findings = report.findings;
+  ++result.report.gradings;
+}
+
 } // namespace
 
 RetargetMode retarget_mode_from_name(const std::string& name) {
@@ -144,6 +157,7 @@ io::Json placement_json(const PlacementReport& r) {
           {"clear_rounds", r.clear_rounds},
           {"largest_move_m", r.largest_move_m},
           {"mirrored_panels", r.mirrored_panels},
+          {"gradings", r.gradings},
           {"stretch", {{"p01", r.stretch_p01}, {"p50", r.stretch_p50}, {"p99", r.stretch_p99}}},
           {"settled_stretch", {{"p01", r.settled_p01}, {"p50", r.settled_p50}, {"p99", r.settled_p99}}}};
 }
@@ -273,19 +287,23 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
     result.has_folded_sleeves = true;
     reporter.info("a sleeve is longer than the arm and narrower than the hand: its end stays at the wrist");
   }
-  if (keep_fit) {
-    GradeSides sides;
-    for (const SideDifference& d : uneven_sides(to)) sides.apart[d.limb] += (sides.apart[d.limb].empty() ? "" : ", ") + d.text;
-    const GradeReport grade = regrade(g, garment.position, as_near_as_placed(g.position, placed, skin, g.offset_m), sides);
-    report.mirrored_panels = grade.mirrored_panels, report.findings = grade.findings;
-    for (const std::string& finding : grade.findings) reporter.warning(finding);
-  }
+  if (keep_fit) grade(result, garment, as_near_as_placed(g.position, placed, skin, g.offset_m), to);
   for (std::size_t i = 0; i < placed.size(); ++i) report.largest_move_m = std::max(report.largest_move_m, (g.position[i] - placed[i]).norm());
   measure(report.settled_p01, report.settled_p50, report.settled_p99);
   report.cleared = state_of(g.position, triangles, skin);
   reporter.info("placed: " + std::to_string(report.placed.vertices_inside) + " particles in the body, " + std::to_string(report.cleared.vertices_inside) +
                 " after clearing the skin in " + std::to_string(report.clear_rounds) + " rounds");
   return result;
+}
+
+void let_out(Retargeted& worn, const Garment& source, const body::Body& to) {
+  const auto beyond = [](double strain) { return std::log1p(std::max(strain, EASY_STRAIN)) - std::log1p(EASY_STRAIN); };
+  const std::vector<TriangleStrain> then = triangle_strains(source, source.position), now = triangle_strains(worn.garment, worn.garment.position);
+  std::vector<Vec2> longer;
+  for (std::size_t f = 0; f < now.size(); ++f)
+    longer.emplace_back(beyond(then[f].weft) + FREELY * beyond(now[f].weft), beyond(then[f].warp) + FREELY * beyond(now[f].warp));
+  grade(worn, source, worn.garment.position, to, longer);
+  worn.garment.converged = false;
 }
 
 } // namespace sloper::garment

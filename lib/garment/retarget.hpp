@@ -31,7 +31,8 @@ struct PlacementReport {
   double settled_p01 = 0, settled_p50 = 0, settled_p99 = 0; ///< the same after settle_shape()
   double largest_move_m = 0;                                ///< of settle_shape()
   int mirrored_panels = 0;                                  ///< keep-fit: graded together with their mirror images
-  std::vector<std::string> findings;                        ///< keep-fit: of regrade()
+  int gradings = 0;                                         ///< keep-fit: by retarget() and let_out()
+  std::vector<std::string> findings;                        ///< keep-fit: of the last regrade()
 };
 io::Json placement_json(const PlacementReport& report);
 
@@ -67,5 +68,12 @@ struct Retargeted {
 };
 /// @throws Error INPUT when the garment is not bound or hangs on a part that `to` lacks
 Retargeted retarget(const Garment& garment, const body::Body& to, const collision::BodyCollider& skin, RetargetMode mode, Reporter& reporter);
+
+/// keep-fit, after a drape that ended too tight: makes the source's pattern over once more, for where its cloth came to lie on the other body and
+/// wider where it is stretched there: what is strained by more than 1 % is cut for that, on either body, and longer by twice its strain beyond. Cloth
+/// slides a little from where it was placed, and a narrow girth then lies where the body is wide; what is tight on the first body would be tight on any.
+/// What hangs in folds keeps the lengths that it has. Another drape, a short one, is to follow.
+/// @param worn  of retarget(), its garment draped on `to`; in and out   @param source  what retarget() was given
+void let_out(Retargeted& worn, const Garment& source, const body::Body& to);
 
 } // namespace sloper::garment

@@ -335,6 +335,61 @@ TEST(regrade, every_level_takes_its_own_girth_up_to_the_edge) {
   }
 }
 
+/// Around the tube, at each of its rows, what is cut over what was cut.
+std::vector<double> widths_over(const Garment& graded, const Garment& before) {
+  std::vector<double> widths;
+  const int n = 24, rows = 12;
+  for (int r = 0; r <= rows; ++r) {
+    double is = 0, was = 0;
+    for (const pattern::PanelInfo& panel : before.panels.panels)
+      for (int c = 0; c < n; ++c) {
+        const int v = panel.first_vertex + r * (n + 1) + c;
+        is += (graded.panels.pattern[v + 1] - graded.panels.pattern[v]).norm();
+        was += (before.panels.pattern[v + 1] - before.panels.pattern[v]).norm();
+      }
+    widths.push_back(is / was);
+  }
+  return widths;
+}
+
+TEST(let_out, cloth_is_cut_wider_where_it_came_to_be_stretched_and_nowhere_else) {
+  const Garment source = sewn_tube(0.15, 0.4, 0.6);
+  Retargeted worn;
+  worn.garment = source;
+  const auto wider = [](double y) { return 1 + 0.08 * std::exp(-std::pow((y - 0.8) / 0.05, 2)); };
+  for (Vec3& p : worn.garment.position) p.x() *= wider(p.y()), p.z() *= wider(p.y());
+  worn.garment.converged = true;
+  let_out(worn, source, body::Body());
+  EXPECT_FALSE(worn.garment.converged);
+  EXPECT_EQ(worn.report.gradings, 1);
+  const std::vector<double> widths = widths_over(worn.garment, source);
+  Garment as_wide = source;
+  regrade(as_wide, source.position, worn.garment.position);
+  EXPECT_GT(widths[6], widths_over(as_wide, source)[6] + 0.03); // by what it is stretched, and what flat panels with straight seams take of twice that
+  EXPECT_NEAR(widths[0], 1, 0.005);
+  EXPECT_NEAR(widths[12], 1, 0.005);
+}
+
+TEST(let_out, cloth_that_was_tight_on_its_first_body_is_not_cut_as_tight_again) {
+  const Garment source = [] {
+    Garment g = sewn_tube(0.15, 0.4, 0.6);
+    for (Vec3& p : g.position) p.x() *= 1.04, p.z() *= 1.04;
+    return g;
+  }();
+  Retargeted worn;
+  worn.garment = source;
+  let_out(worn, source, body::Body());
+  for (const double w : widths_over(worn.garment, source)) EXPECT_NEAR(w, std::pow(1.04 / 1.01, 3), 0.003);
+}
+
+TEST(let_out, cloth_that_nothing_stretches_keeps_its_pattern) {
+  const Garment source = sewn_tube(0.15, 0.4, 0.6);
+  Retargeted worn;
+  worn.garment = source;
+  let_out(worn, source, body::Body());
+  for (const double w : widths_over(worn.garment, source)) EXPECT_NEAR(w, 1, 0.001);
+}
+
 TEST(regrade, a_straight_seam_between_mirror_images_stays_straight) {
   Garment g = sewn_tube(0.15, 0.4, 0.6); // its seams lie at the front and at the back; the second one is left open and gives way
   g.panels.seams.pop_back();

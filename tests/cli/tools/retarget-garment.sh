@@ -25,6 +25,20 @@ case_what_does_not_fit_ends_with_1_under_a_policy_and_with_4_without() {
   grep -q "as it was placed" fit.html || fail "the page does not say that it was not draped"
 }
 
+# Cloth slid 5 mm on a bust more pointed than the one that it came from, and a girth graded for below it was stretched there by an eighth.
+case_a_shirt_made_over_for_a_body_that_it_is_too_tight_on_is_let_out() {
+  local shared=${SLOPER_SHARED:-}/data
+  [[ -d $shared ]] || { echo "SKIPPED: SLOPER_SHARED does not name a folder with data"; exit 77; }
+  local folder=${program%/*}
+  run 0 "$folder/scan-landmarks" -q -o f.json "$shared/bodies/smpl/f_smpl_average_A40.obj"
+  run 0 "$folder/scan-landmarks" -q -o pointed.json "$shared/bodies/plain/body_008.obj"
+  run 0 "$folder/pattern-mesh" -q --body f.json -o p.json "$shared/patterns/garmentcode/tshirt_f_smpl_average_A40_specification.json"
+  run 0 "$folder/drape" -q --body f.json --panels p.json -o f-tee.json
+  run 0 "$program" -v --garment f-tee.json --to pointed.json --mode keep-fit --report report.json -o pointed-tee.json
+  says "let out there"
+  grep -q '"gradings": [2-4]' report.json || fail "the report does not say that it was graded more than once"
+}
+
 # Two particles that were kept in place for a pinch bore four fifths of the skirt's weight, 5 cm down, and it was said to be at rest.
 case_a_skirt_too_wide_slides_to_where_the_hip_bears_it() {
   local shared=${SLOPER_SHARED:-}/data slip
