@@ -23,6 +23,7 @@ namespace {
 
 constexpr int GROUND_RINGS = 28, GROUND_SPOKES = 56;
 constexpr double SMOOTHED_IN = 0.0006; // m, as far as smooth_cloth() moves cloth inwards
+constexpr double LINE_LIFT = 0.0002;   // m that lines lie in front of their surface, and stay behind cloth in front of it
 enum Kind { BODY = 0, CLOTH = 1, FLAT = 2, GROUND = 3 };
 
 void put(float* to, const Vec3& v) {
@@ -282,9 +283,7 @@ struct Renderer::Impl {
     gl.UniformMatrix4fv(uniform(line_program, "clip"), 1, GL_FALSE, clip.data());
     gl.Uniform2f(uniform(line_program, "half_size"), 0.5f * static_cast<float>(options.width), 0.5f * static_cast<float>(options.height));
     gl.Uniform1f(uniform(line_program, "width"), 0.9f * std::max(1.f, static_cast<float>(std::min(options.width, options.height)) / 1200.f));
-    const auto cloth = std::count_if(parts.begin(), parts.end(), [](const Part& p) { return p.kind == CLOTH; });
-    const double lift = cloth > 1 ? 0.0012 : 0.0025; // m: seams of an inner garment stay below the outer one
-    gl.Uniform1f(uniform(line_program, "nearer"), static_cast<float>(lift / (2 * camera.half_depth)));
+    gl.Uniform1f(uniform(line_program, "nearer"), static_cast<float>(LINE_LIFT / camera.half_depth));
     for (const Part& part : parts) {
       const bool ground_seen = part.kind == GROUND && camera.elevation > units::radians(2);
       if (part.kind == GROUND && !ground_seen) continue;

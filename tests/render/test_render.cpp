@@ -168,6 +168,29 @@ TEST(Render, the_far_side_of_a_closed_body_is_left_out_and_never_missed) {
   EXPECT_GT(c.ssim, 0.9999);
 }
 
+TEST(Render, a_seam_shows_on_its_cloth_and_not_through_cloth_that_lies_half_a_millimetre_in_front_of_it) {
+  const auto sheet = [](double half, double z, bool has_seam) {
+    DrawMesh mesh;
+    for (const auto& [x, y] : {std::pair{-1, -1}, {0, -1}, {1, -1}, {-1, 1}, {0, 1}, {1, 1}}) {
+      mesh.positions.emplace_back(half * x, half * y, z);
+      mesh.normals.emplace_back(0, 0, 1);
+      mesh.colors.emplace_back(0.5, 0.2, 0.1);
+    }
+    mesh.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};
+    mesh.is_flat = true;
+    if (has_seam) mesh.lines = {{1, 4}}, mesh.is_hem = {0};
+    return mesh;
+  };
+  const auto drawn = [](const std::vector<DrawMesh>& meshes) {
+    DrawOptions options;
+    options.width = options.height = 100;
+    options.ground = false;
+    return Renderer(meshes, options).draw(frame_scene(meshes, {}, 1)).rgba;
+  };
+  EXPECT_NE(drawn({sheet(0.5, 0, true)}), drawn({sheet(0.5, 0, false)}));
+  EXPECT_EQ(drawn({sheet(0.5, 0, true), sheet(0.6, 0.0005, false)}), drawn({sheet(0.5, 0, false), sheet(0.6, 0.0005, false)}));
+}
+
 TEST(Render, a_ball_throws_its_shadow_on_the_floor) {
   const std::vector<DrawMesh> meshes{make_ball()};
   DrawOptions options;
