@@ -104,13 +104,6 @@ std::string class_of(const std::vector<std::string>& region) {
   return top || share["trunk"] > 0.9 ? "top" : "skirt";
 }
 
-std::string main_fabric(const Garment& garment) {
-  std::map<std::string, int> triangles;
-  for (const pattern::PanelInfo& panel : garment.panels.panels) triangles[material_of(garment, panel.material).name] += panel.n_triangles;
-  if (triangles.empty()) return {};
-  return std::max_element(triangles.begin(), triangles.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
-}
-
 void measure_regions(const ClothState& cloth, const std::vector<std::string>& region, FitReport& report) {
   std::map<std::string, std::vector<int>> triangles;
   for (std::size_t f = 0; f < cloth.strains.size(); ++f) {
@@ -220,7 +213,7 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
   if (garment.bind.empty()) throw input_error("", "/bind", "the garment is not bound to a body", "drape it on the body first");
   FitReport report;
   report.policy = policy.name;
-  report.fabric = main_fabric(garment);
+  report.fabric = main_material(garment);
   report.convergence_m = garment.converged ? 0 : NOT_AT_REST;
   report.state = garment.converged ? "at rest" : "not at rest";
   report.hem_height_m = 1e300, report.top_height_m = -1e300;
@@ -278,7 +271,7 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
   FitReport report;
   report.policy = policy.name;
   report.state = "placed";
-  report.fabric = main_fabric(garment);
+  report.fabric = main_material(garment);
   std::vector<std::string> region;
   for (std::size_t i = 0; i < garment.position.size(); ++i) region.push_back(region_of(garment, i, axilla_height(body)));
   report.garment_class = class_of(region);

@@ -1,6 +1,9 @@
 #include <base/error.hpp>
 #include <garment/materials.hpp>
 
+#include <algorithm>
+#include <map>
+
 namespace sloper::garment {
 
 // Columns as in Material. Tensile values are secants of KES-F1 curves at wearing loads (about 50 N/m), not at the 490 N/m end of
@@ -42,6 +45,17 @@ const Material& material_of(const Garment& garment, const std::string& name) {
   if (const auto found = garment.materials.find(name); found != garment.materials.end()) return found->second;
   if (!name.empty()) return material_preset(name);
   return material_presets().front();
+}
+
+std::string main_material(const Garment& garment) {
+  std::map<std::string, int> triangles;
+  for (const pattern::PanelInfo& panel : garment.panels.panels) {
+    const auto own = garment.materials.find(panel.material); // a panel not yet draped may name one that only a scene knows
+    const std::string& name = own != garment.materials.end() ? own->second.name : panel.material;
+    triangles[name.empty() ? material_presets().front().name : name] += panel.n_triangles;
+  }
+  if (triangles.empty()) return {};
+  return std::max_element(triangles.begin(), triangles.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
 }
 
 } // namespace sloper::garment

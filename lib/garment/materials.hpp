@@ -10,5 +10,7 @@ const std::vector<Material>& material_presets();
 const Material& material_preset(const std::string& name);
 /// The material of a panel: garment.materials[name], else the preset `name`, else garment.materials[""], else the default preset.
 const Material& material_of(const Garment& garment, const std::string& name);
+/// The name of the material that most triangles are of; empty where there are none.
+std::string main_material(const Garment& garment);
 
 } // namespace sloper::garment

@@ -31,6 +31,8 @@ constexpr double SEARCH_DEPTH = 0.15;      // m, deeper is not looked for
 constexpr double FINAL_GAP_SHARE = 0.5;    // of the gap: near enough to stop
 constexpr double PRESSED_SHARE = 0.5;      // of the gap: as near tight cloth lies to the skin once it is at rest
 constexpr int LEAST_ROUNDS = 6;            // before which the shape has not found its rest
+constexpr double FEW_THROUGH = 0.01;       // of the faces: more is cloth that is too small, and no round brings it out
+constexpr int MOST_TIMES = 4;              // the rounds, while there are few
 constexpr double LONGEST_MOVE = 0.008;     // m of a particle in one round
 constexpr double LEAST_SLEEVE = 0.02;      // of a garment that hangs on one arm: it has a sleeve
 constexpr double EASY_STRAIN = 0.01;       // of cloth that is let out
@@ -180,7 +182,12 @@ int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, c
   solver.analyse(ops.stiffness);
   std::vector<int> hint(n, -1);
   double largest_move = 0;
-  for (int round = 0; round < max_rounds; ++round) {
+  const auto few_are_through = [&] {
+    const std::size_t through = body.faces_through(positions, triangles).size();
+    return through > 0 && static_cast<double>(through) < FEW_THROUGH * static_cast<double>(triangles.size());
+  };
+  int round = 0;
+  for (; round < max_rounds || (round < MOST_TIMES * max_rounds && few_are_through()); ++round) {
     const Pushes pushes = pushes_of(positions, triangles, topology, body, gap, hint);
     if (round >= LEAST_ROUNDS && largest_move < STILL && pushes.nearest() >= FINAL_GAP_SHARE * gap && body.faces_through(positions, triangles).empty())
       return round;
@@ -204,7 +211,7 @@ int settle_shape(std::vector<Vec3>& positions, const std::vector<Vec3>& shape, c
       positions[i] += move;
     }
   }
-  return max_rounds;
+  return round;
 }
 
 std::vector<Vec3> as_near_as_placed(std::vector<Vec3> settled, const std::vector<Vec3>& placed, const collision::BodyCollider& skin, double gap) {

@@ -2,6 +2,7 @@
 #include <body/body_json.hpp>
 #include <garment/garment_json.hpp>
 #include <garment/inputs.hpp>
+#include <garment/materials.hpp>
 #include <geometry/triangle_mesh.hpp>
 #include <io/files.hpp>
 #include <io/json.hpp>
@@ -159,10 +160,17 @@ Vec3 panel_color(int k) {
 
 void color_cloth(Scene& scene, ClothColors how, const std::vector<int>& colors) {
   static const int garment_palette[] = {0x4f7396, 0xb5654a, 0x6f8f72, 0x8a6f9e};
+  std::map<std::string, int> of_material = {{"denim", 0x34475f}, {"silk", 0xb89c84}, {"wool-suiting", 0x5b5c61}, {"jersey", 0x86919c}, {"canvas", 0x9c8c6a}};
   int k = 0;
   for (DrawMesh& mesh : scene.meshes) {
     if (!mesh.is_cloth || mesh.panel_of.empty()) continue;
-    const Vec3 one = linear_color(k < static_cast<int>(colors.size()) ? colors[k] : garment_palette[k % 4]);
+    int color = garment_palette[k % 4];
+    const auto g =
+        static_cast<std::size_t>(std::find(scene.garment_mesh.begin(), scene.garment_mesh.end(), &mesh - scene.meshes.data()) - scene.garment_mesh.begin());
+    if (k < static_cast<int>(colors.size())) color = colors[k];
+    else if (g < scene.garments.size())
+      if (const auto own = of_material.extract(garment::main_material(scene.garments[g]))) color = own.mapped(); // one garment alone has it
+    const Vec3 one = linear_color(color);
     for (std::size_t v = 0; v < mesh.colors.size(); ++v) mesh.colors[v] = how == ClothColors::PANELS ? panel_color(mesh.panel_of[v]) : one;
     ++k;
   }

@@ -59,7 +59,7 @@ void smooth_cloth(DrawMesh& mesh);
 
 /// How cloth is coloured: each panel its own colour, or each garment one.
 enum class ClothColors { PANELS, GARMENTS };
-/// @param colors  0xRRGGBB by garment; those that are missing come from a palette
+/// @param colors  0xRRGGBB by garment; those that are missing come from the fabric (denim, silk, wool, jersey, canvas), once each, or a palette
 void color_cloth(Scene& scene, ClothColors how, const std::vector<int>& colors = {});
 
 /// 0xRRGGBB to linear light.

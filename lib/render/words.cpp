@@ -1,4 +1,5 @@
 #include <base/error.hpp>
+#include <garment/materials.hpp>
 #include <io/json_fwd.hpp>
 #include <render/words.hpp>
 
@@ -71,7 +72,11 @@ ClothColors choose_fabric(const std::string& fabric, bool colors_given, const Sc
   if (panels) return ClothColors::PANELS;
   for (const auto& [name, kind] : known)
     if (fabric == name) return options.fabric = kind, ClothColors::GARMENTS;
-  if (fabric == "auto") return ClothColors::GARMENTS;
+  const auto is_denim = [](const garment::Garment& g) { return garment::main_material(g) == "denim"; };
+  if (fabric == "auto") {
+    if (!scene.garments.empty() && std::all_of(scene.garments.begin(), scene.garments.end(), is_denim)) options.fabric = Fabric::TWILL;
+    return ClothColors::GARMENTS;
+  }
   if (ending_of(fabric) != ".png") {
     std::vector<std::string> names{"auto", "panels"};
     for (const auto& [name, kind] : known) names.emplace_back(name);

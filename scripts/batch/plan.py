@@ -62,8 +62,11 @@ def listed(place, wanted):
         found = [os.path.join(place, name) for name in sorted(os.listdir(place)) if not name.startswith(".")]
         return [path for path in found if wanted(path)]
     if place.endswith(".txt"):
-        with open(place) as file:
-            names = [line.strip() for line in file if line.strip() and not line.startswith("#")]
+        try:
+            with open(place) as file:
+                names = [line.strip() for line in file if line.strip() and not line.startswith("#")]
+        except OSError as error:
+            raise Mistake(f"{place}: {error.strerror}") from error
         return [os.path.join(os.path.dirname(place), name) for name in names]
     return [place]
 

@@ -277,6 +277,26 @@ TEST(PatternView, panels_do_not_overlap_and_none_is_turned) {
     }
 }
 
+TEST(Scene, fabrics_have_colours_of_their_own_once_each_unless_told_otherwise) {
+  const auto color_of = [](const std::vector<std::string>& materials, const std::vector<int>& given, std::size_t garment) {
+    std::vector<garment::Garment> garments;
+    for (const std::string& name : materials) {
+      garments.push_back(make_sheet(1, flat));
+      garments.back().panels.panels[0].material = name;
+    }
+    Scene scene = scene_of(std::move(garments));
+    color_cloth(scene, ClothColors::GARMENTS, given);
+    return scene.meshes[garment].colors[0];
+  };
+  const Vec3 denim = color_of({"denim"}, {}, 0);
+  EXPECT_NE(denim, color_of({"silk"}, {}, 0));
+  EXPECT_NE(denim, color_of({""}, {}, 0));
+  EXPECT_EQ(color_of({"of a scene"}, {}, 0), color_of({""}, {}, 0));
+  EXPECT_EQ(color_of({"silk", "denim"}, {}, 1), denim);
+  EXPECT_NE(color_of({"denim", "denim"}, {}, 1), denim); // two garments are told apart
+  EXPECT_EQ(color_of({"denim"}, {0x102030}, 0), linear_color(0x102030));
+}
+
 TEST(Export, a_glb_is_whole_and_describes_what_it_holds) {
   Scene scene = scene_of({make_sheet(3, flat)});
   scene.meshes[0].name = "sheet";

@@ -39,6 +39,19 @@ case_a_shirt_made_over_for_a_body_that_it_is_too_tight_on_is_let_out() {
   grep -q '"gradings": [2-4]' report.json || fail "the report does not say that it was graded more than once"
 }
 
+# After 40 rounds ten faces of the collar were still in the chin of a body with a shorter neck; no drape brought them out.
+case_a_collar_that_is_placed_in_a_chin_is_brought_out() {
+  local shared=${SLOPER_SHARED:-}/data
+  [[ -d $shared ]] || { echo "SKIPPED: SLOPER_SHARED does not name a folder with data"; exit 77; }
+  local folder=${program%/*} dxf=$shared/patterns/sewing/dxf
+  run 0 "$folder/scan-landmarks" -q -o long.json "$shared/bodies/plain/body_006.obj"
+  run 0 "$folder/scan-landmarks" -q -o short.json "$shared/bodies/plain/body_004.obj"
+  run 0 "$folder/pattern-mesh" -q --body long.json --sewing "$dxf/shirt.seams.json" -o p.json "$dxf/shirt.dxf"
+  run 0 "$folder/drape" -q --accuracy draft --material denim --body long.json --panels p.json -o shirt.json
+  run 0 "$program" -q --no-drape --garment shirt.json --to short.json --report report.json -o short-shirt.json
+  python3 -c 'import json, sys; sys.exit(json.load(open("report.json"))["placement"]["cleared"]["faces_through_body"])' || fail "faces are still through the skin"
+}
+
 # Two particles that were kept in place for a pinch bore four fifths of the skirt's weight, 5 cm down, and it was said to be at rest.
 case_a_skirt_too_wide_slides_to_where_the_hip_bears_it() {
   local shared=${SLOPER_SHARED:-}/data slip
