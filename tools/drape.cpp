@@ -206,7 +206,7 @@ int run(cli::Tool& tool, Options& o) {
   if (o.panels.empty()) o.panels = scene.panels;
   if (o.panels.empty() == o.from.empty())
     throw Error(ErrorKind::USAGE, "", "", o.from.empty() ? "nothing to drape" : "both --panels and --from are given",
-                "give --panels panels.json or --from shirt.json");
+                "give --panels panels.json or --from shirt.json, which follows an edited pattern with --follow edits.jsonl");
   garment::DrapeSettings settings = garment::preset_settings(!o.accuracy.empty() ? o.accuracy : !scene.accuracy.empty() ? scene.accuracy : "standard");
   set_knobs(settings, o, scene);
   if (!o.motion.empty() && o.body.empty()) throw Error(ErrorKind::USAGE, "", "--motion", "there is no body to move", "give --body body.json");

@@ -175,6 +175,8 @@ int run_render(cli::Tool& tool, const Options& o) {
   render::Scene scene = render::read_scene(o.documents);
   for (const std::string& finding : scene.findings) tool.reporter().warning(finding);
   const render::Legend legend = render::apply_map(scene, static_cast<render::Map>(std::find(maps.begin(), maps.end(), o.map) - maps.begin()), o.range);
+  if (scene.garment_mesh.empty() && (o.fabric != "auto" || !o.colors.empty()))
+    tool.reporter().warning("--fabric and --color are for garments and panels, and none of the documents is one");
   render::color_cloth(scene, render::choose_fabric(o.fabric, !o.colors.empty(), scene, options), colors);
   options.map_colors = legend.steps;
   options.map_low = legend.low;
