@@ -134,6 +134,7 @@ void DrapeRun::follow_motion() {
     if (!asleep && calm.lasts()) m_solver->stop();
     at.simulated_s += m_moves->frame_s;
     frame.number = static_cast<int>(++at.frame);
+    frame.pose = std::max(0, frame.number - static_cast<int>(m_moves->lead_in));
     frame.time_s = at.simulated_s;
     frame.parts = motion->parts - at.parts;
     frame.forced = motion->forced > at.forced;

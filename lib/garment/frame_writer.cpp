@@ -41,6 +41,7 @@ void FrameWriter::operator()(const FollowFrame& f, const Garment& garment) {
 void FrameWriter::operator()(const MotionFrame& f, const Garment& garment) {
   write(f.number,
         {{"frame", f.number},
+         {"pose", f.pose},
          {"time_s", f.time_s},
          {"faces_through_body", f.faces_through},
          {"vertices_inside_body", f.vertices_inside},

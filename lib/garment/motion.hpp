@@ -37,6 +37,7 @@ std::string motion_sha256(const std::string& file);
 /// One frame of the cloth, with what an exact audit of it found.
 struct MotionFrame {
   int number = 0;    ///< from 1
+  int pose = 0;      ///< of the motion, from 1, as scan-landmarks --pose numbers its skins; 0 in the lead-in
   double time_s = 0; ///< since the body began to move
   std::size_t faces_through = 0, vertices_inside = 0, self_intersections = 0;
   long parts = 0;       ///< in which the body went, see cloth/body_motion.hpp; 0: the cloth slept

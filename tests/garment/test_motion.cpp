@@ -15,11 +15,13 @@ TEST(Motion, a_skirt_on_a_swinging_body_is_clean_in_every_frame_and_at_rest_at_t
   int frames = 0;
   Vec3 first = Vec3::Zero();
   double farthest = 0;
-  const BodyMoves moves = swinging(pillar, 15, 0.15); // up to 0.94 m/s
+  BodyMoves moves = swinging(pillar, 15, 0.15); // up to 0.94 m/s
+  moves.lead_in = 4;
   const DrapeReport report = drape_in_motion(
       skirt, pillar, moves, {},
       [&](const MotionFrame& f, const Garment& g) {
         EXPECT_EQ(f.number, ++frames);
+        EXPECT_EQ(f.pose, std::max(0, frames - 4));
         EXPECT_EQ(f.faces_through, 0U) << f.number;
         EXPECT_EQ(f.vertices_inside, 0U) << f.number;
         EXPECT_EQ(f.self_intersections, 0U) << f.number;
