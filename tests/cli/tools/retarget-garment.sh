@@ -25,43 +25,38 @@ case_what_does_not_fit_ends_with_1_under_a_policy_and_with_4_without() {
   grep -q "as it was placed" fit.html || fail "the page does not say that it was not draped"
 }
 
+# Measures two scans of the shared data, from.json and to.json, and drapes a pattern of theirs on the first: worn.json. Skips without them.
+dress_from_shared() { # FROM TO PATTERN [DRAPE_OPTION...]
+  local shared=${SLOPER_SHARED:-}/data folder=${program%/*} sewing=()
+  [[ -d $shared ]] || { echo "SKIPPED: SLOPER_SHARED does not name a folder with data"; exit 77; }
+  local pattern=$shared/patterns/$3
+  [[ $pattern != *.dxf ]] || sewing=(--sewing "${pattern%.dxf}.seams.json")
+  run 0 "$folder/scan-landmarks" -q -o from.json "$shared/bodies/$1.obj"
+  run 0 "$folder/scan-landmarks" -q -o to.json "$shared/bodies/$2.obj"
+  run 0 "$folder/pattern-mesh" -q --body from.json "${sewing[@]}" -o panels.json "$pattern"
+  run 0 "$folder/drape" -q --body from.json --panels panels.json "${@:4}" -o worn.json
+}
+
 # Cloth slid 5 mm on a bust more pointed than the one that it came from, and a girth graded for below it was stretched there by an eighth.
 case_a_shirt_made_over_for_a_body_that_it_is_too_tight_on_is_let_out() {
-  local shared=${SLOPER_SHARED:-}/data
-  [[ -d $shared ]] || { echo "SKIPPED: SLOPER_SHARED does not name a folder with data"; exit 77; }
-  local folder=${program%/*}
-  run 0 "$folder/scan-landmarks" -q -o f.json "$shared/bodies/smpl/f_smpl_average_A40.obj"
-  run 0 "$folder/scan-landmarks" -q -o pointed.json "$shared/bodies/plain/body_008.obj"
-  run 0 "$folder/pattern-mesh" -q --body f.json -o p.json "$shared/patterns/garmentcode/tshirt_f_smpl_average_A40_specification.json"
-  run 0 "$folder/drape" -q --body f.json --panels p.json -o f-tee.json
-  run 0 "$program" -v --garment f-tee.json --to pointed.json --mode keep-fit --report report.json -o pointed-tee.json
+  dress_from_shared smpl/f_smpl_average_A40 plain/body_008 garmentcode/tshirt_f_smpl_average_A40_specification.json
+  run 0 "$program" -v --garment worn.json --to to.json --mode keep-fit --report report.json -o there.json
   says "let out there"
   grep -q '"gradings": [2-4]' report.json || fail "the report does not say that it was graded more than once"
 }
 
 # After 40 rounds ten faces of the collar were still in the chin of a body with a shorter neck; no drape brought them out.
 case_a_collar_that_is_placed_in_a_chin_is_brought_out() {
-  local shared=${SLOPER_SHARED:-}/data
-  [[ -d $shared ]] || { echo "SKIPPED: SLOPER_SHARED does not name a folder with data"; exit 77; }
-  local folder=${program%/*} dxf=$shared/patterns/sewing/dxf
-  run 0 "$folder/scan-landmarks" -q -o long.json "$shared/bodies/plain/body_006.obj"
-  run 0 "$folder/scan-landmarks" -q -o short.json "$shared/bodies/plain/body_004.obj"
-  run 0 "$folder/pattern-mesh" -q --body long.json --sewing "$dxf/shirt.seams.json" -o p.json "$dxf/shirt.dxf"
-  run 0 "$folder/drape" -q --accuracy draft --material denim --body long.json --panels p.json -o shirt.json
-  run 0 "$program" -q --no-drape --garment shirt.json --to short.json --report report.json -o short-shirt.json
+  dress_from_shared plain/body_006 plain/body_004 sewing/dxf/shirt.dxf --accuracy draft --material denim
+  run 0 "$program" -q --no-drape --garment worn.json --to to.json --report report.json -o there.json
   python3 -c 'import json, sys; sys.exit(json.load(open("report.json"))["placement"]["cleared"]["faces_through_body"])' || fail "faces are still through the skin"
 }
 
 # Two particles that were kept in place for a pinch bore four fifths of the skirt's weight, 5 cm down, and it was said to be at rest.
 case_a_skirt_too_wide_slides_to_where_the_hip_bears_it() {
-  local shared=${SLOPER_SHARED:-}/data slip
-  [[ -d $shared ]] || { echo "SKIPPED: SLOPER_SHARED does not name a folder with data"; exit 77; }
-  local folder=${program%/*}
-  run 0 "$folder/scan-landmarks" -q -o f.json "$shared/bodies/smpl/f_smpl_average_A40.obj"
-  run 0 "$folder/scan-landmarks" -q -o slim.json "$shared/bodies/plain/body_008.obj"
-  run 0 "$folder/pattern-mesh" -q --body f.json -o p.json "$shared/patterns/garmentcode/pencil_skirt_f_smpl_average_A40_specification.json"
-  run 0 "$folder/drape" -q --body f.json --panels p.json -o f-skirt.json
-  run 0 "$program" -q --garment f-skirt.json --to slim.json --fit fit.json -o slim-skirt.json
+  local slip
+  dress_from_shared smpl/f_smpl_average_A40 plain/body_008 garmentcode/pencil_skirt_f_smpl_average_A40_specification.json
+  run 0 "$program" -q --garment worn.json --to to.json --fit fit.json -o there.json
   slip=$(python3 -c 'import json; print(round(1e3 * json.load(open("fit.json"))["slip_m"]))')
   ((slip > 90 && slip < 140)) || fail "it slid $slip mm; solved finely, 118"
 }
