@@ -84,7 +84,7 @@ accuracy-cost:
 	@for scene in $(SCENES); do scripts/accuracy-cost $$scene || exit; done
 	@scripts/accuracy-cost --gather docs $(SCENES)
 
-# The presets again from the measured front, into lib/garment/preset_table.hpp: the cheapest settings within each preset's error on all scenes.
+# The presets again from the measured front, into lib/garment/scene/preset_table.hpp: the cheapest settings within each preset's error on all scenes.
 presets:
 	@scripts/build release scan-landmarks pattern-mesh drape make-mannequin make-pattern
 	@for scene in $(SCENES); do scripts/accuracy-cost --knobs grid $$scene || exit; done

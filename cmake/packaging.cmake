@@ -27,7 +27,7 @@ file(RELATIVE_PATH SLOPER_PC_UP /p/${CMAKE_INSTALL_LIBDIR}/pkgconfig /p) # the p
 configure_file(cmake/sloper.pc.in ${PROJECT_BINARY_DIR}/sloper.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/sloper.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 
-file(GLOB schemas CONFIGURE_DEPENDS lib/*/*.schema.json)
+file(GLOB_RECURSE schemas CONFIGURE_DEPENDS lib/*.schema.json)
 install(FILES ${schemas} DESTINATION ${CMAKE_INSTALL_DATADIR}/sloper/schemas)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)

@@ -2,16 +2,16 @@
 #include <body/body_json.hpp>
 #include <cli/run_tool.hpp>
 #include <collision/skin_cache.hpp>
-#include <garment/bind.hpp>
-#include <garment/drape_job.hpp>
-#include <garment/drape_state.hpp>
+#include <garment/bind/bind.hpp>
+#include <garment/fit/stretch.hpp>
 #include <garment/garment_json.hpp>
 #include <garment/inputs.hpp>
 #include <garment/kes.hpp>
-#include <garment/scene.hpp>
-#include <garment/stretch.hpp>
+#include <garment/scene/scene.hpp>
+#include <garment/simulate/drape_job.hpp>
+#include <garment/simulate/drape_state.hpp>
 #include <io/json.hpp>
-#include <pattern/folds.hpp>
+#include <pattern/mesh/folds.hpp>
 #include <pattern/panel_mesh_json.hpp>
 
 #include <iostream>

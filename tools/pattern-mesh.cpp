@@ -4,15 +4,15 @@
 #include <cli/run_tool.hpp>
 #include <io/files.hpp>
 #include <io/json.hpp>
-#include <pattern/check_pattern.hpp>
-#include <pattern/edits.hpp>
-#include <pattern/export_pattern.hpp>
-#include <pattern/finished_measures.hpp>
-#include <pattern/infer_seams.hpp>
-#include <pattern/mesh_pattern.hpp>
+#include <pattern/edit/edits.hpp>
+#include <pattern/measure/finished_measures.hpp>
+#include <pattern/mesh/mesh_pattern.hpp>
 #include <pattern/panel_mesh_json.hpp>
-#include <pattern/place_panels.hpp>
-#include <pattern/read_pattern.hpp>
+#include <pattern/place/place_panels.hpp>
+#include <pattern/read/read_pattern.hpp>
+#include <pattern/seams/check_pattern.hpp>
+#include <pattern/seams/infer_seams.hpp>
+#include <pattern/write/export_pattern.hpp>
 
 #include <iostream>
 

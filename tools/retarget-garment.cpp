@@ -2,18 +2,18 @@
 #include <body/body_json.hpp>
 #include <cli/run_tool.hpp>
 #include <collision/skin_cache.hpp>
-#include <garment/bind.hpp>
-#include <garment/drape.hpp>
-#include <garment/fit.hpp>
+#include <garment/bind/bind.hpp>
+#include <garment/fit/fit.hpp>
+#include <garment/fit/stretch.hpp>
 #include <garment/garment_json.hpp>
 #include <garment/inputs.hpp>
-#include <garment/retarget.hpp>
-#include <garment/retarget_pattern.hpp>
-#include <garment/scene.hpp>
-#include <garment/stretch.hpp>
+#include <garment/retarget/retarget.hpp>
+#include <garment/retarget/retarget_pattern.hpp>
+#include <garment/scene/scene.hpp>
+#include <garment/simulate/drape.hpp>
 #include <io/files.hpp>
 #include <io/json.hpp>
-#include <pattern/export_pattern.hpp>
+#include <pattern/write/export_pattern.hpp>
 
 using namespace sloper;
 

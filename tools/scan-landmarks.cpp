@@ -1,6 +1,6 @@
 /// scan-landmarks: a raw 3D body scan to landmarks, levels, girths, parts, frames and a skin.
 #include <body/body_json.hpp>
-#include <body/exports.hpp>
+#include <body/export/exports.hpp>
 #include <body/measure_scan.hpp>
 #include <cli/run_tool.hpp>
 #include <io/files.hpp>

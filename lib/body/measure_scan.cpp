@@ -1,16 +1,16 @@
 #include <Eigen/Geometry>
 #include <base/random.hpp>
 #include <base/units.hpp>
-#include <body/canonical_frame.hpp>
-#include <body/crotch.hpp>
+#include <body/ingest/canonical_frame.hpp>
+#include <body/ingest/torso_only.hpp>
+#include <body/ingest/upright.hpp>
+#include <body/ingest/vertical.hpp>
+#include <body/landmarks/crotch.hpp>
 #include <body/measure_scan.hpp>
 #include <body/part_labels.hpp>
 #include <body/skin_profile.hpp>
-#include <body/skin_surface.hpp>
-#include <body/torso_only.hpp>
-#include <body/touching_skin.hpp>
-#include <body/upright.hpp>
-#include <body/vertical.hpp>
+#include <body/surface/skin_surface.hpp>
+#include <body/surface/touching_skin.hpp>
 #include <io/json_fwd.hpp>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ void describe_stance(Body& body, const std::array<ArmTrace, 2>& arms) {
 }
 
 /// What a user should know of this scan, good or bad.
-void add_findings(Body& body, const SortedScan& sorted, const SkinSurface& skin) {
+void add_findings(Body& body, const SegmentedScan& sorted, const SkinSurface& skin) {
   char text[160];
   auto add = [&](const char* severity, const char* place) { body.scan.findings.push_back({severity, text, place}); };
   std::snprintf(text, sizeof text, "up is %s: score %.2f against %.2f for the next best direction", sorted.up_name.c_str(), sorted.up_score,
@@ -250,7 +250,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   MeasuredScan result;
   Body& body = result.body;
   Phases phases(reporter);
-  SortedScan sorted = sort_scan(as_given, options.up);
+  SegmentedScan sorted = segment_scan(as_given, options.up);
   // a scan that lies or leans in its file is set upright first
   std::optional<Eigen::Matrix3d> upright;
   if (options.up == "auto" && !options.torso_only) upright = upright_turn(as_given, sorted);
@@ -259,7 +259,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
     turned.triangles = as_given.triangles;
     turned.positions.reserve(as_given.positions.size());
     for (const Vec3& p : as_given.positions) turned.positions.push_back(*upright * p);
-    sorted = sort_scan(turned, "y");
+    sorted = segment_scan(turned, "y");
     const Vec3 up = upright->row(1).transpose();
     char text[80];
     std::snprintf(text, sizeof text, "%.4f %.4f %.4f", up.x(), up.y(), up.z());
@@ -270,7 +270,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   const bool is_torso = options.torso_only && !(shows_a_person(sorted) && sorted.up_score > 0.8); // hanging arms look a little like legs
   if (is_torso) {
     torso = complete_torso(given, options.up, file);
-    sorted = sort_scan(torso.scan, {"xyz"[torso.up.cwiseAbs().maxCoeff() == std::abs(torso.up.x()) ? 0 : torso.up.y() != 0 ? 1 : 2]});
+    sorted = segment_scan(torso.scan, {"xyz"[torso.up.cwiseAbs().maxCoeff() == std::abs(torso.up.x()) ? 0 : torso.up.y() != 0 ? 1 : 2]});
   }
   const std::vector<char> labelled = sorted.is_body; // the rim of a torso is body, but no skin
   for (std::size_t v = 0; v < torso.is_cut.size(); ++v)

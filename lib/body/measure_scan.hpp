@@ -2,7 +2,7 @@
 /// From a raw scan to a body: the whole of scan-landmarks.
 #include <base/progress.hpp>
 #include <body/body.hpp>
-#include <body/rules.hpp>
+#include <body/landmarks/rules.hpp>
 namespace sloper::body {
 
 struct ScanOptions {

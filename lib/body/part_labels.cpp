@@ -1,5 +1,5 @@
 #include <body/part_labels.hpp>
-#include <body/point_grid.hpp>
+#include <body/surface/point_grid.hpp>
 
 #include <algorithm>
 #include <cmath>

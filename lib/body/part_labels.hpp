@@ -1,6 +1,6 @@
 #pragma once
 /// The six parts: which vertex of the skin, and of the scan, belongs to head, torso, arms and legs.
-#include <body/landmark_finder.hpp>
+#include <body/landmarks/landmark_finder.hpp>
 namespace sloper::body {
 
 /// One part per vertex of the skin, from the landmarks' border planes and the traced arms.

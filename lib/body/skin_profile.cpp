@@ -1,5 +1,5 @@
 #include <base/units.hpp>
-#include <body/section.hpp>
+#include <body/measure/section.hpp>
 #include <body/skin_profile.hpp>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <base/error.hpp>
-#include <body/geodesic.hpp>
+#include <body/measure/geodesic.hpp>
 #include <body/pose.hpp>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace sloper::body {
 namespace {
 
 /// To both sides of a border, share of stature.
-constexpr double SHOULDER = 0.040, GROIN = 0.045, NECK = 0.025;
+constexpr double SHOULDER = 0.040, GROIN = 0.045, NECK_BLEND = 0.025;
 constexpr double BEND_LOW = 0.10, BEND_HIGH = 0.60; ///< the trunk bends between these shares of hip centre to neck
 /// The shoulder goes with the clavicle: from this share of it outwards to all, and from so far below the joint, of stature, up to all.
 constexpr double CLAVICLE_NEAR = 0.20, CLAVICLE_FAR = 0.95, CLAVICLE_LOW = 0.13, CLAVICLE_HIGH = 0.02;
@@ -79,7 +79,7 @@ SkinWeights skin_weights(const Body& body) {
   const std::size_t n = part.size();
   std::vector<std::map<int, double>> share(n);
   std::vector<double> limbs(n, 0); // what the limbs and the head take
-  const Limb all[] = {{Part::HEAD, {"head", "", ""}, NECK},
+  const Limb all[] = {{Part::HEAD, {"head", "", ""}, NECK_BLEND},
                       {Part::ARM_L, {"upper_arm_l", "forearm_l", "hand_l"}, SHOULDER},
                       {Part::ARM_R, {"upper_arm_r", "forearm_r", "hand_r"}, SHOULDER},
                       {Part::LEG_L, {"thigh_l", "shin_l", "foot_l"}, GROIN},

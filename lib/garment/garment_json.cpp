@@ -1,12 +1,12 @@
 #include <garment/garment_json.hpp>
-#include <garment/scene_effects_json.hpp>
+#include <garment/scene/scene_effects_json.hpp>
 
 #include <base/version.hpp>
 #include <io/files.hpp>
 #include <io/json.hpp>
 #include <io/obj.hpp>
-#include <pattern/export_pattern.hpp>
-#include <pattern/read_pattern.hpp>
+#include <pattern/read/read_pattern.hpp>
+#include <pattern/write/export_pattern.hpp>
 
 #include <cmath>
 #include <utility>

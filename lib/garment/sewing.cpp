@@ -1,7 +1,7 @@
 #include <base/error.hpp>
 #include <garment/materials.hpp>
 #include <garment/sewing.hpp>
-#include <pattern/folds.hpp>
+#include <pattern/mesh/folds.hpp>
 
 #include <algorithm>
 #include <numeric>

@@ -1,9 +1,9 @@
 #include <base/version.hpp>
 #include <io/json.hpp>
 #include <io/obj.hpp>
-#include <pattern/export_pattern.hpp>
 #include <pattern/panel_mesh_json.hpp>
-#include <pattern/read_pattern.hpp>
+#include <pattern/read/read_pattern.hpp>
+#include <pattern/write/export_pattern.hpp>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include <base/error.hpp>
-#include <garment/cloth_strain.hpp>
-#include <garment/fit.hpp>
+#include <garment/fit/cloth_strain.hpp>
+#include <garment/fit/fit.hpp>
 #include <garment/materials.hpp>
 #include <render/maps.hpp>
 

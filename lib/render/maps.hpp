@@ -3,7 +3,7 @@
 #include <render/scene.hpp>
 namespace sloper::render {
 
-/// Strains and PRESSURE are those of the reports (garment/cloth_strain.hpp), area-weighted at vertices, the legend's quantiles by area:
+/// Strains and PRESSURE are those of the reports (garment/fit/cloth_strain.hpp), area-weighted at vertices, the legend's quantiles by area:
 /// STRAIN the larger in size of warp and weft; WARP, WEFT along the threads; BIAS the larger in size of the two diagonals.
 /// LIMIT: warp or weft strain, whichever is more of its fabric's limit, in per cent of it. A fabric's limit is its extension under
 /// 100 gf/cm, FAST's E100 (De Boos and Tester 1994): 98.07 N/m over its stretch stiffness; what is shortened has none.

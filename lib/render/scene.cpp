@@ -8,9 +8,9 @@
 #include <io/json.hpp>
 #include <io/obj.hpp>
 #include <io/scan_reader.hpp>
-#include <pattern/mesh_pattern.hpp>
+#include <pattern/mesh/mesh_pattern.hpp>
 #include <pattern/panel_mesh_json.hpp>
-#include <pattern/read_pattern.hpp>
+#include <pattern/read/read_pattern.hpp>
 #include <render/scene.hpp>
 #include <render/srgb.hpp>
 #include <render/words.hpp>

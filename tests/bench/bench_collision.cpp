@@ -1,7 +1,7 @@
 /// Times of the collision module: a sphere of cloth (20 480 triangles, 10 242 particles) close above a body.
 /// Usage: bench_collision [BODY.obj [THREADS]]; without a body, a lumpy ball of 327 680 triangles. Prints milliseconds:
 /// the least of several runs.
-#include "../collision/shapes.hpp"
+#include <support/shapes.hpp>
 
 #include <base/parallel.hpp>
 #include <chrono>

@@ -1,8 +1,8 @@
-#include "figures.hpp"
+#include <support/figures.hpp>
 
 #include <base/error.hpp>
 #include <body/body_json.hpp>
-#include <body/exports.hpp>
+#include <body/export/exports.hpp>
 #include <gtest/gtest.h>
 #include <io/files.hpp>
 

@@ -1,6 +1,6 @@
 /// What a scan's handling does to its landmarks: nothing that matters.
-#include "decimate.hpp"
-#include "figures.hpp"
+#include <support/decimate.hpp>
+#include <support/figures.hpp>
 
 #include <gtest/gtest.h>
 #include <io/scan_reader.hpp>

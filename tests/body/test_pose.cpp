@@ -1,4 +1,4 @@
-#include "figures.hpp"
+#include <support/figures.hpp>
 
 #include <base/error.hpp>
 #include <body/body_json.hpp>

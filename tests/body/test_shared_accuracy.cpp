@@ -1,5 +1,5 @@
 /// Accuracy on scans with known truth that are not part of the repository: SLOPER_SHARED names their folder.
-#include "figures.hpp"
+#include <support/figures.hpp>
 
 #include <gtest/gtest.h>
 #include <io/json.hpp>

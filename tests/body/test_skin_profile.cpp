@@ -1,4 +1,4 @@
-#include "figures.hpp"
+#include <support/figures.hpp>
 
 #include <body/skin_profile.hpp>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include <collision/intersections.hpp>
 #include <collision/predicates.hpp>
 
-#include "shapes.hpp"
+#include <support/shapes.hpp>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include <collision/body_collider.hpp>
 
-#include "shapes.hpp"
+#include <support/shapes.hpp>
 
 #include <base/parallel.hpp>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include <collision/closing_pairs.hpp>
 
-#include "shapes.hpp"
+#include <support/shapes.hpp>
 
 #include <base/parallel.hpp>
 #include <base/random.hpp>

@@ -1,6 +1,6 @@
 #include <collision/distance.hpp>
 
-#include "shapes.hpp"
+#include <support/shapes.hpp>
 
 #include <gtest/gtest.h>
 

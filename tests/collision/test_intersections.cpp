@@ -1,7 +1,7 @@
 #include <collision/intersections.hpp>
 #include <collision/predicates.hpp>
 
-#include "shapes.hpp"
+#include <support/shapes.hpp>
 
 #include <base/parallel.hpp>
 #include <gtest/gtest.h>

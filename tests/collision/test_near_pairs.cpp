@@ -1,5 +1,5 @@
 /// The contact set of a cloth and a body against brute force, at every level: vertices against faces, faces against vertices, edges against edges.
-#include "shapes.hpp"
+#include <support/shapes.hpp>
 
 #include <base/parallel.hpp>
 #include <collision/body_collider.hpp>

@@ -1,4 +1,4 @@
-#include "shapes.hpp"
+#include <support/shapes.hpp>
 
 #include <collision/body_collider.hpp>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include <collision/self_proximity.hpp>
 
-#include "shapes.hpp"
+#include <support/shapes.hpp>
 
 #include <base/parallel.hpp>
 #include <collision/intersections.hpp>

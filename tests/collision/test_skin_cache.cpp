@@ -1,6 +1,6 @@
-#include "../io/has.hpp"
-#include "../io/scratch_folder.hpp"
-#include "shapes.hpp"
+#include <support/has.hpp>
+#include <support/scratch_folder.hpp>
+#include <support/shapes.hpp>
 
 #include <collision/skin_cache.hpp>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "shapes.hpp"
+#include <support/shapes.hpp>
 
 #include <collision/distance.hpp>
 #include <collision/skin_ways.hpp>

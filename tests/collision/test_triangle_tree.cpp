@@ -1,6 +1,6 @@
 #include <collision/triangle_tree.hpp>
 
-#include "shapes.hpp"
+#include <support/shapes.hpp>
 
 #include <algorithm>
 #include <base/error.hpp>

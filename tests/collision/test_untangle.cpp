@@ -1,6 +1,6 @@
 #include <collision/untangle.hpp>
 
-#include "shapes.hpp"
+#include <support/shapes.hpp>
 
 #include <gtest/gtest.h>
 

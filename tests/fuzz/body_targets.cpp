@@ -2,8 +2,8 @@
 
 #include <base/error.hpp>
 #include <body/body_json.hpp>
+#include <body/landmarks/rules.hpp>
 #include <body/pose_file.hpp>
-#include <body/rules.hpp>
 #include <io/files.hpp>
 
 #include <cstdlib>

@@ -1,10 +1,10 @@
 /// Sheets and a body: deep starts, ridges, pinches, fast bodies, layers.
 #include "scene_tools.hpp"
 
-#include <cloth/body_motion.hpp>
-#include <cloth/gravity.hpp>
-#include <cloth/pins.hpp>
-#include <cloth/self_contact.hpp>
+#include <cloth/contact/self_contact.hpp>
+#include <cloth/forces/gravity.hpp>
+#include <cloth/forces/pins.hpp>
+#include <cloth/motion/body_motion.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 /// Whole drapes: sewing, repairs, coming to rest, audit and report, as the program does them.
-#include "../garment/drape_scene.hpp"
+#include <support/drape_scene.hpp>
 
 #include "scene_tools.hpp"
 
-#include <garment/audit.hpp>
-#include <garment/drape.hpp>
 #include <garment/materials.hpp>
-#include <garment/scene.hpp>
+#include <garment/scene/scene.hpp>
 #include <garment/sewing.hpp>
+#include <garment/simulate/audit.hpp>
+#include <garment/simulate/drape.hpp>
 
 #include <cmath>
 

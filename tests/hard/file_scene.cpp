@@ -1,5 +1,5 @@
 /// Documents and scans with something wrong in them: refused with file, place and fact, or repaired; never half understood.
-#include "../garment/drape_scene.hpp"
+#include <support/drape_scene.hpp>
 
 #include "scene_tools.hpp"
 
@@ -8,13 +8,13 @@
 #include <filesystem>
 #include <fstream>
 #include <garment/garment_json.hpp>
-#include <garment/scene.hpp>
+#include <garment/scene/scene.hpp>
 #include <garment/sewing.hpp>
 #include <io/files.hpp>
 #include <io/scan_reader.hpp>
 #include <mannequin.hpp>
 #include <pattern/panel_mesh_json.hpp>
-#include <pattern/read_pattern.hpp>
+#include <pattern/read/read_pattern.hpp>
 #include <unistd.h>
 
 namespace sloper::hard {

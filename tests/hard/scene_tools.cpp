@@ -1,11 +1,11 @@
 #include "scene_tools.hpp"
 
-#include <cloth/bending.hpp>
-#include <cloth/dihedral_bending.hpp>
-#include <cloth/edge_spring.hpp>
-#include <cloth/membrane.hpp>
-#include <cloth/shear.hpp>
-#include <cloth/triangle_stretch.hpp>
+#include <cloth/forces/bending.hpp>
+#include <cloth/forces/dihedral_bending.hpp>
+#include <cloth/forces/edge_spring.hpp>
+#include <cloth/forces/membrane.hpp>
+#include <cloth/forces/shear.hpp>
+#include <cloth/forces/triangle_stretch.hpp>
 #include <collision/intersections.hpp>
 #include <io/files.hpp>
 

@@ -5,7 +5,7 @@
 #include <base/random.hpp>
 #include <body/body.hpp>
 #include <cloth/cloth_mesh.hpp>
-#include <cloth/implicit_step.hpp>
+#include <cloth/solver/implicit_step.hpp>
 #include <garment/garment.hpp>
 
 namespace sloper::hard {

@@ -1,11 +1,11 @@
 /// Cloth alone: compressed, crumpled, stiff, badly meshed; pinned, pulled, blown at.
 #include "scene_tools.hpp"
 
-#include <cloth/gravity.hpp>
-#include <cloth/pins.hpp>
-#include <cloth/pressure.hpp>
-#include <cloth/self_contact.hpp>
-#include <cloth/wind.hpp>
+#include <cloth/contact/self_contact.hpp>
+#include <cloth/forces/gravity.hpp>
+#include <cloth/forces/pins.hpp>
+#include <cloth/forces/pressure.hpp>
+#include <cloth/forces/wind.hpp>
 
 #include <cmath>
 

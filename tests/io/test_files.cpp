@@ -1,4 +1,4 @@
-#include "scratch_folder.hpp"
+#include <support/scratch_folder.hpp>
 
 #include <base/error.hpp>
 #include <io/files.hpp>

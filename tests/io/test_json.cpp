@@ -1,5 +1,5 @@
-#include "has.hpp"
-#include "scratch_folder.hpp"
+#include <support/has.hpp>
+#include <support/scratch_folder.hpp>
 
 #include <io/json.hpp>
 

@@ -5,8 +5,8 @@
 #include <io/json.hpp>
 #include <mannequin.hpp>
 #include <measures.hpp>
-#include <pattern/mesh_pattern.hpp>
-#include <pattern/read_pattern.hpp>
+#include <pattern/mesh/mesh_pattern.hpp>
+#include <pattern/read/read_pattern.hpp>
 using namespace sloper;
 using namespace sloper::samples;
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Cloth for the validation tests: rectangular sheets, and the road to rest.
-#include <cloth/implicit_step.hpp>
+#include <cloth/solver/implicit_step.hpp>
 #include <cmath>
 
 namespace sloper::cloth {

@@ -4,13 +4,13 @@
 #include "at_rest.hpp"
 
 #include <base/random.hpp>
-#include <cloth/bending.hpp>
-#include <cloth/edge_spring.hpp>
-#include <cloth/gravity.hpp>
-#include <cloth/membrane.hpp>
-#include <cloth/pins.hpp>
-#include <cloth/shear.hpp>
-#include <cloth/triangle_stretch.hpp>
+#include <cloth/forces/bending.hpp>
+#include <cloth/forces/edge_spring.hpp>
+#include <cloth/forces/gravity.hpp>
+#include <cloth/forces/membrane.hpp>
+#include <cloth/forces/pins.hpp>
+#include <cloth/forces/shear.hpp>
+#include <cloth/forces/triangle_stretch.hpp>
 #include <string>
 
 namespace sloper::cloth {

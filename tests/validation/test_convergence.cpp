@@ -4,11 +4,11 @@
 #include "figures.hpp"
 
 #include <base/random.hpp>
-#include <cloth/bending.hpp>
-#include <cloth/edge_spring.hpp>
-#include <cloth/gravity.hpp>
-#include <cloth/membrane.hpp>
-#include <cloth/pins.hpp>
+#include <cloth/forces/bending.hpp>
+#include <cloth/forces/edge_spring.hpp>
+#include <cloth/forces/gravity.hpp>
+#include <cloth/forces/membrane.hpp>
+#include <cloth/forces/pins.hpp>
 
 #include <ctime>
 

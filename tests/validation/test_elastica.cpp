@@ -6,14 +6,14 @@
 #include "figures.hpp"
 
 #include <Eigen/LU>
-#include <cloth/bending.hpp>
-#include <cloth/dihedral_bending.hpp>
-#include <cloth/edge_spring.hpp>
-#include <cloth/gravity.hpp>
-#include <cloth/membrane.hpp>
-#include <cloth/pins.hpp>
-#include <cloth/shear.hpp>
-#include <cloth/triangle_stretch.hpp>
+#include <cloth/forces/bending.hpp>
+#include <cloth/forces/dihedral_bending.hpp>
+#include <cloth/forces/edge_spring.hpp>
+#include <cloth/forces/gravity.hpp>
+#include <cloth/forces/membrane.hpp>
+#include <cloth/forces/pins.hpp>
+#include <cloth/forces/shear.hpp>
+#include <cloth/forces/triangle_stretch.hpp>
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <io/json.hpp>

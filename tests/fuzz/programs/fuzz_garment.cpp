@@ -3,10 +3,10 @@
 #include "memory_file.hpp"
 
 #include <base/error.hpp>
-#include <garment/drape_state.hpp>
-#include <garment/fit_policy.hpp>
+#include <garment/fit/fit_policy.hpp>
 #include <garment/garment_json.hpp>
 #include <garment/kes.hpp>
+#include <garment/simulate/drape_state.hpp>
 #include <io/png.hpp>
 #include <pattern/panel_mesh_json.hpp>
 #include <render/camera.hpp>

@@ -1,9 +1,9 @@
 /// Any bytes as a DXF, as its grade rule table, and as both, one after the other: read or refused with an Error, never a crash, never without end.
 #include <base/error.hpp>
-#include <pattern/check_pattern.hpp>
-#include <pattern/grade_rules.hpp>
-#include <pattern/infer_seams.hpp>
-#include <pattern/read_pattern.hpp>
+#include <pattern/read/grade_rules.hpp>
+#include <pattern/read/read_pattern.hpp>
+#include <pattern/seams/check_pattern.hpp>
+#include <pattern/seams/infer_seams.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 /// Any bytes as a pattern JSON of each kind, and as edits and as a sidecar of a small pattern: read or refused with an Error, never a crash.
 #include <base/error.hpp>
 #include <io/json.hpp>
-#include <pattern/check_pattern.hpp>
-#include <pattern/edits.hpp>
-#include <pattern/read_pattern.hpp>
+#include <pattern/edit/edits.hpp>
+#include <pattern/read/read_pattern.hpp>
+#include <pattern/seams/check_pattern.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,0 +1,54 @@
+#include <body/measure/relief.hpp>
+#include <body/surface/point_grid.hpp>
+
+namespace sloper::body {
+
+std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin, const std::vector<Vec3>& normals, const Box3& box, double radius, double sign) {
+  const Vec3 margin = Vec3::Constant(radius);
+  std::vector<double> of_vertex(skin.positions.size(), 0); // areas, so that it does not matter how finely the skin is meshed
+  for (const Triangle& t : skin.triangles) {
+    const Vec3& p = skin.positions[t[0]];
+    if ((p - box.low + 4 * margin).minCoeff() < 0 || (box.high + 4 * margin - p).minCoeff() < 0) continue;
+    const double third = area_normal(p, skin.positions[t[1]], skin.positions[t[2]]).norm();
+    for (const int v : t) of_vertex[v] += third;
+  }
+  std::vector<Vec3> points, normal;
+  std::vector<double> area;
+  for (std::size_t v = 0; v < skin.positions.size(); ++v) {
+    const Vec3& p = skin.positions[v];
+    if (normals[v].z() < 0.2 || (p - box.low + margin).minCoeff() < 0 || (box.high + margin - p).minCoeff() < 0) continue;
+    points.push_back(p);
+    normal.push_back(normals[v]);
+    area.push_back(of_vertex[v]);
+  }
+  if (points.empty()) return std::nullopt;
+  const PointGrid grid(points, radius);
+  std::vector<double> height(points.size(), -1e300);
+  double most = -1e300;
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3& p = points[i];
+    if ((p - box.low).minCoeff() < 0 || (box.high - p).minCoeff() < 0) continue;
+    double ring = 0, weight = 0;
+    int n = 0, quadrants = 0;
+    grid.within(p, radius, [&](int j, double d) {
+      if (d < 0.3 * radius * radius) return;
+      const Vec3 off = points[j] - p;
+      ring += area[j] * off.dot(normal[i]);
+      weight += area[j];
+      quadrants |= 1 << ((off.x() > 0 ? 1 : 0) + (off.y() > 0 ? 2 : 0));
+      ++n;
+    });
+    if (n < 4 || quadrants != 15 || weight <= 0) continue; // not surrounded: at an edge
+    height[i] = -sign * ring / weight;
+    if (height[i] > most) most = height[i], best = i;
+  }
+  if (most < -1e299) return std::nullopt;
+  Vec3 sum = Vec3::Zero();
+  double weight = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (const double w = area[i] * (height[i] - 0.7 * most); w > 0 && (points[i] - points[best]).norm() < radius) sum += w * points[i], weight += w;
+  return ReliefPoint{weight > 0 && most > 0 ? Vec3(sum / weight) : points[best], sign * most};
+}
+
+} // namespace sloper::body

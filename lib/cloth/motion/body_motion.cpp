@@ -1,0 +1,186 @@
+#include <base/parallel.hpp>
+#include <cloth/motion/body_motion.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+namespace sloper::cloth {
+
+namespace {
+
+/// Of one advance: so many, and one more for so long a way, m; then what is left of the way is gone at once. Mean parts are 0.5 to 2 mm long.
+constexpr int MOST_PARTS = 100;
+constexpr double SHORTEST_PART = 2e-4;
+/// Time given to a part is at least this share of the advance's, however short its way. Without it cloth that must be as fast as the skin
+/// at once would never be: parts, and the time in which the contact speeds the cloth up, shrink with the distance.
+constexpr double LEAST_TIME = 0.02;
+/// Cloth this near is carried whole, then less and less, m.
+constexpr double CARRIED_WHOLE = 0.006, NOT_CARRIED = 0.03;
+constexpr double ASK_LESS = 4; ///< times: of the way, where cloth cannot be carried all that was asked for
+
+/// Of the longest carry: where the mean one is shorter, most of the cloth stays.
+constexpr double MOST_STAYS = 0.25;
+
+/// The way that all cloth has in common when a body walks, where it is carried so; 0 where most of it stays. @param carry #P by 3, m
+Vec3 common_way(const std::vector<Vec3>& carry) {
+  Vec3 mean = Vec3::Zero(), median = Vec3::Zero();
+  double longest = 0;
+  for (const Vec3& c : carry) {
+    mean += c / static_cast<double>(carry.size());
+    longest = std::max(longest, c.norm());
+  }
+  if (mean.norm() <= MOST_STAYS * longest) return median;
+  std::vector<double> part;
+  for (int a = 0; a < 3; ++a) { // of what is carried at all: cloth that hangs free is not
+    part.clear();
+    for (const Vec3& c : carry)
+      if (c != Vec3::Zero()) part.push_back(c[a]);
+    const auto middle = part.begin() + static_cast<long>(part.size() / 2);
+    std::nth_element(part.begin(), middle, part.end());
+    median[a] = *middle;
+  }
+  return median;
+}
+
+double longest_of(const std::vector<Vec3>& way) {
+  double longest = 0;
+  for (const Vec3& w : way) longest = std::max(longest, w.norm());
+  return longest;
+}
+
+} // namespace
+
+BodyMotion::BodyMotion(ClothSolver& solver, BodyContactEffect& contact, collision::BodyCollider& body)
+    : m_solver(solver), m_contact(contact), m_body(body), m_nearest(solver.x().size(), -1) {
+  for (const auto& effect : solver.effects())
+    if (effect->name() == std::string("self_contact")) m_self_contact = static_cast<SelfContactEffect*>(effect.get());
+}
+
+/// As the nearest skin goes: by the way of its triangle, in the barycentric coordinates of the nearest point. Cloth that is farther off goes on as it
+/// flies, the more the farther: left behind, it would be torn from what is carried, and no step tells well where from there.
+/// @param time s, that the way takes cloth that flies
+void BodyMotion::find_carry(const std::vector<Vec3>& way, double time) {
+  const std::vector<Vec3>& x = m_solver.x();
+  m_carry.assign(x.size(), Vec3::Zero());
+  parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const collision::SignedDistance d = m_body.signed_distance(x[i], NOT_CARRIED, m_nearest[i]);
+      m_nearest[i] = d.triangle;
+      m_carry[i] = time * m_solver.v()[i];
+      if (d.triangle < 0) continue;
+      const double far = std::clamp((d.distance - CARRIED_WHOLE) / (NOT_CARRIED - CARRIED_WHOLE), 0.0, 1.0), share = (1 - far) * (1 - far);
+      const Triangle& t = m_body.mesh().triangles[d.triangle];
+      m_carry[i] *= 1 - share;
+      for (int k = 0; k < 3; ++k) m_carry[i] += share * d.barycentric[k] * way[t[k]];
+    }
+  });
+  m_contact.clear_carry(x, way, m_carry);
+}
+
+/// The carry, at the rate of the whole way, that brings no cloth through cloth when it goes this share of it. What all cloth has in common brings
+/// none together.
+/// @param limits  of the layers where they are: what they are kept apart by is added, since self contact names it once
+std::vector<Vec3> BodyMotion::uncrossing_carry(double share, MotionLimits& limits) const {
+  const std::vector<Vec3>& x = m_solver.x();
+  const Vec3 common = common_way(m_carry);
+  limits.most.assign(x.size(), std::numeric_limits<double>::infinity()); // those of a longer way
+  std::vector<Vec3> wanted = m_carry;
+  for (Vec3& c : wanted) c = share * (c - common);
+  std::vector<Vec3> carry = wanted;
+  std::vector<char> held(x.size(), 0);
+  limits.apply(x, carry, held);
+  for (int round = 1; round <= GUARD_ROUNDS; ++round) {
+    if (!m_self_contact->guard_motion(x, carry, limits, round == GUARD_ROUNDS)) break;
+    limits.apply(x, carry, held);
+  }
+  for (std::size_t i = 0; i < carry.size(); ++i) carry[i] = carry[i] == wanted[i] ? m_carry[i] : Vec3(carry[i] / share + common);
+  return carry;
+}
+
+/// The share of its way that the skin can go now, with m_carry that of the whole way at this rate. Cloth between skin and cloth cannot be
+/// carried all the way at once, and would stop the skin within a hair: carried on less of it, it goes with what lies over it.
+double BodyMotion::free_part(const std::vector<Vec3>& way, double longest, double time) {
+  const std::vector<Vec3>& x = m_solver.x();
+  find_carry(way, time);
+  if (!m_self_contact) return m_contact.free_share(x, way, m_carry);
+  MotionLimits limits;
+  limits.planes_follow = true;
+  limits.reset(x.size());
+  std::vector<Vec3> force(x.size(), Vec3::Zero());
+  std::vector<ContactElement> elements;
+  BlockMatrix unused; // self contact adds elements only
+  StepContext context{x, 1, force, unused, elements, &limits};
+  m_self_contact->begin_step(x, 1);
+  m_self_contact->add(context);
+  std::vector<Vec3> best_carry(x.size(), Vec3::Zero());
+  double best = 0;
+  for (double asked = std::min(1.0, ASK_LESS * m_last_asked);; asked /= ASK_LESS) {
+    m_last_asked = asked;
+    std::vector<Vec3> carry = uncrossing_carry(asked, limits);
+    const bool whole = carry == m_carry; // what else stops the skin does so on a shorter way too
+    const double share = std::min(asked, m_contact.free_share(x, way, carry));
+    if (share > best) best = share, best_carry = std::move(carry);
+    if (whole || best >= asked / ASK_LESS || asked * longest < SHORTEST_PART) break;
+  }
+  m_carry = std::move(best_carry);
+  return best;
+}
+
+StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOptions& options, const std::function<StepResult(const StepOptions&)>& step) {
+  ++calls;
+  StepResult result;
+  std::vector<Vec3> way(target.size()), skin, velocity(m_solver.x().size(), Vec3::Zero());
+  const std::vector<Vec3> nothing = velocity;
+  double left = 1, moved = 0; // left: share of the way; moved: of all parts together, m
+  int most_parts = 0;
+  for (int part = 1;; ++part) {
+    const auto began = std::chrono::steady_clock::now();
+    skin = m_body.mesh().positions;
+    for (std::size_t v = 0; v < way.size(); ++v) way[v] = target[v] - skin[v];
+    const double longest = longest_of(way);
+    if (part == 1) {
+      m_last_asked = 1;
+      largest_way_m = std::max(largest_way_m, longest);
+      most_parts = MOST_PARTS + static_cast<int>(std::min(longest / SHORTEST_PART, 1e6));
+    }
+    m_carry = nothing;
+    double share = longest > 0 ? free_part(way, longest, options.inertia * left * options.h) : 1;
+    const bool force = part >= most_parts && share < 1;
+    if (force) {
+      share = 1;
+      m_carry = nothing;
+    }
+    if (share > 0 && longest > 0) {
+      for (std::size_t v = 0; v < way.size(); ++v) skin[v] = share < 1 ? Vec3(skin[v] + share * way[v]) : target[v];
+      std::vector<Vec3> carried = m_carry;
+      for (Vec3& c : carried) c *= share;
+      m_contact.move_body(skin, m_solver.x(), carried);
+      if (m_self_contact) m_self_contact->moved_by(common_way(carried));
+    }
+    if (force) {
+      ++forced;
+      m_contact.refresh();
+    }
+    StepOptions o = options;
+    const double time = share * left;
+    if (options.inertia > 0) o.h = std::max(LEAST_TIME, time) * options.h;
+    left -= time;
+    for (std::size_t i = 0; i < m_carry.size(); ++i) {
+      m_carry[i] *= share;
+      velocity[i] = -m_carry[i] / o.h;
+    }
+    const bool carried = longest > 0;
+    if (carried) m_solver.shift(m_carry, velocity);
+    wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    result = step ? step(o) : m_solver.step(o);
+    for (Vec3& v : velocity) v = -v;
+    if (carried && result.finite) m_solver.shift(nothing, velocity);
+    ++parts;
+    moved += result.largest_move_m + longest_of(m_carry);
+    result.largest_move_m = moved;
+    if (!result.finite || share >= 1) return result;
+  }
+}
+
+} // namespace sloper::cloth

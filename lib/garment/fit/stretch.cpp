@@ -1,0 +1,86 @@
+#include <garment/fit/stretch.hpp>
+
+#include <garment/fit/cloth_strain.hpp>
+#include <garment/fit/fit_policy.hpp>
+#include <garment/materials.hpp>
+#include <io/files.hpp>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace sloper::garment {
+
+namespace {
+
+constexpr double GROSS = 0.1;           // of any fabric: woven cloth near its limit
+constexpr double WORN_TENSION = 100;    // N/m, twice a wearing load: knits give more than GROSS to it
+constexpr double FURTHER = 1.5;         // times the strain on its own body: within that it hangs as it did
+constexpr double TELLING_SHARE = 0.002; // of the particles held in a pinch: fewer are in any garment
+
+std::string strain_text(double strain) {
+  char text[32];
+  std::snprintf(text, sizeof text, strain < 0.1 ? "%.1f %%" : "%.0f %%", 100 * strain);
+  return text;
+}
+
+std::string stretch_text(const Stretch& s, const Garment& garment, const io::Json& quality) {
+  char place[64];
+  std::snprintf(place, sizeof place, "(%.3f, %.3f, %.3f) m", s.place.x(), s.place.y(), s.place.z());
+  const int held = quality.value("particles_held", 0);
+  return "a hundredth of its cloth is stretched by " + strain_text(s.p99) + " or more, most in panel " + s.panel + " (" + strain_text(s.panel_p99) +
+         "), at most by " + strain_text(s.max) + " at " + place +
+         (held > TELLING_SHARE * static_cast<double>(garment.position.size()) ? ", and " + std::to_string(held) + " particles are caught" : "");
+}
+
+} // namespace
+
+Stretch stretch_of(const Garment& garment) {
+  Stretch result;
+  const std::vector<TriangleStrain> strains = triangle_strains(garment, garment.position);
+  std::vector<Weighted> all;
+  double softest = 1e300;
+  for (const pattern::PanelInfo& panel : garment.panels.panels) {
+    const Material& material = material_of(garment, panel.material);
+    softest = std::min({softest, material.stretch_warp_n_m, material.stretch_weft_n_m});
+    std::vector<Weighted> own;
+    for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
+      const double stretch = std::max({strains[f].warp, strains[f].weft, 0.0});
+      if (!(strains[f].area > 0)) continue;
+      own.push_back({stretch, strains[f].area});
+      if (stretch <= result.max) continue;
+      result.max = stretch;
+      result.place = Vec3::Zero();
+      for (const int v : garment.panels.triangles[f]) result.place += garment.position[garment.particle_of[v]] / 3;
+    }
+    all.insert(all.end(), own.begin(), own.end());
+    if (const double p99 = area_quantile(own, 0.99); result.panel.empty() || p99 > result.panel_p99) result.panel_p99 = p99, result.panel = panel.name;
+  }
+  result.p99 = area_quantile(all, 0.99);
+  result.bound = std::max(GROSS, WORN_TENSION / softest);
+  return result;
+}
+
+std::optional<double> stretch_elsewhere(const Garment& garment, const std::string& skin_sha256) {
+  if (garment.body_sha256.empty() || skin_sha256.empty() || garment.body_sha256 == skin_sha256) return std::nullopt;
+  return stretch_of(garment).p99;
+}
+
+void judge_stretch(Garment& garment, DrapeOutcome& outcome, const Start& start, std::optional<double> before, std::vector<std::string>& findings,
+                   Reporter& reporter) {
+  if (start.body.empty() || garment.particle_of.empty()) return;
+  DrapeReport& report = outcome.report;
+  const Stretch now = stretch_of(garment);
+  const bool failed = before && now.p99 > std::max(standard_fit_policy().strain_p99("", ""), FURTHER * *before);
+  if (!failed && (before || !report.converged || now.p99 <= now.bound)) return;
+  const std::string file = io::file_name(start.file), body = io::file_name(start.body), retarget = "retarget-garment --garment ";
+  findings.push_back(file + " on " + body + ": " + stretch_text(now, garment, report.quality) + "; " +
+                     (failed ? "it comes from another body, and draping does not put it on this one: " + retarget + file + " --to " + body + " does"
+                             : retarget + "FILE --to " + body + " --fit FIT tells how it fits"));
+  reporter.warning(findings.back());
+  if (!failed || !report.converged) return;
+  report.converged = garment.converged = false;
+  report.stop_reason = "at rest, but stretched by " + strain_text(now.p99) + ", on its own body by " + strain_text(*before);
+  outcome.document["converged"] = false, outcome.document["stop_reason"] = report.stop_reason;
+}
+
+} // namespace sloper::garment

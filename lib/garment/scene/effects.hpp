@@ -1,0 +1,18 @@
+#pragma once
+/// Which effects a scene calls for, and why: pay as you go (DESIGN section 10).
+#include <body/body.hpp>
+#include <garment/simulate/drape.hpp>
+
+namespace sloper::garment {
+
+/// Every effect that there is, in the order of the report, each on or off with its reason.
+///
+/// With settings.effects == "auto" an effect is on only for a reason found in the scene; "auto,wind,-friction" changes that choice;
+/// else exactly those named (joined by commas) are on. Of the models of stretch (edge_springs, triangle_stretch, membrane) and of
+/// bending (bending, dihedral_bending) one takes part. Calls and time are 0 until the drape fills them.
+/// @throws Error USAGE for an unknown name or two models of one thing; INPUT for a scene that contradicts itself
+std::vector<EffectReport> choose_effects(const Garment& garment, const body::Body* body, const DrapeSettings& settings);
+
+bool is_active(const std::vector<EffectReport>& effects, const std::string& name);
+
+} // namespace sloper::garment

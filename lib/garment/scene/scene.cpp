@@ -1,0 +1,194 @@
+#include <base/error.hpp>
+#include <garment/kes.hpp>
+#include <garment/materials.hpp>
+#include <garment/scene/preset_table.hpp>
+#include <garment/scene/scene.hpp>
+#include <garment/scene/scene_effects_json.hpp>
+#include <io/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+
+namespace sloper::garment {
+
+namespace {
+
+/// One number that decides a drape: its name, range, and place in the settings.
+struct Knob {
+  const char* name;
+  double low, high;
+  double DrapeSettings::*real;
+  int DrapeSettings::*whole;
+};
+
+const std::vector<Knob>& knobs() {
+  using S = DrapeSettings;
+  static const std::vector<Knob> table = {
+      {"time_step_s", 1e-4, 1, &S::time_step_s, nullptr},
+      {"cg_tolerance", 1e-12, 0.5, &S::cg_tolerance, nullptr},
+      {"cg_max_iterations", 1, 100000, nullptr, &S::cg_max_iterations},
+      {"newton_iterations", 1, 1000, nullptr, &S::newton_iterations},
+      {"motion_step_s", 1e-4, 1, &S::motion_step_s, nullptr},
+      {"solver", 0, 2, nullptr, &S::solver},
+      {"contact_level", 1, 4, nullptr, &S::contact_level},
+      {"contact_gap_m", 1e-4, 0.02, &S::contact_gap_m, nullptr},
+      {"skin_tolerance_m", 0, 0.005, &S::skin_tolerance_m, nullptr},
+      {"self_thickness_m", 1e-4, 0.02, &S::self_thickness_m, nullptr},
+      {"settle_speed_m_s", 1e-6, 1, &S::settle_speed_m_s, nullptr},
+      {"settle_force_ratio", 1e-6, 10, &S::settle_force_ratio, nullptr},
+      {"gravity_m_s2", 0, 100, &S::gravity_m_s2, nullptr},
+      {"max_steps", 1, 1e6, nullptr, &S::max_steps},
+      {"max_seconds", 0, 1e6, &S::max_seconds, nullptr},
+  };
+  return table;
+}
+
+Material read_material(const io::Node& node) {
+  if (node.is_string()) {
+    try {
+      const std::string name = node.string();
+      return material_from(name.find(".csv") == std::string::npos ? name : io::path_beside(node.file(), name));
+    } catch (const Error& e) {
+      node.fail(e.fact());
+    }
+  }
+  node.allow_only({"preset", "density_kg_m2", "stretch_warp_n_m", "stretch_weft_n_m", "shear_n_m", "bend_n_m", "friction_body", "friction_self", "damping_s",
+                   "thickness_m", "poisson", "source"});
+  Material m = material_preset(node.string("preset", material_presets().front().name));
+  auto read = [&](const char* key, double& value, double low, double high) {
+    if (!node.has(key)) return;
+    value = node.at(key).number();
+    if (value < low || value > high) node.at(key).fail("is out of range", "give a value from " + std::to_string(low) + " to " + std::to_string(high));
+  };
+  read("density_kg_m2", m.density_kg_m2, 1e-3, 100);
+  read("stretch_warp_n_m", m.stretch_warp_n_m, 1e-3, 1e9);
+  read("stretch_weft_n_m", m.stretch_weft_n_m, 1e-3, 1e9);
+  read("shear_n_m", m.shear_n_m, 0, 1e9);
+  read("bend_n_m", m.bend_n_m, 0, 1e3);
+  read("friction_body", m.friction_body, 0, 10);
+  read("friction_self", m.friction_self, 0, 10);
+  read("damping_s", m.damping_s, 0, 10);
+  read("thickness_m", m.thickness_m, 0, 0.05);
+  read("poisson", m.poisson, 0, 0.95);
+  m.source = node.string("source", m.source);
+  return m;
+}
+
+} // namespace
+
+Scene read_scene(const std::string& path) {
+  const io::Json document = io::read_document(path, "scene", SCENE_VERSION);
+  const io::Node root(document, path);
+  root.allow_only({"format", "version", "generator", "length_unit", "body", "panels", "accuracy", "effects", "materials", "settings", "membrane", "bending",
+                   "pins", "bands", "attachments", "shrink", "creases", "wind_m_s", "pressure_pa"});
+  Scene scene;
+  if (root.has("body")) scene.body = io::path_beside(path, root.at("body").string());
+  if (root.has("panels")) scene.panels = io::path_beside(path, root.at("panels").string());
+  scene.accuracy = root.string("accuracy", "");
+  if (root.has("effects")) {
+    const io::Node effects = root.at("effects");
+    if (effects.is_string()) scene.effects = effects.string();
+    else
+      for (std::size_t i = 0; i < effects.size(); ++i) scene.effects.append(i ? "," : "").append(effects.at(i).string());
+  }
+  scene.extras = read_scene_effects(root);
+  if (root.has("materials"))
+    for (const std::string& name : root.at("materials").keys()) scene.materials[name == "default" ? "" : name] = read_material(root.at("materials").at(name));
+  if (root.has("settings"))
+    for (const std::string& name : root.at("settings").keys()) {
+      const io::Node value = root.at("settings").at(name);
+      DrapeSettings probe;
+      set_knob(probe, name, value);
+      scene.settings.emplace_back(name, value.number());
+    }
+  return scene;
+}
+
+void apply_scene(const Scene& scene, Garment& garment) {
+  for (const auto& [name, material] : scene.materials) garment.materials[name] = material;
+  const SceneEffects& from = scene.extras;
+  SceneEffects& to = garment.scene;
+  if (!from.membrane.empty()) to.membrane = from.membrane;
+  if (!from.bending.empty()) to.bending = from.bending;
+  if (!from.pins.empty()) to.pins = from.pins;
+  if (!from.bands.empty()) to.bands = from.bands;
+  if (!from.attachments.empty()) to.attachments = from.attachments;
+  if (!from.shrink.empty()) to.shrink = from.shrink;
+  if (!from.creases.empty()) to.creases = from.creases;
+  if (from.air) {
+    to.air = true;
+    to.wind_m_s = from.wind_m_s;
+  }
+  if (from.pressure_pa != 0) to.pressure_pa = from.pressure_pa;
+}
+
+std::vector<std::string> accuracy_names() {
+  std::vector<std::string> names;
+  for (const Preset& p : PRESETS) names.emplace_back(p.name);
+  return names;
+}
+
+DrapeSettings preset_settings(const std::string& accuracy) {
+  DrapeSettings s;
+  for (const Preset& p : PRESETS)
+    if (accuracy == p.name) {
+      s.accuracy = p.name;
+      s.cg_tolerance = p.cg_tolerance;
+      s.settle_force_ratio = p.settle_force_ratio;
+      s.settle_speed_m_s = p.settle_speed_m_s;
+      s.max_steps = p.max_steps;
+      return s;
+    }
+  throw Error(ErrorKind::USAGE, "", "--accuracy", "\"" + accuracy + "\" is not known", "known are draft, standard, fine, reference");
+}
+
+void set_knob(DrapeSettings& settings, const std::string& name, double value) {
+  std::string names;
+  std::vector<std::string> words;
+  for (const Knob& k : knobs()) {
+    if (name == k.name) {
+      if (!(value >= k.low && value <= k.high))
+        throw Error(ErrorKind::USAGE, "", name, "is out of range", "give a value from " + std::to_string(k.low) + " to " + std::to_string(k.high));
+      if (k.real) settings.*k.real = value;
+      else settings.*k.whole = static_cast<int>(value);
+      return;
+    }
+    words.emplace_back(k.name);
+    names += (names.empty() ? "" : ", ") + words.back();
+  }
+  throw Error(ErrorKind::USAGE, "", name, "is no knob" + did_you_mean(name, words), "knobs are " + names);
+}
+
+void set_knob(DrapeSettings& settings, const std::string& name, const io::Node& value) {
+  const double number = value.number();
+  try {
+    set_knob(settings, name, number);
+  } catch (const Error& e) {
+    value.fail(e.what());
+  }
+}
+
+void set_knob(DrapeSettings& settings, const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  double value = 0;
+  const char* end = assignment.data() + assignment.size();
+  if (equals == std::string::npos) throw Error(ErrorKind::USAGE, "", "--set " + assignment, "is not KNOB=VALUE");
+  if (const auto r = std::from_chars(assignment.data() + equals + 1, end, value); r.ec != std::errc() || r.ptr != end || !std::isfinite(value))
+    throw Error(ErrorKind::USAGE, "", "--set " + assignment, "the value is not a number");
+  set_knob(settings, assignment.substr(0, equals), value);
+}
+
+io::Json settings_json(const DrapeSettings& settings) {
+  io::Json out;
+  out["accuracy"] = settings.accuracy;
+  out["effects"] = settings.effects;
+  for (const Knob& k : knobs()) {
+    if (k.real) out[k.name] = settings.*k.real;
+    else out[k.name] = settings.*k.whole;
+  }
+  return out;
+}
+
+} // namespace sloper::garment

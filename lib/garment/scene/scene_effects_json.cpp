@@ -1,0 +1,170 @@
+#include <base/units.hpp>
+#include <garment/scene/scene_effects_json.hpp>
+#include <io/json.hpp>
+
+#include <cmath>
+
+namespace sloper::garment {
+
+namespace {
+
+using io::Json;
+using io::Node;
+
+constexpr double DEGREE = M_PI / 180;
+
+double in_range(const Node& node, const char* key, double fallback, double low, double high) {
+  if (!node.has(key)) return fallback;
+  const double value = node.at(key).number();
+  if (!(value >= low && value <= high)) node.at(key).fail("is out of range", "give a value from " + std::to_string(low) + " to " + std::to_string(high));
+  return value;
+}
+
+std::string one_of(const Node& node, const char* key, std::initializer_list<const char*> names) {
+  if (!node.has(key)) return {};
+  const std::string value = node.at(key).string();
+  std::string list;
+  for (const char* name : names) {
+    if (value == name) return value;
+    list += (list.empty() ? "" : ", ") + std::string(name);
+  }
+  node.at(key).fail("\"" + value + "\" is not known", "known are " + list);
+}
+
+PanelRun read_run(const Node& node) {
+  PanelRun run;
+  run.panel = node.at("panel").string();
+  if (node.has("at")) {
+    if (node.has("from") || node.has("to")) node.fail("names both a point (at) and a line (from, to)");
+    run.from = run.to = node.at("at").vec2();
+  } else {
+    run.from = node.at("from").vec2();
+    run.to = node.at("to").vec2();
+  }
+  return run;
+}
+
+Json run_json(const PanelRun& run) {
+  Json j;
+  j["panel"] = run.panel;
+  if (run.from == run.to) {
+    j["at"] = io::to_json(run.from);
+  } else {
+    j["from"] = io::to_json(run.from);
+    j["to"] = io::to_json(run.to);
+  }
+  return j;
+}
+
+template<class Item, class Read> void read_list(const Node& node, const char* key, std::vector<Item>& list, Read read) {
+  if (!node.has(key)) return;
+  const Node items = node.at(key);
+  if (!items.is_array()) items.fail("expected a list");
+  for (std::size_t k = 0; k < items.size(); ++k) list.push_back(read(items.at(k)));
+}
+
+template<class Item, class Write> void write_list(Json& out, const char* key, const std::vector<Item>& list, Write write) {
+  if (list.empty()) return;
+  out[key] = Json::array();
+  for (const Item& item : list) out[key].push_back(write(item));
+}
+
+} // namespace
+
+SceneEffects read_scene_effects(const Node& node) {
+  SceneEffects scene;
+  scene.membrane = one_of(node, "membrane", {"springs", "triangles", "fem"});
+  scene.bending = one_of(node, "bending", {"isometric", "dihedral"});
+  read_list(node, "pins", scene.pins, [](const Node& n) {
+    n.allow_only({"panel", "at", "from", "to", "target_m", "stiffness_n_m"});
+    ScenePin pin;
+    pin.run = read_run(n);
+    pin.has_target = n.has("target_m");
+    if (pin.has_target) pin.target = n.at("target_m").vec3();
+    pin.stiffness_n_m = in_range(n, "stiffness_n_m", pin.stiffness_n_m, 1e-3, 1e7);
+    return pin;
+  });
+  read_list(node, "bands", scene.bands, [](const Node& n) {
+    n.allow_only({"panel", "at", "from", "to", "ratio", "strength_n"});
+    SceneBand band;
+    band.run = read_run(n);
+    band.ratio = in_range(n, "ratio", band.ratio, 0.05, 1.5);
+    band.strength_n = in_range(n, "strength_n", band.strength_n, 1e-3, 1e5);
+    return band;
+  });
+  read_list(node, "attachments", scene.attachments, [](const Node& n) {
+    n.allow_only({"panel", "at", "from", "to", "anchor_m", "landmark", "rest_length_m", "stiffness_n_m"});
+    SceneAttachment a;
+    a.run = read_run(n);
+    if (n.has("anchor_m") == n.has("landmark")) n.fail("needs either anchor_m or landmark");
+    if (n.has("anchor_m")) a.anchor = n.at("anchor_m").vec3();
+    a.landmark = n.string("landmark", "");
+    a.rest_length_m = in_range(n, "rest_length_m", a.rest_length_m, 0, 10);
+    a.stiffness_n_m = in_range(n, "stiffness_n_m", a.stiffness_n_m, 1e-3, 1e7);
+    return a;
+  });
+  read_list(node, "shrink", scene.shrink, [](const Node& n) {
+    n.allow_only({"panel", "from", "to", "warp", "weft"});
+    SceneShrink s;
+    s.panel = n.string("panel", "");
+    if (n.has("from")) s.low = n.at("from").vec2();
+    if (n.has("to")) s.high = n.at("to").vec2();
+    s.warp = in_range(n, "warp", 1, 0.05, 3);
+    s.weft = in_range(n, "weft", 1, 0.05, 3);
+    return s;
+  });
+  read_list(node, "creases", scene.creases, [](const Node& n) {
+    n.allow_only({"panel", "from", "to", "angle_deg"});
+    return SceneCrease{read_run(n), in_range(n, "angle_deg", 0, -175, 175) * DEGREE};
+  });
+  scene.air = node.has("wind_m_s");
+  if (scene.air) scene.wind_m_s = node.at("wind_m_s").vec3();
+  if (scene.wind_m_s.norm() > 100) node.at("wind_m_s").fail("is beyond 100 m/s");
+  scene.pressure_pa = in_range(node, "pressure_pa", 0, -1e5, 1e5);
+  return scene;
+}
+
+Json scene_effects_json(const SceneEffects& scene) {
+  Json out = Json::object();
+  if (!scene.membrane.empty()) out["membrane"] = scene.membrane;
+  if (!scene.bending.empty()) out["bending"] = scene.bending;
+  write_list(out, "pins", scene.pins, [](const ScenePin& pin) {
+    Json j = run_json(pin.run);
+    if (pin.has_target) j["target_m"] = io::to_json(pin.target);
+    j["stiffness_n_m"] = pin.stiffness_n_m;
+    return j;
+  });
+  write_list(out, "bands", scene.bands, [](const SceneBand& band) {
+    Json j = run_json(band.run);
+    j["ratio"] = band.ratio;
+    j["strength_n"] = band.strength_n;
+    return j;
+  });
+  write_list(out, "attachments", scene.attachments, [](const SceneAttachment& a) {
+    Json j = run_json(a.run);
+    if (a.landmark.empty()) j["anchor_m"] = io::to_json(a.anchor);
+    else j["landmark"] = a.landmark;
+    j["rest_length_m"] = a.rest_length_m;
+    j["stiffness_n_m"] = a.stiffness_n_m;
+    return j;
+  });
+  write_list(out, "shrink", scene.shrink, [](const SceneShrink& s) {
+    Json j;
+    if (!s.panel.empty()) j["panel"] = s.panel;
+    j["from"] = io::to_json(s.low);
+    j["to"] = io::to_json(s.high);
+    j["warp"] = s.warp;
+    j["weft"] = s.weft;
+    return j;
+  });
+  write_list(out, "creases", scene.creases, [](const SceneCrease& crease) {
+    Json j = run_json(crease.run);
+    j["angle_deg"] = crease.angle_rad / DEGREE;
+    return j;
+  });
+  if (scene.air) out["wind_m_s"] = io::to_json(scene.wind_m_s);
+  if (scene.pressure_pa != 0) out["pressure_pa"] = scene.pressure_pa;
+  return out;
+}
+
+} // namespace sloper::garment

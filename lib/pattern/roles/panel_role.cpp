@@ -1,0 +1,393 @@
+#include <base/units.hpp>
+#include <pattern/panel_words.hpp>
+#include <pattern/roles/leg_roles.hpp>
+#include <pattern/roles/panel_role.hpp>
+#include <pattern/roles/panel_turn.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace sloper::pattern {
+namespace {
+
+class Roles {
+public:
+  Roles(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph)
+      : m_pattern(pattern), m_mesh(mesh), m_graph(graph), m_roles(pattern.panels.size()) {}
+
+  std::vector<PanelRole> run() {
+    const std::size_t n = m_roles.size();
+    m_known.assign(n, false);
+    for (std::size_t k = 0; k < n; ++k) m_words.push_back(words_of(m_pattern.panels[k].name));
+    for (std::size_t k = 0; k < n; ++k) by_hint(k);
+    for (std::size_t k = 0; k < n; ++k)
+      if (!m_known[k]) by_name(k);
+    necks_by_height();
+    turn_trunk_panels(m_pattern, m_mesh, m_graph, m_roles);
+    for (std::size_t k = 0; k < n; ++k) arm_side(k);
+    for (std::size_t k = 0; k < n; ++k) rings(k);
+    ring_of_gores();
+    one_ring_all_ring();
+    for (std::size_t k = 0; k < n; ++k)
+      if (m_roles[k].region == Region::ARM_L || m_roles[k].region == Region::ARM_R) turn_arm_panel(k);
+    assign_legs(m_pattern, m_mesh, m_graph, m_roles);
+    return std::move(m_roles);
+  }
+
+private:
+  Vec2 middle(std::size_t k) const {
+    const PanelInfo& p = m_mesh.panels[k];
+    Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+    for (int v : p.outline) low = low.cwiseMin(m_mesh.pattern[static_cast<std::size_t>(v)]), high = high.cwiseMax(m_mesh.pattern[static_cast<std::size_t>(v)]);
+    return 0.5 * (low + high);
+  }
+  double width(std::size_t k) const {
+    const PanelInfo& p = m_mesh.panels[k];
+    double low = 1e300, high = -1e300;
+    for (int v : p.outline) {
+      const double u = (m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(v)]).x();
+      low = std::min(low, u), high = std::max(high, u);
+    }
+    return high - low;
+  }
+
+  void side_from_theta(PanelRole& role, double theta) {
+    theta = std::remainder(theta, 2 * units::PI);
+    role.theta = theta;
+    role.side = std::abs(theta) <= units::radians(61) ? Side::FRONT : std::abs(theta) >= units::radians(119) ? Side::BACK : Side::RING;
+  }
+
+  void by_hint(std::size_t k) {
+    const Panel& panel = m_pattern.panels[k];
+    PanelRole& role = m_roles[k];
+    const PlacementHint& hint = panel.hint;
+    if (!hint.part.empty()) {
+      m_known[k] = true;
+      role.part = hint.part;
+      role.region = hint.part == "arm_l"                         ? Region::ARM_L
+                    : hint.part == "arm_r"                       ? Region::ARM_R
+                    : hint.part == "neck" || hint.part == "head" ? Region::NECK
+                                                                 : Region::TRUNK;
+      if (role.region == Region::NECK) {
+        role.side = Side::RING, role.theta = hint.theta.value_or(units::PI);
+        return;
+      }
+      if (role.region != Region::TRUNK) { // arms: theta 0 is the outer, upper side
+        role.side = Side::RING, role.theta = 0;
+        return;
+      }
+      side_from_theta(role, hint.theta.value_or(says_back(m_words[k]) ? units::PI : 0));
+      if (hint.anchor && (hint.radius || std::abs(std::remainder(*hint.theta, units::PI)) < 1e-6) && role.side != Side::RING && hint.part != "leg_l" &&
+          hint.part != "leg_r")
+        role.du = std::remainder(role.theta - (role.side == Side::BACK ? units::PI : 0), 2 * units::PI) * hint.radius.value_or(0) - hint.anchor->x();
+      if (hint.anchor && hint.height && (role.du || role.side == Side::RING)) role.dv = *hint.height - hint.anchor->y();
+      return;
+    }
+    if (!hint.rigid) return;
+    m_known[k] = true;
+    const Mat3 r = hint.rigid->topLeftCorner<3, 3>();
+    const Vec3 normal = r.col(2);
+    const Vec2 m = middle(k);
+    const Vec3 center = (*hint.rigid * Eigen::Vector4d(m.x(), m.y(), 0, 1)).head<3>();
+    const Words& words = m_words[k];
+    const bool legs = panel.label == "leg" || says_legs(words) || says_skirt(words);
+    const bool arm =
+        !legs && (says_sleeve(words) || cuff_of_sleeve(k) || (panel.label == "arm" && !any_begins(words, {"torso", "bodice", "ftorso", "btorso"})));
+    if (arm) role.region = center.x() > 0 ? Region::ARM_L : Region::ARM_R;
+    else if (!legs && says_neck(words)) role.region = Region::NECK;
+    else role.part = legs ? "lower_body" : "torso";
+    if (std::hypot(normal.x(), normal.z()) < 0.3) { // drawn lying: names decide
+      role.side = says_back(words) ? Side::BACK : Side::FRONT;
+      return;
+    }
+    side_from_theta(role, std::atan2(normal.x(), normal.z()));
+    if (role.region != Region::TRUNK && role.region != Region::NECK) return;
+    const Vec3 u_axis = Vec3::UnitY().cross(normal).normalized();
+    const double angle = std::atan2(r.col(0).y(), r.col(0).dot(u_axis));
+    role.turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
+    if (role.region == Region::NECK) return around_neck(role);
+    role.dv = center.y() - (role.turn * m).y();
+    if (role.side != Side::RING) role.du = (role.side == Side::BACK ? -center.x() : center.x()) - (role.turn * m).x();
+  }
+
+  static void around_neck(PanelRole& role) {
+    if (role.side == Side::FRONT) role.theta = 0;
+    role.side = Side::RING;
+    role.du.reset(), role.dv.reset();
+  }
+
+  /// Whether a level seam at its top joins the panel to one of the other side.
+  bool has_shoulder(std::size_t k) const {
+    double low = 1e300, high = -1e300;
+    for (int v : m_mesh.panels[k].outline) low = std::min(low, turned(k, v).y()), high = std::max(high, turned(k, v).y());
+    for (int q : m_graph.neighbours(static_cast<int>(k))) {
+      const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
+      if (other.region != Region::TRUNK || other.side == m_roles[k].side) continue;
+      for (const auto& seam : m_graph.between(static_cast<int>(k), q)) {
+        const Vec2 a = turned(k, seam.front()[0]), b = turned(k, seam.back()[0]);
+        if (std::abs(a.x() - b.x()) > std::abs(a.y() - b.y()) && std::min(a.y(), b.y()) > low + 0.75 * (high - low)) return true;
+      }
+    }
+    return false;
+  }
+  Vec2 turned(std::size_t k, int vertex) const { return m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(vertex)]; }
+
+  /// Hinted panels without a word for it that stand above all that they are sewn to, near the middle: hoods, collars.
+  void necks_by_height() {
+    const auto range = [&](std::size_t k) { // of the height of its hint
+      Vec2 y(1e300, -1e300);
+      for (int v : m_mesh.panels[k].outline) {
+        const Vec2& p = m_mesh.pattern[static_cast<std::size_t>(v)];
+        const double h = (*m_pattern.panels[k].hint.rigid * Eigen::Vector4d(p.x(), p.y(), 0, 1)).y();
+        y = Vec2(std::min(y.x(), h), std::max(y.y(), h));
+      }
+      return y;
+    };
+    std::vector<std::size_t> found;
+    for (std::size_t k = 0; k < m_roles.size(); ++k) {
+      const auto& hint = m_pattern.panels[k].hint;
+      if (!hint.rigid || m_roles[k].region != Region::TRUNK || m_roles[k].part != "torso" || m_graph.neighbours(static_cast<int>(k)).empty()) continue;
+      const Vec2 own = range(k), m = middle(k);
+      const double x = (*hint.rigid * Eigen::Vector4d(m.x(), m.y(), 0, 1)).x();
+      bool above = std::abs(x) < 0.2, trunk = false;
+      for (int q : m_graph.neighbours(static_cast<int>(k))) {
+        const std::size_t o = static_cast<std::size_t>(q);
+        if (m_roles[o].region != Region::TRUNK || !m_pattern.panels[o].hint.rigid) continue;
+        const Vec2 other = range(o);
+        const bool lower = 0.5 * (own.x() + own.y()) > other.y() + 0.01 && has_shoulder(o);
+        trunk = trunk || lower;
+        above = above && (lower || std::abs(own.x() - other.x()) < 0.05); // or is its like
+      }
+      if (above && trunk) found.push_back(k);
+    }
+    for (std::size_t k : found) m_roles[k].region = Region::NECK, m_roles[k].part.clear(), around_neck(m_roles[k]);
+  }
+
+  void by_name(std::size_t k) {
+    PanelRole& role = m_roles[k];
+    const Words& words = m_words[k];
+    role.side = says_back(words) && !any_begins(words, {"front"}) ? Side::BACK : Side::FRONT;
+    const bool legs = says_legs(words) || says_skirt(words);
+    if (!legs && (says_sleeve(words) || cuff_of_sleeve(k))) role.region = says_left(words) ? Region::ARM_L : Region::ARM_R;
+    else if (!legs && says_neck(words)) role.region = Region::NECK, role.side = Side::RING, role.theta = units::PI;
+    else role.part = legs || says_cuff(words) ? "lower_body" : "torso";
+    role.theta = role.region == Region::NECK || role.side == Side::BACK ? units::PI : 0;
+  }
+
+  /// Cuffs belong to sleeves, unless they are sewn to other panels only: to trousers.
+  bool cuff_of_sleeve(std::size_t k) const {
+    if (!says_cuff(m_words[k])) return false;
+    bool other = false;
+    for (int q : m_graph.neighbours(static_cast<int>(k))) {
+      const std::size_t o = static_cast<std::size_t>(q);
+      if (says_sleeve(m_words[o]) || m_pattern.panels[o].hint.part.rfind("arm", 0) == 0) return true;
+      other = other || !says_cuff(m_words[o]);
+    }
+    return !other;
+  }
+
+  /// A sleeve without a word for its side hangs on the armhole that it is sewn to: seen from outside, the left armhole of a front
+  /// is on its +u side, that of a back on its -u side.
+  void arm_side(std::size_t k) {
+    PanelRole& role = m_roles[k];
+    if (role.region != Region::ARM_L && role.region != Region::ARM_R) return;
+    if (!m_pattern.panels[k].hint.part.empty() || m_pattern.panels[k].hint.rigid) {
+      role.part = role.region == Region::ARM_L ? "arm_l" : "arm_r";
+      return;
+    }
+    if (!says_left(m_words[k]) && !says_right(m_words[k])) {
+      double vote = 0;
+      for (int q : m_graph.neighbours(static_cast<int>(k))) {
+        const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
+        if (other.region != Region::TRUNK) continue;
+        for (const auto& seam : m_graph.between(static_cast<int>(k), q))
+          for (const auto& s : seam)
+            vote +=
+                (other.turn * (m_mesh.pattern[static_cast<std::size_t>(s[1])] - middle(static_cast<std::size_t>(q)))).x() * (other.side == Side::BACK ? -1 : 1);
+      }
+      role.region = vote >= 0 ? Region::ARM_L : Region::ARM_R;
+    }
+    role.part = role.region == Region::ARM_L ? "arm_l" : "arm_r";
+  }
+
+  /// A panel sewn to itself across most of its width is a tube.
+  void rings(std::size_t k) {
+    PanelRole& role = m_roles[k];
+    for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(k))) {
+      double apart = 0;
+      for (const auto& s : seam) apart += (m_mesh.pattern[static_cast<std::size_t>(s[0])] - m_mesh.pattern[static_cast<std::size_t>(s[1])]).norm();
+      apart /= static_cast<double>(seam.size());
+      if (apart < 0.5 * std::max(width(k), 1e-3)) continue; // a dart
+      role.side = Side::RING;
+      if (role.region == Region::ARM_L || role.region == Region::ARM_R) role.theta = 0;
+    }
+    const bool arm = role.region == Region::ARM_L || role.region == Region::ARM_R;
+    if (arm && role.side != Side::RING && !m_pattern.panels[k].hint.rigid) { // one piece, unless a partner makes the tube
+      bool partner = false;
+      for (int q : m_graph.neighbours(static_cast<int>(k)))
+        partner = partner || (m_roles[static_cast<std::size_t>(q)].region == role.region && m_graph.between(static_cast<int>(k), q).size() >= 2);
+      if (!partner) role.side = Side::RING, role.theta = 0;
+    }
+  }
+
+  /// Where one gore of a skirt looks sideways, all gores of its row stand in a ring: those that upright seams lead to.
+  void one_ring_all_ring() {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t k = 0; k < m_roles.size(); ++k) {
+        if (m_roles[k].region != Region::TRUNK || m_roles[k].side != Side::RING) continue;
+        if (m_graph.between(static_cast<int>(k), static_cast<int>(k)).size() > 0) continue;
+        for (int q : m_graph.neighbours(static_cast<int>(k))) {
+          PanelRole& other = m_roles[static_cast<std::size_t>(q)];
+          if (other.region != Region::TRUNK || other.side == Side::RING || other.part != m_roles[k].part) continue;
+          if (upright_seam(m_mesh, m_graph, m_roles, k, static_cast<std::size_t>(q))) other.side = Side::RING, changed = true;
+        }
+      }
+    }
+  }
+
+  /// Three panels or more whose names tell no side, each sewn upright to two others, one after the other all around: gores.
+  void ring_of_gores() {
+    std::vector<std::vector<std::size_t>> beside(m_roles.size());
+    const auto untold = [&](std::size_t k) {
+      const auto& hint = m_pattern.panels[k].hint;
+      return m_roles[k].region == Region::TRUNK && m_roles[k].side != Side::RING && !hint.rigid && hint.part.empty() && !says_front(m_words[k]) &&
+             !says_back(m_words[k]);
+    };
+    for (std::size_t k = 0; k < m_roles.size(); ++k)
+      if (untold(k))
+        for (int q : m_graph.neighbours(static_cast<int>(k)))
+          if (untold(static_cast<std::size_t>(q)) && upright_seam(m_mesh, m_graph, m_roles, k, static_cast<std::size_t>(q)))
+            beside[k].push_back(static_cast<std::size_t>(q));
+    // Godets go between two that are joined above them.
+    std::vector<std::size_t> godets;
+    std::vector<std::array<std::size_t, 2>> joined;
+    const auto joins = [&](std::size_t k, std::size_t q) { return std::find(beside[k].begin(), beside[k].end(), q) != beside[k].end(); };
+    for (std::size_t k = 0; k < m_roles.size(); ++k)
+      if (beside[k].size() == 2 && joins(beside[k][0], beside[k][1]) &&
+          m_mesh.panels[k].n_triangles < std::min(m_mesh.panels[beside[k][0]].n_triangles, m_mesh.panels[beside[k][1]].n_triangles) / 2)
+        godets.push_back(k), joined.push_back({beside[k][0], beside[k][1]});
+    for (std::size_t g = 0; g < godets.size(); ++g) {
+      for (std::size_t k : joined[g]) beside[k].erase(std::find(beside[k].begin(), beside[k].end(), godets[g]));
+      beside[godets[g]].clear();
+    }
+    for (std::size_t first = 0; first < m_roles.size(); ++first) {
+      if (beside[first].size() != 2 || m_roles[first].side == Side::RING) continue;
+      std::vector<std::size_t> row = {first, right_of(first, beside[first])};
+      while (row.back() != first && row.size() <= m_roles.size() && beside[row.back()].size() == 2)
+        row.push_back(beside[row.back()][0] == row[row.size() - 2] ? beside[row.back()][1] : beside[row.back()][0]);
+      if (row.size() < 4 || row.back() != first) continue;
+      row.pop_back();
+      double around = 0, at = 0;
+      for (std::size_t k : row) around += width(k);
+      for (std::size_t k : row) { // u runs to the wearer's left, as theta does
+        m_roles[k].side = Side::RING;
+        m_roles[k].theta = std::remainder((at + 0.5 * (width(k) - width(first))) / around * 2 * units::PI, 2 * units::PI);
+        at += width(k);
+      }
+    }
+    for (std::size_t g = 0; g < godets.size(); ++g) {
+      const PanelRole &a = m_roles[joined[g][0]], &b = m_roles[joined[g][1]];
+      if (a.side != Side::RING || b.side != Side::RING) continue;
+      m_roles[godets[g]].side = Side::RING;
+      m_roles[godets[g]].theta = std::atan2(std::sin(a.theta) + std::sin(b.theta), std::cos(a.theta) + std::cos(b.theta));
+    }
+  }
+
+  /// Of two neighbours the one that is sewn on at the +u side.
+  std::size_t right_of(std::size_t k, const std::vector<std::size_t>& two) const {
+    double u[2] = {0, 0};
+    for (std::size_t i : {0, 1}) {
+      double n = 0;
+      for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(two[i])))
+        for (const auto& s : seam) u[i] += (m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(s[0])]).x(), ++n;
+      u[i] /= std::max(n, 1.0);
+    }
+    return two[u[0] >= u[1] ? 0 : 1];
+  }
+
+  /// (u, v) of an arm panel: v runs along the seams that close the tube, towards the end that is sewn to the trunk (or to the sleeve).
+  void turn_arm_panel(std::size_t k) {
+    PanelRole& role = m_roles[k];
+    const int p = static_cast<int>(k);
+    std::vector<Vec2> directions;
+    const auto add = [&](const std::vector<std::array<int, 2>>& seam, std::size_t side) {
+      const Vec2 d = m_mesh.pattern[static_cast<std::size_t>(seam.back()[side])] - m_mesh.pattern[static_cast<std::size_t>(seam.front()[side])];
+      if (d.norm() > 1e-6) directions.push_back(d);
+    };
+    for (const auto& seam : m_graph.between(p, p)) add(seam, 0), add(seam, 1);
+    for (int q : m_graph.neighbours(p)) {
+      const auto seams = m_graph.between(p, q);
+      if (m_roles[static_cast<std::size_t>(q)].region == role.region && seams.size() >= 2)
+        for (const auto& seam : seams) add(seam, 0);
+    }
+    Vec2 up(0, 1);
+    if (!directions.empty()) {
+      Vec2 sum = Vec2::Zero();
+      for (const Vec2& d : directions) sum += d.dot(directions[0]) < 0 ? Vec2(-d) : d;
+      if (sum.norm() > 1e-6) up = sum.normalized();
+    } else if (m_pattern.panels[k].hint.rigid) up = Vec2(1, 0);
+    // Towards the body: away from the middle, where the trunk (else another arm panel that leads to it) is sewn on.
+    double sense = 0;
+    for (bool trunk : {true, false}) {
+      for (int q : m_graph.neighbours(p)) {
+        const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
+        if ((other.region == Region::TRUNK) != trunk) continue;
+        const auto seams = m_graph.between(p, q);
+        if (!trunk && (seams.size() >= 2 || !touches_trunk(q))) continue;
+        for (const auto& seam : seams)
+          for (const auto& s : seam) sense += (m_mesh.pattern[static_cast<std::size_t>(s[0])] - middle(k)).dot(up);
+      }
+      if (sense != 0) break;
+    }
+    if (sense < 0) up = -up;
+    role.turn << up.y(), -up.x(), up.x(), up.y(); // rows: u = up turned clockwise, v = up
+  }
+
+  bool touches_trunk(int p) const {
+    for (int q : m_graph.neighbours(p))
+      if (m_roles[static_cast<std::size_t>(q)].region == Region::TRUNK) return true;
+    return false;
+  }
+
+  const Pattern& m_pattern;
+  const PanelMesh& m_mesh;
+  const SeamGraph& m_graph;
+  std::vector<PanelRole> m_roles;
+  std::vector<bool> m_known;
+  std::vector<Words> m_words;
+};
+
+} // namespace
+
+SeamGraph::SeamGraph(const PanelMesh& mesh) : m_mesh(&mesh), m_panel_of(mesh.pattern.size()), m_neighbours(mesh.panels.size()) {
+  for (std::size_t p = 0; p < mesh.panels.size(); ++p)
+    for (int v = mesh.panels[p].first_vertex; v < mesh.panels[p].first_vertex + mesh.panels[p].n_vertices; ++v)
+      m_panel_of[static_cast<std::size_t>(v)] = static_cast<int>(p);
+  std::vector<std::set<int>> sets(mesh.panels.size());
+  for (const MeshSeam& s : mesh.seams)
+    for (std::size_t k = 0; k < s.a.size(); ++k) {
+      const int p = panel_of(s.a[k]), q = panel_of(s.b[k]);
+      if (p != q) sets[static_cast<std::size_t>(p)].insert(q), sets[static_cast<std::size_t>(q)].insert(p);
+    }
+  for (std::size_t p = 0; p < sets.size(); ++p) m_neighbours[p].assign(sets[p].begin(), sets[p].end());
+}
+
+std::vector<std::vector<std::array<int, 2>>> SeamGraph::between(int p, int q) const {
+  std::vector<std::vector<std::array<int, 2>>> out;
+  for (const MeshSeam& s : m_mesh->seams) {
+    std::vector<std::array<int, 2>> stitches;
+    for (std::size_t k = 0; k < s.a.size(); ++k) {
+      const int a = panel_of(s.a[k]), b = panel_of(s.b[k]);
+      if (a == p && b == q) stitches.push_back({s.a[k], s.b[k]});
+      else if (a == q && b == p) stitches.push_back({s.b[k], s.a[k]});
+    }
+    if (stitches.size() >= 2) out.push_back(std::move(stitches));
+  }
+  return out;
+}
+
+std::vector<PanelRole> panel_roles(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph) { return Roles(pattern, mesh, graph).run(); }
+
+} // namespace sloper::pattern

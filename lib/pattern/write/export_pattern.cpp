@@ -1,0 +1,322 @@
+#include <base/units.hpp>
+#include <io/json.hpp>
+#include <pattern/write/export_pattern.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace sloper::pattern {
+namespace {
+
+constexpr double DXF_CHORD = 0.002; // m
+
+/// In metres to the last bit; else edits keep coordinates on a grid of a nanometre: ten of them are rounded away, so that 20 cm are written as 20.
+double rounded(double x, double unit) { return unit == 1 ? x + 0.0 : std::nearbyint(x / unit * 1e6) / 1e6 + 0.0; }
+
+io::Json path_json(const Path& path, double unit) {
+  io::Json out = io::Json::array();
+  const auto point = [&](io::Json& item, const Vec2& p) { item.push_back(rounded(p.x(), unit)), item.push_back(rounded(p.y(), unit)); };
+  io::Json start = io::Json::array({"M"});
+  point(start, path.front().p[0]);
+  out.push_back(start);
+  for (const Segment& s : path) {
+    io::Json item = io::Json::array({s.line ? "L" : "C"});
+    if (!s.line) point(item, s.p[1]), point(item, s.p[2]);
+    point(item, s.p[3]);
+    out.push_back(item);
+  }
+  return out;
+}
+
+/// Degrees that are read back as the same angle, where there are any.
+double exact_degrees(double angle) {
+  const double d = units::degrees(angle);
+  for (double near : {d, std::nextafter(d, 1e9), std::nextafter(d, -1e9)})
+    if (units::radians(near) == angle) return near;
+  return d;
+}
+
+io::Json loop_json(const std::vector<PanelEdge>& loop, double unit) {
+  io::Json out = io::Json::array();
+  for (const PanelEdge& e : loop) out.push_back({{"edge", e.name}, {"path", path_json(e.path, unit)}});
+  return out;
+}
+
+/// Text of group codes and values.
+class DxfWriter {
+public:
+  void tag(int code, const std::string& value) { m_text += std::to_string(code) + "\n" + value + "\n"; }
+  void tag(int code, double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.4f", value);
+    tag(code, std::string(text));
+  }
+  void point(const Vec2& p) { tag(10, p.x() * 1000), tag(20, p.y() * 1000); }
+  void entity(const char* kind, int layer) { tag(0, kind), tag(8, std::to_string(layer)); }
+  void text(int layer, const Vec2& at, const std::string& words) {
+    entity("TEXT", layer), point(at);
+    tag(40, 5.0), tag(1, words);
+  }
+  void mark(int layer, const Vec2& at) { entity("POINT", layer), point(at); }
+  void ring(int layer, const std::vector<Vec2>& points) { polyline(layer, points, "1"); }
+  void chain(int layer, const std::vector<Vec2>& points) { polyline(layer, points, "0"); }
+  const std::string& str() const { return m_text; }
+
+private:
+  void polyline(int layer, const std::vector<Vec2>& points, const char* closed) {
+    entity("POLYLINE", layer), tag(66, "1"), tag(70, closed);
+    for (const Vec2& p : points) entity("VERTEX", layer), point(p);
+    entity("SEQEND", layer);
+  }
+  std::string m_text;
+};
+
+std::string word(const std::string& name) { // names of seams and runs are single words in layer-15 texts
+  std::string out = name;
+  std::replace_if(
+      out.begin(), out.end(), [](char c) { return c == ' ' || c == '\n'; }, '_');
+  return out;
+}
+
+/// What readers cannot see from the sides: kind, whether it is left open, and why the sides differ. Last, for that is free text.
+std::string about_seam(const Seam& seam) {
+  std::string why = seam.ease;
+  std::replace_if(
+      why.begin(), why.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return " " + seam.kind + (seam.open ? " open" : "") + (why.empty() ? "" : " ease " + why);
+}
+
+/// Notches read from a DXF keep their layer, which tells their shape.
+int notch_layer(const Notch& notch) {
+  for (int layer : {80, 81, 82, 83})
+    if (notch.kind == "layer " + std::to_string(layer)) return layer;
+  return 4;
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return out;
+}
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", x + 0.0);
+  return text;
+}
+
+} // namespace
+
+io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNumbers numbers) {
+  const double unit = numbers == PatternNumbers::EXACT ? 1 : units::CM;
+  io::Json doc = io::new_document("pattern", 1, tool);
+  doc["length_unit"] = numbers == PatternNumbers::EXACT ? "m" : "cm";
+  doc["name"] = pattern.name;
+  io::Json panels = io::Json::array(), seams = io::Json::array();
+  for (const Panel& p : pattern.panels) {
+    io::Json panel = {{"name", p.name}, {"outline", loop_json(p.loops[0], unit)}, {"grain", io::to_json(p.grain)}};
+    if (p.loops.size() > 1) {
+      io::Json holes = io::Json::array();
+      for (std::size_t k = 1; k < p.loops.size(); ++k) holes.push_back(loop_json(p.loops[k], unit));
+      panel["holes"] = holes;
+    }
+    if (!p.material.empty()) panel["material"] = p.material;
+    if (p.layer) panel["layer"] = p.layer;
+    if (!p.label.empty()) panel["label"] = p.label;
+    if (!p.notches.empty()) {
+      io::Json notches = io::Json::array();
+      for (const Notch& n : p.notches) notches.push_back({{"edge", p.edge(n.edge).name}, {"at", n.at}, {"kind", n.kind}});
+      panel["notches"] = notches;
+    }
+    if (!p.lines.empty()) {
+      io::Json lines = io::Json::array();
+      for (const InnerLine& line : p.lines) {
+        lines.push_back({{"name", line.name}, {"kind", line.kind}, {"path", path_json(line.path, unit)}});
+        if (line.kind == "tape") lines.back()["factor"] = line.factor, lines.back()["width"] = line.width / unit;
+      }
+      panel["lines"] = lines;
+    }
+    if (!p.pleats.empty()) {
+      io::Json pleats = io::Json::array();
+      for (const Pleat& pleat : p.pleats) {
+        io::Json edges = io::Json::array();
+        for (int e : pleat.edges) edges.push_back(p.edge(e).name);
+        pleats.push_back({{"name", pleat.name},
+                          {"fold", p.lines[static_cast<std::size_t>(pleat.fold)].name},
+                          {"target", p.lines[static_cast<std::size_t>(pleat.target)].name},
+                          {"edges", edges}});
+      }
+      panel["pleats"] = pleats;
+    }
+    io::Json place = io::Json::object();
+    if (!p.hint.part.empty()) place["part"] = p.hint.part;
+    if (p.hint.theta) place["theta_deg"] = exact_degrees(*p.hint.theta);
+    if (p.hint.radius) place["radius"] = rounded(*p.hint.radius, unit);
+    if (p.hint.anchor) place["anchor"] = {rounded(p.hint.anchor->x(), unit), rounded(p.hint.anchor->y(), unit)};
+    if (p.hint.height) place["height"] = rounded(*p.hint.height, unit);
+    if (p.hint.rigid) {
+      io::Json rigid = io::Json::array();
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 4; ++c) rigid.push_back((*p.hint.rigid)(r, c) / (c == 3 ? unit : 1));
+      place["rigid"] = rigid;
+    }
+    if (!place.empty()) panel["place"] = place;
+    panels.push_back(panel);
+  }
+  for (const Seam& s : pattern.seams) {
+    io::Json seam = {{"name", s.name}, {"kind", s.kind}};
+    for (const auto* side : {&s.a, &s.b}) {
+      io::Json runs = io::Json::array();
+      for (const Run& r : *side) {
+        const Panel& panel = pattern.panels[static_cast<std::size_t>(r.panel)];
+        runs.push_back({{"panel", panel.name}, {"edge", panel.edge(r.edge).name}, {"from", r.from}, {"to", r.to}});
+      }
+      seam[side == &s.a ? "a" : "b"] = runs;
+    }
+    if (!s.ease.empty()) seam["ease"] = s.ease;
+    if (s.open) seam["open"] = true;
+    seams.push_back(seam);
+  }
+  doc["panels"] = panels, doc["seams"] = seams;
+  return doc;
+}
+
+std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_out) {
+  DxfWriter out;
+  std::vector<std::string> hinted; // panels
+  out.tag(0, "SECTION"), out.tag(2, "HEADER"), out.tag(9, "$ACADVER"), out.tag(1, "AC1009"), out.tag(0, "ENDSEC");
+  out.tag(0, "SECTION"), out.tag(2, "BLOCKS");
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
+    const Panel& panel = pattern.panels[p];
+    out.entity("BLOCK", 1), out.tag(2, word(panel.name)), out.tag(70, "64"), out.point(Vec2(0, 0));
+    out.text(1, Vec2(0, 0), "Piece Name: " + panel.name);
+    out.text(1, Vec2(0, 0), "Quantity: 1");
+    if (!panel.material.empty()) out.text(1, Vec2(0, 0), "Material: " + panel.material);
+    int e = 0;
+    for (std::size_t l = 0; l < panel.loops.size(); ++l) {
+      std::vector<Vec2> ring, turns, curve;
+      std::vector<std::pair<Vec2, std::string>> texts;
+      for (const PanelEdge& edge : panel.loops[l]) {
+        const ArcLength arc(edge.path);
+        turns.push_back(arc.at(0));
+        for (const Segment& s : edge.path) {
+          const int n = s.line ? 1 : std::max(1, static_cast<int>(std::ceil(s.length(0, 1) / DXF_CHORD)));
+          for (int k = 0; k < n; ++k) {
+            ring.push_back(s.at(static_cast<double>(k) / n));
+            if (k > 0 || &s != &edge.path.front()) curve.push_back(ring.back());
+          }
+        }
+        std::string said = "RUN " + word(edge.name);
+        for (const Seam& seam : pattern.seams)
+          for (const auto* side : {&seam.a, &seam.b})
+            for (std::size_t k = 0; k < side->size(); ++k) {
+              const Run& run = (*side)[k];
+              if (run.panel != static_cast<int>(p) || run.edge != e) continue;
+              if (std::min(run.from, run.to) > 0 || std::max(run.from, run.to) < 1) {
+                left_out.push_back("seam " + seam.name + ": only part of " + place_of(pattern, run) + " is sewn, which layer 15 cannot say");
+                continue;
+              }
+              said = "SEW " + word(seam.name) + (side == &seam.a ? " a " : " b ") + std::to_string(k) + (run.from < run.to ? " + " : " - ") + word(edge.name) +
+                     about_seam(seam);
+            }
+        texts.push_back({arc.at(0.5 * arc.length()), said});
+        ++e;
+      }
+      if (l == 0) out.ring(1, ring);
+      out.ring(l == 0 ? 14 : 11, ring);
+      for (const Vec2& q : turns) out.mark(2, q);
+      for (const Vec2& q : curve) out.mark(3, q);
+      for (const auto& [at, said] : texts) out.text(15, at, said);
+    }
+    for (const Notch& n : panel.notches) {
+      const ArcLength arc(panel.edge(n.edge).path);
+      out.mark(notch_layer(n), arc.at(n.at * arc.length()));
+    }
+    if (panel.layer) left_out.push_back(panel.name + ": that it lies in layer " + std::to_string(panel.layer) + " is not written");
+    if (!panel.hint.part.empty() || panel.hint.theta || panel.hint.anchor || panel.hint.height || panel.hint.rigid) hinted.push_back(panel.name);
+    for (const InnerLine& line : panel.lines) {
+      const ArcLength arc(line.path);
+      const bool bent = line.path.size() > 1 || !line.path[0].line;
+      const int n = bent ? std::max(1, static_cast<int>(std::ceil(arc.length() / DXF_CHORD))) : 1;
+      std::vector<Vec2> points;
+      for (int k = 0; k <= n; ++k) points.push_back(arc.at(arc.length() * k / n));
+      out.chain(8, points);
+      const auto uses = [&](const Pleat& pleat) { return &panel.lines[static_cast<std::size_t>(pleat.fold)] == &line; }; // pleats are told below
+      if (line.kind == "fold" && std::none_of(panel.pleats.begin(), panel.pleats.end(), uses))
+        left_out.push_back(panel.name + ": line " + line.name + " is written without saying that it is a fold");
+      if (line.kind == "tape") left_out.push_back(panel.name + ": line " + line.name + " is written without saying that it is a tape");
+    }
+    for (const Pleat& pleat : panel.pleats) left_out.push_back(panel.name + ": pleat " + pleat.name + " is written as two lines");
+    const Vec2 from = panel.loops[0][0].path.front().p[0], to = from + 0.1 * panel.grain;
+    out.entity("LINE", 7), out.point(from), out.tag(11, to.x() * 1000), out.tag(21, to.y() * 1000);
+    out.entity("ENDBLK", 1);
+  }
+  if (!hinted.empty()) // one line: nearly all panels of a garment have a hint, and names and seams tell most of it again
+    left_out.push_back(hinted[0] + (hinted.size() > 1 ? " and " + std::to_string(hinted.size() - 1) + " more" : "") +
+                       ": where it is to be placed is not written");
+  out.tag(0, "ENDSEC"), out.tag(0, "SECTION"), out.tag(2, "ENTITIES");
+  for (const Panel& panel : pattern.panels) out.entity("INSERT", 1), out.tag(2, word(panel.name)), out.point(Vec2(0, 0));
+  out.text(1, Vec2(0, 0), "Style Name: " + pattern.name);
+  out.text(1, Vec2(0, 0), "Units: METRIC");
+  out.text(1, Vec2(0, 0), "ANSI/AAMA VERSION: 1.0.0");
+  out.tag(0, "ENDSEC"), out.tag(0, "EOF");
+  return out.str();
+}
+
+std::string pattern_svg(const Pattern& pattern) {
+  std::string body;
+  double x = 20, height = 0;
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
+    const Panel& panel = pattern.panels[p];
+    Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+    for (const PanelEdge& e : panel.loops[0]) {
+      const ArcLength arc(e.path);
+      for (int k = 0; k <= 32; ++k) low = low.cwiseMin(arc.at(arc.length() * k / 32)), high = high.cwiseMax(arc.at(arc.length() * k / 32));
+    }
+    const auto at = [&](const Vec2& q) { return number(x + (q.x() - low.x()) * 1000) + " " + number(40 + (high.y() - q.y()) * 1000); };
+    const auto path = [&](const Path& segments, bool move) {
+      std::string d = move ? "M" + at(segments.front().p[0]) : "";
+      for (const Segment& s : segments) d += s.line ? " L" + at(s.p[3]) : " C" + at(s.p[1]) + " " + at(s.p[2]) + " " + at(s.p[3]);
+      return d;
+    };
+    std::string fill;
+    for (const auto& loop : panel.loops) {
+      for (std::size_t k = 0; k < loop.size(); ++k) fill += path(loop[k].path, k == 0) + " ";
+      fill += "Z ";
+    }
+    body += "<g id=\"" + escaped(panel.name) + "\">\n<path d=\"" + fill + "\" fill=\"#f4f1ea\" fill-rule=\"evenodd\"/>\n";
+    for (const InnerLine& line : panel.lines)
+      body += "<path d=\"" + path(line.path, true) + "\" fill=\"none\" stroke=\"#555\" stroke-width=\"0.8\" stroke-dasharray=\"" +
+              (line.kind == "fold"   ? "8 4"
+               : line.kind == "tape" ? "2 2"
+                                     : "1 4") +
+              "\"/>\n";
+    for (int e = 0; e < panel.n_edges(); ++e) {
+      std::string color = "#888";
+      double width = 1;
+      for (std::size_t s = 0; s < pattern.seams.size(); ++s)
+        for (const auto* side : {&pattern.seams[s].a, &pattern.seams[s].b})
+          for (const Run& run : *side)
+            if (run.panel == static_cast<int>(p) && run.edge == e) color = "hsl(" + std::to_string(s * 137 % 360) + ",75%,42%)", width = 3;
+      const ArcLength arc(panel.edge(e).path);
+      body += "<path d=\"" + path(panel.edge(e).path, true) + "\" fill=\"none\" stroke=\"" + color + "\" stroke-width=\"" + number(width) + "\"/>\n";
+      const std::string where = at(arc.at(0.5 * arc.length()));
+      const std::size_t gap = where.find(' ');
+      body += "<text x=\"" + where.substr(0, gap) + "\" y=\"" + where.substr(gap + 1) + "\" font-size=\"9\" text-anchor=\"middle\" fill=\"#333\">" +
+              escaped(panel.edge(e).name) + "</text>\n";
+    }
+    const Vec2 middle = 0.5 * (low + high), tip = middle + 0.05 * panel.grain, tail = middle - 0.05 * panel.grain;
+    body += "<path d=\"M" + at(tail) + " L" + at(tip) + "\" stroke=\"#333\" stroke-width=\"1\" marker-end=\"url(#tip)\"/>\n";
+    body += "<text x=\"" + number(x) + "\" y=\"25\" font-size=\"16\">" + escaped(panel.name) + "</text>\n</g>\n";
+    x += (high.x() - low.x()) * 1000 + 30;
+    height = std::max(height, (high.y() - low.y()) * 1000);
+  }
+  const std::string w = number(x), h = number(height + 60);
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "mm\" height=\"" + h + "mm\" viewBox=\"0 0 " + w + " " + h +
+         "\" font-family=\"sans-serif\">\n<defs><marker id=\"tip\" orient=\"auto\" markerWidth=\"8\" markerHeight=\"8\" refX=\"6\" refY=\"3\"><path d=\"M0 0 "
+         "L6 3 L0 6 Z\"/></marker></defs>\n" +
+         "<title>" + escaped(pattern.name) + "</title>\n" + body + "</svg>\n";
+}
+
+} // namespace sloper::pattern

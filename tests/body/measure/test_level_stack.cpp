@@ -1,0 +1,106 @@
+/// Level slices of simple solids: which loop is the trunk, where the crotch lies, and the arm pit between an arm and a trunk.
+#include <body/measure/arm_trace.hpp>
+#include <body/measure/level_stack.hpp>
+#include <gtest/gtest.h>
+
+using namespace sloper;
+using namespace sloper::body;
+
+namespace {
+
+constexpr double STATURE = 1.7;
+
+void append(TriangleMesh& mesh, const TriangleMesh& more) {
+  const int shift = static_cast<int>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
+  for (const Triangle& t : more.triangles) mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+}
+
+/// A prism over `outline` (counterclockwise about `along`, seen whole from its first point), from -half to half of it.
+TriangleMesh prism(const std::vector<Vec2>& outline, const Vec3& first, const Vec3& second, const Vec3& along, double half) {
+  TriangleMesh mesh;
+  const int n = static_cast<int>(outline.size());
+  for (const double end : {-half, half})
+    for (const Vec2& q : outline) mesh.positions.push_back(q.x() * first + q.y() * second + end * along);
+  for (int k = 0; k < n; ++k) {
+    const int next = (k + 1) % n;
+    mesh.triangles.push_back({k, next, next + n});
+    mesh.triangles.push_back({k, next + n, k + n});
+    if (k == 0 || next == 0) continue;
+    mesh.triangles.push_back({0, next, k});
+    mesh.triangles.push_back({n, k + n, next + n});
+  }
+  return mesh;
+}
+
+TriangleMesh box(const Vec3& low, const Vec3& high) {
+  TriangleMesh mesh = prism({{low.x(), low.y()}, {high.x(), low.y()}, {high.x(), high.y()}, {low.x(), high.y()}}, Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(),
+                            0.5 * (high.z() - low.z()));
+  for (Vec3& p : mesh.positions) p.z() += 0.5 * (low.z() + high.z());
+  return mesh;
+}
+
+TriangleMesh legs(double top) {
+  TriangleMesh mesh = box({0.03, 0, -0.07}, {0.15, top, 0.07});
+  append(mesh, box({-0.15, 0, -0.07}, {-0.03, top, 0.07}));
+  return mesh;
+}
+
+/// Legs under a trunk whose lower side is lowest in front and behind, there by `lower` more.
+TriangleMesh two_lowest_places(double lower) {
+  TriangleMesh mesh = legs(0.82);
+  const std::vector<Vec2> side = {{0, 1.4}, {-0.12, 1.4}, {-0.1, 0.8 - lower}, {0, 0.81}, {0.06, 0.8}, {0.12, 1.4}}; // z, y
+  append(mesh, prism(side, Vec3::UnitZ(), Vec3::UnitY(), -Vec3::UnitX(), 0.17));
+  return mesh;
+}
+
+} // namespace
+
+TEST(LevelStack, trunk_goes_on_in_the_neck_where_raised_shoulders_are_larger) {
+  TriangleMesh mesh = legs(0.8);
+  append(mesh, box({-0.18, 0.8, -0.1}, {0.18, 1.3, 0.1}));
+  append(mesh, box({-0.8, 1.3, -0.08}, {0.8, 1.4, 0.08}));
+  append(mesh, box({0.15, 1.4, -0.08}, {0.5, 1.46, 0.08}));
+  append(mesh, box({-0.5, 1.4, -0.08}, {-0.15, 1.46, 0.08}));
+  append(mesh, box({-0.05, 1.4, -0.06}, {0.05, 1.7, 0.06}));
+  const LevelStack levels(mesh, STATURE, 0.005);
+  for (const double y : {1.42, 1.45, 1.55}) {
+    const auto neck = levels.trunk_at(y);
+    ASSERT_TRUE(neck) << y;
+    EXPECT_NEAR(neck->size().x(), 0.1, 1e-9) << y;
+  }
+}
+
+TEST(LevelStack, crotch_that_is_as_low_behind_lies_in_front) {
+  const TriangleMesh nearly = two_lowest_places(0.0003), clearly = two_lowest_places(0.0015);
+  const LevelStack front(nearly, STATURE, 0.005), back(clearly, STATURE, 0.005);
+  ASSERT_TRUE(front.crotch() && back.crotch());
+  EXPECT_NEAR(*front.crotch(), 0.7997, 1e-6); // its height is the lowest all the same
+  EXPECT_NEAR(*back.crotch(), 0.7985, 1e-6);
+  EXPECT_NEAR(front.crotch_point().y(), 0.06, 0.005);
+  EXPECT_NEAR(back.crotch_point().y(), -0.1, 0.005);
+}
+
+/// The skin from a level arm to the trunk's side runs along the lines that look for the gap between both: it closes nowhere in particular.
+TEST(ArmPit, lies_at_its_usual_distance_from_a_level_arm_where_the_skin_has_no_corner) {
+  const std::vector<Vec2> outline = {{0.19, 1.42},    {0, 1.42},     {0, 0.9},    {0.15, 0.9},  {0.19, 1.1},
+                                     {0.205, 1.2253}, {0.26, 1.315}, {0.3, 1.32}, {0.75, 1.32}, {0.75, 1.42}};
+  const TriangleMesh skin = prism(outline, Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(), 0.1);
+  const LevelStack levels(skin, STATURE, 0.005);
+  ArmTrace arm;
+  arm.left = true;
+  arm.tip = Vec3(0.75, 1.37, 0);
+  arm.out = Vec3::UnitX();
+  arm.sections.resize(20);
+  for (std::size_t k = 0; k < arm.sections.size(); ++k) {
+    LimbSection& section = arm.sections[k];
+    section.along = 0.025 * static_cast<double>(k);
+    section.center = arm.tip - section.along * arm.out;
+    section.axis = -arm.out;
+    section.girth = 0.33;
+  }
+  find_axilla(arm, levels, Rules::standard());
+  ASSERT_TRUE(arm.axilla);
+  EXPECT_FALSE(arm.pit_hidden);
+  EXPECT_NEAR(arm.axilla->y(), 1.282, 0.008);
+}

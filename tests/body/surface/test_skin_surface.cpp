@@ -1,0 +1,78 @@
+#include <support/figures.hpp>
+
+#include <body/surface/skin_surface.hpp>
+#include <gtest/gtest.h>
+
+using namespace sloper;
+using namespace sloper::body;
+
+namespace {
+
+std::vector<char> all(const TriangleMesh& mesh) { return std::vector<char>(mesh.positions.size(), 1); }
+
+double mean_distance(const TriangleMesh& from, const TriangleMesh& to) {
+  double sum = 0;
+  int n = 0;
+  for (std::size_t v = 0; v < from.positions.size(); v += 37, ++n) {
+    double least = 1e300;
+    for (const Vec3& q : to.positions) least = std::min(least, (q - from.positions[v]).squaredNorm());
+    sum += std::sqrt(least);
+  }
+  return sum / n;
+}
+
+} // namespace
+
+TEST(Skin, of_a_sound_mesh_is_the_mesh_itself) {
+  const TriangleMesh& mesh = test::mannequin("f-165-a").mesh;
+  const SkinSurface skin = make_skin(mesh.positions, mesh.triangles, all(mesh), 1.65);
+  EXPECT_FALSE(skin.rebuilt);
+  EXPECT_EQ(skin.mesh.triangles.size(), mesh.triangles.size());
+  EXPECT_GT(test::volume(skin.mesh), 0.03);
+}
+
+TEST(Skin, of_a_mesh_with_turned_and_doubled_faces_is_whole_again) {
+  TriangleMesh mesh = test::mannequin("f-165-a").mesh;
+  const double volume = test::volume(mesh);
+  Random random(5);
+  const std::size_t n = mesh.triangles.size();
+  for (std::size_t t = 0; t < n; ++t) {
+    if (random.uniform() < 0.05) mesh.triangles.push_back(mesh.triangles[t]);
+    if (random.uniform() < 0.3) std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
+  }
+  mesh.triangles.push_back({1, 1, 2});
+  const SkinSurface skin = make_skin(mesh.positions, mesh.triangles, all(mesh), 1.65);
+  EXPECT_FALSE(skin.rebuilt);
+  EXPECT_TRUE(test::is_closed_and_oriented(skin.mesh));
+  EXPECT_NEAR(test::volume(skin.mesh), volume, 1e-9);
+}
+
+TEST(Skin, of_bare_noisy_points_is_a_closed_surface_near_them) {
+  const TriangleMesh& clean = test::mannequin("f-165-a").mesh;
+  const TriangleMesh noisy = test::with_noise(clean, 0.0015, 3);
+  const SkinSurface skin = make_skin(noisy.positions, {}, all(noisy), 1.65);
+  EXPECT_TRUE(skin.rebuilt);
+  EXPECT_TRUE(test::is_closed_and_oriented(skin.mesh));
+  EXPECT_LT(skin.mesh.triangles.size(), 70000u);
+  EXPECT_NEAR(test::volume(skin.mesh), test::volume(clean), 0.04 * test::volume(clean));
+  EXPECT_LT(mean_distance(skin.mesh, clean), 0.008);
+  EXPECT_FALSE(skin.findings.empty());
+}
+
+TEST(Skin, of_a_mesh_with_one_small_hole_keeps_its_vertices_and_is_closed) {
+  TriangleMesh mesh = test::mannequin("m-178-a").mesh;
+  std::erase_if(mesh.triangles, [&](const Triangle& t) { return (mesh.positions[t[0]] - Vec3(0, 1.2, 0.12)).norm() < 0.03; });
+  const SkinSurface skin = make_skin(mesh.positions, mesh.triangles, all(mesh), 1.78);
+  EXPECT_FALSE(skin.rebuilt);
+  EXPECT_TRUE(test::is_closed_and_oriented(skin.mesh));
+}
+
+TEST(Skin, of_a_mesh_with_large_holes_is_closed) {
+  TriangleMesh mesh = test::mannequin("m-178-a").mesh;
+  for (const Vec3& hole : {Vec3(0, 1.2, 0.12), Vec3(0, 1.75, 0), Vec3(0.2, 0.05, 0.1), Vec3(-0.2, 1.3, 0), Vec3(0, 0.9, -0.1)})
+    std::erase_if(mesh.triangles, [&](const Triangle& t) { return (mesh.positions[t[0]] - hole).norm() < 0.12; });
+  const SkinSurface skin = make_skin(mesh.positions, mesh.triangles, all(mesh), 1.78);
+  EXPECT_TRUE(skin.rebuilt);
+  EXPECT_GT(skin.border_edges, 0);
+  EXPECT_TRUE(test::is_closed_and_oriented(skin.mesh));
+}
