@@ -3,13 +3,13 @@
 #include <cli/run_tool.hpp>
 #include <collision/skin_cache.hpp>
 #include <garment/bind/bind.hpp>
+#include <garment/drape/drape_job.hpp>
 #include <garment/fit/stretch.hpp>
 #include <garment/garment_json.hpp>
 #include <garment/inputs.hpp>
 #include <garment/kes.hpp>
 #include <garment/scene/scene.hpp>
-#include <garment/simulate/drape_job.hpp>
-#include <garment/simulate/drape_state.hpp>
+#include <garment/simulate/checkpoint.hpp>
 #include <io/json.hpp>
 #include <pattern/mesh/folds.hpp>
 #include <pattern/panel_mesh_json.hpp>
@@ -161,7 +161,7 @@ int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment, std:
     return static_cast<int>(ErrorKind::FAILED);
   }
   if (report.converged) return outcome.refused_lines > 0 ? static_cast<int>(ErrorKind::FAILED) : 0;
-  tool.reporter().warning("not done: " + report.stop_reason + " after " + std::to_string(report.steps) + " steps; the state reached is in " + o.output);
+  tool.reporter().warning("not done: " + garment::stop_text(report) + " after " + std::to_string(report.steps) + " steps; the state reached is in " + o.output);
   return static_cast<int>(ErrorKind::FAILED);
 }
 

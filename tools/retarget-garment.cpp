@@ -3,6 +3,7 @@
 #include <cli/run_tool.hpp>
 #include <collision/skin_cache.hpp>
 #include <garment/bind/bind.hpp>
+#include <garment/drape/drape.hpp>
 #include <garment/fit/fit.hpp>
 #include <garment/fit/stretch.hpp>
 #include <garment/garment_json.hpp>
@@ -10,7 +11,6 @@
 #include <garment/retarget/retarget.hpp>
 #include <garment/retarget/retarget_pattern.hpp>
 #include <garment/scene/scene.hpp>
-#include <garment/simulate/drape.hpp>
 #include <io/files.hpp>
 #include <io/json.hpp>
 #include <pattern/write/export_pattern.hpp>
@@ -115,21 +115,23 @@ int run(cli::Tool& tool, const Options& o) {
   garment::Retargeted placed = garment::retarget(source, body, skin, mode, tool.reporter());
   garment::Garment& garment = placed.garment;
   garment.body_sha256 = skin_hash;
-  settings.hold_sleeve_ends = placed.has_folded_sleeves;
   garment::FitReport fit;
   if (!o.no_drape) fit = garment::fit_before_drape(garment, source.position, body, policy);
   garment::DrapeReport report;
   report.settings = settings;
-  report.stop_reason = "placed only";
+  report.stop_reason = garment::StopReason::PLACED_ONLY;
   const bool hopeless = !fit.fits, keep_fit = mode == garment::RetargetMode::KEEP_FIT;
-  if (hopeless) report.stop_reason = "not draped: the garment " + fit.reason;
-  const garment::FitBounds bounds = garment::hopeless_beyond(policy, fit);
+  if (hopeless) {
+    report.stop_reason = garment::StopReason::NOT_DRAPED;
+    report.stop_detail = fit.reason;
+  }
+  const garment::DrapeRequest request{.bounds = garment::hopeless_beyond(policy, fit), .start = {.hold_sleeve_ends = placed.has_folded_sleeves}};
   for (;;) {
-    if (!o.no_drape && !hopeless) report = garment::drape(garment, &body, settings, tool.reporter(), bounds);
+    if (!o.no_drape && !hopeless) report = garment::drape(garment, &body, settings, tool.reporter(), request);
     garment::bind_garment(garment, body);
     if (hopeless) break;
     const auto& made_for = keep_fit ? garment.body_girths_m : source.body_girths_m; // keep-fit cuts it anew
-    fit = garment::fit_garment(garment, body, skin, policy, &placed.placed, report.unfit, made_for);
+    fit = garment::fit_garment(garment, body, skin, policy, &placed.placed, garment::misfit_text(report.misfit), made_for);
     const bool too_tight = !fit.fits && fit.verdict == garment::FitVerdict::TOO_SMALL;
     if (!keep_fit || o.no_drape || !too_tight || placed.report.gradings == MOST_GRADINGS) break;
     if (settings.max_seconds > 0 && (settings.max_seconds -= report.wall_s) <= 0) break;
@@ -152,8 +154,9 @@ int run(cli::Tool& tool, const Options& o) {
     document["hash"] = {{"strict", garment::strict_hash(garment)}, {"quantised_10um", garment::quantised_hash(garment)}};
     io::write_json(o.report, document);
   }
-  if (!o.no_drape && !hopeless && !report.converged && report.unfit.empty())
-    tool.reporter().warning("not done: " + report.stop_reason + " after " + std::to_string(report.steps) + " steps; the state reached is in " + o.output);
+  if (!o.no_drape && !hopeless && !report.converged && report.misfit == garment::Misfit::NONE)
+    tool.reporter().warning("not done: " + garment::stop_text(report) + " after " + std::to_string(report.steps) + " steps; the state reached is in " +
+                            o.output);
   if (!fit.fits && !o.no_drape) return refuse(tool, o, fit);
   return report.converged || o.no_drape ? 0 : static_cast<int>(ErrorKind::FAILED);
 }

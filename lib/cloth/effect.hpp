@@ -9,6 +9,8 @@
 
 namespace sloper::cloth {
 
+struct ClothMesh;
+
 /// What an effect sees and fills while a step is assembled.
 struct StepContext {
   const std::vector<Vec3>& x;            ///< #P by 3, m
@@ -27,6 +29,9 @@ public:
   /// if that is all that these blocks ever are.
   virtual void declare(Couplings& /*couplings*/) const {}
   virtual void bind(const BlockMatrix&) {}
+  /// The same particles and triangles have other rest shapes from now on, which `mesh` has already. Default: for effects that read them from the
+  /// mesh, or have none. @return false where the effect must be made anew
+  virtual bool set_rest(const ClothMesh& /*mesh*/) { return true; }
   /// Before assembly: find contacts for the positions x.
   virtual void begin_step(const std::vector<Vec3>& /*x*/, double /*h*/) {}
   /// Within a step of several solves, which has come to x so far: find contacts there.

@@ -123,7 +123,7 @@ Outcome contact_scene(const Parameters& p, std::uint64_t seed) {
   double clean_since = -1, largest_inside = 0, rms_when_pinched = 0, still_speed = 0;
   std::vector<Vec3> before_pinch;
   Watch watch(solver, o.inertia);
-  cloth::BodyMotion swept(solver, touch, body);
+  cloth::BodyMotion swept(solver, touch, body, self);
   const double there = motion.kind == "close" ? motion.way / motion.speed : 0;
   int k = 0;
   for (double t = o.h; t < duration + 0.5 * o.h; t += o.h, ++k) {

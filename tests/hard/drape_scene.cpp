@@ -3,11 +3,11 @@
 
 #include "scene_tools.hpp"
 
+#include <garment/drape/drape.hpp>
 #include <garment/materials.hpp>
 #include <garment/scene/scene.hpp>
 #include <garment/sewing.hpp>
 #include <garment/simulate/audit.hpp>
-#include <garment/simulate/drape.hpp>
 
 #include <cmath>
 
@@ -130,7 +130,7 @@ void spoil(Garment& g, const std::string& what) {
 }
 
 void measure(Outcome& out, const Garment& g, const garment::DrapeReport& report, const collision::BodyCollider* body) {
-  out.said = report.stop_reason;
+  out.said = stop_text(report);
   for (const std::string& r : report.repairs) out.said += "; " + r;
   out.exit = report.converged ? 0 : 4;
   const cloth::ClothMesh mesh = garment::cloth_mesh_of(g);

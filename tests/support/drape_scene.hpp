@@ -2,8 +2,8 @@
 /// A scene made for tests: a round pillar that widens below its waist, a motion of it, and a two-panel skirt around it.
 #include <body/body.hpp>
 #include <cmath>
+#include <garment/drape/motion.hpp>
 #include <garment/garment.hpp>
-#include <garment/simulate/motion.hpp>
 
 namespace sloper::garment {
 

@@ -3,9 +3,9 @@
 
 #include <body/body.hpp>
 #include <cmath>
+#include <garment/drape/drape.hpp>
 #include <garment/garment.hpp>
 #include <garment/materials.hpp>
-#include <garment/simulate/drape.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;

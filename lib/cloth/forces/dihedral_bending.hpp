@@ -16,6 +16,7 @@ public:
   /// @param rest_angle  #hinges or empty (all flat), rad, in the sign of hinge_angle()
   explicit DihedralBendingEffect(const ClothMesh& mesh, std::vector<double> rest_angle = {});
   const char* name() const override { return "dihedral_bending"; }
+  bool set_rest(const ClothMesh& /*mesh*/) override { return false; } ///< made with settings of the scene
   void declare(Couplings& couplings) const override;
   void bind(const BlockMatrix& matrix) override { m_slots = find_hinge_slots(m_mesh, matrix); }
   void add(StepContext& c) override;

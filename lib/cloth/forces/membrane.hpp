@@ -14,6 +14,7 @@ class MembraneEffect : public Effect {
 public:
   explicit MembraneEffect(const ClothMesh& mesh);
   const char* name() const override { return "membrane"; }
+  bool set_rest(const ClothMesh& /*mesh*/) override { return false; } ///< made with settings of the scene
   void declare(Couplings& couplings) const override { declare_pairs(m_maps, couplings.full); }
   void bind(const BlockMatrix& matrix) override { find_slots(m_maps, matrix); }
   void add(StepContext& c) override;

@@ -27,11 +27,12 @@ class ShearEffect : public Effect {
 public:
   explicit ShearEffect(const ClothMesh& mesh) : m_shear(make_shear(mesh)) {}
   const char* name() const override { return "shear"; }
-  /// The same triangles with other rest shapes.
-  void set_rest(const ClothMesh& mesh) {
+  bool set_rest(const ClothMesh& mesh) override {
     std::vector<ShearTriangle> fresh = make_shear(mesh);
-    for (std::size_t k = 0; k < fresh.size() && k < m_shear.size(); ++k) fresh[k].slots = m_shear[k].slots;
+    if (fresh.size() != m_shear.size()) return false;
+    for (std::size_t k = 0; k < fresh.size(); ++k) fresh[k].slots = m_shear[k].slots;
     m_shear = std::move(fresh);
+    return true;
   }
   void declare(Couplings& couplings) const override;
   void bind(const BlockMatrix& matrix) override { find_slots(m_shear, matrix); }

@@ -21,6 +21,7 @@ public:
   /// @param shrink  #F or empty (no triangle shrinks)
   explicit TriangleStretchEffect(const ClothMesh& mesh, std::vector<Shrink> shrink = {});
   const char* name() const override { return "triangle_stretch"; }
+  bool set_rest(const ClothMesh& /*mesh*/) override { return false; } ///< made with settings of the scene
   void declare(Couplings& couplings) const override { declare_pairs(m_maps, couplings.symmetric); }
   void bind(const BlockMatrix& matrix) override { find_slots(m_maps, matrix); }
   void add(StepContext& c) override;

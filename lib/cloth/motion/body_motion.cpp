@@ -51,11 +51,8 @@ double longest_of(const std::vector<Vec3>& way) {
 
 } // namespace
 
-BodyMotion::BodyMotion(ClothSolver& solver, BodyContactEffect& contact, collision::BodyCollider& body)
-    : m_solver(solver), m_contact(contact), m_body(body), m_nearest(solver.x().size(), -1) {
-  for (const auto& effect : solver.effects())
-    if (effect->name() == std::string("self_contact")) m_self_contact = static_cast<SelfContactEffect*>(effect.get());
-}
+BodyMotion::BodyMotion(ClothSolver& solver, BodyContactEffect& contact, collision::BodyCollider& body, SelfContactEffect* self_contact)
+    : m_solver(solver), m_contact(contact), m_body(body), m_self_contact(self_contact), m_nearest(solver.x().size(), -1) {}
 
 /// As the nearest skin goes: by the way of its triangle, in the barycentric coordinates of the nearest point. Cloth that is farther off goes on as it
 /// flies, the more the farther: left behind, it would be torn from what is carried, and no step tells well where from there.

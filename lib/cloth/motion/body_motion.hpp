@@ -19,7 +19,8 @@ namespace sloper::cloth {
 class BodyMotion {
 public:
   /// All outlive this; `contact` is an effect of `solver`.
-  BodyMotion(ClothSolver& solver, BodyContactEffect& contact, collision::BodyCollider& body);
+  /// @param contact, self_contact  effects of `solver`; the latter null where the cloth has none
+  BodyMotion(ClothSolver& solver, BodyContactEffect& contact, collision::BodyCollider& body, SelfContactEffect* self_contact = nullptr);
 
   /// The skin goes straight to `target` (#V by 3, m) and the cloth steps meanwhile; both take options.h seconds.
   /// @param options  of each part, whose h is its share of options.h (with inertia 0 all of it: that flow knows no time)

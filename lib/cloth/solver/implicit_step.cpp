@@ -45,11 +45,23 @@ bool all_finite(const std::vector<Vec3>& x) {
 
 } // namespace
 
-ClothSolver::ClothSolver(const ClothMesh& mesh, std::vector<Vec3> x) : m_mesh(mesh), m_x(std::move(x)), m_preconditioner(std::make_unique<Aggregation>()) {
+ClothSolver::ClothSolver(const ClothMesh& mesh, std::vector<Vec3>& x, std::vector<Vec3>& v)
+    : m_mesh(mesh), m_x(x), m_v(v), m_preconditioner(std::make_unique<Aggregation>()) {
+  begin();
+}
+
+ClothSolver::ClothSolver(const ClothMesh& mesh, std::vector<Vec3> x)
+    : m_mesh(mesh), m_own_x(std::move(x)), m_x(m_own_x), m_v(m_own_v), m_preconditioner(std::make_unique<Aggregation>()) {
+  begin();
+}
+
+void ClothSolver::begin() {
+  const ClothMesh& mesh = m_mesh;
   if (static_cast<int>(m_x.size()) != mesh.n_particles) throw Error(ErrorKind::INTERNAL, "", "", "positions and particles differ in number");
   if (!all_finite(m_x)) throw input_error("", "", "a particle's position is not a finite number");
-  m_v.assign(m_x.size(), Vec3::Zero());
-  m_force = m_rhs = m_dx = m_v;
+  if (m_v.size() != m_x.size()) m_v.assign(m_x.size(), Vec3::Zero());
+  m_force.assign(m_x.size(), Vec3::Zero());
+  m_rhs = m_dx = m_force;
   m_freeze.assign(m_x.size(), 0);
   m_frozen_for = m_freeze;
   for (double e : mesh.shortest_edge) m_mean_edge += e / mesh.n_particles;

@@ -65,7 +65,13 @@ struct StepResult {
 /// State and effects of one cloth. Allocates at the first step only, apart from growing contact lists and steps of several solves.
 class ClothSolver {
 public:
+  /// Steps a state that lives elsewhere, in place. @param x  #P by 3, m   @param v  #P by 3, m/s; of another length: the cloth is at rest.
+  /// Mesh and state outlive the solver. @throws Error INPUT for a position that is not finite
+  ClothSolver(const ClothMesh& mesh, std::vector<Vec3>& x, std::vector<Vec3>& v);
+  /// Owns its state: at rest at x. @param x  #P by 3, m
   ClothSolver(const ClothMesh& mesh, std::vector<Vec3> x);
+  ClothSolver(const ClothSolver&) = delete;
+  ClothSolver& operator=(const ClothSolver&) = delete;
   /// Effects run in the order in which they are added.
   Effect& add(std::unique_ptr<Effect> effect);
   template<class T, class... Args> T& emplace(Args&&... args) { return static_cast<T&>(add(std::make_unique<T>(std::forward<Args>(args)...))); }
@@ -81,6 +87,8 @@ public:
   const std::vector<Vec3>& x() const { return m_x; }
   const std::vector<Vec3>& v() const { return m_v; }
   void set_positions(std::vector<Vec3> x);
+  /// The caller moved x: velocity is zero from now on, and nothing is known of the way so far.
+  void positions_changed() { stop(); }
   /// Adds to positions and to velocities; for what carries cloth beside its steps (BodyMotion). Sizes #P.
   void shift(const std::vector<Vec3>& dx, const std::vector<Vec3>& dv) {
     for (std::size_t i = 0; i < m_x.size(); ++i) m_x[i] += dx[i], m_v[i] += dv[i];
@@ -101,6 +109,7 @@ public:
   double assembly_s = 0, solve_s = 0, contact_s = 0, search_s = 0; ///< wall seconds so far
 
 private:
+  void begin(); ///< of both constructors
   void rebuild_pattern();
   void assemble(double h, bool again = false);                                     ///< @param again  the step has come some of its way
   StepResult newton_step(const StepOptions& options, int most_solves, bool begun); ///< @param begun  effects have begun this step
@@ -124,11 +133,13 @@ private:
   CgResult solve(const StepOptions& options);
 
   const ClothMesh& m_mesh;
-  std::vector<Vec3> m_x, m_v, m_force, m_rhs, m_dx, m_step, m_trial, m_trial_dx; // m_step: as solved, before limits
-  std::vector<Vec3> m_last_dx;                                                   // #P: the way of the last step
-  int m_carried_for = 0;                                                         // steps since the last start of the momentum
-  std::vector<double> m_energies;                                                // J, before the last steps
-  int m_falls_for = 0;                                                           // steps that may not go up
+  std::vector<Vec3> m_own_x, m_own_v; // empty where the state lives elsewhere
+  std::vector<Vec3>&m_x, &m_v;
+  std::vector<Vec3> m_force, m_rhs, m_dx, m_step, m_trial, m_trial_dx; // m_step: as solved, before limits
+  std::vector<Vec3> m_last_dx;                                         // #P: the way of the last step
+  int m_carried_for = 0;                                               // steps since the last start of the momentum
+  std::vector<double> m_energies;                                      // J, before the last steps
+  int m_falls_for = 0;                                                 // steps that may not go up
   std::vector<std::unique_ptr<Effect>> m_effects;
   std::vector<ContactElement> m_elements;
   ContactIndex m_contacts; // of m_elements

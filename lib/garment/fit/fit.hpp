@@ -12,10 +12,10 @@
 /// does), unless it was ended for them.
 #include <body/body.hpp>
 #include <collision/body_collider.hpp>
+#include <garment/drape/drape.hpp>
 #include <garment/fit/fit_lines.hpp>
 #include <garment/fit/fit_policy.hpp>
 #include <garment/garment.hpp>
-#include <garment/simulate/drape.hpp>
 #include <io/json_fwd.hpp>
 
 #include <limits>
@@ -79,7 +79,7 @@ struct FitReport {
 /// @param placed  positions before the drape, #P, or nullptr: how far the garment slid is measured from them
 /// @param made_for  Garment::body_girths_m of the body it was cut for, if known: what was cut wide is not too large for being wide, and what
 ///                 was cut tight not too small for being tight (see FitPolicy::too_large_ease, too_small_ease)
-/// @param unfit  DrapeReport::unfit: where FitBounds ended the drape, strain and slip decide although it is not at rest, and the answer is no
+/// @param unfit  misfit_text(DrapeReport::misfit): where FitBounds ended the drape, strain and slip decide although it is not at rest, and the answer is no
 /// @throws Error INPUT when it is not bound
 FitReport fit_garment(const Garment& garment, const body::Body& body, const collision::BodyCollider& skin, const FitPolicy& policy,
                       const std::vector<Vec3>* placed = nullptr, const std::string& unfit = {}, const std::map<std::string, double>& made_for = {});

@@ -79,8 +79,10 @@ void judge_stretch(Garment& garment, DrapeOutcome& outcome, const Start& start, 
   reporter.warning(findings.back());
   if (!failed || !report.converged) return;
   report.converged = garment.converged = false;
-  report.stop_reason = "at rest, but stretched by " + strain_text(now.p99) + ", on its own body by " + strain_text(*before);
-  outcome.document["converged"] = false, outcome.document["stop_reason"] = report.stop_reason;
+  report.stop_reason = StopReason::AT_REST_STRETCHED;
+  report.stop_detail = strain_text(now.p99) + ", on its own body by " + strain_text(*before);
+  outcome.document["converged"] = false;
+  outcome.document["stop_reason"] = stop_text(report);
 }
 
 } // namespace sloper::garment

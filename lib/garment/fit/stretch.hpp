@@ -1,7 +1,7 @@
 #pragma once
 /// How far a garment at rest is stretched, and whether that is what was meant by draping it.
+#include <garment/drape/drape_job.hpp>
 #include <garment/inputs.hpp>
-#include <garment/simulate/drape_job.hpp>
 
 namespace sloper::garment {
 

@@ -64,7 +64,7 @@ std::string why_stuck(const Garment& garment, const body::Body& body);
 struct Retargeted {
   Garment garment;                 ///< placed on the new body and clear of its skin, still bound to the old one; converged is false
   std::vector<Vec3> placed;        ///< #P by 3, m: by coordinates alone
-  bool has_folded_sleeves = false; ///< longer than the arms, and their ends are at the wrists: for DrapeSettings::hold_sleeve_ends
+  bool has_folded_sleeves = false; ///< longer than the arms, and their ends are at the wrists: for StartFacts::hold_sleeve_ends
   PlacementReport report;
 };
 /// @throws Error INPUT when the garment is not bound or hangs on a part that `to` lacks

@@ -1,7 +1,9 @@
 #pragma once
 /// Which effects a scene calls for, and why: pay as you go (DESIGN section 10).
 #include <body/body.hpp>
-#include <garment/simulate/drape.hpp>
+#include <garment/garment.hpp>
+#include <garment/scene/effect_report.hpp>
+#include <garment/scene/settings.hpp>
 
 namespace sloper::garment {
 
@@ -12,7 +14,5 @@ namespace sloper::garment {
 /// bending (bending, dihedral_bending) one takes part. Calls and time are 0 until the drape fills them.
 /// @throws Error USAGE for an unknown name or two models of one thing; INPUT for a scene that contradicts itself
 std::vector<EffectReport> choose_effects(const Garment& garment, const body::Body* body, const DrapeSettings& settings);
-
-bool is_active(const std::vector<EffectReport>& effects, const std::string& name);
 
 } // namespace sloper::garment

@@ -1,6 +1,8 @@
 #pragma once
 /// What a drape is asked for: accuracy presets, knobs by name, and the scene document that people write.
-#include <garment/simulate/drape.hpp>
+#include <garment/garment.hpp>
+#include <garment/scene/effect_report.hpp>
+#include <garment/scene/settings.hpp>
 #include <io/json_fwd.hpp>
 
 namespace sloper::garment {

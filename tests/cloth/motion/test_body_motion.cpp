@@ -246,8 +246,8 @@ TEST(BodyMotion, layers_that_are_carried_less_far_do_not_pass_each_other) {
     solver.emplace<EdgeSpringEffect>(mesh);
     BodyContactEffect& contact = solver.emplace<BodyContactEffect>(mesh, body, BodyContactOptions{});
     contact.set_slack(0.008);
-    solver.emplace<SelfContactEffect>(mesh, SelfContactOptions{});
-    BodyMotion motion(solver, contact, body);
+    SelfContactEffect& self_contact = solver.emplace<SelfContactEffect>(mesh, SelfContactOptions{});
+    BodyMotion motion(solver, contact, body, &self_contact);
     StepOptions o;
     o.inertia = 1;
     o.h = 1.0 / 60;

@@ -6,7 +6,7 @@
 #include <garment/fit/fit_policy.hpp>
 #include <garment/garment_json.hpp>
 #include <garment/kes.hpp>
-#include <garment/simulate/drape_state.hpp>
+#include <garment/simulate/checkpoint.hpp>
 #include <io/png.hpp>
 #include <pattern/panel_mesh_json.hpp>
 #include <render/camera.hpp>

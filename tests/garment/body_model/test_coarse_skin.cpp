@@ -4,8 +4,8 @@
 #include <collision/body_collider.hpp>
 #include <collision/triangle_tree.hpp>
 #include <garment/body_model/coarse_skin.hpp>
+#include <garment/drape/drape.hpp>
 #include <garment/simulate/audit.hpp>
-#include <garment/simulate/drape.hpp>
 #include <gtest/gtest.h>
 #include <random>
 
@@ -69,7 +69,7 @@ TEST_P(OnCoarseSkin, cloth_ends_at_rest_on_the_skin_itself_where_it_hung_before)
   Garment again = whole;
   settings.skin_tolerance_m = TOLERANCE;
   const DrapeReport report = drape(again, &pillar, settings, silent_reporter());
-  EXPECT_TRUE(report.converged) << report.stop_reason;
+  EXPECT_TRUE(report.converged) << stop_text(report);
   EXPECT_TRUE(audit(again, &skin).clean());
   double squares = 0, nearest = 1e300;
   for (std::size_t i = 0; i < again.position.size(); ++i) {

@@ -3,7 +3,7 @@
 
 #include <garment/body_model/under_arms.hpp>
 #include <garment/simulate/audit.hpp>
-#include <garment/simulate/drape_state.hpp>
+#include <garment/simulate/checkpoint.hpp>
 #include <gtest/gtest.h>
 
 using namespace sloper;
@@ -106,7 +106,7 @@ TEST(UnderArms, a_wide_skirt_is_sewn_inside_of_a_hanging_arm) {
   Garment skirt = make_skirt(0.74, 0.4, 0.03, 1.02, 0.25, 3);
   for (pattern::PanelInfo& p : skirt.panels.panels) p.part = "lower_body";
   const DrapeReport report = drape(skirt, &body, {}, silent_reporter());
-  EXPECT_TRUE(report.converged) << report.stop_reason;
+  EXPECT_TRUE(report.converged) << stop_text(report);
   const collision::BodyCollider collider(body.skin);
   EXPECT_TRUE(audit(skirt, &collider).clean());
   const auto told = [](const std::string& r) { return r.find("forearms or hands") != std::string::npos; };
@@ -139,12 +139,12 @@ TEST(UnderArms, a_run_that_goes_on_while_the_arms_are_up_ends_in_the_same_bytes)
   checkpoints.file = file;
   checkpoints.every_steps = 10;
   Garment whole = skirt(), stopped = skirt(), resumed;
-  ASSERT_TRUE(drape(whole, &body, {}, silent_reporter(), {}, checkpoints).converged);
+  ASSERT_TRUE(drape(whole, &body, {}, silent_reporter(), {.checkpoints = checkpoints}).converged);
   DrapeSettings settings;
   for (int steps : {25, 120, 150, 180, 200}) { // sewing, and the way to where the arms come down
     settings.max_steps = steps;
     stopped = skirt();
-    drape(stopped, &body, settings, silent_reporter(), {}, checkpoints);
+    drape(stopped, &body, settings, silent_reporter(), {.checkpoints = checkpoints});
     DrapeCheckpoint c = read_checkpoint(file);
     c.report.settings.max_steps = DrapeSettings{}.max_steps;
     resume_drape(c, resumed, &body, silent_reporter(), checkpoints);

@@ -39,15 +39,16 @@ struct Judged {
 Judged judged(double stretch, std::optional<double> other, bool with_body = true) {
   Garment g = two_squares(stretch);
   DrapeOutcome outcome;
-  outcome.report.converged = true, outcome.report.stop_reason = "at rest";
+  outcome.report.converged = true;
+  outcome.report.stop_reason = StopReason::AT_REST;
   outcome.report.quality = {{"particles_held", 3}};
   outcome.document = {{"converged", true}, {"stop_reason", "at rest"}};
   std::vector<std::string> findings;
   judge_stretch(g, outcome, {"in/shirt.json", with_body ? "ben.json" : "", "", true}, other, findings, silent_reporter());
   EXPECT_EQ(g.converged, outcome.report.converged);
   EXPECT_EQ(outcome.document["converged"], outcome.report.converged);
-  EXPECT_EQ(outcome.document["stop_reason"], outcome.report.stop_reason);
-  return {findings.empty() ? "" : findings[0], outcome.report.converged, outcome.report.stop_reason};
+  EXPECT_EQ(outcome.document["stop_reason"], stop_text(outcome.report));
+  return {findings.empty() ? "" : findings[0], outcome.report.converged, stop_text(outcome.report)};
 }
 
 } // namespace

@@ -4,12 +4,12 @@
 #include <base/error.hpp>
 #include <garment/bind/bind.hpp>
 #include <garment/bind/body_sides.hpp>
+#include <garment/drape/drape.hpp>
 #include <garment/fit/fit.hpp>
 #include <garment/retarget/pattern_mirror.hpp>
 #include <garment/retarget/retarget.hpp>
 #include <garment/retarget/retarget_grade.hpp>
 #include <garment/retarget/retarget_pattern.hpp>
-#include <garment/simulate/drape.hpp>
 #include <io/json.hpp>
 #include <pattern/mesh/mesh_pattern.hpp>
 #include <pattern/read/read_pattern.hpp>
@@ -188,9 +188,9 @@ TEST(retarget, a_tube_that_cannot_widen_is_given_up_or_at_rest_within_a_hundred_
   const body::Body pillar = round_body([](double) { return 0.165; });
   for (const bool tight : {true, false}) {
     Garment tube = tube_around(0.15, 0.2, 0.6, 0.17); // a tenth too narrow
-    const DrapeReport report = drape(tube, &pillar, {}, silent_reporter(), {0.11, 0.0625, tight});
-    EXPECT_LE(report.steps, 100) << report.stop_reason;
-    EXPECT_NE(report.converged, report.unfit == "stays stretched") << report.unfit;
+    const DrapeReport report = drape(tube, &pillar, {}, silent_reporter(), {.bounds = {0.11, 0.0625, tight}});
+    EXPECT_LE(report.steps, 100) << stop_text(report);
+    EXPECT_NE(report.converged, report.misfit == Misfit::STAYS_STRETCHED);
   }
 }
 
@@ -198,9 +198,9 @@ TEST(retarget, a_tube_that_starts_stretched_and_slides_to_where_it_is_wide_enoug
   const body::Body waisted = round_body([](double y) { return 0.13 + 0.6 * std::max(0.0, y - 0.7) + 0.6 * std::max(0.0, 0.5 - y); });
   for (const bool tight : {true, false}) {
     Garment tube = tube_around(0.15, 0.06, 0.75, 0.20); // a fifteenth to a third too narrow there
-    const DrapeReport report = drape(tube, &waisted, {}, silent_reporter(), {1.0, 0.0625, tight});
-    EXPECT_EQ(report.unfit, "") << report.steps << " steps";
-    EXPECT_TRUE(report.converged) << report.stop_reason;
+    const DrapeReport report = drape(tube, &waisted, {}, silent_reporter(), {.bounds = {1.0, 0.0625, tight}});
+    EXPECT_EQ(report.misfit, Misfit::NONE) << report.steps << " steps";
+    EXPECT_TRUE(report.converged) << stop_text(report);
   }
 }
 

@@ -5,10 +5,10 @@
 #include <base/parallel.hpp>
 #include <filesystem>
 #include <fstream>
+#include <garment/drape/layers.hpp>
+#include <garment/drape/motion.hpp>
 #include <garment/garment_json.hpp>
-#include <garment/simulate/drape_state.hpp>
-#include <garment/simulate/layers.hpp>
-#include <garment/simulate/motion.hpp>
+#include <garment/simulate/checkpoint.hpp>
 #include <gtest/gtest.h>
 #include <set>
 #include <unistd.h>
@@ -104,17 +104,18 @@ TEST_P(KilledRun, goes_on_from_any_step_to_the_bytes_of_one_that_was_not_killed)
   const bool tucked = name == "tucked";
   if (tucked) settings.max_steps = 300; // its knot is slow to come to rest
   Garment whole = c.garment;
-  const DrapeReport undisturbed = drape(whole, &c.body, settings, silent_reporter(), {}, {file("whole.json"), 17});
-  EXPECT_EQ(undisturbed.converged, !tucked) << undisturbed.stop_reason;
+  const DrapeReport undisturbed = drape(whole, &c.body, settings, silent_reporter(), {.checkpoints = {file("whole.json"), 17}});
+  EXPECT_EQ(undisturbed.converged, !tucked) << stop_text(undisturbed);
   std::set<DrapePhase> phases;
   std::size_t tucks = 0, free = 0;
   for (int at = 20; at < undisturbed.steps; at += std::max(5, undisturbed.steps / (tucked || name == "swaying" ? 12 : 4))) {
     Garment killed = c.garment;
     Killer killer(at);
-    drape(killed, &c.body, settings, killer, {}, {file("killed.json"), 17});
+    drape(killed, &c.body, settings, killer, {.checkpoints = {file("killed.json"), 17}});
     const DrapeState state = read_checkpoint(file("killed.json")).state;
     phases.insert(state.phase);
-    tucks += state.tucks.size(), free += state.velocity.size();
+    tucks += state.supports.tangles.size();
+    free += state.settle.velocity.size();
     Garment resumed;
     set_thread_count(1 + at % 2);
     const DrapeReport report = resume_drape(file("killed.json"), resumed, &c.body, silent_reporter());
@@ -135,9 +136,9 @@ INSTANTIATE_TEST_SUITE_P(starts, KilledRun, testing::Values("sewn", "drawn_in", 
 TEST_F(CheckpointTest, a_run_that_was_resumed_can_be_killed_and_resumed_again) {
   const Case c{"", make_pillar(), make_skirt(0.75, 0.3, 0.04)};
   Garment whole = c.garment, killed = c.garment;
-  const DrapeReport undisturbed = drape(whole, &c.body, {}, silent_reporter(), {}, {file("whole.json"), 10});
+  const DrapeReport undisturbed = drape(whole, &c.body, {}, silent_reporter(), {.checkpoints = {file("whole.json"), 10}});
   Killer first(25);
-  drape(killed, &c.body, {}, first, {}, {file("run.json"), 10});
+  drape(killed, &c.body, {}, first, {.checkpoints = {file("run.json"), 10}});
   for (int times = 0; times < 2; ++times) {
     Killer again(25);
     resume_drape(file("run.json"), killed, &c.body, again, file("run.json"));
@@ -154,13 +155,13 @@ TEST_F(CheckpointTest, garments_over_each_other_killed_while_one_is_draped_alone
   std::vector<Garment> whole = start;
   Killer nobody(1 << 30);
   const DrapeReport undisturbed = drape_layers(whole, &pillar, {}, nobody, {file("whole.json"), 7});
-  EXPECT_TRUE(undisturbed.converged) << undisturbed.stop_reason;
+  EXPECT_TRUE(undisturbed.converged) << stop_text(undisturbed);
   std::set<std::size_t> stages;
   const int steps = nobody.asked();
   for (int at : {steps / 8, 3 * steps / 8, 5 * steps / 8, 7 * steps / 8, steps - 2}) { // all together take but a few steps
     std::vector<Garment> killed = start, resumed;
     Killer killer(at);
-    EXPECT_EQ(drape_layers(killed, &pillar, {}, killer, {file("killed.json"), 7}).stop_reason, "stopped by the user");
+    EXPECT_EQ(drape_layers(killed, &pillar, {}, killer, {file("killed.json"), 7}).stop_reason, StopReason::INTERRUPTED);
     const DrapeCheckpoint c = read_checkpoint(file("killed.json"));
     ASSERT_TRUE(c.layers);
     stages.insert(c.layers->alone);
@@ -196,18 +197,18 @@ TEST_F(CheckpointTest, a_body_in_motion_is_gone_on_with_from_between_its_frames_
     frames.push_back({f, g.position});
   };
   const MotionInput walk{"a walk", 30};
-  const DrapeReport undisturbed = drape_in_motion(whole, pillar, moves, {}, keep_and_count, nobody, {file("whole.json"), 8, false, walk});
-  EXPECT_TRUE(undisturbed.converged) << undisturbed.stop_reason;
+  const DrapeReport undisturbed = drape_in_motion(whole, pillar, moves, {}, keep_and_count, nobody, {.checkpoints = {file("whole.json"), 8, false, walk}});
+  EXPECT_TRUE(undisturbed.converged) << stop_text(undisturbed);
   std::set<std::pair<DrapePhase, bool>> places;
   for (int at : {first - 3, first + 5, first + 10, nobody.asked() - 2}) {
     Garment killed = start, resumed;
     Killer killer(at);
     std::vector<Frame> before, after;
-    drape_in_motion(killed, pillar, moves, {}, keep(before), killer, {file("killed.json"), 8, false, walk});
+    drape_in_motion(killed, pillar, moves, {}, keep(before), killer, {.checkpoints = {file("killed.json"), 8, false, walk}});
     const DrapeCheckpoint c = read_checkpoint(file("killed.json"));
     ASSERT_TRUE(c.motion);
     EXPECT_EQ(c.motion->sha256, "a walk");
-    places.insert({c.state.phase, c.state.motion.over});
+    places.insert({c.state.phase, c.state.move.over});
     set_thread_count(1 + at % 2);
     const DrapeReport report = resume_in_motion(c, resumed, pillar, moves, keep(after), silent_reporter());
     set_thread_count(1);
@@ -217,11 +218,11 @@ TEST_F(CheckpointTest, a_body_in_motion_is_gone_on_with_from_between_its_frames_
     io::Json quality = report.quality, expected = undisturbed.quality;
     for (io::Json* q : {&quality, &expected}) (*q)["motion"].erase("ms_per_frame");
     EXPECT_EQ(quality, expected);
-    ASSERT_EQ(c.state.motion.frame + after.size(), frames.size());
+    ASSERT_EQ(c.state.move.frame + after.size(), frames.size());
     for (std::size_t k = 0; k < after.size(); ++k) {
-      EXPECT_EQ(after[k].x, frames[c.state.motion.frame + k].x);
-      EXPECT_EQ(after[k].told.parts, frames[c.state.motion.frame + k].told.parts);
-      EXPECT_EQ(after[k].told.number, frames[c.state.motion.frame + k].told.number);
+      EXPECT_EQ(after[k].x, frames[c.state.move.frame + k].x);
+      EXPECT_EQ(after[k].told.parts, frames[c.state.move.frame + k].told.parts);
+      EXPECT_EQ(after[k].told.number, frames[c.state.move.frame + k].told.number);
     }
   }
   EXPECT_TRUE(places.count({DrapePhase::MOVE, false}) && places.count({DrapePhase::SETTLE, false}) && places.count({DrapePhase::SETTLE, true}));
@@ -245,7 +246,7 @@ TEST_F(CheckpointTest, garments_over_each_other_in_motion_killed_before_and_duri
     frames.push_back(g.position);
   };
   const DrapeReport undisturbed = drape_layers(whole, &pillar, {}, nobody, {file("whole.json"), 7}, &moves, count);
-  EXPECT_TRUE(undisturbed.converged) << undisturbed.stop_reason;
+  EXPECT_TRUE(undisturbed.converged) << stop_text(undisturbed);
   ASSERT_EQ(frames.size(), 6U);
   std::set<std::pair<std::size_t, DrapePhase>> places;
   for (int at : {60, first - 3, first + 4}) {
@@ -262,7 +263,7 @@ TEST_F(CheckpointTest, garments_over_each_other_in_motion_killed_before_and_duri
     for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(text(resumed[k]), text(whole[k])) << "garment " << k << " killed after " << at << " steps";
     EXPECT_EQ(report.steps, undisturbed.steps);
     EXPECT_EQ(report.quality["layers"], undisturbed.quality["layers"]);
-    EXPECT_EQ(after, std::vector<std::vector<Vec3>>(frames.begin() + static_cast<long>(c.state.motion.frame), frames.end()));
+    EXPECT_EQ(after, std::vector<std::vector<Vec3>>(frames.begin() + static_cast<long>(c.state.move.frame), frames.end()));
     EXPECT_THROW(resume_layers(c, resumed, &pillar, silent_reporter()), Error) << "without the motion";
   }
   EXPECT_EQ(places, (std::set<std::pair<std::size_t, DrapePhase>>{{0, DrapePhase::SEW}, {2, DrapePhase::SETTLE}, {2, DrapePhase::MOVE}}));
@@ -274,7 +275,7 @@ TEST_F(CheckpointTest, a_checkpoint_of_another_body_or_a_damaged_one_is_refused)
   skirt.body_sha256 = "this body";
   DrapeSettings settings;
   settings.max_steps = 12;
-  drape(skirt, &pillar, settings, silent_reporter(), {}, {file("run.json"), 5});
+  drape(skirt, &pillar, settings, silent_reporter(), {.checkpoints = {file("run.json"), 5}});
   Garment resumed;
   EXPECT_THROW(resume_drape(file("run.json"), resumed, nullptr, silent_reporter()), Error);
   resumed.body_sha256 = "another body";

@@ -2,9 +2,9 @@
 #include <support/drape_scene.hpp>
 
 #include <algorithm>
+#include <garment/drape/drape.hpp>
 #include <garment/sewing.hpp>
 #include <garment/simulate/audit.hpp>
-#include <garment/simulate/drape.hpp>
 #include <gtest/gtest.h>
 
 using namespace sloper;
@@ -87,6 +87,6 @@ TEST(Pinched, few_faces_caught_where_the_other_side_is_held_too_are_moved_out_wh
   EXPECT_EQ(now.through.size(), 0U);
   EXPECT_EQ(now.inside.size(), 0U);
   report = drape(g, &body, {}, silent_reporter());
-  EXPECT_TRUE(report.converged) << report.stop_reason;
+  EXPECT_TRUE(report.converged) << stop_text(report);
   EXPECT_TRUE(audit(g, &collider).clean());
 }

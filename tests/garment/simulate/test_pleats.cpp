@@ -1,7 +1,7 @@
 /// Pleats as cloth: pressed along their folds, and sewn with their layers on each other.
 #include <base/progress.hpp>
+#include <garment/drape/drape.hpp>
 #include <garment/sewing.hpp>
-#include <garment/simulate/drape.hpp>
 #include <gtest/gtest.h>
 #include <io/json.hpp>
 #include <pattern/mesh/folds.hpp>
@@ -61,7 +61,7 @@ TEST(Pleats, CloseAlongTheirSeamsAndLieFoldedDownToTheHem) {
   DrapeSettings settings;
   settings.gravity_m_s2 = 0;
   const DrapeReport report = drape(garment, nullptr, settings, silent_reporter());
-  EXPECT_TRUE(report.converged) << report.stop_reason;
+  EXPECT_TRUE(report.converged) << stop_text(report);
   for (const std::string& repair : report.repairs) EXPECT_EQ(repair.find("open"), std::string::npos) << repair;
   // The fold still lies on its target; sprung back to flat it would be 8 cm from it.
   const auto hem_at = [&](double x) {

@@ -2,7 +2,7 @@
 #include <support/drape_scene.hpp>
 
 #include <algorithm>
-#include <garment/simulate/drape.hpp>
+#include <garment/drape/drape.hpp>
 #include <garment/simulate/sleeve_ends.hpp>
 #include <gtest/gtest.h>
 
@@ -74,10 +74,8 @@ TEST(SleeveEnds, are_held_on_a_shorter_arm_until_there_are_folds_above) {
   garment.bind = bind_as_sleeve(garment, lowest(garment));
   const double top = lowest(garment) + 0.25;
   for (Vec3& p : garment.position) p.y() = top + 0.85 * (p.y() - top);
-  DrapeSettings settings;
-  settings.hold_sleeve_ends = true;
-  const DrapeReport report = drape(garment, &pillar, settings, silent_reporter());
-  EXPECT_TRUE(report.converged) << report.stop_reason;
+  const DrapeReport report = drape(garment, &pillar, {}, silent_reporter(), {.start = {.hold_sleeve_ends = true}});
+  EXPECT_TRUE(report.converged) << stop_text(report);
   EXPECT_GE(pins(report).calls, 40) << "steps without weight and friction";
   EXPECT_LT(pins(report).calls, report.steps);
 }
@@ -92,7 +90,7 @@ TEST(SleeveEnds, are_held_while_the_body_is_inflated_unless_that_is_switched_off
     settings.effects = effects;
     Garment again = garment;
     const DrapeReport report = drape(again, &pillar, settings, silent_reporter());
-    EXPECT_TRUE(report.converged) << report.stop_reason;
+    EXPECT_TRUE(report.converged) << stop_text(report);
     EXPECT_EQ(pins(report).active, settings.effects == "auto");
     EXPECT_EQ(pins(report).calls > 0, settings.effects == "auto");
     EXPECT_LT(pins(report).calls, report.steps) << "and then let go";

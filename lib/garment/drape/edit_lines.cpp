@@ -1,0 +1,51 @@
+#include <base/error.hpp>
+#include <garment/drape/edit_lines.hpp>
+#include <pattern/edit/edits.hpp>
+#include <pattern/seams/check_pattern.hpp>
+
+namespace sloper::garment {
+
+void EditLines::take_end(const io::Node& node) {
+  if (!node.has("finish")) {
+    m_ended = true;
+    return;
+  }
+  const std::string finish = node.at("finish").string();
+  if (finish != "warm" && finish != "replay" && finish != "cold") node.fail("there is no finish '" + finish + "'", "known are warm, replay and cold");
+  if (finish == "cold" && !m_has_body) node.fail("without a body the panels cannot be placed for a cold finish", "give --body, or finish warm");
+  m_ended = true;
+  if (finish == "cold") m_finish = Finish::COLD;
+  else m_finish = finish == "replay" ? Finish::REPLAY : Finish::WARM;
+}
+
+EditLines::Taken EditLines::take(const std::string& line, const pattern::Pattern& pattern) {
+  ++m_line;
+  if (line.find_first_not_of(" \t") == std::string::npos) return {};
+  const std::string place = "line " + std::to_string(m_line);
+  if (!line.starts_with('{')) throw input_error(place, "", "is no JSON object", R"(write an edit such as {"edit": "scale", ...} on one line)");
+  io::Json json = io::parse_json(line, place);
+  const io::Node node(json, place);
+  if (!node.is_object()) node.fail("a line is a head or an edit");
+  io::Json document = m_head;
+  if (node.has("format")) {
+    m_head = json;
+    m_head["edits"] = io::Json::array();
+    document = json;
+    if (!node.has("edits")) document["edits"] = io::Json::array();
+  } else {
+    if (node.at("edit").string() == "end") {
+      take_end(node);
+      return {};
+    }
+    if (m_head.is_null()) node.fail("there is no head line before the first edit", R"(begin with {"format": "edits", "version": 1, "length_unit": "cm"})");
+    document["edits"].push_back(json);
+  }
+  const std::size_t count = document["edits"].size();
+  pattern::Pattern next = pattern;
+  pattern::apply_edits(next, document, place);
+  if (count == 0) return {};
+  pattern::require_sewable(next, place);
+  return {count, std::move(next), std::move(document)};
+}
+
+} // namespace sloper::garment

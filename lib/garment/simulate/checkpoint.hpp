@@ -1,0 +1,72 @@
+#pragma once
+/// All that a drape needs to go on from the moment between two of its steps: what each part of a session saves, with the garment.
+///
+/// What is not here can be made again from it: the solver's matrix and hierarchy, near pairs, bounding boxes. They lag behind the
+/// positions for some steps, so a drape makes them anew wherever a checkpoint is due, as the run that goes on from the checkpoint does;
+/// from there both make the same steps, bit by bit. Test: tests/garment/simulate/test_checkpoint.cpp
+#include <garment/simulate/phases/inflate.hpp>
+#include <garment/simulate/phases/move.hpp>
+#include <garment/simulate/phases/settle.hpp>
+#include <garment/simulate/phases/sew.hpp>
+#include <garment/simulate/report.hpp>
+#include <garment/simulate/request.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sloper::garment {
+
+/// What each part of a session saves. Positions are the garment's.
+struct DrapeState {
+  DrapePhase phase = DrapePhase::START;
+  bool disturbed = false; ///< SimContext::disturbed
+  CollisionBody::State body;
+  StepController::State stepper;
+  PenetrationResolver::State resolver;
+  TemporarySupports::State supports;
+  cloth::BodyContactEffect::Memory contact;
+  SewPhase::State sew;
+  InflatePhase::State inflate;
+  SettlePhase::State settle;
+  MovePhase::State move;
+
+  int step() const; ///< of the phase: the next one
+};
+
+/// How far a drape of garments over each other (layers.hpp) has come between the drapes that it is made of.
+struct LayersProgress {
+  DrapeSettings settings;           ///< of the whole; a garment that is draped alone has others
+  std::vector<Garment> garments;    ///< from the skin outwards
+  std::size_t alone = 0;            ///< which is draped alone at present; their number: all together
+  std::vector<std::string> repairs; ///< so far
+  double alone_s = 0;               ///< wall seconds of the drapes alone that are done
+};
+
+/// A drape interrupted: what checkpoint files hold. The report has what it had come to: steps, seconds, effects, phases, repairs, settings.
+struct DrapeCheckpoint {
+  Garment garment;
+  DrapeState state;
+  DrapeReport report;
+  int every_steps = 0; ///< between two checkpoints
+  bool has_body = false;
+  std::optional<MotionInput> motion;    ///< of a drape in motion
+  std::optional<LayersProgress> layers; ///< garment, state and report are of one of its drapes
+  std::string file;                     ///< where it was read, for messages
+
+  /// @param body  that is given now, or null   @param body_sha256  of its skin; empty: trusted
+  /// @throws Error INPUT where the run began on another
+  void check_body(const body::Body* body, const std::string& body_sha256) const;
+  /// @param moves  given now, or null   @throws Error INPUT for one where the run began without, none where it began with one, and one too short
+  void check_moves(const BodyMoves* moves) const;
+};
+
+inline constexpr int CHECKPOINT_VERSION = 2; ///< 1: without motion and layers
+/// One JSON document (format "checkpoint"), replaced as a whole. @throws Error OUTPUT
+void write_checkpoint(const std::string& path, const DrapeCheckpoint& checkpoint);
+/// Whether this JSON file is one, by its envelope. @throws Error INPUT for what is no JSON
+bool is_checkpoint(const std::string& path);
+/// @throws Error INPUT
+DrapeCheckpoint read_checkpoint(const std::string& path);
+
+} // namespace sloper::garment

@@ -1,0 +1,40 @@
+#pragma once
+/// What a drape reports.
+#include <garment/garment.hpp>
+#include <garment/scene/effect_report.hpp>
+#include <garment/scene/settings.hpp>
+#include <garment/simulate/stop_reason.hpp>
+#include <io/json.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sloper::garment {
+
+struct DrapeReport {
+  bool converged = false;
+  StopReason stop_reason = StopReason::NONE; ///< stop_text() puts it into words
+  std::string stop_detail;                   ///< words that belong to some of the reasons
+  Misfit misfit = Misfit::NONE;              ///< what of FitBounds ended the drape
+  int steps = 0;
+  double simulated_s = 0, wall_s = 0;
+  std::vector<EffectReport> effects;
+  std::vector<std::pair<std::string, double>> phases; ///< name, wall seconds
+  io::Json solver;                                    ///< as report.json has it: conjugate gradients, residual, rejected steps
+  io::Json quality;                                   ///< as report.json has it: what the audit found
+  std::vector<std::string> repairs;
+  DrapeSettings settings;
+};
+
+/// The sentence that report.json has as `stop_reason`: made of the reason, and of `quality` and `stop_detail` where counts belong to it.
+std::string stop_text(const DrapeReport& report);
+
+/// The report document without its envelope's inputs and hashes, which the tool adds.
+io::Json report_json(const DrapeReport& report, const std::string& tool);
+
+/// SHA-256 of the particle positions: of their bytes, and of their 10 um cells (to compare machines and compilers).
+std::string strict_hash(const Garment& garment);
+std::string quantised_hash(const Garment& garment);
+
+} // namespace sloper::garment

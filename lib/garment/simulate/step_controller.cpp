@@ -1,0 +1,112 @@
+#include <garment/simulate/step_controller.hpp>
+#include <io/json.hpp>
+#include <io/json_lists.hpp>
+
+#include <algorithm>
+
+namespace sloper::garment {
+
+namespace {
+
+constexpr double ENERGY_LEFT = 0.15;   // of a solve's error in the energy norm; 0.03 to 0.1 and 0.3 took as long or longer over seven garments
+constexpr double LEFT_AT_REST = 0.025; // likewise, where all is as slow as at rest: what is slack and still moving has little of the energy
+constexpr double ROUGH = 0.01;         // relative residual; who asks for less means it
+constexpr double SEW_TOLERANCE = 0.05; // relative residual of a step while sewing
+
+io::Json step_json(const cloth::StepResult& s) {
+  return {{"cg_iterations", s.cg.iterations},
+          {"cg_residual", s.cg.residual},
+          {"largest_move_m", s.largest_move_m},
+          {"halvings", s.halvings},
+          {"residual_force_ratio", s.residual_force_ratio},
+          {"residual_force_ratio_max", s.residual_force_ratio_max},
+          {"held", s.held}};
+}
+
+cloth::StepResult read_step(const io::Node& node) {
+  cloth::StepResult s;
+  s.cg.iterations = node.at("cg_iterations").integer();
+  s.cg.residual = node.at("cg_residual").number();
+  s.largest_move_m = node.at("largest_move_m").number();
+  s.halvings = node.at("halvings").integer();
+  s.residual_force_ratio = node.at("residual_force_ratio").number();
+  s.residual_force_ratio_max = node.at("residual_force_ratio_max").number();
+  s.held = static_cast<std::size_t>(std::max(0, node.at("held").integer()));
+  return s;
+}
+
+} // namespace
+
+void StepController::State::write(io::Json& state) const {
+  state["last"] = step_json(last);
+  state["last_h"] = last_h;
+  state["cg_iterations"] = cg_iterations;
+  state["solves"] = solves;
+  state["rejected"] = rejected;
+}
+
+StepController::State StepController::State::read(const io::Node& node) {
+  State state;
+  state.last = read_step(node.at("last"));
+  state.last_h = node.at("last_h").number();
+  state.cg_iterations = io::read_integers(node.at("cg_iterations"));
+  state.solves = node.has("solves") ? node.at("solves").integer() : static_cast<int>(state.cg_iterations.size()); // older ones: one a step
+  state.rejected = io::read_strings(node.at("rejected"));
+  return state;
+}
+
+StepController::StepController(SimulatedCloth& cloth, const DrapeSettings& settings, Telemetry& telemetry)
+    : m_cloth(cloth), m_settings(settings), m_telemetry(telemetry), m_step_limit(settings.max_steps) {}
+
+cloth::StepOptions StepController::options_for(const StepRequest& request) const {
+  cloth::StepOptions options;
+  options.h = request.h;
+  options.inertia = request.inertia;
+  options.largest_move_m = request.largest_move_m;
+  options.line_search = request.kind == StepKind::DESCEND;
+  options.cg_tolerance = std::max(request.least_cg_tolerance, m_settings.cg_tolerance);
+  if (request.kind == StepKind::SEW) options.cg_tolerance = std::max(SEW_TOLERANCE, options.cg_tolerance);
+  options.cg_max_iterations = m_settings.cg_max_iterations;
+  if (request.cg_max_iterations > 0) options.cg_max_iterations = std::min(options.cg_max_iterations, request.cg_max_iterations);
+  if (request.kind != StepKind::PLAIN && !request.unloaded && m_settings.cg_tolerance >= ROUGH) {
+    const bool slow = options.line_search && m_state.last.largest_move_m < m_settings.settle_speed_m_s * m_state.last_h;
+    options.cg_energy_tolerance = slow ? LEFT_AT_REST : ENERGY_LEFT;
+  }
+  return options;
+}
+
+bool StepController::note(const cloth::StepResult& result, const std::string& what) {
+  m_state.last = result;
+  m_state.cg_iterations.push_back(result.cg.iterations);
+  m_state.solves += result.newton_iterations;
+  if (result.finite) return true;
+  m_state.rejected.push_back(what + ": not finite, undone");
+  m_cloth.solver().stop();
+  stop(StopReason::NOT_FINITE);
+  return false;
+}
+
+bool StepController::advance(const StepRequest& request) {
+  DrapeReport& report = m_telemetry.report;
+  const cloth::StepResult result = m_cloth.solver().step(options_for(request));
+  ++report.steps;
+  report.simulated_s += request.h;
+  m_state.last_h = request.h;
+  if (!note(result, "step " + std::to_string(report.steps))) return false;
+  check_time();
+  if (!m_stopped && report.steps >= m_step_limit) stop(StopReason::STEP_LIMIT);
+  return !m_stopped;
+}
+
+void StepController::check_time() {
+  if (m_stopped) return;
+  if (m_settings.max_seconds > 0 && m_telemetry.elapsed() > m_settings.max_seconds) stop(StopReason::TIME_LIMIT);
+  else if (m_telemetry.reporter.stop_requested()) stop(StopReason::INTERRUPTED);
+}
+
+void StepController::stop(StopReason reason) {
+  m_stopped = true;
+  m_telemetry.report.stop_reason = reason;
+}
+
+} // namespace sloper::garment

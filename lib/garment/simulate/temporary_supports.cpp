@@ -1,0 +1,136 @@
+#include <base/units.hpp>
+#include <cloth/forces/pins.hpp>
+#include <cloth/forces/pressure.hpp>
+#include <collision/intersections.hpp>
+#include <garment/materials.hpp>
+#include <garment/simulate/sleeve_ends.hpp>
+#include <garment/simulate/temporary_supports.hpp>
+#include <io/json.hpp>
+#include <io/json_lists.hpp>
+
+#include <cmath>
+#include <map>
+
+namespace sloper::garment {
+
+namespace {
+
+constexpr double TANGLE_REACH = 0.04;   // m: how far around what crosses after sewing cloth may be tucked in
+constexpr double TANGLE_LENGTH = 0.25;  // m: crossing pairs of such a place times the mesh edge; knots had 0.4 and more, what comes apart 0.2 and less
+constexpr double INFLATION_WEIGHTS = 1; // of the cloth on its area: the pressure from within
+
+/// Marks all vertices of triangles that have one marked, so many times. @param marked  #V, in and out
+void grow(std::vector<char>& marked, const std::vector<Triangle>& triangles, int rings) {
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::vector<char> before = marked;
+    for (const Triangle& t : triangles)
+      if (before[t[0]] || before[t[1]] || before[t[2]]) marked[t[0]] = marked[t[1]] = marked[t[2]] = 1;
+  }
+}
+
+} // namespace
+
+void TemporarySupports::State::write(io::Json& state) const {
+  state["held"] = io::flat_points(held);
+  state["tucks"] = tangles;
+}
+
+TemporarySupports::State TemporarySupports::State::read(const io::Node& node, std::size_t n_particles) {
+  State state;
+  if (node.has("held")) state.held = io::read_flat_points(node.at("held"));
+  if (node.has("tucks")) state.tangles = io::read_integers(node.at("tucks"));
+  for (int i : state.tangles)
+    if (i < 0 || static_cast<std::size_t>(i) >= n_particles) node.at("tucks").fail("does not belong to this garment");
+  return state;
+}
+
+TemporarySupports::TemporarySupports(SimulatedCloth& cloth, const DrapeSettings& settings, PenetrationResolver& resolver, Telemetry& telemetry)
+    : m_cloth(cloth), m_settings(settings), m_resolver(resolver), m_telemetry(telemetry) {}
+
+bool TemporarySupports::may_help(const std::string& effect) const {
+  return m_settings.effects.starts_with("auto") && m_settings.effects.find("-" + effect) == std::string::npos;
+}
+
+void TemporarySupports::forget_effects() {
+  m_pressure = nullptr;
+  m_hold = nullptr;
+}
+
+void TemporarySupports::remove_temporary_effect(const cloth::Effect*& effect) {
+  if (!effect) return;
+  const std::unique_ptr<cloth::Effect> taken = m_cloth.solver().remove(*effect);
+  effect = nullptr;
+  for (EffectReport& r : m_telemetry.report.effects)
+    if (r.name == taken->name()) {
+      r.calls += taken->calls;
+      r.wall_s += taken->wall_s;
+    }
+}
+
+void TemporarySupports::add_inflation_pressure() {
+  if (m_pressure || !m_cloth.is_active("sewing") || !may_help("pressure")) return;
+  if (!m_cloth.is_active("pressure")) m_telemetry.activate("pressure", "for a moment after sewing: it turns out dents");
+  const double weight = material_of(m_cloth.garment(), "").density_kg_m2 * units::GRAVITY;
+  m_pressure = &m_cloth.solver().emplace<cloth::PressureEffect>(m_cloth.mesh().particle_triangles(), INFLATION_WEIGHTS * weight);
+}
+
+void TemporarySupports::remove_inflation_pressure() { remove_temporary_effect(m_pressure); }
+
+void TemporarySupports::find_sleeve_ends() {
+  if (!may_help("pins")) return;
+  for (const cloth::Pin& pin : hold_sleeve_ends(m_cloth.garment())) m_state.held.push_back(pin.target);
+}
+
+void TemporarySupports::find_tangles() {
+  m_state.tangles.clear();
+  if (!m_cloth.is_active("self_contact")) return;
+  const std::vector<Vec3>& position = m_cloth.garment().position;
+  const std::vector<Triangle> triangles = m_cloth.garment().particle_triangles();
+  const collision::TriangleTree tree(position, triangles);
+  const auto crossing = collision::self_intersections(position, triangles, tree);
+  const double edge = m_cloth.mean_edge();
+  std::vector<char> near(position.size(), 0);
+  for (const auto& pair : crossing)
+    for (int f : pair)
+      for (int i : triangles[f]) near[i] = 1;
+  grow(near, triangles, static_cast<int>(std::lround(TANGLE_REACH / edge)));
+  std::vector<Triangle> patches;
+  for (const Triangle& t : triangles)
+    if (near[t[0]] && near[t[1]] && near[t[2]]) patches.push_back(t);
+  const std::vector<int> patch = connected_components(near.size(), patches);
+  std::map<int, int> pairs; // by patch
+  for (const auto& pair : crossing) ++pairs[patch[triangles[pair[0]][0]]];
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (near[i] && pairs[patch[i]] * edge > TANGLE_LENGTH) m_state.tangles.push_back(static_cast<int>(i));
+  if (!m_state.tangles.empty())
+    m_telemetry.add_repair("sewing left cloth tucked in: " + std::to_string(m_state.tangles.size()) + " particles passed through each other until weight came");
+}
+
+void TemporarySupports::apply() {
+  if (!m_state.held.empty()) {
+    std::vector<cloth::Pin> pins = hold_sleeve_ends(m_cloth.garment());
+    if (!pins.empty() && pins.size() == m_state.held.size()) {
+      for (std::size_t k = 0; k < pins.size(); ++k) pins[k].target = m_state.held[k];
+      if (!m_cloth.is_active("pins")) m_telemetry.activate("pins", "sleeve ends are held at the wrists until the cloth above has found its folds");
+      m_hold = &m_cloth.solver().emplace<cloth::PinsEffect>(std::move(pins));
+    }
+  }
+  if (m_state.tangles.empty() || !m_cloth.self_contact()) return;
+  std::vector<char> passes(m_cloth.garment().position.size(), 0);
+  for (int i : m_state.tangles) passes[i] = 1;
+  m_cloth.self_contact()->let_pass(std::move(passes));
+}
+
+void TemporarySupports::release_sleeve_ends() {
+  remove_temporary_effect(m_hold);
+  m_state.held.clear();
+}
+
+void TemporarySupports::close_tangles() {
+  if (m_state.tangles.empty() || !m_cloth.self_contact()) return;
+  m_state.tangles.clear();
+  m_cloth.self_contact()->let_pass({});
+  m_resolver.untangle_in_flight();
+}
+
+} // namespace sloper::garment

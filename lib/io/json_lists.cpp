@@ -1,0 +1,38 @@
+#include <io/json.hpp>
+#include <io/json_lists.hpp>
+
+namespace sloper::io {
+
+Json flat_points(const std::vector<Vec3>& points) {
+  Json out = Json::array();
+  for (const Vec3& p : points)
+    for (int k = 0; k < 3; ++k) out.push_back(p[k]);
+  return out;
+}
+
+std::vector<Vec3> read_flat_points(const Node& node) {
+  if (node.size() % 3 != 0) node.fail("is no list of points");
+  std::vector<Vec3> points(node.size() / 3);
+  for (std::size_t i = 0; i < node.size(); ++i) points[i / 3][static_cast<int>(i % 3)] = node.at(i).number();
+  return points;
+}
+
+std::vector<double> read_numbers(const Node& node) {
+  std::vector<double> list(node.size());
+  for (std::size_t i = 0; i < list.size(); ++i) list[i] = node.at(i).number();
+  return list;
+}
+
+std::vector<int> read_integers(const Node& node) {
+  std::vector<int> list(node.size());
+  for (std::size_t i = 0; i < list.size(); ++i) list[i] = node.at(i).integer();
+  return list;
+}
+
+std::vector<std::string> read_strings(const Node& node) {
+  std::vector<std::string> list(node.size());
+  for (std::size_t i = 0; i < list.size(); ++i) list[i] = node.at(i).string();
+  return list;
+}
+
+} // namespace sloper::io
