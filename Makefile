@@ -17,7 +17,7 @@ population:
 	@$(MAKE) --no-print-directory -C samples/population
 
 check:
-	@scripts/setup
+	@scripts/setup --check || true
 	@scripts/check
 
 # The tests of the library, hard cases among them, under the address, undefined-behaviour and thread sanitizers.
@@ -52,8 +52,8 @@ bench-rivals:
 
 # Every physical validation, the slow ones too, with what each measured beside its reference, and their plots.
 validation:
+	@scripts/setup --check gnuplot-nox
 	@scripts/build release test_validation
-	@scripts/setup gnuplot-nox
 	@cmake -E rm -rf build/validation-plots && cmake -E make_directory build/validation-plots
 	@SLOPER_VALIDATION=1 SLOPER_FIGURES=1 SLOPER_PLOTS=build/validation-plots build/tests/validation/test_validation
 	@scripts/validation-plots build/validation-plots docs/validation.png
@@ -73,14 +73,14 @@ soak:
 
 # The hard cases' final states in builds by other compilers, compared.
 compare-builds:
-	@scripts/setup
+	@scripts/setup --check || true
 	@scripts/compare-builds
 
 # What accuracy costs: tables and plots of three samples, gathered in docs/accuracy-cost.md.
 SCENES ?= skirt shirt trousers
 accuracy-cost:
+	@scripts/setup --check gnuplot-nox
 	@scripts/build release scan-landmarks pattern-mesh drape make-mannequin make-pattern
-	@scripts/setup gnuplot-nox
 	@for scene in $(SCENES); do scripts/accuracy-cost $$scene || exit; done
 	@scripts/accuracy-cost --gather docs $(SCENES)
 
@@ -100,7 +100,7 @@ clean:
 	@$(MAKE) --no-print-directory -C samples/demo clean
 
 pictures: all
-	@scripts/setup gnuplot-nox
+	@scripts/setup --check gnuplot-nox
 	@scripts/make-pictures build
 
 package: all

@@ -1,4 +1,5 @@
 /// render-png: pictures of bodies, panels and garments without a display.
+#include <base/text.hpp>
 #include <base/units.hpp>
 #include <base/version.hpp>
 #include <cli/run_tool.hpp>
@@ -95,7 +96,7 @@ int run_compare(const Options& o) {
 int run_sheet(const Options& o) {
   std::vector<io::Image> images;
   for (const std::string& path : o.documents) images.push_back(io::read_png(path));
-  io::write_png(o.output, render::contact_sheet(images, render::split_words(o.labels), o.columns > 0 ? o.columns : static_cast<int>(images.size())),
+  io::write_png(o.output, render::contact_sheet(images, split(o.labels), o.columns > 0 ? o.columns : static_cast<int>(images.size())),
                 {{"Software", "render-png"}});
   return 0;
 }
@@ -107,7 +108,7 @@ void needs(const char* name, const std::optional<cli::Option>& option, bool ther
 
 /// Names that promise something else than what would be written are refused.
 void check_output(const std::string& path) {
-  const std::string ending = render::ending_of(path);
+  const std::string ending = io::ending_of(path);
   if (ending.empty() || path.rfind("/dev/", 0) == 0 || render::is_export(path)) return;
   if (ending != ".png") throw Error(ErrorKind::USAGE, "", "-o " + path, "is no kind of file that can be written", "end it in .png, .glb, .obj or .ply");
 }
@@ -116,7 +117,7 @@ void check_output(const std::string& path) {
 bool wants_ply(const Options& o) {
   if (o.values.empty()) return false;
   if (o.map == "none" || o.map == "parts") throw Error(ErrorKind::USAGE, "", "--values", "needs a map with numbers", "say for example --map strain");
-  const std::string ending = render::ending_of(o.values);
+  const std::string ending = io::ending_of(o.values);
   if (ending == ".ply") return true;
   if (ending == ".csv" || o.values == "-" || o.values.rfind("/dev/", 0) == 0) return false;
   throw Error(ErrorKind::USAGE, "", "--values " + o.values, "is no kind of file that can be written", "end it in .csv or .ply");
@@ -136,7 +137,7 @@ void write_pictures(const Options& o, const std::vector<io::Image>& images, cons
     io::write_file(o.output, io::apng_bytes(images, o.seconds, texts));
   } else {
     const int columns = o.columns > 0 ? o.columns : std::min<int>(images.size() > 8 ? 6 : 4, static_cast<int>(images.size()));
-    io::write_png(o.output, images.size() == 1 ? images[0] : render::contact_sheet(images, render::split_words(o.labels), columns), texts);
+    io::write_png(o.output, images.size() == 1 ? images[0] : render::contact_sheet(images, split(o.labels), columns), texts);
   }
 }
 

@@ -38,6 +38,10 @@ static std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
+Error unknown_word(const std::string& option, const std::string& word, const std::vector<std::string>& known, std::string next_step) {
+  return {ErrorKind::USAGE, "", option + " " + word, "is not known" + did_you_mean(word, known), std::move(next_step)};
+}
+
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known, const char* quote) {
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;

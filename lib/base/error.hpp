@@ -38,6 +38,9 @@ private:
 /// Shorthand for the commonest one: bad input, exit 3.
 Error input_error(std::string file, std::string place, std::string fact, std::string next_step = {});
 
+/// A word of an option that is none of the known: exit 2, with the nearest of them.
+Error unknown_word(const std::string& option, const std::string& word, const std::vector<std::string>& known, std::string next_step);
+
 /// " (did you mean 'X'?)" with the word of `known` nearest to `word` by edit distance, between `quote`s; empty when none is near.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known, const char* quote = "'");
 

@@ -1,9 +1,8 @@
 #include <cli/options.hpp>
 
 #include <CLI/CLI.hpp>
+#include <base/text.hpp>
 #include <cli/option_table.hpp>
-
-#include <sstream>
 
 namespace sloper::cli {
 
@@ -36,13 +35,6 @@ static std::string validator_text(CLI::Option& option, const std::string& name) 
   } catch (const CLI::OptionNotFound&) {
     return {};
   }
-}
-
-static std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> out;
-  std::stringstream stream(text);
-  for (std::string word; std::getline(stream, word, separator);) out.push_back(word);
-  return out;
 }
 
 static OptionRow row_of(CLI::Option& option) {

@@ -1,6 +1,6 @@
 #pragma once
 /// A sewn garment: the panel mesh, which vertices are one particle, where the particles are, and what holds them.
-#include <garment/scene/scene_effects.hpp>
+#include <garment/scene/effect_inputs.hpp>
 #include <geometry/triangle_mesh.hpp>
 #include <map>
 #include <pattern/panel_mesh.hpp>

@@ -75,6 +75,8 @@ Json to_json(const Vec3& v);
 std::string mesh_path_beside(const std::string& document_path);
 /// File name without its folder.
 std::string file_name(const std::string& path);
+/// ".png" of out.PNG; empty where there is none.
+std::string ending_of(const std::string& path);
 /// `name` resolved beside the document at `document_path`.
 std::string path_beside(const std::string& document_path, const std::string& name);
 /// Path of the file that a document names, beside the document. @throws Error INPUT at the name when it is not there

@@ -1,13 +1,12 @@
 #include <base/error.hpp>
+#include <base/text.hpp>
 #include <base/units.hpp>
 #include <io/json.hpp>
 #include <render/camera.hpp>
-#include <render/words.hpp>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdio>
-#include <sstream>
 
 namespace sloper::render {
 
@@ -126,14 +125,13 @@ CameraOptions named_view(const std::string& view) {
   options.azimuth = units::radians(35);
   options.elevation = units::radians(14);
   if (view == "iso") return options;
-  refuse_word("--view", view, {"front", "back", "left", "right", "iso", "pattern", "turntable:8"},
-              "known are front, back, left, right, iso, pattern and turntable:N");
+  throw unknown_word("--view", view, {"front", "back", "left", "right", "iso", "pattern", "turntable:8"},
+                     "known are front, back, left, right, iso, pattern and turntable:N");
 }
 
 std::vector<std::optional<CameraOptions>> parse_views(const std::string& list) {
   std::vector<std::optional<CameraOptions>> views;
-  std::stringstream stream(list);
-  for (std::string word; std::getline(stream, word, ',');) {
+  for (const std::string& word : split(list)) {
     int turns = 0;
     char end = 0;
     if (word == "pattern") {

@@ -13,7 +13,6 @@
 #include <pattern/read/read_pattern.hpp>
 #include <render/scene.hpp>
 #include <render/srgb.hpp>
-#include <render/words.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +67,7 @@ void refuse_no_document(const std::string& path) {
 }
 
 void read_one(Scene& scene, const std::string& path) {
-  const std::string ending = ending_of(path);
+  const std::string ending = io::ending_of(path);
   if (ending == ".obj") {
     scene.meshes.push_back(obj_mesh(io::read_obj(path)));
     return;

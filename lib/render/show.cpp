@@ -1,12 +1,11 @@
 #include <base/error.hpp>
+#include <base/text.hpp>
 #include <render/overlay.hpp>
 #include <render/show.hpp>
-#include <render/words.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
 
 namespace sloper::render {
 
@@ -174,13 +173,12 @@ Show parse_show(const std::string& list) {
   Show show;
   const std::pair<const char*, bool Show::*> words[] = {{"landmarks", &Show::landmarks}, {"bones", &Show::bones}, {"frames", &Show::frames},
                                                         {"slices", &Show::slices},       {"seams", &Show::seams}, {"names", &Show::names}};
-  std::stringstream stream(list);
-  for (std::string word; std::getline(stream, word, ',');) {
+  for (const std::string& word : split(list)) {
     const auto found = std::find_if(std::begin(words), std::end(words), [&](const auto& w) { return word == w.first; });
     if (found == std::end(words)) {
       std::vector<std::string> names;
       for (const auto& w : words) names.emplace_back(w.first);
-      refuse_word("--show", word, names, "known are landmarks, bones, frames, slices, seams and names, joined by commas");
+      throw unknown_word("--show", word, names, "known are landmarks, bones, frames, slices, seams and names, joined by commas");
     }
     show.*found->second = true;
   }

@@ -1,26 +1,14 @@
 #include <base/error.hpp>
+#include <base/text.hpp>
 #include <garment/materials.hpp>
 #include <io/json_fwd.hpp>
 #include <render/words.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
 
 namespace sloper::render {
-
-std::vector<std::string> split_words(const std::string& text) {
-  std::vector<std::string> parts;
-  std::stringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
-  return parts;
-}
-
-void refuse_word(const std::string& option, const std::string& word, const std::vector<std::string>& known, const std::string& next_step) {
-  throw Error(ErrorKind::USAGE, "", option + " " + word, "is not known" + did_you_mean(word, known), next_step);
-}
 
 std::array<int, 2> parse_size(const std::string& text) {
   int w = 0, h = 0;
@@ -47,21 +35,13 @@ static int parse_color(const std::string& option, const std::string& word, const
 
 std::vector<int> parse_colors(const std::string& text) {
   std::vector<int> colors;
-  for (const std::string& word : split_words(text)) colors.push_back(parse_color("--color", word));
+  for (const std::string& word : split(text)) colors.push_back(parse_color("--color", word));
   return colors;
 }
 
 std::optional<int> parse_background(const std::string& text) {
   if (text == "transparent") return std::nullopt;
   return text == "white" ? 0xffffff : text == "grey" ? 0xdbdbdb : parse_color("--background", text, "white, grey, transparent or ");
-}
-
-std::string ending_of(const std::string& path) {
-  const std::string name = io::file_name(path);
-  const std::size_t dot = name.rfind('.');
-  std::string ending = dot == std::string::npos ? "" : name.substr(dot);
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
 }
 
 ClothColors choose_fabric(const std::string& fabric, bool colors_given, const Scene& scene, DrawOptions& options) {
@@ -77,10 +57,10 @@ ClothColors choose_fabric(const std::string& fabric, bool colors_given, const Sc
     if (!scene.garments.empty() && std::all_of(scene.garments.begin(), scene.garments.end(), is_denim)) options.fabric = Fabric::TWILL;
     return ClothColors::GARMENTS;
   }
-  if (ending_of(fabric) != ".png") {
+  if (io::ending_of(fabric) != ".png") {
     std::vector<std::string> names{"auto", "panels"};
     for (const auto& [name, kind] : known) names.emplace_back(name);
-    refuse_word("--fabric", fabric, names, "known are auto, panels, plain, woven, twill, stripes, checks and files ending in .png");
+    throw unknown_word("--fabric", fabric, names, "known are auto, panels, plain, woven, twill, stripes, checks and files ending in .png");
   }
   options.fabric = Fabric::PRINT;
   options.print = io::read_png(fabric);

@@ -5,10 +5,6 @@
 
 namespace sloper::render {
 
-/// "a,b,c" in its parts.
-std::vector<std::string> split_words(const std::string& list);
-/// Refuses a word of an option that is none of the known, with the nearest of them.
-[[noreturn]] void refuse_word(const std::string& option, const std::string& word, const std::vector<std::string>& known, const std::string& next_step);
 /// "800x1000": pixels of one view, 16x16 to 8192x8192.
 std::array<int, 2> parse_size(const std::string& text);
 /// Samples along a pixel's side that a picture of this size can have for the price of one of 1024 x 1024 with two: 1 to 4.
@@ -17,8 +13,6 @@ int samples_for(const std::array<int, 2>& size);
 std::vector<int> parse_colors(const std::string& list);
 /// white, grey, transparent (none) or RRGGBB.
 std::optional<int> parse_background(const std::string& text);
-/// ".png" of out.PNG; empty where there is none.
-std::string ending_of(const std::string& path);
 /// What --fabric says; sets how the cloth is coloured. @throws Error INPUT for a print that cannot be read
 ClothColors choose_fabric(const std::string& fabric, bool colors_given, const Scene& scene, DrawOptions& options);
 

@@ -26,6 +26,12 @@ TEST(Error, has_the_exit_code_of_its_kind) {
   EXPECT_EQ(Error(ErrorKind::INTERNAL, "", "", "x").exit_code(), 70);
 }
 
+TEST(Error, names_the_option_and_the_nearest_word) {
+  const Error e = unknown_word("--view", "fromt", {"front", "back"}, "known are front and back");
+  EXPECT_EQ(e.exit_code(), 2);
+  EXPECT_STREQ(e.what(), "--view fromt: is not known (did you mean 'front'?); known are front and back");
+}
+
 TEST(DidYouMean, names_the_nearest_of_the_known_words) {
   const std::vector<std::string> words = {"--accuracy", "--body", "--panels"};
   EXPECT_EQ(did_you_mean("--accurcy", words), " (did you mean '--accuracy'?)");

@@ -1,7 +1,7 @@
 #pragma once
 /// How good a panel mesh is.
 #include <base/units.hpp>
-#include <pattern/mesh/triangulate.hpp>
+#include <pattern/mesh/smallest_angle.hpp>
 #include <pattern/panel_mesh.hpp>
 
 #include <algorithm>

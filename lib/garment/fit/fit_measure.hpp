@@ -1,8 +1,8 @@
 #pragma once
 /// One row of a fit report: a line of cloth around the body, measured.
 #include <garment/fit/cloth_strain.hpp>
-#include <garment/fit/fit.hpp>
 #include <garment/fit/fit_places.hpp>
+#include <garment/fit/fit_report.hpp>
 #include <garment/fit/fit_section.hpp>
 
 namespace sloper::garment {

@@ -8,7 +8,7 @@
 ///   "creases":     [{PLACE, "angle_deg"}]                                      rest angle, positive folds away from the outside
 ///   "wind_m_s": [x, y, z]; [0, 0, 0] is still air    "pressure_pa": number
 /// PLACE is "panel" with "at": [s, t], or with "from" and "to" for a line.
-#include <garment/scene/scene_effects.hpp>
+#include <garment/scene/effect_inputs.hpp>
 #include <io/json_fwd.hpp>
 
 namespace sloper::garment {

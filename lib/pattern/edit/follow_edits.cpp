@@ -2,7 +2,7 @@
 #include <base/units.hpp>
 #include <geometry/sparse_solver.hpp>
 #include <pattern/edit/edits.hpp>
-#include <pattern/mesh/triangulate.hpp>
+#include <pattern/mesh/smallest_angle.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,6 @@
 
 namespace sloper::pattern {
 
-inline bool is_leg(const PanelRole& role) { return role.part == "leg_l" || role.part == "leg_r"; }
-
 /// Brings all panels about the trunk to the heights that agree best along all their seams at once (least squares): level along upright
 /// seams, the upper panel clear of the lower along level ones.
 void level_trunk(const PanelMesh& mesh, const SeamGraph& graph, const std::vector<PanelRole>& roles, std::vector<PanelSpot>& spots);

@@ -1,4 +1,3 @@
-#include <pattern/layout/leg_layout.hpp>
 #include <pattern/layout/panel_layout.hpp>
 
 #include <algorithm>

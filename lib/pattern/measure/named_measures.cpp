@@ -3,6 +3,7 @@
 #include <pattern/layout/panel_layout.hpp>
 #include <pattern/measure/finished_measures.hpp>
 #include <pattern/measure/sewn_cloth.hpp>
+#include <pattern/roles/panel_roles.hpp>
 
 #include <algorithm>
 #include <cmath>

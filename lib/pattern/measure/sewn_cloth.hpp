@@ -3,6 +3,7 @@
 /// keeps the shape that it is drawn with, so that nothing of it depends on where panels lie on the table.
 #include <pattern/panel_mesh.hpp>
 #include <pattern/roles/panel_role.hpp>
+#include <pattern/seam_graph.hpp>
 
 #include <functional>
 

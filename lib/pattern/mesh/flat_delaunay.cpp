@@ -1,7 +1,7 @@
 #include <base/error.hpp>
 #include <geos_c.h>
 #include <pattern/mesh/flat_delaunay.hpp>
-#include <pattern/mesh/triangulate.hpp>
+#include <pattern/mesh/smallest_angle.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -70,12 +70,6 @@ std::vector<std::array<Vec2, 3>> geos_triangles(const std::vector<std::vector<Ve
 }
 
 } // namespace
-
-double smallest_angle(const Vec2& a, const Vec2& b, const Vec2& c) {
-  const double area = cross(a, b, c);
-  if (!(area > 0)) return 0;
-  return std::min({std::atan2(area, (b - a).dot(c - a)), std::atan2(area, (c - b).dot(a - b)), std::atan2(area, (a - c).dot(b - c))});
-}
 
 FlatDelaunay::FlatDelaunay(const std::vector<std::vector<Vec2>>& loops, const std::string& panel) {
   std::map<std::pair<double, double>, int> number;

@@ -4,6 +4,7 @@
 #include <pattern/mesh/boundary.hpp>
 #include <pattern/mesh/folds.hpp>
 #include <pattern/mesh/mesh_pattern.hpp>
+#include <pattern/mesh/smallest_angle.hpp>
 #include <pattern/mesh/triangulate.hpp>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #include <base/error.hpp>
 #include <pattern/mesh/flat_delaunay.hpp>
+#include <pattern/mesh/smallest_angle.hpp>
 #include <pattern/mesh/triangulate.hpp>
 
 #include <algorithm>

@@ -25,7 +25,4 @@ struct FlatMesh {
 FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, const SizeField& size, const std::vector<char>& must_split, const std::string& panel,
                      const std::vector<std::vector<Vec2>>& lines = {});
 
-/// Smallest angle of a triangle, rad; 0 for one that has no area or is clockwise.
-double smallest_angle(const Vec2& a, const Vec2& b, const Vec2& c);
-
 } // namespace sloper::pattern

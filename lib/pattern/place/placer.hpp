@@ -7,12 +7,13 @@
 #include <pattern/layout/sleeve_bend.hpp>
 #include <pattern/mesh/folds.hpp>
 #include <pattern/place/body_space.hpp>
-#include <pattern/place/place_panels.hpp>
 #include <pattern/surfaces/gore_tube.hpp>
 #include <pattern/surfaces/leg_tube.hpp>
 #include <pattern/surfaces/wrap_curve.hpp>
 
 namespace sloper::pattern {
+
+struct PlacementReport;
 
 /// Panels that share one cylinder.
 struct PanelGroup {

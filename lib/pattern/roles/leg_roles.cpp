@@ -1,4 +1,3 @@
-#include <pattern/layout/leg_layout.hpp>
 #include <pattern/panel_words.hpp>
 #include <pattern/roles/leg_roles.hpp>
 

@@ -1,9 +1,10 @@
 #pragma once
-/// What each panel is on the body: which region it covers, from which side, and how its drawing is turned there. From the pattern's
-/// hints where it gives them, else from names, else from how panels are sewn together.
+/// What a panel is on the body: which region it covers, from which side, and how its drawing is turned there.
+#include <Eigen/Core>
 #include <cmath>
-#include <pattern/panel_mesh.hpp>
-#include <pattern/pattern.hpp>
+#include <geometry/types.hpp>
+#include <optional>
+#include <string>
 
 namespace sloper::pattern {
 
@@ -25,27 +26,7 @@ struct PanelRole {
   std::optional<double> du, dv;                       ///< m: (u, v) = turn p + (du, dv) where the pattern's hint says so; heights are those of its own body
 };
 
-/// All seams of a mesh between panel p and panel q (p = q for tubes), as (seam, whether p is its side a).
-struct SeamRef {
-  int seam;
-  bool first;
-};
-
-/// Panel-level view of a mesh's seams.
-class SeamGraph {
-public:
-  explicit SeamGraph(const PanelMesh& mesh);
-  int panel_of(int vertex) const { return m_panel_of[static_cast<std::size_t>(vertex)]; }
-  /// Stitches between panels p and q: pairs (vertex of p, vertex of q), by seam. For p = q each stitch once.
-  std::vector<std::vector<std::array<int, 2>>> between(int p, int q) const;
-  const std::vector<int>& neighbours(int p) const { return m_neighbours[static_cast<std::size_t>(p)]; } ///< ascending, without p
-
-private:
-  const PanelMesh* m_mesh;
-  std::vector<int> m_panel_of;
-  std::vector<std::vector<int>> m_neighbours;
-};
-
-std::vector<PanelRole> panel_roles(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph);
+/// Whether the panel goes around a leg of trousers.
+inline bool is_leg(const PanelRole& role) { return role.part == "leg_l" || role.part == "leg_r"; }
 
 } // namespace sloper::pattern

@@ -5,6 +5,7 @@
 #include <base/parallel.hpp>
 #include <ctime>
 #include <gtest/gtest.h>
+#include <pattern/mesh/smallest_angle.hpp>
 #include <pattern/mesh/triangulate.hpp>
 #include <pattern/panel_mesh_json.hpp>
 
