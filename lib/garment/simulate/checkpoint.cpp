@@ -47,6 +47,7 @@ Json state_json(const DrapeState& s) {
   s.inflate.write(j);
   s.settle.write(j);
   if (s.move.frame > 0) j["motion"] = s.move.to_json();
+  j["fit"] = s.fit.to_json();
   return j;
 }
 
@@ -69,8 +70,15 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   if (s.phase == DrapePhase::SEW && static_cast<int>(s.sew.gaps.size()) != s.sew.step) node.at("gaps").fail("is not one number for each step");
   if (s.phase == DrapePhase::SETTLE && s.settle.start_height.size() != n_particles) node.at("start_height").fail("does not belong to this garment");
   if (node.has("motion") || s.phase == DrapePhase::MOVE) s.move = MovePhase::State::read(node.at("motion"));
+  if (node.has("fit")) s.fit = FitMonitor::State::read(node.at("fit")); // older ones have none
   if (s.phase == DrapePhase::MOVE && s.move.velocity.size() != n_particles) node.at("motion").at("velocity").fail("does not belong to this garment");
   return s;
+}
+
+Json bounds_json(const FitBounds& b) { return {{"slip_m", b.slip_m}, {"strain_p99", b.strain_p99}, {"tight", b.tight}}; }
+
+FitBounds read_bounds(const Node& node) {
+  return {.slip_m = node.at("slip_m").number(), .strain_p99 = node.at("strain_p99").number(), .tight = node.at("tight").boolean()};
 }
 
 Json progress_json(const DrapeReport& r) {
@@ -163,6 +171,7 @@ void write_checkpoint(const std::string& path, const DrapeCheckpoint& c) {
   Json document = io::new_document("checkpoint", CHECKPOINT_VERSION, "drape");
   document["every_steps"] = c.every_steps;
   document["has_body"] = c.has_body;
+  document["bounds"] = bounds_json(c.bounds);
   document["settings"] = settings_json(c.report.settings);
   document["progress"] = progress_json(c.report);
   document["state"] = state_json(c.state);
@@ -185,6 +194,7 @@ DrapeCheckpoint read_checkpoint(const std::string& path) {
   c.every_steps = root.at("every_steps").integer();
   if (c.every_steps < 1) root.at("every_steps").fail("expected a number above zero");
   c.has_body = root.at("has_body").boolean();
+  if (root.has("bounds")) c.bounds = read_bounds(root.at("bounds")); // older ones: none
   c.garment = take_garment(root);
   c.report = read_progress(root.at("progress"), root.at("settings"));
   c.state = read_state(root.at("state"), c.garment.position.size());

@@ -30,6 +30,7 @@ struct DrapeState {
   InflatePhase::State inflate;
   SettlePhase::State settle;
   MovePhase::State move;
+  FitMonitor::State fit;
 
   int step() const; ///< of the phase: the next one
 };
@@ -49,6 +50,7 @@ struct DrapeCheckpoint {
   DrapeState state;
   DrapeReport report;
   int every_steps = 0; ///< between two checkpoints
+  FitBounds bounds;    ///< that end the drape
   bool has_body = false;
   std::optional<MotionInput> motion;    ///< of a drape in motion
   std::optional<LayersProgress> layers; ///< garment, state and report are of one of its drapes
@@ -61,7 +63,7 @@ struct DrapeCheckpoint {
   void check_moves(const BodyMoves* moves) const;
 };
 
-inline constexpr int CHECKPOINT_VERSION = 2; ///< 1: without motion and layers
+inline constexpr int CHECKPOINT_VERSION = 3; ///< 1: without motion and layers; 2: without the bounds of a fit
 /// One JSON document (format "checkpoint"), replaced as a whole. @throws Error OUTPUT
 void write_checkpoint(const std::string& path, const DrapeCheckpoint& checkpoint);
 /// Whether this JSON file is one, by its envelope. @throws Error INPUT for what is no JSON

@@ -21,6 +21,9 @@ public:
     double least_strain = 1e300; ///< of those
     int strain_fell_at = 0;      ///< step at which it last fell by a few per cent
     double slip = -1e300;        ///< m, median at the last look
+
+    io::Json to_json() const;
+    static State read(const io::Node& state); ///< @throws Error INPUT
   };
 
   /// @param cloth outlives this

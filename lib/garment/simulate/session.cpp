@@ -32,7 +32,7 @@ DrapeSession::DrapeSession(const SessionInputs& inputs, const DrapeSettings& set
 }
 
 DrapeSession::DrapeSession(const SessionInputs& inputs, const DrapeCheckpoint& from, Reporter& reporter)
-    : m_context(inputs.garment = from.garment, inputs.body, from.report.settings, inputs.request.bounds, reporter), m_checkpoints(inputs.request.checkpoints),
+    : m_context(inputs.garment = from.garment, inputs.body, from.report.settings, from.bounds, reporter), m_checkpoints(inputs.request.checkpoints),
       m_move(inputs.moves, inputs.on_frame), m_plan{&m_sew, &m_inflate, &m_settle, &m_move, &m_settle} {
   m_context.checkpoints = this;
   restore(from);
@@ -229,6 +229,7 @@ void DrapeSession::take_checkpoint() {
                                .state = state,
                                .report = report,
                                .every_steps = m_checkpoints.every_steps,
+                               .bounds = m_context.fit.bounds(),
                                .has_body = m_context.body.body() != nullptr,
                                .motion = m_checkpoints.motion,
                                .layers = {},
@@ -254,6 +255,7 @@ DrapeState DrapeSession::save() const {
   state.settle = m_settle.state();
   if (state.settle.dynamic_steps > 0) state.settle.velocity = m_context.cloth.v();
   state.move = m_move.state(m_context);
+  state.fit = m_context.fit.state();
   return state;
 }
 
@@ -281,6 +283,7 @@ void DrapeSession::restore(const DrapeCheckpoint& from) {
   m_inflate.restore(state.inflate);
   m_settle.restore(state.settle);
   m_move.restore(state.move);
+  m_context.fit.restore(state.fit);
   restore_body(from);
   m_context.cloth.set_velocity(state.phase == DrapePhase::MOVE ? state.move.velocity : state.settle.velocity);
   m_index = plan_index(state);

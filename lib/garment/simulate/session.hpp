@@ -27,7 +27,8 @@ class DrapeSession : private CheckpointSink {
 public:
   /// A fresh start. @throws Error INPUT for a garment that cannot be simulated
   DrapeSession(const SessionInputs& inputs, const DrapeSettings& settings, Reporter& reporter);
-  /// Goes on from a checkpoint; the garment becomes the checkpoint's, and so do settings and how often checkpoints are taken.
+  /// Goes on from a checkpoint; the garment becomes the checkpoint's, and so do settings, the bounds of a fit, and how often
+  /// checkpoints are taken.
   /// @throws Error INPUT for another body or another motion
   DrapeSession(const SessionInputs& inputs, const DrapeCheckpoint& from, Reporter& reporter);
   ~DrapeSession() override;

@@ -133,6 +133,31 @@ TEST_P(KilledRun, goes_on_from_any_step_to_the_bytes_of_one_that_was_not_killed)
 }
 INSTANTIATE_TEST_SUITE_P(starts, KilledRun, testing::Values("sewn", "drawn_in", "sleeve", "tucked", "dense", "swaying"));
 
+/// The judge extrapolates from what it saw before: a run that forgot it, or its bounds, would go on for longer or for ever.
+TEST_F(CheckpointTest, a_run_with_fit_bounds_is_ended_at_the_same_step_after_it_was_killed) {
+  const body::Body pillar = make_pillar();
+  struct Bounded {
+    FitBounds bounds;
+    double circumference;
+    Misfit misfit;
+  };
+  for (const Bounded& b : {Bounded{{0.15, 0}, 0.95, Misfit::SLIDES_DOWN}, Bounded{{0.15, 0.05}, 0.56, Misfit::STAYS_STRETCHED}}) {
+    Garment whole = make_skirt(b.circumference, 0.25, 0.04), killed = whole, resumed;
+    const DrapeReport undisturbed = drape(whole, &pillar, {}, silent_reporter(), {.bounds = b.bounds, .checkpoints = {file("whole.json"), 10}});
+    EXPECT_EQ(undisturbed.misfit, b.misfit);
+    Killer killer(undisturbed.steps - 12);
+    drape(killed, &pillar, {}, killer, {.bounds = b.bounds, .checkpoints = {file("killed.json"), 10}});
+    const DrapeCheckpoint from = read_checkpoint(file("killed.json"));
+    EXPECT_EQ(from.bounds.slip_m, b.bounds.slip_m);
+    EXPECT_EQ(from.state.phase, DrapePhase::SETTLE);
+    const DrapeReport report = resume_drape(file("killed.json"), resumed, &pillar, silent_reporter());
+    EXPECT_EQ(report.misfit, b.misfit);
+    EXPECT_EQ(report.stop_reason, StopReason::MISFIT);
+    EXPECT_EQ(report.steps, undisturbed.steps);
+    EXPECT_EQ(text(resumed), text(whole));
+  }
+}
+
 TEST_F(CheckpointTest, a_run_that_was_resumed_can_be_killed_and_resumed_again) {
   const Case c{"", make_pillar(), make_skirt(0.75, 0.3, 0.04)};
   Garment whole = c.garment, killed = c.garment;
