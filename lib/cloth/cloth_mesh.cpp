@@ -119,4 +119,10 @@ ClothMesh make_cloth_mesh(int n_particles, std::vector<RestTriangle> triangles, 
   return mesh;
 }
 
+double ClothMesh::mean_edge() const {
+  double sum = 0;
+  for (const EdgeSpring& s : springs) sum += s.rest_length;
+  return sum / static_cast<double>(springs.size());
+}
+
 } // namespace sloper::cloth

@@ -46,6 +46,7 @@ struct ClothMesh {
   std::vector<double> mass;              ///< #P, kg; a third of the area density of every triangle around
   std::vector<double> area;              ///< #P, m2
   std::vector<double> shortest_edge;     ///< #P, m: shortest rest edge around
+  double mean_edge() const;              ///< mean rest length of the edge springs, m
   std::vector<Triangle> particle_triangles() const;
 };
 

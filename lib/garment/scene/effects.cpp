@@ -1,5 +1,6 @@
 #include <base/error.hpp>
 #include <garment/materials.hpp>
+#include <garment/scene/effect_registry.hpp>
 #include <garment/scene/effects.hpp>
 #include <garment/sewing.hpp>
 
@@ -9,8 +10,12 @@
 namespace sloper::garment {
 
 /// Models of the same thing: only one of each takes part.
-static constexpr const char* STRETCH_MODELS[] = {"edge_springs", "triangle_stretch", "membrane"};
-static constexpr const char* BENDING_MODELS[] = {"bending", "dihedral_bending"};
+static std::vector<const char*> models_of(EffectModel model) {
+  std::vector<const char*> names;
+  for (const EffectSpec& spec : effect_registry())
+    if (spec.model == model) names.push_back(spec.name);
+  return names;
+}
 
 static EffectReport& named(std::vector<EffectReport>& effects, const std::string& name) {
   const auto found = std::find_if(effects.begin(), effects.end(), [&](const EffectReport& e) { return e.name == name; });
@@ -34,8 +39,8 @@ static void replace_others(std::vector<EffectReport>& effects, const std::string
         named(effects, other).why = name + " takes its place";
       }
   };
-  replace(STRETCH_MODELS);
-  replace(BENDING_MODELS);
+  replace(models_of(EffectModel::STRETCH));
+  replace(models_of(EffectModel::BENDING));
   if (name == "membrane" && named(effects, "shear").active) {
     named(effects, "shear").active = false;
     named(effects, "shear").why = "the finite elements carry shear";
@@ -53,53 +58,49 @@ static void check_models(const std::vector<EffectReport>& effects) {
       }
     if (n > 1) throw Error(ErrorKind::USAGE, "", "effects", both + " are models of the same " + of, "name one of them");
   };
-  only_one(STRETCH_MODELS, "stretch");
-  only_one(BENDING_MODELS, "bending");
+  only_one(models_of(EffectModel::STRETCH), "stretch");
+  only_one(models_of(EffectModel::BENDING), "bending");
   if (is_active(effects, "membrane") && is_active(effects, "shear"))
     throw Error(ErrorKind::USAGE, "", "effects", "membrane and shear both carry shear", "leave shear out");
 }
 
-std::vector<EffectReport> choose_effects(const Garment& garment, const body::Body* body, const DrapeSettings& settings) {
+static EffectFacts facts_of(const Garment& garment, const body::Body* body, const DrapeSettings& settings) {
+  const SceneEffects& scene = garment.scene;
   const std::size_t open = garment.particle_of.empty() ? 1 : open_stitches(garment).size();
-  bool shear = false, bend = false, damped = false, rubs = false;
+  EffectFacts facts{.garment = garment,
+                    .body = body,
+                    .settings = settings,
+                    .scene = scene,
+                    .has_open_seams = open > 0,
+                    .touches_body = body && !body->skin.triangles.empty(),
+                    .has_shear = false,
+                    .has_bending = false,
+                    .has_damping = false,
+                    .has_friction = false,
+                    .is_fem = scene.membrane == "fem",
+                    .is_triangles = false,
+                    .is_dihedral = false};
   for (const pattern::PanelInfo& panel : garment.panels.panels) {
     const Material& m = material_of(garment, panel.material);
-    shear |= m.shear_n_m > 0;
-    bend |= m.bend_n_m > 0;
-    damped |= m.damping_s > 0;
-    rubs |= m.friction_body > 0 || m.friction_self > 0;
+    facts.has_shear |= m.shear_n_m > 0;
+    facts.has_bending |= m.bend_n_m > 0;
+    facts.has_damping |= m.damping_s > 0;
+    facts.has_friction |= m.friction_body > 0 || m.friction_self > 0;
   }
-  std::vector<EffectReport> effects;
-  auto consider = [&](const char* name, bool wanted, const char* yes, const char* no) { effects.push_back({name, wanted, wanted ? yes : no, 0, 0}); };
-  const SceneEffects& scene = garment.scene;
-  const bool fem = scene.membrane == "fem", triangles = scene.membrane == "triangles" || (!scene.shrink.empty() && !fem);
-  if (fem && !scene.shrink.empty())
+  facts.is_triangles = scene.membrane == "triangles" || (!scene.shrink.empty() && !facts.is_fem);
+  facts.is_dihedral = facts.has_bending && (scene.bending == "dihedral" || !scene.creases.empty());
+  return facts;
+}
+
+std::vector<EffectReport> choose_effects(const Garment& garment, const body::Body* body, const DrapeSettings& settings) {
+  const EffectFacts facts = facts_of(garment, body, settings);
+  if (facts.is_fem && !facts.scene.shrink.empty())
     throw input_error("", "shrink", "the finite-element membrane has no b_u, b_v", "choose \"membrane\": \"triangles\", which the scene gets by itself");
-  consider("edge_springs", !fem && !triangles, "cloth resists stretch", "another model carries the stretch");
-  consider("triangle_stretch", triangles, scene.shrink.empty() ? "the scene chose triangles" : "the scene shrinks a region",
-           "edge springs or finite elements do it");
-  consider("membrane", fem, "the scene chose finite elements", "the scene did not choose finite elements");
-  consider("shear", shear && !fem, "a fabric has shear stiffness", fem ? "the finite elements carry shear" : "no fabric has shear stiffness");
-  const bool dihedral = bend && (scene.bending == "dihedral" || !scene.creases.empty());
-  consider("bending", bend && !dihedral, "a fabric has bending rigidity", bend ? "dihedral bending takes its place" : "no fabric has bending rigidity");
-  consider("dihedral_bending", dihedral, scene.creases.empty() ? "the scene chose it" : "the scene has creases",
-           bend ? "there is no crease" : "no fabric has bending rigidity");
-  consider("damping", damped, "a fabric has internal damping", "no fabric has internal damping");
-  consider("sewing", open > 0 && !garment.panels.seams.empty(), "seams are open", "no seam is open");
-  consider("gravity", settings.gravity_m_s2 > 0, "the scene has gravity", "gravity is 0");
-  consider("pins", !scene.pins.empty(), "the scene has pins", "the scene has no pins");
-  consider("attachments", !scene.attachments.empty(), "the scene has elastic attachments", "the scene has no attachments");
-  consider("elastic_bands", !scene.bands.empty(), "the scene has elastic bands", "the scene has no elastic bands");
-  consider("wind", scene.air, "the scene has air", "the scene names no wind");
-  consider("pressure", scene.pressure_pa != 0, "the scene has pressure", "the pressure is 0");
-  const bool touches = body && !body->skin.triangles.empty();
-  consider("body_contact", touches, "there is a body", "there is no body");
-  consider("body_motion", false, "", touches ? "the body stands still" : "there is no body");
-  consider("friction", touches && rubs, "cloth rests on the body by it", touches ? "no fabric has friction" : "there is no body to rest on");
-  consider("self_contact", garment.panels.panels.size() > 1 || bend, "panels can touch each other", "one panel without bending");
-  int layers = 0;
-  for (const pattern::PanelInfo& panel : garment.panels.panels) layers = std::max(layers, panel.layer);
-  consider("layers", layers > 0 && touches, "cloth lies over cloth: self contact keeps the order", "there is one layer");
+  std::vector<EffectReport> effects;
+  for (const EffectSpec& spec : effect_registry()) {
+    const EffectChoice choice = spec.choose(facts);
+    effects.push_back({spec.name, choice.wanted, choice.why, 0, 0});
+  }
   std::vector<std::string> list;
   std::stringstream stream(settings.effects);
   for (std::string name; std::getline(stream, name, ',');) list.push_back(name);
@@ -119,6 +120,11 @@ std::vector<EffectReport> choose_effects(const Garment& garment, const body::Bod
   }
   check_models(effects);
   return effects;
+}
+
+void add_effects(EffectStage stage, EffectBuild& build, const std::vector<EffectReport>& chosen) {
+  for (const EffectSpec& spec : effect_registry())
+    if (spec.stage == stage && spec.add && is_active(chosen, spec.name)) spec.add(build);
 }
 
 bool is_active(const std::vector<EffectReport>& effects, const std::string& name) {

@@ -3,6 +3,7 @@
 #include <body/body.hpp>
 #include <garment/garment.hpp>
 #include <garment/scene/effect_report.hpp>
+#include <garment/scene/effect_spec.hpp>
 #include <garment/scene/settings.hpp>
 
 namespace sloper::garment {
@@ -14,5 +15,9 @@ namespace sloper::garment {
 /// bending (bending, dihedral_bending) one takes part. Calls and time are 0 until the drape fills them.
 /// @throws Error USAGE for an unknown name or two models of one thing; INPUT for a scene that contradicts itself
 std::vector<EffectReport> choose_effects(const Garment& garment, const body::Body* body, const DrapeSettings& settings);
+
+/// Adds the effects of a stage that were chosen; those that were not are not built at all.
+/// @throws Error INPUT for a panel or landmark that is not there
+void add_effects(EffectStage stage, EffectBuild& build, const std::vector<EffectReport>& chosen);
 
 } // namespace sloper::garment

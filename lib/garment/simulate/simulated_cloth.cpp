@@ -1,13 +1,7 @@
 #include <base/error.hpp>
 #include <base/units.hpp>
-#include <cloth/forces/bending.hpp>
-#include <cloth/forces/edge_spring.hpp>
-#include <cloth/forces/gravity.hpp>
-#include <cloth/forces/shear.hpp>
 #include <cloth/linear/factorisation.hpp>
-#include <garment/materials.hpp>
 #include <garment/scene/effects.hpp>
-#include <garment/scene/scene_effects.hpp>
 #include <garment/sewing.hpp>
 #include <garment/simulate/simulated_cloth.hpp>
 
@@ -17,8 +11,7 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double SEW_SEARCH = 0.75; // of the mesh edge: cloth nearer than this is watched while sewing
-constexpr double SEW_BENDING = 30;  // times that of the fabric: panels travel as boards and do not crumple
+constexpr double SEW_BENDING = 30; // times that of the fabric: panels travel as boards and do not crumple
 
 } // namespace
 
@@ -47,42 +40,32 @@ void SimulatedCloth::build(bool open_seams, bool keep_velocity) {
   if (!is_active("damping")) remove_damping();
   if (open_seams)
     for (cloth::Hinge& hinge : m_mesh->hinges) hinge.stiffness *= SEW_BENDING;
-  if (is_active("edge_springs")) m_solver->emplace<cloth::EdgeSpringEffect>(*m_mesh);
-  if (is_active("shear")) m_solver->emplace<cloth::ShearEffect>(*m_mesh);
-  if (is_active("bending")) m_solver->emplace<cloth::BendingEffect>(*m_mesh);
-  add_scene_effects(*m_solver, *m_mesh, m_garment, m_body.body(), m_telemetry.report.effects, open_seams);
-  if (open_seams) m_sewing = &m_solver->emplace<cloth::SewingSpringEffect>(open_stitches(m_garment), 1.0, SEW_REACH);
-  if (m_body.collider() && is_active("body_contact")) {
-    cloth::BodyContactOptions options;
-    options.gap_m = m_settings.contact_gap_m;
-    options.level = static_cast<cloth::ContactLevel>(m_settings.contact_level);
-    m_body_contact = &m_solver->emplace<cloth::BodyContactEffect>(*m_mesh, *m_body.collider(), options);
-  }
-  if (is_active("self_contact")) {
-    cloth::SelfContactOptions options;
-    options.thickness_m = m_settings.self_thickness_m;
-    if (open_seams) options.search_m = SEW_SEARCH * mean_edge();
-    m_self_contact = &m_solver->emplace<cloth::SelfContactEffect>(*m_mesh, options, open_seams ? seam_classes(m_garment) : std::vector<int>{});
-  }
+  for (EffectStage stage : {EffectStage::FABRIC, EffectStage::MODEL, EffectStage::SCENE, EffectStage::CONTACT}) add_stage(stage);
+}
+
+void SimulatedCloth::add_stage(EffectStage stage) {
+  EffectBuild build{.solver = *m_solver,
+                    .mesh = *m_mesh,
+                    .garment = m_garment,
+                    .body = m_body.body(),
+                    .settings = m_settings,
+                    .collider = m_body.collider(),
+                    .open_seams = m_open_seams,
+                    .handles = m_handles};
+  add_effects(stage, build, m_telemetry.report.effects);
 }
 
 void SimulatedCloth::tear_down() {
   if (!m_solver) return;
   report_effects();
-  m_body_contact = nullptr;
-  m_self_contact = nullptr;
-  m_sewing = nullptr;
+  m_handles = {};
   m_solver.reset();
 }
 
 void SimulatedCloth::add_load() {
   if (m_loaded) return;
   m_loaded = true;
-  if (is_active("gravity")) m_solver->emplace<cloth::GravityEffect>(*m_mesh, Vec3(0, -m_settings.gravity_m_s2, 0));
-  if (!is_active("friction")) return;
-  const Material& material = material_of(m_garment, "");
-  if (m_body_contact) m_body_contact->set_friction(material.friction_body);
-  if (m_self_contact) m_self_contact->set_friction(material.friction_self);
+  add_stage(EffectStage::LOAD);
 }
 
 void SimulatedCloth::replace_rest_shape() {
@@ -106,8 +89,8 @@ void SimulatedCloth::report_effects() {
         r.wall_s += effect->wall_s;
       }
   for (EffectReport& r : reports) { // damping and friction live in the terms that they belong to
-    if (r.name == "friction" && m_body_contact) r.calls += m_body_contact->friction_calls;
-    else if (r.name == "layers" && r.active && m_self_contact) r.calls += m_self_contact->calls;
+    if (r.name == "friction" && m_handles.body_contact) r.calls += m_handles.body_contact->friction_calls;
+    else if (r.name == "layers" && r.active && m_handles.self_contact) r.calls += m_handles.self_contact->calls;
     else if (r.name == "damping" && r.active) r.calls = m_telemetry.report.steps;
   }
 }
@@ -118,14 +101,8 @@ void SimulatedCloth::positions_changed() {
 }
 
 void SimulatedCloth::refresh_contacts() {
-  if (m_body_contact) m_body_contact->refresh();
-  if (m_self_contact) m_self_contact->refresh();
-}
-
-double SimulatedCloth::mean_edge() const {
-  double sum = 0;
-  for (const cloth::EdgeSpring& s : m_mesh->springs) sum += s.rest_length;
-  return sum / static_cast<double>(m_mesh->springs.size());
+  if (m_handles.body_contact) m_handles.body_contact->refresh();
+  if (m_handles.self_contact) m_handles.self_contact->refresh();
 }
 
 double SimulatedCloth::tension_ratio() const {
@@ -136,8 +113,9 @@ double SimulatedCloth::tension_ratio() const {
 }
 
 std::string SimulatedCloth::crossing_text() const {
-  if (!m_body_contact || m_body_contact->n_crossing() == 0) return "";
-  return ", " + std::to_string(m_body_contact->n_crossing()) + " faces through the skin, one at " + place_text(m_body_contact->crossing_place());
+  if (!m_handles.body_contact || m_handles.body_contact->n_crossing() == 0) return "";
+  return ", " + std::to_string(m_handles.body_contact->n_crossing()) + " faces through the skin, one at " +
+         place_text(m_handles.body_contact->crossing_place());
 }
 
 } // namespace sloper::garment

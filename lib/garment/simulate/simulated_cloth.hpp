@@ -1,12 +1,9 @@
 #pragma once
 /// The cloth that a drape simulates: the mesh, the solver and the effects of one garment as it stands. The garment's `position` is the only copy of the
 /// positions: the solver steps it in place. Effects that a drape speaks to are kept as typed handles.
-#include <cloth/contact/body_contact.hpp>
-#include <cloth/contact/self_contact.hpp>
-#include <cloth/forces/sewing_spring.hpp>
-#include <cloth/solver/implicit_step.hpp>
 #include <garment/body_model/collision_body.hpp>
 #include <garment/garment.hpp>
+#include <garment/scene/effect_spec.hpp>
 #include <garment/simulate/telemetry.hpp>
 
 #include <memory>
@@ -14,8 +11,6 @@
 #include <vector>
 
 namespace sloper::garment {
-
-inline constexpr double SEW_REACH = 0.05; ///< m: the pull of a stitch does not grow beyond this gap
 
 class SimulatedCloth {
 public:
@@ -49,17 +44,18 @@ public:
   cloth::ClothSolver& solver() { return *m_solver; }
   const cloth::ClothMesh& mesh() const { return *m_mesh; }
   bool is_active(const char* effect) const { return m_telemetry.is_active(effect); }
-  cloth::BodyContactEffect* body_contact() { return m_body_contact; } ///< null without
-  const cloth::BodyContactEffect* body_contact() const { return m_body_contact; }
-  cloth::SelfContactEffect* self_contact() { return m_self_contact; } ///< null without
-  cloth::SewingSpringEffect* sewing() { return m_sewing; }            ///< null once seams are closed
+  cloth::BodyContactEffect* body_contact() { return m_handles.body_contact; } ///< null without
+  const cloth::BodyContactEffect* body_contact() const { return m_handles.body_contact; }
+  cloth::SelfContactEffect* self_contact() { return m_handles.self_contact; } ///< null without
+  cloth::SewingSpringEffect* sewing() { return m_handles.sewing; }            ///< null once seams are closed
 
-  double mean_edge() const;          ///< mean rest length of the edges, m
+  double mean_edge() const { return m_mesh->mean_edge(); }
   double tension_ratio() const;      ///< force in an edge at a strain of one over the weight of a particle: means of all
   std::string crossing_text() const; ///< for the log: what is through the skin, and where; empty: nothing
 
 private:
   void remove_damping();
+  void add_stage(EffectStage stage);
 
   Garment& m_garment;
   const DrapeSettings& m_settings;
@@ -68,9 +64,7 @@ private:
   std::vector<Vec3> m_velocity;
   std::unique_ptr<cloth::ClothMesh> m_mesh;
   std::unique_ptr<cloth::ClothSolver> m_solver;
-  cloth::BodyContactEffect* m_body_contact = nullptr; // of m_solver, as those below
-  cloth::SelfContactEffect* m_self_contact = nullptr;
-  cloth::SewingSpringEffect* m_sewing = nullptr;
+  EffectHandles m_handles; // of m_solver
   bool m_loaded = false;
   bool m_open_seams = false;
 };

@@ -10,6 +10,7 @@
 #include <garment/kes.hpp>
 #include <garment/materials.hpp>
 #include <garment/scene/effects.hpp>
+#include <garment/scene/panel_runs.hpp>
 #include <garment/scene/scene.hpp>
 #include <garment/scene/scene_effects_json.hpp>
 #include <garment/sewing.hpp>
@@ -66,6 +67,23 @@ const char* const FULL = R"({"membrane": "triangles", "bending": "dihedral",
   "shrink": [{"panel": "front", "from": [0, 0.8], "to": [1, 1], "weft": 0.9}],
   "creases": [{"panel": "front", "from": [0.5, 0], "to": [0.5, 1], "angle_deg": 90}],
   "wind_m_s": [0, 0, -3], "pressure_pa": 5})";
+
+/// What a scene adds, and the models that it chooses.
+void add_scene(cloth::ClothSolver& solver, const cloth::ClothMesh& mesh, const Garment& garment, const body::Body* body,
+               const std::vector<EffectReport>& effects, bool open_seams) {
+  const DrapeSettings settings;
+  EffectHandles handles;
+  EffectBuild build{.solver = solver,
+                    .mesh = mesh,
+                    .garment = garment,
+                    .body = body,
+                    .settings = settings,
+                    .collider = nullptr,
+                    .open_seams = open_seams,
+                    .handles = handles};
+  add_effects(EffectStage::MODEL, build, effects);
+  add_effects(EffectStage::SCENE, build, effects);
+}
 
 } // namespace
 
@@ -152,7 +170,7 @@ TEST(SceneEffects, are_built_when_active_and_only_then) {
     DrapeSettings settings;
     settings.effects = list;
     cloth::ClothSolver solver(mesh, g.position);
-    add_scene_effects(solver, mesh, g, &body, choose_effects(g, &body, settings), sewing);
+    add_scene(solver, mesh, g, &body, choose_effects(g, &body, settings), sewing);
     std::string out;
     for (const auto& e : solver.effects()) out += std::string(e->name()) + " ";
     return out;
@@ -162,7 +180,7 @@ TEST(SceneEffects, are_built_when_active_and_only_then) {
   EXPECT_EQ(names("gravity", false), "");
   Garment plain = skirt(true);
   cloth::ClothSolver solver(mesh, g.position);
-  add_scene_effects(solver, mesh, plain, nullptr, choose_effects(plain, nullptr, {}), false);
+  add_scene(solver, mesh, plain, nullptr, choose_effects(plain, nullptr, {}), false);
   EXPECT_TRUE(solver.effects().empty());
 }
 
@@ -172,7 +190,7 @@ TEST(SceneEffects, a_band_of_two_panels_is_one_ring_over_welded_seams) {
                                 {"panel": "back", "from": [0, 1], "to": [1, 1], "ratio": 0.8, "strength_n": 40}]})");
   const cloth::ClothMesh mesh = cloth_mesh_of(g);
   cloth::ClothSolver solver(mesh, g.position);
-  add_scene_effects(solver, mesh, g, nullptr, choose_effects(g, nullptr, {}), false);
+  add_scene(solver, mesh, g, nullptr, choose_effects(g, nullptr, {}), false);
   const auto& band = dynamic_cast<const cloth::ElasticBandEffect&>(*solver.effects().at(0));
   std::map<int, int> links_at;
   double length = 0;
@@ -192,7 +210,7 @@ TEST(SceneEffects, an_elastic_waistband_draws_the_skirt_in_to_the_balance_of_ban
                                 {"panel": "back", "from": [0, 1], "to": [1, 1], "ratio": 0.5, "strength_n": 40}]})");
   const cloth::ClothMesh mesh = cloth_mesh_of(g);
   cloth::ClothSolver solver(mesh, g.position);
-  add_scene_effects(solver, mesh, g, nullptr, choose_effects(g, nullptr, {}), false);
+  add_scene(solver, mesh, g, nullptr, choose_effects(g, nullptr, {}), false);
   const auto& band = dynamic_cast<const cloth::ElasticBandEffect&>(*solver.effects().back());
   auto girth = [&] {
     double sum = 0;

@@ -1,0 +1,22 @@
+#pragma once
+/// Places on a garment that a scene names: panels, and runs of their vertices.
+#include <garment/garment.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sloper::garment {
+
+/// @throws Error INPUT naming the panels when there is none of that name
+const pattern::PanelInfo& panel_named(const Garment& garment, const std::string& name);
+
+/// The particle of a panel vertex, unsewn or sewn.
+int particle_at(const Garment& garment, int vertex);
+
+/// Panel vertices of a run, in order. @throws Error INPUT naming the panels when there is none of that name
+std::vector<int> run_vertices(const Garment& garment, const PanelRun& run);
+
+/// Particles of a run, neighbours that a seam has welded into one taken once.
+std::vector<int> run_particles(const Garment& garment, const PanelRun& run);
+
+} // namespace sloper::garment
