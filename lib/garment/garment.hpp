@@ -1,5 +1,6 @@
 #pragma once
 /// A sewn garment: the panel mesh, which vertices are one particle, where the particles are, and what holds them.
+#include <cloth/fabric.hpp>
 #include <garment/scene/effect_inputs.hpp>
 #include <geometry/triangle_mesh.hpp>
 #include <map>
@@ -9,18 +10,12 @@
 
 namespace sloper::garment {
 
-/// Mechanical properties of a fabric; keys of the document carry the unit.
-struct Material {
+/// A fabric by name: what cloth is made of, how it rubs and how thick it is. Keys of the document are the members' names.
+struct Material : cloth::Fabric {
   std::string name = "cotton-poplin";
-  double density_kg_m2 = 0.12;
-  double stretch_warp_n_m = 1000, stretch_weft_n_m = 800; ///< tension per width at unit strain
-  double shear_n_m = 60;
-  double bend_n_m = 1e-5; ///< N m: bending moment per width at unit curvature
-  double friction_body = 0.4, friction_self = 0.3;
-  double damping_s = 0.02; ///< stiffness-proportional damping time
+  double friction_body = 0.4, friction_self = 0.3; ///< Coulomb coefficients against skin and against cloth
   double thickness_m = 0.0005;
-  double poisson = 0.25; ///< 0..1, of the finite-element membrane
-  std::string source;    ///< where the numbers come from
+  std::string source; ///< where the numbers come from
 };
 
 /// How a garment hangs on a body in body-relative coordinates (DESIGN section 9); empty until bound.

@@ -1,4 +1,5 @@
 #include <base/error.hpp>
+#include <base/units.hpp>
 #include <garment/kes.hpp>
 #include <garment/materials.hpp>
 #include <io/files.hpp>
@@ -16,7 +17,7 @@ namespace {
 constexpr double GF_CM = 0.980665;  // 1 gf/cm in N/m
 constexpr double FULL_LOAD = 500;   // gf/cm: end of the KES-F1 tensile test
 constexpr double WEARING_LOAD = 50; // N/m
-constexpr double DEGREES = 180 / M_PI;
+constexpr double DEGREES = 180 / units::PI;
 
 struct Unit {
   const char* property;

@@ -1,6 +1,7 @@
 #include <base/error.hpp>
 #include <garment/materials.hpp>
 #include <garment/sewing.hpp>
+#include <geometry/disjoint_sets.hpp>
 #include <pattern/mesh/folds.hpp>
 
 #include <algorithm>
@@ -9,25 +10,10 @@
 namespace sloper::garment {
 
 std::vector<int> weld_classes(const pattern::PanelMesh& panels) {
-  std::vector<int> parent(panels.pattern.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  auto root = [&](int v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets welded(panels.pattern.size());
   for (const pattern::MeshSeam& seam : panels.seams)
-    for (std::size_t k = 0; k < seam.a.size() && !seam.open; ++k) {
-      const int a = root(seam.a[k]), b = root(seam.b[k]);
-      if (a != b) parent[std::max(a, b)] = std::min(a, b);
-    }
-  std::vector<int> of(parent.size()), number(parent.size(), -1);
-  int count = 0;
-  for (std::size_t v = 0; v < parent.size(); ++v) {
-    const int r = root(static_cast<int>(v));
-    if (number[r] < 0) number[r] = count++;
-    of[v] = number[r];
-  }
-  return of;
+    for (std::size_t k = 0; k < seam.a.size() && !seam.open; ++k) welded.unite(seam.a[k], seam.b[k]);
+  return welded.numbers();
 }
 
 void unsew(Garment& garment) {
@@ -115,8 +101,7 @@ cloth::ClothMesh cloth_mesh_of(const Garment& garment) {
   std::vector<cloth::RestTriangle> triangles(panels.triangles.size());
   std::vector<cloth::Fabric> fabrics;
   for (const pattern::PanelInfo& panel : panels.panels) {
-    const Material& m = material_of(garment, panel.material);
-    fabrics.push_back({m.density_kg_m2, m.stretch_warp_n_m, m.stretch_weft_n_m, m.shear_n_m, m.bend_n_m, m.damping_s, m.poisson});
+    fabrics.push_back(material_of(garment, panel.material));
     const Vec2 warp = panel.grain.normalized(), weft(warp.y(), -warp.x());
     for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
       cloth::RestTriangle& t = triangles[f];

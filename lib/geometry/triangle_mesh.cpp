@@ -1,8 +1,8 @@
+#include <geometry/disjoint_sets.hpp>
 #include <geometry/triangle_mesh.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace sloper {
 
@@ -61,25 +61,10 @@ std::vector<std::array<int, 2>> free_edges_of(const std::vector<Triangle>& trian
 }
 
 std::vector<int> connected_components(std::size_t n_vertices, const std::vector<Triangle>& triangles) {
-  std::vector<int> parent(n_vertices);
-  std::iota(parent.begin(), parent.end(), 0);
-  auto root = [&](int v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets joined(n_vertices);
   for (const Triangle& t : triangles)
-    for (int k = 1; k < 3; ++k) {
-      const int a = root(t[0]), b = root(t[k]);
-      if (a != b) parent[std::max(a, b)] = std::min(a, b); // the lowest index stays the root
-    }
-  std::vector<int> component(n_vertices, -1);
-  int count = 0;
-  for (std::size_t v = 0; v < n_vertices; ++v) {
-    const int r = root(static_cast<int>(v));
-    if (component[r] < 0) component[r] = count++;
-    component[v] = component[r];
-  }
-  return component;
+    for (int k = 1; k < 3; ++k) joined.unite(t[0], t[k]);
+  return joined.numbers();
 }
 
 } // namespace sloper

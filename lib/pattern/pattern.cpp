@@ -1,7 +1,7 @@
+#include <base/text.hpp>
 #include <pattern/pattern.hpp>
 
 #include <algorithm>
-#include <cstdio>
 
 namespace sloper::pattern {
 
@@ -105,10 +105,6 @@ std::string place_of(const Pattern& pattern, const Run& run) {
   return panel.name + ": " + panel.edge(run.edge).name;
 }
 
-std::string centimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f cm", metres * 100);
-  return text;
-}
+std::string centimetres(double metres) { return sloper::centimetres(metres, 2); }
 
 } // namespace sloper::pattern

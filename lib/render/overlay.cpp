@@ -1,4 +1,5 @@
 #include <base/error.hpp>
+#include <base/text.hpp>
 #include <render/overlay.hpp>
 #include <render/srgb.hpp>
 
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 namespace sloper::render {
@@ -55,18 +55,9 @@ template<class F> void cover(io::Image& image, double x0, double y0, double x1, 
     }
 }
 
-std::string number(double x) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, std::abs(x) < 10 && x != std::floor(x) ? "%.1f" : "%.0f", x);
-  return buffer;
-}
+std::string number(double x) { return decimals(x, std::abs(x) < 10 && x != std::floor(x) ? 1 : 0); }
 
-std::string share(double of_one) {
-  if (of_one < 0.001) return "< 0.1 %";
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.1f %%", 100 * of_one);
-  return buffer;
-}
+std::string share(double of_one) { return of_one < 0.001 ? "< 0.1 %" : percent(of_one); }
 
 void fill(io::Image& image, int x0, int y0, int x1, int y1, const Vec3& linear) {
   for (int y = std::max(y0, 0); y < std::min(y1, image.height); ++y)

@@ -1,11 +1,11 @@
 #include <base/error.hpp>
+#include <base/text.hpp>
 #include <render/overlay.hpp>
 #include <render/pattern_view.hpp>
 #include <render/show.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <optional>
 
@@ -167,8 +167,7 @@ void draw_name(io::Image& image, const Sheet& sheet, const Sheet::Panel& panel, 
   const auto write = mapped ? draw_text_halo : draw_text;
   const int color = mapped ? 0x101010 : 0x404040;
   const bool narrow = size.y() * pixels_per_m < 6 * font; // no room for the name between the numbers of seams
-  char text[64];
-  std::snprintf(text, sizeof text, "%.1f x %.1f cm", 100 * size.x(), 100 * size.y());
+  const std::string text = decimals(100 * size.x(), 1) + " x " + centimetres(size.y());
   const bool outside = narrow || std::max(text_width(panel.info->name, font), text_width(text, font - 2)) > 0.8 * size.x() * pixels_per_m;
   if (outside) {
     const Vec3 above = camera.pixel(Vec3(0.5 * (panel.low.x() + panel.high.x()), panel.high.y(), 0), image.width, image.height);

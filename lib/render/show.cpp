@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace sloper::render {
 
@@ -103,11 +102,7 @@ void draw_labels(Pen& pen, std::vector<Label> labels, int right_edge) {
   throw Error(ErrorKind::USAGE, "", "--show " + what, "needs " + needs, "give it as a document");
 }
 
-std::string slice_label(const std::string& name, const body::Level& level) {
-  char girth[48];
-  std::snprintf(girth, sizeof girth, "  %.1f cm", 100 * level.girth_m);
-  return name + girth;
-}
+std::string slice_label(const std::string& name, const body::Level& level) { return name + "  " + centimetres(level.girth_m); }
 
 void show_slices(Pen& pen, const body::Body& body, std::vector<Label>& labels) {
   std::vector<char> trunk(body.face_part.size());

@@ -1,6 +1,7 @@
 /// measure-hem SHIRT.json...: one line per draped garment, tab separated: girth, shadow, turning and waviness of its lowest edge, strain.
 #include <algorithm>
 #include <base/error.hpp>
+#include <base/units.hpp>
 #include <cmath>
 #include <complex>
 #include <cstdio>
@@ -52,7 +53,7 @@ double waviness(const std::vector<std::complex<double>>& z, int& folds) {
     for (int sign : {-1, 1}) {
       std::complex<double> c = 0;
       // a wave of k folds on a round hem is z = e^(it) (r + a cos(kt)): harmonics 1 + k and 1 - k
-      for (std::size_t i = 0; i < z.size(); ++i) c += z[i] * std::polar(1.0, -2 * M_PI * (1 + sign * k) * static_cast<double>(i) / n) / n;
+      for (std::size_t i = 0; i < z.size(); ++i) c += z[i] * std::polar(1.0, -2 * sloper::units::PI * (1 + sign * k) * static_cast<double>(i) / n) / n;
       power += std::norm(c);
     }
     sum += power;
@@ -73,7 +74,7 @@ double turning(const std::vector<std::complex<double>>& z) {
     const auto a = z[(i + step) % z.size()] - z[i], b = z[(i + 2 * step) % z.size()] - z[(i + step) % z.size()];
     sum += std::abs(std::arg(b / a));
   }
-  return sum / (2 * M_PI);
+  return sum / (2 * sloper::units::PI);
 }
 
 void measure(const std::string& path) {

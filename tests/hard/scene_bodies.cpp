@@ -1,6 +1,8 @@
 /// Bodies of the scenes: surfaces of revolution and prisms, and what scanners do to them.
 #include "scene_tools.hpp"
 
+#include <support/shapes.hpp>
+
 #include <cmath>
 #include <functional>
 
@@ -8,35 +10,18 @@ namespace sloper::hard {
 
 namespace {
 
-void append(TriangleMesh& mesh, const TriangleMesh& other) {
-  const auto base = static_cast<int>(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
-  for (const Triangle& t : other.triangles) mesh.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
-}
+using shapes::append;
 
 /// Closed surface about the vertical through `center`: radius(t) at height(t), t in (0, 1); a point at each end.
 TriangleMesh revolve(int around, int up, const std::function<double(double)>& radius, const std::function<double(double)>& height, const Vec3& center) {
-  TriangleMesh m;
-  for (int r = 0; r <= up; ++r)
-    for (int c = 0; c < around; ++c) {
-      const double t = (r + 0.5) / (up + 1), a = 2 * M_PI * c / around;
-      m.positions.push_back(center + Vec3(radius(t) * std::sin(a), height(t), radius(t) * std::cos(a)));
-    }
-  auto id = [&](int r, int c) { return r * around + c % around; };
-  for (int r = 0; r < up; ++r)
-    for (int c = 0; c < around; ++c) {
-      m.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c + 1)});
-      m.triangles.push_back({id(r, c), id(r + 1, c + 1), id(r + 1, c)});
-    }
-  for (int end = 0; end < 2; ++end) {
-    const int r = end ? up : 0, tip = static_cast<int>(m.positions.size());
-    m.positions.push_back(center + Vec3(0, height(end), 0));
-    for (int c = 0; c < around; ++c) {
-      if (end) m.triangles.push_back({tip, id(r, c), id(r, c + 1)});
-      else m.triangles.push_back({tip, id(r, c + 1), id(r, c)});
-    }
+  std::vector<shapes::Ring> rings;
+  for (int r = 0; r <= up; ++r) {
+    const double t = (r + 0.5) / (up + 1);
+    rings.push_back({height(t), radius(t), radius(t)});
   }
-  return m;
+  TriangleMesh mesh = shapes::revolve(around, rings, center);
+  shapes::close_ends(mesh, around, center + Vec3(0, height(0), 0), center + Vec3(0, height(1), 0));
+  return mesh;
 }
 
 TriangleMesh sphere(double radius, int fineness, const Vec3& center) {

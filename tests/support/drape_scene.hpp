@@ -4,6 +4,7 @@
 #include <cmath>
 #include <garment/drape/motion.hpp>
 #include <garment/garment.hpp>
+#include <support/shapes.hpp>
 
 namespace sloper::garment {
 
@@ -14,30 +15,15 @@ inline body::Body make_pillar(int n_around = 64, int n_up = 60) {
     const double t = (1.0 - y) / 0.2;
     return t < 2 ? 0.12 + 0.008 * (1 - std::cos(M_PI * std::min(t, 1.0))) - (t > 1 ? 0.003 * (1 - std::cos(M_PI * (t - 1))) : 0) : 0.13;
   };
-  body::Body body;
-  TriangleMesh& m = body.skin;
+  std::vector<shapes::Ring> rings;
   for (int r = 0; r <= n_up; ++r) {
     const double y = 0.2 + 1.0 * r / n_up;
-    for (int c = 0; c < n_around; ++c) {
-      const double a = 2 * M_PI * c / n_around;
-      m.positions.emplace_back(radius(y) * std::sin(a), y, 0.8 * radius(y) * std::cos(a));
-    }
+    rings.push_back({y, radius(y), 0.8 * radius(y)});
   }
-  auto id = [&](int r, int c) { return r * n_around + (c + n_around) % n_around; };
-  for (int r = 0; r < n_up; ++r)
-    for (int c = 0; c < n_around; ++c) {
-      m.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c + 1)});
-      m.triangles.push_back({id(r, c), id(r + 1, c + 1), id(r + 1, c)});
-    }
-  for (int end = 0; end < 2; ++end) { // caps
-    const int r = end ? n_up : 0, center = static_cast<int>(m.positions.size());
-    m.positions.emplace_back(0, end ? 1.2 : 0.2, 0);
-    for (int c = 0; c < n_around; ++c) {
-      if (end) m.triangles.push_back({center, id(r, c), id(r, c + 1)});
-      else m.triangles.push_back({center, id(r, c + 1), id(r, c)});
-    }
-  }
-  body.face_part.assign(m.triangles.size(), body::Part::TORSO);
+  body::Body body;
+  body.skin = shapes::revolve(n_around, rings);
+  shapes::close_ends(body.skin, n_around, Vec3(0, 0.2, 0), Vec3(0, 1.2, 0));
+  body.face_part.assign(body.skin.triangles.size(), body::Part::TORSO);
   return body;
 }
 

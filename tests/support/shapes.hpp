@@ -1,12 +1,14 @@
 #pragma once
-/// Test meshes: spheres, sheets, triangle soups; all seeded.
+/// Test meshes: spheres, bodies of revolution, sheets, triangle soups; all seeded.
 #include <base/random.hpp>
+#include <base/units.hpp>
 #include <geometry/triangle_mesh.hpp>
 
 #include <cmath>
 #include <map>
+#include <vector>
 
-namespace sloper::collision::shapes {
+namespace sloper::shapes {
 
 inline Vec3 random_point(Random& random, double size = 1) {
   const double x = random.uniform(-size, size), y = random.uniform(-size, size), z = random.uniform(-size, size);
@@ -45,6 +47,48 @@ inline TriangleMesh sphere(int levels, double radius = 1, const Vec3& center = V
     for (Vec3& p : mesh.positions) p.normalize();
   }
   for (Vec3& p : mesh.positions) p = center + radius * p.normalized();
+  return mesh;
+}
+
+/// One level ring of a surface of revolution, an ellipse about (0, y, 0): (x sin a, y, z cos a), m.
+struct Ring {
+  double y, x, z;
+};
+
+/// The rings' surface about the vertical through `center`, `around` vertices a ring, outward where rings go upwards. Ring by ring: vertices,
+/// then the triangles between. @param turned  angle of each ring's first vertex from +z towards +x, in steps of a ring
+inline TriangleMesh revolve(int around, const std::vector<Ring>& rings, const Vec3& center = Vec3::Zero(), double turned = 0) {
+  TriangleMesh mesh;
+  for (const Ring& ring : rings)
+    for (int c = 0; c < around; ++c) {
+      const double a = 2 * units::PI * (c + turned) / around;
+      mesh.positions.push_back(center + Vec3(ring.x * std::sin(a), ring.y, ring.z * std::cos(a)));
+    }
+  const auto id = [around](int r, int c) { return r * around + c % around; };
+  for (int r = 0; r + 1 < static_cast<int>(rings.size()); ++r)
+    for (int c = 0; c < around; ++c) {
+      mesh.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c + 1)});
+      mesh.triangles.push_back({id(r, c), id(r + 1, c + 1), id(r + 1, c)});
+    }
+  return mesh;
+}
+
+/// Closes what revolve() made: a fan from a point below the first ring and one from a point above the last.
+inline void close_ends(TriangleMesh& mesh, int around, const Vec3& low, const Vec3& high) {
+  const int top = static_cast<int>(mesh.positions.size()) - around;
+  const int below = static_cast<int>(mesh.positions.size()), above = below + 1;
+  mesh.positions.push_back(low);
+  mesh.positions.push_back(high);
+  for (int c = 0; c < around; ++c) mesh.triangles.push_back({below, (c + 1) % around, c});
+  for (int c = 0; c < around; ++c) mesh.triangles.push_back({above, top + c, top + (c + 1) % around});
+}
+
+/// A closed cylinder about the vertical through `center`, from y = low to high, in `up` rows.
+inline TriangleMesh cylinder(double radius, double low, double high, int around, int up = 1, const Vec3& center = Vec3::Zero(), double turned = 0) {
+  std::vector<Ring> rings;
+  for (int r = 0; r <= up; ++r) rings.push_back({low + (high - low) * r / up, radius, radius});
+  TriangleMesh mesh = revolve(around, rings, center, turned);
+  close_ends(mesh, around, center + Vec3(0, low, 0), center + Vec3(0, high, 0));
   return mesh;
 }
 
@@ -89,4 +133,4 @@ inline TriangleMesh soup(int n, double size, std::uint64_t seed) {
   return mesh;
 }
 
-} // namespace sloper::collision::shapes
+} // namespace sloper::shapes

@@ -10,10 +10,7 @@ using namespace sloper::cloth;
 
 namespace {
 
-Fabric preset(const std::string& name) {
-  const garment::Material& m = garment::material_preset(name);
-  return {m.density_kg_m2, m.stretch_warp_n_m, m.stretch_weft_n_m, m.shear_n_m, m.bend_n_m, m.damping_s, m.poisson};
-}
+Fabric preset(const std::string& name) { return garment::material_preset(name); }
 
 /// Mean of three specimens, as the standard asks: one specimen may settle on another number of folds, 2-3 points away.
 double mean_coefficient(const Fabric& fabric, int rings, const char* model) {

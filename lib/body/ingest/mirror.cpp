@@ -1,3 +1,4 @@
+#include <base/statistics.hpp>
 #include <base/units.hpp>
 #include <body/ingest/mirror.hpp>
 
@@ -33,8 +34,7 @@ RadialLayer radial_layer(const std::vector<Vec2>& points, const Vec2& center, do
   }
   for (int k = 0; k < N_ANGLES; ++k)
     if (!bins[k].empty()) {
-      std::nth_element(bins[k].begin(), bins[k].begin() + static_cast<std::ptrdiff_t>(bins[k].size() / 2), bins[k].end());
-      layer.radius[k] = bins[k][bins[k].size() / 2];
+      layer.radius[k] = upper_median(bins[k]);
       const double theta = -units::PI + (k + 0.5) * 2 * units::PI / N_ANGLES;
       layer.outline[k] += layer.radius[k] * Vec2(std::cos(theta), std::sin(theta));
     }
@@ -72,8 +72,7 @@ double asymmetry(std::span<const RadialLayer> layers, double angle, double offse
       misses.push_back(std::abs(q.norm() - (1 - w) * layer.radius[a] - w * layer.radius[b]));
     }
   if (misses.size() < FEWEST) return 1e300;
-  const auto middle = misses.begin() + static_cast<std::ptrdiff_t>(misses.size() * 6 / 10);
-  std::nth_element(misses.begin(), middle, misses.end());
+  const auto middle = place_rank(misses, misses.size() * 6 / 10);
   double sum = 0;
   for (auto it = misses.begin(); it != middle; ++it) sum += *it;
   return sum / static_cast<double>(middle - misses.begin());
@@ -159,9 +158,7 @@ std::optional<double> mirror_roll(const std::vector<Vec3>& points, double statur
     for (std::size_t j = 0; j < i; ++j)
       if (const double rise = middles[i].x() - middles[j].x(); rise > 0.1 * stature) slopes.push_back((middles[i].y() - middles[j].y()) / rise);
   if (slopes.size() < 8) return std::nullopt;
-  const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
-  std::nth_element(slopes.begin(), middle, slopes.end());
-  return std::atan(*middle);
+  return std::atan(upper_median(slopes));
 }
 
 } // namespace sloper::body

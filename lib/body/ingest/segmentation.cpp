@@ -1,4 +1,6 @@
+#include <base/statistics.hpp>
 #include <body/ingest/segmentation.hpp>
+#include <geometry/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -47,11 +49,8 @@ private:
     for (int a = 0; a < 3; ++a) {
       values.clear();
       for (std::size_t i = 0; i < points.size(); i += step) values.push_back(points[i][a]);
-      const auto rank = static_cast<std::ptrdiff_t>(values.size() / 500);
-      std::nth_element(values.begin(), values.begin() + rank, values.end());
-      const double low = values[static_cast<std::size_t>(rank)];
-      std::nth_element(values.begin(), values.end() - 1 - rank, values.end());
-      const double high = values[values.size() - 1 - static_cast<std::size_t>(rank)], margin = 0.3 * (high - low);
+      const std::size_t rank = values.size() / 500;
+      const double low = *place_rank(values, rank), high = *place_rank(values, values.size() - 1 - rank), margin = 0.3 * (high - low);
       box.low[a] = std::max(all.low[a], low - margin);
       box.high[a] = std::min(all.high[a], high + margin);
     }
@@ -145,12 +144,7 @@ struct LayerShape {
 LayerShape shape_of_layer(const Voxels& voxels, const Reading& r, const std::vector<int>& cells) {
   LayerShape shape;
   const int a = (r.axis + 1) % 3, b = (r.axis + 2) % 3;
-  std::vector<int> parent(cells.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets joined(cells.size());
   std::vector<std::array<int, 3>> flat(cells.size());
   int low[2] = {1 << 30, 1 << 30}, high[2] = {-1, -1};
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -161,12 +155,9 @@ LayerShape shape_of_layer(const Voxels& voxels, const Reading& r, const std::vec
   std::sort(flat.begin(), flat.end());
   for (std::size_t i = 0; i < flat.size(); ++i)
     for (std::size_t j = i + 1; j < flat.size() && flat[j][0] - flat[i][0] <= r.reach; ++j)
-      if (std::abs(flat[j][1] - flat[i][1]) <= r.reach) {
-        const int p = root(flat[i][2]), q = root(flat[j][2]);
-        if (p != q) parent[std::max(p, q)] = std::min(p, q);
-      }
+      if (std::abs(flat[j][1] - flat[i][1]) <= r.reach) joined.unite(flat[i][2], flat[j][2]);
   std::vector<int> count(cells.size(), 0);
-  for (std::size_t i = 0; i < cells.size(); ++i) ++count[root(static_cast<int>(i))];
+  for (std::size_t i = 0; i < cells.size(); ++i) ++count[joined.find(static_cast<int>(i))];
   for (int n : count)
     if (n > 0) shape.pieces.push_back(n);
   std::sort(shape.pieces.rbegin(), shape.pieces.rend());
@@ -179,8 +170,7 @@ void find_floor(const std::vector<int>& layer_count, Reading& r) {
   for (int n : layer_count)
     if (n > 0) filled.push_back(n);
   if (filled.size() < 20) return;
-  std::nth_element(filled.begin(), filled.begin() + static_cast<std::ptrdiff_t>(filled.size() / 2), filled.end());
-  const int usual = filled[filled.size() / 2];
+  const int usual = upper_median(filled);
   const int band = static_cast<int>(std::ceil(FLOOR_BAND * static_cast<double>(layer_count.size())));
   for (int k = 0; k < band; ++k)
     if (layer_count[k] > FLOOR_FACTOR * usual) {
@@ -267,8 +257,7 @@ void rescue_soles(const TriangleMesh& scan, const Voxels& voxels, const Reading&
   for (std::size_t v = 0; v < scan.positions.size(); ++v)
     if (layer_of(voxels, voxels.of_vertex(v), r) <= r.floor_top) heights.push_back(scan.positions[v].dot(sorted.up));
   if (heights.empty()) return;
-  std::nth_element(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2), heights.end());
-  sorted.floor_height = heights[heights.size() / 2];
+  sorted.floor_height = upper_median(heights);
   const int a = (r.axis + 1) % 3, b = (r.axis + 2) % 3;
   std::vector<char> above(static_cast<std::size_t>(voxels.extent(a)) * voxels.extent(b), 0);
   for (int c = 0; c < voxels.count(); ++c) {

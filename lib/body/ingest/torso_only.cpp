@@ -1,4 +1,5 @@
 #include <base/error.hpp>
+#include <base/statistics.hpp>
 #include <base/units.hpp>
 #include <body/ingest/torso_only.hpp>
 
@@ -41,17 +42,11 @@ struct Neck {
   Vec2 center = Vec2::Zero();
 };
 
-double rank(std::vector<double>& values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 /// A head that narrows to a neck and widens to shoulders, from the top down; empty where there is none.
 std::optional<Neck> find_neck(const TriangleMesh& scan, const Upright& upright) {
   std::vector<double> heights;
   for (const Vec3& p : scan.positions) heights.push_back(upright.height(p));
-  const double low = rank(heights, 0.0005), high = rank(heights, 0.9995), step = (high - low) / N_LAYERS;
+  const double low = lower_quantile(heights, 0.0005), high = lower_quantile(heights, 0.9995), step = (high - low) / N_LAYERS;
   if (!(step > 0)) return std::nullopt;
   std::vector<std::vector<Vec2>> layers(N_LAYERS);
   for (const Vec3& p : scan.positions) {

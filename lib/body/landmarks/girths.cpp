@@ -1,4 +1,5 @@
 #include <Eigen/Cholesky>
+#include <base/units.hpp>
 #include <body/landmarks/landmark_finder.hpp>
 
 #include <algorithm>
@@ -16,7 +17,7 @@ double ring_length(const std::array<Vec3, 4>& corner) {
   Vec3 last = corner[0];
   for (int k = 0; k < 4; ++k)
     for (int i = 1; i <= STEPS; ++i) {
-      const double a = 0.5 * 3.14159265358979323846 * i / STEPS;
+      const double a = 0.5 * units::PI * i / STEPS;
       const Vec3 p = middle + std::cos(a) * (corner[k] - middle) + std::sin(a) * (corner[(k + 1) % 4] - middle);
       length += (p - last).norm();
       last = p;
@@ -36,7 +37,7 @@ double circle_through(const std::vector<Vec2>& points) {
   }
   const Vec3 fit = squares.ldlt().solve(right);
   const double r2 = fit.z() + fit.head<2>().squaredNorm();
-  return r2 > 0 ? 2 * 3.14159265358979323846 * std::sqrt(r2) : 0;
+  return r2 > 0 ? 2 * units::PI * std::sqrt(r2) : 0;
 }
 
 constexpr double TOO_WIDE = 1.35; ///< of the usual girth: the section has run into the trunk

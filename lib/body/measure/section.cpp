@@ -1,4 +1,5 @@
 #include <body/measure/section.hpp>
+#include <geometry/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,12 +22,7 @@ std::uint64_t edge_key(int a, int b) {
 
 /// Numbers segments by loop: two segments that end on the same mesh edge belong together.
 std::vector<int> loop_numbers(const std::vector<Cut>& cuts, std::vector<char>& is_open) {
-  std::vector<int> parent(cuts.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets joined(cuts.size());
   struct End {
     std::uint64_t key;
     int first; ///< the segment that came first, -1: free
@@ -44,20 +40,14 @@ std::vector<int> loop_numbers(const std::vector<Cut>& cuts, std::vector<char>& i
       return;
     }
     end.shared = true;
-    const int a = root(end.first), b = root(i);
-    if (a != b) parent[std::max(a, b)] = std::min(a, b);
+    joined.unite(end.first, i);
   };
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     join(cuts[i].from, static_cast<int>(i));
     join(cuts[i].to, static_cast<int>(i));
   }
-  std::vector<int> number(cuts.size(), -1);
-  int count = 0;
-  for (std::size_t i = 0; i < cuts.size(); ++i) {
-    const int r = root(static_cast<int>(i));
-    if (number[r] < 0) number[r] = count++;
-    number[i] = number[r];
-  }
+  std::vector<int> number = joined.numbers();
+  const int count = number.empty() ? 0 : 1 + *std::max_element(number.begin(), number.end());
   is_open.assign(static_cast<std::size_t>(count), 0);
   for (const End& end : table) // an end that no other segment shares
     if (end.first >= 0 && !end.shared) is_open[number[end.first]] = 1;

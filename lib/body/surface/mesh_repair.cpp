@@ -1,4 +1,5 @@
 #include <body/surface/mesh_repair.hpp>
+#include <geometry/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <array>
@@ -243,16 +244,11 @@ void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
 
 std::vector<Hole> holes_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& list, double least, std::size_t most) {
   const std::vector<std::array<int, 2>> border = border_of(mesh, list);
-  std::vector<int> root(mesh.positions.size());
-  std::iota(root.begin(), root.end(), 0);
-  auto find = [&](int v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
-  for (const auto& [a, b] : border) root[std::max(find(a), find(b))] = std::min(find(a), find(b));
+  DisjointSets joined(mesh.positions.size());
+  for (const auto& [a, b] : border) joined.unite(a, b);
   std::map<int, std::pair<Hole, Box3>> pieces; // by the lowest vertex
   for (const auto& [a, b] : border) {
-    auto& [hole, box] = pieces[find(a)];
+    auto& [hole, box] = pieces[joined.find(a)];
     hole.center += 0.5 * (mesh.positions[a] + mesh.positions[b]);
     ++hole.edges;
     box.add(mesh.positions[a]), box.add(mesh.positions[b]);

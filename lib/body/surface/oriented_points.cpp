@@ -1,3 +1,4 @@
+#include <base/statistics.hpp>
 #include <body/surface/oriented_points.hpp>
 #include <body/surface/point_grid.hpp>
 
@@ -171,10 +172,7 @@ OrientedPoints sample_surface(const std::vector<Vec3>& positions, const std::vec
     off.push_back(std::abs((points[k] - samples.position[i]).dot(samples.normal[i])));
     ++counted;
   }
-  if (!off.empty()) {
-    std::nth_element(off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
-    sum = off[off.size() / 2] / 0.6745;
-  }
+  if (!off.empty()) sum = upper_median(off) / 0.6745;
   samples.noise_m = counted ? sum : 0;
   return samples;
 }

@@ -1,3 +1,4 @@
+#include <base/statistics.hpp>
 #include <body/surface/mesh_repair.hpp>
 #include <body/surface/point_grid.hpp>
 #include <body/surface/skin_surface.hpp>
@@ -52,8 +53,7 @@ double roughness(const TriangleMesh& mesh) {
   for (std::size_t v = 0; v < n; ++v)
     if (degree[v] > 3) rest.push_back(std::abs(bump[v] - shared[v] / degree[v]));
   if (rest.empty()) return 0;
-  std::nth_element(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(rest.size() / 2), rest.end());
-  return rest[rest.size() / 2] / (0.6745 * 1.55); // of white noise with six neighbours
+  return upper_median(rest) / (0.6745 * 1.55); // of white noise with six neighbours
 }
 
 /// Moves the vertices of a rebuilt surface onto the weighted plane of the scan's points near them.

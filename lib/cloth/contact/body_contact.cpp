@@ -1,11 +1,11 @@
 #include <base/parallel.hpp>
+#include <base/units.hpp>
 #include <cloth/contact/body_contact.hpp>
 #include <cloth/contact/contact_element.hpp>
 #include <cloth/contact/contact_potential.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace sloper::cloth {
 
@@ -52,7 +52,7 @@ BodyContactEffect::BodyContactEffect(const ClothMesh& mesh, collision::BodyColli
 /// Which share of the reach each face and vertex of the skin covers.
 void BodyContactEffect::weigh_skin() {
   const TriangleMesh& skin = m_body.mesh();
-  const double disc = std::numbers::pi * m_options.gap_m * m_options.gap_m, edge_disc = disc * EDGE_REACH * EDGE_REACH;
+  const double disc = units::PI * m_options.gap_m * m_options.gap_m, edge_disc = disc * EDGE_REACH * EDGE_REACH;
   m_body_vertex_weight.assign(skin.positions.size(), 0);
   for (const Triangle& t : skin.triangles) {
     const Vec3 a = skin.positions[t[1]] - skin.positions[t[0]], b = skin.positions[t[2]] - skin.positions[t[0]];

@@ -1,4 +1,5 @@
 #include <base/parallel.hpp>
+#include <base/statistics.hpp>
 #include <cloth/motion/body_motion.hpp>
 
 #include <algorithm>
@@ -36,9 +37,7 @@ Vec3 common_way(const std::vector<Vec3>& carry) {
     part.clear();
     for (const Vec3& c : carry)
       if (c != Vec3::Zero()) part.push_back(c[a]);
-    const auto middle = part.begin() + static_cast<long>(part.size() / 2);
-    std::nth_element(part.begin(), middle, part.end());
-    median[a] = *middle;
+    median[a] = upper_median(part);
   }
   return median;
 }

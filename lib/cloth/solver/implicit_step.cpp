@@ -1,5 +1,6 @@
 #include <base/error.hpp>
 #include <base/parallel.hpp>
+#include <base/statistics.hpp>
 #include <base/units.hpp>
 #include <cloth/linear/aggregation.hpp>
 #include <cloth/solver/implicit_step.hpp>
@@ -215,11 +216,7 @@ int ClothSolver::search_along(const StepOptions& o) {
 }
 
 /// The 95th percentile, which ends up in its place; not of nothing.
-static std::vector<double>::iterator percentile_95(std::vector<double>& values) {
-  const auto at = values.begin() + static_cast<long>(0.95 * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return at;
-}
+static std::vector<double>::iterator percentile_95(std::vector<double>& values) { return place_rank(values, quantile_rank(values.size(), 0.95)); }
 
 /// A particle stuck in a pinch bends the step away from where the energy falls, or is pressed there harder than all others, and the line
 /// search then stops all the cloth for its sake. It is kept in place for a while, longer each time, while the rest goes on. With momentum,

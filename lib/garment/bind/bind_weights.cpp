@@ -1,4 +1,5 @@
 #include <garment/bind/bind_weights.hpp>
+#include <geometry/disjoint_sets.hpp>
 
 #include <base/error.hpp>
 #include <base/parallel.hpp>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace sloper::garment {
 
@@ -28,22 +28,14 @@ struct Patches {
 
 /// Connected patches of equal label.
 Patches patches_of(const std::vector<int>& label, const std::vector<std::array<int, 2>>& edges, const std::vector<double>& mass) {
-  std::vector<int> parent(label.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets joined(label.size());
   for (const auto& [a, b] : edges)
-    if (label[a] == label[b]) {
-      const int ra = root(a), rb = root(b);
-      if (ra != rb) parent[std::max(ra, rb)] = std::min(ra, rb);
-    }
+    if (label[a] == label[b]) joined.unite(a, b);
   Patches patches;
   patches.of_particle.resize(label.size());
   patches.area.assign(label.size(), 0);
   for (std::size_t i = 0; i < label.size(); ++i) {
-    patches.of_particle[i] = root(static_cast<int>(i));
+    patches.of_particle[i] = joined.find(static_cast<int>(i));
     patches.area[patches.of_particle[i]] += mass[i];
   }
   return patches;

@@ -1,3 +1,5 @@
+#include <base/statistics.hpp>
+#include <base/text.hpp>
 #include <garment/fit/fit.hpp>
 
 #include <base/error.hpp>
@@ -7,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -27,13 +28,8 @@ constexpr double GOES_ROUND = 0.99;    // of the body's girth: as long as cloth 
 constexpr double OVER_THE_HAND = 0.02; // m beyond the wrist from which a cuff lies on the hand
 constexpr double NOT_AT_REST = 0.01;   // m that a drape which did not come to rest may still move
 
-std::string centimetres(double m) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f cm", std::abs(m) * 100);
-  return text;
-}
-
-std::string percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
+/// How large a length is, whatever its sign.
+std::string centimetres(double m) { return sloper::centimetres(std::abs(m)); }
 
 /// Why a girth is too small. @param goes_round  it was seen to close, stretched
 std::string too_small(const FitRow& row, bool goes_round) {
@@ -42,8 +38,9 @@ std::string too_small(const FitRow& row, bool goes_round) {
   const double cloth = row.rest_m - row.bridged_m;
   if (!(cloth > 0)) return "does not close" + where + " by " + centimetres(row.ease_m);
   if (goes_round)
-    return "closes" + where + " only stretched by " + percent((row.lying_m - row.rest_m) / cloth) + ": it is " + centimetres(row.ease_m) + " too small there";
-  return "does not close" + where + " by " + centimetres(row.ease_m) + " unless it is stretched by " + percent(-row.ease_m / cloth);
+    return "closes" + where + " only stretched by " + whole_percent((row.lying_m - row.rest_m) / cloth) + ": it is " + centimetres(row.ease_m) +
+           " too small there";
+  return "does not close" + where + " by " + centimetres(row.ease_m) + " unless it is stretched by " + whole_percent(-row.ease_m / cloth);
 }
 
 /// @param at_rest  strain is a fact only of cloth at rest
@@ -56,7 +53,7 @@ void judge(bool at_rest, FitRow& row) {
     row.reason = too_small(row, at_rest && row.lying_m >= GOES_ROUND * row.body_m);
   } else if (at_rest && row.strain_girth > limits.too_small_strain) {
     row.verdict = FitVerdict::TOO_SMALL;
-    row.reason = "is stretched by " + percent(row.strain_girth) + " at the " + spoken_girth(row.name);
+    row.reason = "is stretched by " + whole_percent(row.strain_girth) + " at the " + spoken_girth(row.name);
   } else if (share < limits.tight_ease) {
     row.verdict = FitVerdict::TIGHT;
     row.reason = "is tight at the " + spoken_girth(row.name) + ": " + (row.ease_m < 0 ? "-" : "") + centimetres(row.ease_m) + " of ease";
@@ -126,8 +123,8 @@ void judge_strain(const FitPolicy& policy, FitReport& report) {
     if (!worst || (by_p99 ? r.strain_p99 > worst->strain_p99 : r.strain_max > worst->strain_max)) worst = &r;
   const std::string where = worst ? (worst->name == "trunk" || worst->name == "shoulders" ? " over the " : " on the ") + worst->name : "";
   report.verdict = FitVerdict::TOO_SMALL;
-  report.reason = by_p99 ? "is stretched by " + percent(worst ? worst->strain_p99 : report.strain_p99) + where + "; the cloth bears " + percent(p99)
-                         : "is stretched by " + percent(report.strain_max) + " at one place" + where + "; the cloth bears " + percent(most);
+  report.reason = by_p99 ? "is stretched by " + whole_percent(worst ? worst->strain_p99 : report.strain_p99) + where + "; the cloth bears " + whole_percent(p99)
+                         : "is stretched by " + whole_percent(report.strain_max) + " at one place" + where + "; the cloth bears " + whole_percent(most);
 }
 
 /// A cuff that is too small because it lies on the hand: that the sleeve is too long is the reason.
@@ -222,9 +219,7 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
   if (placed) {
     std::vector<double> sunk;
     for (std::size_t i = 0; i < placed->size(); ++i) sunk.push_back((*placed)[i].y() - garment.position[i].y());
-    const auto middle = sunk.begin() + static_cast<long>(sunk.size() / 2);
-    std::nth_element(sunk.begin(), middle, sunk.end());
-    report.slip_m = sunk.empty() ? 0 : *middle;
+    report.slip_m = sunk.empty() ? 0 : upper_median(sunk);
   }
   std::vector<std::string> region;
   for (std::size_t i = 0; i < garment.position.size(); ++i) region.push_back(region_of(garment, i, axilla_height(body)));

@@ -1,10 +1,10 @@
 #include <garment/fit/fit_lines.hpp>
+#include <geometry/disjoint_sets.hpp>
 
 #include <geometry/triangle_mesh.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace sloper::garment {
 
@@ -15,15 +15,10 @@ constexpr double SHORTEST_HEM = 0.08; // m: a shorter loop is a button hole or a
 /// Loops of edges that one triangle has: groups of edges that share particles.
 std::vector<std::vector<std::array<int, 2>>> free_loops(const std::vector<Triangle>& triangles, std::size_t n_particles) {
   const std::vector<std::array<int, 2>> free = free_edges_of(triangles);
-  std::vector<int> parent(n_particles);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (const auto& [a, b] : free) parent[std::max(root(a), root(b))] = std::min(root(a), root(b));
+  DisjointSets joined(n_particles);
+  for (const auto& [a, b] : free) joined.unite(a, b);
   std::map<int, std::vector<std::array<int, 2>>> loops;
-  for (const auto& e : free) loops[root(e[0])].push_back(e);
+  for (const auto& e : free) loops[joined.find(e[0])].push_back(e);
   std::vector<std::vector<std::array<int, 2>>> result;
   for (auto& [first, edges] : loops) result.push_back(std::move(edges));
   return result;

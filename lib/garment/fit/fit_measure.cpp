@@ -1,3 +1,4 @@
+#include <base/statistics.hpp>
 #include <garment/fit/fit_measure.hpp>
 
 #include <base/units.hpp>
@@ -19,11 +20,7 @@ constexpr double LEAST_ROUND = 0.3;     // of a circle's area at the same length
 constexpr double STEEPEST = 0.5;        // upward part of the normal of an edge round the trunk: a panel that nothing is sewn to stands upright
 constexpr double WIDER_THAN_NECK = 1.2; // of the neck base: a section this long goes through the shoulders
 
-double quantile(std::vector<double>& values, double q) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
-}
+double quantile(std::vector<double>& values, double q) { return values.empty() ? 0 : lower_quantile(values, q); }
 
 FitRow row_of(const FitPlace& place, const SectionLine& line) {
   FitRow row;

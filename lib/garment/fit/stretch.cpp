@@ -1,3 +1,4 @@
+#include <base/text.hpp>
 #include <garment/fit/stretch.hpp>
 
 #include <garment/fit/cloth_strain.hpp>
@@ -17,18 +18,12 @@ constexpr double WORN_TENSION = 100;    // N/m, twice a wearing load: knits give
 constexpr double FURTHER = 1.5;         // times the strain on its own body: within that it hangs as it did
 constexpr double TELLING_SHARE = 0.002; // of the particles held in a pinch: fewer are in any garment
 
-std::string strain_text(double strain) {
-  char text[32];
-  std::snprintf(text, sizeof text, strain < 0.1 ? "%.1f %%" : "%.0f %%", 100 * strain);
-  return text;
-}
+std::string strain_text(double strain) { return percent(strain, strain < 0.1 ? 1 : 0); }
 
 std::string stretch_text(const Stretch& s, const Garment& garment, const io::Json& quality) {
-  char place[64];
-  std::snprintf(place, sizeof place, "(%.3f, %.3f, %.3f) m", s.place.x(), s.place.y(), s.place.z());
   const int held = quality.value("particles_held", 0);
   return "a hundredth of its cloth is stretched by " + strain_text(s.p99) + " or more, most in panel " + s.panel + " (" + strain_text(s.panel_p99) +
-         "), at most by " + strain_text(s.max) + " at " + place +
+         "), at most by " + strain_text(s.max) + " at " + sloper::place_text(s.place.x(), s.place.y(), s.place.z()) + " m" +
          (held > TELLING_SHARE * static_cast<double>(garment.position.size()) ? ", and " + std::to_string(held) + " particles are caught" : "");
 }
 

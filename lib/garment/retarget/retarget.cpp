@@ -1,3 +1,4 @@
+#include <base/statistics.hpp>
 #include <garment/retarget/retarget.hpp>
 
 #include <base/error.hpp>
@@ -277,9 +278,9 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
       if (const double before = (garment.position[a] - garment.position[b]).norm(); before > 0)
         stretch.push_back((g.position[a] - g.position[b]).norm() / before - 1);
     if (stretch.empty()) return;
-    std::sort(stretch.begin(), stretch.end());
-    const auto quantile = [&](double q) { return stretch[static_cast<std::size_t>(q * static_cast<double>(stretch.size() - 1))]; };
-    p01 = quantile(0.01), p50 = quantile(0.5), p99 = quantile(0.99);
+    p01 = lower_quantile(stretch, 0.01);
+    p50 = lower_quantile(stretch, 0.5);
+    p99 = lower_quantile(stretch, 0.99);
   };
   PlacementReport& report = result.report;
   measure(report.stretch_p01, report.stretch_p50, report.stretch_p99);

@@ -11,7 +11,7 @@ namespace {
 using io::Json;
 using io::Node;
 
-constexpr double DEGREE = M_PI / 180;
+constexpr double DEGREE = units::PI / 180;
 
 double in_range(const Node& node, const char* key, double fallback, double low, double high) {
   if (!node.has(key)) return fallback;

@@ -1,4 +1,5 @@
 /// Edits that change what edges and panels there are: split, cut, add-point, join. Darts are in edit_darts.cpp.
+#include <base/units.hpp>
 #include <io/json.hpp>
 #include <pattern/edit/edit_tools.hpp>
 #include <pattern/read/outline_json.hpp>
@@ -131,7 +132,7 @@ void join_panels(Pattern& pattern, const io::Node& node) {
   if (!(da.norm() > 1e-6 && db.norm() > 1e-6)) node.at("seam").fail("the edges of seam " + name + " end where they start");
   const double angle = std::atan2(da.y(), da.x()) - std::atan2(db.y(), db.x());
   const Eigen::Matrix2d turn =
-      std::abs(std::remainder(angle, 2 * M_PI)) < 1e-9 ? Eigen::Matrix2d(Eigen::Matrix2d::Identity()) : Eigen::Rotation2Dd(angle).toRotationMatrix();
+      std::abs(std::remainder(angle, 2 * units::PI)) < 1e-9 ? Eigen::Matrix2d(Eigen::Matrix2d::Identity()) : Eigen::Rotation2Dd(angle).toRotationMatrix();
   const Vec2 middle_a = 0.5 * (pa.back().p[3] + pa.front().p[0]), middle_b = 0.5 * (pb.back().p[3] + pb.front().p[0]);
   const auto map = [&](const Vec2& x) { return snapped(Vec2(middle_a + turn * (x - middle_b))); };
   const ArcLength arc_a(pa), arc_b(pb);

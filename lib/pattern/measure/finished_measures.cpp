@@ -1,3 +1,4 @@
+#include <geometry/disjoint_sets.hpp>
 #include <io/json.hpp>
 #include <pattern/measure/finished_measures.hpp>
 #include <pattern/mesh/folds.hpp>
@@ -5,7 +6,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 
 namespace sloper::pattern {
@@ -28,12 +28,6 @@ double coarse_for(const Pattern& pattern) {
   return std::max(edge, FINEST);
 }
 
-int root(std::vector<int>& parent, int v) {
-  while (parent[static_cast<std::size_t>(v)] != v)
-    v = parent[static_cast<std::size_t>(v)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(v)])];
-  return v;
-}
-
 /// The edge of a panel nearest to a point of its outline.
 std::string edge_at(const Panel& panel, const Vec2& p) {
   double least = 1e300;
@@ -47,10 +41,9 @@ std::string edge_at(const Panel& panel, const Vec2& p) {
 }
 
 std::vector<Opening> openings_of(const Pattern& pattern, const PanelMesh& mesh) {
-  std::vector<int> parent(mesh.pattern.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets sewn(mesh.pattern.size());
   for (const MeshSeam& s : mesh.seams)
-    for (std::size_t k = 0; k < s.a.size(); ++k) parent[static_cast<std::size_t>(root(parent, s.a[k]))] = root(parent, s.b[k]);
+    for (std::size_t k = 0; k < s.a.size(); ++k) sewn.unite_into(s.a[k], s.b[k]);
   struct Side {
     int a, b, panel, n;
   };
@@ -59,19 +52,18 @@ std::vector<Opening> openings_of(const Pattern& pattern, const PanelMesh& mesh) 
     for (int t = mesh.panels[p].first_triangle; t < mesh.panels[p].first_triangle + mesh.panels[p].n_triangles; ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         const int a = mesh.triangles[static_cast<std::size_t>(t)][k], b = mesh.triangles[static_cast<std::size_t>(t)][(k + 1) % 3];
-        const int ra = root(parent, a), rb = root(parent, b);
+        const int ra = sewn.find(a), rb = sewn.find(b);
         Side& side = sides.try_emplace({std::min(ra, rb), std::max(ra, rb)}, Side{a, b, static_cast<int>(p), 0}).first->second;
         ++side.n;
       }
-  std::vector<int> loop(mesh.pattern.size());
-  std::iota(loop.begin(), loop.end(), 0);
+  DisjointSets loops(mesh.pattern.size());
   for (const auto& [ends, side] : sides)
-    if (side.n == 1) loop[static_cast<std::size_t>(root(loop, ends.first))] = root(loop, ends.second);
+    if (side.n == 1) loops.unite_into(ends.first, ends.second);
   std::map<int, Opening> found;
   std::map<int, std::map<int, std::set<std::string>>> names; // by opening, panel
   for (const auto& [ends, side] : sides) {
     if (side.n != 1) continue;
-    const int id = root(loop, ends.first);
+    const int id = loops.find(ends.first);
     const Vec2 &a = mesh.pattern[static_cast<std::size_t>(side.a)], &b = mesh.pattern[static_cast<std::size_t>(side.b)];
     found[id].length += (a - b).norm();
     found[id].rim.push_back({side.a, side.b});

@@ -1,3 +1,4 @@
+#include <geometry/disjoint_sets.hpp>
 #include <geometry/sparse_solver.hpp>
 #include <pattern/measure/sewn_cloth.hpp>
 
@@ -16,12 +17,6 @@ constexpr double ENDS_UPRIGHT = 0.8;  // rise per length of a free edge at which
 constexpr double PART_OF_TRUNK = 0.3; // of the most cloth that is sewn together: what is less is another thing
 constexpr double AWAY = std::numeric_limits<double>::quiet_NaN();
 
-int weld_root(std::vector<int>& parent, int v) {
-  while (parent[static_cast<std::size_t>(v)] != v)
-    v = parent[static_cast<std::size_t>(v)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(v)])];
-  return v;
-}
-
 /// Least of f(x) + |c - x| over the side from a to b, along which f goes linearly from fa to fb.
 double way_across(const Vec2& a, const Vec2& b, const Vec2& c, double fa, double fb) {
   const double best = std::min(fa + (c - a).norm(), fb + (c - b).norm()), length = (b - a).norm();
@@ -37,13 +32,10 @@ double way_across(const Vec2& a, const Vec2& b, const Vec2& c, double fa, double
 } // namespace
 
 SewnCloth::SewnCloth(const PanelMesh& mesh, std::vector<bool> panels) : m_mesh(mesh), m_panels(std::move(panels)), m_weld(mesh.pattern.size()) {
-  std::iota(m_weld.begin(), m_weld.end(), 0);
+  DisjointSets sewn(m_weld.size());
   for (const MeshSeam& s : mesh.seams)
-    for (std::size_t k = 0; k < s.a.size(); ++k) {
-      const int a = weld_root(m_weld, s.a[k]), b = weld_root(m_weld, s.b[k]);
-      m_weld[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
-  for (std::size_t v = 0; v < m_weld.size(); ++v) m_weld[v] = weld_root(m_weld, static_cast<int>(v));
+    for (std::size_t k = 0; k < s.a.size(); ++k) sewn.unite(s.a[k], s.b[k]);
+  for (std::size_t v = 0; v < m_weld.size(); ++v) m_weld[v] = sewn.find(static_cast<int>(v));
 }
 
 /// visit(panel, corners, welded corners) of every triangle that has three corners left.

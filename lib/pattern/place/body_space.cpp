@@ -1,4 +1,5 @@
 #include <base/error.hpp>
+#include <base/units.hpp>
 #include <body/measure/section.hpp>
 #include <pattern/place/body_space.hpp>
 
@@ -34,7 +35,7 @@ std::vector<Vec2> BodySpace::points(const Axis& axis, const std::vector<Part>& p
   std::vector<int> keep(256, -1);
   std::vector<Vec2> direction(keep.size());
   for (std::size_t d = 0; d < keep.size(); ++d)
-    direction[d] = Vec2(std::cos(2 * M_PI * static_cast<double>(d) / 256), std::sin(2 * M_PI * static_cast<double>(d) / 256));
+    direction[d] = Vec2(std::cos(2 * units::PI * static_cast<double>(d) / 256), std::sin(2 * units::PI * static_cast<double>(d) / 256));
   for (std::size_t k = 0; k < all.size(); ++k)
     for (std::size_t d = 0; d < keep.size(); ++d)
       if (keep[d] < 0 || all[k].dot(direction[d]) > all[static_cast<std::size_t>(keep[d])].dot(direction[d])) keep[d] = static_cast<int>(k);
@@ -107,7 +108,7 @@ double BodySpace::girth(double y) const {
     }
   }
   if (points.size() < 3) return 0;
-  return body::closed_length(body::convex_hull(std::move(points))) + 2 * M_PI * CLOTH;
+  return body::closed_length(body::convex_hull(std::move(points))) + 2 * units::PI * CLOTH;
 }
 
 double BodySpace::hang_height(const std::vector<double>& around, double limit) const {

@@ -1,4 +1,5 @@
 #include <base/units.hpp>
+#include <geometry/disjoint_sets.hpp>
 #include <pattern/panel_words.hpp>
 #include <pattern/seams/missing_seams.hpp>
 
@@ -29,8 +30,8 @@ class Search {
 public:
   explicit Search(const Pattern& pattern) : m_pattern(pattern) {
     for (const Panel& panel : pattern.panels) {
-      m_first.push_back(static_cast<int>(m_parent.size()));
-      for (std::size_t e = 0; e < panel.loops[0].size(); ++e) m_parent.push_back(static_cast<int>(m_parent.size()));
+      m_first.push_back(static_cast<int>(m_nodes.size()));
+      for (std::size_t e = 0; e < panel.loops[0].size(); ++e) m_nodes.add();
       m_sewn.emplace_back(static_cast<std::size_t>(panel.n_edges()), false);
       std::vector<double>& lengths = m_length.emplace_back();
       for (int e = 0; e < panel.n_edges(); ++e) lengths.push_back(length(panel.edge(e).path));
@@ -61,10 +62,7 @@ private:
 
   // Corners, and places on edges that meet a corner, are joined where seams join them. A corner has the number of the edge that begins there.
   int corner(const EdgeId& e, bool end) const { return m_first[static_cast<std::size_t>(e.panel)] + (end ? after(e) : e).edge; }
-  int find(int node) const {
-    while (m_parent[static_cast<std::size_t>(node)] != node) node = m_parent[static_cast<std::size_t>(node)];
-    return node;
-  }
+  int find(int node) const { return m_nodes.find(node); }
   int node_at(const Run& run, double fraction) {
     const EdgeId e{run.panel, run.edge};
     if (run.edge >= count(run.panel)) return -1; // of a hole
@@ -73,8 +71,7 @@ private:
     if (at > length_of(e) - SAME_PLACE) return corner(e, true);
     for (const auto& [edge, place, node] : m_places)
       if (edge == e && std::abs(place - at) < SAME_PLACE) return node;
-    m_places.push_back({e, at, static_cast<int>(m_parent.size())});
-    m_parent.push_back(static_cast<int>(m_parent.size()));
+    m_places.push_back({e, at, m_nodes.add()});
     return m_places.back().node;
   }
 
@@ -97,7 +94,7 @@ private:
           const int node = node_at(run, run.from + (run.to - run.from) * std::clamp(along / std::max(own, 1e-9), 0.0, 1.0));
           if (node < 0) continue;
           if (first < 0) first = node;
-          m_parent[static_cast<std::size_t>(find(node))] = find(first);
+          m_nodes.unite_into(node, first);
         }
       }
     }
@@ -321,7 +318,8 @@ private:
     int node;
   };
   const Pattern& m_pattern;
-  std::vector<int> m_first, m_parent;
+  std::vector<int> m_first;
+  DisjointSets m_nodes;
   std::vector<Place> m_places; ///< on edges, away from their ends
   std::vector<std::vector<bool>> m_sewn;
   std::vector<std::vector<double>> m_length;

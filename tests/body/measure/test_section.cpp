@@ -1,5 +1,6 @@
 #include <body/measure/section.hpp>
 #include <gtest/gtest.h>
+#include <support/shapes.hpp>
 
 #include <cmath>
 
@@ -8,25 +9,8 @@ using namespace sloper::body;
 
 namespace {
 
-/// A closed, outward cylinder about y.
 TriangleMesh cylinder(double radius, double y0, double y1, int n, double x = 0) {
-  TriangleMesh mesh;
-  for (int k = 0; k < n; ++k) {
-    const double a = 2 * 3.14159265358979 * k / n;
-    mesh.positions.emplace_back(x + radius * std::cos(a), y0, radius * std::sin(a));
-    mesh.positions.emplace_back(x + radius * std::cos(a), y1, radius * std::sin(a));
-  }
-  const int low = 2 * n, high = 2 * n + 1;
-  mesh.positions.emplace_back(x, y0, 0);
-  mesh.positions.emplace_back(x, y1, 0);
-  for (int k = 0; k < n; ++k) {
-    const int a = 2 * k, b = 2 * ((k + 1) % n);
-    mesh.triangles.push_back({a, a + 1, b + 1});
-    mesh.triangles.push_back({a, b + 1, b});
-    mesh.triangles.push_back({low, a, b});
-    mesh.triangles.push_back({high, b + 1, a + 1});
-  }
-  return mesh;
+  return shapes::cylinder(radius, y0, y1, n, 1, Vec3(x, 0, 0), 0.25 * n); // the first vertex of a ring at +x
 }
 
 } // namespace
@@ -53,9 +37,7 @@ TEST(Section, through_a_vertex_ring_is_still_one_loop) {
 TEST(Section, of_two_cylinders_gives_two_loops_the_larger_first) {
   TriangleMesh mesh = cylinder(0.05, 0, 1, 48, -0.2);
   const TriangleMesh other = cylinder(0.08, 0, 1, 48, 0.2);
-  const int shift = static_cast<int>(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
-  for (const Triangle& t : other.triangles) mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  shapes::append(mesh, other);
   const std::vector<Loop> loops = cut(mesh, level_plane(0.5));
   ASSERT_EQ(loops.size(), 2u);
   EXPECT_GT(loops[0].centroid.x(), 0);

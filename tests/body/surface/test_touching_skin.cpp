@@ -1,6 +1,7 @@
 /// Skin that touches skin is parted for cloth; all other skin stays as it was scanned.
 #include <body/surface/touching_skin.hpp>
 #include <gtest/gtest.h>
+#include <support/shapes.hpp>
 
 #include <cmath>
 #include <random>
@@ -11,18 +12,9 @@ namespace {
 
 /// An upright cylinder without caps, outward.
 void add_column(TriangleMesh& mesh, double x, double radius, double height, int around, int rows) {
-  const int first = static_cast<int>(mesh.positions.size());
-  for (int r = 0; r <= rows; ++r)
-    for (int c = 0; c < around; ++c) {
-      const double angle = 2 * M_PI * c / around;
-      mesh.positions.emplace_back(x + radius * std::cos(angle), height * r / rows, -radius * std::sin(angle));
-    }
-  for (int r = 0; r < rows; ++r)
-    for (int c = 0; c < around; ++c) {
-      const int a = first + r * around + c, b = first + r * around + (c + 1) % around;
-      mesh.triangles.push_back({a, b, b + around});
-      mesh.triangles.push_back({a, b + around, a + around});
-    }
+  std::vector<shapes::Ring> rings;
+  for (int r = 0; r <= rows; ++r) rings.push_back({height * r / rows, radius, radius});
+  shapes::append(mesh, shapes::revolve(around, rings, Vec3(x, 0, 0), 0.25 * around)); // the first vertex of a ring at +x
 }
 
 double least_gap(const TriangleMesh& mesh, std::size_t n_first) {

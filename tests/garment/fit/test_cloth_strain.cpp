@@ -1,4 +1,4 @@
-#include <support/cylinder.hpp>
+#include <support/shapes.hpp>
 
 #include <collision/body_collider.hpp>
 #include <garment/fit/cloth_strain.hpp>
@@ -47,7 +47,7 @@ TEST(cloth_strain, the_largest_is_that_of_a_place_and_not_of_one_triangle) {
   Garment g = tube(0.15, 0.02, 0);
   const int inner = 12 * 97 + 40; // far from both edges
   g.position[inner].y() += 0.008; // half of a cell: triangles above it are pressed together, those below are drawn out
-  const collision::BodyCollider skin(cylinder(0.149));
+  const collision::BodyCollider skin(shapes::cylinder(0.149, -0.2, 0.6, 96));
   const ClothState cloth(g, skin);
   double single = 0;
   std::vector<int> all;
@@ -88,11 +88,13 @@ TEST(cloth_strain, a_stretched_tube_presses_with_tension_over_radius_where_it_to
   const double expected = material_of(g, "").stretch_weft_n_m * 0.1 / radius; // the warp runs straight down and presses nowhere
   std::vector<Weighted> touching, away;
   const std::vector<TriangleStrain> strains = triangle_strains(g, g.position);
-  for (const double p : contact_pressures(g, strains, collision::BodyCollider(cylinder(radius - 0.001)))) touching.push_back({p, 1});
+  for (const double p : contact_pressures(g, strains, collision::BodyCollider(shapes::cylinder(radius - 0.001, -0.2, 0.6, 96)))) touching.push_back({p, 1});
   EXPECT_NEAR(area_quantile(touching, 0.5), expected, 0.02 * expected);
-  for (const double p : contact_pressures(g, strains, collision::BodyCollider(cylinder(radius - 0.02)))) EXPECT_EQ(p, 0);
+  for (const double p : contact_pressures(g, strains, collision::BodyCollider(shapes::cylinder(radius - 0.02, -0.2, 0.6, 96)))) EXPECT_EQ(p, 0);
   const Garment slack = tube(radius, -0.05, -0.05);
-  for (const double p : contact_pressures(slack, triangle_strains(slack, slack.position), collision::BodyCollider(cylinder(radius - 0.001)))) EXPECT_EQ(p, 0);
+  for (const double p :
+       contact_pressures(slack, triangle_strains(slack, slack.position), collision::BodyCollider(shapes::cylinder(radius - 0.001, -0.2, 0.6, 96))))
+    EXPECT_EQ(p, 0);
 }
 
 TEST(cloth_strain, quantiles_are_by_area) {

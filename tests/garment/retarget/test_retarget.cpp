@@ -1,4 +1,4 @@
-#include <support/cylinder.hpp>
+#include <support/shapes.hpp>
 #include <support/skin_garment.hpp>
 
 #include <base/error.hpp>
@@ -75,27 +75,16 @@ Garment sewn_tube(double radius, double length, double y) {
 
 /// A closed surface of revolution about y from 0.1 to 1.1 m, of radius `radius(y)`.
 template<class Radius> body::Body round_body(Radius radius) {
-  body::Body body;
-  const int n = 96, rows = 100;
-  TriangleMesh& mesh = body.skin;
-  for (int r = 0; r <= rows; ++r)
-    for (int c = 0; c < n; ++c) {
-      const double y = 0.1 + static_cast<double>(r) / rows, a = 2 * M_PI * c / n;
-      mesh.positions.emplace_back(radius(y) * std::sin(a), y, radius(y) * std::cos(a));
-    }
-  const int low = static_cast<int>(mesh.positions.size());
-  mesh.positions.emplace_back(0, 0.1, 0);
-  mesh.positions.emplace_back(0, 1.1, 0);
-  for (int c = 0; c < n; ++c) {
-    const int d = (c + 1) % n, top = rows * n;
-    for (int r = 0; r < rows; ++r) {
-      mesh.triangles.push_back({r * n + c, r * n + d, (r + 1) * n + d});
-      mesh.triangles.push_back({r * n + c, (r + 1) * n + d, (r + 1) * n + c});
-    }
-    mesh.triangles.push_back({low, d, c});
-    mesh.triangles.push_back({low + 1, top + c, top + d});
+  const int rows = 100;
+  std::vector<shapes::Ring> rings;
+  for (int r = 0; r <= rows; ++r) {
+    const double y = 0.1 + static_cast<double>(r) / rows;
+    rings.push_back({y, radius(y), radius(y)});
   }
-  body.face_part.assign(mesh.triangles.size(), body::Part::TORSO);
+  body::Body body;
+  body.skin = shapes::revolve(96, rings);
+  shapes::close_ends(body.skin, 96, Vec3(0, 0.1, 0), Vec3(0, 1.1, 0));
+  body.face_part.assign(body.skin.triangles.size(), body::Part::TORSO);
   return body;
 }
 
@@ -130,7 +119,7 @@ TEST(retarget, on_its_own_body_nothing_moves_but_out_of_the_contact_gap) {
 
 TEST(retarget, cloth_that_was_placed_too_long_slides_along_the_skin_to_its_own_length) {
   const Garment g = sewn_tube(0.15, 0.4, 0.6);
-  const collision::BodyCollider skin(cylinder(0.148, 1.6));
+  const collision::BodyCollider skin(shapes::cylinder(0.148, -0.2, 1.6, 96));
   std::vector<Vec3> x = g.position;
   for (Vec3& p : x) p.y() = 0.8 + 1.1 * (p.y() - 0.8); // as on a longer limb, everywhere within reach of the skin
   settle_shape(x, g.position, g.particle_triangles(), skin, 0.003);
@@ -144,7 +133,7 @@ TEST(retarget, cloth_that_was_placed_too_long_slides_along_the_skin_to_its_own_l
 
 TEST(retarget, cloth_that_is_held_at_its_end_does_not_slide_to_its_own_length) {
   const Garment g = sewn_tube(0.15, 0.4, 0.6);
-  const collision::BodyCollider skin(cylinder(0.148, 1.6));
+  const collision::BodyCollider skin(shapes::cylinder(0.148, -0.2, 1.6, 96));
   std::vector<Vec3> placed = g.position;
   for (Vec3& p : placed) p.y() = 0.8 + 0.9 * (p.y() - 0.8); // as on a shorter limb
   std::vector<int> end;
@@ -161,7 +150,7 @@ TEST(retarget, cloth_that_is_held_at_its_end_does_not_slide_to_its_own_length) {
 }
 
 TEST(retarget, cloth_is_graded_as_near_to_the_skin_as_it_was_placed) {
-  const collision::BodyCollider skin(cylinder(0.148, 1.6));
+  const collision::BodyCollider skin(shapes::cylinder(0.148, -0.2, 1.6, 96));
   for (const auto& [placed, wanted] : {std::pair{0.1495, 0.0015}, std::pair{0.147, 0.0015}, std::pair{0.156, 0.008}}) {
     const Garment g = sewn_tube(placed, 0.3, 0.6);
     std::vector<Vec3> x = g.position;

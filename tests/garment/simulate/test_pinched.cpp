@@ -17,26 +17,7 @@ constexpr double LENGTH = 0.3;                       // m, of a curtain
 constexpr int CELLS = 20;
 
 /// Closed upright cylinder about (x, 0), from y = 0.2 to 1.2 m.
-void append_column(TriangleMesh& mesh, double x) {
-  constexpr int AROUND = 48, UP = 24;
-  const int base = static_cast<int>(mesh.positions.size());
-  for (int r = 0; r <= UP; ++r)
-    for (int c = 0; c < AROUND; ++c) {
-      const double a = 2 * M_PI * (c + 0.5) / AROUND;
-      mesh.positions.emplace_back(x + COLUMN_RADIUS * std::sin(a), 0.2 + static_cast<double>(r) / UP, COLUMN_RADIUS * std::cos(a));
-    }
-  auto id = [&](int r, int c) { return base + r * AROUND + c % AROUND; };
-  for (int r = 0; r < UP; ++r)
-    for (int c = 0; c < AROUND; ++c) {
-      mesh.triangles.push_back({id(r, c), id(r, c + 1), id(r + 1, c + 1)});
-      mesh.triangles.push_back({id(r, c), id(r + 1, c + 1), id(r + 1, c)});
-    }
-  for (int end = 0; end < 2; ++end) {
-    const int r = end ? UP : 0, center = static_cast<int>(mesh.positions.size());
-    mesh.positions.emplace_back(x, end ? 1.2 : 0.2, 0);
-    for (int c = 0; c < AROUND; ++c) mesh.triangles.push_back(end ? Triangle{center, id(r, c), id(r, c + 1)} : Triangle{center, id(r, c + 1), id(r, c)});
-  }
-}
+void append_column(TriangleMesh& mesh, double x) { shapes::append(mesh, shapes::cylinder(COLUMN_RADIUS, 0.2, 1.2, 48, 24, Vec3(x, 0, 0), 0.5)); }
 
 /// Without bones, so that it cannot be drawn in for a start that is inside it.
 body::Body two_columns() {
