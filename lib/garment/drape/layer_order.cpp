@@ -120,6 +120,7 @@ Garment merge_layers(const std::vector<Garment>& garments) {
     add(g.scene.bands, all.scene.bands, of_run);
     add(g.scene.attachments, all.scene.attachments, of_run);
     add(g.scene.creases, all.scene.creases, of_run);
+    add(g.scene.weights, all.scene.weights, of_run);
     for (const pattern::PanelInfo& info : g.panels.panels) // a shrink without a panel is of all panels of its garment
       for (SceneShrink s : g.scene.shrink) {
         if (!s.panel.empty() && s.panel != info.name) continue;

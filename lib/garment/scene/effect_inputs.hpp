@@ -41,6 +41,12 @@ struct SceneCrease {
   double angle_rad = 0; ///< rest angle; positive folds the panel away from its outside
 };
 
+/// Weights sewn to a garment: a chain in a hem, lead in a curtain, beads, buttons.
+struct SceneWeight {
+  PanelRun run;
+  double mass_kg = 0.01; ///< of all of it; shared by the particles of the run, each by the length beside it
+};
+
 struct SceneEffects {
   std::string membrane; ///< "springs", "triangles" or "fem"; empty: springs
   std::string bending;  ///< "isometric" or "dihedral"; empty: isometric
@@ -49,12 +55,13 @@ struct SceneEffects {
   std::vector<SceneAttachment> attachments;
   std::vector<SceneShrink> shrink;
   std::vector<SceneCrease> creases;
+  std::vector<SceneWeight> weights;
   bool air = false; ///< air takes part, still or moving
   Vec3 wind_m_s = Vec3::Zero();
   double pressure_pa = 0; ///< on the inner side
   bool empty() const {
-    return membrane.empty() && bending.empty() && pins.empty() && bands.empty() && attachments.empty() && shrink.empty() && creases.empty() && !air &&
-           pressure_pa == 0;
+    return membrane.empty() && bending.empty() && pins.empty() && bands.empty() && attachments.empty() && shrink.empty() && creases.empty() &&
+           weights.empty() && !air && pressure_pa == 0;
   }
 };
 

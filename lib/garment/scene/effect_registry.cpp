@@ -11,6 +11,7 @@
   EFFECT(damping)                                                                                                                                              \
   EFFECT(sewing)                                                                                                                                               \
   EFFECT(gravity)                                                                                                                                              \
+  EFFECT(weights)                                                                                                                                              \
   EFFECT(pins)                                                                                                                                                 \
   EFFECT(attachments)                                                                                                                                          \
   EFFECT(elastic_bands)                                                                                                                                        \

@@ -73,6 +73,8 @@ struct EffectSpec {
   EffectModel model = EffectModel::NONE;
   EffectChoice (*choose)(const EffectFacts& facts);
   void (*add)(EffectBuild& build) = nullptr; ///< null for stage NONE
+  /// Changes the rest state before any effect is made, whether this one is on or off; null for those that do not.
+  void (*prepare)(cloth::ClothMesh& mesh, const Garment& garment, bool is_on) = nullptr;
 };
 
 } // namespace sloper::garment

@@ -122,6 +122,11 @@ std::vector<EffectReport> choose_effects(const Garment& garment, const body::Bod
   return effects;
 }
 
+void prepare_mesh(cloth::ClothMesh& mesh, const Garment& garment, const std::vector<EffectReport>& chosen) {
+  for (const EffectSpec& spec : effect_registry())
+    if (spec.prepare) spec.prepare(mesh, garment, is_active(chosen, spec.name));
+}
+
 void add_effects(EffectStage stage, EffectBuild& build, const std::vector<EffectReport>& chosen) {
   for (const EffectSpec& spec : effect_registry())
     if (spec.stage == stage && spec.add && is_active(chosen, spec.name)) spec.add(build);

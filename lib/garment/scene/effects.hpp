@@ -16,6 +16,9 @@ namespace sloper::garment {
 /// @throws Error USAGE for an unknown name or two models of one thing; INPUT for a scene that contradicts itself
 std::vector<EffectReport> choose_effects(const Garment& garment, const body::Body* body, const DrapeSettings& settings);
 
+/// Lets all effects change the rest state: before any is added.
+void prepare_mesh(cloth::ClothMesh& mesh, const Garment& garment, const std::vector<EffectReport>& chosen);
+
 /// Adds the effects of a stage that were chosen; those that were not are not built at all.
 /// @throws Error INPUT for a panel or landmark that is not there
 void add_effects(EffectStage stage, EffectBuild& build, const std::vector<EffectReport>& chosen);

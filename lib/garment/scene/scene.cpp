@@ -81,8 +81,8 @@ Material read_material(const io::Node& node) {
 Scene read_scene(const std::string& path) {
   const io::Json document = io::read_document(path, "scene", SCENE_VERSION);
   const io::Node root(document, path);
-  root.allow_only({"format", "version", "generator", "length_unit", "body", "panels", "accuracy", "effects", "materials", "settings", "membrane", "bending",
-                   "pins", "bands", "attachments", "shrink", "creases", "wind_m_s", "pressure_pa"});
+  root.allow_only({"format",   "version", "generator", "length_unit", "body",        "panels", "accuracy", "effects", "materials", "settings",
+                   "membrane", "bending", "pins",      "bands",       "attachments", "shrink", "creases",  "weights", "wind_m_s",  "pressure_pa"});
   Scene scene;
   if (root.has("body")) scene.body = io::path_beside(path, root.at("body").string());
   if (root.has("panels")) scene.panels = io::path_beside(path, root.at("panels").string());

@@ -117,6 +117,13 @@ SceneEffects read_scene_effects(const Node& node) {
     n.allow_only({"panel", "from", "to", "angle_deg"});
     return SceneCrease{read_run(n), in_range(n, "angle_deg", 0, -175, 175) * DEGREE};
   });
+  read_list(node, "weights", scene.weights, [](const Node& n) {
+    n.allow_only({"panel", "at", "from", "to", "mass_kg"});
+    SceneWeight weight;
+    weight.run = read_run(n);
+    weight.mass_kg = in_range(n, "mass_kg", weight.mass_kg, 1e-6, 100);
+    return weight;
+  });
   scene.air = node.has("wind_m_s");
   if (scene.air) scene.wind_m_s = node.at("wind_m_s").vec3();
   if (scene.wind_m_s.norm() > 100) node.at("wind_m_s").fail("is beyond 100 m/s");
@@ -160,6 +167,11 @@ Json scene_effects_json(const SceneEffects& scene) {
   write_list(out, "creases", scene.creases, [](const SceneCrease& crease) {
     Json j = run_json(crease.run);
     j["angle_deg"] = crease.angle_rad / DEGREE;
+    return j;
+  });
+  write_list(out, "weights", scene.weights, [](const SceneWeight& weight) {
+    Json j = run_json(weight.run);
+    j["mass_kg"] = weight.mass_kg;
     return j;
   });
   if (scene.air) out["wind_m_s"] = io::to_json(scene.wind_m_s);

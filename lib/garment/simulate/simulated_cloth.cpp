@@ -23,11 +23,6 @@ SimulatedCloth::SimulatedCloth(Garment& garment, const DrapeSettings& settings, 
 
 void SimulatedCloth::choose_effects() { m_telemetry.report.effects = garment::choose_effects(m_garment, m_body.body(), m_settings); }
 
-void SimulatedCloth::remove_damping() {
-  for (cloth::EdgeSpring& s : m_mesh->springs) s.damping_s = 0;
-  for (cloth::Fabric& f : m_mesh->fabrics) f.damping_s = 0;
-}
-
 void SimulatedCloth::build(bool open_seams, bool keep_velocity) {
   tear_down();
   m_open_seams = open_seams;
@@ -37,7 +32,7 @@ void SimulatedCloth::build(bool open_seams, bool keep_velocity) {
   if (m_settings.solver == 1) m_solver->set_preconditioner(std::make_unique<cloth::BlockJacobi>());
   if (m_settings.solver == 2) m_solver->set_preconditioner(std::make_unique<cloth::Factorisation>());
   m_loaded = false;
-  if (!is_active("damping")) remove_damping();
+  prepare_mesh(*m_mesh, m_garment, m_telemetry.report.effects);
   if (open_seams)
     for (cloth::Hinge& hinge : m_mesh->hinges) hinge.stiffness *= SEW_BENDING;
   for (EffectStage stage : {EffectStage::FABRIC, EffectStage::MODEL, EffectStage::SCENE, EffectStage::CONTACT}) add_stage(stage);
@@ -72,7 +67,7 @@ void SimulatedCloth::replace_rest_shape() {
   cloth::ClothMesh fresh = cloth_mesh_of(m_garment);
   bool all_take_it = true;
   *m_mesh = std::move(fresh);
-  if (!is_active("damping")) remove_damping();
+  prepare_mesh(*m_mesh, m_garment, m_telemetry.report.effects);
   for (const auto& effect : m_solver->effects()) all_take_it = effect->set_rest(*m_mesh) && all_take_it;
   if (all_take_it) return;
   const bool loaded = m_loaded;

@@ -54,7 +54,6 @@ public:
   std::string crossing_text() const; ///< for the log: what is through the skin, and where; empty: nothing
 
 private:
-  void remove_damping();
   void add_stage(EffectStage stage);
 
   Garment& m_garment;

@@ -12,7 +12,6 @@
 #include <garment/scene/effects.hpp>
 #include <garment/scene/panel_runs.hpp>
 #include <garment/scene/scene.hpp>
-#include <garment/scene/scene_effects.hpp>
 #include <garment/scene/scene_effects_json.hpp>
 #include <garment/sewing.hpp>
 #include <gtest/gtest.h>
