@@ -34,7 +34,7 @@ public:
   virtual bool set_rest(const ClothMesh& /*mesh*/) { return true; }
   /// Before assembly: find contacts for the positions x.
   virtual void begin_step(const std::vector<Vec3>& /*x*/, double /*h*/) {}
-  /// Within a step of several solves, which has come to x so far: find contacts there.
+  /// Within a step of several solves, which has reached x so far: finds contacts there.
   virtual void look_again(const std::vector<Vec3>& /*x*/, double /*h*/) {}
   /// Whether begin_step() is long, and touches nothing that another effect has to do with: then it may run beside their add().
   virtual bool is_search() const { return false; }
@@ -43,11 +43,11 @@ public:
   /// Whether cloth passed through something at the last search, which the effect pushes it out of.
   virtual bool crosses() const { return false; }
   virtual void add(StepContext& context) = 0;
-  /// Adds what add() leaves out of d2E/dx2 at x to keep its part definite: then it is whole. Nothing where nothing is left out, or not told.
+  /// Adds the indefinite part of d2E/dx2 that add() drops. Default: nothing, for effects whose Hessian is complete or whose dropped part is not known.
   virtual void add_left_out(const std::vector<Vec3>& /*x*/, BlockMatrix& /*stiffness*/) const {}
   /// Potential at x, J; 0 for what has none (damping, friction).
   virtual double energy(const std::vector<Vec3>& /*x*/) const { return 0; }
-  /// Looks at a displacement that keeps `limits`, and adds limits for what it would yet pass through.
+  /// Adds separating planes for pairs that a displacement within `limits` would still bring through each other.
   /// @param last  nothing comes after: limits now must stop all such displacements   @return whether limits were added
   virtual bool guard_motion(const std::vector<Vec3>& /*x*/, const std::vector<Vec3>& /*dx*/, MotionLimits& /*limits*/, bool /*last*/) { return false; }
   /// After the step: x has become x + dx.

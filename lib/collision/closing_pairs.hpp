@@ -1,10 +1,9 @@
 #pragma once
-/// Which elements of a cloth a displacement may bring together: a pair counts when its elements move against each other by more
-/// than a share of the distance between them. What moves together does not count, however fast it is.
+/// Broad phase of continuous self-collision: the pairs of elements whose relative displacement exceeds a share of their distance. A rigid motion of
+/// both yields no pair, however fast.
 ///
-/// Two trees of one shape, one over the positions and one over the displacements, bound both at every node: an element that moves
-/// like all below a node is not led astray by the node's speed.
-/// Test: tests/collision/test_closing_pairs.cpp
+/// Two trees of one shape, over positions and over displacements, bound both at every node, so that a node's speed does not count for an element that
+/// moves with all of the node. Test: tests/collision/test_closing_pairs.cpp
 #include <collision/topology.hpp>
 #include <collision/triangle_tree.hpp>
 #include <cstdint>

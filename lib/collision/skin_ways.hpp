@@ -1,7 +1,7 @@
 #pragma once
-/// How skin that moves goes, by place: what is carried along with the skin beside it need not fear the way of a limb elsewhere.
+/// A uniform grid of bounds of the skin's displacement: a query near the hip can ignore the large displacement of a moving hand.
 ///
-/// A grid of cubes keeps the bounds of the ways of all triangles whose bounding boxes meet each. Test: tests/collision/test_skin_ways.cpp
+/// Each cube keeps the bounds of the displacements of all triangles whose bounding boxes meet it. Test: tests/collision/test_skin_ways.cpp
 #include <geometry/triangle_mesh.hpp>
 
 namespace sloper::collision {

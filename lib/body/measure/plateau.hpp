@@ -1,5 +1,5 @@
 #pragma once
-/// Where a curve is lowest, told by the middle of what is as low as makes no difference: the single lowest sample of a flat curve is anywhere on it.
+/// The centre of a flat minimum: the weighted mean of all samples within `flat` of the lowest. The single lowest sample of a flat curve is unstable.
 #include <geometry/types.hpp>
 #include <vector>
 namespace sloper::body {

@@ -59,19 +59,19 @@ public:
   double energy(const std::vector<Vec3>& x) const override; ///< of the pairs of the last search and of the ties of friction
   bool guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) override;
 
-  /// How far each vertex of the skin may move at once so that it passes none of the cloth at x, m: half of its distance to the cloth,
-  /// and no more than what is seen. Cloth that crosses the skin already does not count. Searches. After a first step only.
+  /// The largest displacement of each skin vertex that passes no cloth at x, m (#V): half of its distance to the cloth, and no farther than the
+  /// search has seen. Cloth that already crosses the skin does not count. Searches. Only after a first step.
   std::vector<double> skin_room(const std::vector<Vec3>& x);
-  /// Pushes `carry` (#P by 3, m) away from skin that goes `way` (#V by 3, m), where cloth at x + carry would be nearer to it than half of what
-  /// free_share() allows. Small pushes only. Cost: O(near pairs).
+  /// Pushes a predictor off the skin where cloth at x + carry would come nearer to it than half of what free_share() allows.
+  /// @param way  #V by 3, m: displacement of the skin   @param carry  #P by 3, m, in and out: the predictor; small pushes only. Cost: O(near pairs)
   void clear_carry(const std::vector<Vec3>& x, const std::vector<Vec3>& way, std::vector<Vec3>& carry);
-  /// The largest share of the way `way` (#V by 3 of the skin, m) that the skin may go at once, while the cloth at x goes the same share of
-  /// `carry` (#P by 3, m), and pass none of it: they come nearer by at most a third of each pair's distance, sideways and apart without
-  /// limit, and no farther than what is seen. Searches when it must. Cloth that crosses the skin already does not count. In [0, 1];
-  /// 0 before the first step.
+  /// The largest fraction of a displacement of the skin that is free of collisions, while the cloth moves by the same fraction of its predictor: each
+  /// pair comes nearer by at most a third of its distance, sideways and apart without limit, and no farther than the search has seen. Searches
+  /// when it must. Cloth that already crosses the skin does not count.
+  /// @param way  #V by 3, m: displacement of the skin   @param carry  #P by 3, m: predictor   @return in [0, 1]; 0 before the first step
   double free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry);
-  /// Moves the body (same topology), while the cloth at x goes by `carry` (#P by 3, m, or empty: it stays). Anchors of friction go with the skin that
-  /// they are on; what was found out holds as far as skin and the cloth near it go other ways.
+  /// Moves the body, with the same topology. Anchors of friction move with their skin; near pairs hold as far as skin and the cloth near it move alike.
+  /// @param positions  #V by 3, m   @param carry  #P by 3, m: displacement of the cloth at x meanwhile; empty: it stays
   void move_body(const std::vector<Vec3>& positions, const std::vector<Vec3>& x, const std::vector<Vec3>& carry = {});
   /// How far beyond the reach pairs are kept, m: wide where skin and cloth pass each other fast.
   void set_slack(double slack_m) { m_options.slack_m = slack_m, m_stale = true; }

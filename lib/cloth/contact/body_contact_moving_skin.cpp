@@ -25,9 +25,9 @@ const Vec3& carry_of(const std::vector<Vec3>& carry, std::size_t i) {
 
 } // namespace
 
-/// Of what is known since the last search, all is about skin and cloth that may come as near as the particles of an element may yet go, or as a
-/// particle's clearance tells. Skin farther off may go as it likes, if it stays as far: so each particle is asked about the skin within twice its
-/// element's reach (what was not asked about when the particle was elsewhere counts from there), the element's size and what the fastest goes.
+/// Decides for which particles the last contact search is still valid: those whose distance to the skin, measured against its planned displacement,
+/// cannot fall below the search radius. Asks, for each particle, about the skin within twice its element's activation distance, the element's size and
+/// the fastest displacement; distances known from elsewhere count from there.
 void BodyContactEffect::measure_against(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry) {
   m_against.assign(x.size(), 0);
   if (m_reach_now.size() != x.size()) return; // nothing is known

@@ -23,8 +23,9 @@ struct PlaneGuard {
 
 struct MotionLimits {
   std::vector<PlaneGuard> guards;
-  std::vector<double> most;   ///< #P, m: no particle moves farther in this step
-  bool planes_follow = false; ///< those between cloth and cloth; else they stay where they are, which on the way to rest is as good and sooner done
+  std::vector<double> most; ///< #P, m: no particle moves farther in this step
+  /// Planes between cloth and cloth may translate along their normal. Static solves leave them fixed, which is cheaper and converges as well.
+  bool planes_follow = false;
 
   void reset(std::size_t n_particles); ///< all but planes_follow
   /// Takes off what of a displacement runs into a plane, then shortens what still breaks a plane or is too long; pushes nothing. The present

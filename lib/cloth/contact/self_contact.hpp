@@ -2,11 +2,11 @@
 /// Contact of cloth with cloth: repulsion inside the thickness, friction, and limits on every particle's motion that no
 /// crossing can survive.
 ///
-/// Every step keeps each element of a near pair on its side of the plane half way between them (MotionLimits). While no particle
-/// goes farther than just under half the search radius from where it was searched, no other pair can cross. Where one does, those
-/// of its pairs that close in on each other are looked for and guarded too (collision/closing_pairs.hpp): what moves together may move far. Cloth that
-/// outruns its search in each step is searched only for what repels, since the rest is looked for anyway. So a state free of crossings stays free of them.
-/// Pairs that can neither repel each other nor meet in the step are not measured. Repulsion: see contact_potential.hpp; friction between layers is viscous.
+/// A separating plane half-way between the elements of a near pair keeps each on its side in a step (MotionLimits). While no particle moves farther
+/// than just under half the search radius from where it was searched, no other pair can cross. Beyond that, CCD candidates
+/// (collision/closing_pairs.hpp) get planes too, so cloth that moves as one may move far. If particles outrun the search in each step, only the
+/// repulsion radius is searched. So a state free of crossings stays free of them. Pairs that can neither repel each other nor meet in the step
+/// are not measured. Repulsion: see contact_potential.hpp; friction between layers is viscous.
 #include <cloth/cloth_mesh.hpp>
 #include <cloth/contact/contact_potential.hpp>
 #include <cloth/effect.hpp>

@@ -31,9 +31,9 @@ struct CgResult {
 struct CgTolerance {
   CgTolerance(double of_residual, double of_energy = 0) : residual(of_residual), energy(of_energy) {}
   double residual; ///< |b - A x| over |b|
-  /// Root of r' P^-1 r over that of b' P^-1 b, r = b - A x: with a preconditioner P that is_near() A, the error of x in the energy norm
-  /// over that of 0, or of the start where the system recurs (Arioli 2004); with others it does not count. Where stiff and soft go together it is reached long
-  /// before the residual is small, which is mostly of what is stiff.
+  /// sqrt(r' P^-1 r) over sqrt(b' P^-1 b), r = b - A x. With a preconditioner P that is_near() A this is the error of x in the energy norm over that of
+  /// 0, or of the start where the system recurs (Arioli 2004); with others it does not count. For stiff and soft modes together the energy error
+  /// converges long before the residual, which stiff modes dominate.
   double energy;
 };
 
@@ -43,7 +43,7 @@ public:
   virtual ~Preconditioner() = default;
   virtual void update(const LinearSystem& system) = 0;
   virtual void apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) = 0;
-  /// Whether P is near the system for what is stiff and for what is soft, so that r . z tells the error of a solve.
+  /// True if P is spectrally equivalent to A, so that sqrt(r . z) estimates the error of a solve in the energy norm.
   virtual bool is_near() const { return false; }
   /// The sparsity pattern has changed.
   virtual void reset() {}

@@ -53,9 +53,9 @@ double longest_of(const std::vector<Vec3>& way) {
 BodyMotion::BodyMotion(ClothSolver& solver, BodyContactEffect& contact, collision::BodyCollider& body, SelfContactEffect* self_contact)
     : m_solver(solver), m_contact(contact), m_body(body), m_self_contact(self_contact), m_nearest(solver.x().size(), -1) {}
 
-/// As the nearest skin goes: by the way of its triangle, in the barycentric coordinates of the nearest point. Cloth that is farther off goes on as it
-/// flies, the more the farther: left behind, it would be torn from what is carried, and no step tells well where from there.
-/// @param time s, that the way takes cloth that flies
+/// Predictor of each particle: the displacement of the nearest skin triangle, at the barycentric coordinates of the nearest point, blended with the
+/// particle's own velocity as the distance grows. Cloth left behind would be torn from cloth that moves with the skin.
+/// @param way  #V by 3, m: displacement of the skin   @param time  s, in which it happens
 void BodyMotion::find_carry(const std::vector<Vec3>& way, double time) {
   const std::vector<Vec3>& x = m_solver.x();
   m_carry.assign(x.size(), Vec3::Zero());
@@ -74,8 +74,7 @@ void BodyMotion::find_carry(const std::vector<Vec3>& way, double time) {
   m_contact.clear_carry(x, way, m_carry);
 }
 
-/// The carry, at the rate of the whole way, that brings no cloth through cloth when it goes this share of it. What all cloth has in common brings
-/// none together.
+/// Limits the predictor so that scaling it by `share` causes no self-collision. A common translation of all cloth is exempt.
 /// @param limits  of the layers where they are: what they are kept apart by is added, since self contact names it once
 std::vector<Vec3> BodyMotion::uncrossing_carry(double share, MotionLimits& limits) const {
   const std::vector<Vec3>& x = m_solver.x();
@@ -94,8 +93,8 @@ std::vector<Vec3> BodyMotion::uncrossing_carry(double share, MotionLimits& limit
   return carry;
 }
 
-/// The share of its way that the skin can go now, with m_carry that of the whole way at this rate. Cloth between skin and cloth cannot be
-/// carried all the way at once, and would stop the skin within a hair: carried on less of it, it goes with what lies over it.
+/// The step fraction of the skin that is free of collisions, with the predictor of its whole displacement. Cloth between skin and cloth cannot follow
+/// the predictor at once and would stop the skin within a hair: where a smaller step is taken, it moves with the cloth over it.
 double BodyMotion::free_part(const std::vector<Vec3>& way, double longest, double time) {
   const std::vector<Vec3>& x = m_solver.x();
   find_carry(way, time);

@@ -1,13 +1,12 @@
 #pragma once
-/// Body motion: a body that moves under cloth, in parts so short that no skin passes cloth that is clear of it.
+/// Body motion: advances a moving body in substeps short enough that the skin never tunnels through cloth that it does not already cross.
 ///
-/// Cloth near the skin is first carried along with it, and cloth farther off as it flies, as far as self contact lets it (on less of the way where that
-/// is longer), so that a body under taut cloth meets as little of it as one that stands still. A part of the way ends where skin and carried
-/// cloth have come nearer by a third of the distance of any pair of them (BodyContactEffect::free_share()); then the cloth steps in its share of
-/// the time, from where it was carried to but with the inertia of where it was: (M/h^2 + K) dx = f(x + c) + M (v - c/h) / h, then
-/// v = (c + dx)/h, c being the carry. So the carry is where a step begins to look, and no motion: what swings freely, or slips, does so as
-/// without it. Then the next part. Where cloth cannot give way in many parts (it is pinned, or caught between two limbs) the skin goes through
-/// what is left and pushes out what it crosses, as at a deep start; such moments are counted. Test: tests/cloth/motion/test_body_motion.cpp
+/// Each substep starts from a predictor c: cloth near the skin moves with the nearest triangle, cloth farther away with its own velocity, blended in
+/// between, and no farther than self contact allows. The predictor only chooses where the solve starts; inertia is taken from the true state:
+///   (M/h^2 + K) dx = f(x + c) + M (v - c/h) / h, then v = (c + dx)/h.
+/// So free motion and sliding are unaffected. A substep ends where a pair of skin and cloth would lose more than a third of its distance
+/// (BodyContactEffect::free_share()). If cloth cannot yield (pinned, or pinched between two limbs) the skin passes through, the crossing is counted,
+/// and contact pushes it out as at a deep start. Test: tests/cloth/motion/test_body_motion.cpp
 #include <cloth/contact/body_contact.hpp>
 #include <cloth/contact/self_contact.hpp>
 #include <cloth/solver/implicit_step.hpp>

@@ -111,7 +111,7 @@ double ClothSolver::energy_after(const std::vector<Vec3>& dx) {
   return energy(m_trial);
 }
 
-/// What one limit turns aside may run into what no limit knew of.
+/// Projecting onto one plane can push a particle into a pair that had no plane: re-check and add planes, up to GUARD_ROUNDS times.
 void ClothSolver::limit(std::vector<Vec3>& dx, std::vector<char>& held) {
   m_limits.apply(m_x, dx, held);
   for (int round = 1; round <= GUARD_ROUNDS; ++round) {

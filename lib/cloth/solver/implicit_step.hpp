@@ -21,10 +21,9 @@ struct StepOptions {
   /// residual that counts as rest.
   double least_residual_ratio = 0;
   int cg_max_iterations = 400;
-  /// With inertia and without line_search: solves a step takes at most. One is the paper's linearised step, which is exact for small ways alone: cloth
-  /// that turns is stretched by it, and swings on with the energy. More go on to the minimum of the incremental potential
-  /// E(x) + |x - x0 - h v0|^2_M / (2 h^2), damping added, each with a line search on it (backward Euler; Kane et al. 2000), until its gradient is a
-  /// hundredth of a particle's weight, root mean square.
+  /// With inertia and without line_search: the most solves of a step. 1 is the linearised step of the paper: inaccurate for large rotations, which it
+  /// turns into stretch and spurious energy. More are Newton iterations on the incremental potential E(x) + |x - x0 - h v0|^2_M / (2 h^2) with
+  /// damping, each with a line search (backward Euler; Kane et al. 2000), until its gradient is a hundredth of a particle's weight, root mean square.
   int newton_iterations = 1;
   /// With inertia and without line_search: a step of one solve that would gain of that potential, damping aside, is made again, in up to GUARD_SOLVES.
   /// What makes cloth burst that turns fast is not there then; other steps cost two looks at the energy more. Not where cloth crosses something:
@@ -42,10 +41,9 @@ struct StepOptions {
   /// 1000 that fold in 0.9 of them (sums over six; singly 0.6 to 1.3), squares of 2300 in 1.1. Not for garments that friction holds: momentum carries cloth
   /// over it, on a slope of 40 degrees up to 1.27 of the friction that should hold it, and where tied cloth is left out of it, nothing is gained.
   bool momentum = false;
-  /// With line_search: near rest, at 95 % of the forces below a mean weight, the stiffness is whole, with the negative parts that are left
-  /// out of it elsewhere to keep it definite, and the solve ends at a trust radius of a fifth of an edge (Steihaug 1983). Where cloth has
-  /// buckled those parts are about as large as what resists: without them steps go a small part of the way. Pays from 10,000 particles on;
-  /// at 3000 a tenth fewer steps take as long.
+  /// With line_search: near equilibrium, at 95 % of the forces below a mean weight, use the full (indefinite) Hessian with conjugate gradients that end
+  /// at a trust radius of a fifth of an edge (Steihaug 1983), instead of the projected one. Where cloth has buckled the negative parts are about as
+  /// large as the positive ones, and steps without them are short. Pays from 10,000 particles on; at 3000 a tenth fewer steps take as long.
   bool whole_near_rest = false;
   double largest_move_m = 0.05; ///< no particle moves farther in one step
 };

@@ -37,9 +37,8 @@ BindFrames make_bind_frames(const body::Body& body);
 /// @param sigma m, smoothing length
 body::SkinProfile fit_skin_profile(const PartFrame& frame, const std::vector<Vec3>& points, double z_low, double z_high, double sigma);
 
-/// A waist is told in up to three ways, by proportion and where girth or width is least, each off by a centimetre or two, so that they lie closer
-/// than cloth can follow and one above the other on one body as on no other: "waist" becomes where they lie on average, by how sure they are, of
-/// those that both bodies have.
+/// Up to three rules give a waist, by proportion and where girth or width is least: 1 to 2 cm apart, in an order that varies between bodies. As marks they
+/// would lie closer than cloth can follow. They become one mark "waist": the mean of the rules that both bodies have, weighted by confidence.
 std::pair<Marks, Marks> with_one_waist(Marks from, Marks to);
 
 /// Monotone cubic map of z from one body to another through marks of the same name (Fritsch and Carlson 1980); beyond the

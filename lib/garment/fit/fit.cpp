@@ -294,7 +294,7 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
     const std::vector<char> use = cloth_of(garment, place);
     const FitLimits limits = policy.limits(place.name, report.garment_class, report.fabric);
     const double least = place.body_m - place.body_spread_m;
-    // Stretched by all that the policy bears it reaches round where it can slide to a little; or unstretched where it can slide to at all.
+    // Fits if, at the largest strain that the policy bears, it closes around a level within a small shift; or, unstretched, at any level it can slide to.
     std::optional<SectionLine> line;
     double beyond_stretch = 1e300, beyond_rest = 1e300;
     const auto look = [&](double shift) {

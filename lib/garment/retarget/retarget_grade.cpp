@@ -360,7 +360,7 @@ GradeReport regrade(Garment& garment, const std::vector<Vec3>& before, const std
   std::vector<SeamEdge> edges = seam_edges(garment, layout_of_vertex, layouts, mirrors);
   lay_out_together(layouts, edges);
 
-  // What meshes that are no mirror images of each other left of the difference goes here; it is far below a millimetre.
+  // Averages out the residual, far below a millimetre, of left and right meshes that are not exact mirror images.
   const std::vector<Eigen::MatrixX2d> moved = averaged(
       garment, layouts, mirrors,
       [](const PanelLayout& layout) {
