@@ -1,6 +1,6 @@
 #pragma once
 /// An effect is one physical influence with one name and one switch. An effect that is off is not in the solver at all:
-/// it costs no call, no allocation, no time (DESIGN section 10).
+/// it costs no call, no allocation, no time.
 #include <cloth/contact/contact_element.hpp>
 #include <cloth/contact/motion_limits.hpp>
 #include <cloth/linear/block_matrix.hpp>

@@ -18,7 +18,7 @@ struct Material : cloth::Fabric {
   std::string source; ///< where the numbers come from
 };
 
-/// How a garment hangs on a body in body-relative coordinates (DESIGN section 9); empty until bound.
+/// How a garment hangs on a body in body-relative coordinates; empty until bound.
 struct BindWeight {
   int frame;            ///< index into Bind::frames
   double weight;        ///< > 0, sum over one particle = 1

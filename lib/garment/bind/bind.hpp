@@ -1,5 +1,5 @@
 #pragma once
-/// Binding: a garment in body-relative coordinates, and placing it from them on a body (Sul et al. 2010, section 2.2; DESIGN section 9).
+/// Binding: a garment in body-relative coordinates, and placing it from them on a body (Sul et al. 2010, section 2.2).
 ///
 /// A particle at x is kept as sum over its frames k of w_k (theta_k, z_k, gap_k) with gap_k = r_k - R_k(theta_k, z_k), and placed on
 /// a body as x' = sum_k w_k F'_k(theta_k, m_k(z_k), R'_k(theta_k, m_k(z_k)) + gap_k); F'_k is PartFrame::point of the other body's

@@ -1,5 +1,5 @@
 #pragma once
-/// Which effects a scene calls for, and why: pay as you go (DESIGN section 10).
+/// Which effects a scene calls for, and why: pay as you go.
 #include <body/body.hpp>
 #include <garment/garment.hpp>
 #include <garment/scene/effect_report.hpp>
