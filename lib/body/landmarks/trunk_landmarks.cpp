@@ -164,7 +164,7 @@ void find_bust(const Finder& f, double pit) {
     f.put("bust_point" + suffix, *point, 2, *points->rule);
     f.find("bust_prominent", suffix, 2,
            {{"foremost_of_chest", [&] {
-               return place_of(foremost_place(f, {point->y() - 0.024 * s, point->y() + 0.06 * s}, half_front(side, 0.002, 0.14 * s), 1, PEAKED, 0.006));
+               return place_of(foremost_place(f, {point->y() - 0.024 * s, point->y() + 0.06 * s}, half_front(side, 0.002, 0.14 * s), 1, PEAKED, 0.0015));
              }}});
     if (const auto p = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected, 0.006 * s)) f.also("bust_point" + suffix, *p);
     sum += point->y(), ++n;
@@ -290,7 +290,7 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
   const double s = f.s;
   std::optional<Foremost> belly;
   auto foremost = [&]() -> std::optional<Vec3> {
-    belly = foremost_place(f, {crotch + 0.004, waist}, {-0.1 * s, 0.1 * s}, 1, f.number("abdomen.flat"));
+    belly = foremost_place(f, {crotch + 0.010, waist}, {-0.1 * s, 0.1 * s}, 1, f.number("abdomen.flat"), 0);
     return place_of(belly);
   };
   if (f.find("abdomen_front", "", 2, {{"foremost_below_waist", foremost}})) {
