@@ -13,9 +13,9 @@ namespace sloper::body {
 namespace {
 
 constexpr double HEAD_BEFORE_CALVES = 2.0; ///< degrees by which the line from the calves to the head leans forward in upright people
-constexpr double FAR_APART = 8; ///< degrees between posture and soles: so far, the soles are not believed at all
-constexpr double SOLES_WEIGHT = 0.85; ///< against the posture
-constexpr double SLUMPED = 2; ///< degrees between posture and soles
+constexpr double FAR_APART = 8;            ///< degrees between posture and soles: so far, the soles are not believed at all
+constexpr double SOLES_WEIGHT = 0.85;      ///< against the posture
+constexpr double SLUMPED = 2;              ///< degrees between posture and soles
 constexpr double NEAR_FILE = 1.6;          ///< degrees from the file's vertical to the body's: so near, the body's is taken
 constexpr int SHAPE_ROUNDS = 2, HEADINGS = 2;
 constexpr double SETTLED = 1e-4; ///< rad

@@ -190,14 +190,13 @@ void find_elbow(const Finder& f, int side, double hand, double to_elbow) {
                                        {"arm_ratio", [&] { return std::optional(by_ratio); }}});
   if (!along) return;
   const Vec3 behind(0, 0, f.number("elbow.behind_axis") * f.s);
-  f.put("elbow" + suffix, arm.at(along->value) - behind, 2, *along->rule);
+  f.put("elbow" + suffix, f.corrected("elbow", suffix, arm.at(along->value) - behind, false), 2, *along->rule);
   f.also("elbow" + suffix, arm.at(by_ratio) - behind);
   if (by_swell) f.also("elbow" + suffix, arm.at(*by_swell) - behind);
-  f.find("olecranon", suffix, 2,
-         {{"rearmost_at_elbow", [&] {
-            const double point = along->value + f.number("olecranon.above_joint") * f.s;
-            return std::optional(rear_of_section(arm, f.levels.skin(), point, elbow_faces(arm, along->value, f.s)));
-          }}});
+  f.find("olecranon", suffix, 2, {{"rearmost_at_elbow", [&] {
+                                     const double point = along->value + f.number("olecranon.above_joint") * f.s;
+                                     return std::optional(rear_of_section(arm, f.levels.skin(), point, elbow_faces(arm, along->value, f.s)));
+                                   }}});
 }
 
 } // namespace
@@ -232,7 +231,7 @@ void find_arm_landmarks(const Finder& f) {
     const double reach = (joint - arm.tip).norm();
     if (hand->rule->name != "arm_ratio" || reach >= f.number("hand.least_arm") * s) {
       const Vec3 wrist = arm.at(hand->value);
-      f.put("wrist" + suffix, wrist, 2, *hand->rule);
+      f.put("wrist" + suffix, f.corrected("wrist", suffix, wrist, false), 2, *hand->rule);
       f.also("wrist" + suffix, arm.at(by_ratio));
       // along a bent arm, which is longer than straight from shoulder to wrist
       const double path = arm.length() + (joint - arm.at(arm.length())).norm() - hand->value;

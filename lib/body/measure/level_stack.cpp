@@ -8,13 +8,13 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double CALF = 0.08;         ///< of stature: from here up two legs are looked for
-constexpr double LEVEL = 0.0003;      ///< m: as low as makes no difference
-constexpr double FAVOUR = 0.0004;     ///< m: a crotch that is lowest in front and behind has its place in front, unless it is lower behind by more
+constexpr double CALF = 0.08;     ///< of stature: from here up two legs are looked for
+constexpr double LEVEL = 0.0003;  ///< m: as low as makes no difference
+constexpr double FAVOUR = 0.0004; ///< m: a crotch that is lowest in front and behind has its place in front, unless it is lower behind by more
 /// A belly's apron or a buttock that hangs lower is no crotch: of stature before and behind the middle of the legs. On 40 bodies as they stand the
 /// lowest skin between the legs was -0.047 to 0.047 from there.
 constexpr double CROTCH_REACH = 0.052;
-constexpr double ONE_PLACE = 0.02; ///< of stature: what is as low farther off is another place, and the crotch is not between them
+constexpr double ONE_PLACE = 0.02;    ///< of stature: what is as low farther off is another place, and the crotch is not between them
 constexpr double NECK = 0.08;         ///< of stature beside the middle plane: the neck is in it
 constexpr double MIN_LEG_AREA = 6e-4; ///< of stature squared, below it a loop at the calf is no leg
 
