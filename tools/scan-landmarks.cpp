@@ -8,6 +8,7 @@
 #include <io/scan_reader.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 using namespace sloper;
@@ -15,7 +16,7 @@ using namespace sloper;
 namespace {
 
 struct Options {
-  std::string scan, output, rules, parts, csv, skeleton, vit, garmentcode, pose;
+  std::string scan, output, rules, corrections, features, parts, csv, skeleton, vit, garmentcode, pose;
   std::string unit = "auto", up = "auto";
   double pose_fps = 30;
   int jitter = -1;
@@ -26,6 +27,22 @@ void write_parts(const std::string& path, const std::vector<body::Part>& parts) 
   std::string bytes(parts.size(), '\0');
   for (std::size_t v = 0; v < parts.size(); ++v) bytes[v] = static_cast<char>(parts[v]);
   io::write_file(path, bytes);
+}
+
+/// A line a feature: its name, left, right; nothing where the body does not show it.
+std::string features_text(const body::ShapeFeatures& features) {
+  std::string text = "feature,left,right\n";
+  const std::vector<std::string>& names = body::shape_feature_names();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    text += names[k];
+    for (const std::vector<double>& side : features.side) {
+      char number[40] = ",";
+      if (std::isfinite(side[k])) std::snprintf(number, sizeof number, ",%.7g", side[k]);
+      text += number;
+    }
+    text += "\n";
+  }
+  return text;
 }
 
 /// A pose changes the body; a motion writes a sequence of skins beside it.
@@ -60,6 +77,11 @@ int run(cli::Tool& tool, const Options& o) {
   options.jitter = o.jitter;
   options.torso_only = o.torso_only;
   if (!o.rules.empty()) options.rules = body::Rules::read(o.rules);
+  body::Corrections corrections;
+  if (!o.corrections.empty()) {
+    corrections = body::Corrections::parse(io::read_file(o.corrections), o.corrections);
+    options.corrections = &corrections;
+  }
   tool.reporter().progress("reading", -1);
   const auto start = std::chrono::steady_clock::now();
   const io::Scan scan = io::read_scan(o.scan);
@@ -73,6 +95,7 @@ int run(cli::Tool& tool, const Options& o) {
   if (o.anonymise) body::anonymise(measured.body);
   body::write_body(o.output, measured.body, tool.name());
   if (!o.parts.empty()) write_parts(o.parts, measured.vertex_part);
+  if (!o.features.empty()) io::write_file(o.features, features_text(measured.features));
   if (!o.csv.empty()) io::write_file(o.csv, body::measurements_csv(measured.body));
   if (!o.vit.empty()) io::write_file(o.vit, vit);
   if (!o.garmentcode.empty()) io::write_file(o.garmentcode, garmentcode);
@@ -102,6 +125,8 @@ int main(int argc, char** argv) {
               "runs of the rules on a slightly turned, lifted and roughened skin, which measure each landmark's spread (default: 3, none beyond 80,000 faces)")
       .check(cli::finite_in(0, 100, ""));
   tool.option("--rules", o.rules, "landmark rules to use in place of the built-in numbers").check(cli::input_file());
+  tool.option("--corrections", o.corrections, "learned corrections to use in place of the built-in ones (scripts/derive-corrections)").check(cli::input_file());
+  tool.option("--features", o.features, "write what the corrections look at, as a table").check(cli::output_file());
   tool.option("--parts", o.parts, "write one byte for each vertex of the scan: 0 head, 1 torso, 2 arm_l, 3 arm_r, 4 leg_l, 5 leg_r, 255 not body")
       .check(cli::output_file());
   tool.option("--csv", o.csv, "write the measurements as a table, with ISO 8559-1 names beside ours").check(cli::output_file());

@@ -157,10 +157,11 @@ struct RuleInput {
   bool rebuilt, whole;                  ///< as in SkinSurface
   double s;                             ///< stature, m
   const Rules& rules;
+  const Corrections& corrections;
 };
 
 /// All rules on body.skin; fills landmarks, levels, girths, stance and class. @return part per vertex of the skin
-std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::string>& trail, Phases* phases) {
+std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::string>& trail, Phases* phases, ShapeFeatures& shape) {
   LevelStack levels(body.skin, in.s, 0.0025 * in.s, in.rebuilt ? 0.002 : 0);
   if (phases) phases->done("slicing");
   const bool crotch_moved = doubt_crotch(levels, in.scan_points, in.rules, in.rebuilt, in.whole, body.scan.findings, trail);
@@ -179,8 +180,9 @@ std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::
   }
   const std::vector<Vec3> normals = vertex_normals(body.skin);
   const FigureClass figure = classify_figure(levels, arms, normals, in.rules, trail);
+  shape = shape_features(levels, arms, figure.female);
   const Situation situation{figure.female > 0.5, body.stance_class.front(), in.rebuilt};
-  const Finder finder{levels, arms, normals, in.scan_points, in.rebuilt, crotch_moved, in.rules, situation, figure, body, trail, in.s};
+  const Finder finder{levels, arms, normals, in.scan_points, in.rebuilt, crotch_moved, in.rules, in.corrections, shape, situation, figure, body, trail, in.s};
   find_leg_landmarks(finder);
   find_head_landmarks(finder);
   find_arm_landmarks(finder);
@@ -221,7 +223,8 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
     points.reserve(in.scan_points.size());
     for (const Vec3& p : in.scan_points) points.push_back(turn * p + lift);
     std::vector<std::string> unheard;
-    apply_rules({points, in.rebuilt, in.whole, in.s, in.rules}, trial, unheard, nullptr);
+    ShapeFeatures shape;
+    apply_rules({points, in.rebuilt, in.whole, in.s, in.rules, in.corrections}, trial, unheard, nullptr, shape);
     auto add = [](Sum& sum, double miss) { sum.squares += miss * miss, ++sum.n; };
     for (const auto& [name, landmark] : trial.landmarks)
       if (body.has_landmark(name)) add(landmarks[name], (turn.transpose() * (landmark.p - lift) - body.landmark(name)).norm());
@@ -301,9 +304,9 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   std::vector<Vec3> scan_points;
   for (std::size_t v = 0; v < positions.size(); ++v)
     if (sorted.is_body[v]) scan_points.push_back(positions[v]);
-  const RuleInput input{scan_points, skin.rebuilt, skin.whole, s, options.rules};
+  const RuleInput input{scan_points, skin.rebuilt, skin.whole, s, options.rules, *options.corrections};
   reporter.progress("rules", -1);
-  const std::vector<Part> skin_part = apply_rules(input, body, result.trail, &phases);
+  const std::vector<Part> skin_part = apply_rules(input, body, result.trail, &phases, result.features);
   phases.done("rules");
   const int jitter = options.jitter >= 0 ? options.jitter : body.skin.triangles.size() < MOST_FACES_TO_JITTER ? STANDARD_JITTER : 0;
   if (jitter > 0) measure_spread(input, jitter, skin.noise_m, body, reporter);

@@ -2,6 +2,7 @@
 /// From a raw scan to a body: the whole of scan-landmarks.
 #include <base/progress.hpp>
 #include <body/body.hpp>
+#include <body/landmarks/corrections.hpp>
 #include <body/landmarks/rules.hpp>
 namespace sloper::body {
 
@@ -10,6 +11,7 @@ struct ScanOptions {
   std::string up = "auto";   ///< auto, x, y, z
   bool torso_only = false;   ///< a scan without legs is taken too: what it shows is found, the rest is not
   Rules rules = Rules::standard();
+  const Corrections* corrections = &Corrections::standard(); ///< lives longer than the call
   int jitter = -1; ///< runs of the rules on a jittered skin that measure the spread; -1: 3 up to 80,000 faces, else none
 };
 
@@ -17,6 +19,7 @@ struct MeasuredScan {
   Body body;
   std::vector<Part> vertex_part;    ///< one per vertex of the scan, in its order
   std::vector<std::string> trail;   ///< the decision path, for --explain
+  ShapeFeatures features;           ///< what the corrections looked at
   std::vector<std::string> missing; ///< essential landmarks that were not found
 };
 

@@ -1,3 +1,4 @@
+#include <body/measure/arm_region.hpp>
 #include <body/part_labels.hpp>
 #include <body/surface/point_grid.hpp>
 
@@ -5,6 +6,12 @@
 #include <cmath>
 
 namespace sloper::body {
+
+namespace {
+
+constexpr double BORDER_REACH = 0.15; ///< of stature: the plane between arm and trunk ends this far from its middle
+
+} // namespace
 
 std::vector<Part> label_skin(const Finder& f) {
   const TriangleMesh& skin = f.levels.skin();
@@ -39,16 +46,13 @@ std::vector<Part> label_skin(const Finder& f) {
     if (n.x() * outward < 0) n = -n;
     n = (n + Vec3(0, 0, 0.13)).normalized();
     const Vec3 base = 0.5 * (top + corner);
-    for (const int t : arm.triangles)
-      for (const int v : skin.triangles[t]) {
-        const Vec3& p = skin.positions[v];
-        if ((p - base).dot(n) < 0) continue;
-        // hanging arms: the trunk's side also lies beyond the plane further down; it is nearer to the trunk than to the arm's axis
-        const double along = (p - joint).dot(arm.out);
-        const Vec3 off = p - joint - along * arm.out;
-        if (along > 0.02 * s && off.norm() > 0.085 * s) continue;
-        part[v] = side == 0 ? Part::ARM_L : Part::ARM_R;
-      }
+    const ArmRegion region(arm, skin, s);
+    for (const int v : region.vertices()) {
+      // a hand may be anywhere, and before the trunk as well
+      const bool is_near_border = (skin.positions[v] - base).norm() < BORDER_REACH * s;
+      if (is_near_border && (skin.positions[v] - base).dot(n) < 0) continue;
+      part[v] = side == 0 ? Part::ARM_L : Part::ARM_R;
+    }
   }
   return part;
 }

@@ -13,8 +13,10 @@ namespace sloper::body {
 namespace {
 
 constexpr double HEAD_BEFORE_CALVES = 2.0; ///< degrees by which the line from the calves to the head leans forward in upright people
-constexpr double FAR_APART = 4;            ///< degrees between posture and soles: so far, the soles are not believed at all
-constexpr double NEAR_FILE = 1.5;          ///< degrees from the file's vertical to the body's: so near, the body's is taken
+constexpr double FAR_APART = 8;            ///< degrees between posture and soles: so far, the soles are not believed at all
+constexpr double SOLES_WEIGHT = 0.85;      ///< against the posture
+constexpr double SLUMPED = 2;              ///< degrees between posture and soles
+constexpr double NEAR_FILE = 1.6;          ///< degrees from the file's vertical to the body's: so near, the body's is taken
 constexpr int SHAPE_ROUNDS = 2, HEADINGS = 2;
 constexpr double SETTLED = 1e-4; ///< rad
 
@@ -51,7 +53,7 @@ std::optional<Lean> lean_of_soles(const std::vector<Vec3>& points, double statur
 /// Half of what `other` says, less the further it is off.
 double drawn(double own, double other) {
   const double off = (other - own) / units::radians(FAR_APART);
-  return own + 0.5 * std::max(0.0, 1 - off * off) * (other - own);
+  return own + SOLES_WEIGHT * std::max(0.0, 1 - off * off) * (other - own);
 }
 
 } // namespace
@@ -95,6 +97,9 @@ void settle_vertical(const TriangleMesh& scan, const std::vector<Vec3>& points, 
     const auto vertical = vertical_of_shape(points, settled);
     if (!vertical) return;
     auto near_file = [&](const Vec3& up) { return degrees_between(up, sorted.up) < NEAR_FILE; };
+    // a slumped posture tells no vertical: where the soles rest on the file's level, that is the floor
+    const bool slumped = vertical->by_soles && degrees_between(vertical->by_posture, *vertical->by_soles) > SLUMPED;
+    if (upright_file && slumped && near_file(*vertical->by_soles)) return;
     if (upright_file && !near_file(vertical->up) && (near_file(vertical->by_posture) || (vertical->by_soles && near_file(*vertical->by_soles)))) return;
     by_body.up = vertical->up;
     const Vec3 up = (settled.scan_to_body.block<3, 3>(0, 0) * vertical->up).normalized();

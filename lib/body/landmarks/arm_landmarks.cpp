@@ -10,6 +10,7 @@ namespace sloper::body {
 namespace {
 
 constexpr double REAR_FLAT = 0.002; ///< m
+constexpr double STRAIGHT = 0.17;   ///< bend of an elbow that tells nothing: 10 degrees, as the length of bend_at()
 
 /// The skin straight above (x, z), below the head.
 std::optional<Vec3> top_of_shoulder(const TriangleMesh& skin, double stature, double x, double z) {
@@ -114,8 +115,34 @@ Vec3 find_shoulder(const Finder& f, int side) {
   return joint;
 }
 
-/// The elbow's point: the middle of what is as far back as makes no difference, in the arm's section at `along`.
-Vec3 rear_of_section(const ArmTrace& arm, const TriangleMesh& skin, double along) {
+/// How far the arm's centre line is bent at `along`: towards the bend's outer side, twice the sine of half the angle long.
+Vec3 bend_at(const ArmTrace& arm, double along, double s) {
+  constexpr double BESIDE = 0.06; // of stature
+  const Vec3 p = arm.at(along);
+  return (p - arm.at(along + BESIDE * s)).normalized() + (p - arm.at(along - BESIDE * s)).normalized();
+}
+
+/// Where the arm is bent most near `around`, with how much it is bent there; nothing where it is straight.
+std::optional<Vec2> elbow_by_bend(const ArmTrace& arm, double s, double around) {
+  constexpr double NEAR = 0.035, STEP = 0.003; // of stature
+  double sum = 0, weight = 0, most = 0;
+  for (double off = -NEAR; off <= NEAR; off += STEP) most = std::max(most, bend_at(arm, around + off * s, s).norm());
+  if (most < STRAIGHT) return std::nullopt;
+  for (double off = -NEAR; off <= NEAR; off += STEP)
+    if (const double w = bend_at(arm, around + off * s, s).norm() - 0.8 * most; w > 0) sum += w * (around + off * s), weight += w;
+  return Vec2(sum / weight, most);
+}
+
+/// The direction in which the elbow's point lies: the outer side of the bend, of a straight arm the rear.
+Vec3 elbow_faces(const ArmTrace& arm, double along, double s) {
+  constexpr double WHOLLY = 0.35; // 20 degrees
+  const Vec3 bend = bend_at(arm, along, s);
+  const double share = std::clamp((bend.norm() - STRAIGHT) / (WHOLLY - STRAIGHT), 0.0, 1.0);
+  return ((1 - share) * -Vec3::UnitZ() + share * bend.normalized()).normalized();
+}
+
+/// The elbow's point: the middle of what is as far out along `out` as makes no difference, in the arm's section at `along`.
+Vec3 rear_of_section(const ArmTrace& arm, const TriangleMesh& skin, double along, const Vec3& out) {
   const LimbSection* near = &arm.sections.front();
   for (const LimbSection& candidate : arm.sections)
     if (std::abs(candidate.along - along) < std::abs(near->along - along)) near = &candidate;
@@ -125,19 +152,18 @@ Vec3 rear_of_section(const ArmTrace& arm, const TriangleMesh& skin, double along
   for (const Loop& candidate : loops)
     if (candidate.area > 0 && candidate.centroid.norm() < (loop ? loop->centroid.norm() : 0.05)) loop = &candidate;
   if (!loop) return arm.at(along);
-  double rear = 1e300, weight = 0;
-  for (const auto& seg : loop->segments) rear = std::min(rear, plane.point(seg[0]).z());
+  double rear = -1e300, weight = 0;
+  for (const auto& seg : loop->segments) rear = std::max(rear, plane.point(seg[0]).dot(out));
   Vec3 back = Vec3::Zero();
   for (const auto& seg : loop->segments)
     for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
       const Vec3 p = plane.point((1 - t) * seg[0] + t * seg[1]);
-      const double w = std::max(0.0, rear + REAR_FLAT - p.z()) * (seg[1] - seg[0]).norm();
+      const double w = std::max(0.0, p.dot(out) - rear + REAR_FLAT) * (seg[1] - seg[0]).norm();
       back += w * p, weight += w;
     }
   if (weight > 0) back /= weight;
   else back = plane.point(loop->centroid);
-  back.z() = std::min(back.z(), rear + 0.25 * REAR_FLAT);
-  return back;
+  return back + std::max(0.0, rear - 0.25 * REAR_FLAT - back.dot(out)) * out;
 }
 
 void find_elbow(const Finder& f, int side, double hand, double to_elbow) {
@@ -146,22 +172,31 @@ void find_elbow(const Finder& f, int side, double hand, double to_elbow) {
   const double by_ratio = hand + to_elbow;
   std::optional<double> by_swell;
   if (const auto rise = elbow_by_girth(arm, f.s, hand)) by_swell = *rise - f.number("elbow.before_swell") * f.s;
+  auto with_swell = [&]() -> std::optional<double> {
+    const double most = f.number("elbow.swell_near_ratio") * f.s;
+    if (!by_swell || std::abs(*by_swell - by_ratio) >= most) return std::nullopt;
+    const double off = *by_swell - by_ratio; // fades towards the limit, so that nothing jumps there
+    return by_ratio + f.number("elbow.girth_weight") * std::min(1.0, 3 * (1 - std::abs(off) / most)) * off;
+  };
+  const auto bend = elbow_by_bend(arm, f.s, by_ratio);
   const auto along = f.choose<double>("elbow", "elbow" + suffix,
-                                      {{"upper_arm_swells",
+                                      {{"arm_bends",
                                         [&]() -> std::optional<double> {
-                                          const double most = f.number("elbow.swell_near_ratio") * f.s;
-                                          if (!by_swell || std::abs(*by_swell - by_ratio) >= most) return std::nullopt;
-                                          const double off = *by_swell - by_ratio; // fades towards the limit, so that nothing jumps there
-                                          return by_ratio + f.number("elbow.girth_weight") * std::min(1.0, 3 * (1 - std::abs(off) / most)) * off;
+                                          if (!bend) return std::nullopt;
+                                          const double share = std::clamp((bend->y() - STRAIGHT) / 0.35, 0.0, f.number("elbow.bend_weight"));
+                                          return with_swell().value_or(by_ratio) * (1 - share) + share * bend->x();
                                         }},
+                                       {"upper_arm_swells", with_swell},
                                        {"arm_ratio", [&] { return std::optional(by_ratio); }}});
   if (!along) return;
   const Vec3 behind(0, 0, f.number("elbow.behind_axis") * f.s);
-  f.put("elbow" + suffix, arm.at(along->value) - behind, 2, *along->rule);
+  f.put("elbow" + suffix, f.corrected("elbow", suffix, arm.at(along->value) - behind, false), 2, *along->rule);
   f.also("elbow" + suffix, arm.at(by_ratio) - behind);
   if (by_swell) f.also("elbow" + suffix, arm.at(*by_swell) - behind);
-  f.find("olecranon", suffix, 2,
-         {{"rearmost_at_elbow", [&] { return std::optional(rear_of_section(arm, f.levels.skin(), along->value + f.number("olecranon.above_joint") * f.s)); }}});
+  f.find("olecranon", suffix, 2, {{"rearmost_at_elbow", [&] {
+                                     const double point = along->value + f.number("olecranon.above_joint") * f.s;
+                                     return std::optional(rear_of_section(arm, f.levels.skin(), point, elbow_faces(arm, along->value, f.s)));
+                                   }}});
 }
 
 } // namespace
@@ -196,9 +231,11 @@ void find_arm_landmarks(const Finder& f) {
     const double reach = (joint - arm.tip).norm();
     if (hand->rule->name != "arm_ratio" || reach >= f.number("hand.least_arm") * s) {
       const Vec3 wrist = arm.at(hand->value);
-      f.put("wrist" + suffix, wrist, 2, *hand->rule);
+      f.put("wrist" + suffix, f.corrected("wrist", suffix, wrist, false), 2, *hand->rule);
       f.also("wrist" + suffix, arm.at(by_ratio));
-      find_elbow(f, side, hand->value, (joint - wrist).norm() * (1 - f.number("elbow.of_arm")));
+      // along a bent arm, which is longer than straight from shoulder to wrist
+      const double path = arm.length() + (joint - arm.at(arm.length())).norm() - hand->value;
+      find_elbow(f, side, hand->value, std::max(path, (joint - wrist).norm()) * (1 - f.number("elbow.of_arm")));
       continue;
     }
     // no hand: the wrist is where the arm ends, or as far from the shoulder as people's is if that is nearer

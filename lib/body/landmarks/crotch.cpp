@@ -48,7 +48,9 @@ bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, cons
   const double expected =
       buttock ? by_stature + rules.number("crotch.buttock_weight") * (*buttock - rules.number("crotch.below_buttocks") * s - by_stature) : by_stature;
   // from one to the other over half of that depth: a coarser mesh must not make it jump
-  const double too_low = (expected - found) / (rules.number("crotch.too_low") * s), doubt = always ? 1 : std::clamp(2 * (too_low - 0.75), 0.0, 1.0);
+  // the skins of a mesh of separate legs may touch or pass through each other: its legs are followed all the same
+  const double limit = rules.number(rebuilt ? "crotch.too_low_rebuilt" : "crotch.too_low") * s;
+  const double too_low = (expected - found) / limit, doubt = always ? 1 : std::clamp(2 * (too_low - 0.75), 0.0, 1.0);
   const bool fused = doubt > 0;
   if ((whole || seen >= 3) && !fused) return false;
   const double y = fused ? found + doubt * (expected - found) : 0.5 * (expected + found + SAG * s), moved = fused ? doubt : 1;

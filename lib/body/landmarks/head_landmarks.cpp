@@ -111,7 +111,7 @@ void find_neck_sides(const Finder& f, double x, double back_y, const std::option
   }
   for (int side = 0; side < 2; ++side)
     if (const auto close = outer_at(side_y, side, 0.01), outer = close ? close : outer_at(side_y, side, 0.03); outer)
-      f.put(std::string("neck_side") + side_suffix(side), Vec3(outer->x(), side_y, depth), 2, *height->rule);
+      f.put(std::string("neck_side") + side_suffix(side), f.corrected("neck_side", side_suffix(side), Vec3(outer->x(), side_y, depth), true), 2, *height->rule);
 }
 
 } // namespace
@@ -134,6 +134,7 @@ void find_head_landmarks(const Finder& f) {
                                           }},
                                          {"height_ratio", [&] { return Height(front_ratio); }}});
   if (!front_y) return;
+  const double front_at = front_y->value + f.correction("neck_front").y();
   const Height by_throat = hollow ? Height(front_y->value + f.number("neck_back.above_front") * s) : std::nullopt;
   const Height by_turn = turn ? Height(*turn - f.number("neck_side.above_back") * s) : std::nullopt;
   const auto back_y = f.choose<double>("neck_back", "neck_back",
@@ -149,13 +150,14 @@ void find_head_landmarks(const Finder& f) {
                                          }},
                                         {"height_ratio", [&] { return Height(back_ratio); }}});
   if (!back_y) return;
-  const auto back = midline(f.levels, back_y->value, x, 0.008 * s), front = midline(f.levels, front_y->value, x, 0.006 * s);
+  const double back_at = back_y->value + f.correction("neck_back").y();
+  const auto back = midline(f.levels, back_at, x, 0.008 * s), front = midline(f.levels, front_at, x, 0.006 * s);
   if (!back || !front) {
     f.explain("neck: no section at the neck's height");
     return;
   }
-  f.put("neck_back", Vec3(x, back_y->value, back->back), 2, *back_y->rule);
-  f.put("neck_front", Vec3(x, front_y->value, front->front), 2, *front_y->rule);
+  f.put("neck_back", Vec3(x, back_at, back->back), 2, *back_y->rule);
+  f.put("neck_front", Vec3(x, front_at, front->front), 2, *front_y->rule);
   auto also = [&](const char* name, double y, bool in_front) {
     if (const auto m = midline(f.levels, y, x, 0.008 * s)) f.also(name, Vec3(x, y, in_front ? m->front : m->back));
   };
@@ -164,8 +166,8 @@ void find_head_landmarks(const Finder& f) {
   also("neck_back", back_ratio, false);
   if (by_throat) also("neck_back", *by_throat, false);
   if (by_turn) also("neck_back", *by_turn, false);
-  find_neck_sides(f, x, back_y->value, turn, back->back + f.number("neck_side.from_back") * (front->front - back->back));
-  const Vec3 center(x, 0.5 * (back_y->value + front_y->value), 0.5 * (back->back + front->front));
+  find_neck_sides(f, x, back_at, turn, back->back + f.number("neck_side.from_back") * (front->front - back->back));
+  const Vec3 center(x, 0.5 * (back_at + front_at), 0.5 * (back->back + front->front));
   f.find("neck_center", "", 2, {{"middle_of_neck_ring", [&] { return std::optional(center); }}});
 }
 

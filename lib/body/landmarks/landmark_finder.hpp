@@ -2,6 +2,7 @@
 /// The landmark rules: step 1 terminal points, step 2 curvature points, each in the file of its region. All work on a
 /// closed skin in the body frame and fill body.landmarks, body.levels and body.girths; nothing is guessed silently.
 #include <body/body.hpp>
+#include <body/landmarks/corrections.hpp>
 #include <body/landmarks/rules.hpp>
 #include <body/measure/arm_trace.hpp>
 #include <body/measure/relief.hpp>
@@ -37,6 +38,8 @@ struct Finder {
   bool rebuilt;                         ///< the skin is not the scan's own and has lost its finest ends
   bool crotch_moved;                    ///< the crotch is an estimate
   const Rules& rules;
+  const Corrections& corrections;
+  const ShapeFeatures& shape;
   const Situation situation;
   const FigureClass& figure;
   Body& body;
@@ -61,7 +64,11 @@ struct Finder {
     explain(label + ": not found");
     return std::nullopt;
   }
-  /// The landmark `place` + `suffix`, put where the first rule of the tree finds it. @return whether one did
+  /// What the population says of a landmark that a rule found, m in the body frame; zero where nothing was learned of it.
+  Vec3 correction(const std::string& place, const std::string& suffix = "") const;
+  /// `p` with its correction; `on_skin`: the nearest skin to that.
+  Vec3 corrected(const std::string& place, const std::string& suffix, const Vec3& p, bool on_skin) const;
+  /// The landmark `place` + `suffix`, put, corrected, where the first rule of the tree finds it. @return whether one did
   bool find(const std::string& place, const std::string& suffix, int step, std::initializer_list<Way<Vec3>> ways) const;
   void put(const std::string& name, const Vec3& p, int step, const RuleChoice& rule) const;
   /// What another rule gives for a landmark that was put: kept as an alternative when it is more than a millimetre away.

@@ -158,13 +158,13 @@ void find_bust(const Finder& f, double pit) {
   double sum = 0;
   int n = 0;
   for (int side = 0; side < 2; ++side) {
-    const auto& point = points->value[side];
-    if (!point) continue;
+    if (!points->value[side]) continue;
     const std::string suffix = side_suffix(side);
+    const std::optional<Vec3> point = f.corrected("bust_point", suffix, *points->value[side], true);
     f.put("bust_point" + suffix, *point, 2, *points->rule);
     f.find("bust_prominent", suffix, 2,
            {{"foremost_of_chest", [&] {
-               return place_of(foremost_place(f, {point->y() - 0.024 * s, point->y() + 0.06 * s}, half_front(side, 0.002, 0.14 * s), 1, PEAKED, 0.006));
+               return place_of(foremost_place(f, {point->y() - 0.024 * s, point->y() + 0.06 * s}, half_front(side, 0.002, 0.14 * s), 1, PEAKED, 0.0015));
              }}});
     if (const auto p = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected, 0.006 * s)) f.also("bust_point" + suffix, *p);
     sum += point->y(), ++n;
@@ -246,11 +246,12 @@ std::optional<double> find_navel(const Finder& f) {
                                       }},
                                      {"trunk_ratio", [&] { return std::optional(Vec2(0, expected)); }}});
   if (!place) return std::nullopt;
+  const double navel = place->value.y() + f.correction("omphalion").y();
   // the tape and the truth lie on the belly's surface beside the dimple, not at its bottom
-  if (const auto p = front_at(f, place->value.x(), place->value.y(), 0.006 * s)) f.put("omphalion", *p, 2, *place->rule);
+  if (const auto p = front_at(f, place->value.x(), navel, 0.006 * s)) f.put("omphalion", *p, 2, *place->rule);
   if (const auto p = front_at(f, 0, expected, 0.006 * s)) f.also("omphalion", *p);
-  put_level(f, "omphalion", place->value.y(), place->rule->name);
-  return place->value.y();
+  put_level(f, "omphalion", navel, place->rule->name);
+  return navel;
 }
 
 double find_waist(const Finder& f, const std::optional<double>& navel, double pit) {
@@ -267,7 +268,7 @@ double find_waist(const Finder& f, const std::optional<double>& navel, double pi
                                          }},
                                         {"trunk_ratio", [&] { return std::optional(by_ratio); }}});
   if (!height) return by_ratio;
-  const double waist = height->value;
+  const double waist = height->value + 0.5 * (f.correction("waist", "_l").y() + f.correction("waist", "_r").y());
   put_level(f, "waist_semantic", waist, height->rule->name);
   const auto& loop = f.levels.trunk_at(waist);
   if (!loop) return waist;
@@ -290,7 +291,7 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
   const double s = f.s;
   std::optional<Foremost> belly;
   auto foremost = [&]() -> std::optional<Vec3> {
-    belly = foremost_place(f, {crotch + 0.004, waist}, {-0.1 * s, 0.1 * s}, 1, f.number("abdomen.flat"));
+    belly = foremost_place(f, {crotch + 0.010, waist}, {-0.1 * s, 0.1 * s}, 1, f.number("abdomen.flat"), 0);
     return place_of(belly);
   };
   if (f.find("abdomen_front", "", 2, {{"foremost_below_waist", foremost}})) {

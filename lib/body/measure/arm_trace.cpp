@@ -248,6 +248,7 @@ std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& gr
     arm.out = (arm.at(end - 0.12 * s) - arm.at(end)).normalized();
     find_axilla(arm, levels, rules);
     if (!arm.pit_hidden) find_merge(arm, levels);
+    arm.from_tip = std::move(from_tip);
   }
   return arms;
 }

@@ -20,6 +20,7 @@ struct ArmTrace {
   Vec3 tip = Vec3::Zero();           ///< the point farthest from the trunk over the skin
   std::vector<LimbSection> sections; ///< from the hand to just before the trunk
   std::vector<int> triangles;        ///< of the arm and the shoulder's surroundings
+  std::vector<double> from_tip;      ///< per vertex of the skin: m over the skin from the finger's end; 1e300 where it is no arm's reach
   Vec3 out = Vec3::UnitX();          ///< unit, from shoulder to hand, over the upper arm
   std::optional<Vec3> axilla;        ///< roof of the arm pit
   bool pit_hidden = false;           ///< no gap closes where an arm pit can be: it is placed by proportion

@@ -85,6 +85,15 @@ public:
     return best;
   }
 
+  /// First and last of the levels about `top` that are as far out, and no farther.
+  std::pair<std::ptrdiff_t, std::ptrdiff_t> as_far_without_a_gap(std::ptrdiff_t top) const {
+    auto as_far = [&](std::ptrdiff_t k) { return k >= 0 && k < size() && out_less(top, k) >= 0 && out_less(top, k) < m_flat; };
+    std::ptrdiff_t first = top, last = top;
+    while (as_far(first - 1)) --first;
+    while (as_far(last + 1)) ++last;
+    return {first, last};
+  }
+
   std::ptrdiff_t farthest(std::ptrdiff_t first, std::ptrdiff_t end) const {
     return std::max_element(m_points.begin() + first, m_points.begin() + end, [&](const Vec3& a, const Vec3& b) { return m_sign * a.z() < m_sign * b.z(); }) -
            m_points.begin();
@@ -107,7 +116,12 @@ std::optional<Foremost> foremost_place(const Finder& finder, Span heights, Span 
   const double as_far = flat * finder.s;
   const Outline outline(points, sign, as_far);
   const std::ptrdiff_t n = outline.size(), most = outline.farthest(0, n);
-  if (most >= MARGIN && most < n - MARGIN) return outline.middle(most, 0, n - 1);
+  if (most >= MARGIN && most < n - MARGIN) {
+    Foremost place = outline.middle(most, 0, n - 1);
+    const auto [first, last] = outline.as_far_without_a_gap(most);
+    place.p = outline.middle(most, first, last).p; // not between two places that are as far out, but the farther of them
+    return place;
+  }
   const Foremost at_the_end{outline.at(most), 0, outline.at(most).y(), outline.at(most).y()};
   if (n < 4 * MARGIN) return at_the_end;
   std::ptrdiff_t inner = outline.inner_top();
@@ -115,9 +129,7 @@ std::optional<Foremost> foremost_place(const Finder& finder, Span heights, Span 
   if (is_bulge) inner = outline.bulge_top();
   if (inner < 0 || outline.out_less(most, inner) >= inside * finder.s) return at_the_end;
   if (is_bulge) return outline.middle(inner, inner, inner);
-  std::ptrdiff_t first = inner, last = inner; // where the skin runs out again, the place's own surroundings end
-  while (first > 0 && outline.out_less(inner, first - 1) >= 0 && outline.out_less(inner, first - 1) < as_far) --first;
-  while (last < n - 1 && outline.out_less(inner, last + 1) >= 0 && outline.out_less(inner, last + 1) < as_far) ++last;
+  const auto [first, last] = outline.as_far_without_a_gap(inner); // where the skin runs out again, the place's own surroundings end
   return outline.middle(inner, first, last);
 }
 
