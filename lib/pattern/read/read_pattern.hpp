@@ -20,7 +20,8 @@ struct DxfChoice {
 /// @throws Error INPUT naming file, panel, edge and centimetres
 Pattern read_pattern(const std::string& path, const std::string& sewing, const std::string& size = "", const std::string& rules = "");
 
-/// {"pattern": {"panels", "stitches"}} in centimetres (units_in_meter), Euler angles intrinsic XYZ in degrees as pygarment writes them.
+/// {"pattern": {"panels", "stitches"}} in centimetres (units_in_meter), Euler angles in degrees, in the order that
+/// euler_order() finds.
 Pattern read_garmentcode(const io::Json& json, const std::string& file);
 
 /// Our own format; see pattern.schema.json.
