@@ -1,5 +1,6 @@
 /// pattern-mesh: a sewing pattern to meshed, placed panels.
 #include <base/progress.hpp>
+#include <base/units.hpp>
 #include <body/body_json.hpp>
 #include <cli/run_tool.hpp>
 #include <io/files.hpp>
@@ -15,6 +16,7 @@
 #include <pattern/write/export_pattern.hpp>
 
 #include <iostream>
+#include <sstream>
 
 using namespace sloper;
 
@@ -23,8 +25,8 @@ namespace {
 constexpr double LEAST_ANGLE = 15; // degrees: a mesh carried over an edit is kept while it is no worse
 
 struct Options {
-  std::string pattern, output, sewing, body, edits, write_pattern, size, grade_rules, undo;
-  double edge_length = 0.015, seam_length = 0;
+  std::string pattern, output, sewing, body, edits, write_pattern, size, grade_rules, undo, unit, pieces, without;
+  double edge_length = 0.015, seam_length = 0, allowance = 0;
   bool check = false, unsewn = false;
 };
 
@@ -83,8 +85,24 @@ bool guess_seams(cli::Tool& tool, pattern::Pattern& source) {
   return false;
 }
 
+std::vector<std::string> names_in(const std::string& list) {
+  std::vector<std::string> out;
+  std::istringstream in(list);
+  for (std::string name; std::getline(in, name, ',');)
+    if (!name.empty()) out.push_back(name);
+  return out;
+}
+
+double metres_per(const std::string& unit) {
+  if (unit == "mm") return units::MM;
+  if (unit == "cm") return units::CM;
+  if (unit == "in") return units::INCH;
+  return unit == "m" ? 1 : 0;
+}
+
 int run(cli::Tool& tool, const Options& o) {
-  pattern::Pattern source = pattern::read_pattern(o.pattern, o.sewing, o.size, o.grade_rules);
+  pattern::PatternChoice choice{o.sewing, o.size, o.grade_rules, metres_per(o.unit), o.allowance, names_in(o.pieces), names_in(o.without)};
+  pattern::Pattern source = pattern::read_pattern(o.pattern, choice);
   io::Json edits;
   if (!o.edits.empty()) edits = io::read_json(o.edits);
   if (!o.undo.empty()) {
@@ -146,6 +164,10 @@ int main(int argc, char** argv) {
   tool.option("--undo", o.undo, "write the edits that take --edits back, to the last bit").check(cli::output_file());
   tool.option("--sewing", o.sewing, "sidecar with the seams of a DXF that has none").check(cli::input_file());
   tool.option("--size", o.size, "size to take from a graded DXF (default: its sample size)").type_name("SIZE");
+  tool.option("--unit", o.unit, "unit of a DXF, where what it states is wrong").check(cli::one_of({"mm", "cm", "m", "in"}));
+  tool.option("--allowance", o.allowance, "seam allowance to take off the pieces of a DXF that have no sew line, m").check(cli::finite_in(0, 0.1, "m"));
+  tool.option("--pieces", o.pieces, "take only these pieces, names with commas between, linings and alternatives among them too").type_name("LIST");
+  tool.option("--without", o.without, "leave these pieces out").type_name("LIST");
   tool.option("--grade-rules", o.grade_rules, "grade rule table (.rul) of a DXF").check(cli::input_file());
   tool.flag("--unsewn", o.unsewn, "mesh a DXF that states no seams without guessing any");
   tool.option("--write-pattern", o.write_pattern,

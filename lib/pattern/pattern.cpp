@@ -100,6 +100,25 @@ bool unfold(Panel& panel, int fold_edge, const std::string& suffix, const std::s
   return true;
 }
 
+Panel mirror_image(const Panel& panel) {
+  const Vec2 origin(0, 0), along(0, 1);
+  Panel out = panel;
+  std::vector<int> moved; // index of each edge in the image
+  int first = 0;
+  for (std::size_t l = 0; l < panel.loops.size(); ++l) {
+    out.loops[l] = reflected(panel.loops[l], origin, along, "");
+    const int n = static_cast<int>(panel.loops[l].size());
+    for (int e = 0; e < n; ++e) moved.push_back(first + n - 1 - e);
+    first += n;
+  }
+  for (Notch& notch : out.notches) notch.edge = moved[static_cast<std::size_t>(notch.edge)], notch.at = 1 - notch.at;
+  for (InnerLine& line : out.lines)
+    for (Segment& s : line.path)
+      for (Vec2& p : s.p) p = reflect(p, origin, along);
+  out.grain.x() = -out.grain.x();
+  return out;
+}
+
 std::string place_of(const Pattern& pattern, const Run& run) {
   const Panel& panel = pattern.panels[static_cast<std::size_t>(run.panel)];
   return panel.name + ": " + panel.edge(run.edge).name;

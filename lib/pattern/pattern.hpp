@@ -99,6 +99,9 @@ double side_length(const Pattern& pattern, const std::vector<Run>& side);
 /// given get `suffix`, those of the mirrored half `mirror_suffix`. @return false, with nothing changed, where the edge is no fold
 bool unfold(Panel& panel, int fold_edge, const std::string& suffix, const std::string& mirror_suffix);
 
+/// The other one of a pair: the panel as seen from its inside. Edges keep their names and come in the opposite order.
+Panel mirror_image(const Panel& panel);
+
 /// "front: hem", for messages.
 std::string place_of(const Pattern& pattern, const Run& run);
 /// "12.3 cm".

@@ -3,12 +3,16 @@
 /// counter-clockwise whatever its drawing order.
 #include <base/units.hpp>
 #include <pattern/mesh/folds.hpp>
+#include <pattern/panel_words.hpp>
+#include <pattern/read/choose_pieces.hpp>
 #include <pattern/read/dxf_blocks.hpp>
 #include <pattern/read/dxf_rings.hpp>
 #include <pattern/read/dxf_sewing.hpp>
 #include <pattern/read/grade_rules.hpp>
 #include <pattern/read/outline_json.hpp>
+#include <pattern/read/piece_notes.hpp>
 #include <pattern/read/read_pattern.hpp>
+#include <pattern/read/ring_repair.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,25 +21,6 @@
 
 namespace sloper::pattern {
 namespace {
-
-/// The value of a text "Key: value" (the blank may be missing, letters of either case), or empty.
-std::string value_of(const std::string& text, const std::string& key) {
-  if (text.size() <= key.size()) return {};
-  for (std::size_t k = 0; k < key.size(); ++k)
-    if (std::tolower(static_cast<unsigned char>(text[k])) != std::tolower(static_cast<unsigned char>(key[k]))) return {};
-  std::size_t at = key.size();
-  while (at < text.size() && text[at] == ' ') ++at;
-  if (at == text.size() || text[at] != ':') return {};
-  ++at;
-  while (at < text.size() && text[at] == ' ') ++at;
-  return text.substr(at);
-}
-
-std::string find_value(const std::vector<DxfText>& texts, const std::string& key) {
-  for (const DxfText& t : texts)
-    if (const std::string v = value_of(t.text, key); !v.empty()) return v;
-  return {};
-}
 
 double distance_to_path(const Path& path, const Vec2& p) {
   double best = 1e300;
@@ -74,14 +59,21 @@ public:
       for (const std::string& size : m_choice.rules->sizes) list += (list.empty() ? "" : ", ") + size;
       if (m_size < 0) throw input_error(m_file, "", "there is no size '" + m_choice.size + "'", "the grade rule table has " + list);
     }
-    for (const DxfBlock* block : chosen_blocks()) read_piece(*block);
+    const std::vector<const DxfBlock*> blocks = chosen_blocks();
+    m_any_wanted = std::any_of(blocks.begin(), blocks.end(), [](const DxfBlock* b) { return piece_notes(*b).copies > 0; });
+    for (const DxfBlock* block : blocks) {
+      for (const DxfText& t : block->texts) m_states_seams = m_states_seams || (t.layer == 15 && t.text.rfind("SEW ", 0) == 0);
+    }
+    for (const DxfBlock* block : blocks) read_piece(*block);
     if (m_pattern.panels.empty()) throw input_error(m_file, "", "no block has a closed outline on layer 14 or 1", "export the pieces as AAMA or ASTM DXF");
     m_sewing.make_seams(m_pattern, m_file);
+    leave_out();
     return std::move(m_pattern);
   }
 
 private:
   double unit() {
+    if (m_choice.unit > 0) return m_choice.unit;
     std::string word = find_value(m_dxf.texts, "Units");
     for (const DxfBlock& b : m_dxf.blocks)
       if (word.empty()) word = find_value(b.texts, "Units");
@@ -183,12 +175,14 @@ private:
   }
 
   /// Notches, as points or as short lines into the piece; lines side by side are one notch.
-  void read_notches(const DxfBlock& block, const PointRing& cut, Panel& panel) const {
-    constexpr double REACH = 0.01, SIDE_BY_SIDE = 0.004; // m
+  void read_notches(const DxfBlock& block, const PointRing& cut, const std::vector<Vec2>& cut_slits, Panel& panel) const {
+    constexpr double SIDE_BY_SIDE = 0.004; // m
+    const double reach = 0.01 + m_choice.allowance;
     const auto is_notch = [](int layer) { return layer == 4 || (layer >= 80 && layer <= 83); };
     std::vector<std::pair<Vec2, int>> marks;
     for (const DxfPoint& p : block.points)
       if (is_notch(p.layer)) marks.push_back({p.p * m_unit, p.layer});
+    for (const Vec2& p : cut_slits) marks.push_back({p, 4});
     std::vector<std::vector<Vec2>> slits;
     std::vector<int> layers;
     for (const DxfLine& line : block.lines) {
@@ -211,7 +205,7 @@ private:
         const double d = (arc.at(arc.length() * k / 1000) - p).norm();
         if (d < best) best = d, at = k / 1000.0;
       }
-      if (best < REACH) panel.notches.push_back({e, at, "layer " + std::to_string(layer)});
+      if (best < reach) panel.notches.push_back({e, at, "layer " + std::to_string(layer)});
     }
   }
 
@@ -225,6 +219,7 @@ private:
     }
     const double join = 1e-3;
     std::vector<PointRing> outer = rings_of(block, 14, m_unit, join), cut = rings_of(block, 1, m_unit, join);
+    bool sewn = true;    // whether the outline is the line that is sewn along
     if (outer.empty()) { // Valentina writes the sew line on layer 8, where others keep internal lines
       const std::vector<PointRing> inner = rings_of(block, 8, m_unit, join);
       if (!inner.empty() && !cut.empty() && follows(inner[0], cut[0])) outer = {inner[0]};
@@ -235,7 +230,7 @@ private:
       outer.clear();
     }
     if (outer.empty() && !cut.empty()) {
-      outer = cut;
+      outer = cut, sewn = false;
       m_pattern.findings.push_back(panel.name + ": no sew line; the cut line is taken as it");
     }
     if (outer.empty()) {
@@ -247,7 +242,13 @@ private:
     std::vector<Vec2> turns;
     for (const DxfPoint& p : block.points)
       if (p.layer == 2) turns.push_back(p.p * m_unit);
-    const std::vector<std::size_t> corners = corners_of(ring, turns);
+    const std::vector<Vec2> slits = take_slits_off(ring);
+    if (!slits.empty()) m_pattern.findings.push_back(panel.name + ": " + std::to_string(slits.size()) + " slits in its outline are taken for notches");
+    std::vector<std::size_t> corners = corners_of(ring, turns);
+    if (!sewn && m_choice.allowance > 0) {
+      ring = without_allowance(ring, block, m_unit, m_choice.allowance, corners);
+      m_pattern.findings.push_back(panel.name + ": an allowance of " + centimetres(m_choice.allowance) + " is taken off its cut line");
+    }
     panel.loops.push_back(edges_of(ring, corners, "edge"));
     for (PointRing hole : rings_of(block, 11, m_unit, join)) {
       if (ring_area(hole) > 0) std::reverse(hole.begin(), hole.end());
@@ -258,20 +259,11 @@ private:
         Vec2 along = line.points.back() - line.points.front();
         if (along.norm() > 0) panel.grain = (along.y() < -1e-9 * along.norm() ? Vec2(-along) : along).normalized();
       }
-    read_notches(block, cut.empty() ? ring : cut[0], panel);
+    read_notches(block, cut.empty() ? ring : cut[0], slits, panel);
     if (!m_choice.rules || m_size == m_choice.rules->sample) read_marks(block, panel);
     const int index = static_cast<int>(m_pattern.panels.size());
-    const std::string material = find_value(block.texts, "Material");
-    if (!material.empty()) panel.label = material;
-    for (const DxfText& t : block.texts) { // "Quantity: 2", or in free text "Fabric, Cut 2"
-      const std::size_t cut_at = t.text.find("Cut ");
-      const std::string n = !value_of(t.text, "Quantity").empty() ? value_of(t.text, "Quantity") : cut_at != std::string::npos ? t.text.substr(cut_at + 4) : "";
-      int times = 0;
-      if (std::istringstream(n) >> times && times > 1) {
-        m_pattern.findings.push_back(panel.name + ": to be cut " + std::to_string(times) + " times; one is taken");
-        break;
-      }
-    }
+    const PieceNotes notes = piece_notes(block);
+    panel.label = notes.category.empty() ? notes.material : notes.category;
     read_sewing(block, panel, index);
     int fold = -1;
     for (const DxfLine& line : block.lines)
@@ -281,7 +273,45 @@ private:
     const std::vector<PanelEdge> graded = edges_of(ring, corners, "edge");
     for (std::size_t k = 0; k < graded.size(); ++k) panel.loops[0][k].path = graded[k].path;
     if (fold >= 0) open_fold(panel, fold);
+    const bool alike = fold >= 0 || is_symmetric(ring);
     m_pattern.panels.push_back(std::move(panel));
+    m_why_out.push_back(reason_to_leave(block, notes, ring, m_any_wanted));
+    make_pair_of(notes, alike);
+  }
+
+  /// The other one of a pair comes after the piece that was drawn. Of two pieces that are each other's image and go around no limb, as a collar's
+  /// stand, one is the inside.
+  void make_pair_of(const PieceNotes& notes, bool alike) {
+    const Panel& drawn = m_pattern.panels.back();
+    if (notes.copies < 2) return;
+    Words words = words_of(drawn.name);
+    words.merge(words_of(notes.category));
+    const bool limb = says_sleeve(words) || says_cuff(words) || says_legs(words);
+    const std::string name = drawn.name + MIRRORED;
+    const bool wanted = m_choice.sewn.empty() || m_choice.sewn.count(name) > 0;
+    if (notes.mirrored < 1 || m_states_seams || (alike && !limb) || !wanted) {
+      m_pattern.findings.push_back(drawn.name + ": to be cut " + std::to_string(notes.copies) + " times; one is taken");
+      return;
+    }
+    Panel image = mirror_image(drawn);
+    image.name = name;
+    m_pattern.findings.push_back(drawn.name + ": to be cut " + std::to_string(notes.copies) + " times; " + name + " is its mirror image");
+    m_pattern.panels.push_back(std::move(image));
+    m_why_out.push_back(m_why_out.back());
+  }
+
+  /// Linings and the like, unless they are asked for, sewn to something, or all that there is.
+  void leave_out() {
+    std::vector<bool> remove(m_pattern.panels.size(), false);
+    for (std::size_t k = 0; k < remove.size(); ++k) {
+      const Panel& panel = m_pattern.panels[k];
+      const bool asked = std::any_of(m_choice.pieces.begin(), m_choice.pieces.end(), [&](const std::string& name) { return is_named(panel, name); });
+      remove[k] = !m_why_out[k].empty() && !asked && !m_states_seams && m_choice.sewn.count(panel.name) == 0;
+    }
+    if (std::find(remove.begin(), remove.end(), false) == remove.end()) return;
+    for (std::size_t k = 0; k < remove.size(); ++k)
+      if (remove[k]) m_pattern.findings.push_back(m_pattern.panels[k].name + " " + m_why_out[k] + " and is left out; name it in --pieces to take it");
+    remove_panels(m_pattern, remove);
   }
 
   /// Open lines of layer 8 that do not run along the outline.
@@ -342,13 +372,22 @@ private:
   double m_unit = units::MM;
   Pattern m_pattern;
   DxfSewing m_sewing;
+  bool m_any_wanted = false;          ///< whether some piece is cut at all
+  bool m_states_seams = false;        ///< in texts of layer 15: whoever wrote them drew every piece
+  std::vector<std::string> m_why_out; ///< #panels
 };
 
 } // namespace
 
 Pattern read_dxf(const std::string& text, const std::string& file, const DxfChoice& choice) {
   if (text.find('\0') != std::string::npos) throw input_error(file, "", "this is a binary file", "give a pattern JSON or a text DXF");
-  return PieceReader(parse_dxf(text, file), choice, file).run();
+  DxfFile dxf = parse_dxf(text, file);
+  if (dxf.blocks.empty()) {
+    dxf.blocks = pieces_of_drawing(dxf);
+    if (dxf.blocks.empty())
+      throw input_error(file, "", "there are no blocks, and the lines of the drawing close to no outline", "give an AAMA or ASTM DXF, one block per piece");
+  }
+  return PieceReader(dxf, choice, file).run();
 }
 
 } // namespace sloper::pattern

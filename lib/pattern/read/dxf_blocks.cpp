@@ -1,6 +1,7 @@
 #include <base/error.hpp>
 #include <pattern/read/dxf_blocks.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -111,21 +112,22 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
 
   constexpr double FARTHEST = 1e9; // file units: a thousand kilometres of millimetres
   const auto finish = [&] {
+    DxfBlock& target = block ? *block : out.loose;
     for (const auto& list : {entity.x, entity.y, {entity.x2, entity.y2}})
       for (double x : list)
-        if (block && !(std::abs(x) <= FARTHEST)) tags.fail("a coordinate is out of all bounds");
+        if ((block || section == "ENTITIES") && !(std::abs(x) <= FARTHEST)) tags.fail("a coordinate is out of all bounds");
     const auto point = [&](std::size_t k) { return Vec2(entity.x[k], k < entity.y.size() ? entity.y[k] : 0.0); };
     if (entity.kind == "VERTEX" && in_polyline && !entity.x.empty()) polyline.points.push_back(point(0));
     else if (entity.kind == "POLYLINE") polyline = {entity.layer, (entity.flags & 1) != 0, {}}, in_polyline = true;
     else if (entity.kind == "SEQEND" && in_polyline) {
-      if (block) block->lines.push_back(polyline);
+      target.lines.push_back(polyline);
       in_polyline = false;
-    } else if (entity.kind == "LWPOLYLINE" && block) {
+    } else if (entity.kind == "LWPOLYLINE") {
       DxfLine line{entity.layer, (entity.flags & 1) != 0, {}};
       for (std::size_t k = 0; k < entity.x.size(); ++k) line.points.push_back(point(k));
-      block->lines.push_back(line);
-    } else if (entity.kind == "LINE" && block && !entity.x.empty()) block->lines.push_back({entity.layer, false, {point(0), Vec2(entity.x2, entity.y2)}});
-    else if (entity.kind == "POINT" && block && !entity.x.empty()) block->points.push_back({entity.layer, point(0)});
+      target.lines.push_back(line);
+    } else if (entity.kind == "LINE" && !entity.x.empty()) target.lines.push_back({entity.layer, false, {point(0), Vec2(entity.x2, entity.y2)}});
+    else if (entity.kind == "POINT" && !entity.x.empty()) target.points.push_back({entity.layer, point(0)});
     else if ((entity.kind == "TEXT" || entity.kind == "MTEXT") && !entity.text.empty())
       (block ? block->texts : out.texts).push_back({entity.layer, entity.x.empty() ? Vec2(0, 0) : point(0), entity.text});
   };
@@ -173,7 +175,10 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
     }
   }
   finish();
-  if (!any || out.blocks.empty()) throw input_error(file, "", "there are no blocks, so no pieces", "give an AAMA or ASTM DXF, one block per piece");
+  const bool flat = std::none_of(out.blocks.begin(), out.blocks.end(), [](const DxfBlock& b) { return !b.lines.empty(); });
+  if (!any || (flat && out.loose.lines.empty()))
+    throw input_error(file, "", "there are no blocks, so no pieces", "give an AAMA or ASTM DXF, one block per piece");
+  if (flat) out.blocks.clear();
   return out;
 }
 

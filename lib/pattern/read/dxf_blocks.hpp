@@ -31,9 +31,14 @@ struct DxfFile {
   int insunits = -1, measurement = -1; ///< $INSUNITS, $MEASUREMENT; -1 when absent
   std::vector<DxfBlock> blocks;        ///< in file order; names may repeat
   std::vector<DxfText> texts;          ///< outside of blocks
+  DxfBlock loose;                      ///< lines and points outside of blocks
 };
 
+/// A file without blocks that have lines is a flat drawing: it comes back with `blocks` empty.
 /// @throws Error INPUT naming the line
 DxfFile parse_dxf(const std::string& text, const std::string& file);
+
+/// The pieces of a flat drawing, as programs without blocks write it: outlines that close, and lie in no other. A text inside names a piece.
+std::vector<DxfBlock> pieces_of_drawing(const DxfFile& drawing);
 
 } // namespace sloper::pattern

@@ -2,25 +2,14 @@
 /// the body, so a panel drawn clockwise is one whose inside we look at: it is turned over, and every loop ends up
 /// counter-clockwise seen from outside. Ordinary stitches then join edges that run in opposite directions. GarmentCode sees to that sense itself
 /// (Panel.autonorm); specifications written or changed by hand may not.
-#include <base/units.hpp>
 #include <io/json.hpp>
 #include <pattern/read/read_pattern.hpp>
+#include <pattern/read/spec_placement.hpp>
 
 #include <algorithm>
 
 namespace sloper::pattern {
 namespace {
-
-Mat4 placement_of(const io::Node& panel, double unit) {
-  const Vec3 t = panel.at("translation").vec3() * unit, r = panel.at("rotation").vec3() * (units::PI / 180);
-  // Intrinsic XYZ (scipy's upper-case "XYZ"): turn about x, then about the turned y, then about the turned z.
-  const Mat3 rotation =
-      (Eigen::AngleAxisd(r.x(), Vec3::UnitX()) * Eigen::AngleAxisd(r.y(), Vec3::UnitY()) * Eigen::AngleAxisd(r.z(), Vec3::UnitZ())).toRotationMatrix();
-  Mat4 m = Mat4::Identity();
-  m.topLeftCorner<3, 3>() = rotation;
-  m.topRightCorner<3, 1>() = t;
-  return m;
-}
 
 struct EdgeReader {
   double unit = 0.01; ///< m per unit
@@ -91,6 +80,10 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
   }
   std::vector<char> against; // #panels: listed against their loops' sense
   if (!panels.is_object() || panels.size() == 0) panels.fail("there are no panels");
+  const EulerOrder order = euler_order(source);
+  if (order == EulerOrder::ZYX) pattern.findings.push_back("rotations are taken as Rz Ry Rx, as Garment-Pattern-Generator writes them");
+  const bool placed = tells_placement(panels);
+  if (!placed) pattern.findings.push_back("all panels are placed in one plane, so their placement is taken for none: names and seams tell where they go");
   for (const std::string& name : panels.keys()) {
     const io::Node node = panels.at(name), vertices = node.at("vertices"), edges = node.at("edges");
     Panel panel;
@@ -122,7 +115,7 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
       edges.fail("the outline of panel " + name + " is open: its last edge ends " + centimetres(gap) + " from where edge 0 starts", "close the loop");
     }
     panel.loops.push_back(std::move(loop));
-    if (node.has("translation") && node.has("rotation")) panel.hint.rigid = placement_of(node, reader.unit);
+    if (placed && node.has("translation") && node.has("rotation")) panel.hint.rigid = spec_placement(node, reader.unit, order);
     against.push_back(panel.hint.rigid && faces_body(panel));
     if (against.back()) {
       reverse_sense(panel.loops[0]);

@@ -55,6 +55,14 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
       fail(first_line, "rule " + std::to_string(number_of_rule) + " is given twice", "give each rule once");
     number_of_rule = 0, numbers.clear();
   };
+  const auto add_number = [&](const std::string& word) {
+    double x = 0;
+    const char* begin = word.data() + (word[0] == '+');
+    const auto [end, error] = std::from_chars(begin, word.data() + word.size(), x);
+    if (error != std::errc() || end != word.data() + word.size() || !(std::abs(x) <= LARGEST_MOVE))
+      fail(line_number, "'" + word + "' is no number, or out of all bounds", "give x,y pairs");
+    numbers.push_back(x);
+  };
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     ++line_number;
@@ -75,16 +83,10 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
       if (error != std::errc() || end != words[1].data() + words[1].size() || number_of_rule <= 0)
         fail(line_number, "'" + words[1] + "' is no rule number", "give a positive whole number");
       first_line = line_number;
+      for (std::size_t k = 2; k < words.size(); ++k) add_number(words[k]); // PolyPattern writes them on the line of their rule
     } else if (key.empty() && number_of_rule > 0) {
       if (words.size() == 1 && upper_case(words[0]) == "END") break;
-      for (const std::string& word : words) {
-        double x = 0;
-        const char* begin = word.data() + (word[0] == '+');
-        const auto [end, error] = std::from_chars(begin, word.data() + word.size(), x);
-        if (error != std::errc() || end != word.data() + word.size() || !(std::abs(x) <= LARGEST_MOVE))
-          fail(line_number, "'" + word + "' is no number, or out of all bounds", "give x,y pairs");
-        numbers.push_back(x);
-      }
+      for (const std::string& word : words) add_number(word);
     }
   }
   finish();

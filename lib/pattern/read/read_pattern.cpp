@@ -1,5 +1,6 @@
 #include <io/files.hpp>
 #include <io/json.hpp>
+#include <pattern/read/choose_pieces.hpp>
 #include <pattern/read/read_pattern.hpp>
 
 #include <algorithm>
@@ -12,6 +13,7 @@ namespace {
 constexpr double LARGEST_PANEL = 20, SMALLEST_PANEL = 0.05; // m, of the largest panel of a garment
 constexpr double FARTHEST_CONTROL = 2 * LARGEST_PANEL;      // m, from where its curve begins
 constexpr int HIGHEST_LAYER = 1000;
+constexpr const char* READABLE = "give a pattern JSON, a GarmentCode specification, a sewing-spec JSON or a text DXF";
 
 bool finite_path(const Path& path) {
   return std::all_of(path.begin(), path.end(),
@@ -97,41 +99,76 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
                       "check the unit that the file states, and the outline of this panel");
 }
 
-Pattern read_pattern(const std::string& path, const std::string& sewing, const std::string& size, const std::string& rules_path) {
+namespace {
+
+io::Json read_sidecar(const std::string& path) {
+  io::Json sidecar = io::read_json(path);
+  if (const std::string format = io::Node(sidecar, path).string("format", ""); format == "panels" || format == "garment" || format == "body")
+    throw input_error(path, "/format", "is a \"" + format + "\" document, not a sidecar with seams", "give what answers the questions of pattern-mesh");
+  return sidecar;
+}
+
+/// Names of the panels that a sidecar sews.
+std::set<std::string> sewn_panels(const io::Json& sidecar, const std::string& path) {
+  std::set<std::string> names;
+  const io::Node root(sidecar, path), seams = root.at("seams");
+  for (std::size_t k = 0; k < seams.size(); ++k)
+    for (const char* side : {"a", "b"}) {
+      const io::Node runs = seams.at(k).at(side);
+      for (std::size_t r = 0; r < runs.size(); ++r) names.insert(runs.at(r).at("panel").string());
+    }
+  return names;
+}
+
+Pattern read_by_format(const io::Json& json, const std::string& path) {
+  const std::string format = json.is_object() && json.contains("format") && json["format"].is_string() ? json["format"].get<std::string>() : "";
+  if (format == "pattern") return read_pattern_json(json, path);
+  if (format == "sewing-spec") return read_sewing_spec(json, path);
+  if (format == "panels" || format == "garment")
+    throw input_error(path, "/format", "is a \"" + format + "\" document, which is meshed already", "give the pattern that it was made from");
+  if (json.is_object() && json.contains("pattern")) return read_garmentcode(json, path);
+  if (json.is_object() && json.contains("PatternList"))
+    throw input_error(path, "", "is a pattern of CLO in its own JSON, whose outlines are not read", "export it from CLO as DXF (AAMA or ASTM) and give that");
+  throw input_error(path, "/format", "'" + format + "' is no pattern format that is known", READABLE);
+}
+
+} // namespace
+
+Pattern read_pattern(const std::string& path, const PatternChoice& choice) {
   const std::string text = io::read_file(path);
   Pattern pattern;
   const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == std::string::npos) throw input_error(path, "", "the file is empty", "give a pattern");
-  const char* readable = "give a pattern JSON, a GarmentCode specification, a sewing-spec JSON or a text DXF";
+  io::Json sidecar;
+  if (!choice.sewing.empty()) sidecar = read_sidecar(choice.sewing);
   if (text[first] == '{' || text[first] == '[') {
-    const io::Json json = io::parse_json(text, path);
-    const std::string format = json.is_object() && json.contains("format") && json["format"].is_string() ? json["format"].get<std::string>() : "";
-    if (format == "pattern") pattern = read_pattern_json(json, path);
-    else if (format == "sewing-spec") pattern = read_sewing_spec(json, path);
-    else if (format == "panels" || format == "garment")
-      throw input_error(path, "/format", "is a \"" + format + "\" document, which is meshed already", "give the pattern that it was made from");
-    else if (json.is_object() && json.contains("pattern")) pattern = read_garmentcode(json, path);
-    else throw input_error(path, "/format", "'" + format + "' is no pattern format that is known", readable);
-    if (!size.empty() || !rules_path.empty()) throw input_error(path, "", "this format holds one size", "leave out --size and --grade-rules");
+    pattern = read_by_format(io::parse_json(text, path), path);
+    if (!choice.size.empty() || !choice.rules.empty()) throw input_error(path, "", "this format holds one size", "leave out --size and --grade-rules");
+    if (choice.unit > 0 || choice.allowance > 0)
+      throw input_error(path, "", "this format states its unit, and its outlines are sewn along", "leave out --unit and --allowance");
   } else if (text[first] < '0' || text[first] > '9') { // a DXF starts with a group code
-    throw input_error(path, "line 1", "is neither JSON nor a text DXF", readable);
-  } else if (rules_path.empty()) {
-    pattern = read_dxf(text, path, {size, nullptr});
+    throw input_error(path, "line 1", "is neither JSON nor a text DXF", READABLE);
   } else {
-    const GradeRules rules = parse_grade_rules(io::read_file(rules_path), rules_path);
-    pattern = read_dxf(text, path, {size, &rules});
+    DxfChoice dxf{choice.size, nullptr, choice.unit, choice.allowance, choice.pieces, {}};
+    if (!choice.sewing.empty()) dxf.sewn = sewn_panels(sidecar, choice.sewing);
+    std::optional<GradeRules> rules;
+    if (!choice.rules.empty()) rules = parse_grade_rules(io::read_file(choice.rules), choice.rules);
+    if (rules) dxf.rules = &*rules;
+    pattern = read_dxf(text, path, dxf);
   }
-  if (!sewing.empty()) {
+  if (!choice.sewing.empty()) {
     pattern.seams.clear(); // the sidecar replaces what the file says
-    const io::Json sidecar = io::read_json(sewing);
-    if (const std::string format = io::Node(sidecar, sewing).string("format", ""); format == "panels" || format == "garment" || format == "body")
-      throw input_error(sewing, "/format", "is a \"" + format + "\" document, not a sidecar with seams", "give what answers the questions of pattern-mesh");
-    read_sewing_seams(pattern, sidecar, sewing);
+    read_sewing_seams(pattern, sidecar, choice.sewing);
   }
+  choose_pieces(pattern, choice.pieces, choice.without, path);
   if (pattern.name.empty()) pattern.name = path == "-" ? "pattern" : std::filesystem::path(path).stem().string();
   if (pattern.panels.empty()) throw input_error(path, "", "there are no panels");
   finish_pattern(pattern, path);
   return pattern;
+}
+
+Pattern read_pattern(const std::string& path, const std::string& sewing, const std::string& size, const std::string& rules) {
+  return read_pattern(path, PatternChoice{sewing, size, rules, 0, 0, {}, {}});
 }
 
 } // namespace sloper::pattern

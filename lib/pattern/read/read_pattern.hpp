@@ -4,13 +4,31 @@
 #include <pattern/pattern.hpp>
 #include <pattern/read/grade_rules.hpp>
 
+#include <set>
+
 namespace sloper::pattern {
 
 /// Which of the sizes in a DXF is meant. Neither field: the sample size.
 struct DxfChoice {
   std::string size;
-  const GradeRules* rules = nullptr; ///< of the file's grade rule table
+  const GradeRules* rules = nullptr;    ///< of the file's grade rule table
+  double unit = 0;                      ///< m per unit of the file; 0: as it states
+  double allowance = 0;                 ///< m, taken off cut lines of pieces without a sew line
+  std::vector<std::string> pieces = {}; ///< taken though they are linings and the like
+  std::set<std::string> sewn = {};      ///< panels that a sidecar sews; empty without one
 };
+
+/// What a user says of a file besides its name.
+struct PatternChoice {
+  std::string sewing;                       ///< sidecar with the seams of a DXF
+  std::string size;                         ///< of a graded DXF; empty for the sample size
+  std::string rules;                        ///< path of the .rul file of a DXF
+  double unit = 0, allowance = 0;           ///< of a DXF; see DxfChoice
+  std::vector<std::string> pieces, without; ///< names of pieces to take, all where it is empty, and of those to leave
+};
+
+/// Reads a pattern of any format, and of it what `choice` names. @throws Error INPUT naming file, panel, edge and centimetres
+Pattern read_pattern(const std::string& path, const PatternChoice& choice);
 
 /// Reads our pattern JSON, a GarmentCode specification, a sewing-spec JSON or an AAMA / ASTM DXF.
 /// @param path    file, or "-" for standard input
@@ -20,7 +38,8 @@ struct DxfChoice {
 /// @throws Error INPUT naming file, panel, edge and centimetres
 Pattern read_pattern(const std::string& path, const std::string& sewing, const std::string& size = "", const std::string& rules = "");
 
-/// {"pattern": {"panels", "stitches"}} in centimetres (units_in_meter), Euler angles intrinsic XYZ in degrees as pygarment writes them.
+/// {"pattern": {"panels", "stitches"}} in centimetres (units_in_meter), Euler angles in degrees, in the order that
+/// euler_order() finds.
 Pattern read_garmentcode(const io::Json& json, const std::string& file);
 
 /// Our own format; see pattern.schema.json.
