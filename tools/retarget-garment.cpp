@@ -125,7 +125,7 @@ int run(cli::Tool& tool, const Options& o) {
     report.stop_reason = garment::StopReason::NOT_DRAPED;
     report.stop_detail = fit.reason;
   }
-  const garment::DrapeRequest request{.bounds = garment::hopeless_beyond(policy, fit), .start = {.hold_sleeve_ends = placed.has_folded_sleeves}};
+  const garment::DrapeRequest request{.bounds = garment::early_termination_bounds(policy, fit), .start = {.hold_sleeve_ends = placed.has_folded_sleeves}};
   for (;;) {
     if (!o.no_drape && !hopeless) report = garment::drape(garment, &body, settings, tool.reporter(), request);
     garment::bind_garment(garment, body);
@@ -136,7 +136,7 @@ int run(cli::Tool& tool, const Options& o) {
     if (!keep_fit || o.no_drape || !too_tight || placed.report.gradings == MOST_GRADINGS) break;
     if (settings.max_seconds > 0 && (settings.max_seconds -= report.wall_s) <= 0) break;
     tool.reporter().info("the garment " + fit.reason + ": let out there");
-    garment::let_out(placed, source, body);
+    garment::widen_strained_pieces(placed, source, body);
   }
   garment::write_garment(o.output, garment, tool.name());
   if (!o.pattern.empty()) write_pattern(tool, o, garment, source);

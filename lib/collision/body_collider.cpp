@@ -22,7 +22,7 @@ BodyCollider::BodyCollider(const TriangleMesh& body, int k) : m_mesh(body) {
   m_tree = TriangleTree(m_mesh.positions, m_mesh.triangles, k);
   m_winding = std::make_shared<LazyWinding>();
   compute_normals();
-  assess_trust();
+  assess_sign_reliability();
   if (m_findings.buried_triangles > 0) m_skin = TriangleTree(m_mesh.positions, skin_triangles(), k);
 }
 

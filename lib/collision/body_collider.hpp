@@ -101,7 +101,7 @@ public:
 private:
   void turn_faces();
   void turn(int triangle);
-  void assess_trust();
+  void assess_sign_reliability();
   void number_skin(const std::vector<char>& buried);
   std::vector<Triangle> skin_triangles() const; ///< without buried ones
   std::vector<char> ask_winding_numbers();

@@ -98,7 +98,7 @@ void BodyCollider::turn(int f) {
   std::swap(m_topology.triangle_edges[f][0], m_topology.triangle_edges[f][2]);
 }
 
-void BodyCollider::assess_trust() {
+void BodyCollider::assess_sign_reliability() {
   const auto n = static_cast<int>(m_mesh.triangles.size());
   m_trusted_face.assign(n, 1);
   m_trusted_edge.assign(m_topology.edges.size(), 1);

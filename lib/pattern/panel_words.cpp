@@ -62,7 +62,7 @@ bool says_neck(const Words& words) {
 }
 bool says_legs(const Words& words) { return any_begins(words, {"leg", "pant", "trouser", "short", "jean", "hose", "pantal"}); }
 bool says_skirt(const Words& words) { return any_begins(words, {"skirt", "gore", "waist", "rock", "jupe", "falda", "gonna"}) || any_of(words, {"wb"}); }
-bool says_front(const Words& words) {
+bool name_suggests_front(const Words& words) {
   return any_begins(words, {"front", "frt", "ftorso", "fbodice", "vorder", "devant", "delanter", "davanti"}) || any_of(words, {"f", "cf", "fr"});
 }
 bool says_back(const Words& words) {
@@ -73,7 +73,7 @@ bool says_left(const Words& words) { return any_of(words, {"l", "left", "lft", "
 bool says_right(const Words& words) { return any_of(words, {"r", "right", "rgt", "rechts", "rechte", "rechter", "droit", "droite", "derecha"}); }
 
 bool says_anything(const Words& words) {
-  return says_sleeve(words) || says_cuff(words) || says_neck(words) || says_legs(words) || says_skirt(words) || says_front(words) || says_back(words);
+  return says_sleeve(words) || says_cuff(words) || says_neck(words) || says_legs(words) || says_skirt(words) || name_suggests_front(words) || says_back(words);
 }
 
 } // namespace sloper::pattern

@@ -20,7 +20,7 @@ bool says_cuff(const Words& words);
 bool says_neck(const Words& words); ///< collar, stand, hood
 bool says_legs(const Words& words); ///< trousers, their parts and bands
 bool says_skirt(const Words& words);
-bool says_front(const Words& words);
+bool name_suggests_front(const Words& words);
 bool says_back(const Words& words);
 bool says_left(const Words& words);
 bool says_right(const Words& words);

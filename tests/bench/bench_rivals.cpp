@@ -148,7 +148,7 @@ double run(const std::string& folder, const std::string& name, bool self, bool t
     options.least_residual_ratio = target;
     options.h = 1.0 / 30;
     options.line_search = options.momentum = true;
-    options.whole_near_rest = true;
+    options.full_hessian_near_rest = true;
     options.largest_move_m = 0.05;
     for (; steps < 3000; ++steps) {
       last = solver.step(options);

@@ -63,7 +63,7 @@ inline void expect_jacobian(Effect& effect, const ClothMesh& mesh, const std::ve
   BlockMatrix matrix(mesh.n_particles, couplings), unused(mesh.n_particles, couplings);
   effect.bind(matrix);
   force_of(effect, mesh.n_particles, x, matrix);
-  if (whole) effect.add_left_out(x, matrix);
+  if (whole) effect.add_indefinite_part(x, matrix);
   expect_blocks_as_declared(matrix);
   const auto direction = jittered(std::vector<Vec3>(x.size(), Vec3::Zero()), 1, 5);
   const double step = 1e-7;

@@ -252,7 +252,7 @@ Reading read_direction(const Voxels& voxels, int axis, bool flipped, int reach, 
 }
 
 /// Vertices in the floor's layers that stand under the body's lowest cells and above the floor's own plane are feet.
-void rescue_soles(const TriangleMesh& scan, const Voxels& voxels, const Reading& r, SegmentedScan& sorted) {
+void recover_feet(const TriangleMesh& scan, const Voxels& voxels, const Reading& r, SegmentedScan& sorted) {
   std::vector<double> heights;
   for (std::size_t v = 0; v < scan.positions.size(); ++v)
     if (layer_of(voxels, voxels.of_vertex(v), r) <= r.floor_top) heights.push_back(scan.positions[v].dot(sorted.up));
@@ -328,7 +328,7 @@ SegmentedScan sort_in_cells(const TriangleMesh& scan, const std::string& up_axis
   sorted.is_body.assign(scan.positions.size(), 0);
   if (best.is_body.empty()) return sorted;
   for (std::size_t v = 0; v < scan.positions.size(); ++v) sorted.is_body[v] = best.is_body[voxels.of_vertex(v)];
-  if (best.has_floor) rescue_soles(scan, voxels, best, sorted);
+  if (best.has_floor) recover_feet(scan, voxels, best, sorted);
   sorted.low = 1e300, sorted.high = -1e300;
   for (std::size_t v = 0; v < scan.positions.size(); ++v)
     if (sorted.is_body[v]) {

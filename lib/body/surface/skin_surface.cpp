@@ -2,8 +2,8 @@
 #include <body/surface/mesh_repair.hpp>
 #include <body/surface/point_grid.hpp>
 #include <body/surface/skin_surface.hpp>
+#include <body/surface/sparse_cloud.hpp>
 #include <body/surface/surface_nets.hpp>
-#include <body/surface/thin_cloud.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -21,8 +21,8 @@ constexpr double HARDER = 1.3, HARDEST = 100;
 constexpr double CONE = 0.5;
 
 /// Of a crossed pair, d <= 0 below the skin: a spring of constant stiffness beyond the reach.
-Push push_out_of(double d, double reach, double k) {
-  Push p;
+ContactResponse push_out_of(double d, double reach, double k) {
+  ContactResponse p;
   if (d >= reach) return p;
   const double depth = std::min(reach - d, reach + DEEPEST);
   p.force = 0.5 * k * depth;
@@ -247,7 +247,7 @@ BodyContactEffect::Closest BodyContactEffect::closest(const Pair& pair, const st
 double BodyContactEffect::share_of(const Pair& pair, const std::vector<Vec3>& x) const {
   if (pair.n != 2) return 1;
   const std::vector<Vec3>& skin = m_body.mesh().positions;
-  return crossing_share(x[pair.particle[1]] - x[pair.particle[0]], skin[pair.body[1]] - skin[pair.body[0]]);
+  return edge_edge_mollifier(x[pair.particle[1]] - x[pair.particle[0]], skin[pair.body[1]] - skin[pair.body[0]]);
 }
 
 void BodyContactEffect::measure_way(const std::vector<Vec3>& x) const {
@@ -266,7 +266,7 @@ double BodyContactEffect::farthest(const Pair& pair) const {
 void BodyContactEffect::guard(const Pair& pair, const Closest& c, MotionLimits& limits) const {
   double body = 0;
   for (int b = 0; b < pair.n_body; ++b) body += c.body_weight[b] * c.normal.dot(m_body.mesh().positions[pair.body[b]]);
-  limits.guards.push_back({pair.n,
+  limits.planes.push_back({pair.n,
                            pair.n,
                            {pair.particle[0], pair.particle[1], pair.particle[2], 0},
                            c.normal,
@@ -276,7 +276,8 @@ void BodyContactEffect::guard(const Pair& pair, const Closest& c, MotionLimits& 
 
 void BodyContactEffect::add_pair(const Pair& pair, const Closest& c, StepContext& context) {
   const double stiffness = pair.share * pair.stiffness;
-  const Push push = pair.crossed ? push_out_of(c.distance, pair.reach, m_push * stiffness) : push_of(c.distance, pair.reach, stiffness);
+  const ContactResponse push =
+      pair.crossed ? push_out_of(c.distance, pair.reach, m_push * stiffness) : evaluate_contact_potential(c.distance, pair.reach, stiffness);
   if (push.force <= 0) return;
   const Mat3 block = push.stiffness * c.normal * c.normal.transpose();
   for (int k = 0; k < pair.n; ++k) {
@@ -294,7 +295,7 @@ void BodyContactEffect::add_pair(const Pair& pair, const Closest& c, StepContext
 void BodyContactEffect::push_out(int i, StepContext& context) {
   const collision::SignedDistance d = m_body.signed_distance(context.x[i], FAR, m_clearance[i].triangle);
   if (d.triangle < 0) return;
-  const Push push = push_out_of(d.distance, m_options.gap_m, m_push * m_options.stiffness_n_m3 * m_mesh.area[i]);
+  const ContactResponse push = push_out_of(d.distance, m_options.gap_m, m_push * m_options.stiffness_n_m3 * m_mesh.area[i]);
   m_load[i] += push.force * d.normal;
   m_load_stiffness[i] += push.stiffness;
   context.stiffness.add_diagonal(i, push.stiffness * d.normal * d.normal.transpose());
@@ -326,7 +327,7 @@ void BodyContactEffect::add(StepContext& context) {
   for (int i = 0; i < m_mesh.n_particles; ++i) context.force[i] += m_load[i];
   if (context.limits && guarded())
     for (std::size_t i = 0; i < x.size(); ++i) {
-      double& most = context.limits->most[i];
+      double& most = context.limits->max_displacement[i];
       most = std::min(most, std::max(0.0, m_reach_now[i] - m_skin_moved[i] - (x[i] - m_searched_at[i]).norm()));
     }
   if (m_options.friction > 0) add_friction(context);
@@ -334,7 +335,7 @@ void BodyContactEffect::add(StepContext& context) {
 }
 
 /// Guards those near pairs that add() left out and that the displacement may bring nearer than a step may.
-bool BodyContactEffect::guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool) {
+bool BodyContactEffect::add_separating_planes(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool) {
   if (!guarded()) return false;
   m_way.resize(dx.size());
   for (std::size_t i = 0; i < dx.size(); ++i) m_way[i] = dx[i].norm();
@@ -358,7 +359,7 @@ double BodyContactEffect::energy(const std::vector<Vec3>& x) const {
     const Closest c = closest(pair, x);
     if (!c.valid || (!pair.crossed && c.distance >= pair.reach)) continue;
     const double k = (pair.share >= 0 ? pair.share : share_of(pair, x)) * pair.stiffness;
-    sum += pair.crossed ? push_out_of(c.distance, pair.reach, m_push * k).energy : push_of(c.distance, pair.reach, k).energy;
+    sum += pair.crossed ? push_out_of(c.distance, pair.reach, m_push * k).energy : evaluate_contact_potential(c.distance, pair.reach, k).energy;
   }
   if (m_n_crossing > 0)
     for (int i = 0; i < m_mesh.n_particles; ++i) {

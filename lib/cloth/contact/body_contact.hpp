@@ -15,7 +15,7 @@
 #include <cloth/cloth_mesh.hpp>
 #include <cloth/effect.hpp>
 #include <collision/body_collider.hpp>
-#include <collision/skin_ways.hpp>
+#include <collision/displacement_bounds.hpp>
 
 namespace sloper::cloth {
 
@@ -45,31 +45,31 @@ public:
   void declare(Couplings& couplings) const override;
   void bind(const BlockMatrix& matrix) override;
   void begin_step(const std::vector<Vec3>& x, double h) override;
-  void look_again(const std::vector<Vec3>& x, double h) override {
+  void update_contacts(const std::vector<Vec3>& x, double h) override {
     const double push = m_push; // what crosses is pushed harder with every step, and no harder within one
     begin_step(x, h);
     m_push = std::min(m_push, push);
   }
   bool is_search() const override { return true; }
-  void look_ahead(const std::vector<Vec3>& x, double h) override {
+  void prefetch_contacts(const std::vector<Vec3>& x, double h) override {
     if (m_n_crossing == 0) begin_step(x, h); // what crosses is pushed harder with every search
   }
   bool crosses() const override { return m_n_crossing > 0; }
   void add(StepContext& c) override;
   double energy(const std::vector<Vec3>& x) const override; ///< of the pairs of the last search and of the ties of friction
-  bool guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) override;
+  bool add_separating_planes(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) override;
 
   /// The largest displacement of each skin vertex that passes no cloth at x, m (#V): half of its distance to the cloth, and no farther than the
   /// search has seen. Cloth that already crosses the skin does not count. Searches. Only after a first step.
-  std::vector<double> skin_room(const std::vector<Vec3>& x);
-  /// Pushes a predictor off the skin where cloth at x + carry would come nearer to it than half of what free_share() allows.
+  std::vector<double> max_safe_skin_displacement(const std::vector<Vec3>& x);
+  /// Pushes a predictor off the skin where cloth at x + carry would come nearer to it than half of what collision_free_step_fraction() allows.
   /// @param way  #V by 3, m: displacement of the skin   @param carry  #P by 3, m, in and out: the predictor; small pushes only. Cost: O(near pairs)
-  void clear_carry(const std::vector<Vec3>& x, const std::vector<Vec3>& way, std::vector<Vec3>& carry);
+  void push_predictor_off_skin(const std::vector<Vec3>& x, const std::vector<Vec3>& way, std::vector<Vec3>& carry);
   /// The largest fraction of a displacement of the skin that is free of collisions, while the cloth moves by the same fraction of its predictor: each
   /// pair comes nearer by at most a third of its distance, sideways and apart without limit, and no farther than the search has seen. Searches
   /// when it must. Cloth that already crosses the skin does not count.
   /// @param way  #V by 3, m: displacement of the skin   @param carry  #P by 3, m: predictor   @return in [0, 1]; 0 before the first step
-  double free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry);
+  double collision_free_step_fraction(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry);
   /// Moves the body, with the same topology. Anchors of friction move with their skin; near pairs hold as far as skin and the cloth near it move alike.
   /// @param positions  #V by 3, m   @param carry  #P by 3, m: displacement of the cloth at x meanwhile; empty: it stays
   void move_body(const std::vector<Vec3>& positions, const std::vector<Vec3>& x, const std::vector<Vec3>& carry = {});
@@ -118,7 +118,7 @@ private:
     bool valid;
   };
   Closest closest(const Pair& pair, const std::vector<Vec3>& x) const;
-  double share_of(const Pair& pair, const std::vector<Vec3>& x) const; ///< see crossing_share()
+  double share_of(const Pair& pair, const std::vector<Vec3>& x) const; ///< see edge_edge_mollifier()
   void measure_way(const std::vector<Vec3>& x) const;
   double farthest(const Pair& pair) const;
   static double against(const Pair& pair, const std::vector<Vec3>& way, const std::vector<Vec3>& carry);
@@ -156,14 +156,14 @@ private:
   };
 
   std::vector<Pair> m_pairs;
-  std::vector<Nearing> m_nearing;   // of clear_carry()
+  std::vector<Nearing> m_nearing;   // of push_predictor_off_skin()
   std::vector<Measured> m_measured; // likewise; few pairs ever need it
   collision::BodyPairs m_found;
   std::vector<Vec3> m_searched_at, m_added_at; // #P by 3, m: where the last search and the last add() saw the cloth
   mutable std::vector<double> m_way;           // #P, m: of each particle since m_added_at, or of a displacement
   std::vector<double> m_reach_now;             // #P: may move this far from m_searched_at unseen
   std::vector<double> m_skin_moved;            // #P, m: of skin near it against what carried it, at most, since the search
-  collision::SkinWays m_ways;
+  collision::DisplacementBounds m_ways;
   std::vector<double> m_against; // #P, m: of measure_against(), how far skin near it goes against its carry, at most
   bool m_stale = true, m_look_for_crossings = true;
   std::vector<char> m_inside, m_crossing, m_asked; // by particle, triangle, triangle

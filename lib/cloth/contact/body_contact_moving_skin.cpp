@@ -44,7 +44,7 @@ void BodyContactEffect::measure_against(const std::vector<Vec3>& x, const std::v
 
   const auto fastest = [&](const Box3& ways) {
     double most = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) most = std::max(most, collision::SkinWays::farthest(ways, carry_of(carry, i)));
+    for (std::size_t i = 0; i < x.size(); ++i) most = std::max(most, collision::DisplacementBounds::farthest(ways, carry_of(carry, i)));
     return most;
   };
   const double anywhere = fastest(bounding_box(way));
@@ -55,7 +55,7 @@ void BodyContactEffect::measure_against(const std::vector<Vec3>& x, const std::v
   const double most = fastest(m_ways.all());
   if (most <= 0) return;
   parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) m_against[i] = m_ways.longest_against(carry_of(carry, i), x[i], radius[i] + most);
+    for (std::size_t i = begin; i < end; ++i) m_against[i] = m_ways.max_relative_displacement(carry_of(carry, i), x[i], radius[i] + most);
   });
 }
 
@@ -67,7 +67,7 @@ double BodyContactEffect::against(const Pair& pair, const std::vector<Vec3>& way
   return std::sqrt(most2);
 }
 
-std::vector<double> BodyContactEffect::skin_room(const std::vector<Vec3>& x) {
+std::vector<double> BodyContactEffect::max_safe_skin_displacement(const std::vector<Vec3>& x) {
   search(x);
   std::vector<double> room(m_body.mesh().positions.size(), 0.5 * (EDGE_REACH * m_options.gap_m + m_options.slack_m));
   for (const Pair& pair : m_pairs) {
@@ -78,7 +78,7 @@ std::vector<double> BodyContactEffect::skin_room(const std::vector<Vec3>& x) {
   return room;
 }
 
-double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry) {
+double BodyContactEffect::collision_free_step_fraction(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry) {
   if (m_edge_slot.empty()) return 0; // not bound yet: there was no step
   const auto stays = [](const std::vector<Vec3>& ways) { return std::all_of(ways.begin(), ways.end(), [](const Vec3& w) { return w == Vec3::Zero(); }); };
   if (stays(way) && stays(carry)) return 1;
@@ -107,7 +107,7 @@ double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vect
   return share;
 }
 
-void BodyContactEffect::clear_carry(const std::vector<Vec3>& x, const std::vector<Vec3>& way, std::vector<Vec3>& carry) {
+void BodyContactEffect::push_predictor_off_skin(const std::vector<Vec3>& x, const std::vector<Vec3>& way, std::vector<Vec3>& carry) {
   if (m_edge_slot.empty()) return;
   begin_step(x, 0);
   m_nearing.clear();

@@ -4,7 +4,7 @@
 
 namespace sloper::cloth {
 
-double crossing_share(const Vec3& u, const Vec3& v) {
+double edge_edge_mollifier(const Vec3& u, const Vec3& v) {
   constexpr double PARALLEL = 0.01; // squared sine: 5.7 degrees
   const double sine2 = u.cross(v).squaredNorm() / std::max(u.squaredNorm() * v.squaredNorm(), 1e-30);
   if (sine2 >= PARALLEL) return 1;

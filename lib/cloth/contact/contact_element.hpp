@@ -27,7 +27,7 @@ struct ContactElement {
 
 /// 1 for edges that cross at an angle, falling to 0 for parallel ones, whose closest points jump from end to end: without it
 /// the force of an edge pair would not be continuous (the mollifier of Li et al. 2020). u, v: directions of any length.
-double crossing_share(const Vec3& u, const Vec3& v);
+double edge_edge_mollifier(const Vec3& u, const Vec3& v);
 
 void add_forces(const std::vector<ContactElement>& elements, std::vector<Vec3>& force);
 

@@ -11,7 +11,7 @@
 namespace sloper::cloth {
 
 /// Force and stiffness are those along the way between the closest points, both >= 0; N, N/m, J.
-struct Push {
+struct ContactResponse {
   double force = 0, stiffness = 0, energy = 0;
 };
 
@@ -20,8 +20,8 @@ inline constexpr double BARRIER_BEGINS = 0.3, BARRIER_STIFFNESS = 20;
 inline constexpr double LEAST_DISTANCE = 1e-4;
 
 /// @param d m, >= 0   @param reach m   @param k N/m
-inline Push push_of(double d, double reach, double k) {
-  Push p;
+inline ContactResponse evaluate_contact_potential(double d, double reach, double k) {
+  ContactResponse p;
   if (d >= reach) return p;
   const double depth = reach - d, begins = BARRIER_BEGINS * reach;
   p.energy = k * depth * depth * depth / (6 * reach);

@@ -11,10 +11,10 @@
 
 namespace sloper::cloth {
 
-inline constexpr int GUARD_ROUNDS = 4; ///< in which new limits are looked for; then those of the last round stop everything
+inline constexpr int MAX_CCD_ROUNDS = 4; ///< in which new limits are looked for; then those of the last round stop everything
 
 /// Particles 0 .. n_above - 1 keep normal . x >= above, the others normal . x <= below.
-struct PlaneGuard {
+struct SeparatingPlane {
   int n = 0, n_above = 0;
   std::array<int, 4> particle{};
   Vec3 normal = Vec3::UnitY(); ///< unit
@@ -22,16 +22,16 @@ struct PlaneGuard {
 };
 
 struct MotionLimits {
-  std::vector<PlaneGuard> guards;
-  std::vector<double> most; ///< #P, m: no particle moves farther in this step
+  std::vector<SeparatingPlane> planes;
+  std::vector<double> max_displacement; ///< #P, m: no particle moves farther in this step
   /// Planes between cloth and cloth may translate along their normal. Static solves leave them fixed, which is cheaper and converges as well.
-  bool planes_follow = false;
+  bool planes_translate = false;
 
-  void reset(std::size_t n_particles); ///< all but planes_follow
+  void reset(std::size_t n_particles); ///< all but planes_translate
   /// Takes off what of a displacement runs into a plane, then shortens what still breaks a plane or is too long; pushes nothing. The present
-  /// positions must keep all guards; then positions + dx do, those between cloth and cloth by planes moved along where planes_follow.
+  /// positions must keep all planes; then positions + dx do, those between cloth and cloth by planes moved along where planes_translate.
   /// @param x, dx #P by 3, m; no dx grows   @param held #P, set to 1 where a plane stopped a particle
-  /// Cost: a few passes over the guards; with planes_follow as many more as there are guards that hand on what they stop
+  /// Cost: a few passes over the planes; with planes_translate as many more as there are planes that hand on what they stop
   void apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std::vector<char>& held) const;
 };
 

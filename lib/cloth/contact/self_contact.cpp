@@ -108,7 +108,7 @@ void SelfContactEffect::begin_step(const std::vector<Vec3>& x, double) {
   m_again = false;
 }
 
-void SelfContactEffect::look_again(const std::vector<Vec3>& x, double) {
+void SelfContactEffect::update_contacts(const std::vector<Vec3>& x, double) {
   look(x);
   m_again = true;
 }
@@ -145,7 +145,7 @@ double SelfContactEffect::stiffness_of(const Near& near, const Closest& c, const
   const auto& p = near.particle;
   double area = 0;
   for (int k = 0; k < 4; ++k) area += std::abs(c.weight[k]) * m_mesh.area[p[k]];
-  const double share = near.is_edge ? crossing_share(x[p[1]] - x[p[0]], x[p[3]] - x[p[2]]) : 1;
+  const double share = near.is_edge ? edge_edge_mollifier(x[p[1]] - x[p[0]], x[p[3]] - x[p[2]]) : 1;
   return 0.5 * share * m_options.stiffness_n_m3 * area;
 }
 
@@ -167,7 +167,7 @@ void SelfContactEffect::add(StepContext& context) {
       continue;
     }
     near.stiffness = stiffness_of(near, c, context.x);
-    const Push p = push_of(c.distance, near.reach, near.stiffness);
+    const ContactResponse p = evaluate_contact_potential(c.distance, near.reach, near.stiffness);
     if (p.force > 0) {
       ContactElement e;
       e.n = 4;
@@ -198,7 +198,7 @@ void SelfContactEffect::add(StepContext& context) {
 void SelfContactEffect::guard(const Near& near, const Closest& c, MotionLimits& limits) const {
   const Vec3 normal = (c.first - c.second) / c.distance;
   const double middle = 0.5 * normal.dot(c.first + c.second), margin = 0.5 * PLANE_MARGIN * c.distance;
-  limits.guards.push_back({4, near.n_first(), near.particle, normal, middle + margin, middle - margin});
+  limits.planes.push_back({4, near.n_first(), near.particle, normal, middle + margin, middle - margin});
 }
 
 /// How far a particle may go whatever the others do, m.
@@ -242,13 +242,13 @@ bool SelfContactEffect::guard_near(const std::vector<Vec3>& x, const std::vector
   return added;
 }
 
-bool SelfContactEffect::guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) {
+bool SelfContactEffect::add_separating_planes(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) {
   const bool more = guard_near(x, dx, limits);
   m_far.resize(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) m_far[i] = m_length[i] > safe_move(i) + 1e-12;
   if (std::find(m_far.begin(), m_far.end(), 1) == m_far.end()) return more;
   if (last || !m_crossings.empty()) { // of cloth that crosses nobody can tell which side is right
-    for (std::size_t i = 0; i < x.size(); ++i) limits.most[i] = std::min(limits.most[i], safe_move(i));
+    for (std::size_t i = 0; i < x.size(); ++i) limits.max_displacement[i] = std::min(limits.max_displacement[i], safe_move(i));
     return true;
   }
   m_closing.find(x, dx, m_far, !m_closing_stale);
@@ -266,7 +266,8 @@ double SelfContactEffect::energy(const std::vector<Vec3>& x) const {
   for (const Near& near : m_pairs) {
     if (near.distance - closing(near, m_length) >= near.reach) continue;
     const Closest c = closest(near, x);
-    if (c.distance < near.reach) sum += push_of(c.distance, near.reach, near.stiffness >= 0 ? near.stiffness : stiffness_of(near, c, x)).energy;
+    if (c.distance < near.reach)
+      sum += evaluate_contact_potential(c.distance, near.reach, near.stiffness >= 0 ? near.stiffness : stiffness_of(near, c, x)).energy;
   }
   return sum;
 }

@@ -4,13 +4,13 @@
 ///
 /// A separating plane half-way between the elements of a near pair keeps each on its side in a step (MotionLimits). While no particle moves farther
 /// than just under half the search radius from where it was searched, no other pair can cross. Beyond that, CCD candidates
-/// (collision/closing_pairs.hpp) get planes too, so cloth that moves as one may move far. If particles outrun the search in each step, only the
+/// (collision/ccd_candidates.hpp) get planes too, so cloth that moves as one may move far. If particles outrun the search in each step, only the
 /// repulsion radius is searched. So a state free of crossings stays free of them. Pairs that can neither repel each other nor meet in the step
 /// are not measured. Repulsion: see contact_potential.hpp; friction between layers is viscous.
 #include <cloth/cloth_mesh.hpp>
 #include <cloth/contact/contact_potential.hpp>
 #include <cloth/effect.hpp>
-#include <collision/closing_pairs.hpp>
+#include <collision/ccd_candidates.hpp>
 #include <collision/distance.hpp>
 #include <collision/self_proximity.hpp>
 #include <set>
@@ -31,15 +31,15 @@ public:
   SelfContactEffect(const ClothMesh& mesh, const SelfContactOptions& options, std::vector<int> seam_class = {});
   const char* name() const override { return "self_contact"; }
   void begin_step(const std::vector<Vec3>& x, double h) override;
-  void look_again(const std::vector<Vec3>& x, double h) override;
+  void update_contacts(const std::vector<Vec3>& x, double h) override;
   bool is_search() const override { return true; }
-  void look_ahead(const std::vector<Vec3>& x, double h) override {
+  void prefetch_contacts(const std::vector<Vec3>& x, double h) override {
     if (m_crossings.empty()) begin_step(x, h);
   }
   bool crosses() const override { return !m_crossings.empty(); }
   void add(StepContext& c) override;
   double energy(const std::vector<Vec3>& x) const override;
-  bool guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) override;
+  bool add_separating_planes(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool last) override;
   void end_step(const std::vector<Vec3>& x) override;
   void set_friction(double mu) { m_options.friction = mu; }
   /// @param passes #P or empty: elements all of whose particles are marked neither repel each other nor bind each other's motion from now on
@@ -67,7 +67,7 @@ private:
   const ClothMesh& m_mesh;
   SelfContactOptions m_options;
   collision::SelfProximity m_proximity;
-  collision::ClosingPairs m_closing;
+  collision::CcdCandidates m_closing;
   bool m_closing_stale = true;                       // positions have changed since its last search
   std::set<std::array<int, 2>> m_guarded_closing[2]; // in this step: vertex and face, edges
   std::vector<int> m_seam_class;                     // #P or empty

@@ -51,7 +51,7 @@ void add_edge_springs(const ClothMesh& mesh, const std::vector<Vec3>& x, double 
   }
 }
 
-void EdgeSpringEffect::add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
+void EdgeSpringEffect::add_indefinite_part(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
   for (std::size_t s = 0; s < m_mesh.springs.size(); ++s) {
     const EdgeSpring& spring = m_mesh.springs[s];
     const Vec3 d = x[spring.j] - x[spring.i];

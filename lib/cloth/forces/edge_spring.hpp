@@ -30,7 +30,7 @@ public:
   void bind(const BlockMatrix& matrix) override;
   /// Potential at x, J.
   double energy(const std::vector<Vec3>& x) const override { return edge_springs_energy(m_mesh, x); }
-  void add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const override;
+  void add_indefinite_part(const std::vector<Vec3>& x, BlockMatrix& stiffness) const override;
   void add(StepContext& c) override { add_edge_springs(m_mesh, c.x, c.h, m_slots, c.force, c.stiffness); }
 
 private:

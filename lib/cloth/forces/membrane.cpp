@@ -71,7 +71,7 @@ void MembraneEffect::add(StepContext& context) {
   }
 }
 
-void MembraneEffect::add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
+void MembraneEffect::add_indefinite_part(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
   for (const TriangleMap& m : m_maps) {
     const Mat2 pushing = part_of(stress_of(m, m.u(x), m.v(x)), false);
     if (pushing.isZero(0)) continue;

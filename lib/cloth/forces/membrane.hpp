@@ -20,7 +20,7 @@ public:
   void add(StepContext& c) override;
   /// Potential at x, J.
   double energy(const std::vector<Vec3>& x) const override;
-  void add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const override;
+  void add_indefinite_part(const std::vector<Vec3>& x, BlockMatrix& stiffness) const override;
 
 private:
   struct Elasticity {

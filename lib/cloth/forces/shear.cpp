@@ -68,7 +68,7 @@ void ShearEffect::declare(Couplings& couplings) const {
     for (int k = 0; k < 3; ++k) couplings.full.push_back({s.particle[k], s.particle[(k + 1) % 3]});
 }
 
-void ShearEffect::add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
+void ShearEffect::add_indefinite_part(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
   for (const ShearTriangle& s : m_shear) {
     Vec3 wu, wv;
     images(s, x, wu, wv);

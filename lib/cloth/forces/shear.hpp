@@ -38,7 +38,7 @@ public:
   void bind(const BlockMatrix& matrix) override { find_slots(m_shear, matrix); }
   /// Potential at x, J.
   double energy(const std::vector<Vec3>& x) const override { return shear_energy(m_shear, x); }
-  void add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const override;
+  void add_indefinite_part(const std::vector<Vec3>& x, BlockMatrix& stiffness) const override;
   void add(StepContext& c) override { add_shear(m_shear, c.x, c.h, c.force, c.stiffness); }
 
 private:

@@ -57,7 +57,7 @@ void TriangleStretchEffect::add(StepContext& c) {
   }
 }
 
-void TriangleStretchEffect::add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
+void TriangleStretchEffect::add_indefinite_part(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
   for (std::size_t f = 0; f < m_maps.size(); ++f) {
     const TriangleMap& m = m_maps[f];
     const Fabric& fabric = m_mesh.fabrics[m.fabric];

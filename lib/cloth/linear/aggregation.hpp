@@ -19,7 +19,7 @@ public:
   void update(const LinearSystem& system) override;
   void apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) override;
   bool renew(const LinearSystem& system, int iterations) override;
-  bool is_near() const override { return true; }
+  bool estimates_energy_error() const override { return true; }
   bool solve_in_single(const LinearSystem& system, const std::vector<Vec3>& r, CgTolerance tolerance, int max_iterations, double radius, std::vector<Vec3>& x,
                        CgResult& result) override;
   void report_iterations(int iterations) override;

@@ -107,7 +107,7 @@ CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& precondi
   for (auto* v : {&work.r, &work.z, &work.p, &work.q}) v->resize(n);
   x.assign(n, Vec3::Zero());
   work.r = b;
-  if (!preconditioner.is_near()) tolerance.energy = 0;
+  if (!preconditioner.estimates_energy_error()) tolerance.energy = 0;
   CgResult result;
   const double b_norm2 = dot(b, b, work.part);
   if (b_norm2 == 0) return {0, 0, 0, true, false, false, false};

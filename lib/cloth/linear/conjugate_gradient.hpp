@@ -31,8 +31,8 @@ struct CgResult {
 struct CgTolerance {
   CgTolerance(double of_residual, double of_energy = 0) : residual(of_residual), energy(of_energy) {}
   double residual; ///< |b - A x| over |b|
-  /// sqrt(r' P^-1 r) over sqrt(b' P^-1 b), r = b - A x. With a preconditioner P that is_near() A this is the error of x in the energy norm over that of
-  /// 0, or of the start where the system recurs (Arioli 2004); with others it does not count. For stiff and soft modes together the energy error
+  /// sqrt(r' P^-1 r) over sqrt(b' P^-1 b), r = b - A x. With a preconditioner P that estimates_energy_error() A this is the error of x in the energy norm over
+  /// that of 0, or of the start where the system recurs (Arioli 2004); with others it does not count. For stiff and soft modes together the energy error
   /// converges long before the residual, which stiff modes dominate.
   double energy;
 };
@@ -44,7 +44,7 @@ public:
   virtual void update(const LinearSystem& system) = 0;
   virtual void apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) = 0;
   /// True if P is spectrally equivalent to A, so that sqrt(r . z) estimates the error of a solve in the energy norm.
-  virtual bool is_near() const { return false; }
+  virtual bool estimates_energy_error() const { return false; }
   /// The sparsity pattern has changed.
   virtual void reset() {}
   /// Asked within a solve that is not done after so many iterations: a preconditioner that lags may bring itself up to date, and returns

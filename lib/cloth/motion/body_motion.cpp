@@ -56,40 +56,40 @@ BodyMotion::BodyMotion(ClothSolver& solver, BodyContactEffect& contact, collisio
 /// Predictor of each particle: the displacement of the nearest skin triangle, at the barycentric coordinates of the nearest point, blended with the
 /// particle's own velocity as the distance grows. Cloth left behind would be torn from cloth that moves with the skin.
 /// @param way  #V by 3, m: displacement of the skin   @param time  s, in which it happens
-void BodyMotion::find_carry(const std::vector<Vec3>& way, double time) {
+void BodyMotion::predict_from_skin(const std::vector<Vec3>& way, double time) {
   const std::vector<Vec3>& x = m_solver.x();
-  m_carry.assign(x.size(), Vec3::Zero());
+  m_predictor.assign(x.size(), Vec3::Zero());
   parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const collision::SignedDistance d = m_body.signed_distance(x[i], NOT_CARRIED, m_nearest[i]);
       m_nearest[i] = d.triangle;
-      m_carry[i] = time * m_solver.v()[i];
+      m_predictor[i] = time * m_solver.v()[i];
       if (d.triangle < 0) continue;
       const double far = std::clamp((d.distance - CARRIED_WHOLE) / (NOT_CARRIED - CARRIED_WHOLE), 0.0, 1.0), share = (1 - far) * (1 - far);
       const Triangle& t = m_body.mesh().triangles[d.triangle];
-      m_carry[i] *= 1 - share;
-      for (int k = 0; k < 3; ++k) m_carry[i] += share * d.barycentric[k] * way[t[k]];
+      m_predictor[i] *= 1 - share;
+      for (int k = 0; k < 3; ++k) m_predictor[i] += share * d.barycentric[k] * way[t[k]];
     }
   });
-  m_contact.clear_carry(x, way, m_carry);
+  m_contact.push_predictor_off_skin(x, way, m_predictor);
 }
 
 /// Limits the predictor so that scaling it by `share` causes no self-collision. A common translation of all cloth is exempt.
 /// @param limits  of the layers where they are: what they are kept apart by is added, since self contact names it once
-std::vector<Vec3> BodyMotion::uncrossing_carry(double share, MotionLimits& limits) const {
+std::vector<Vec3> BodyMotion::limit_predictor_by_self_ccd(double share, MotionLimits& limits) const {
   const std::vector<Vec3>& x = m_solver.x();
-  const Vec3 common = common_way(m_carry);
-  limits.most.assign(x.size(), std::numeric_limits<double>::infinity()); // those of a longer way
-  std::vector<Vec3> wanted = m_carry;
+  const Vec3 common = common_way(m_predictor);
+  limits.max_displacement.assign(x.size(), std::numeric_limits<double>::infinity()); // those of a longer way
+  std::vector<Vec3> wanted = m_predictor;
   for (Vec3& c : wanted) c = share * (c - common);
   std::vector<Vec3> carry = wanted;
   std::vector<char> held(x.size(), 0);
   limits.apply(x, carry, held);
-  for (int round = 1; round <= GUARD_ROUNDS; ++round) {
-    if (!m_self_contact->guard_motion(x, carry, limits, round == GUARD_ROUNDS)) break;
+  for (int round = 1; round <= MAX_CCD_ROUNDS; ++round) {
+    if (!m_self_contact->add_separating_planes(x, carry, limits, round == MAX_CCD_ROUNDS)) break;
     limits.apply(x, carry, held);
   }
-  for (std::size_t i = 0; i < carry.size(); ++i) carry[i] = carry[i] == wanted[i] ? m_carry[i] : Vec3(carry[i] / share + common);
+  for (std::size_t i = 0; i < carry.size(); ++i) carry[i] = carry[i] == wanted[i] ? m_predictor[i] : Vec3(carry[i] / share + common);
   return carry;
 }
 
@@ -97,10 +97,10 @@ std::vector<Vec3> BodyMotion::uncrossing_carry(double share, MotionLimits& limit
 /// the predictor at once and would stop the skin within a hair: where a smaller step is taken, it moves with the cloth over it.
 double BodyMotion::free_part(const std::vector<Vec3>& way, double longest, double time) {
   const std::vector<Vec3>& x = m_solver.x();
-  find_carry(way, time);
-  if (!m_self_contact) return m_contact.free_share(x, way, m_carry);
+  predict_from_skin(way, time);
+  if (!m_self_contact) return m_contact.collision_free_step_fraction(x, way, m_predictor);
   MotionLimits limits;
-  limits.planes_follow = true;
+  limits.planes_translate = true;
   limits.reset(x.size());
   std::vector<Vec3> force(x.size(), Vec3::Zero());
   std::vector<ContactElement> elements;
@@ -112,13 +112,13 @@ double BodyMotion::free_part(const std::vector<Vec3>& way, double longest, doubl
   double best = 0;
   for (double asked = std::min(1.0, ASK_LESS * m_last_asked);; asked /= ASK_LESS) {
     m_last_asked = asked;
-    std::vector<Vec3> carry = uncrossing_carry(asked, limits);
-    const bool whole = carry == m_carry; // what else stops the skin does so on a shorter way too
-    const double share = std::min(asked, m_contact.free_share(x, way, carry));
+    std::vector<Vec3> carry = limit_predictor_by_self_ccd(asked, limits);
+    const bool whole = carry == m_predictor; // what else stops the skin does so on a shorter way too
+    const double share = std::min(asked, m_contact.collision_free_step_fraction(x, way, carry));
     if (share > best) best = share, best_carry = std::move(carry);
     if (whole || best >= asked / ASK_LESS || asked * longest < SHORTEST_PART) break;
   }
-  m_carry = std::move(best_carry);
+  m_predictor = std::move(best_carry);
   return best;
 }
 
@@ -139,16 +139,16 @@ StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOption
       largest_way_m = std::max(largest_way_m, longest);
       most_parts = MOST_PARTS + static_cast<int>(std::min(longest / SHORTEST_PART, 1e6));
     }
-    m_carry = nothing;
+    m_predictor = nothing;
     double share = longest > 0 ? free_part(way, longest, options.inertia * left * options.h) : 1;
     const bool force = part >= most_parts && share < 1;
     if (force) {
       share = 1;
-      m_carry = nothing;
+      m_predictor = nothing;
     }
     if (share > 0 && longest > 0) {
       for (std::size_t v = 0; v < way.size(); ++v) skin[v] = share < 1 ? Vec3(skin[v] + share * way[v]) : target[v];
-      std::vector<Vec3> carried = m_carry;
+      std::vector<Vec3> carried = m_predictor;
       for (Vec3& c : carried) c *= share;
       m_contact.move_body(skin, m_solver.x(), carried);
       if (m_self_contact) m_self_contact->moved_by(common_way(carried));
@@ -161,18 +161,18 @@ StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOption
     const double time = share * left;
     if (options.inertia > 0) o.h = std::max(LEAST_TIME, time) * options.h;
     left -= time;
-    for (std::size_t i = 0; i < m_carry.size(); ++i) {
-      m_carry[i] *= share;
-      velocity[i] = -m_carry[i] / o.h;
+    for (std::size_t i = 0; i < m_predictor.size(); ++i) {
+      m_predictor[i] *= share;
+      velocity[i] = -m_predictor[i] / o.h;
     }
     const bool carried = longest > 0;
-    if (carried) m_solver.shift(m_carry, velocity);
+    if (carried) m_solver.shift(m_predictor, velocity);
     wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     result = step ? step(o) : m_solver.step(o);
     for (Vec3& v : velocity) v = -v;
     if (carried && result.finite) m_solver.shift(nothing, velocity);
     ++parts;
-    moved += result.largest_move_m + longest_of(m_carry);
+    moved += result.largest_move_m + longest_of(m_predictor);
     result.largest_move_m = moved;
     if (!result.finite || share >= 1) return result;
   }

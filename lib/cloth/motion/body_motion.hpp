@@ -5,8 +5,8 @@
 /// between, and no farther than self contact allows. The predictor only chooses where the solve starts; inertia is taken from the true state:
 ///   (M/h^2 + K) dx = f(x + c) + M (v - c/h) / h, then v = (c + dx)/h.
 /// So free motion and sliding are unaffected. A substep ends where a pair of skin and cloth would lose more than a third of its distance
-/// (BodyContactEffect::free_share()). If cloth cannot yield (pinned, or pinched between two limbs) the skin passes through, the crossing is counted,
-/// and contact pushes it out as at a deep start. Test: tests/cloth/motion/test_body_motion.cpp
+/// (BodyContactEffect::collision_free_step_fraction()). If cloth cannot yield (pinned, or pinched between two limbs) the skin passes through, the crossing is
+/// counted, and contact pushes it out as at a deep start. Test: tests/cloth/motion/test_body_motion.cpp
 #include <cloth/contact/body_contact.hpp>
 #include <cloth/contact/self_contact.hpp>
 #include <cloth/solver/implicit_step.hpp>
@@ -34,17 +34,17 @@ public:
   double wall_s = 0;        ///< of moving the skin and carrying cloth, without the cloth's steps
 
 private:
-  void find_carry(const std::vector<Vec3>& way, double time);
-  std::vector<Vec3> uncrossing_carry(double share, MotionLimits& limits) const;
+  void predict_from_skin(const std::vector<Vec3>& way, double time);
+  std::vector<Vec3> limit_predictor_by_self_ccd(double share, MotionLimits& limits) const;
   double free_part(const std::vector<Vec3>& way, double longest, double time);
 
   ClothSolver& m_solver;
   BodyContactEffect& m_contact;
   collision::BodyCollider& m_body;
   SelfContactEffect* m_self_contact = nullptr;
-  double m_last_asked = 1;    // share of the way, of the last part
-  std::vector<Vec3> m_carry;  // #P, m
-  std::vector<int> m_nearest; // #P, triangle of the skin, or -1
+  double m_last_asked = 1;       // share of the way, of the last part
+  std::vector<Vec3> m_predictor; // #P, m
+  std::vector<int> m_nearest;    // #P, triangle of the skin, or -1
 };
 
 } // namespace sloper::cloth

@@ -63,8 +63,8 @@ void ClothSolver::begin() {
   if (m_v.size() != m_x.size()) m_v.assign(m_x.size(), Vec3::Zero());
   m_force.assign(m_x.size(), Vec3::Zero());
   m_rhs = m_dx = m_force;
-  m_freeze.assign(m_x.size(), 0);
-  m_frozen_for = m_freeze;
+  m_block_for.assign(m_x.size(), 0);
+  m_blocked_for = m_block_for;
   for (double e : mesh.shortest_edge) m_mean_edge += e / mesh.n_particles;
   for (double m : mesh.mass) m_mean_weight += m * units::GRAVITY / mesh.n_particles;
 }
@@ -111,12 +111,12 @@ double ClothSolver::energy_after(const std::vector<Vec3>& dx) {
   return energy(m_trial);
 }
 
-/// Projecting onto one plane can push a particle into a pair that had no plane: re-check and add planes, up to GUARD_ROUNDS times.
+/// Projecting onto one plane can push a particle into a pair that had no plane: re-check and add planes, up to MAX_CCD_ROUNDS times.
 void ClothSolver::limit(std::vector<Vec3>& dx, std::vector<char>& held) {
   m_limits.apply(m_x, dx, held);
-  for (int round = 1; round <= GUARD_ROUNDS; ++round) {
+  for (int round = 1; round <= MAX_CCD_ROUNDS; ++round) {
     bool more = false;
-    for (const auto& e : m_effects) more |= e->guard_motion(m_x, dx, m_limits, round == GUARD_ROUNDS);
+    for (const auto& e : m_effects) more |= e->add_separating_planes(m_x, dx, m_limits, round == MAX_CCD_ROUNDS);
     if (!more) return;
     m_limits.apply(m_x, dx, held);
   }
@@ -221,7 +221,7 @@ static std::vector<double>::iterator percentile_95(std::vector<double>& values) 
 /// A particle stuck in a pinch bends the step away from where the energy falls, or is pressed there harder than all others, and the line
 /// search then stops all the cloth for its sake. It is kept in place for a while, longer each time, while the rest goes on. With momentum,
 /// which lets energy rise, only what limits hold: there the rest comes no sooner for the others.
-void ClothSolver::freeze_held(bool search_failed, bool momentum) {
+void ClothSolver::block_held_particles(bool search_failed, bool momentum) {
   double wedged2 = std::numeric_limits<double>::infinity();
   if (search_failed && !momentum) {
     m_residual.clear();
@@ -229,14 +229,14 @@ void ClothSolver::freeze_held(bool search_failed, bool momentum) {
     wedged2 = OUTLIER * OUTLIER * std::max(*percentile_95(m_residual), m_mean_weight * m_mean_weight);
   }
   for (std::size_t i = 0; i < m_held.size(); ++i) {
-    if (m_frozen_for[i] > 0) {
-      --m_frozen_for[i];
+    if (m_blocked_for[i] > 0) {
+      --m_blocked_for[i];
       m_held[i] = 1;
     } else if (search_failed && (m_held[i] || m_force[i].squaredNorm() > wedged2)) {
-      m_freeze[i] = std::clamp(2 * m_freeze[i], 1, LONGEST_FREEZE);
-      m_frozen_for[i] = m_freeze[i];
+      m_block_for[i] = std::clamp(2 * m_block_for[i], 1, LONGEST_FREEZE);
+      m_blocked_for[i] = m_block_for[i];
     } else {
-      m_freeze[i] /= 2;
+      m_block_for[i] /= 2;
     }
   }
 }
@@ -263,11 +263,11 @@ double ClothSolver::near_tolerance(const StepOptions& o, const std::array<double
   return std::max(std::min(fine_enough, o.cg_tolerance), o.cg_tolerance * std::max(TIGHTEST, std::sqrt(capped / all)));
 }
 
-void ClothSolver::look_ahead(double h) {
+void ClothSolver::prefetch_contacts(double h) {
   if (m_pattern_stale) return; // pairs hold places in the matrix
   for (const auto& e : m_effects) {
     const Stopwatch watch(e->wall_s);
-    e->look_ahead(m_x, h);
+    e->prefetch_contacts(m_x, h);
   }
 }
 
@@ -288,13 +288,13 @@ CgResult ClothSolver::solve(const StepOptions& o) {
     const double near = NEAR_REST * m_mean_weight;
     if (squares[1] > 0 && squares[0] <= near * near) {
       tolerance.residual = near_tolerance(o, squares);
-      whole = o.whole_near_rest;
+      whole = o.full_hessian_near_rest;
     }
   }
   if (whole) {
     const Stopwatch watch(assembly_s);
     m_whole = m_matrix;
-    for (const auto& e : m_effects) e->add_left_out(m_x, m_whole);
+    for (const auto& e : m_effects) e->add_indefinite_part(m_x, m_whole);
     radius = TRUSTED * m_mean_edge;
     tolerance.residual *= LOOSER;
   }
@@ -330,7 +330,7 @@ void ClothSolver::assemble(double h, bool again) {
     for (const auto& e : m_effects) {
       if (!e->is_search()) continue;
       const Stopwatch watch(e->wall_s);
-      if (again) e->look_again(m_x, h);
+      if (again) e->update_contacts(m_x, h);
       else e->begin_step(m_x, h);
     }
   });
@@ -342,14 +342,14 @@ StepResult ClothSolver::step(const StepOptions& o) {
   if (o.newton_iterations > 1 && o.inertia > 0 && !o.line_search) return newton_step(o, o.newton_iterations, false);
   const std::size_t n = m_x.size();
   StepResult result;
-  m_limits.planes_follow = !o.line_search && o.inertia > 0;
+  m_limits.planes_translate = !o.line_search && o.inertia > 0;
   assemble(o.h);
   {
     const Stopwatch watch(assembly_s);
     add_forces(m_elements, m_force);
     for (std::size_t i = 0; i < n; ++i) {
       double inertia = m_mesh.mass[i] / (o.h * o.h);
-      if (m_frozen_for[i] > 0) inertia += FROZEN * m_matrix.diagonal(static_cast<int>(i)).trace();
+      if (m_blocked_for[i] > 0) inertia += FROZEN * m_matrix.diagonal(static_cast<int>(i)).trace();
       m_matrix.add_isotropic_diagonal(static_cast<int>(i), inertia);
       m_rhs[i] = m_force[i] + o.inertia * m_mesh.mass[i] / o.h * m_v[i];
     }
@@ -387,7 +387,7 @@ StepResult ClothSolver::step(const StepOptions& o) {
   if (o.guard_energy && o.inertia > 0 && !o.line_search && gains(o)) return newton_step(o, StepOptions::GUARD_SOLVES, true);
   if (o.line_search) {
     result.halvings = search_along(o);
-    freeze_held(result.halvings > 0, o.momentum);
+    block_held_particles(result.halvings > 0, o.momentum);
     if (o.momentum) m_carried_for = result.halvings > 0 ? 0 : m_carried_for + 1;
     else forget();
     m_last_dx = m_dx;

@@ -44,7 +44,7 @@ struct StepOptions {
   /// With line_search: near equilibrium, at 95 % of the forces below a mean weight, use the full (indefinite) Hessian with conjugate gradients that end
   /// at a trust radius of a fifth of an edge (Steihaug 1983), instead of the projected one. Where cloth has buckled the negative parts are about as
   /// large as the positive ones, and steps without them are short. Pays from 10,000 particles on; at 3000 a tenth fewer steps take as long.
-  bool whole_near_rest = false;
+  bool full_hessian_near_rest = false;
   double largest_move_m = 0.05; ///< no particle moves farther in one step
 };
 
@@ -78,7 +78,7 @@ public:
   StepResult step(const StepOptions& options);
   /// Searches now for what the next step of h seconds would search for first: for callers that have time now and none later. The step
   /// is the same with and without.
-  void look_ahead(double h);
+  void prefetch_contacts(double h);
   /// Instead of smoothed aggregation. @param preconditioner  not null
   void set_preconditioner(std::unique_ptr<Preconditioner> preconditioner) { m_preconditioner = std::move(preconditioner); }
 
@@ -92,10 +92,10 @@ public:
     for (std::size_t i = 0; i < m_x.size(); ++i) m_x[i] += dx[i], m_v[i] += dv[i];
   }
   /// Lets go what a line search keeps in place for a while, a pinch that would stop all other cloth. @return whether there was any
-  bool thaw() {
+  bool release_blocked_particles() {
     const std::vector<int> none(m_x.size(), 0);
-    const bool any = m_frozen_for != none;
-    m_freeze = m_frozen_for = none;
+    const bool any = m_blocked_for != none;
+    m_block_for = m_blocked_for = none;
     return any;
   }
   void stop() {
@@ -123,7 +123,7 @@ private:
   bool goes_round() const;
   int search_along(const StepOptions& options);
   void forget(); ///< of the way so far; what was learnt holds no more
-  void freeze_held(bool search_failed, bool momentum);
+  void block_held_particles(bool search_failed, bool momentum);
   /// Of the squares of m_rhs, by particle, which it leaves in m_residual: 95th percentile and sum, N2.
   bool assembled_finite() const;
   std::array<double, 2> measure_rhs();
@@ -143,7 +143,7 @@ private:
   ContactIndex m_contacts; // of m_elements
   MotionLimits m_limits;
   std::vector<char> m_held, m_trial_held;
-  std::vector<int> m_freeze, m_frozen_for; // #P, steps: of the last freeze; still to go
+  std::vector<int> m_block_for, m_blocked_for; // #P, steps: of the last freeze; still to go
   std::vector<double> m_residual;
   double m_mean_edge = 0, m_mean_weight = 0; // of a particle; m, N
   BlockMatrix m_matrix, m_whole;

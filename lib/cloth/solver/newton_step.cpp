@@ -75,7 +75,7 @@ StepResult ClothSolver::newton_step(const StepOptions& o, int most_solves, bool 
   };
   StepResult result;
   result.newton_iterations = 0;
-  m_limits.planes_follow = true;
+  m_limits.planes_translate = true;
   m_held.assign(n, 0);
   m_trial.resize(n), m_trial_dx.resize(n);
   const double done2 = static_cast<double>(n) * std::pow(GRADIENT_DONE * m_mean_weight, 2);

@@ -7,7 +7,7 @@
 #include <collision/body_collider.hpp>
 #include <garment/body_model/body_shrink.hpp>
 #include <garment/body_model/coarse_skin.hpp>
-#include <garment/body_model/covered_skin.hpp>
+#include <garment/body_model/extremity_hulls.hpp>
 #include <garment/body_model/under_arms.hpp>
 #include <garment/garment.hpp>
 #include <io/json_fwd.hpp>
@@ -21,7 +21,7 @@ class CollisionBody {
 public:
   /// What a checkpoint keeps. All else follows from it and from the body.
   struct State {
-    unsigned covered = 0;    ///< of CoveredSkin::Ends: hulls stand for them, since cloth is near
+    unsigned covered = 0;    ///< of ExtremityHulls::Ends: hulls stand for them, since cloth is near
     bool full_skin = false;  ///< no coarser one from now on
     bool arms_aside = false; ///< forearms and hands are out of the way until the garment hangs
     bool shrunk = false;     ///< the body was drawn in at some time
@@ -41,11 +41,11 @@ public:
   const collision::BodyCollider* collider() const { return m_collider ? &*m_collider : nullptr; }
   const State& state() const { return m_state; }
 
-  /// Makes the collider of the body at its full size, with hulls for the ends and a coarser skin where that pays. @param covered of CoveredSkin::Ends
+  /// Makes the collider of the body at its full size, with hulls for the ends and a coarser skin where that pays. @param covered of ExtremityHulls::Ends
   void prepare(unsigned covered);
   /// Makes all as a checkpoint says, without the positions that only the phase knows. @param garment  whose sleeves leave forearms in the way
   void restore(const State& state, const Garment& garment);
-  /// Ends that have any of these points beside or beyond them, of CoveredSkin::Ends. @param points m
+  /// Ends that have any of these points beside or beyond them, of ExtremityHulls::Ends. @param points m
   unsigned ends_near(const std::vector<Vec3>& points) const;
   /// The skin itself from now on: no hull, nothing coarse.
   void use_full_skin();
@@ -83,7 +83,7 @@ private:
   Reporter& m_reporter;
   State m_state;
   std::optional<collision::BodyCollider> m_collider;
-  std::optional<CoveredSkin> m_covered;
+  std::optional<ExtremityHulls> m_extremity_hulls;
   std::optional<CoarseSkin> m_coarse;
   std::optional<BodyShrink> m_shrink;
   std::optional<Forearms> m_forearms;

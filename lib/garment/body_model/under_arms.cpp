@@ -1,7 +1,7 @@
 #include <garment/body_model/under_arms.hpp>
 
 #include <collision/triangle_tree.hpp>
-#include <garment/body_model/covered_skin.hpp>
+#include <garment/body_model/extremity_hulls.hpp>
 
 #include <algorithm>
 #include <string>
@@ -103,7 +103,7 @@ std::size_t bring_under_arms(std::vector<Vec3>& positions, const std::vector<cha
     if (!on_arms[i]) hanging.push_back(i), points.push_back(positions[i]);
   const Forearms forearms(body);
   if (hanging.empty() || !forearms.are_near(points)) return 0;
-  const CoveredSkin covered(body, CoveredSkin::HANDS);
+  const ExtremityHulls covered(body, ExtremityHulls::HANDS);
   std::vector<Triangle> outer = forearms.triangles(), inner;
   for (std::size_t f = 0; f < covered.mesh().triangles.size(); ++f) {
     const Triangle& t = covered.mesh().triangles[f];

@@ -55,7 +55,7 @@ private:
     const std::vector<Vec3> hung = m_garment.position;
     answer(FOLLOW_ANSWER_ITERATIONS);
     m_session.set_positions(hung);
-    m_session.look_ahead(m_settings.time_step_s);
+    m_session.prefetch_contacts(m_settings.time_step_s);
     m_live.warm_up();
     m_session.forget_simulated_time();
   }
@@ -141,7 +141,7 @@ private:
 
   void show(const FollowFrame& f) {
     if (m_source.on_frame) m_source.on_frame(f, m_garment);
-    m_session.look_ahead(m_settings.time_step_s); // while no edit waits
+    m_session.prefetch_contacts(m_settings.time_step_s); // while no edit waits
   }
 
   FollowFrame next_frame() {

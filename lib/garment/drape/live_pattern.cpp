@@ -1,6 +1,6 @@
 #include <base/error.hpp>
 #include <garment/drape/live_pattern.hpp>
-#include <garment/retarget/carry.hpp>
+#include <garment/retarget/state_transfer.hpp>
 #include <io/json.hpp>
 #include <pattern/mesh/folds.hpp>
 #include <pattern/place/place_panels.hpp>
@@ -66,7 +66,7 @@ bool LivePattern::adopt(pattern::Pattern next) {
   ready_follower();
   const bool follows = m_follower->follow(next, m_garment.panels, LEAST_ANGLE_DEG);
   if (!follows) {
-    carry_to(m_garment, mesh_of(next));
+    transfer_state(m_garment, mesh_of(next));
     m_follower.reset(); // made when there is time
     m_untaped.clear();  // it counted old triangles
   }

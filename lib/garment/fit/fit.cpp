@@ -335,7 +335,7 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
   return report;
 }
 
-FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before) {
+FitBounds early_termination_bounds(const FitPolicy& policy, const FitReport& before) {
   return {CERTAIN_SLIP * before.slip_borne_m, CERTAIN_STRAIN * policy.strain_p99(before.garment_class, before.fabric), before.margin_m < 0};
 }
 

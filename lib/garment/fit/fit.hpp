@@ -31,7 +31,7 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
 
 /// Bounds for a drape beyond which the garment will not fit by the policy: a tenth more slip and half as much strain again as it bears.
 /// @param before  of fit_before_drape(), for the class, the fabric and the least ease
-FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before);
+FitBounds early_termination_bounds(const FitPolicy& policy, const FitReport& before);
 
 /// Whether a garment can go on at all, before any drape: only girths, and the top edge of what hangs from the waist, that the cloth does not
 /// reach round. That is so where the girth is too small by the policy though the garment slides 6 cm up or down, which no tight cloth does, or, to

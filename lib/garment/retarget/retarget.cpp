@@ -8,7 +8,7 @@
 #include <garment/bind/bind_frames.hpp>
 #include <garment/bind/bind_laplacian.hpp>
 #include <garment/bind/body_sides.hpp>
-#include <garment/body_model/covered_skin.hpp>
+#include <garment/body_model/extremity_hulls.hpp>
 #include <garment/body_model/under_arms.hpp>
 #include <garment/fit/cloth_strain.hpp>
 #include <garment/retarget/retarget_grade.hpp>
@@ -136,7 +136,7 @@ private:
   const Eigen::SparseMatrix<double>& m_stiffness;
 };
 
-/// Makes the pattern of `source` over for where its cloth lies on the other body. @param longer  regrade()'s let_out
+/// Makes the pattern of `source` over for where its cloth lies on the other body. @param longer  regrade()'s widen_strained_pieces
 void grade(Retargeted& result, const Garment& source, const std::vector<Vec3>& after, const body::Body& to, const std::vector<Vec2>& longer = {}) {
   GradeSides sides;
   for (const SideDifference& d : uneven_sides(to)) sides.apart[d.limb] += (sides.apart[d.limb].empty() ? "" : ", ") + d.text;
@@ -268,7 +268,7 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
   std::optional<collision::BodyCollider> mittens;
   if (const std::size_t moved = bring_under_arms(g.position, hanging_on_arms(g.bind), to, g.offset_m); moved > 0) {
     reporter.info(std::to_string(moved) + " particles were placed in hands or forearms or beyond them: now between those and the body");
-    mittens.emplace(collision::make_collider(CoveredSkin(to, CoveredSkin::HANDS).mesh(), to.skin_cache.get()));
+    mittens.emplace(collision::make_collider(ExtremityHulls(to, ExtremityHulls::HANDS).mesh(), to.skin_cache.get()));
   }
   const collision::BodyCollider& met = mittens ? *mittens : skin;
   const std::vector<Triangle> triangles = g.particle_triangles();
@@ -304,7 +304,7 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
   return result;
 }
 
-void let_out(Retargeted& worn, const Garment& source, const body::Body& to) {
+void widen_strained_pieces(Retargeted& worn, const Garment& source, const body::Body& to) {
   const auto beyond = [](double strain) { return std::log1p(std::max(strain, EASY_STRAIN)) - std::log1p(EASY_STRAIN); };
   const std::vector<TriangleStrain> then = triangle_strains(source, source.position), now = triangle_strains(worn.garment, worn.garment.position);
   std::vector<Vec2> longer;

@@ -31,7 +31,7 @@ struct PlacementReport {
   double settled_p01 = 0, settled_p50 = 0, settled_p99 = 0; ///< the same after settle_shape()
   double largest_move_m = 0;                                ///< of settle_shape()
   int mirrored_panels = 0;                                  ///< keep-fit: graded together with their mirror images
-  int gradings = 0;                                         ///< keep-fit: by retarget() and let_out()
+  int gradings = 0;                                         ///< keep-fit: by retarget() and widen_strained_pieces()
   std::vector<std::string> findings;                        ///< keep-fit: of the last regrade()
 };
 io::Json placement_json(const PlacementReport& report);
@@ -75,6 +75,6 @@ Retargeted retarget(const Garment& garment, const body::Body& to, const collisio
 /// slides a little from where it was placed, and a narrow girth then lies where the body is wide; what is tight on the first body would be tight on any.
 /// What hangs in folds keeps the lengths that it has. Another drape, a short one, is to follow.
 /// @param worn  of retarget(), its garment draped on `to`; in and out   @param source  what retarget() was given
-void let_out(Retargeted& worn, const Garment& source, const body::Body& to);
+void widen_strained_pieces(Retargeted& worn, const Garment& source, const body::Body& to);
 
 } // namespace sloper::garment

@@ -98,9 +98,9 @@ Eigen::SparseMatrix<double> matrix_of(const std::vector<Eigen::Triplet<double>>&
 }
 
 /// A panel as it is, with the stretch that its cloth is to follow.
-/// @param let_out  #F: by what warp and weft are to be longer besides, or empty
+/// @param widen_strained_pieces  #F: by what warp and weft are to be longer besides, or empty
 PanelLayout stretched_panel(const Garment& garment, const pattern::PanelInfo& panel, const std::vector<Vec3>& before, const std::vector<Vec3>& after,
-                            const std::vector<Vec2>& let_out) {
+                            const std::vector<Vec2>& widen_strained_pieces) {
   PanelLayout layout;
   layout.panel = &panel;
   const int n = panel.n_vertices;
@@ -131,7 +131,7 @@ PanelLayout stretched_panel(const Garment& garment, const pattern::PanelInfo& pa
     }
     Eigen::RowVector2d value;
     for (int axis = 0; axis < 2; ++axis) value[axis] = std::log(std::clamp(now.col(axis).norm() / std::max(then.col(axis).norm(), 1e-9), 0.2, 5.0));
-    if (!let_out.empty()) value += let_out[panel.first_triangle + f].transpose();
+    if (!widen_strained_pieces.empty()) value += widen_strained_pieces[panel.first_triangle + f].transpose();
     for (const int i : local) {
       right.row(i) += shape.area / 3 * value;
       for (const int j : local) means.emplace_back(i, j, shape.area / 9);
@@ -337,14 +337,14 @@ std::string limb_of(const Garment& garment, const pattern::PanelInfo& panel) {
 }
 
 GradeReport regrade(Garment& garment, const std::vector<Vec3>& before, const std::vector<Vec3>& after, const GradeSides& sides,
-                    const std::vector<Vec2>& let_out) {
+                    const std::vector<Vec2>& widen_strained_pieces) {
   GradeReport report;
   std::vector<PanelLayout> layouts;
   std::vector<int> layout_of_vertex(garment.panels.pattern.size(), -1);
   for (const pattern::PanelInfo& panel : garment.panels.panels) {
     if (panel.n_vertices == 0 || panel.n_triangles == 0) continue;
     for (int i = 0; i < panel.n_vertices; ++i) layout_of_vertex[panel.first_vertex + i] = static_cast<int>(layouts.size());
-    layouts.push_back(stretched_panel(garment, panel, before, after, let_out));
+    layouts.push_back(stretched_panel(garment, panel, before, after, widen_strained_pieces));
   }
   const std::vector<PanelMirror> mirrors = mirrors_of(garment, layouts, before, sides);
   for (const PanelMirror& mirror : mirrors) report.mirrored_panels += mirror.partner >= 0;

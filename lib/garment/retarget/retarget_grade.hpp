@@ -29,9 +29,9 @@ struct GradeReport {
 /// between a panel and its mirror image (center front, center back) leaves its line only where nothing else gives way; the seams' stated
 /// lengths are measured again. Stops after 1000 rounds at most; seams that then differ are among the findings.
 /// @param before, after  #P by 3, m; `before` on a body that faces +z with its left at +x
-/// @param let_out  #F, the logarithm of what weft and warp of a triangle are to be longer by besides; or empty
+/// @param widen_strained_pieces  #F, the logarithm of what weft and warp of a triangle are to be longer by besides; or empty
 GradeReport regrade(Garment& garment, const std::vector<Vec3>& before, const std::vector<Vec3>& after, const GradeSides& sides = {},
-                    const std::vector<Vec2>& let_out = {});
+                    const std::vector<Vec2>& widen_strained_pieces = {});
 
 /// "arm", "leg" or "torso": where most of a panel hangs.
 std::string limb_of(const Garment& garment, const pattern::PanelInfo& panel);

@@ -62,7 +62,7 @@ void DrapeSession::start_outside_body(bool unsewn) {
   const Garment& garment = m_context.cloth.garment();
   const bool sewn_on_legs = unsewn && !placed_on(garment, "leg").empty();
   if (unsewn && m_context.cloth.is_active("body_contact")) body.find_arms_aside(garment);
-  body.prepare(body.ends_near(garment.position) | (body.state().arms_aside ? CoveredSkin::HANDS : 0u));
+  body.prepare(body.ends_near(garment.position) | (body.state().arms_aside ? ExtremityHulls::HANDS : 0u));
   body.put_arms_aside();
   const std::size_t violations = m_context.resolver.count_in_body();
   if (violations == 0 && sewn_on_legs) body.draw_in(SEW_LEG_SCALE);

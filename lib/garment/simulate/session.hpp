@@ -48,7 +48,7 @@ public:
   bool stopped() const { return m_context.stepper.stopped(); }
   const cloth::StepResult& last_step() const { return m_context.stepper.last(); }
   /// Searches now for what the next step of h seconds would search for first.
-  void look_ahead(double h) { m_context.cloth.solver().look_ahead(h); }
+  void prefetch_contacts(double h) { m_context.cloth.solver().prefetch_contacts(h); }
   /// @param x #P by 3, m
   void set_positions(const std::vector<Vec3>& x);
   /// The garment has other rest lengths under the same particles: it goes on in place.

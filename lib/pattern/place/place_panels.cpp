@@ -70,12 +70,12 @@ void Placer::place_all() {
 
 void Placer::make_rings() {
   m_in_ring.assign(m_roles.size(), 0);
-  m_rings = GoreRing::find(m_mesh, m_graph, m_roles, m_spots);
+  m_rings = GoreRow::find(m_mesh, m_graph, m_roles, m_spots);
   std::vector<Vec3> skin;
   for (std::size_t v = 0; v < m_space.parts().size() && !m_rings.empty(); ++v)
     if (const body::Part part = m_space.parts()[v]; part == body::Part::TORSO || part == body::Part::LEG_L || part == body::Part::LEG_R)
       skin.push_back(m_space.body().skin.positions[v]);
-  for (const GoreRing& ring : m_rings) {
+  for (const GoreRow& ring : m_rings) {
     m_ring_tubes.emplace_back(ring, skin);
     for (const Gore& g : ring.gores) m_in_ring[g.panel] = 1;
   }

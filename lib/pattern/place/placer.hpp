@@ -125,7 +125,7 @@ private:
   double m_raised = 0;
   int m_innermost = 0;               ///< layer
   std::optional<LegTube> m_tubes[2]; ///< right, left
-  std::vector<GoreRing> m_rings;
+  std::vector<GoreRow> m_rings;
   std::vector<GoreTube> m_ring_tubes;
   std::vector<char> m_in_ring; ///< of each panel
 };

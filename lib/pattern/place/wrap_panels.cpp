@@ -212,7 +212,7 @@ std::vector<SleeveBend> Placer::sleeve_bends(const PanelGroup& group, const Axis
 
 void Placer::place_gores(std::size_t index) {
   constexpr double INTO_SKIRT = 0.15; // m below the waist over which a dress goes over to the tube
-  const GoreRing& ring = m_rings[index];
+  const GoreRow& ring = m_rings[index];
   GoreTube& tube = m_ring_tubes[index];
   double extra = 0;
   for (const Gore& g : ring.gores) extra = std::max(extra, m_groups[m_group_of[g.panel]].extra);

@@ -251,7 +251,7 @@ private:
     std::vector<std::vector<std::size_t>> beside(m_roles.size());
     const auto untold = [&](std::size_t k) {
       const auto& hint = m_pattern.panels[k].hint;
-      return m_roles[k].region == Region::TRUNK && m_roles[k].side != Side::RING && !hint.rigid && hint.part.empty() && !says_front(m_words[k]) &&
+      return m_roles[k].region == Region::TRUNK && m_roles[k].side != Side::RING && !hint.rigid && hint.part.empty() && !name_suggests_front(m_words[k]) &&
              !says_back(m_words[k]);
     };
     for (std::size_t k = 0; k < m_roles.size(); ++k)

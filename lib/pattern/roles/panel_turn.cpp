@@ -91,7 +91,7 @@ private:
 
   bool side_known(std::size_t k) const {
     const Words words = words_of(m_pattern.panels[k].name);
-    return m_pattern.panels[k].hint.rigid || !m_pattern.panels[k].hint.part.empty() || says_front(words) || says_back(words);
+    return m_pattern.panels[k].hint.rigid || !m_pattern.panels[k].hint.part.empty() || name_suggests_front(words) || says_back(words);
   }
 
   /// The turn that goes best with the seams to panels that stand.

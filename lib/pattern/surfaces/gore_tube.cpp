@@ -8,7 +8,7 @@ namespace sloper::pattern {
 
 constexpr double GODET_GAP = 0.02; // m of half width over which the room beside a godet opens
 
-GoreTube::GoreTube(const GoreRing& ring, const std::vector<Vec3>& skin) : m_ring(ring) {
+GoreTube::GoreTube(const GoreRow& ring, const std::vector<Vec3>& skin) : m_ring(ring) {
   const std::size_t n = static_cast<std::size_t>(std::ceil((ring.top - ring.bottom) / STEP)) + 2;
   m_skin.assign(n, empty_ring());
   for (const Vec3& p : skin)

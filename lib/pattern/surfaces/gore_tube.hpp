@@ -1,7 +1,7 @@
 #pragma once
 /// The surface that a ring of gores starts on: a tube around the trunk that widens as its cloth does, no steeper than a skirt hangs; what
 /// is wider than that is laid in folds. Every row of cloth goes around as a whole, seam to seam.
-#include <pattern/layout/gore_ring.hpp>
+#include <pattern/layout/gore_row.hpp>
 #include <pattern/surfaces/section_ring.hpp>
 
 namespace sloper::pattern {
@@ -10,7 +10,7 @@ class GoreTube {
 public:
   /// @param ring it is kept as a reference
   /// @param skin points of the trunk (x to the left, y up, z forwards)
-  GoreTube(const GoreRing& ring, const std::vector<Vec3>& skin);
+  GoreTube(const GoreRow& ring, const std::vector<Vec3>& skin);
 
   /// Lays out the tube.
   /// @param gap        m, between skin and cloth
@@ -38,7 +38,7 @@ private:
   Vec2 on(const Row& row, std::size_t gore, double along, double out) const;
 
   static constexpr double STEP = 0.01; ///< m between rows
-  const GoreRing& m_ring;
+  const GoreRow& m_ring;
   std::vector<Ring> m_skin; ///< support functions: all skin from the top down to each row
   Vec2 m_center = Vec2::Zero();
   std::vector<Row> m_rows;

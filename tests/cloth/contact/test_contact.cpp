@@ -105,11 +105,12 @@ TEST(Contact, PotentialHasTheForceAndStiffnessOfItsEnergy) {
   const double reach = 0.003, k = 40;
   for (double d : {2e-5, 1e-4, 3e-4, 8e-4, 0.0012, 0.0025, 0.0029}) {
     const double eps = 1e-5 * d;
-    const Push above = push_of(d + eps, reach, k), at = push_of(d, reach, k), below = push_of(d - eps, reach, k);
+    const ContactResponse above = evaluate_contact_potential(d + eps, reach, k), at = evaluate_contact_potential(d, reach, k),
+                          below = evaluate_contact_potential(d - eps, reach, k);
     EXPECT_NEAR(at.force, -(above.energy - below.energy) / (2 * eps), 1e-4 * at.force + 1e-12) << d;
     EXPECT_NEAR(at.stiffness, -(above.force - below.force) / (2 * eps), 1e-2 * at.stiffness + 1e-12) << d;
   }
-  EXPECT_EQ(push_of(reach, reach, k).force, 0);
+  EXPECT_EQ(evaluate_contact_potential(reach, reach, k).force, 0);
 }
 
 TEST(Contact, ForceOfTheBodyIsTheGradientOfItsEnergy) {
@@ -147,7 +148,7 @@ TEST(Contact, EachLevelSeesWhatTheOneBeforeSeesAndMore) {
     const double up = upward(filled);
     if (level == ContactLevel::CONTINUOUS) EXPECT_GE(up, last);
     else EXPECT_GT(up, 1.01 * last) << static_cast<int>(level);
-    EXPECT_EQ(filled.limits.guards.empty(), level != ContactLevel::CONTINUOUS);
+    EXPECT_EQ(filled.limits.planes.empty(), level != ContactLevel::CONTINUOUS);
     last = up;
   }
 }
@@ -207,7 +208,7 @@ TEST(Contact, WhatIsNotLookedAtIsNeitherFeltNorPassed) {
   for (Vec3& p : grid.x) p += Vec3(0.02, 0.0045, -0.02); // seen, but beyond the reach
   BodyContactEffect contact(grid.mesh, body, {});
   Filled filled = fill_alone(contact, grid); // the search has told how far off all pairs are
-  EXPECT_TRUE(filled.limits.guards.empty());
+  EXPECT_TRUE(filled.limits.planes.empty());
 
   std::vector<Vec3> low = grid.x;
   for (Vec3& p : low) p.y() = 0.0025; // no farther than pairs are seen ahead
@@ -219,10 +220,10 @@ TEST(Contact, WhatIsNotLookedAtIsNeitherFeltNorPassed) {
   EXPECT_NEAR(contact.energy(low), there.energy(low), 1e-12 * there.energy(low));
 
   std::vector<Vec3> dx(grid.x.size(), Vec3(0, -0.001, 0));
-  EXPECT_FALSE(contact.guard_motion(grid.x, dx, filled.limits, false)) << "far too short to reach the skin";
+  EXPECT_FALSE(contact.add_separating_planes(grid.x, dx, filled.limits, false)) << "far too short to reach the skin";
   dx.assign(grid.x.size(), Vec3(0, -0.03, 0));
-  EXPECT_TRUE(contact.guard_motion(grid.x, dx, filled.limits, false));
-  filled.limits.most.assign(grid.x.size(), 1); // of planes alone
+  EXPECT_TRUE(contact.add_separating_planes(grid.x, dx, filled.limits, false));
+  filled.limits.max_displacement.assign(grid.x.size(), 1); // of planes alone
   std::vector<char> held(grid.x.size(), 0);
   filled.limits.apply(grid.x, dx, held);
   for (std::size_t i = 0; i < dx.size(); ++i) EXPECT_GT(grid.x[i].y() + dx[i].y(), 0.001);
@@ -339,8 +340,8 @@ TEST(Contact, WhatCrossedIsGuardedAsAllElseOnceItIsParted) {
   contact.refresh();
   const Filled parted = fill(contact, n, s.x, matrix), expected = fill(fresh, n, s.x, matrix);
   EXPECT_TRUE(contact.crossings().empty());
-  EXPECT_GT(expected.limits.guards.size(), 0u);
-  EXPECT_EQ(parted.limits.guards.size(), expected.limits.guards.size());
+  EXPECT_GT(expected.limits.planes.size(), 0u);
+  EXPECT_EQ(parted.limits.planes.size(), expected.limits.planes.size());
   EXPECT_EQ(parted.force, expected.force);
 }
 
@@ -360,7 +361,7 @@ TEST(Contact, LookingAheadChangesNoStep) {
       for (int k = 0; k < 20; ++k) {
         solver.step({});
         const long searches = skin.searches;
-        if (look) solver.look_ahead(StepOptions{}.h);
+        if (look) solver.prefetch_contacts(StepOptions{}.h);
         ahead += skin.searches - searches;
       }
       end[look] = solver.x();
@@ -379,16 +380,16 @@ TEST_P(ContactFrom, ClothThatMeetsClothInOneStepDoesNotPassIt) {
   ClothSolver solver(s.mesh, s.x);
   solver.emplace<EdgeSpringEffect>(s.mesh);
   auto& contact = solver.emplace<SelfContactEffect>(s.mesh, SelfContactOptions{});
-  struct Push : Effect { // drives the upper sheet down and the lower one up
+  struct ContactResponse : Effect { // drives the upper sheet down and the lower one up
     const ClothMesh& mesh;
-    explicit Push(const ClothMesh& m) : mesh(m) {}
+    explicit ContactResponse(const ClothMesh& m) : mesh(m) {}
     const char* name() const override { return "push"; }
     void add(StepContext& c) override {
       const std::size_t n = c.force.size();
       for (std::size_t i = 0; i < n; ++i) c.force[i] += mesh.mass[i] * Vec3(0, i < n / 2 ? 60 : -60, 0);
     }
   };
-  solver.emplace<Push>(s.mesh);
+  solver.emplace<ContactResponse>(s.mesh);
   StepOptions options;
   options.inertia = 1;
   options.largest_move_m = 1;
@@ -410,9 +411,9 @@ INSTANTIATE_TEST_SUITE_P(beyond_the_search_radius_and_within_it_but_too_far_to_r
 TEST(Contact, LimitsKeepPlanesAndLengths) {
   MotionLimits limits;
   limits.reset(2);
-  limits.guards.push_back({1, 1, {0, 0, 0, 0}, Vec3::UnitY(), 0.5, 0});
-  limits.guards.push_back({1, 0, {1, 0, 0, 0}, Vec3::UnitX(), 0, 0.2});
-  limits.most[1] = 0.15;
+  limits.planes.push_back({1, 1, {0, 0, 0, 0}, Vec3::UnitY(), 0.5, 0});
+  limits.planes.push_back({1, 0, {1, 0, 0, 0}, Vec3::UnitX(), 0, 0.2});
+  limits.max_displacement[1] = 0.15;
   const std::vector<Vec3> x = {{0, 1, 0}, {0, 0, 0}};
   std::vector<Vec3> dx = {{0.3, -2, 0}, {1, 0, 1}};
   std::vector<char> held(2, 0);
@@ -427,10 +428,10 @@ TEST(Contact, LimitsKeepPlanesAndLengths) {
 TEST(Contact, PlanesThatFollowStopOnlyWhatWouldMeet) {
   MotionLimits limits;
   limits.reset(2);
-  limits.guards.push_back({2, 1, {0, 1, 0, 0}, Vec3::UnitY(), 0.55, 0.45});
+  limits.planes.push_back({2, 1, {0, 1, 0, 0}, Vec3::UnitY(), 0.55, 0.45});
   const std::vector<Vec3> x = {{0, 1, 0}, {0, 0, 0}};
   const auto limited = [&](double above, double below, bool follow) {
-    limits.planes_follow = follow;
+    limits.planes_translate = follow;
     std::vector<Vec3> dx = {{0.1, above, 0}, {-0.1, below, 0}};
     std::vector<char> held(2, 0);
     limits.apply(x, dx, held);
@@ -458,11 +459,11 @@ TEST(Contact, PlanesThatFollowLeaveTheElementsOnTheirSides) {
     for (Vec3& p : x) p = point();
     for (Vec3& d : dx) d = wind + 0.5 * point();
     MotionLimits limits;
-    limits.planes_follow = true;
+    limits.planes_translate = true;
     limits.reset(N);
-    for (int i = 0; i < N; i += 7) limits.most[i] = 0.2;
+    for (int i = 0; i < N; i += 7) limits.max_displacement[i] = 0.2;
     for (int g = 0; g < 60; ++g) { // planes that present positions keep, between one and three or two and two, and some that stay
-      PlaneGuard guard;
+      SeparatingPlane guard;
       guard.n = 4;
       guard.n_above = g % 10 == 0 ? 4 : 1 + g % 2;
       for (int k = 0; k < 4; ++k) guard.particle[k] = static_cast<int>(random() % N);
@@ -473,13 +474,13 @@ TEST(Contact, PlanesThatFollowLeaveTheElementsOnTheirSides) {
         if (k < guard.n_above) guard.above = std::min(guard.above, height - 0.02);
         else guard.below = std::max(guard.below, height + 0.02);
       }
-      if (guard.n_above == 4 || guard.above >= guard.below) limits.guards.push_back(guard);
+      if (guard.n_above == 4 || guard.above >= guard.below) limits.planes.push_back(guard);
     }
     const std::vector<Vec3> wanted = dx;
     std::vector<char> held(N, 0);
     limits.apply(x, dx, held);
-    for (int i = 0; i < N; ++i) EXPECT_LE(dx[i].norm(), std::min(wanted[i].norm(), limits.most[i]) + 1e-9);
-    for (const PlaneGuard& g : limits.guards) {
+    for (int i = 0; i < N; ++i) EXPECT_LE(dx[i].norm(), std::min(wanted[i].norm(), limits.max_displacement[i]) + 1e-9);
+    for (const SeparatingPlane& g : limits.planes) {
       double most = 1e300, least = -1e300;
       for (int k = 0; k < 4; ++k) {
         const double way = g.normal.dot(x[g.particle[k]] + dx[g.particle[k]]);
@@ -535,7 +536,7 @@ TEST(BodyContact, skin_that_keeps_to_its_room_never_passes_the_cloth) {
   std::vector<Vec3> moved = skin.positions;
   const std::vector<Triangle> triangles = cloth.mesh.particle_triangles();
   for (int k = 0; k < 30; ++k) {
-    const std::vector<double> room = contact.skin_room(solver.x());
+    const std::vector<double> room = contact.max_safe_skin_displacement(solver.x());
     for (std::size_t v = 0; v < moved.size(); ++v) moved[v].y() += room[v]; // up, into the cloth
     contact.move_body(moved, solver.x());
     EXPECT_TRUE(body.faces_through(solver.x(), triangles).empty());

@@ -95,7 +95,7 @@ TEST(TriangleStretch, one_percent_compression_makes_the_assembled_exact_matrix_i
       BlockMatrix matrix(g.mesh.n_particles, couplings);
       effect->bind(matrix);
       force_of(*effect, g.mesh.n_particles, scaled(g.x, 0.99), matrix);
-      if (exact) effect->add_left_out(scaled(g.x, 0.99), matrix);
+      if (exact) effect->add_indefinite_part(scaled(g.x, 0.99), matrix);
       const double h = 1.0 / 30; // with the inertia of the paper's own step
       for (int i = 0; i < g.mesh.n_particles; ++i) matrix.add_diagonal(i, g.mesh.mass[i] / (h * h) * Mat3::Identity());
       const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(matrix)).eigenvalues()[0];

@@ -168,7 +168,7 @@ TEST(BodyMotion, what_was_found_out_holds_where_cloth_goes_with_the_skin_beside_
         const double to_side = random.uniform(-1, 1), up_or_down = random.uniform(-1, 1);
         carry.push_back(turning(p, lower, 0) + 3e-4 * Vec3(to_side, up_or_down, 0));
       }
-      const double share = contact.effect.free_share(grid.x, way, carry);
+      const double share = contact.effect.collision_free_step_fraction(grid.x, way, carry);
       ASSERT_GT(share, 0);
       for (std::size_t v = 0; v < positions.size(); ++v) positions[v] += share * way[v];
       for (Vec3& c : carry) c *= share;

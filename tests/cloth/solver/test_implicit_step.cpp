@@ -37,7 +37,7 @@ Rest come_to_rest(double inset, bool momentum, bool whole = false) {
   options.cg_tolerance = 0.03;
   options.line_search = true;
   options.momentum = momentum;
-  options.whole_near_rest = whole;
+  options.full_hessian_near_rest = whole;
   Rest rest;
   while (!rest.reached && ++rest.steps < 2000) {
     const StepResult step = solver.step(options);
@@ -121,7 +121,7 @@ TEST(LineSearch, lets_go_of_a_wedged_particle_when_asked) {
   ClothSolver solver(cloth.mesh, start);
   solver.emplace<HalfKnownSpring>(cloth.x);
   Effect& wedge = solver.emplace<Wedge>();
-  EXPECT_FALSE(solver.thaw()) << "nothing was kept in place yet";
+  EXPECT_FALSE(solver.release_blocked_particles()) << "nothing was kept in place yet";
   StepOptions options;
   options.h = 100;
   options.line_search = true;
@@ -130,8 +130,8 @@ TEST(LineSearch, lets_go_of_a_wedged_particle_when_asked) {
   solver.emplace<PinsEffect>(std::vector<Pin>{{0, cloth.x[0] + Vec3(0, 0.01, 0)}});
   solver.step(options);
   EXPECT_LT(solver.x()[0].y(), 2e-4);
-  EXPECT_TRUE(solver.thaw());
-  EXPECT_FALSE(solver.thaw()) << "all was let go";
+  EXPECT_TRUE(solver.release_blocked_particles());
+  EXPECT_FALSE(solver.release_blocked_particles()) << "all was let go";
   solver.step(options);
   EXPECT_GT(solver.x()[0].y(), 0.005);
 }

@@ -2,7 +2,7 @@
 
 #include <garment/drape/follow.hpp>
 #include <garment/garment_json.hpp>
-#include <garment/retarget/carry.hpp>
+#include <garment/retarget/state_transfer.hpp>
 #include <garment/simulate/audit.hpp>
 #include <gtest/gtest.h>
 #include <io/json.hpp>

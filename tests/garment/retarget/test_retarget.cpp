@@ -165,8 +165,8 @@ TEST(retarget, cloth_is_graded_as_near_to_the_skin_as_it_was_placed) {
 TEST(retarget, strain_is_waited_for_longer_where_no_girth_is_tight) {
   const body::Body body = measured("f-165-a");
   const FitPolicy policy = standard_fit_policy();
-  const FitBounds loose = hopeless_beyond(policy, before_drape(bound(skin_shirt(body, 0.03), body), body));
-  const FitBounds tight = hopeless_beyond(policy, before_drape(bound(skin_shirt(body, 0.004, 0.05), body), body));
+  const FitBounds loose = early_termination_bounds(policy, before_drape(bound(skin_shirt(body, 0.03), body), body));
+  const FitBounds tight = early_termination_bounds(policy, before_drape(bound(skin_shirt(body, 0.004, 0.05), body), body));
   EXPECT_FALSE(loose.tight);
   EXPECT_TRUE(tight.tight);
   EXPECT_GT(tight.strain_p99, policy.strain_p99("top", ""));
@@ -341,14 +341,14 @@ std::vector<double> widths_over(const Garment& graded, const Garment& before) {
   return widths;
 }
 
-TEST(let_out, cloth_is_cut_wider_where_it_came_to_be_stretched_and_nowhere_else) {
+TEST(widen_strained_pieces, cloth_is_cut_wider_where_it_came_to_be_stretched_and_nowhere_else) {
   const Garment source = sewn_tube(0.15, 0.4, 0.6);
   Retargeted worn;
   worn.garment = source;
   const auto wider = [](double y) { return 1 + 0.08 * std::exp(-std::pow((y - 0.8) / 0.05, 2)); };
   for (Vec3& p : worn.garment.position) p.x() *= wider(p.y()), p.z() *= wider(p.y());
   worn.garment.converged = true;
-  let_out(worn, source, body::Body());
+  widen_strained_pieces(worn, source, body::Body());
   EXPECT_FALSE(worn.garment.converged);
   EXPECT_EQ(worn.report.gradings, 1);
   const std::vector<double> widths = widths_over(worn.garment, source);
@@ -359,7 +359,7 @@ TEST(let_out, cloth_is_cut_wider_where_it_came_to_be_stretched_and_nowhere_else)
   EXPECT_NEAR(widths[12], 1, 0.005);
 }
 
-TEST(let_out, cloth_that_was_tight_on_its_first_body_is_not_cut_as_tight_again) {
+TEST(widen_strained_pieces, cloth_that_was_tight_on_its_first_body_is_not_cut_as_tight_again) {
   const Garment source = [] {
     Garment g = sewn_tube(0.15, 0.4, 0.6);
     for (Vec3& p : g.position) p.x() *= 1.04, p.z() *= 1.04;
@@ -367,15 +367,15 @@ TEST(let_out, cloth_that_was_tight_on_its_first_body_is_not_cut_as_tight_again) 
   }();
   Retargeted worn;
   worn.garment = source;
-  let_out(worn, source, body::Body());
+  widen_strained_pieces(worn, source, body::Body());
   for (const double w : widths_over(worn.garment, source)) EXPECT_NEAR(w, std::pow(1.04 / 1.01, 3), 0.003);
 }
 
-TEST(let_out, cloth_that_nothing_stretches_keeps_its_pattern) {
+TEST(widen_strained_pieces, cloth_that_nothing_stretches_keeps_its_pattern) {
   const Garment source = sewn_tube(0.15, 0.4, 0.6);
   Retargeted worn;
   worn.garment = source;
-  let_out(worn, source, body::Body());
+  widen_strained_pieces(worn, source, body::Body());
   for (const double w : widths_over(worn.garment, source)) EXPECT_NEAR(w, 1, 0.001);
 }
 

@@ -43,7 +43,7 @@ bool InflatePhase::is_done(const SimContext& context) const {
 
 void InflatePhase::move_skin(SimContext& context) {
   const std::vector<Vec3> target = context.body.skin_at(context.body.state().scale);
-  const std::vector<double> room = context.cloth.body_contact()->skin_room(context.cloth.x());
+  const std::vector<double> room = context.cloth.body_contact()->max_safe_skin_displacement(context.cloth.x());
   m_state.skin_lag_m = 0;
   for (std::size_t v = 0; v < m_skin.size(); ++v) {
     const Vec3 displacement = target[v] - m_skin[v];

@@ -101,7 +101,7 @@ bool SettlePhase::release_blocked(SimContext& context) {
   for (const Vec3& p : x) height += p.y() / static_cast<double>(x.size());
   if (m_state.release_height_m && std::abs(height - *m_state.release_height_m) < SUNK) return false;
   m_state.release_height_m = height;
-  return context.cloth.solver().thaw();
+  return context.cloth.solver().release_blocked_particles();
 }
 
 /// A monotone energy descent moves cloth that slides or sways, and has folds to pass, by a tenth of a millimetre a step, for hundreds of steps. With
@@ -121,7 +121,7 @@ void SettlePhase::look_for_drift(SimContext& context) {
   const double drift = std::sqrt(squares / static_cast<double>(x.size()));
   context.telemetry.reporter.info("settle step " + std::to_string(k) + ": went " + millimetres_text(drift) + " in " + std::to_string(PROBE_STEPS) + " steps");
   if (drift < DRIFTS) return;
-  context.cloth.solver().thaw();
+  context.cloth.solver().release_blocked_particles();
   context.cloth.solver().stop();
   m_state.dynamic_steps = DYNAMIC_STEPS;
   m_state.h = DYNAMIC_STEP_S;

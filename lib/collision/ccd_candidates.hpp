@@ -3,19 +3,19 @@
 /// both yields no pair, however fast.
 ///
 /// Two trees of one shape, over positions and over displacements, bound both at every node, so that a node's speed does not count for an element that
-/// moves with all of the node. Test: tests/collision/test_closing_pairs.cpp
+/// moves with all of the node. Test: tests/collision/test_ccd_candidates.cpp
 #include <collision/topology.hpp>
 #include <collision/triangle_tree.hpp>
 #include <cstdint>
 namespace sloper::collision {
 
-class ClosingPairs {
+class CcdCandidates {
 public:
   /// A pair may close this share of its distance before it counts.
   static constexpr double SHARE = 0.9;
 
   /// Both outlive this.
-  ClosingPairs(const std::vector<Triangle>& triangles, const Topology& topology) : m_triangles(triangles), m_topology(topology) {}
+  CcdCandidates(const std::vector<Triangle>& triangles, const Topology& topology) : m_triangles(triangles), m_topology(topology) {}
 
   /// Every pair that straight motion from x to x + dx, or the same part of it for all, could close by more than SHARE of its
   /// distance and to within 0.1 mm. Pairs that share a particle never count.

@@ -1,4 +1,4 @@
-#include <collision/closing_pairs.hpp>
+#include <collision/ccd_candidates.hpp>
 
 #include <collision/chunks.hpp>
 
@@ -50,7 +50,7 @@ template<class Listed> void mark_nodes(const TriangleTree& tree, std::vector<std
 /// @param lanes  null, or those children of every node that are looked at
 template<class Visit>
 void visit_meeting(const TriangleTree& tree, const TriangleTree& motion, const Moving& e, int first, const std::uint8_t* lanes, Visit&& visit) {
-  const Float4 zero = Float4::all(0), stretch = Float4::all(static_cast<float>(1 / ClosingPairs::SHARE));
+  const Float4 zero = Float4::all(0), stretch = Float4::all(static_cast<float>(1 / CcdCandidates::SHARE));
   int stack[128], top = 0;
   stack[top++] = 0;
   while (top > 0) {
@@ -90,7 +90,7 @@ template<class Find> void collect(std::size_t n, Pairs& out, const Find& find) {
 
 } // namespace
 
-void ClosingPairs::refit(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool again) {
+void CcdCandidates::refit(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool again) {
   if (m_faces.n_slots() == 0 && !m_triangles.empty()) {
     m_faces = TriangleTree(x, m_triangles);
     std::vector<Triangle> flat;
@@ -107,7 +107,7 @@ void ClosingPairs::refit(const std::vector<Vec3>& x, const std::vector<Vec3>& dx
 }
 
 /// Whose pairs are looked for: what is marked or, if that is less, what has changed.
-void ClosingPairs::choose(const std::vector<Vec3>& dx, const std::vector<char>& may_meet, bool again) {
+void CcdCandidates::choose(const std::vector<Vec3>& dx, const std::vector<char>& may_meet, bool again) {
   m_chosen = may_meet;
   if (again) {
     std::vector<char> changed(dx.size());
@@ -125,7 +125,7 @@ void ClosingPairs::choose(const std::vector<Vec3>& dx, const std::vector<char>& 
   });
 }
 
-void ClosingPairs::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, const std::vector<char>& may_meet, bool again) {
+void CcdCandidates::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, const std::vector<char>& may_meet, bool again) {
   m_vertex_face.clear();
   m_edge_edge.clear();
   if (m_triangles.empty()) return;

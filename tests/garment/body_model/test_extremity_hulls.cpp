@@ -1,7 +1,7 @@
 /// Convex shells around hands.
 #include <base/random.hpp>
 #include <collision/predicates.hpp>
-#include <garment/body_model/covered_skin.hpp>
+#include <garment/body_model/extremity_hulls.hpp>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -10,7 +10,7 @@ using namespace sloper;
 
 namespace {
 
-TEST(CoveredSkin, HullIsClosedOutwardAndHoldsAllPoints) {
+TEST(ExtremityHulls, HullIsClosedOutwardAndHoldsAllPoints) {
   Random random(7);
   std::vector<Vec3> points;
   for (int i = 0; i < 400; ++i) {
@@ -34,17 +34,17 @@ TEST(CoveredSkin, HullIsClosedOutwardAndHoldsAllPoints) {
   }
 }
 
-TEST(CoveredSkin, PointsInAPlaneHaveNoHull) {
+TEST(ExtremityHulls, PointsInAPlaneHaveNoHull) {
   EXPECT_TRUE(garment::convex_hull_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.3, 0.2, 0}}).empty());
   EXPECT_TRUE(garment::convex_hull_of({{0, 0, 0}, {1, 0, 0}}).empty());
 }
 
-TEST(CoveredSkin, BodyWithoutHandsStaysAsItIs) {
+TEST(ExtremityHulls, BodyWithoutHandsStaysAsItIs) {
   body::Body body;
   body.skin.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   body.skin.triangles = {{0, 1, 2}};
   body.face_part = {body::Part::ARM_L};
-  const garment::CoveredSkin covered(body, garment::CoveredSkin::HANDS | garment::CoveredSkin::FEET);
+  const garment::ExtremityHulls covered(body, garment::ExtremityHulls::HANDS | garment::ExtremityHulls::FEET);
   EXPECT_FALSE(covered.has_shells());
   EXPECT_EQ(covered.positions(body.skin.positions), body.skin.positions);
   EXPECT_EQ(covered.concerned({{0, 0, 0}}), 0u);
@@ -70,10 +70,10 @@ body::Body foot() {
   return body;
 }
 
-TEST(CoveredSkin, ToesAreInAShellThatTheKneeIsNotIn) {
-  using garment::CoveredSkin;
+TEST(ExtremityHulls, ToesAreInAShellThatTheKneeIsNotIn) {
+  using garment::ExtremityHulls;
   const body::Body body = foot();
-  const CoveredSkin covered(body, CoveredSkin::HANDS | CoveredSkin::FEET);
+  const ExtremityHulls covered(body, ExtremityHulls::HANDS | ExtremityHulls::FEET);
   ASSERT_TRUE(covered.has_shells());
   EXPECT_EQ(covered.positions(body.skin.positions), covered.mesh().positions);
   const auto& p = covered.mesh().positions;
@@ -82,8 +82,8 @@ TEST(CoveredSkin, ToesAreInAShellThatTheKneeIsNotIn) {
     EXPECT_GT(collision::orientation(p[t[0]], p[t[1]], p[t[2]], Vec3(0, 0.01, 0.19)), 0) << "what is between the toes is in it";
     for (int v : t) EXPECT_LT(p[v].y(), 0.1) << "the knee is not";
   }
-  EXPECT_FALSE(CoveredSkin(body, CoveredSkin::HANDS).has_shells());
-  EXPECT_EQ(covered.concerned({{0, 0.01, 0.19}}), unsigned{CoveredSkin::FEET});
+  EXPECT_FALSE(ExtremityHulls(body, ExtremityHulls::HANDS).has_shells());
+  EXPECT_EQ(covered.concerned({{0, 0.01, 0.19}}), unsigned{ExtremityHulls::FEET});
   EXPECT_EQ(covered.concerned({{0, 0.3, 0.19}, {0, 0.05, 0.01}}), 0u) << "over the knee and behind the ball";
 }
 

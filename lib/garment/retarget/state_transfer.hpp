@@ -9,6 +9,6 @@ namespace sloper::garment {
 /// materials of panels are kept; rest_scale and bind, which count old vertices, are emptied.
 /// Where the new mesh is open and the old one was not, both sides go back by a millimetre, so that they do not start in one place.
 /// Cost: new vertices; those beside the old panel times its triangles, and free edges squared.
-void carry_to(Garment& garment, pattern::PanelMesh mesh);
+void transfer_state(Garment& garment, pattern::PanelMesh mesh);
 
 } // namespace sloper::garment

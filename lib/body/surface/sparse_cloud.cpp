@@ -1,5 +1,5 @@
 #include <body/surface/point_grid.hpp>
-#include <body/surface/thin_cloud.hpp>
+#include <body/surface/sparse_cloud.hpp>
 
 #include <Eigen/Eigenvalues>
 

@@ -1,5 +1,5 @@
 #include <base/units.hpp>
-#include <pattern/layout/gore_ring.hpp>
+#include <pattern/layout/gore_row.hpp>
 #include <pattern/layout/leg_layout.hpp>
 #include <pattern/surfaces/section_ring.hpp>
 
@@ -100,8 +100,8 @@ public:
       if (fits(k)) find_links(k);
   }
 
-  std::vector<GoreRing> run() {
-    std::vector<GoreRing> rings;
+  std::vector<GoreRow> run() {
+    std::vector<GoreRow> rings;
     std::vector<char> met(m_roles.size(), 0);
     for (std::size_t k = 0; k < m_roles.size(); ++k) {
       if (met[k] || !fits(k)) continue;
@@ -226,7 +226,7 @@ private:
     return most;
   }
 
-  std::optional<GoreRing> ring_of(const std::vector<std::size_t>& row) const {
+  std::optional<GoreRow> ring_of(const std::vector<std::size_t>& row) const {
     const std::size_t n = row.size();
     bool flared = false;
     std::vector<std::pair<std::size_t, bool>> order; // and whether it is a godet
@@ -239,7 +239,7 @@ private:
       if (m_roles[p].side == m_roles[q].side) flared = flared || flare(p, q) > FLARE;
     }
     if (!flared) return std::nullopt;
-    GoreRing ring;
+    GoreRow ring;
     ring.top = -1e300, ring.bottom = 1e300;
     for (const auto& [k, godet] : order) {
       std::vector<Vec2> sides[2];
@@ -264,7 +264,7 @@ private:
   }
 
   /// All of them are taken for fronts, or for backs: the first keeps where it looks, and the others go on from there.
-  static void look_around(GoreRing& ring) {
+  static void look_around(GoreRow& ring) {
     double around = 0, at = 0;
     for (const Gore& g : ring.gores) around += 2 * g.half_width(ring.top);
     const double first = ring.gores[0].half_width(ring.top), looks = ring.gores[0].side == Side::BACK ? units::PI : 0;
@@ -283,7 +283,7 @@ private:
 
 } // namespace
 
-std::vector<GoreRing> GoreRing::find(const PanelMesh& mesh, const SeamGraph& graph, const std::vector<PanelRole>& roles, const std::vector<PanelSpot>& spots) {
+std::vector<GoreRow> GoreRow::find(const PanelMesh& mesh, const SeamGraph& graph, const std::vector<PanelRole>& roles, const std::vector<PanelSpot>& spots) {
   return Finder(mesh, graph, roles, spots).run();
 }
 

@@ -1,4 +1,4 @@
-#include <garment/retarget/carry.hpp>
+#include <garment/retarget/state_transfer.hpp>
 #include <garment/sewing.hpp>
 
 #include <algorithm>
@@ -142,7 +142,7 @@ void part_free_edges(const std::vector<Triangle>& triangles, std::vector<Vec3>& 
 
 } // namespace
 
-void carry_to(Garment& garment, pattern::PanelMesh mesh) {
+void transfer_state(Garment& garment, pattern::PanelMesh mesh) {
   const pattern::PanelMesh& old = garment.panels;
   std::vector<Vec3> position(mesh.pattern.size());
   for (pattern::PanelInfo& panel : mesh.panels) {

@@ -1,5 +1,5 @@
 #include <collision/predicates.hpp>
-#include <garment/body_model/covered_skin.hpp>
+#include <garment/body_model/extremity_hulls.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +65,7 @@ std::vector<Triangle> convex_hull_of(const std::vector<Vec3>& p) {
   return hull;
 }
 
-CoveredSkin::CoveredSkin(const body::Body& body, unsigned ends) : m_mesh(body.skin) {
+ExtremityHulls::ExtremityHulls(const body::Body& body, unsigned ends) : m_mesh(body.skin) {
   struct Candidate {
     Ends end;
     body::Part part;
@@ -107,13 +107,13 @@ CoveredSkin::CoveredSkin(const body::Body& body, unsigned ends) : m_mesh(body.sk
   m_mesh.positions = positions(body.skin.positions);
 }
 
-std::vector<Vec3> CoveredSkin::positions(const std::vector<Vec3>& skin) const {
+std::vector<Vec3> ExtremityHulls::positions(const std::vector<Vec3>& skin) const {
   std::vector<Vec3> all = skin;
   for (std::size_t i = 0; i < m_source.size(); ++i) all.push_back(skin[m_source[i]] + m_outward[i]);
   return all;
 }
 
-unsigned CoveredSkin::concerned(const std::vector<Vec3>& points) const {
+unsigned ExtremityHulls::concerned(const std::vector<Vec3>& points) const {
   unsigned ends = 0;
   for (const Shell& shell : m_shells)
     for (const Vec3& p : points) {

@@ -1,12 +1,12 @@
 #pragma once
 /// A uniform grid of bounds of the skin's displacement: a query near the hip can ignore the large displacement of a moving hand.
 ///
-/// Each cube keeps the bounds of the displacements of all triangles whose bounding boxes meet it. Test: tests/collision/test_skin_ways.cpp
+/// Each cube keeps the bounds of the displacements of all triangles whose bounding boxes meet it. Test: tests/collision/test_displacement_bounds.cpp
 #include <geometry/triangle_mesh.hpp>
 
 namespace sloper::collision {
 
-class SkinWays {
+class DisplacementBounds {
 public:
   /// Forgets what was. Cost: O(#F) and the cubes of the region, of which there are no more than 2^17; allocates only to grow.
   /// @param way  #V by 3, m   @param region  skin that does not meet it is left out   @param radius  that will be asked for, about: cost only
@@ -16,7 +16,7 @@ public:
   static double farthest(const Box3& ways, const Vec3& carry);
   /// An upper bound of |way - carry| over all skin in the region that comes nearer to `place` than `radius`, from where it is at first; 0 without
   /// any. Cost: O(1) at the radius that was told
-  double longest_against(const Vec3& carry, const Vec3& place, double radius) const;
+  double max_relative_displacement(const Vec3& carry, const Vec3& place, double radius) const;
 
   static constexpr double CELL = 0.03; ///< m, edge of a cube, or half the radius; more where the region is wide
 

@@ -33,12 +33,12 @@ private:
 };
 
 /// Gores one after the other as u runs: from the wearer's right to the left in front, and back again behind.
-struct GoreRing {
+struct GoreRow {
   std::vector<Gore> gores;
   double top = 0, bottom = 0; ///< heights of the first and the last row, m
 
   /// Rings, and open rows, that have flare in seams other than those between front and back.
-  static std::vector<GoreRing> find(const PanelMesh& mesh, const SeamGraph& graph, const std::vector<PanelRole>& roles, const std::vector<PanelSpot>& spots);
+  static std::vector<GoreRow> find(const PanelMesh& mesh, const SeamGraph& graph, const std::vector<PanelRole>& roles, const std::vector<PanelSpot>& spots);
 };
 
 } // namespace sloper::pattern

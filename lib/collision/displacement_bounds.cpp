@@ -1,4 +1,4 @@
-#include <collision/skin_ways.hpp>
+#include <collision/displacement_bounds.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,18 +16,18 @@ void merge(Box3& box, const Box3& other) {
 
 } // namespace
 
-double SkinWays::farthest(const Box3& ways, const Vec3& carry) {
+double DisplacementBounds::farthest(const Box3& ways, const Vec3& carry) {
   if (ways.empty()) return 0;
   return (carry - ways.low).cwiseAbs().cwiseMax((ways.high - carry).cwiseAbs()).norm();
 }
 
-std::array<int, 3> SkinWays::cube_of(const Vec3& place) const {
+std::array<int, 3> DisplacementBounds::cube_of(const Vec3& place) const {
   std::array<int, 3> cube{};
   for (int a = 0; a < 3; ++a) cube[a] = static_cast<int>(std::clamp(std::floor((place[a] - m_low[a]) / m_cell), 0.0, m_n[a] - 1.0));
   return cube;
 }
 
-void SkinWays::build(const TriangleMesh& skin, const std::vector<Vec3>& way, const Box3& region, double radius) {
+void DisplacementBounds::build(const TriangleMesh& skin, const std::vector<Vec3>& way, const Box3& region, double radius) {
   m_all = {};
   m_low = region.low;
   m_cell = std::max(CELL, 0.5 * radius);
@@ -48,7 +48,7 @@ void SkinWays::build(const TriangleMesh& skin, const std::vector<Vec3>& way, con
   }
 }
 
-double SkinWays::longest_against(const Vec3& carry, const Vec3& place, double radius) const {
+double DisplacementBounds::max_relative_displacement(const Vec3& carry, const Vec3& place, double radius) const {
   if (m_all.empty()) return 0;
   const Vec3 around = Vec3::Constant(radius);
   const std::array<int, 3> first = cube_of(place - around), last = cube_of(place + around);
