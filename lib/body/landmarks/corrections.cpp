@@ -14,7 +14,8 @@ constexpr double UNIT = 1e-5; ///< of stature: the document's weights are whole 
 constexpr double MOST = 0.03; ///< of stature: a correction is no larger along any axis
 constexpr double BEYOND = 3;  ///< standard deviations: farther out a feature counts no more
 constexpr double FAR = 6;     ///< and for the unlikeness no more than this
-/// Standard deviations at which a body begins to be unlike those learned from, and at which it is not corrected.
+/// Standard deviations at which a body begins to be unlike those learned from, and at which it is
+/// not corrected.
 constexpr double UNLIKE = 1.7, STRANGE = 2.4;
 
 } // namespace
@@ -32,15 +33,20 @@ const Corrections& Corrections::none() {
 Corrections Corrections::parse(const std::string& text, const std::string& name) {
   const io::Json document = io::parse_json(text, name);
   const io::Node root(document, name);
-  if (root.string("format", "") != "landmark-corrections") root.fail("is not a landmark-corrections document");
+  if (root.string("format", "") != "landmark-corrections")
+    root.fail("is not a landmark-corrections document");
   Corrections corrections;
   const io::Node features = root.at("features");
   const std::vector<std::string>& known = shape_feature_names();
   if (features.size() == 0) return corrections;
-  if (features.size() != known.size()) features.fail("are not those of this program", "derive the corrections anew: scripts/derive-corrections");
+  if (features.size() != known.size())
+    features.fail("are not those of this program",
+                  "derive the corrections anew: scripts/derive-corrections");
   for (std::size_t k = 0; k < known.size(); ++k) {
     const io::Node feature = features.at(k);
-    if (feature.at(std::size_t{0}).string() != known[k]) feature.fail("is not \"" + known[k] + "\"", "derive the corrections anew: scripts/derive-corrections");
+    if (feature.at(std::size_t{0}).string() != known[k])
+      feature.fail("is not \"" + known[k] + "\"",
+                   "derive the corrections anew: scripts/derive-corrections");
     corrections.m_features.push_back({feature.at(1).number(), feature.at(2).number()});
   }
   const io::Node points = root.at("points");
@@ -53,13 +59,15 @@ Corrections Corrections::parse(const std::string& text, const std::string& name)
       if (list.size() != known.size() + 1) list.fail("has not one weight for each feature");
       Weights& weights = corrections.m_points[place][axis];
       weights.bias = UNIT * list.at(std::size_t{0}).number();
-      for (std::size_t k = 1; k < list.size(); ++k) weights.of_feature.push_back(UNIT * list.at(k).number());
+      for (std::size_t k = 1; k < list.size(); ++k)
+        weights.of_feature.push_back(UNIT * list.at(k).number());
     }
   }
   return corrections;
 }
 
-/// A feature in standard deviations from the mean; 0 where it is not shown. Of both sides the mean, for a landmark in the middle.
+/// A feature in standard deviations from the mean; 0 where it is not shown. Of both sides the mean,
+/// for a landmark in the middle.
 double Corrections::scaled(const ShapeFeatures& features, int side, std::size_t k) const {
   auto of = [&](int which) {
     const double z = (features.side[which][k] - m_features[k].mean) / m_features[k].sd;
@@ -89,7 +97,8 @@ Vec3 Corrections::offset(const std::string& place, const ShapeFeatures& features
     const Weights& weights = it->second[axis];
     if (weights.of_feature.empty()) continue;
     double sum = weights.bias;
-    for (std::size_t k = 0; k < weights.of_feature.size(); ++k) sum += weights.of_feature[k] * std::clamp(scaled(features, side, k), -BEYOND, BEYOND);
+    for (std::size_t k = 0; k < weights.of_feature.size(); ++k)
+      sum += weights.of_feature[k] * std::clamp(scaled(features, side, k), -BEYOND, BEYOND);
     offset[axis] = trust * std::clamp(sum, -MOST, MOST);
   }
   if (side < 0) offset.x() = 0;

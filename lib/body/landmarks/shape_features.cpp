@@ -9,12 +9,12 @@ namespace sloper::body {
 namespace {
 
 constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
-constexpr int TRUNK_LEVELS = 8;                                       ///< between the crotch and TRUNK_TOP
-constexpr double TRUNK_TOP = 0.755;                                   ///< of stature: about the arm pits
+constexpr int TRUNK_LEVELS = 8;     ///< between the crotch and TRUNK_TOP
+constexpr double TRUNK_TOP = 0.755; ///< of stature: about the arm pits
 constexpr double UPPER[] = {0.78, 0.80, 0.82, 0.84, 0.86, 0.88, 0.9}; ///< of stature
 constexpr double LEG[] = {0.2, 0.35, 0.5, 0.65, 0.8, 0.95};           ///< of the crotch's height
-constexpr double ARM[] = {0.35, 0.5, 0.65, 0.8, 0.95};                ///< of the traced arm from the hand
-constexpr double MIDDLE = 0.008;                                      ///< of stature: half breadth of the middle strip
+constexpr double ARM[] = {0.35, 0.5, 0.65, 0.8, 0.95}; ///< of the traced arm from the hand
+constexpr double MIDDLE = 0.008; ///< of stature: half breadth of the middle strip
 
 /// Front and back of a loop near x = 0.
 struct Depth {
@@ -36,7 +36,8 @@ Depth depth_of(const std::optional<Loop>& loop, double half) {
 /// Numbers and, the first time, their names.
 class Row {
 public:
-  Row(std::vector<double>& values, std::vector<std::string>& names) : m_values(values), m_names(names) {}
+  Row(std::vector<double>& values, std::vector<std::string>& names)
+      : m_values(values), m_names(names) {}
   void add(const std::string& name, double value) {
     m_values.push_back(value);
     m_names.push_back(name);
@@ -47,7 +48,9 @@ private:
   std::vector<std::string>& m_names;
 };
 
-std::string numbered(const char* name, double of) { return std::string(name) + "_" + std::to_string(static_cast<int>(std::lround(100 * of))); }
+std::string numbered(const char* name, double of) {
+  return std::string(name) + "_" + std::to_string(static_cast<int>(std::lround(100 * of)));
+}
 
 void add_trunk(Row& row, const LevelStack& levels, double sign) {
   const double s = levels.stature(), crotch = *levels.crotch();
@@ -56,10 +59,13 @@ void add_trunk(Row& row, const LevelStack& levels, double sign) {
     const auto& loop = levels.trunk_at(crotch + part * (TRUNK_TOP * s - crotch));
     const Depth depth = depth_of(loop, MIDDLE * s);
     // farther up arms may hang on it
-    if (k < TRUNK_LEVELS - 1) row.add(numbered("trunk_breadth", part), loop ? std::min(loop->size().x() / s, 0.4) : NONE);
+    if (k < TRUNK_LEVELS - 1)
+      row.add(numbered("trunk_breadth", part), loop ? std::min(loop->size().x() / s, 0.4) : NONE);
     row.add(numbered("trunk_front", part), depth.front / s);
     row.add(numbered("trunk_back", part), depth.back / s);
-    if (k == 4 || k == 6) row.add(numbered("trunk_aside", part), loop ? std::clamp(sign * loop->center().x() / s, -0.1, 0.1) : NONE);
+    if (k == 4 || k == 6)
+      row.add(numbered("trunk_aside", part),
+              loop ? std::clamp(sign * loop->center().x() / s, -0.1, 0.1) : NONE);
   }
   for (const double part : UPPER) {
     const Depth depth = depth_of(levels.trunk_at(part * s), MIDDLE * s);
@@ -69,7 +75,8 @@ void add_trunk(Row& row, const LevelStack& levels, double sign) {
   for (const double part : {0.86, 0.88, 0.9, 0.94, 0.97}) {
     const auto& loop = levels.trunk_at(part * s);
     row.add(numbered("head_breadth", part), loop ? std::min(loop->size().x() / s, 0.2) : NONE);
-    row.add(numbered("head_aside", part), loop ? std::clamp(sign * loop->center().x() / s, -0.1, 0.1) : NONE);
+    row.add(numbered("head_aside", part),
+            loop ? std::clamp(sign * loop->center().x() / s, -0.1, 0.1) : NONE);
     if (part > 0.9) row.add(numbered("head_depth", part), loop ? loop->size().y() / s : NONE);
     if (part > 0.9) row.add(numbered("head_before", part), loop ? loop->center().y() / s : NONE);
   }
@@ -106,17 +113,21 @@ void add_arm(Row& row, const LevelStack& levels, const ArmTrace& arm) {
       row.add(numbered("arm_girth", part), NONE);
       continue;
     }
-    const auto at = std::lower_bound(arm.sections.begin(), arm.sections.end(), part * end, [](const LimbSection& a, double x) { return a.along < x; });
-    row.add(numbered("arm_girth", part), (at == arm.sections.end() ? arm.sections.back() : *at).girth / s);
+    const auto at = std::lower_bound(arm.sections.begin(), arm.sections.end(), part * end,
+                                     [](const LimbSection& a, double x) { return a.along < x; });
+    row.add(numbered("arm_girth", part),
+            (at == arm.sections.end() ? arm.sections.back() : *at).girth / s);
   }
-  const Vec3 fore = is_there ? Vec3((arm.at(0.35 * end) - arm.at(0.5 * end)).normalized()) : Vec3::Constant(NONE);
+  const Vec3 fore =
+      is_there ? Vec3((arm.at(0.35 * end) - arm.at(0.5 * end)).normalized()) : Vec3::Constant(NONE);
   row.add("forearm_x", sign * fore.x());
   row.add("forearm_y", fore.y());
   row.add("forearm_z", fore.z());
   row.add("forearm_bent", is_there ? std::acos(std::clamp(fore.dot(arm.out), -1.0, 1.0)) : NONE);
 }
 
-/// Height of the highest skin in the strip at `x` to `x` + breadth on one side, below the head: the slope of the shoulder.
+/// Height of the highest skin in the strip at `x` to `x` + breadth on one side, below the head: the
+/// slope of the shoulder.
 void add_shoulder(Row& row, const LevelStack& levels, double sign) {
   const double s = levels.stature();
   constexpr double ACROSS[] = {0.045, 0.06, 0.08, 0.1, 0.12};
@@ -124,7 +135,8 @@ void add_shoulder(Row& row, const LevelStack& levels, double sign) {
   for (const Vec3& p : levels.skin().positions) {
     if (p.y() > 0.87 * s || p.y() < 0.7 * s) continue;
     for (int k = 0; k < 5; ++k)
-      if (std::abs(sign * p.x() - ACROSS[k] * s) < 0.006 * s && !(p.y() <= top[k])) top[k] = p.y(), depth[k] = p.z();
+      if (std::abs(sign * p.x() - ACROSS[k] * s) < 0.006 * s && !(p.y() <= top[k]))
+        top[k] = p.y(), depth[k] = p.z();
   }
   for (int k = 0; k < 5; ++k) {
     row.add(numbered("shoulder_top", 10 * ACROSS[k]), top[k] / s);
@@ -132,7 +144,8 @@ void add_shoulder(Row& row, const LevelStack& levels, double sign) {
   }
 }
 
-std::vector<double> row_of(const LevelStack& levels, const std::array<ArmTrace, 2>& arms, double female, int side, std::vector<std::string>& names) {
+std::vector<double> row_of(const LevelStack& levels, const std::array<ArmTrace, 2>& arms,
+                           double female, int side, std::vector<std::string>& names) {
   std::vector<double> values;
   Row row(values, names);
   const double s = levels.stature(), sign = side == 0 ? 1 : -1;
@@ -161,11 +174,13 @@ const std::vector<std::string>& shape_feature_names() {
   return names;
 }
 
-ShapeFeatures shape_features(const LevelStack& levels, const std::array<ArmTrace, 2>& arms, double female) {
+ShapeFeatures shape_features(const LevelStack& levels, const std::array<ArmTrace, 2>& arms,
+                             double female) {
   ShapeFeatures features;
   std::vector<std::string> unused;
   for (int side = 0; side < 2; ++side)
-    features.side[side] = levels.crotch() ? row_of(levels, arms, female, side, unused) : std::vector<double>(shape_feature_names().size(), NONE);
+    features.side[side] = levels.crotch() ? row_of(levels, arms, female, side, unused)
+                                          : std::vector<double>(shape_feature_names().size(), NONE);
   return features;
 }
 

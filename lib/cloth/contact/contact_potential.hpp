@@ -1,10 +1,13 @@
 #pragma once
-/// The potential of a near pair of elements, of skin and cloth or of cloth and cloth, over their distance d:
+/// The potential of a near pair of elements, of skin and cloth or of cloth and cloth, over their
+/// distance d:
 ///   E = k (r - d)^3 / (6 r)                                 for d < r, the reach
-///     + BARRIER_STIFFNESS k / 2 (F(b) - F(d)), F(d) = b^2 ln d - 2 b d + d^2 / 2   for d < b = BARRIER_BEGINS r
-/// Force and stiffness grow from 0 at the reach, so that pairs that come and go do not kick; a Newton step from the deep side does
-/// not overshoot; and as d -> 0 the barrier grows without end, so that cloth in a pinch finds a place between both walls
-/// (a logarithmic barrier as in Li et al. 2020, "Incremental Potential Contact"). Test: tests/cloth/contact/test_contact.cpp
+///     + BARRIER_STIFFNESS k / 2 (F(b) - F(d)), F(d) = b^2 ln d - 2 b d + d^2 / 2   for d < b =
+///     BARRIER_BEGINS r
+/// Force and stiffness grow from 0 at the reach, so that pairs that come and go do not kick; a
+/// Newton step from the deep side does not overshoot; and as d -> 0 the barrier grows without end,
+/// so that cloth in a pinch finds a place between both walls (a logarithmic barrier as in Li et al.
+/// 2020, "Incremental Potential Contact"). Test: tests/cloth/contact/test_contact.cpp
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +19,8 @@ struct ContactResponse {
 };
 
 inline constexpr double BARRIER_BEGINS = 0.3, BARRIER_STIFFNESS = 20;
-/// Below this share of the reach the barrier grows no more; no step brings elements nearer than that.
+/// Below this share of the reach the barrier grows no more; no step brings elements nearer than
+/// that.
 inline constexpr double LEAST_DISTANCE = 1e-4;
 
 /// @param d m, >= 0   @param reach m   @param k N/m
@@ -29,7 +33,9 @@ inline ContactResponse evaluate_contact_potential(double d, double reach, double
   p.stiffness = k * depth / reach;
   if (d >= begins) return p;
   const double kb = BARRIER_STIFFNESS * k, e = std::max(d, LEAST_DISTANCE * reach);
-  p.energy += 0.5 * kb * (begins * begins * std::log(begins / e) - 2 * begins * (begins - e) + 0.5 * (begins * begins - e * e));
+  p.energy += 0.5 * kb *
+              (begins * begins * std::log(begins / e) - 2 * begins * (begins - e) +
+               0.5 * (begins * begins - e * e));
   p.force += 0.5 * kb * (begins - e) * (begins - e) / e;
   p.stiffness += 0.5 * kb * (begins * begins - e * e) / (e * e);
   return p;

@@ -13,11 +13,13 @@ void MotionLimits::reset(std::size_t n_particles) {
   max_displacement.assign(n_particles, std::numeric_limits<double>::infinity());
 }
 
-void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std::vector<char>& held) const {
+void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx,
+                         std::vector<char>& held) const {
   constexpr double ROUNDING = 1e-12; // m
   std::vector<double> share(dx.size()), length(dx.size());
   for (std::size_t i = 0; i < dx.size(); ++i) length[i] = dx[i].norm();
-  // by how much particle k of a guard may still come towards the plane where it is, and its motion that way
+  // by how much particle k of a guard may still come towards the plane where it is, and its motion
+  // that way
   const auto room = [&](const SeparatingPlane& g, int k) {
     const double height = g.normal.dot(x[g.particle[k]]);
     return std::max(0.0, k < g.n_above ? height - g.above : g.below - height);
@@ -30,21 +32,26 @@ void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std:
     int guard;
     bool stays;
   };
-  std::vector<Active> active; // planes that some particle's motion could reach; lengths never grow below
+  std::vector<Active>
+      active; // planes that some particle's motion could reach; lengths never grow below
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const SeparatingPlane& g = planes[k];
     bool reach = false;
     for (int p = 0; p < g.n && !reach; ++p) reach = room(g, p) < length[g.particle[p]];
-    if (reach) active.push_back({static_cast<int>(k), !planes_translate || g.n_above == 0 || g.n_above == g.n});
+    if (reach)
+      active.push_back(
+          {static_cast<int>(k), !planes_translate || g.n_above == 0 || g.n_above == g.n});
   }
-  // How far a plane may go along its normal: at least `least` for what is below it, at most `most` for what is above.
+  // How far a plane may go along its normal: at least `least` for what is below it, at most `most`
+  // for what is above.
   struct Way {
     double least, most;
   };
   const auto way_of = [&](const SeparatingPlane& g) {
     Way way{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     for (int k = 0; k < g.n_above; ++k) way.most = std::min(way.most, room(g, k) - toward(g, k));
-    for (int k = g.n_above; k < g.n; ++k) way.least = std::max(way.least, toward(g, k) - room(g, k));
+    for (int k = g.n_above; k < g.n; ++k)
+      way.least = std::max(way.least, toward(g, k) - room(g, k));
     return way;
   };
   for (int round = 0; round < ROUNDS; ++round)
@@ -64,7 +71,8 @@ void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std:
         held[i] = 1;
       }
     }
-  // Towards planes that stay, less of a way is free too. So where the ways of a pair still cross, its plane stays.
+  // Towards planes that stay, less of a way is free too. So where the ways of a pair still cross,
+  // its plane stays.
   for (bool more = true; more;) {
     more = false;
     std::fill(share.begin(), share.end(), 1);
@@ -77,7 +85,8 @@ void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std:
       }
       for (int k = 0; k < g.n; ++k) {
         const double have = room(g, k), along = toward(g, k);
-        if (along > have + ROUNDING) share[g.particle[k]] = std::min(share[g.particle[k]], have / along);
+        if (along > have + ROUNDING)
+          share[g.particle[k]] = std::min(share[g.particle[k]], have / along);
       }
     }
     for (std::size_t i = 0; i < dx.size(); ++i) {

@@ -1,11 +1,14 @@
 #pragma once
-/// Deflated conjugate gradients: recycles the last solutions as a basis W, so that recurring soft modes are not resolved again (Nicolaides 1987; from
-/// one system to the next: Saad, Yeung, Erhel and Guyomarc'h 2000, "A deflated version of the conjugate gradient algorithm").
+/// Deflated conjugate gradients: recycles the last solutions as a basis W, so that recurring soft
+/// modes are not resolved again (Nicolaides 1987; from one system to the next: Saad, Yeung, Erhel
+/// and Guyomarc'h 2000, "A deflated version of the conjugate gradient algorithm").
 ///
-/// Steps to rest solve systems that change little from step to step, and the same few soft modes take the iterations: folds that open, cloth that
-/// slides. With W A-orthonormal, a solve of A x = b starts from the best x in W, x = W W' b. Its directions are kept A-orthogonal to W:
-/// z - W (A W)' z in place of z = P^-1 r. Rounding brings W back into r; W W' r takes it out again (A-DEF2 of Tang, Nabben, Vuik and Erlangga 2009,
-/// "Comparison of two-level preconditioners"). Cost: a multiplication by A for each basis vector and solve, and three passes over each and iteration.
+/// Steps to rest solve systems that change little from step to step, and the same few soft modes
+/// take the iterations: folds that open, cloth that slides. With W A-orthonormal, a solve of A x =
+/// b starts from the best x in W, x = W W' b. Its directions are kept A-orthogonal to W: z - W (A
+/// W)' z in place of z = P^-1 r. Rounding brings W back into r; W W' r takes it out again (A-DEF2
+/// of Tang, Nabben, Vuik and Erlangga 2009, "Comparison of two-level preconditioners"). Cost: a
+/// multiplication by A for each basis vector and solve, and three passes over each and iteration.
 /// Test: tests/cloth/linear/test_deflation.cpp
 #include <cloth/linear/float_vectors.hpp>
 
@@ -15,14 +18,16 @@ namespace sloper::cloth {
 
 class Deflation {
 public:
-  static constexpr std::size_t MOST = 4; ///< ways; with 2 a skirt took a fifth longer to rest, with 6, 8 and 12 as long (means over 18 starts)
+  static constexpr std::size_t MOST = 4; ///< ways; with 2 a skirt took a fifth longer to rest, with
+                                         ///< 6, 8 and 12 as long (means over 18 starts)
 
   /// Keeps a solution as the newest basis vector, in place of the oldest.
   /// @param x  #rows, any scale; zero and non-finite vectors are ignored by prepare()
   void keep(const std::vector<Float4>& x);
   void forget() { m_n_kept = m_n_ways = 0; }
-  /// Makes W of what is kept, newest first, for a matrix of so many rows. Left out are ways that others have already, and those along which A is
-  /// not definite. @param multiply  multiply(x, y) sets y = A x
+  /// Makes W of what is kept, newest first, for a matrix of so many rows. Left out are ways that
+  /// others have already, and those along which A is not definite. @param multiply  multiply(x, y)
+  /// sets y = A x
   template<class Multiply> void prepare(std::size_t rows, const Multiply& multiply) {
     m_n_ways = 0;
     if (m_n_kept > 0 && m_kept[0].size() != rows) forget();

@@ -10,20 +10,24 @@ namespace sloper::cloth {
 
 namespace {
 
-/// Of one advance: so many, and one more for so long a way, m; then what is left of the way is gone at once. Mean parts are 0.5 to 2 mm long.
+/// Of one advance: so many, and one more for so long a way, m; then what is left of the way is gone
+/// at once. Mean parts are 0.5 to 2 mm long.
 constexpr int MOST_PARTS = 100;
 constexpr double SHORTEST_PART = 2e-4;
-/// Time given to a part is at least this share of the advance's, however short its way. Without it cloth that must be as fast as the skin
-/// at once would never be: parts, and the time in which the contact speeds the cloth up, shrink with the distance.
+/// Time given to a part is at least this share of the advance's, however short its way. Without it
+/// cloth that must be as fast as the skin at once would never be: parts, and the time in which the
+/// contact speeds the cloth up, shrink with the distance.
 constexpr double LEAST_TIME = 0.02;
 /// Cloth this near is carried whole, then less and less, m.
 constexpr double CARRIED_WHOLE = 0.006, NOT_CARRIED = 0.03;
-constexpr double ASK_LESS = 4; ///< times: of the way, where cloth cannot be carried all that was asked for
+constexpr double ASK_LESS =
+    4; ///< times: of the way, where cloth cannot be carried all that was asked for
 
 /// Of the longest carry: where the mean one is shorter, most of the cloth stays.
 constexpr double MOST_STAYS = 0.25;
 
-/// The way that all cloth has in common when a body walks, where it is carried so; 0 where most of it stays. @param carry #P by 3, m
+/// The way that all cloth has in common when a body walks, where it is carried so; 0 where most of
+/// it stays. @param carry #P by 3, m
 Vec3 common_way(const std::vector<Vec3>& carry) {
   Vec3 mean = Vec3::Zero(), median = Vec3::Zero();
   double longest = 0;
@@ -50,11 +54,14 @@ double longest_of(const std::vector<Vec3>& way) {
 
 } // namespace
 
-BodyMotion::BodyMotion(ClothSolver& solver, BodyContactEffect& contact, collision::BodyCollider& body, SelfContactEffect* self_contact)
-    : m_solver(solver), m_contact(contact), m_body(body), m_self_contact(self_contact), m_nearest(solver.x().size(), -1) {}
+BodyMotion::BodyMotion(ClothSolver& solver, BodyContactEffect& contact,
+                       collision::BodyCollider& body, SelfContactEffect* self_contact)
+    : m_solver(solver), m_contact(contact), m_body(body), m_self_contact(self_contact),
+      m_nearest(solver.x().size(), -1) {}
 
-/// Predictor of each particle: the displacement of the nearest skin triangle, at the barycentric coordinates of the nearest point, blended with the
-/// particle's own velocity as the distance grows. Cloth left behind would be torn from cloth that moves with the skin.
+/// Predictor of each particle: the displacement of the nearest skin triangle, at the barycentric
+/// coordinates of the nearest point, blended with the particle's own velocity as the distance
+/// grows. Cloth left behind would be torn from cloth that moves with the skin.
 /// @param way  #V by 3, m: displacement of the skin   @param time  s, in which it happens
 void BodyMotion::predict_from_skin(const std::vector<Vec3>& way, double time) {
   const std::vector<Vec3>& x = m_solver.x();
@@ -65,7 +72,9 @@ void BodyMotion::predict_from_skin(const std::vector<Vec3>& way, double time) {
       m_nearest[i] = d.triangle;
       m_predictor[i] = time * m_solver.v()[i];
       if (d.triangle < 0) continue;
-      const double far = std::clamp((d.distance - CARRIED_WHOLE) / (NOT_CARRIED - CARRIED_WHOLE), 0.0, 1.0), share = (1 - far) * (1 - far);
+      const double far = std::clamp((d.distance - CARRIED_WHOLE) / (NOT_CARRIED - CARRIED_WHOLE),
+                                    0.0, 1.0),
+                   share = (1 - far) * (1 - far);
       const Triangle& t = m_body.mesh().triangles[d.triangle];
       m_predictor[i] *= 1 - share;
       for (int k = 0; k < 3; ++k) m_predictor[i] += share * d.barycentric[k] * way[t[k]];
@@ -74,12 +83,16 @@ void BodyMotion::predict_from_skin(const std::vector<Vec3>& way, double time) {
   m_contact.push_predictor_off_skin(x, way, m_predictor);
 }
 
-/// Limits the predictor so that scaling it by `share` causes no self-collision. A common translation of all cloth is exempt.
-/// @param limits  of the layers where they are: what they are kept apart by is added, since self contact names it once
-std::vector<Vec3> BodyMotion::limit_predictor_by_self_ccd(double share, MotionLimits& limits) const {
+/// Limits the predictor so that scaling it by `share` causes no self-collision. A common
+/// translation of all cloth is exempt.
+/// @param limits  of the layers where they are: what they are kept apart by is added, since self
+/// contact names it once
+std::vector<Vec3> BodyMotion::limit_predictor_by_self_ccd(double share,
+                                                          MotionLimits& limits) const {
   const std::vector<Vec3>& x = m_solver.x();
   const Vec3 common = common_way(m_predictor);
-  limits.max_displacement.assign(x.size(), std::numeric_limits<double>::infinity()); // those of a longer way
+  limits.max_displacement.assign(x.size(),
+                                 std::numeric_limits<double>::infinity()); // those of a longer way
   std::vector<Vec3> wanted = m_predictor;
   for (Vec3& c : wanted) c = share * (c - common);
   std::vector<Vec3> carry = wanted;
@@ -89,12 +102,14 @@ std::vector<Vec3> BodyMotion::limit_predictor_by_self_ccd(double share, MotionLi
     if (!m_self_contact->add_separating_planes(x, carry, limits, round == MAX_CCD_ROUNDS)) break;
     limits.apply(x, carry, held);
   }
-  for (std::size_t i = 0; i < carry.size(); ++i) carry[i] = carry[i] == wanted[i] ? m_predictor[i] : Vec3(carry[i] / share + common);
+  for (std::size_t i = 0; i < carry.size(); ++i)
+    carry[i] = carry[i] == wanted[i] ? m_predictor[i] : Vec3(carry[i] / share + common);
   return carry;
 }
 
-/// The step fraction of the skin that is free of collisions, with the predictor of its whole displacement. Cloth between skin and cloth cannot follow
-/// the predictor at once and would stop the skin within a hair: where a smaller step is taken, it moves with the cloth over it.
+/// The step fraction of the skin that is free of collisions, with the predictor of its whole
+/// displacement. Cloth between skin and cloth cannot follow the predictor at once and would stop
+/// the skin within a hair: where a smaller step is taken, it moves with the cloth over it.
 double BodyMotion::free_part(const std::vector<Vec3>& way, double longest, double time) {
   const std::vector<Vec3>& x = m_solver.x();
   predict_from_skin(way, time);
@@ -113,7 +128,8 @@ double BodyMotion::free_part(const std::vector<Vec3>& way, double longest, doubl
   for (double asked = std::min(1.0, ASK_LESS * m_last_asked);; asked /= ASK_LESS) {
     m_last_asked = asked;
     std::vector<Vec3> carry = limit_predictor_by_self_ccd(asked, limits);
-    const bool whole = carry == m_predictor; // what else stops the skin does so on a shorter way too
+    const bool whole =
+        carry == m_predictor; // what else stops the skin does so on a shorter way too
     const double share = std::min(asked, m_contact.collision_free_step_fraction(x, way, carry));
     if (share > best) best = share, best_carry = std::move(carry);
     if (whole || best >= asked / ASK_LESS || asked * longest < SHORTEST_PART) break;
@@ -122,7 +138,8 @@ double BodyMotion::free_part(const std::vector<Vec3>& way, double longest, doubl
   return best;
 }
 
-StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOptions& options, const std::function<StepResult(const StepOptions&)>& step) {
+StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOptions& options,
+                               const std::function<StepResult(const StepOptions&)>& step) {
   ++calls;
   StepResult result;
   std::vector<Vec3> way(target.size()), skin, velocity(m_solver.x().size(), Vec3::Zero());
@@ -147,7 +164,8 @@ StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOption
       m_predictor = nothing;
     }
     if (share > 0 && longest > 0) {
-      for (std::size_t v = 0; v < way.size(); ++v) skin[v] = share < 1 ? Vec3(skin[v] + share * way[v]) : target[v];
+      for (std::size_t v = 0; v < way.size(); ++v)
+        skin[v] = share < 1 ? Vec3(skin[v] + share * way[v]) : target[v];
       std::vector<Vec3> carried = m_predictor;
       for (Vec3& c : carried) c *= share;
       m_contact.move_body(skin, m_solver.x(), carried);

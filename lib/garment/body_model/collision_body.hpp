@@ -1,7 +1,8 @@
 #pragma once
-/// The body as cloth meets it: its skin, or what stands for the skin for a while. Hands and feet may be convex hulls (covered_skin.hpp), a
-/// dense skin a coarser one (coarse_skin.hpp), the whole body may be drawn in towards its bones (body_shrink.hpp), and forearms may be out of
-/// the way (under_arms.hpp). All of it ends before a drape is audited: the audit is of the skin itself.
+/// The body as cloth meets it: its skin, or what stands for the skin for a while. Hands and feet
+/// may be convex hulls (covered_skin.hpp), a dense skin a coarser one (coarse_skin.hpp), the whole
+/// body may be drawn in towards its bones (body_shrink.hpp), and forearms may be out of the way
+/// (under_arms.hpp). All of it ends before a drape is audited: the audit is of the skin itself.
 #include <base/progress.hpp>
 #include <body/body.hpp>
 #include <collision/body_collider.hpp>
@@ -31,7 +32,8 @@ public:
     static State read(const io::Node& state); ///< @throws Error INPUT
   };
 
-  /// @param body  null for none; outlives this   @param coarse_tolerance_m  DrapeSettings::skin_tolerance_m
+  /// @param body  null for none; outlives this   @param coarse_tolerance_m
+  /// DrapeSettings::skin_tolerance_m
   CollisionBody(const body::Body* body, double coarse_tolerance_m, Reporter& reporter);
 
   const body::Body* body() const { return m_body; }
@@ -41,11 +43,14 @@ public:
   const collision::BodyCollider* collider() const { return m_collider ? &*m_collider : nullptr; }
   const State& state() const { return m_state; }
 
-  /// Makes the collider of the body at its full size, with hulls for the ends and a coarser skin where that pays. @param covered of ExtremityHulls::Ends
+  /// Makes the collider of the body at its full size, with hulls for the ends and a coarser skin
+  /// where that pays. @param covered of ExtremityHulls::Ends
   void prepare(unsigned covered);
-  /// Makes all as a checkpoint says, without the positions that only the phase knows. @param garment  whose sleeves leave forearms in the way
+  /// Makes all as a checkpoint says, without the positions that only the phase knows. @param
+  /// garment  whose sleeves leave forearms in the way
   void restore(const State& state, const Garment& garment);
-  /// Ends that have any of these points beside or beyond them, of ExtremityHulls::Ends. @param points m
+  /// Ends that have any of these points beside or beyond them, of ExtremityHulls::Ends. @param
+  /// points m
   unsigned ends_near(const std::vector<Vec3>& points) const;
   /// The skin itself from now on: no hull, nothing coarse.
   void use_full_skin();
@@ -60,7 +65,8 @@ public:
   /// Largest distance of a skin vertex from its bone, m. Only after draw_in().
   double reach() const { return m_shrink->reach(); }
 
-  /// Decides whether forearms are in the way of what is sewn around the lower body, and in no sleeve. @param garment  unsewn, placed
+  /// Decides whether forearms are in the way of what is sewn around the lower body, and in no
+  /// sleeve. @param garment  unsewn, placed
   void find_arms_aside(const Garment& garment);
   /// Takes the forearms out of the way, where find_arms_aside() found them in it.
   void put_arms_aside();
@@ -90,7 +96,8 @@ private:
   body::Body m_end_body; // where a motion left it
 };
 
-/// Placed vertices of the panels of the body parts whose names begin so, m. @param part  "arm_l", "leg", "lower_body"
+/// Placed vertices of the panels of the body parts whose names begin so, m. @param part  "arm_l",
+/// "leg", "lower_body"
 std::vector<Vec3> placed_on(const Garment& garment, const std::string& part);
 
 } // namespace sloper::garment

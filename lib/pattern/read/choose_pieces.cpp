@@ -8,12 +8,14 @@ namespace sloper::pattern {
 namespace {
 
 std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
 /// For each panel whether one of the names means it.
-std::vector<bool> named(const Pattern& pattern, const std::vector<std::string>& names, const std::string& file) {
+std::vector<bool> named(const Pattern& pattern, const std::vector<std::string>& names,
+                        const std::string& file) {
   std::vector<bool> out(pattern.panels.size(), false);
   for (const std::string& name : names) {
     bool found = false;
@@ -57,7 +59,8 @@ void remove_panels(Pattern& pattern, const std::vector<bool>& remove) {
   pattern.seams = std::move(seams);
 }
 
-void choose_pieces(Pattern& pattern, const std::vector<std::string>& pieces, const std::vector<std::string>& without, const std::string& file) {
+void choose_pieces(Pattern& pattern, const std::vector<std::string>& pieces,
+                   const std::vector<std::string>& without, const std::string& file) {
   std::vector<bool> remove = named(pattern, without, file);
   if (!pieces.empty()) {
     const std::vector<bool> keep = named(pattern, pieces, file);

@@ -11,14 +11,19 @@ namespace {
 
 std::string_view trimmed(std::string_view s) {
   while (!s.empty() && (s.front() == ' ' || s.front() == '\t')) s.remove_prefix(1);
-  while (!s.empty() && (s.back() == ' ' || s.back() == '\t' || s.back() == '\r')) s.remove_suffix(1);
+  while (!s.empty() && (s.back() == ' ' || s.back() == '\t' || s.back() == '\r'))
+    s.remove_suffix(1);
   return s;
 }
 
 bool is_utf8(std::string_view s) {
   for (std::size_t k = 0; k < s.size();) {
     const unsigned char c = static_cast<unsigned char>(s[k]);
-    const std::size_t n = c < 0x80 ? 1 : (c >> 5) == 6 ? 2 : (c >> 4) == 14 ? 3 : (c >> 3) == 30 ? 4 : 0;
+    const std::size_t n = c < 0x80         ? 1
+                          : (c >> 5) == 6  ? 2
+                          : (c >> 4) == 14 ? 3
+                          : (c >> 3) == 30 ? 4
+                                           : 0;
     if (n == 0 || k + n > s.size()) return false;
     for (std::size_t i = 1; i < n; ++i)
       if ((static_cast<unsigned char>(s[k + i]) >> 6) != 2) return false;
@@ -50,7 +55,8 @@ public:
     } while (trimmed(code_line).empty());
     const std::string_view digits = trimmed(code_line);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), code);
-    if (error != std::errc() || end != digits.data() + digits.size()) fail("'" + utf8(digits.substr(0, 40)) + "' is no group code");
+    if (error != std::errc() || end != digits.data() + digits.size())
+      fail("'" + utf8(digits.substr(0, 40)) + "' is no group code");
     std::string_view value_line;
     if (!line(value_line)) fail("the file ends within a group");
     value = trimmed(value_line);
@@ -68,10 +74,13 @@ public:
   /// For flags and counts, which DXF keeps in 16 bits; some programs write them as 70.0.
   int whole() const {
     const double x = number();
-    if (!(std::abs(x) <= 1e6)) fail(std::string("'").append(utf8(value.substr(0, 40))).append("' is no flag or count"));
+    if (!(std::abs(x) <= 1e6))
+      fail(std::string("'").append(utf8(value.substr(0, 40))).append("' is no flag or count"));
     return static_cast<int>(x);
   }
-  [[noreturn]] void fail(const std::string& fact) const { throw input_error(m_file, "line " + std::to_string(m_line), fact, "give a text DXF"); }
+  [[noreturn]] void fail(const std::string& fact) const {
+    throw input_error(m_file, "line " + std::to_string(m_line), fact, "give a text DXF");
+  }
 
   int code = 0;
   std::string_view value;
@@ -115,10 +124,15 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
     DxfBlock& target = block ? *block : out.loose;
     for (const auto& list : {entity.x, entity.y, {entity.x2, entity.y2}})
       for (double x : list)
-        if ((block || section == "ENTITIES") && !(std::abs(x) <= FARTHEST)) tags.fail("a coordinate is out of all bounds");
-    const auto point = [&](std::size_t k) { return Vec2(entity.x[k], k < entity.y.size() ? entity.y[k] : 0.0); };
-    if (entity.kind == "VERTEX" && in_polyline && !entity.x.empty()) polyline.points.push_back(point(0));
-    else if (entity.kind == "POLYLINE") polyline = {entity.layer, (entity.flags & 1) != 0, {}}, in_polyline = true;
+        if ((block || section == "ENTITIES") && !(std::abs(x) <= FARTHEST))
+          tags.fail("a coordinate is out of all bounds");
+    const auto point = [&](std::size_t k) {
+      return Vec2(entity.x[k], k < entity.y.size() ? entity.y[k] : 0.0);
+    };
+    if (entity.kind == "VERTEX" && in_polyline && !entity.x.empty())
+      polyline.points.push_back(point(0));
+    else if (entity.kind == "POLYLINE")
+      polyline = {entity.layer, (entity.flags & 1) != 0, {}}, in_polyline = true;
     else if (entity.kind == "SEQEND" && in_polyline) {
       target.lines.push_back(polyline);
       in_polyline = false;
@@ -126,10 +140,13 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
       DxfLine line{entity.layer, (entity.flags & 1) != 0, {}};
       for (std::size_t k = 0; k < entity.x.size(); ++k) line.points.push_back(point(k));
       target.lines.push_back(line);
-    } else if (entity.kind == "LINE" && !entity.x.empty()) target.lines.push_back({entity.layer, false, {point(0), Vec2(entity.x2, entity.y2)}});
-    else if (entity.kind == "POINT" && !entity.x.empty()) target.points.push_back({entity.layer, point(0)});
+    } else if (entity.kind == "LINE" && !entity.x.empty())
+      target.lines.push_back({entity.layer, false, {point(0), Vec2(entity.x2, entity.y2)}});
+    else if (entity.kind == "POINT" && !entity.x.empty())
+      target.points.push_back({entity.layer, point(0)});
     else if ((entity.kind == "TEXT" || entity.kind == "MTEXT") && !entity.text.empty())
-      (block ? block->texts : out.texts).push_back({entity.layer, entity.x.empty() ? Vec2(0, 0) : point(0), entity.text});
+      (block ? block->texts : out.texts)
+          .push_back({entity.layer, entity.x.empty() ? Vec2(0, 0) : point(0), entity.text});
   };
 
   bool any = false;
@@ -175,9 +192,11 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
     }
   }
   finish();
-  const bool flat = std::none_of(out.blocks.begin(), out.blocks.end(), [](const DxfBlock& b) { return !b.lines.empty(); });
+  const bool flat = std::none_of(out.blocks.begin(), out.blocks.end(),
+                                 [](const DxfBlock& b) { return !b.lines.empty(); });
   if (!any || (flat && out.loose.lines.empty()))
-    throw input_error(file, "", "there are no blocks, so no pieces", "give an AAMA or ASTM DXF, one block per piece");
+    throw input_error(file, "", "there are no blocks, so no pieces",
+                      "give an AAMA or ASTM DXF, one block per piece");
   if (flat) out.blocks.clear();
   return out;
 }

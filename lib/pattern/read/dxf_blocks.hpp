@@ -1,5 +1,6 @@
 #pragma once
-/// The raw content of a garment DXF (R12 and later, text): per block its polylines, points and texts by layer. No meaning yet.
+/// The raw content of a garment DXF (R12 and later, text): per block its polylines, points and
+/// texts by layer. No meaning yet.
 #include <geometry/types.hpp>
 
 #include <string>
@@ -38,7 +39,8 @@ struct DxfFile {
 /// @throws Error INPUT naming the line
 DxfFile parse_dxf(const std::string& text, const std::string& file);
 
-/// The pieces of a flat drawing, as programs without blocks write it: outlines that close, and lie in no other. A text inside names a piece.
+/// The pieces of a flat drawing, as programs without blocks write it: outlines that close, and lie
+/// in no other. A text inside names a piece.
 std::vector<DxfBlock> pieces_of_drawing(const DxfFile& drawing);
 
 } // namespace sloper::pattern

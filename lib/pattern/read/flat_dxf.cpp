@@ -1,4 +1,5 @@
-/// Drawings without blocks, as Inkscape, LibreCAD and drafting programs write them: loose lines of any layer that close to outlines.
+/// Drawings without blocks, as Inkscape, LibreCAD and drafting programs write them: loose lines of
+/// any layer that close to outlines.
 #include <pattern/read/dxf_rings.hpp>
 
 #include <algorithm>
@@ -12,7 +13,9 @@ bool encloses(const PointRing& ring, const Vec2& p) {
   bool inside = false;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+    if ((a.y() > p.y()) != (b.y() > p.y()) &&
+        p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+      inside = !inside;
   }
   return inside;
 }
@@ -29,11 +32,14 @@ double extent_of(const DxfBlock& block) {
 std::vector<DxfBlock> pieces_of_drawing(const DxfFile& drawing) {
   DxfBlock lines = drawing.loose;
   for (DxfLine& line : lines.lines) line.layer = 1;
-  const std::vector<PointRing> rings = rings_of(lines, 1, 1, JOINS * extent_of(lines)); // the largest first
+  const std::vector<PointRing> rings =
+      rings_of(lines, 1, 1, JOINS * extent_of(lines)); // the largest first
   std::vector<PointRing> outer;
   std::vector<DxfBlock> pieces;
   for (const PointRing& ring : rings) {
-    if (std::any_of(outer.begin(), outer.end(), [&](const PointRing& other) { return encloses(other, ring[0]); })) continue;
+    if (std::any_of(outer.begin(), outer.end(),
+                    [&](const PointRing& other) { return encloses(other, ring[0]); }))
+      continue;
     outer.push_back(ring);
     DxfBlock& piece = pieces.emplace_back();
     piece.name = "piece" + std::to_string(pieces.size());

@@ -27,7 +27,8 @@ std::optional<Quantity> quantity_of(const std::string& text) {
   int first = 0, second = 0;
   char comma = 0;
   if (!(in >> first) || first < 0 || first > 100) return std::nullopt;
-  if (in >> comma && comma == ',' && in >> second && second >= 0 && second <= 100) return Quantity{first + second, second};
+  if (in >> comma && comma == ',' && in >> second && second >= 0 && second <= 100)
+    return Quantity{first + second, second};
   return Quantity{first, first / 2};
 }
 
@@ -53,8 +54,11 @@ Quantity read_quantity(const DxfBlock& block) {
 }
 
 std::string inside_of(const Words& words) {
-  if (any_begins(words, {"interlin", "interfac", "fusing", "fusible", "einlage", "vlies", "entoil", "entretela"})) return "interlining";
-  if (any_begins(words, {"lining", "futter", "doublure", "forro", "fodera", "podszew", "voering"})) return "lining";
+  if (any_begins(words, {"interlin", "interfac", "fusing", "fusible", "einlage", "vlies", "entoil",
+                         "entretela"}))
+    return "interlining";
+  if (any_begins(words, {"lining", "futter", "doublure", "forro", "fodera", "podszew", "voering"}))
+    return "lining";
   if (any_begins(words, {"facing", "besatz", "beleg", "parementure", "vista"})) return "facing";
   return {};
 }
@@ -79,13 +83,17 @@ std::string find_value(const std::vector<DxfText>& texts, const std::string& key
   return {};
 }
 
-std::string reason_to_leave(const DxfBlock& block, const PieceNotes& notes, const std::vector<Vec2>& ring, bool any_wanted) {
-  constexpr double WIDEST_CLOTH = 1.5; // m: a rectangle without a grain line that is larger both ways is the frame of the drawing
+std::string reason_to_leave(const DxfBlock& block, const PieceNotes& notes,
+                            const std::vector<Vec2>& ring, bool any_wanted) {
+  constexpr double WIDEST_CLOTH = 1.5; // m: a rectangle without a grain line that is larger both
+                                       // ways is the frame of the drawing
   if (!notes.inside.empty()) return "is " + notes.inside;
   if (notes.copies == 0 && any_wanted) return "has the quantity 0, as an alternative";
   const Vec2 size = size_of(ring);
-  const bool grain = std::any_of(block.lines.begin(), block.lines.end(), [](const DxfLine& line) { return line.layer == 7; });
-  if (!grain && is_box(ring) && size.minCoeff() > WIDEST_CLOTH) return "is a frame of " + centimetres(size.x()) + " by " + centimetres(size.y());
+  const bool grain = std::any_of(block.lines.begin(), block.lines.end(),
+                                 [](const DxfLine& line) { return line.layer == 7; });
+  if (!grain && is_box(ring) && size.minCoeff() > WIDEST_CLOTH)
+    return "is a frame of " + centimetres(size.x()) + " by " + centimetres(size.y());
   return {};
 }
 
@@ -98,9 +106,14 @@ PieceNotes piece_notes(const DxfBlock& block) {
   notes.copies = quantity.copies, notes.mirrored = quantity.mirrored;
   // Of what it is cut stands in an annotation too: "1XINTERLINING", but not "1XFABRIC 1X INTERLIN".
   std::string cut_of = find_value(block.texts, "Annotation");
-  if (const std::size_t x = cut_of.find_first_of("xX"); annotation_quantity(cut_of)) cut_of = cut_of.substr(x + 1);
-  cut_of = cut_of.substr(0, cut_of.find_first_of(" ,;", cut_of.find_first_not_of(' ') == std::string::npos ? 0 : cut_of.find_first_not_of(' ')));
-  for (const std::string& text : {notes.category, notes.material, find_value(block.texts, "Piece Name"), cut_of})
+  if (const std::size_t x = cut_of.find_first_of("xX"); annotation_quantity(cut_of))
+    cut_of = cut_of.substr(x + 1);
+  cut_of = cut_of.substr(
+      0, cut_of.find_first_of(" ,;", cut_of.find_first_not_of(' ') == std::string::npos
+                                         ? 0
+                                         : cut_of.find_first_not_of(' ')));
+  for (const std::string& text :
+       {notes.category, notes.material, find_value(block.texts, "Piece Name"), cut_of})
     if (notes.inside.empty()) notes.inside = inside_of(words_of(text));
   return notes;
 }

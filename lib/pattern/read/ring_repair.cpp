@@ -35,7 +35,8 @@ bool turns_back(const Vec2& a, const Vec2& b, const Vec2& c) {
   return angle < (depth < OVERSHOOT ? OVERSHOOT_ANGLE : FOLDS_BACK);
 }
 
-/// Point where the lines of two sides meet, or the middle of their ends where they are all but one line.
+/// Point where the lines of two sides meet, or the middle of their ends where they are all but one
+/// line.
 Vec2 mitre(const Vec2& p, const Vec2& along, const Vec2& q, const Vec2& other) {
   const double sine = wedge(along, other);
   if (std::abs(sine) < 1e-6) return 0.5 * (p + q);
@@ -65,7 +66,8 @@ std::vector<Vec2> take_slits_off(PointRing& ring) {
   return slits;
 }
 
-PointRing inset(const PointRing& ring, const std::vector<double>& by, std::vector<std::size_t>& corners) {
+PointRing inset(const PointRing& ring, const std::vector<double>& by,
+                std::vector<std::size_t>& corners) {
   const std::size_t n = ring.size();
   std::vector<std::size_t> sides(n);
   std::iota(sides.begin(), sides.end(), std::size_t{0});
@@ -88,14 +90,16 @@ PointRing inset(const PointRing& ring, const std::vector<double>& by, std::vecto
     std::size_t worst = m;
     double most = -1e-9; // m backwards
     for (std::size_t i = 0; i < m; ++i)
-      if (const double length = (out[(i + 1) % m] - out[i]).dot(along[sides[i]]); length < most) most = length, worst = i;
+      if (const double length = (out[(i + 1) % m] - out[i]).dot(along[sides[i]]); length < most)
+        most = length, worst = i;
     if (worst == m || m <= 3) break;
     sides.erase(sides.begin() + static_cast<long>(worst));
   }
   std::vector<std::size_t> moved;
   for (std::size_t corner : corners) {
     const auto next = std::lower_bound(sides.begin(), sides.end(), corner);
-    const std::size_t index = next == sides.end() ? 0 : static_cast<std::size_t>(next - sides.begin());
+    const std::size_t index =
+        next == sides.end() ? 0 : static_cast<std::size_t>(next - sides.begin());
     if (std::find(moved.begin(), moved.end(), index) == moved.end()) moved.push_back(index);
   }
   std::sort(moved.begin(), moved.end());
@@ -103,11 +107,13 @@ PointRing inset(const PointRing& ring, const std::vector<double>& by, std::vecto
   return out;
 }
 
-PointRing without_allowance(const PointRing& ring, const DxfBlock& block, double unit, double allowance, std::vector<std::size_t>& corners) {
+PointRing without_allowance(const PointRing& ring, const DxfBlock& block, double unit,
+                            double allowance, std::vector<std::size_t>& corners) {
   std::vector<double> by(ring.size(), allowance);
   for (const DxfLine& line : block.lines) {
     if (line.layer != 6 || line.points.size() < 2) continue;
-    const Vec2 from = line.points.front() * unit, along = (line.points.back() * unit - from).normalized();
+    const Vec2 from = line.points.front() * unit,
+               along = (line.points.back() * unit - from).normalized();
     const auto on_fold = [&](const Vec2& p) { return std::abs(wedge(along, p - from)) < ON_FOLD; };
     for (std::size_t k = 0; k < ring.size(); ++k)
       if (on_fold(ring[k]) && on_fold(ring[(k + 1) % ring.size()])) by[k] = 0;

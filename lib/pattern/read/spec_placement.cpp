@@ -8,13 +8,15 @@
 namespace sloper::pattern {
 namespace {
 
-constexpr double ONE_PLANE = 1e-3; // units of the file between panels, and between their unit normals: placed by nobody
-constexpr double ALIKE = 0.99;     // of the gaps of seams: no order is told
-constexpr double SAME = 1 - 1e-9;  // both orders are one
+constexpr double ONE_PLANE =
+    1e-3; // units of the file between panels, and between their unit normals: placed by nobody
+constexpr double ALIKE = 0.99;    // of the gaps of seams: no order is told
+constexpr double SAME = 1 - 1e-9; // both orders are one
 
 enum class CurveStyle { NONE, LIST, TYPED };
 
-/// GarmentCode names the type of a curve; the writers before it list the coordinates of one control point.
+/// GarmentCode names the type of a curve; the writers before it list the coordinates of one control
+/// point.
 CurveStyle curve_style(const io::Node& panels) {
   CurveStyle style = CurveStyle::NONE;
   for (const std::string& name : panels.keys()) {
@@ -28,20 +30,24 @@ CurveStyle curve_style(const io::Node& panels) {
   return style;
 }
 
-/// Both ends of a panel edge in the world, in units of the file; nothing where the stitch names none, which is told when it is read.
-std::optional<std::array<Vec3, 2>> edge_ends(const io::Node& panels, const io::Node& item, EulerOrder order) {
+/// Both ends of a panel edge in the world, in units of the file; nothing where the stitch names
+/// none, which is told when it is read.
+std::optional<std::array<Vec3, 2>> edge_ends(const io::Node& panels, const io::Node& item,
+                                             EulerOrder order) {
   const std::string name = item.at("panel").string();
   const int index = item.at("edge").integer();
   if (!panels.has(name) || index < 0) return std::nullopt;
   const io::Node panel = panels.at(name);
   const std::size_t edge = static_cast<std::size_t>(index);
-  if (!panel.has("translation") || !panel.has("rotation") || edge >= panel.at("edges").size()) return std::nullopt;
+  if (!panel.has("translation") || !panel.has("rotation") || edge >= panel.at("edges").size())
+    return std::nullopt;
   const Mat4 placed = spec_placement(panel, 1, order);
   const io::Node ends = panel.at("edges").at(edge).at("endpoints");
   std::array<Vec3, 2> out;
   for (std::size_t k : {0, 1}) {
     const int vertex = ends.at(k).integer();
-    if (vertex < 0 || static_cast<std::size_t>(vertex) >= panel.at("vertices").size()) return std::nullopt;
+    if (vertex < 0 || static_cast<std::size_t>(vertex) >= panel.at("vertices").size())
+      return std::nullopt;
     const Vec2 p = panel.at("vertices").at(static_cast<std::size_t>(vertex)).vec2();
     out[k] = (placed * Eigen::Vector4d(p.x(), p.y(), 0, 1)).head<3>();
   }
@@ -61,7 +67,8 @@ double seam_gaps(const io::Node& source, EulerOrder order) {
     }
     if (sides.size() != 2) continue;
     const auto& [a, b] = std::tie(sides[0], sides[1]);
-    sum += std::min((a[0] - b[0]).norm() + (a[1] - b[1]).norm(), (a[0] - b[1]).norm() + (a[1] - b[0]).norm());
+    sum += std::min((a[0] - b[0]).norm() + (a[1] - b[1]).norm(),
+                    (a[0] - b[1]).norm() + (a[1] - b[0]).norm());
   }
   return sum;
 }
@@ -84,7 +91,8 @@ Mat4 spec_placement(const io::Node& panel, double unit, EulerOrder order) {
   const Vec3 r = panel.at("rotation").vec3() * (units::PI / 180);
   const Eigen::AngleAxisd x(r.x(), Vec3::UnitX()), y(r.y(), Vec3::UnitY()), z(r.z(), Vec3::UnitZ());
   Mat4 m = Mat4::Identity();
-  m.topLeftCorner<3, 3>() = order == EulerOrder::XYZ ? (x * y * z).toRotationMatrix() : (z * y * x).toRotationMatrix();
+  m.topLeftCorner<3, 3>() =
+      order == EulerOrder::XYZ ? (x * y * z).toRotationMatrix() : (z * y * x).toRotationMatrix();
   m.topRightCorner<3, 1>() = t;
   return m;
 }
@@ -99,7 +107,8 @@ bool tells_placement(const io::Node& panels) {
     if (!first) first = placed;
     const Vec3 normal = first->col(2).head<3>();
     const double off = normal.dot((placed.col(3) - first->col(3)).head<3>());
-    if ((placed.col(2).head<3>() - normal).norm() > ONE_PLANE || std::abs(off) > ONE_PLANE) return true;
+    if ((placed.col(2).head<3>() - normal).norm() > ONE_PLANE || std::abs(off) > ONE_PLANE)
+      return true;
   }
   return names.size() < 2;
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// Where a specification of the GarmentCode family places its panels. Its writers differ in what three Euler angles mean.
+/// Where a specification of the GarmentCode family places its panels. Its writers differ in what
+/// three Euler angles mean.
 #include <io/json_fwd.hpp>
 #include <pattern/pattern.hpp>
 
@@ -10,16 +11,18 @@ enum class EulerOrder {
   ZYX  ///< R = Rz Ry Rx: Garment-Pattern-Generator, SewFactory, NeuralTailor, as Maya has it
 };
 
-/// The order that a specification's angles are meant in. Curves as GarmentCode writes them tell XYZ. Else it is the order in which the
-/// seams start nearer to each other; where both are alike, ZYX if there are curves as Garment-Pattern-Generator writes them.
+/// The order that a specification's angles are meant in. Curves as GarmentCode writes them tell
+/// XYZ. Else it is the order in which the seams start nearer to each other; where both are alike,
+/// ZYX if there are curves as Garment-Pattern-Generator writes them.
 /// @param source  the object "pattern", with "panels" and "stitches"
 EulerOrder euler_order(const io::Node& source);
 
-/// Panel (x, y, 0) to the world, m, by "translation" and "rotation" (degrees) of a panel. @param unit m per unit of the file
+/// Panel (x, y, 0) to the world, m, by "translation" and "rotation" (degrees) of a panel. @param
+/// unit m per unit of the file
 Mat4 spec_placement(const io::Node& panel, double unit, EulerOrder order);
 
-/// Whether the panels' placements say anything: not where several panels all lie in one plane. Such a file was never placed, and its names and
-/// seams tell more. @param panels  the object "panels"
+/// Whether the panels' placements say anything: not where several panels all lie in one plane. Such
+/// a file was never placed, and its names and seams tell more. @param panels  the object "panels"
 bool tells_placement(const io::Node& panels);
 
 } // namespace sloper::pattern

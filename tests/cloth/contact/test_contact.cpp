@@ -1,4 +1,5 @@
-/// Contact of cloth with a body and with itself: forces against their energies, and what no step may pass.
+/// Contact of cloth with a body and with itself: forces against their energies, and what no step
+/// may pass.
 #include <support/grid.hpp>
 
 #include <base/random.hpp>
@@ -23,14 +24,17 @@ TriangleMesh table(int n, double size) {
   for (int r = 0; r <= n; ++r)
     for (int c = 0; c <= n; ++c) m.positions.emplace_back(size * c / n, 0, -size * r / n);
   const int top = static_cast<int>(m.positions.size());
-  for (const Vec3& p : {Vec3(0, -0.2, 0), Vec3(size, -0.2, 0), Vec3(size, -0.2, -size), Vec3(0, -0.2, -size)}) m.positions.push_back(p);
+  for (const Vec3& p :
+       {Vec3(0, -0.2, 0), Vec3(size, -0.2, 0), Vec3(size, -0.2, -size), Vec3(0, -0.2, -size)})
+    m.positions.push_back(p);
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
       const int a = r * (n + 1) + c, b = a + 1, d = a + n + 1, e = d + 1;
       m.triangles.push_back({a, b, e});
       m.triangles.push_back({a, e, d});
     }
-  auto side = [&](int low0, int low1, auto at) { // a fan from the lower edge to the row of upper vertices
+  auto side = [&](int low0, int low1,
+                  auto at) { // a fan from the lower edge to the row of upper vertices
     for (int c = 0; c < n; ++c) m.triangles.push_back({at(c + 1), at(c), low0});
     m.triangles.push_back({at(n), low0, low1});
   };
@@ -74,10 +78,12 @@ double upward(const Filled& filled) {
   return sum;
 }
 
-/// Edges 2 degrees from parallel share their force with vertices and faces, in a share that no force tells of. @return about y by that
+/// Edges 2 degrees from parallel share their force with vertices and faces, in a share that no
+/// force tells of. @return about y by that
 Vec3 turned(const Vec3& p) { return Eigen::AngleAxisd(0.035, Vec3::UnitY()) * p; }
 
-/// Force against central differences of the energy over the pairs of the last search, relative to the largest force.
+/// Force against central differences of the energy over the pairs of the last search, relative to
+/// the largest force.
 double gradient_error(Effect& effect, const ClothMesh& mesh, std::vector<Vec3> x) {
   Couplings couplings;
   effect.declare(couplings);
@@ -105,10 +111,12 @@ TEST(Contact, PotentialHasTheForceAndStiffnessOfItsEnergy) {
   const double reach = 0.003, k = 40;
   for (double d : {2e-5, 1e-4, 3e-4, 8e-4, 0.0012, 0.0025, 0.0029}) {
     const double eps = 1e-5 * d;
-    const ContactResponse above = evaluate_contact_potential(d + eps, reach, k), at = evaluate_contact_potential(d, reach, k),
+    const ContactResponse above = evaluate_contact_potential(d + eps, reach, k),
+                          at = evaluate_contact_potential(d, reach, k),
                           below = evaluate_contact_potential(d - eps, reach, k);
     EXPECT_NEAR(at.force, -(above.energy - below.energy) / (2 * eps), 1e-4 * at.force + 1e-12) << d;
-    EXPECT_NEAR(at.stiffness, -(above.force - below.force) / (2 * eps), 1e-2 * at.stiffness + 1e-12) << d;
+    EXPECT_NEAR(at.stiffness, -(above.force - below.force) / (2 * eps), 1e-2 * at.stiffness + 1e-12)
+        << d;
   }
   EXPECT_EQ(evaluate_contact_potential(reach, reach, k).force, 0);
 }
@@ -117,7 +125,8 @@ TEST(Contact, ForceOfTheBodyIsTheGradientOfItsEnergy) {
   collision::BodyCollider body(table(9, 0.2));
   Grid grid = make_grid(12, 0.15);
   Random random(3);
-  for (Vec3& p : grid.x) p = Vec3(p.x() + 0.023, 0.0012 + 0.0008 * random.uniform(-1, 1), p.z() - 0.0231);
+  for (Vec3& p : grid.x)
+    p = Vec3(p.x() + 0.023, 0.0012 + 0.0008 * random.uniform(-1, 1), p.z() - 0.0231);
   BodyContactEffect contact(grid.mesh, body, {});
   EXPECT_LT(gradient_error(contact, grid.mesh, grid.x), 2e-3);
   EXPECT_EQ(contact.n_crossing(), 0u);
@@ -139,7 +148,8 @@ TEST(Contact, EachLevelSeesWhatTheOneBeforeSeesAndMore) {
   for (Vec3& p : grid.x) p += Vec3(0.023, 0.0004, -0.0231);
   const TriangleMesh fine = table(40, 0.2);
   double last = 0;
-  for (const ContactLevel level : {ContactLevel::VERTEX, ContactLevel::FACE, ContactLevel::CONTINUOUS}) { // flat skin has no edge to see
+  for (const ContactLevel level : {ContactLevel::VERTEX, ContactLevel::FACE,
+                                   ContactLevel::CONTINUOUS}) { // flat skin has no edge to see
     collision::BodyCollider body(fine);
     BodyContactOptions options;
     options.level = level;
@@ -196,12 +206,14 @@ TEST(Contact, WhateverTheForceNoStepPassesTheSkin) {
   for (int k = 0; k < 150; ++k) {
     const StepResult result = solver.step(options);
     ASSERT_TRUE(result.finite);
-    ASSERT_TRUE(body.faces_through(solver.x(), grid.mesh.particle_triangles()).empty()) << "step " << k;
+    ASSERT_TRUE(body.faces_through(solver.x(), grid.mesh.particle_triangles()).empty())
+        << "step " << k;
   }
   EXPECT_GT(contact.searches, 0);
 }
 
-/// Pairs that are too far apart to repel are left out of a step, until the cloth comes nearer or is about to.
+/// Pairs that are too far apart to repel are left out of a step, until the cloth comes nearer or is
+/// about to.
 TEST(Contact, WhatIsNotLookedAtIsNeitherFeltNorPassed) {
   collision::BodyCollider body(table(7, 0.2));
   Grid grid = make_grid(10, 0.15);
@@ -220,7 +232,8 @@ TEST(Contact, WhatIsNotLookedAtIsNeitherFeltNorPassed) {
   EXPECT_NEAR(contact.energy(low), there.energy(low), 1e-12 * there.energy(low));
 
   std::vector<Vec3> dx(grid.x.size(), Vec3(0, -0.001, 0));
-  EXPECT_FALSE(contact.add_separating_planes(grid.x, dx, filled.limits, false)) << "far too short to reach the skin";
+  EXPECT_FALSE(contact.add_separating_planes(grid.x, dx, filled.limits, false))
+      << "far too short to reach the skin";
   dx.assign(grid.x.size(), Vec3(0, -0.03, 0));
   EXPECT_TRUE(contact.add_separating_planes(grid.x, dx, filled.limits, false));
   filled.limits.max_displacement.assign(grid.x.size(), 1); // of planes alone
@@ -270,7 +283,8 @@ FallingSheet sheet_above_sheet(double height) {
 }
 
 TEST(Contact, ClothThatFallsTogetherFallsFreely) {
-  for (const double apart : {0.02, 0.003}) { // out of each other's sight, and near enough for planes between them
+  for (const double apart :
+       {0.02, 0.003}) { // out of each other's sight, and near enough for planes between them
     FallingSheet s = sheet_above_sheet(apart);
     ClothSolver solver(s.mesh, s.x);
     solver.emplace<EdgeSpringEffect>(s.mesh);
@@ -284,7 +298,8 @@ TEST(Contact, ClothThatFallsTogetherFallsFreely) {
       solver.step(options);
       fallen += 9.81 * k * options.h * options.h;
     }
-    for (std::size_t i = 0; i < s.x.size(); ++i) EXPECT_NEAR(s.x[i].y() - solver.x()[i].y(), fallen, 1e-3 * fallen) << apart;
+    for (std::size_t i = 0; i < s.x.size(); ++i)
+      EXPECT_NEAR(s.x[i].y() - solver.x()[i].y(), fallen, 1e-3 * fallen) << apart;
   }
 }
 
@@ -332,7 +347,8 @@ TEST(Contact, WhatCrossedIsGuardedAsAllElseOnceItIsParted) {
   const FallingSheet s = sheet_above_sheet(0.0012);
   const int n = static_cast<int>(s.x.size());
   std::vector<Vec3> crossing = s.x;
-  for (int i = n / 2; i < n; ++i) crossing[i].y() += 0.2 * (crossing[i].x() - s.x[n / 2].x()) - 0.005;
+  for (int i = n / 2; i < n; ++i)
+    crossing[i].y() += 0.2 * (crossing[i].x() - s.x[n / 2].x()) - 0.005;
   SelfContactEffect contact(s.mesh, {}), fresh(s.mesh, {});
   BlockMatrix matrix(n, {});
   fill(contact, n, crossing, matrix);
@@ -347,7 +363,9 @@ TEST(Contact, WhatCrossedIsGuardedAsAllElseOnceItIsParted) {
 
 TEST(Contact, LookingAheadChangesNoStep) {
   collision::BodyCollider body(table(7, 0.2));
-  for (const double height : {0.004, -0.001}) { // outside, and with faces in the skin, which are pushed harder with every search
+  for (const double height :
+       {0.004,
+        -0.001}) { // outside, and with faces in the skin, which are pushed harder with every search
     Grid grid = make_grid(14, 0.26);
     for (Vec3& p : grid.x) p += Vec3(-0.03, height, 0.03);
     std::vector<Vec3> end[2];
@@ -386,7 +404,8 @@ TEST_P(ContactFrom, ClothThatMeetsClothInOneStepDoesNotPassIt) {
     const char* name() const override { return "push"; }
     void add(StepContext& c) override {
       const std::size_t n = c.force.size();
-      for (std::size_t i = 0; i < n; ++i) c.force[i] += mesh.mass[i] * Vec3(0, i < n / 2 ? 60 : -60, 0);
+      for (std::size_t i = 0; i < n; ++i)
+        c.force[i] += mesh.mass[i] * Vec3(0, i < n / 2 ? 60 : -60, 0);
     }
   };
   solver.emplace<ContactResponse>(s.mesh);
@@ -397,16 +416,19 @@ TEST_P(ContactFrom, ClothThatMeetsClothInOneStepDoesNotPassIt) {
   for (int k = 0; k < 30; ++k) {
     const std::vector<Vec3> before = solver.x();
     ASSERT_TRUE(solver.step(options).finite);
-    for (int part = 1; part <= 40; ++part) { // a sheet that passes in one step leaves no crossing behind
+    for (int part = 1; part <= 40;
+         ++part) { // a sheet that passes in one step leaves no crossing behind
       std::vector<Vec3> x = before;
       for (std::size_t i = 0; i < x.size(); ++i) x[i] += part / 40.0 * (solver.x()[i] - before[i]);
       const collision::TriangleTree tree(x, triangles);
-      ASSERT_TRUE(collision::self_intersections(x, triangles, tree).empty()) << "step " << k << ", part " << part;
+      ASSERT_TRUE(collision::self_intersections(x, triangles, tree).empty())
+          << "step " << k << ", part " << part;
     }
   }
   EXPECT_GT(contact.far_searches, 0);
 }
-INSTANTIATE_TEST_SUITE_P(beyond_the_search_radius_and_within_it_but_too_far_to_repel, ContactFrom, ::testing::Values(0.03, 0.005));
+INSTANTIATE_TEST_SUITE_P(beyond_the_search_radius_and_within_it_but_too_far_to_repel, ContactFrom,
+                         ::testing::Values(0.03, 0.005));
 
 TEST(Contact, LimitsKeepPlanesAndLengths) {
   MotionLimits limits;
@@ -442,9 +464,11 @@ TEST(Contact, PlanesThatFollowStopOnlyWhatWouldMeet) {
   EXPECT_EQ(limited(3, 3, true), Vec2(3, 3));
   EXPECT_EQ(limited(3, 3, false), Vec2(3, 0.45));
   EXPECT_EQ(limited(-3, -3, true), Vec2(-3, -3));
-  EXPECT_NEAR((limited(3, 5, true) - Vec2(3, 3.9)).norm(), 0, 1e-12) << "the faster one comes up to the other";
+  EXPECT_NEAR((limited(3, 5, true) - Vec2(3, 3.9)).norm(), 0, 1e-12)
+      << "the faster one comes up to the other";
   EXPECT_NEAR((limited(-5, -3, true) - Vec2(-3.9, -3)).norm(), 0, 1e-12);
-  EXPECT_NEAR((limited(-5, 0.2, true) - limited(-5, 0.2, false) - Vec2(-0.25, 0)).norm(), 0, 1e-12) << "one takes the room that the other leaves";
+  EXPECT_NEAR((limited(-5, 0.2, true) - limited(-5, 0.2, false) - Vec2(-0.25, 0)).norm(), 0, 1e-12)
+      << "one takes the room that the other leaves";
   EXPECT_EQ(limited(-5, 5, true), limited(-5, 5, false)) << "half the way each";
 }
 
@@ -462,7 +486,8 @@ TEST(Contact, PlanesThatFollowLeaveTheElementsOnTheirSides) {
     limits.planes_translate = true;
     limits.reset(N);
     for (int i = 0; i < N; i += 7) limits.max_displacement[i] = 0.2;
-    for (int g = 0; g < 60; ++g) { // planes that present positions keep, between one and three or two and two, and some that stay
+    for (int g = 0; g < 60; ++g) { // planes that present positions keep, between one and three or
+                                   // two and two, and some that stay
       SeparatingPlane guard;
       guard.n = 4;
       guard.n_above = g % 10 == 0 ? 4 : 1 + g % 2;
@@ -479,7 +504,8 @@ TEST(Contact, PlanesThatFollowLeaveTheElementsOnTheirSides) {
     const std::vector<Vec3> wanted = dx;
     std::vector<char> held(N, 0);
     limits.apply(x, dx, held);
-    for (int i = 0; i < N; ++i) EXPECT_LE(dx[i].norm(), std::min(wanted[i].norm(), limits.max_displacement[i]) + 1e-9);
+    for (int i = 0; i < N; ++i)
+      EXPECT_LE(dx[i].norm(), std::min(wanted[i].norm(), limits.max_displacement[i]) + 1e-9);
     for (const SeparatingPlane& g : limits.planes) {
       double most = 1e300, least = -1e300;
       for (int k = 0; k < 4; ++k) {
@@ -501,7 +527,9 @@ TEST(Contact, WithLineSearchClothComesToRestOnTheTable) {
   auto& gravity = solver.emplace<GravityEffect>(grid.mesh, Vec3(0, -9.81, 0));
   auto& contact = solver.emplace<BodyContactEffect>(grid.mesh, body, BodyContactOptions{});
   contact.set_friction(0.4); // without it the cloth would slide off
-  const auto energy = [&] { return springs.energy(solver.x()) + gravity.energy(solver.x()) + contact.energy(solver.x()); };
+  const auto energy = [&] {
+    return springs.energy(solver.x()) + gravity.energy(solver.x()) + contact.energy(solver.x());
+  };
   StepOptions options;
   options.line_search = true;
   solver.step(options);
@@ -511,7 +539,8 @@ TEST(Contact, WithLineSearchClothComesToRestOnTheTable) {
   for (int k = 0; k < 120; ++k) {
     const double before = energy();
     result = solver.step(options);
-    rises += energy() > before + 1e-7 * std::abs(before); // friction's anchors are moved between the steps
+    rises += energy() >
+             before + 1e-7 * std::abs(before); // friction's anchors are moved between the steps
     options.h = std::clamp(options.h * (result.halvings > 0 ? 0.7 : 1.15), 0.005, 0.2);
   }
   EXPECT_EQ(rises, 0) << "no step may raise the energy, whatever limits do to it";
@@ -524,7 +553,8 @@ TEST(Contact, WithLineSearchClothComesToRestOnTheTable) {
 TEST(BodyContact, skin_that_keeps_to_its_room_never_passes_the_cloth) {
   Grid cloth = make_grid(8, 0.2);
   Random random(11);
-  for (Vec3& p : cloth.x) p += Vec3(0.1, 0.004 + random.uniform(-0.002, 0.002), -0.1) - Vec3(p.x() * 0.5, 0, p.z() * 0.5);
+  for (Vec3& p : cloth.x)
+    p += Vec3(0.1, 0.004 + random.uniform(-0.002, 0.002), -0.1) - Vec3(p.x() * 0.5, 0, p.z() * 0.5);
   const TriangleMesh skin = table(12, 0.3);
   collision::BodyCollider body(skin);
   ClothSolver solver(cloth.mesh, cloth.x);

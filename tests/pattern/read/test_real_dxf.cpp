@@ -10,33 +10,42 @@ namespace {
 using Points = std::vector<Vec2>;
 
 std::string text(double x, double y, const std::string& words, const std::string& layer = "1") {
-  return "0\nTEXT\n8\n" + layer + "\n10\n" + std::to_string(x) + "\n20\n" + std::to_string(y) + "\n1\n" + words + "\n";
+  return "0\nTEXT\n8\n" + layer + "\n10\n" + std::to_string(x) + "\n20\n" + std::to_string(y) +
+         "\n1\n" + words + "\n";
 }
 
 std::string polyline(const Points& points, const std::string& layer = "1") {
   std::string t = "0\nPOLYLINE\n8\n" + layer + "\n66\n1\n70\n1\n";
-  for (const Vec2& p : points) t += "0\nVERTEX\n8\n" + layer + "\n10\n" + std::to_string(p.x()) + "\n20\n" + std::to_string(p.y()) + "\n";
+  for (const Vec2& p : points)
+    t += "0\nVERTEX\n8\n" + layer + "\n10\n" + std::to_string(p.x()) + "\n20\n" +
+         std::to_string(p.y()) + "\n";
   return t + "0\nSEQEND\n8\n" + layer + "\n";
 }
 
 std::string line(const Vec2& a, const Vec2& b, const std::string& layer) {
-  return "0\nLINE\n8\n" + layer + "\n10\n" + std::to_string(a.x()) + "\n20\n" + std::to_string(a.y()) + "\n11\n" + std::to_string(b.x()) + "\n21\n" +
+  return "0\nLINE\n8\n" + layer + "\n10\n" + std::to_string(a.x()) + "\n20\n" +
+         std::to_string(a.y()) + "\n11\n" + std::to_string(b.x()) + "\n21\n" +
          std::to_string(b.y()) + "\n";
 }
 
 std::string block(const std::string& name, const std::string& content) {
-  return "0\nBLOCK\n8\n1\n2\n" + name + "\n" + text(0, 0, "Piece Name: " + name) + content + "0\nENDBLK\n";
+  return "0\nBLOCK\n8\n1\n2\n" + name + "\n" + text(0, 0, "Piece Name: " + name) + content +
+         "0\nENDBLK\n";
 }
 
 std::string file(const std::string& blocks) {
-  return "0\nSECTION\n2\nBLOCKS\n" + blocks + "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" + text(0, 0, "Units: METRIC") + "0\nENDSEC\n0\nEOF\n";
+  return "0\nSECTION\n2\nBLOCKS\n" + blocks + "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" +
+         text(0, 0, "Units: METRIC") + "0\nENDSEC\n0\nEOF\n";
 }
 
 Points box(double w, double h) { return {{0, 0}, {w, 0}, {w, h}, {0, h}}; }
-Points sleeve() { return {{0, 0}, {300, 0}, {340, 200}, {250, 330}, {140, 350}, {60, 300}, {-40, 200}}; } // its cap leans to one side
+Points sleeve() {
+  return {{0, 0}, {300, 0}, {340, 200}, {250, 330}, {140, 350}, {60, 300}, {-40, 200}};
+} // its cap leans to one side
 
 bool found(const Pattern& p, const std::string& words) {
-  return std::any_of(p.findings.begin(), p.findings.end(), [&](const std::string& f) { return f.find(words) != std::string::npos; });
+  return std::any_of(p.findings.begin(), p.findings.end(),
+                     [&](const std::string& f) { return f.find(words) != std::string::npos; });
 }
 
 std::vector<std::string> names(const Pattern& p) {
@@ -48,26 +57,36 @@ std::vector<std::string> names(const Pattern& p) {
 using Names = std::vector<std::string>;
 
 TEST(RealDxf, APieceThatIsCutTwiceHasItsMirrorImage) {
-  for (const char* words : {"Quantity: 2", "Quantity: 1,1", "ANNOTATION: 2XFABRIC", "Quantity : 2"}) {
-    Pattern p = read_dxf(file(block("SLEEVE", polyline(sleeve()) + "0\nPOINT\n8\n4\n10\n320\n20\n100\n" + text(0, 0, words))), "p.dxf");
+  for (const char* words :
+       {"Quantity: 2", "Quantity: 1,1", "ANNOTATION: 2XFABRIC", "Quantity : 2"}) {
+    Pattern p =
+        read_dxf(file(block("SLEEVE", polyline(sleeve()) + "0\nPOINT\n8\n4\n10\n320\n20\n100\n" +
+                                          text(0, 0, words))),
+                 "p.dxf");
     ASSERT_EQ(names(p), (Names{"SLEEVE", "SLEEVE_mirror"})) << words;
     EXPECT_NEAR(outline_area(p.panels[0]), outline_area(p.panels[1]), 1e-12);
     for (const PanelEdge& e : p.panels[0].loops[0]) {
       const PanelEdge& image = p.panels[1].edge(p.panels[1].find_edge(e.name));
-      EXPECT_LT((image.path.front().p[0] - Vec2(-e.path.back().p[3].x(), e.path.back().p[3].y())).norm(), 1e-12) << e.name;
+      EXPECT_LT(
+          (image.path.front().p[0] - Vec2(-e.path.back().p[3].x(), e.path.back().p[3].y())).norm(),
+          1e-12)
+          << e.name;
     }
     ASSERT_EQ(p.panels[1].notches.size(), 1u);
     const Notch &own = p.panels[0].notches[0], &other = p.panels[1].notches[0];
     EXPECT_EQ(p.panels[0].edge(own.edge).name, p.panels[1].edge(other.edge).name);
     EXPECT_NEAR(own.at, 1 - other.at, 1e-12);
   }
-  const Pattern one = read_dxf(file(block("SLEEVE", polyline(sleeve()) + text(0, 0, "Quantity: 1") + text(0, 0, "Annotation: 2XFABRIC"))), "p.dxf");
+  const Pattern one = read_dxf(file(block("SLEEVE", polyline(sleeve()) + text(0, 0, "Quantity: 1") +
+                                                        text(0, 0, "Annotation: 2XFABRIC"))),
+                               "p.dxf");
   EXPECT_EQ(one.panels.size(), 1u) << "the quantity counts";
 }
 
 TEST(RealDxf, OfASymmetricPairOneIsTakenUnlessItGoesAroundALimb) {
   const auto read = [](const std::string& name) {
-    return read_dxf(file(block(name, polyline(box(300, 60)) + text(0, 0, "Quantity: 2"))), "p.dxf").panels.size();
+    return read_dxf(file(block(name, polyline(box(300, 60)) + text(0, 0, "Quantity: 2"))), "p.dxf")
+        .panels.size();
   };
   EXPECT_EQ(read("COLLAR STAND"), 1u);
   EXPECT_EQ(read("CUFF"), 2u);
@@ -83,10 +102,15 @@ TEST(RealDxf, WhoSewsAPairSaysSoByItsName) {
 }
 
 TEST(RealDxf, WhatLiesInsideIsLeftOutUnlessItIsAskedFor) {
-  const std::string front = block("A1", polyline(box(400, 600)) + text(0, 0, "Quantity: 1") + text(0, 0, "Category: FRONT"));
-  const std::string fused = block("A2", polyline(box(400, 590)) + text(0, 0, "Annotation: 1XFABRIC 1X INTERLIN"));
-  for (const char* words : {"Category: FRONT LINING", "Material: INTERLINING", "Annotation: 1XINTERLINING", "Fabric: Futter", "Category: NECK FACING"}) {
-    const std::string all = file(front + fused + block("B", polyline(box(380, 580)) + text(0, 0, words)));
+  const std::string front = block("A1", polyline(box(400, 600)) + text(0, 0, "Quantity: 1") +
+                                            text(0, 0, "Category: FRONT"));
+  const std::string fused =
+      block("A2", polyline(box(400, 590)) + text(0, 0, "Annotation: 1XFABRIC 1X INTERLIN"));
+  for (const char* words :
+       {"Category: FRONT LINING", "Material: INTERLINING", "Annotation: 1XINTERLINING",
+        "Fabric: Futter", "Category: NECK FACING"}) {
+    const std::string all =
+        file(front + fused + block("B", polyline(box(380, 580)) + text(0, 0, words)));
     const Pattern p = read_dxf(all, "p.dxf");
     EXPECT_EQ(names(p), (Names{"A1", "A2"})) << words;
     EXPECT_TRUE(found(p, "B is ")) << words;
@@ -107,7 +131,8 @@ TEST(RealDxf, AQuantityOfNoneIsAnAlternative) {
 }
 
 TEST(RealDxf, TheFrameOfADrawingIsNoPiece) {
-  const std::string front = block("FRONT", polyline(box(400, 600)) + line({200, 100}, {200, 500}, "7"));
+  const std::string front =
+      block("FRONT", polyline(box(400, 600)) + line({200, 100}, {200, 500}, "7"));
   const Pattern p = read_dxf(file(front + block("BOX", polyline(box(3200, 3200)))), "p.dxf");
   EXPECT_EQ(names(p), Names{"FRONT"});
   EXPECT_TRUE(found(p, "is a frame of 320.00 cm by 320.00 cm"));
@@ -129,7 +154,9 @@ TEST(RealDxf, SlitsInTheCutLineAreNotches) {
 TEST(RealDxf, AnAllowanceIsTakenOffTheCutLineAndNotOffTheFold) {
   DxfChoice choice;
   choice.allowance = 0.01;
-  EXPECT_NEAR(outline_area(read_dxf(file(block("A", polyline(box(400, 300)))), "p.dxf", choice).panels[0]), 0.38 * 0.28, 1e-12);
+  EXPECT_NEAR(
+      outline_area(read_dxf(file(block("A", polyline(box(400, 300)))), "p.dxf", choice).panels[0]),
+      0.38 * 0.28, 1e-12);
   const std::string half = polyline(box(200, 300)) + line({0, 10}, {0, 290}, "6");
   const Pattern whole = read_dxf(file(block("A", half)), "p.dxf", choice);
   EXPECT_NEAR(outline_area(whole.panels[0]), 0.38 * 0.28, 1e-12);
@@ -137,29 +164,38 @@ TEST(RealDxf, AnAllowanceIsTakenOffTheCutLineAndNotOffTheFold) {
   const Points chamfer = {{0, 0}, {400, 0}, {400, 299}, {399, 300}, {0, 300}};
   const Pattern mitred = read_dxf(file(block("A", polyline(chamfer))), "p.dxf", choice);
   EXPECT_NEAR(outline_area(mitred.panels[0]), 0.38 * 0.28, 1e-9);
-  const std::string with_sew_line = polyline(box(400, 300)) + polyline({{10, 10}, {390, 10}, {390, 290}, {10, 290}}, "14");
-  EXPECT_NEAR(outline_area(read_dxf(file(block("A", with_sew_line)), "p.dxf", choice).panels[0]), 0.38 * 0.28, 1e-12) << "once only";
+  const std::string with_sew_line =
+      polyline(box(400, 300)) + polyline({{10, 10}, {390, 10}, {390, 290}, {10, 290}}, "14");
+  EXPECT_NEAR(outline_area(read_dxf(file(block("A", with_sew_line)), "p.dxf", choice).panels[0]),
+              0.38 * 0.28, 1e-12)
+      << "once only";
 }
 
 TEST(RealDxf, TheUnitThatTheUserStatesCounts) {
   DxfChoice choice;
   choice.unit = 0.01;
-  EXPECT_NEAR(outline_area(read_dxf(file(block("A", polyline(box(40, 30)))), "p.dxf", choice).panels[0]), 0.12, 1e-12);
+  EXPECT_NEAR(
+      outline_area(read_dxf(file(block("A", polyline(box(40, 30)))), "p.dxf", choice).panels[0]),
+      0.12, 1e-12);
 }
 
 TEST(RealDxf, AFlatDrawingHasAPieceForEachOutline) {
   std::string lines;
   const auto draw = [&](const Points& points) {
-    for (std::size_t k = 0; k < points.size(); ++k) lines += line(points[k], points[(k + 1) % points.size()], "outline");
+    for (std::size_t k = 0; k < points.size(); ++k)
+      lines += line(points[k], points[(k + 1) % points.size()], "outline");
   };
   draw(box(400, 300));
   draw({{100, 100}, {150, 100}, {150, 150}}); // inside, so no piece
   draw({{500, 0}, {800, 0}, {800, 200}, {500, 200}});
-  const Pattern p = read_dxf("0\nSECTION\n2\nENTITIES\n" + lines + text(600, 100, "BACK") + "0\nENDSEC\n0\nEOF\n", "p.dxf");
+  const Pattern p =
+      read_dxf("0\nSECTION\n2\nENTITIES\n" + lines + text(600, 100, "BACK") + "0\nENDSEC\n0\nEOF\n",
+               "p.dxf");
   EXPECT_EQ(names(p), (Names{"BACK", "piece1"}));
   EXPECT_NEAR(outline_area(p.panels[1]), 0.12, 1e-9);
   try {
-    read_dxf("0\nSECTION\n2\nENTITIES\n" + line({0, 0}, {1, 1}, "1") + "0\nENDSEC\n0\nEOF\n", "p.dxf");
+    read_dxf("0\nSECTION\n2\nENTITIES\n" + line({0, 0}, {1, 1}, "1") + "0\nENDSEC\n0\nEOF\n",
+             "p.dxf");
     FAIL();
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find("close to no outline"), std::string::npos) << e.what();
@@ -168,8 +204,10 @@ TEST(RealDxf, AFlatDrawingHasAPieceForEachOutline) {
 
 TEST(RealDxf, NumbersMayStandOnTheLineOfTheirRule) {
   const std::string head = "UNITS: METRIC\nNUMBER OF SIZES: 2\nSIZE LIST: M L\nSAMPLE SIZE: M\n";
-  const GradeRules inline_rules = parse_grade_rules(head + "RULE: DELTA 1 0.00, 0.00 10.00, 5.00 \nEND\n", "t.rul");
-  const GradeRules lines = parse_grade_rules(head + "RULE: DELTA 1\n0.00, 0.00\n10.00, 5.00\nEND\n", "t.rul");
+  const GradeRules inline_rules =
+      parse_grade_rules(head + "RULE: DELTA 1 0.00, 0.00 10.00, 5.00 \nEND\n", "t.rul");
+  const GradeRules lines =
+      parse_grade_rules(head + "RULE: DELTA 1\n0.00, 0.00\n10.00, 5.00\nEND\n", "t.rul");
   ASSERT_EQ(inline_rules.moves.at(1).size(), 2u);
   EXPECT_EQ(inline_rules.moves.at(1)[1], lines.moves.at(1)[1]);
 }

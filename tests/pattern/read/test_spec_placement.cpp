@@ -7,26 +7,38 @@
 namespace sloper::pattern::test {
 namespace {
 
-/// Six gores around the body, tilted outwards by 40 degrees and then turned about the upright axis: R = Ry Rx.
+/// Six gores around the body, tilted outwards by 40 degrees and then turned about the upright axis:
+/// R = Ry Rx.
 /// @param curves  "list" or "typed", as the two programs write a straight curve
 std::string ring_of_gores(bool maya, const std::string& curves) {
   constexpr int GORES = 6;
-  const std::string curve = curves == "list" ? R"("curvature": [0.5, 0])" : R"("curvature": {"type": "quadratic", "params": [[0.5, 0]]})";
+  const std::string curve = curves == "list"
+                                ? R"("curvature": [0.5, 0])"
+                                : R"("curvature": {"type": "quadratic", "params": [[0.5, 0]]})";
   std::string panels, stitches;
   for (int k = 0; k < GORES; ++k) {
     const double turn = 2 * units::PI * k / GORES, tilt = -units::radians(40);
-    Mat3 r = (Eigen::AngleAxisd(turn, Vec3::UnitY()) * Eigen::AngleAxisd(tilt, Vec3::UnitX())).toRotationMatrix();
+    Mat3 r = (Eigen::AngleAxisd(turn, Vec3::UnitY()) * Eigen::AngleAxisd(tilt, Vec3::UnitX()))
+                 .toRotationMatrix();
     Vec3 angles(units::degrees(tilt), units::degrees(turn), 0); // Rz Ry Rx
     if (!maya) angles = r.eulerAngles(0, 1, 2) * (180 / units::PI);
     const Vec3 at = Vec3(30 * std::sin(turn), 60, 30 * std::cos(turn));
-    const auto triple = [](const Vec3& v) { return "[" + std::to_string(v.x()) + ", " + std::to_string(v.y()) + ", " + std::to_string(v.z()) + "]"; };
-    const std::string name = "gore_" + std::to_string(k), next = "gore_" + std::to_string((k + 1) % GORES);
-    panels += std::string(k ? ", " : "") + "\"" + name + R"(": {"translation": )" + triple(at) + R"(, "rotation": )" + triple(angles) +
-              R"(, "vertices": [[-17, 0], [17, 0], [7, 55], [-7, 55]], "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2], )" + curve +
-              R"(}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]})";
-    stitches += std::string(k ? ", " : "") + R"([{"panel": ")" + name + R"(", "edge": 1}, {"panel": ")" + next + R"(", "edge": 3}])";
+    const auto triple = [](const Vec3& v) {
+      return "[" + std::to_string(v.x()) + ", " + std::to_string(v.y()) + ", " +
+             std::to_string(v.z()) + "]";
+    };
+    const std::string name = "gore_" + std::to_string(k),
+                      next = "gore_" + std::to_string((k + 1) % GORES);
+    panels +=
+        std::string(k ? ", " : "") + "\"" + name + R"(": {"translation": )" + triple(at) +
+        R"(, "rotation": )" + triple(angles) +
+        R"(, "vertices": [[-17, 0], [17, 0], [7, 55], [-7, 55]], "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2], )" +
+        curve + R"(}, {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]})";
+    stitches += std::string(k ? ", " : "") + R"([{"panel": ")" + name +
+                R"(", "edge": 1}, {"panel": ")" + next + R"(", "edge": 3}])";
   }
-  return R"({"pattern": {"panels": {)" + panels + R"(}, "stitches": [)" + stitches + R"(]}, "properties": {"units_in_meter": 100}})";
+  return R"({"pattern": {"panels": {)" + panels + R"(}, "stitches": [)" + stitches +
+         R"(]}, "properties": {"units_in_meter": 100}})";
 }
 
 /// The largest difference in height of the two ends of a gore's waist, m.
@@ -35,7 +47,9 @@ double lean_of_waists(const std::string& text) {
   double most = 0;
   for (const Panel& panel : p.panels) {
     const Segment& waist = panel.edge(2).path.front();
-    const auto height = [&](const Vec2& q) { return (*panel.hint.rigid * Eigen::Vector4d(q.x(), q.y(), 0, 1)).y(); };
+    const auto height = [&](const Vec2& q) {
+      return (*panel.hint.rigid * Eigen::Vector4d(q.x(), q.y(), 0, 1)).y();
+    };
     most = std::max(most, std::abs(height(waist.p[0]) - height(waist.p[3])));
   }
   return most;
@@ -47,14 +61,18 @@ TEST(SpecPlacement, RotationsAreInTheOrderThatBringsTheSeamsTogether) {
   EXPECT_LT(lean_of_waists(ring_of_gores(false, "typed")), 1e-6);
 }
 
-TEST(SpecPlacement, CurvesOfGarmentCodeTellItsOrderWhateverTheSeams) { EXPECT_GT(lean_of_waists(ring_of_gores(true, "typed")), 0.01); }
+TEST(SpecPlacement, CurvesOfGarmentCodeTellItsOrderWhateverTheSeams) {
+  EXPECT_GT(lean_of_waists(ring_of_gores(true, "typed")), 0.01);
+}
 
 TEST(SpecPlacement, PanelsThatAllLieInOnePlaneWereNeverPlaced) {
   const auto spec = [](double z) {
-    const std::string panel = R"("vertices": [[0, 0], [40, 0], [40, 60], [0, 60]], "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]},
+    const std::string panel =
+        R"("vertices": [[0, 0], [40, 0], [40, 60], [0, 60]], "edges": [{"endpoints": [0, 1]}, {"endpoints": [1, 2]},
       {"endpoints": [2, 3]}, {"endpoints": [3, 0]}]})";
-    return R"({"pattern": {"panels": {"front": {"translation": [0, 0, 0], "rotation": [0, 0, 0], )" + panel + R"(, "back": {"translation": [0, 0, )" +
-           std::to_string(z) + R"(], "rotation": [0, 0, 0], )" + panel +
+    return R"({"pattern": {"panels": {"front": {"translation": [0, 0, 0], "rotation": [0, 0, 0], )" +
+           panel + R"(, "back": {"translation": [0, 0, )" + std::to_string(z) +
+           R"(], "rotation": [0, 0, 0], )" + panel +
            R"(}, "stitches": [[{"panel": "front", "edge": 1}, {"panel": "back", "edge": 3}]]}, "properties": {"units_in_meter": 100}})";
   };
   const Pattern flat = read_garmentcode(io::parse_json(spec(0), "spec.json"), "spec.json");
