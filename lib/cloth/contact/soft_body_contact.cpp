@@ -7,14 +7,18 @@ namespace sloper::cloth {
 
 namespace {
 
-constexpr double FAR = 0.06;            // m: distances to the skin are not measured beyond this
-constexpr double FAR_INSIDE = 1;        // m: nor beyond this for what lies deep inside
+constexpr double FAR = 0.06;             // m: distances to the skin are not measured beyond this
+constexpr double FAR_INSIDE = 1;         // m: nor beyond this for what lies deep inside
 constexpr double LEAST_STIFFNESS = 0.05; // of the full one: a force that only begins has none of its own
 
 } // namespace
 
 SoftBodyContactEffect::SoftBodyContactEffect(const ClothMesh& mesh, const collision::BodyCollider& body, const SoftBodyContactOptions& options)
-    : m_body(body), m_options(options), m_edges(mesh.edges) {
+    : m_body(body), m_options(options) {
+  const double share = options.on_edges ? 0.5 : 1; // of the area, to the particles
+  for (int i = 0; i < mesh.n_particles; ++i) m_samples.push_back({.particle = {i, i}, .n = 1, .area = share * mesh.area[static_cast<std::size_t>(i)]});
+  if (!options.on_edges) return;
+  m_edges = mesh.edges;
   std::vector<double> edge_area(m_edges.size(), 0);
   const std::vector<Triangle> triangles = mesh.particle_triangles();
   for (std::size_t f = 0; f < triangles.size(); ++f) {
@@ -27,13 +31,10 @@ SoftBodyContactEffect::SoftBodyContactEffect(const ClothMesh& mesh, const collis
       edge_area[static_cast<std::size_t>(edge - m_edges.begin())] += area / 6;
     }
   }
-  for (int i = 0; i < mesh.n_particles; ++i) m_samples.push_back({.particle = {i, i}, .n = 1, .area = 0.5 * mesh.area[static_cast<std::size_t>(i)]});
   for (std::size_t e = 0; e < m_edges.size(); ++e) m_samples.push_back({.particle = m_edges[e], .n = 2, .area = edge_area[e]});
 }
 
-void SoftBodyContactEffect::declare(Couplings& couplings) const {
-  couplings.symmetric.insert(couplings.symmetric.end(), m_edges.begin(), m_edges.end());
-}
+void SoftBodyContactEffect::declare(Couplings& couplings) const { couplings.symmetric.insert(couplings.symmetric.end(), m_edges.begin(), m_edges.end()); }
 
 void SoftBodyContactEffect::bind(const BlockMatrix& matrix) {
   m_slots.clear();

@@ -13,11 +13,12 @@
 namespace sloper::cloth {
 
 struct SoftBodyContactOptions {
-  double reach_m = 0.012;       ///< distance to the skin at which the force begins
-  double stiffness_n_m3 = 5e5;  ///< k
-  double deepest_m = 0.05;      ///< no larger depth counts
+  double reach_m = 0.012;      ///< distance to the skin at which the force begins
+  double stiffness_n_m3 = 5e5; ///< k
+  double deepest_m = 0.05;     ///< no larger depth counts
   /// Of the stiffness along the skin, against this step's way alone: cloth that lies on the skin creeps where it would slide. In place of friction.
   double drag = 0;
+  bool on_edges = true; ///< also on the middles of edges: for edges longer than about twice the reach
 };
 
 class SoftBodyContactEffect : public Effect {
@@ -28,6 +29,7 @@ public:
   void declare(Couplings& couplings) const override;
   void bind(const BlockMatrix& matrix) override;
   void add(StepContext& context) override;
+  void set_reach(double reach_m) { m_options.reach_m = reach_m; }
   /// The skin has moved since the last step. @param largest_way  of any of its points, m
   void body_moved(double largest_way);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A state of cloth on another mesh of the same pattern, by panel and place in it. Test: tests/garment/levels/test_finer_mesh.cpp
+/// A state of cloth on another mesh of the same pattern, by panel and place in it. Test: tests/garment/levels/test_levels.cpp
 #include <garment/garment.hpp>
 
 namespace sloper::garment {
