@@ -21,7 +21,8 @@ using namespace sloper;
 namespace {
 
 struct Options {
-  std::string scene, body, panels, from, accuracy, effects, material, report, output, cache, checkpoint, follow, frames, edit_log, motion;
+  std::string scene, body, panels, from, accuracy, effects, material, report, output, cache,
+      checkpoint, follow, frames, edit_log, motion;
   std::vector<std::string> set, over, over_output;
   int checkpoint_steps = 100;
   double max_seconds = 0, max_error_mm = 0, motion_fps = 0;
@@ -29,60 +30,104 @@ struct Options {
 };
 
 void add_options(cli::Tool& tool, Options& o) {
-  tool.option("--scene", o.scene, "scene.json: body, panels, materials, effects, settings; options below override it").check(cli::input_file());
+  tool.option("--scene", o.scene,
+              "scene.json: body, panels, materials, effects, settings; options below override it")
+      .check(cli::input_file());
   tool.option("--body", o.body, "body.json from scan-landmarks").check(cli::input_file());
   tool.option("--panels", o.panels, "panels.json from pattern-mesh").check(cli::input_file());
-  tool.option("--from", o.from, "go on from a garment that drape or retarget-garment wrote, or from a checkpoint").check(cli::input_file());
+  tool.option("--from", o.from,
+              "go on from a garment that drape or retarget-garment wrote, or from a checkpoint")
+      .check(cli::input_file());
   tool.option("--over", o.over,
-              "a draped garment that this one goes over; repeated from the skin outwards. Inner cloth is tucked in where it lies outside, then all "
+              "a draped garment that this one goes over; repeated from the skin outwards. Inner "
+              "cloth is tucked in where it lies outside, then all "
               "come to rest together")
       .check(cli::input_file());
-  tool.option("--over-output", o.over_output, "write the garments of --over as they lie below this one; as many, in the same order")
+  tool.option("--over-output", o.over_output,
+              "write the garments of --over as they lie below this one; as many, in the same order")
       .check(cli::document_file());
-  tool.option("--accuracy", o.accuracy, "how exact, and how long it takes (default: standard)").check(cli::one_of(garment::accuracy_names()));
-  tool.option("--effects", o.effects, "auto, auto with changes (auto,membrane,-friction), or exactly those of a list (default: auto)").type_name("LIST");
+  tool.option("--accuracy", o.accuracy, "how exact, and how long it takes (default: standard)")
+      .check(cli::one_of(garment::accuracy_names()));
+  tool.option("--effects", o.effects,
+              "auto, auto with changes (auto,membrane,-friction), or exactly those of a list "
+              "(default: auto)")
+      .type_name("LIST");
   tool.option("--material", o.material,
-              "fabric of panels that name none: a preset such as cotton-poplin, denim, silk, jersey, or a CSV of KES-F or FAST values")
+              "fabric of panels that name none: a preset such as cotton-poplin, denim, silk, "
+              "jersey, or a CSV of KES-F or FAST values")
       .type_name("NAME");
-  tool.option("--set", o.set, "one setting by its name in the report's settings").type_name("KNOB=VALUE");
+  tool.option("--set", o.set, "one setting by its name in the report's settings")
+      .type_name("KNOB=VALUE");
   tool.option("--max-seconds", o.max_seconds,
-              "stop after this wall time, s, with the best state so far; without --accuracy: draft, and standard when there is time for it")
+              "stop after this wall time, s, with the best state so far; without --accuracy: "
+              "draft, and standard when there is time for it")
       .check(cli::finite_in(0, 1e6, "s"));
   tool.option("--max-error-mm", o.max_error_mm,
-              "go on from preset to preset until the cloth is nearer than this to where the finest would bring it, root mean square; exit 4 when none does")
+              "go on from preset to preset until the cloth is nearer than this to where the finest "
+              "would bring it, root mean square; exit 4 when none does")
       .check(cli::finite_in(1e-3, 1e3, "mm"));
-  tool.option("--report", o.report, "write report.json: convergence, effects with calls and time, quality, settings").check(cli::output_file());
+  tool.option("--report", o.report,
+              "write report.json: convergence, effects with calls and time, quality, settings")
+      .check(cli::output_file());
   tool.option("--follow", o.follow,
-              "with --from: edits of the pattern, one JSON object a line, taken as they come from a file that grows or from standard input (\"-\")")
+              "with --from: edits of the pattern, one JSON object a line, taken as they come from "
+              "a file that grows or from standard input (\"-\")")
       .type_name("FILE");
   tool.option("--motion", o.motion,
-              "then move the body: a BVH motion, or the first of a numbered sequence of skins (body.0001.obj, from scan-landmarks --pose); the cloth "
+              "then move the body: a BVH motion, or the first of a numbered sequence of skins "
+              "(body.0001.obj, from scan-landmarks --pose); the cloth "
               "moves with it and comes to rest in the last pose")
       .check(cli::input_file());
-  tool.option("--motion-fps", o.motion_fps, "with --motion: frames a second kept of a BVH motion, and those of a sequence of skins (default: 30)")
+  tool.option("--motion-fps", o.motion_fps,
+              "with --motion: frames a second kept of a BVH motion, and those of a sequence of "
+              "skins (default: 30)")
       .check(cli::finite_in(1, 1000, "1/s"));
   tool.option("--frames", o.frames,
-              "with --follow or --motion: every step or frame as an OBJ in this folder with frames.jsonl, or as JSON lines to standard output (\"-\")")
+              "with --follow or --motion: every step or frame as an OBJ in this folder with "
+              "frames.jsonl, or as JSON lines to standard output (\"-\")")
       .type_name("DIR");
-  tool.option("--edit-log", o.edit_log, "with --follow: the edits taken, as pattern-mesh --edits replays them").check(cli::output_file());
-  tool.flag("--untangle-only", o.untangle_only,
-            "with --from: only draw crossing cloth apart and out of the body, and drape nothing; exit 4 where crossings remain");
-  tool.option("--checkpoint", o.checkpoint,
-              "note the state in this file now and then; after a crash, --from FILE with the same --body and --motion goes on from there to the same bytes")
+  tool.option("--edit-log", o.edit_log,
+              "with --follow: the edits taken, as pattern-mesh --edits replays them")
       .check(cli::output_file());
-  tool.option("--checkpoint-steps", o.checkpoint_steps, "steps from one checkpoint to the next; part of the result (default: 100)")
+  tool.flag("--untangle-only", o.untangle_only,
+            "with --from: only draw crossing cloth apart and out of the body, and drape nothing; "
+            "exit 4 where crossings remain");
+  tool.option("--checkpoint", o.checkpoint,
+              "note the state in this file now and then; after a crash, --from FILE with the same "
+              "--body and --motion goes on from there to the same bytes")
+      .check(cli::output_file());
+  tool.option("--checkpoint-steps", o.checkpoint_steps,
+              "steps from one checkpoint to the next; part of the result (default: 100)")
       .check(cli::finite_in(1, 1e6, "steps"));
-  tool.option("--cache", o.cache, "keep what is found out about a body in this folder, for later runs that meet it: the same result, sooner").type_name("DIR");
-  tool.option("-o,--output", o.output, "shirt.json; shirt.obj is written beside it").required().check(cli::document_file());
-  tool.example("drape --body body.json --panels panels.json --report report.json -o shirt.json", "drape a sewn pattern on a scanned body");
-  tool.formats("scene, body, panels and garment documents (version 1)", "garment and report documents (version 1), OBJ");
-  tool.example("drape --from shirt.json --body body.json --follow edits.jsonl --frames - -o edited.json", "change the pattern and watch the cloth follow");
-  tool.example("drape --body body.json --over shirt.json --panels jacket-panels.json --over-output shirt-below.json -o jacket.json", "a jacket over a shirt");
-  tool.example("drape --from shirt.json --body body.json --motion walk.bvh --frames walk -o shirt-walked.json", "let the body walk, cloth frame by frame");
-  tool.example("drape --from shirt.json --body body.json --untangle-only -o clean.json", "free a garment of crossings and leave the rest of it as it is");
-  tool.example("drape --from run.checkpoint.json --body body.json -o shirt.json", "go on where a run with --checkpoint run.checkpoint.json was killed");
-  tool.example("drape --from shirt.json --body body.json --accuracy fine -o shirt-fine.json", "go on, more exactly");
-  tool.example("drape --body body.json --panels panels.json --max-error-mm 0.5 --report report.json -o shirt.json", "as accurate as that, and no more");
+  tool.option("--cache", o.cache,
+              "keep what is found out about a body in this folder, for later runs that meet it: "
+              "the same result, sooner")
+      .type_name("DIR");
+  tool.option("-o,--output", o.output, "shirt.json; shirt.obj is written beside it")
+      .required()
+      .check(cli::document_file());
+  tool.example("drape --body body.json --panels panels.json --report report.json -o shirt.json",
+               "drape a sewn pattern on a scanned body");
+  tool.formats("scene, body, panels and garment documents (version 1)",
+               "garment and report documents (version 1), OBJ");
+  tool.example(
+      "drape --from shirt.json --body body.json --follow edits.jsonl --frames - -o edited.json",
+      "change the pattern and watch the cloth follow");
+  tool.example("drape --body body.json --over shirt.json --panels jacket-panels.json --over-output "
+               "shirt-below.json -o jacket.json",
+               "a jacket over a shirt");
+  tool.example("drape --from shirt.json --body body.json --motion walk.bvh --frames walk -o "
+               "shirt-walked.json",
+               "let the body walk, cloth frame by frame");
+  tool.example("drape --from shirt.json --body body.json --untangle-only -o clean.json",
+               "free a garment of crossings and leave the rest of it as it is");
+  tool.example("drape --from run.checkpoint.json --body body.json -o shirt.json",
+               "go on where a run with --checkpoint run.checkpoint.json was killed");
+  tool.example("drape --from shirt.json --body body.json --accuracy fine -o shirt-fine.json",
+               "go on, more exactly");
+  tool.example("drape --body body.json --panels panels.json --max-error-mm 0.5 --report "
+               "report.json -o shirt.json",
+               "as accurate as that, and no more");
 }
 
 /// What scene and options say beside the preset.
@@ -97,12 +142,15 @@ void set_knobs(garment::DrapeSettings& settings, const Options& o, const garment
 /// Whether presets are climbed until an error or a time is met, instead of one being given.
 bool has_goal(const Options& o, const garment::Scene& scene) {
   const bool preset = !o.accuracy.empty() || !scene.accuracy.empty() || !o.checkpoint.empty();
-  if (o.max_error_mm > 0 && !o.accuracy.empty()) throw Error(ErrorKind::USAGE, "", "--max-error-mm", "chooses the preset by itself", "leave --accuracy out");
+  if (o.max_error_mm > 0 && !o.accuracy.empty())
+    throw Error(ErrorKind::USAGE, "", "--max-error-mm", "chooses the preset by itself",
+                "leave --accuracy out");
   return o.max_error_mm > 0 || (o.max_seconds > 0 && !preset);
 }
 
 /// The way that the options ask for.
-garment::DrapeJob job_of(const cli::Tool& tool, const Options& o, const garment::Scene& scene, const garment::DrapeSettings& settings) {
+garment::DrapeJob job_of(const cli::Tool& tool, const Options& o, const garment::Scene& scene,
+                         const garment::DrapeSettings& settings) {
   garment::DrapeJob job;
   job.tool = tool.name();
   if (o.follow.empty() && o.motion.empty() && !o.untangle_only && has_goal(o, scene))
@@ -110,21 +158,27 @@ garment::DrapeJob job_of(const cli::Tool& tool, const Options& o, const garment:
   job.adjust = [&o, &scene](garment::DrapeSettings& s) { set_knobs(s, o, scene); };
   job.motion = o.motion;
   if (o.motion_fps > 0) job.motion_fps = o.motion_fps;
-  job.untangle_only = o.untangle_only, job.follow = o.follow, job.frames = o.frames, job.edit_log = o.edit_log;
+  job.untangle_only = o.untangle_only, job.follow = o.follow, job.frames = o.frames,
+  job.edit_log = o.edit_log;
   job.checkpoints = {o.checkpoint, o.checkpoint_steps};
   return job;
 }
 
 void check_options(const Options& o) {
-  const cli::Given follow{"--follow", !o.follow.empty()}, over{"--over", !o.over.empty()}, checkpoint{"--checkpoint", !o.checkpoint.empty()},
-      max_error{"--max-error-mm", o.max_error_mm > 0}, untangle{"--untangle-only", o.untangle_only}, motion{"--motion", !o.motion.empty()};
+  const cli::Given follow{"--follow", !o.follow.empty()}, over{"--over", !o.over.empty()},
+      checkpoint{"--checkpoint", !o.checkpoint.empty()},
+      max_error{"--max-error-mm", o.max_error_mm > 0}, untangle{"--untangle-only", o.untangle_only},
+      motion{"--motion", !o.motion.empty()};
   cli::refuse_together(motion, {follow, max_error, untangle});
   cli::refuse_together(untangle, {follow, over, checkpoint, max_error});
   cli::refuse_together(checkpoint, {follow, max_error});
   cli::refuse_together(over, {follow, max_error});
   for (const cli::Given& one : {follow, untangle})
-    if (one.second && o.from.empty()) throw Error(ErrorKind::USAGE, "", one.first, "there is no garment to go on from", "give --from shirt.json");
-  if (o.follow.empty() && !o.edit_log.empty()) throw Error(ErrorKind::USAGE, "", "--edit-log", "no edits are followed", "give --follow too");
+    if (one.second && o.from.empty())
+      throw Error(ErrorKind::USAGE, "", one.first, "there is no garment to go on from",
+                  "give --from shirt.json");
+  if (o.follow.empty() && !o.edit_log.empty())
+    throw Error(ErrorKind::USAGE, "", "--edit-log", "no edits are followed", "give --follow too");
   if (o.follow.empty() && o.motion.empty() && !o.frames.empty())
     throw Error(ErrorKind::USAGE, "", "--frames", "nothing moves", "give --follow or --motion too");
 }
@@ -132,13 +186,17 @@ void check_options(const Options& o) {
 /// @param below  garments that will lie below this one
 void check_over_output(const Options& o, std::size_t below) {
   if (!o.over_output.empty() && o.over_output.size() != below)
-    throw Error(ErrorKind::USAGE, "", "--over-output", "is given " + std::to_string(o.over_output.size()) + " times, --over " + std::to_string(below),
+    throw Error(ErrorKind::USAGE, "", "--over-output",
+                "is given " + std::to_string(o.over_output.size()) + " times, --over " +
+                    std::to_string(below),
                 "name one file for each garment of --over");
 }
 
 /// Writes all that is asked for; the exit code.
-int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment, std::vector<garment::Garment>& under, const body::Body& body,
-              garment::DrapeOutcome& outcome, const io::Json& inputs, const std::vector<std::string>& findings) {
+int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment,
+              std::vector<garment::Garment>& under, const body::Body& body,
+              garment::DrapeOutcome& outcome, const io::Json& inputs,
+              const std::vector<std::string>& findings) {
   if (!o.body.empty() && o.motion.empty()) garment::bind_garment(garment, body);
   garment::write_garment(o.output, garment, tool.name());
   for (std::size_t k = 0; k < o.over_output.size(); ++k) {
@@ -150,18 +208,26 @@ int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment, std:
   if (!o.report.empty()) {
     document["findings"] = findings;
     document["inputs"] = inputs;
-    document["hash"] = {{"strict", garment::strict_hash(garment)}, {"quantised_10um", garment::quantised_hash(garment)}};
+    document["hash"] = {{"strict", garment::strict_hash(garment)},
+                        {"quantised_10um", garment::quantised_hash(garment)}};
     io::write_json(o.report, document);
   }
   if (outcome.refused_lines > 0)
-    tool.reporter().warning(std::to_string(outcome.refused_lines) + (outcome.refused_lines == 1 ? " line was no edit" : " lines were no edits") +
-                            " of this pattern and changed nothing");
-  if (document.contains("accuracy") && report.converged && !document["accuracy"]["met"].get<bool>()) {
-    tool.reporter().warning("at rest, but not within --max-error-mm; see \"accuracy\" in the report; the state reached is in " + o.output);
+    tool.reporter().warning(
+        std::to_string(outcome.refused_lines) +
+        (outcome.refused_lines == 1 ? " line was no edit" : " lines were no edits") +
+        " of this pattern and changed nothing");
+  if (document.contains("accuracy") && report.converged &&
+      !document["accuracy"]["met"].get<bool>()) {
+    tool.reporter().warning("at rest, but not within --max-error-mm; see \"accuracy\" in the "
+                            "report; the state reached is in " +
+                            o.output);
     return static_cast<int>(ErrorKind::FAILED);
   }
   if (report.converged) return outcome.refused_lines > 0 ? static_cast<int>(ErrorKind::FAILED) : 0;
-  tool.reporter().warning("not done: " + garment::stop_text(report) + " after " + std::to_string(report.steps) + " steps; the state reached is in " + o.output);
+  tool.reporter().warning("not done: " + garment::stop_text(report) + " after " +
+                          std::to_string(report.steps) + " steps; the state reached is in " +
+                          o.output);
   return static_cast<int>(ErrorKind::FAILED);
 }
 
@@ -173,12 +239,20 @@ body::Body read_body(cli::Tool& tool, const Options& o) {
 
 /// Goes on from a checkpoint, which knows all but the body and its motion.
 int resume(cli::Tool& tool, const Options& o) {
-  const cli::Given given[] = {
-      {"--scene", !o.scene.empty()},   {"--accuracy", !o.accuracy.empty()},  {"--effects", !o.effects.empty()},      {"--material", !o.material.empty()},
-      {"--set", !o.set.empty()},       {"--over", !o.over.empty()},          {"--max-error-mm", o.max_error_mm > 0}, {"--max-seconds", o.max_seconds > 0},
-      {"--follow", !o.follow.empty()}, {"--untangle-only", o.untangle_only}, {"--motion-fps", o.motion_fps > 0}};
+  const cli::Given given[] = {{"--scene", !o.scene.empty()},
+                              {"--accuracy", !o.accuracy.empty()},
+                              {"--effects", !o.effects.empty()},
+                              {"--material", !o.material.empty()},
+                              {"--set", !o.set.empty()},
+                              {"--over", !o.over.empty()},
+                              {"--max-error-mm", o.max_error_mm > 0},
+                              {"--max-seconds", o.max_seconds > 0},
+                              {"--follow", !o.follow.empty()},
+                              {"--untangle-only", o.untangle_only},
+                              {"--motion-fps", o.motion_fps > 0}};
   for (const auto& [name, is_given] : given)
-    if (is_given) throw Error(ErrorKind::USAGE, "", name, "is settled by the checkpoint", "leave it out");
+    if (is_given)
+      throw Error(ErrorKind::USAGE, "", name, "is settled by the checkpoint", "leave it out");
   const garment::DrapeCheckpoint checkpoint = garment::read_checkpoint(o.from);
   check_over_output(o, checkpoint.layers ? checkpoint.layers->garments.size() - 1 : 0);
   io::Json inputs = io::Json::array({garment::input_entry(o.from)});
@@ -192,8 +266,11 @@ int resume(cli::Tool& tool, const Options& o) {
   }
   if (!o.motion.empty()) inputs.push_back(garment::input_entry(o.motion));
   garment::DrapeJob job;
-  job.tool = tool.name(), job.motion = o.motion, job.frames = o.frames, job.checkpoints.file = o.checkpoint;
-  garment::DrapeOutcome outcome = garment::resume_job(job, checkpoint, garment, under, o.body.empty() ? nullptr : &body, std::cout, tool.reporter());
+  job.tool = tool.name(), job.motion = o.motion, job.frames = o.frames,
+  job.checkpoints.file = o.checkpoint;
+  garment::DrapeOutcome outcome =
+      garment::resume_job(job, checkpoint, garment, under, o.body.empty() ? nullptr : &body,
+                          std::cout, tool.reporter());
   return write_out(tool, o, garment, under, body, outcome, inputs, {});
 }
 
@@ -205,16 +282,27 @@ int run(cli::Tool& tool, Options& o) {
   if (o.body.empty()) o.body = scene.body;
   if (o.panels.empty()) o.panels = scene.panels;
   if (o.panels.empty() == o.from.empty())
-    throw Error(ErrorKind::USAGE, "", "", o.from.empty() ? "nothing to drape" : "both --panels and --from are given",
-                "give --panels panels.json or --from shirt.json, which follows an edited pattern with --follow edits.jsonl");
-  garment::DrapeSettings settings = garment::preset_settings(!o.accuracy.empty() ? o.accuracy : !scene.accuracy.empty() ? scene.accuracy : "standard");
+    throw Error(ErrorKind::USAGE, "", "",
+                o.from.empty() ? "nothing to drape" : "both --panels and --from are given",
+                "give --panels panels.json or --from shirt.json, which follows an edited pattern "
+                "with --follow edits.jsonl");
+  garment::DrapeSettings settings =
+      garment::preset_settings(!o.accuracy.empty()       ? o.accuracy
+                               : !scene.accuracy.empty() ? scene.accuracy
+                                                         : "standard");
   set_knobs(settings, o, scene);
-  if (!o.motion.empty() && o.body.empty()) throw Error(ErrorKind::USAGE, "", "--motion", "there is no body to move", "give --body body.json");
-  if (!o.over.empty() && o.body.empty()) throw Error(ErrorKind::USAGE, "", "--over", "there is no body that layers could lie on", "give --body body.json");
+  if (!o.motion.empty() && o.body.empty())
+    throw Error(ErrorKind::USAGE, "", "--motion", "there is no body to move",
+                "give --body body.json");
+  if (!o.over.empty() && o.body.empty())
+    throw Error(ErrorKind::USAGE, "", "--over", "there is no body that layers could lie on",
+                "give --body body.json");
 
   garment::Garment garment;
   const std::string& source = o.from.empty() ? o.panels : o.from;
-  if (o.from.empty()) garment.panels = pattern::read_panel_mesh(o.panels), garment.rest_scale = pattern::tape_scales(garment.panels);
+  if (o.from.empty())
+    garment.panels = pattern::read_panel_mesh(o.panels),
+    garment.rest_scale = pattern::tape_scales(garment.panels);
   else garment = garment::read_garment(o.from);
   io::Json inputs = io::Json::array({garment::input_entry(source)});
   garment::apply_scene(scene, garment);
@@ -225,10 +313,13 @@ int run(cli::Tool& tool, Options& o) {
   const body::Body body = o.body.empty() ? body::Body{} : read_body(tool, o);
   const std::string skin = o.body.empty() ? "" : body::skin_sha256(o.body);
   const std::optional<double> before = garment::stretch_elsewhere(garment, skin);
-  std::vector<std::string> findings = garment::start_findings(garment, {source, o.body, skin, !o.from.empty()});
+  std::vector<std::string> findings =
+      garment::start_findings(garment, {source, o.body, skin, !o.from.empty()});
   if (!o.body.empty()) {
     for (std::size_t k = 0; k < layers.size(); ++k)
-      for (const std::string& finding : garment::start_findings(layers[k], {o.over[k], o.body, skin, true})) findings.push_back(finding);
+      for (const std::string& finding :
+           garment::start_findings(layers[k], {o.over[k], o.body, skin, true}))
+        findings.push_back(finding);
     garment.body_sha256 = skin;
     inputs.push_back(garment::input_entry(o.body));
   }
@@ -236,8 +327,11 @@ int run(cli::Tool& tool, Options& o) {
   if (!o.motion.empty()) inputs.push_back(garment::input_entry(o.motion));
   for (const std::string& path : o.over) inputs.push_back(garment::input_entry(path));
   garment::DrapeOutcome outcome =
-      garment::do_drape(job_of(tool, o, scene, settings), garment, layers, o.body.empty() ? nullptr : &body, settings, std::cout, tool.reporter());
-  if (!o.untangle_only) garment::judge_stretch(garment, outcome, {source, o.body, skin, !o.from.empty()}, before, findings, tool.reporter());
+      garment::do_drape(job_of(tool, o, scene, settings), garment, layers,
+                        o.body.empty() ? nullptr : &body, settings, std::cout, tool.reporter());
+  if (!o.untangle_only)
+    garment::judge_stretch(garment, outcome, {source, o.body, skin, !o.from.empty()}, before,
+                           findings, tool.reporter());
   return write_out(tool, o, garment, layers, body, outcome, inputs, findings);
 }
 

@@ -20,7 +20,8 @@ using namespace sloper;
 
 namespace {
 
-constexpr double LEAST_ANGLE = 15; // degrees: a mesh carried over an edit is kept while it is no worse
+constexpr double LEAST_ANGLE =
+    15; // degrees: a mesh carried over an edit is kept while it is no worse
 
 struct Options {
   std::string pattern, output, sewing, body, edits, write_pattern, size, grade_rules, undo;
@@ -28,7 +29,8 @@ struct Options {
   bool check = false, unsewn = false;
 };
 
-/// Findings to standard output, as JSON too where an output is named. 1 where the pattern cannot be sewn as drawn, or seems to be meant otherwise.
+/// Findings to standard output, as JSON too where an output is named. 1 where the pattern cannot be
+/// sewn as drawn, or seems to be meant otherwise.
 int check(const cli::Tool& tool, const pattern::Pattern& source, const Options& o) {
   io::Json document = io::new_document("pattern-findings", 1, tool.name());
   document["findings"] = io::Json::array();
@@ -36,38 +38,50 @@ int check(const cli::Tool& tool, const pattern::Pattern& source, const Options& 
   const std::vector<pattern::PatternFinding> findings = pattern::check_pattern(source);
   for (const pattern::PatternFinding& f : findings) {
     std::cout << f.severity << ": " << f.rule << ": " << f.place << ": " << f.fact << '\n';
-    document["findings"].push_back({{"severity", f.severity}, {"rule", f.rule}, {"place", f.place}, {"fact", f.fact}});
+    document["findings"].push_back(
+        {{"severity", f.severity}, {"rule", f.rule}, {"place", f.place}, {"fact", f.fact}});
     bad = bad || f.severity == "error";
     sewable = sewable && !pattern::forbids_sewing(f);
   }
   if (sewable) { // what the finished garment measures
     const pattern::FinishedMeasures measures = pattern::finished_measures(source, o.pattern);
-    for (const pattern::NamedMeasure& m : measures.named) std::cout << "measure: " << m.name << ' ' << pattern::centimetres(m.value) << " (" << m.how << ")\n";
+    for (const pattern::NamedMeasure& m : measures.named)
+      std::cout << "measure: " << m.name << ' ' << pattern::centimetres(m.value) << " (" << m.how
+                << ")\n";
     for (const pattern::Opening& opening : measures.openings) {
       std::string edges;
       for (const std::string& edge : opening.edges) edges += (edges.empty() ? "" : ", ") + edge;
-      std::cout << "measure: opening of " << pattern::centimetres(opening.length) << ": " << edges << '\n';
+      std::cout << "measure: opening of " << pattern::centimetres(opening.length) << ": " << edges
+                << '\n';
     }
     document["measures"] = pattern::measures_json(measures);
   }
   const bool sarif = o.output.size() > 6 && o.output.compare(o.output.size() - 6, 6, ".sarif") == 0;
-  if (!o.output.empty()) io::write_json(o.output, sarif ? pattern::findings_sarif(findings, o.pattern, tool.name()) : document);
+  if (!o.output.empty())
+    io::write_json(o.output,
+                   sarif ? pattern::findings_sarif(findings, o.pattern, tool.name()) : document);
   return bad ? 1 : 0;
 }
 
 /// The pattern as read (and edited), in the format of the file name's ending.
 void write_pattern(cli::Tool& tool, const pattern::Pattern& source, const std::string& path) {
-  const auto ends = [&](const std::string& tail) { return path.size() >= tail.size() && path.compare(path.size() - tail.size(), tail.size(), tail) == 0; };
+  const auto ends = [&](const std::string& tail) {
+    return path.size() >= tail.size() &&
+           path.compare(path.size() - tail.size(), tail.size(), tail) == 0;
+  };
   if (ends(".svg")) io::write_file(path, pattern::pattern_svg(source));
   else if (ends(".dxf")) {
     std::vector<std::string> left_out;
     io::write_file(path, pattern::pattern_dxf(source, left_out));
     for (const std::string& line : left_out) tool.reporter().warning(line);
   } else if (ends(".json")) io::write_json(path, pattern::pattern_json(source, tool.name()));
-  else throw Error(ErrorKind::USAGE, path, "", "no pattern format has this ending", "name a .json, .dxf or .svg file");
+  else
+    throw Error(ErrorKind::USAGE, path, "", "no pattern format has this ending",
+                "name a .json, .dxf or .svg file");
 }
 
-/// Seams of a file that states none. True when all that could be sewn is certain; else the open questions go to standard output.
+/// Seams of a file that states none. True when all that could be sewn is certain; else the open
+/// questions go to standard output.
 bool guess_seams(cli::Tool& tool, pattern::Pattern& source) {
   const std::vector<pattern::SeamGuess> guesses = pattern::infer_seams(source);
   const io::Json document = pattern::sewing_questions(source, guesses, tool.name());
@@ -78,8 +92,10 @@ bool guess_seams(cli::Tool& tool, pattern::Pattern& source) {
     }
   if (document["questions"].empty() && !source.seams.empty()) return true;
   std::cout << io::to_text(document);
-  tool.reporter().warning("the file states no seams: " + std::to_string(source.seams.size()) + " are guessed, " + std::to_string(document["questions"].size()) +
-                          " edges are open; answer the questions on standard output and give them as --sewing, or take the pieces --unsewn");
+  tool.reporter().warning("the file states no seams: " + std::to_string(source.seams.size()) +
+                          " are guessed, " + std::to_string(document["questions"].size()) +
+                          " edges are open; answer the questions on standard output and give them "
+                          "as --sewing, or take the pieces --unsewn");
   return false;
 }
 
@@ -88,16 +104,22 @@ int run(cli::Tool& tool, const Options& o) {
   io::Json edits;
   if (!o.edits.empty()) edits = io::read_json(o.edits);
   if (!o.undo.empty()) {
-    if (o.edits.empty()) throw Error(ErrorKind::USAGE, o.undo, "", "there are no edits to take back", "give --edits too");
+    if (o.edits.empty())
+      throw Error(ErrorKind::USAGE, o.undo, "", "there are no edits to take back",
+                  "give --edits too");
     io::write_json(o.undo, pattern::inverse_edits(source, edits, o.edits, tool.name()));
   }
-  if (o.check || (o.output.empty() && (!o.write_pattern.empty() || !o.undo.empty()))) { // nothing to mesh
+  if (o.check ||
+      (o.output.empty() && (!o.write_pattern.empty() || !o.undo.empty()))) { // nothing to mesh
     if (!o.edits.empty()) pattern::apply_edits(source, edits, o.edits);
     if (!o.write_pattern.empty()) write_pattern(tool, source, o.write_pattern);
     return o.check ? check(tool, source, o) : 0;
   }
-  if (source.seams.empty() && source.source_format == "dxf" && source.panels.size() > 1 && !o.unsewn && !guess_seams(tool, source)) return 1;
-  if (o.output.empty()) throw Error(ErrorKind::USAGE, "", "", "--output is missing", "say for example -o panels.json");
+  if (source.seams.empty() && source.source_format == "dxf" && source.panels.size() > 1 &&
+      !o.unsewn && !guess_seams(tool, source))
+    return 1;
+  if (o.output.empty())
+    throw Error(ErrorKind::USAGE, "", "", "--output is missing", "say for example -o panels.json");
   pattern::require_sewable(source, o.pattern);
   pattern::PanelMesh mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern, o.seam_length);
   if (!o.edits.empty()) {
@@ -121,10 +143,13 @@ int run(cli::Tool& tool, const Options& o) {
     mesh.body_sha256 = body::skin_sha256(o.body);
     const pattern::PlacementReport r = pattern::place_panels(source, body::read_body(o.body), mesh);
     if (r.crossings + r.vertices_inside + r.faces_through > 0)
-      tool.reporter().warning("the start is not free: " + std::to_string(r.crossings) + " pairs of triangles cross, " + std::to_string(r.vertices_inside) +
-                              " vertices lie in the body, " + std::to_string(r.faces_through) + " faces go through its skin");
+      tool.reporter().warning("the start is not free: " + std::to_string(r.crossings) +
+                              " pairs of triangles cross, " + std::to_string(r.vertices_inside) +
+                              " vertices lie in the body, " + std::to_string(r.faces_through) +
+                              " faces go through its skin");
     if (r.is_guess) tool.reporter().warning(mesh.findings.back());
-    tool.reporter().info("seam gap at the start: mean " + pattern::centimetres(r.seam_gap_mean) + ", largest " + pattern::centimetres(r.seam_gap_max));
+    tool.reporter().info("seam gap at the start: mean " + pattern::centimetres(r.seam_gap_mean) +
+                         ", largest " + pattern::centimetres(r.seam_gap_max));
   }
   for (const std::string& finding : mesh.findings) tool.reporter().info(finding);
   pattern::write_panel_mesh(o.output, mesh, tool.name());
@@ -136,26 +161,44 @@ int run(cli::Tool& tool, const Options& o) {
 int main(int argc, char** argv) {
   cli::Tool tool("pattern-mesh", "Mesh a sewing pattern and place its panels around a body");
   Options o;
-  tool.option("PATTERN", o.pattern, "pattern JSON, GarmentCode specification, sewing-spec JSON or AAMA / ASTM DXF").required().check(cli::input_file());
-  tool.option("--edge-length", o.edge_length, "length of mesh edges, m (default: 0.015)").check(cli::finite_in(0.001, 0.2, "m"));
-  tool.option("--seam-edge-length", o.seam_length, "length of mesh edges along seams and darts, m, growing away from them (default: as elsewhere)")
-      .check(cli::finite_in(0.001, 0.2, "m"));
-  tool.option("--body", o.body, "body.json from scan-landmarks: panels are placed around this body").check(cli::input_file());
-  tool.option("--edits", o.edits, "edits.json: changes of the outline that keep the mesh and its vertex ids where they can; \"-\" reads standard input")
+  tool.option("PATTERN", o.pattern,
+              "pattern JSON, GarmentCode specification, sewing-spec JSON or AAMA / ASTM DXF")
+      .required()
       .check(cli::input_file());
-  tool.option("--undo", o.undo, "write the edits that take --edits back, to the last bit").check(cli::output_file());
-  tool.option("--sewing", o.sewing, "sidecar with the seams of a DXF that has none").check(cli::input_file());
-  tool.option("--size", o.size, "size to take from a graded DXF (default: its sample size)").type_name("SIZE");
-  tool.option("--grade-rules", o.grade_rules, "grade rule table (.rul) of a DXF").check(cli::input_file());
+  tool.option("--edge-length", o.edge_length, "length of mesh edges, m (default: 0.015)")
+      .check(cli::finite_in(0.001, 0.2, "m"));
+  tool.option("--seam-edge-length", o.seam_length,
+              "length of mesh edges along seams and darts, m, growing away from them (default: as "
+              "elsewhere)")
+      .check(cli::finite_in(0.001, 0.2, "m"));
+  tool.option("--body", o.body, "body.json from scan-landmarks: panels are placed around this body")
+      .check(cli::input_file());
+  tool.option("--edits", o.edits,
+              "edits.json: changes of the outline that keep the mesh and its vertex ids where they "
+              "can; \"-\" reads standard input")
+      .check(cli::input_file());
+  tool.option("--undo", o.undo, "write the edits that take --edits back, to the last bit")
+      .check(cli::output_file());
+  tool.option("--sewing", o.sewing, "sidecar with the seams of a DXF that has none")
+      .check(cli::input_file());
+  tool.option("--size", o.size, "size to take from a graded DXF (default: its sample size)")
+      .type_name("SIZE");
+  tool.option("--grade-rules", o.grade_rules, "grade rule table (.rul) of a DXF")
+      .check(cli::input_file());
   tool.flag("--unsewn", o.unsewn, "mesh a DXF that states no seams without guessing any");
   tool.option("--write-pattern", o.write_pattern,
-              "write the pattern as read and edited: FILE.json (own format), FILE.dxf (AAMA with sewing texts) or FILE.svg (to look at)")
+              "write the pattern as read and edited: FILE.json (own format), FILE.dxf (AAMA with "
+              "sewing texts) or FILE.svg (to look at)")
       .check(cli::output_file());
-  tool.option("-o,--output", o.output, "panels.json; panels.obj is written beside it").check(cli::document_file());
+  tool.option("-o,--output", o.output, "panels.json; panels.obj is written beside it")
+      .check(cli::document_file());
   tool.flag("--check", o.check,
-            "validate only: findings and finished measures to standard output (as JSON or SARIF to -o FILE.json or FILE.sarif), exit 1 where the pattern "
+            "validate only: findings and finished measures to standard output (as JSON or SARIF to "
+            "-o FILE.json or FILE.sarif), exit 1 where the pattern "
             "cannot be sewn as drawn or seems to be meant otherwise");
-  tool.example("pattern-mesh --body body.json -o panels.json shirt.pattern.json", "mesh a pattern and place it around a scanned body");
-  tool.example("pattern-mesh --check shirt.pattern.json", "list what is wrong with a pattern without meshing it");
+  tool.example("pattern-mesh --body body.json -o panels.json shirt.pattern.json",
+               "mesh a pattern and place it around a scanned body");
+  tool.example("pattern-mesh --check shirt.pattern.json",
+               "list what is wrong with a pattern without meshing it");
   return tool.run(argc, argv, [&] { return run(tool, o); });
 }

@@ -34,23 +34,29 @@ void strike_pose(cli::Tool& tool, const Options& o, body::Body& body) {
   if (o.pose.size() > 4 && o.pose.substr(o.pose.size() - 4) == ".bvh") {
     const body::Motion motion = body::read_bvh(o.pose, body, o.pose_fps > 0 ? 1 / o.pose_fps : 0);
     body::write_motion(o.output, body, weights, motion, tool.name(), tool.reporter());
-    tool.reporter().info(std::to_string(motion.poses.size()) + " poses, " + std::to_string(motion.frame_s) + " s apart");
+    tool.reporter().info(std::to_string(motion.poses.size()) + " poses, " +
+                         std::to_string(motion.frame_s) + " s apart");
   } else body = body::posed_body(body, weights, body::read_pose(o.pose, body));
 }
 
-/// What is estimated or not found, a line each, and the widest hole; a scanner leaves a dozen, and a surface that must be closed again.
+/// What is estimated or not found, a line each, and the widest hole; a scanner leaves a dozen, and
+/// a surface that must be closed again.
 void tell_findings(cli::Tool& tool, const body::Body& body) {
   std::size_t n_holes = 0;
   std::string widest;
   for (const body::Finding& finding : body.scan.findings) {
     if (finding.severity != "warning") continue; // what was not found is told at the end
     const std::string text = finding.place + ": " + finding.what;
-    const bool is_hole = finding.place[0] == '('; // its place is a point, and they come widest first
+    const bool is_hole =
+        finding.place[0] == '('; // its place is a point, and they come widest first
     if (is_hole && n_holes++ == 0) widest = text;
     if (is_hole || finding.place == "body.obj") tool.reporter().info(text);
     else tool.reporter().warning(text);
   }
-  if (n_holes > 0) tool.reporter().warning(widest + (n_holes > 1 ? ", and " + std::to_string(n_holes - 1) + " less wide: scan.findings has them" : ""));
+  if (n_holes > 0)
+    tool.reporter().warning(widest + (n_holes > 1 ? ", and " + std::to_string(n_holes - 1) +
+                                                        " less wide: scan.findings has them"
+                                                  : ""));
 }
 
 int run(cli::Tool& tool, const Options& o) {
@@ -64,11 +70,14 @@ int run(cli::Tool& tool, const Options& o) {
   const auto start = std::chrono::steady_clock::now();
   const io::Scan scan = io::read_scan(o.scan);
   char took[60];
-  std::snprintf(took, sizeof took, "reading: %.3f s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  std::snprintf(took, sizeof took, "reading: %.3f s",
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   tool.reporter().info(took);
-  body::MeasuredScan measured = body::measure_scan(scan.mesh, o.scan, scan.sha256, options, tool.reporter());
+  body::MeasuredScan measured =
+      body::measure_scan(scan.mesh, o.scan, scan.sha256, options, tool.reporter());
   const std::string vit = o.vit.empty() ? "" : body::valentina_measurements(measured.body);
-  const std::string garmentcode = o.garmentcode.empty() ? "" : body::garmentcode_body(measured.body);
+  const std::string garmentcode =
+      o.garmentcode.empty() ? "" : body::garmentcode_body(measured.body);
   if (!o.pose.empty()) strike_pose(tool, o, measured.body);
   if (o.anonymise) body::anonymise(measured.body);
   body::write_body(o.output, measured.body, tool.name());
@@ -83,40 +92,70 @@ int run(cli::Tool& tool, const Options& o) {
   if (measured.missing.empty()) return 0;
   std::string names;
   for (const std::string& name : measured.missing) names += (names.empty() ? "" : ", ") + name;
-  throw Error(ErrorKind::FAILED, o.scan, "", "landmarks not found: " + names, "the rest is written to " + o.output + ", marked in scan.findings");
+  throw Error(ErrorKind::FAILED, o.scan, "", "landmarks not found: " + names,
+              "the rest is written to " + o.output + ", marked in scan.findings");
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  cli::Tool tool("scan-landmarks", "Find landmarks, levels, girths, parts and frames on a raw body scan");
+  cli::Tool tool("scan-landmarks",
+                 "Find landmarks, levels, girths, parts and frames on a raw body scan");
   Options o;
-  tool.option("SCAN", o.scan, "scan of one standing person: OBJ, PLY, STL, 3DS or XYZ, mesh or bare points; glTF, FBX, Collada, OFF, X3D through assimp")
+  tool.option("SCAN", o.scan,
+              "scan of one standing person: OBJ, PLY, STL, 3DS or XYZ, mesh or bare points; glTF, "
+              "FBX, Collada, OFF, X3D through assimp")
       .required()
       .check(cli::input_file());
-  tool.option("--unit", o.unit, "unit of the scan's coordinates (default: auto, from the stature)").check(cli::one_of({"auto", "m", "cm", "mm", "inch"}));
-  tool.option("--up", o.up, "axis along which the body stands, taken as it is (default: auto, the vertical is told from the body)")
+  tool.option("--unit", o.unit, "unit of the scan's coordinates (default: auto, from the stature)")
+      .check(cli::one_of({"auto", "m", "cm", "mm", "inch"}));
+  tool.option("--up", o.up,
+              "axis along which the body stands, taken as it is (default: auto, the vertical is "
+              "told from the body)")
       .check(cli::one_of({"auto", "x", "y", "z"}));
-  tool.flag("--torso-only", o.torso_only, "take a scan without legs too: what it shows is found, stature and floor are estimated from the head");
+  tool.flag("--torso-only", o.torso_only,
+            "take a scan without legs too: what it shows is found, stature and floor are estimated "
+            "from the head");
   tool.option("--jitter", o.jitter,
-              "runs of the rules on a slightly turned, lifted and roughened skin, which measure each landmark's spread (default: 3, none beyond 80,000 faces)")
+              "runs of the rules on a slightly turned, lifted and roughened skin, which measure "
+              "each landmark's spread (default: 3, none beyond 80,000 faces)")
       .check(cli::finite_in(0, 100, ""));
-  tool.option("--rules", o.rules, "landmark rules to use in place of the built-in numbers").check(cli::input_file());
-  tool.option("--parts", o.parts, "write one byte for each vertex of the scan: 0 head, 1 torso, 2 arm_l, 3 arm_r, 4 leg_l, 5 leg_r, 255 not body")
-      .check(cli::output_file());
-  tool.option("--csv", o.csv, "write the measurements as a table, with ISO 8559-1 names beside ours").check(cli::output_file());
-  tool.option("--vit", o.vit, "write the measurements for Valentina (.vit, cm)").check(cli::output_file());
-  tool.option("--garmentcode", o.garmentcode, "write the measurements as a GarmentCode body file (YAML, cm)").check(cli::output_file());
-  tool.option("--skeleton", o.skeleton, "write the bones as an OBJ of lines").check(cli::output_file());
-  tool.option("--pose", o.pose, "joint angles (JSON): the body is written in that pose; or BVH motion: body.0001.obj, ... are written beside it")
+  tool.option("--rules", o.rules, "landmark rules to use in place of the built-in numbers")
       .check(cli::input_file());
-  tool.option("--pose-fps", o.pose_fps, "poses per second kept of a BVH motion; 0 keeps all (default: 30)").check(cli::finite_in(0, 1000, "1/s"));
-  tool.flag("--anonymise", o.anonymise, "drop the skin and the scan's name; keep landmarks, measurements, frames and bones");
+  tool.option("--parts", o.parts,
+              "write one byte for each vertex of the scan: 0 head, 1 torso, 2 arm_l, 3 arm_r, 4 "
+              "leg_l, 5 leg_r, 255 not body")
+      .check(cli::output_file());
+  tool.option("--csv", o.csv,
+              "write the measurements as a table, with ISO 8559-1 names beside ours")
+      .check(cli::output_file());
+  tool.option("--vit", o.vit, "write the measurements for Valentina (.vit, cm)")
+      .check(cli::output_file());
+  tool.option("--garmentcode", o.garmentcode,
+              "write the measurements as a GarmentCode body file (YAML, cm)")
+      .check(cli::output_file());
+  tool.option("--skeleton", o.skeleton, "write the bones as an OBJ of lines")
+      .check(cli::output_file());
+  tool.option("--pose", o.pose,
+              "joint angles (JSON): the body is written in that pose; or BVH motion: "
+              "body.0001.obj, ... are written beside it")
+      .check(cli::input_file());
+  tool.option("--pose-fps", o.pose_fps,
+              "poses per second kept of a BVH motion; 0 keeps all (default: 30)")
+      .check(cli::finite_in(0, 1000, "1/s"));
+  tool.flag("--anonymise", o.anonymise,
+            "drop the skin and the scan's name; keep landmarks, measurements, frames and bones");
   tool.flag("--explain", o.explain, "print the decision path to stderr");
-  tool.option("-o,--output", o.output, "body.json; body.obj is written beside it").required().check(cli::document_file());
-  tool.example("scan-landmarks -o body.json scan.obj", "measure a scan; unit, up axis and facing are found out");
-  tool.example("scan-landmarks --unit mm --parts parts.u8 -o body.json scan.ply", "measure a scan in millimetres and label its vertices");
-  tool.example("scan-landmarks --pose walk.bvh -o body.json scan.obj", "also write the body walking: body.0001.obj, body.0002.obj, ...");
-  tool.formats("OBJ, PLY, STL, 3DS, XYZ, glTF, FBX, Collada, OFF, X3D", "body.json (version 1), OBJ");
+  tool.option("-o,--output", o.output, "body.json; body.obj is written beside it")
+      .required()
+      .check(cli::document_file());
+  tool.example("scan-landmarks -o body.json scan.obj",
+               "measure a scan; unit, up axis and facing are found out");
+  tool.example("scan-landmarks --unit mm --parts parts.u8 -o body.json scan.ply",
+               "measure a scan in millimetres and label its vertices");
+  tool.example("scan-landmarks --pose walk.bvh -o body.json scan.obj",
+               "also write the body walking: body.0001.obj, body.0002.obj, ...");
+  tool.formats("OBJ, PLY, STL, 3DS, XYZ, glTF, FBX, Collada, OFF, X3D",
+               "body.json (version 1), OBJ");
   return tool.run(argc, argv, [&] { return run(tool, o); });
 }

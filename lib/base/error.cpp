@@ -5,7 +5,8 @@
 
 namespace sloper {
 
-static std::string join(const std::string& file, const std::string& place, const std::string& fact, const std::string& next_step) {
+static std::string join(const std::string& file, const std::string& place, const std::string& fact,
+                        const std::string& next_step) {
   std::string out;
   for (const std::string* part : {&file, &place, &fact}) {
     if (part->empty()) continue;
@@ -16,11 +17,14 @@ static std::string join(const std::string& file, const std::string& place, const
   return out;
 }
 
-Error::Error(ErrorKind kind, std::string file, std::string place, std::string fact, std::string next_step)
-    : std::runtime_error(join(file, place, fact, next_step)), m_kind(kind), m_file(std::move(file)), m_place(std::move(place)), m_fact(std::move(fact)) {}
+Error::Error(ErrorKind kind, std::string file, std::string place, std::string fact,
+             std::string next_step)
+    : std::runtime_error(join(file, place, fact, next_step)), m_kind(kind), m_file(std::move(file)),
+      m_place(std::move(place)), m_fact(std::move(fact)) {}
 
 Error input_error(std::string file, std::string place, std::string fact, std::string next_step) {
-  return {ErrorKind::INPUT, std::move(file), std::move(place), std::move(fact), std::move(next_step)};
+  return {ErrorKind::INPUT, std::move(file), std::move(place), std::move(fact),
+          std::move(next_step)};
 }
 
 static std::size_t edit_distance(const std::string& a, const std::string& b) {
@@ -38,11 +42,14 @@ static std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-Error unknown_word(const std::string& option, const std::string& word, const std::vector<std::string>& known, std::string next_step) {
-  return {ErrorKind::USAGE, "", option + " " + word, "is not known" + did_you_mean(word, known), std::move(next_step)};
+Error unknown_word(const std::string& option, const std::string& word,
+                   const std::vector<std::string>& known, std::string next_step) {
+  return {ErrorKind::USAGE, "", option + " " + word, "is not known" + did_you_mean(word, known),
+          std::move(next_step)};
 }
 
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& known, const char* quote) {
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known,
+                         const char* quote) {
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : known) {

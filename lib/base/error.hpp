@@ -1,5 +1,6 @@
 #pragma once
-/// Typed errors. Thrown in lib, caught once, in cli::run_tool(). Every message says file, place, fact and next step.
+/// Typed errors. Thrown in lib, caught once, in cli::run_tool(). Every message says file, place,
+/// fact and next step.
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -23,7 +24,8 @@ public:
   /// @param place     JSON pointer, line number, panel or element; or empty
   /// @param fact      what is wrong, in one clause
   /// @param next_step what to do about it, or empty
-  Error(ErrorKind kind, std::string file, std::string place, std::string fact, std::string next_step = {});
+  Error(ErrorKind kind, std::string file, std::string place, std::string fact,
+        std::string next_step = {});
   ErrorKind kind() const { return m_kind; }
   int exit_code() const { return static_cast<int>(m_kind); }
   const std::string& file() const { return m_file; }
@@ -36,12 +38,16 @@ private:
 };
 
 /// Shorthand for the commonest one: bad input, exit 3.
-Error input_error(std::string file, std::string place, std::string fact, std::string next_step = {});
+Error input_error(std::string file, std::string place, std::string fact,
+                  std::string next_step = {});
 
 /// A word of an option that is none of the known: exit 2, with the nearest of them.
-Error unknown_word(const std::string& option, const std::string& word, const std::vector<std::string>& known, std::string next_step);
+Error unknown_word(const std::string& option, const std::string& word,
+                   const std::vector<std::string>& known, std::string next_step);
 
-/// " (did you mean 'X'?)" with the word of `known` nearest to `word` by edit distance, between `quote`s; empty when none is near.
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& known, const char* quote = "'");
+/// " (did you mean 'X'?)" with the word of `known` nearest to `word` by edit distance, between
+/// `quote`s; empty when none is near.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known,
+                         const char* quote = "'");
 
 } // namespace sloper

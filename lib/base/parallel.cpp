@@ -16,12 +16,15 @@ namespace sloper {
 
 static int g_threads = 1;
 
-void set_thread_count(int n) { g_threads = n > 0 ? n : std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+void set_thread_count(int n) {
+  g_threads = n > 0 ? n : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 int thread_count() { return g_threads; }
 
 namespace {
 
-#if defined(__SANITIZE_THREAD__) // the thread sanitizer does not see how TBB's threads wait for each other
+#if defined(__SANITIZE_THREAD__) // the thread sanitizer does not see how TBB's threads wait for
+                                 // each other
 
 /// Calls work(0) to work(chunks - 1), each on some thread.
 template<class Work> void spread(std::size_t chunks, const Work& work) {
@@ -38,21 +41,27 @@ template<class Work> void spread(std::size_t chunks, const Work& work) {
 
 /// So many threads, also where there are fewer processors.
 struct Arena {
-  explicit Arena(int n) : threads(n), allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(n)), arena(n) {}
+  explicit Arena(int n)
+      : threads(n),
+        allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(n)),
+        arena(n) {}
   int threads;
   tbb::global_control allowed;
   tbb::task_arena arena;
 };
 
-/// Calls work(0) to work(chunks - 1), each on some thread. TBB and not OpenMP: on a machine with other work, the end of an OpenMP
-/// loop waits for threads that got no processor; TBB's waits only for those that took a chunk.
+/// Calls work(0) to work(chunks - 1), each on some thread. TBB and not OpenMP: on a machine with
+/// other work, the end of an OpenMP loop waits for threads that got no processor; TBB's waits only
+/// for those that took a chunk.
 template<class Work> void spread(std::size_t chunks, const Work& work) {
   static std::unique_ptr<Arena> arena;
   if (!arena || arena->threads != g_threads) {
     arena.reset(); // one control at a time
     arena = std::make_unique<Arena>(g_threads);
   }
-  arena->arena.execute([&] { tbb::parallel_for(std::size_t{0}, chunks, std::size_t{1}, work, tbb::simple_partitioner()); });
+  arena->arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, chunks, std::size_t{1}, work, tbb::simple_partitioner());
+  });
 }
 
 #endif

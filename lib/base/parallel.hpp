@@ -5,7 +5,8 @@
 #include <vector>
 namespace sloper {
 
-/// Threads that parallel_for may use; 1 by default. Set once by a tool (--threads). 0 means all cores.
+/// Threads that parallel_for may use; 1 by default. Set once by a tool (--threads). 0 means all
+/// cores.
 void set_thread_count(int n);
 int thread_count();
 
@@ -14,22 +15,30 @@ using ChunkWork = void (*)(const void* capture, std::size_t begin, std::size_t e
 /// What parallel_for does when there is more than one thread and chunk.
 void spread_chunks(std::size_t n, std::size_t grain, ChunkWork work, const void* capture);
 
-/// Calls body(begin, end) over [0, n) cut into fixed chunks of `grain`, in any order, on thread_count() threads.
-/// Chunk borders do not depend on the thread count; write only to what belongs to the chunk. Copies no capture.
+/// Calls body(begin, end) over [0, n) cut into fixed chunks of `grain`, in any order, on
+/// thread_count() threads. Chunk borders do not depend on the thread count; write only to what
+/// belongs to the chunk. Copies no capture.
 template<class Body> void parallel_for(std::size_t n, std::size_t grain, const Body& body) {
   if (thread_count() == 1 || n <= grain) {
-    for (std::size_t begin = 0; begin < n; begin += grain) body(begin, n - begin < grain ? n : begin + grain);
+    for (std::size_t begin = 0; begin < n; begin += grain)
+      body(begin, n - begin < grain ? n : begin + grain);
     return;
   }
   spread_chunks(
-      n, grain, [](const void* capture, std::size_t begin, std::size_t end) { (*static_cast<const Body*>(capture))(begin, end); }, std::addressof(body));
+      n, grain,
+      [](const void* capture, std::size_t begin, std::size_t end) {
+        (*static_cast<const Body*>(capture))(begin, end);
+      },
+      std::addressof(body));
 }
 
-/// Sum of term(begin, end) over fixed chunks, added in chunk order: the same bits for any thread count. term may write to what belongs
-/// to its chunk. @param part  work, of one number a chunk
-template<class Term> double parallel_sum(std::size_t n, std::size_t grain, std::vector<double>& part, const Term& term) {
+/// Sum of term(begin, end) over fixed chunks, added in chunk order: the same bits for any thread
+/// count. term may write to what belongs to its chunk. @param part  work, of one number a chunk
+template<class Term>
+double parallel_sum(std::size_t n, std::size_t grain, std::vector<double>& part, const Term& term) {
   part.assign((n + grain - 1) / grain, 0);
-  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) { part[begin / grain] = term(begin, end); });
+  parallel_for(n, grain,
+               [&](std::size_t begin, std::size_t end) { part[begin / grain] = term(begin, end); });
   double sum = 0;
   for (double p : part) sum += p;
   return sum;

@@ -1,5 +1,6 @@
 #pragma once
-/// How a library function speaks while it works: it is handed a Reporter and never prints by itself.
+/// How a library function speaks while it works: it is handed a Reporter and never prints by
+/// itself.
 #include <string>
 namespace sloper {
 class Reporter {

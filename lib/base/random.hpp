@@ -1,6 +1,7 @@
 #pragma once
-/// Seeded random numbers: the same sequence on every machine and compiler (SplitMix64, Steele et al. 2014), as
-/// long as draws are not arguments of one call: compilers choose those arguments' order.
+/// Seeded random numbers: the same sequence on every machine and compiler (SplitMix64, Steele et
+/// al. 2014), as long as draws are not arguments of one call: compilers choose those arguments'
+/// order.
 #include <cstdint>
 namespace sloper {
 class Random {

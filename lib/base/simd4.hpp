@@ -1,6 +1,6 @@
 #pragma once
-/// Four floats at once: the children of a tree node, or a column of a 3x3 block and one lane unused. SSE2 where there is, plain C++
-/// elsewhere, same results.
+/// Four floats at once: the children of a tree node, or a column of a 3x3 block and one lane
+/// unused. SSE2 where there is, plain C++ elsewhere, same results.
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #else
@@ -23,21 +23,31 @@ inline Float4 max(Float4 a, Float4 b) { return {_mm_max_ps(a.v, b.v)}; }
 inline Float4 min(Float4 a, Float4 b) { return {_mm_min_ps(a.v, b.v)}; }
 inline Float4 square_root(Float4 a) { return {_mm_sqrt_ps(a.v)}; }
 /// Lane I in all four lanes.
-template<int I> Float4 lane(Float4 a) { return {_mm_shuffle_ps(a.v, a.v, _MM_SHUFFLE(I, I, I, I))}; }
+template<int I> Float4 lane(Float4 a) {
+  return {_mm_shuffle_ps(a.v, a.v, _MM_SHUFFLE(I, I, I, I))};
+}
 /// a where b < c, else 0.
-inline Float4 where_less(Float4 a, Float4 b, Float4 c) { return {_mm_and_ps(a.v, _mm_cmplt_ps(b.v, c.v))}; }
+inline Float4 where_less(Float4 a, Float4 b, Float4 c) {
+  return {_mm_and_ps(a.v, _mm_cmplt_ps(b.v, c.v))};
+}
 inline Float4 absolute(Float4 a) { return max(a, {_mm_sub_ps(_mm_setzero_ps(), a.v)}); }
 /// Four rows of four in, the columns out: x gets the first of each row.
-inline void transpose(Float4& x, Float4& y, Float4& z, Float4& w) { _MM_TRANSPOSE4_PS(x.v, y.v, z.v, w.v); }
+inline void transpose(Float4& x, Float4& y, Float4& z, Float4& w) {
+  _MM_TRANSPOSE4_PS(x.v, y.v, z.v, w.v);
+}
 /// Bit i is set where a_i <= b_i and c_i <= d_i.
-inline int both_less_equal(Float4 a, Float4 b, Float4 c, Float4 d) { return _mm_movemask_ps(_mm_and_ps(_mm_cmple_ps(a.v, b.v), _mm_cmple_ps(c.v, d.v))); }
+inline int both_less_equal(Float4 a, Float4 b, Float4 c, Float4 d) {
+  return _mm_movemask_ps(_mm_and_ps(_mm_cmple_ps(a.v, b.v), _mm_cmple_ps(c.v, d.v)));
+}
 /// Bit i is set where a_i <= b_i.
 inline int less_equal(Float4 a, Float4 b) { return _mm_movemask_ps(_mm_cmple_ps(a.v, b.v)); }
 /// Bit i is set where a_i or b_i is x or y. @param a, b four each, aligned to 16 bytes
 inline int either_is(const int* a, const int* b, int x, int y) {
-  const __m128i u = _mm_load_si128(reinterpret_cast<const __m128i*>(a)), v = _mm_load_si128(reinterpret_cast<const __m128i*>(b));
+  const __m128i u = _mm_load_si128(reinterpret_cast<const __m128i*>(a)),
+                v = _mm_load_si128(reinterpret_cast<const __m128i*>(b));
   const __m128i xs = _mm_set1_epi32(x), ys = _mm_set1_epi32(y);
-  const __m128i is_x = _mm_or_si128(_mm_cmpeq_epi32(u, xs), _mm_cmpeq_epi32(v, xs)), is_y = _mm_or_si128(_mm_cmpeq_epi32(u, ys), _mm_cmpeq_epi32(v, ys));
+  const __m128i is_x = _mm_or_si128(_mm_cmpeq_epi32(u, xs), _mm_cmpeq_epi32(v, xs)),
+                is_y = _mm_or_si128(_mm_cmpeq_epi32(u, ys), _mm_cmpeq_epi32(v, ys));
   return _mm_movemask_ps(_mm_castsi128_ps(_mm_or_si128(is_x, is_y)));
 }
 #else
@@ -49,10 +59,18 @@ struct Float4 {
     for (int i = 0; i < 4; ++i) p[i] = v[i];
   }
 };
-inline Float4 operator+(Float4 a, Float4 b) { return {{a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2], a.v[3] + b.v[3]}}; }
-inline Float4 operator-(Float4 a, Float4 b) { return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]}}; }
-inline Float4 operator*(Float4 a, Float4 b) { return {{a.v[0] * b.v[0], a.v[1] * b.v[1], a.v[2] * b.v[2], a.v[3] * b.v[3]}}; }
-inline Float4 operator/(Float4 a, Float4 b) { return {{a.v[0] / b.v[0], a.v[1] / b.v[1], a.v[2] / b.v[2], a.v[3] / b.v[3]}}; }
+inline Float4 operator+(Float4 a, Float4 b) {
+  return {{a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2], a.v[3] + b.v[3]}};
+}
+inline Float4 operator-(Float4 a, Float4 b) {
+  return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]}};
+}
+inline Float4 operator*(Float4 a, Float4 b) {
+  return {{a.v[0] * b.v[0], a.v[1] * b.v[1], a.v[2] * b.v[2], a.v[3] * b.v[3]}};
+}
+inline Float4 operator/(Float4 a, Float4 b) {
+  return {{a.v[0] / b.v[0], a.v[1] / b.v[1], a.v[2] / b.v[2], a.v[3] / b.v[3]}};
+}
 template<int I> Float4 lane(Float4 a) { return Float4::all(a.v[I]); }
 inline Float4 min(Float4 a, Float4 b) {
   Float4 r;

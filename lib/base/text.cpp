@@ -21,14 +21,20 @@ std::string decimals(double value, int digits) {
   return text;
 }
 
-std::string centimetres(double metres, int digits) { return decimals(metres * 100, digits) + " cm"; }
+std::string centimetres(double metres, int digits) {
+  return decimals(metres * 100, digits) + " cm";
+}
 
-std::string millimetres(double metres, int digits) { return decimals(metres * 1000, digits) + " mm"; }
+std::string millimetres(double metres, int digits) {
+  return decimals(metres * 1000, digits) + " mm";
+}
 
 std::string percent(double share, int digits) { return decimals(100 * share, digits) + " %"; }
 
 std::string whole_percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
 
-std::string place_text(double x, double y, double z) { return "(" + decimals(x, 3) + ", " + decimals(y, 3) + ", " + decimals(z, 3) + ")"; }
+std::string place_text(double x, double y, double z) {
+  return "(" + decimals(x, 3) + ", " + decimals(y, 3) + ", " + decimals(z, 3) + ")";
+}
 
 } // namespace sloper

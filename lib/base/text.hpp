@@ -5,10 +5,12 @@
 
 namespace sloper {
 
-/// The pieces of `text` between the separators: "a,,b" gives "a", "", "b". An empty text gives none, a separator at the end no empty piece.
+/// The pieces of `text` between the separators: "a,,b" gives "a", "", "b". An empty text gives
+/// none, a separator at the end no empty piece.
 std::vector<std::string> split(const std::string& text, char separator = ',');
 
-/// A number with `digits` (0 or more) places after the point, as printf's %.*f rounds it: the exact value to nearest, ties to even.
+/// A number with `digits` (0 or more) places after the point, as printf's %.*f rounds it: the exact
+/// value to nearest, ties to even.
 std::string decimals(double value, int digits);
 /// A length in metres as "12.3 cm".
 std::string centimetres(double metres, int digits = 1);

@@ -1,6 +1,7 @@
 #pragma once
-/// A scanned person as the rest of Sloper sees one: landmarks, levels, girths, six parts, bones, part frames and the skin.
-/// Names and definitions of landmarks, levels and girths are those of the body document (man 5 body.json).
+/// A scanned person as the rest of Sloper sees one: landmarks, levels, girths, six parts, bones,
+/// part frames and the skin. Names and definitions of landmarks, levels and girths are those of the
+/// body document (man 5 body.json).
 #include <geometry/part_frame.hpp>
 #include <geometry/triangle_mesh.hpp>
 #include <map>
@@ -16,7 +17,15 @@ class SkinCache;
 namespace sloper::body {
 
 /// The six parts of the paper; NONE is what does not belong to the body (floor, pole, debris).
-enum class Part : unsigned char { HEAD = 0, TORSO = 1, ARM_L = 2, ARM_R = 3, LEG_L = 4, LEG_R = 5, NONE = 255 };
+enum class Part : unsigned char {
+  HEAD = 0,
+  TORSO = 1,
+  ARM_L = 2,
+  ARM_R = 3,
+  LEG_L = 4,
+  LEG_R = 5,
+  NONE = 255
+};
 inline constexpr int N_PARTS = 6;
 const char* part_name(Part part);                       ///< "head", "torso", "arm_l", ...
 std::optional<Part> part_from_name(const std::string&); ///< inverse of part_name
@@ -31,7 +40,8 @@ struct Landmark {
 };
 
 struct Level {
-  double y = 0, girth_m = 0, width_m = 0, depth_m = 0; ///< taut girth, x extent, z extent of the trunk section
+  double y = 0, girth_m = 0, width_m = 0,
+         depth_m = 0; ///< taut girth, x extent, z extent of the trunk section
   std::string rule;
   double y_spread_m = 0, girth_spread_m = 0; ///< over slice offset, noise and rotation jitter
 };
@@ -40,11 +50,13 @@ struct Girth {
   double value_m = 0, spread_m = 0;
 };
 
-/// Skin radius R(theta, z) of a part in its frame: n_theta columns from -pi, n_z rows over [z_low, z_high], row-major by z.
+/// Skin radius R(theta, z) of a part in its frame: n_theta columns from -pi, n_z rows over [z_low,
+/// z_high], row-major by z.
 struct SkinProfile {
   int n_theta = 0, n_z = 0;
   double z_low = 0, z_high = 1;
-  std::vector<double> radius; ///< n_z * n_theta, m; every entry positive (gaps in the scan are filled)
+  std::vector<double>
+      radius; ///< n_z * n_theta, m; every entry positive (gaps in the scan are filled)
   /// Bilinear, periodic in theta, clamped in z.
   double at(double theta, double z) const;
 };
@@ -79,13 +91,15 @@ struct Body {
   std::map<std::string, Landmark> landmarks; ///< only what was found
   std::map<std::string, Level> levels;
   std::map<std::string, Girth> girths;
-  std::map<std::string, BodyFrame> frames; ///< by part name; "lower_body" is the joint frame of both legs
+  std::map<std::string, BodyFrame>
+      frames; ///< by part name; "lower_body" is the joint frame of both legs
   std::vector<Bone> bones;
   std::string body_class; ///< what the decision tree said
   std::vector<std::string> body_class_why;
   TriangleMesh skin;           ///< body frame, m; outward faces
   std::vector<Part> face_part; ///< one per triangle of skin
-  /// Where what contact finds out about this skin is kept (collision/skin_cache.hpp); null: it is found out each time. Not of the document
+  /// Where what contact finds out about this skin is kept (collision/skin_cache.hpp); null: it is
+  /// found out each time. Not of the document
   std::shared_ptr<collision::SkinCache> skin_cache;
 
   /// @throws Error INPUT naming the landmark when it was not found

@@ -43,7 +43,8 @@ Json document_of(const Body& body, const std::string& tool, const std::string& m
   scan["stature_m"] = micron(body.scan.stature_m);
   scan["findings"] = Json::array();
   for (const Finding& finding : body.scan.findings)
-    scan["findings"].push_back({{"severity", finding.severity}, {"what", finding.what}, {"place", finding.place}});
+    scan["findings"].push_back(
+        {{"severity", finding.severity}, {"what", finding.what}, {"place", finding.place}});
   Json matrix = Json::array();
   for (int r = 0; r < 4; ++r) {
     Json row = Json::array();
@@ -55,7 +56,9 @@ Json document_of(const Body& body, const std::string& tool, const std::string& m
     j["mesh"] = mesh_name;
     j["mesh_faces"] = body.skin.triangles.size(); // an OBJ that was cut off is still an OBJ
   }
-  j["stance"] = {{"class", body.stance_class}, {"arm_l_deg", micron(body.arm_l_deg)}, {"arm_r_deg", micron(body.arm_r_deg)}};
+  j["stance"] = {{"class", body.stance_class},
+                 {"arm_l_deg", micron(body.arm_l_deg)},
+                 {"arm_r_deg", micron(body.arm_r_deg)}};
   Json& landmarks = j["landmarks"] = Json::object();
   for (const auto& [name, landmark] : body.landmarks) {
     Json entry = {{"p", point(landmark.p)},
@@ -75,7 +78,8 @@ Json document_of(const Body& body, const std::string& tool, const std::string& m
                     {"depth_m", micron(level.depth_m)},
                     {"rule", level.rule}};
   Json& girths = j["girths"] = Json::object();
-  for (const auto& [name, girth] : body.girths) girths[name] = {{"value_m", micron(girth.value_m)}, {"spread_m", micron(girth.spread_m)}};
+  for (const auto& [name, girth] : body.girths)
+    girths[name] = {{"value_m", micron(girth.value_m)}, {"spread_m", micron(girth.spread_m)}};
   Json& frames = j["frames"] = Json::object();
   for (const auto& [name, frame] : body.frames) {
     Json entry = Json::object();
@@ -87,7 +91,11 @@ Json document_of(const Body& body, const std::string& tool, const std::string& m
     frames[name] = std::move(entry);
   }
   Json& bones = j["bones"] = Json::array();
-  for (const Bone& bone : body.bones) bones.push_back({{"name", bone.name}, {"parent", bone.parent}, {"head", point(bone.head)}, {"tail", point(bone.tail)}});
+  for (const Bone& bone : body.bones)
+    bones.push_back({{"name", bone.name},
+                     {"parent", bone.parent},
+                     {"head", point(bone.head)},
+                     {"tail", point(bone.tail)}});
   j["body_class"] = {{"class", body.body_class}, {"why", body.body_class_why}};
   return j;
 }
@@ -123,7 +131,9 @@ void read_scan_info(const io::Node& node, ScanInfo& scan) {
   if (!node.has("findings")) return;
   const io::Node findings = node.at("findings");
   for (std::size_t i = 0; i < findings.size(); ++i)
-    scan.findings.push_back({findings.at(i).string("severity", "info"), findings.at(i).string("what", ""), findings.at(i).string("place", "")});
+    scan.findings.push_back({findings.at(i).string("severity", "info"),
+                             findings.at(i).string("what", ""),
+                             findings.at(i).string("place", "")});
 }
 
 void read_frames(const io::Node& node, Body& body) {
@@ -135,7 +145,8 @@ void read_frames(const io::Node& node, Body& body) {
     frame.frame.theta_zero = entry.at("theta_zero").vec3();
     frame.frame.mirrored = entry.boolean("mirrored", false);
     if (frame.frame.length() < 1e-6) entry.fail("lower and upper centre coincide");
-    if (std::abs(frame.frame.theta_zero.norm() - 1) > 1e-3 || std::abs(frame.frame.theta_zero.dot(frame.frame.axis())) > 1e-3)
+    if (std::abs(frame.frame.theta_zero.norm() - 1) > 1e-3 ||
+        std::abs(frame.frame.theta_zero.dot(frame.frame.axis())) > 1e-3)
       entry.fail("theta_zero is not a unit vector square to the axis");
     frame.profile = read_profile(entry.at("profile"));
     body.frames[name] = std::move(frame);
@@ -148,8 +159,11 @@ void read_skin(const std::string& path, Body& body) {
   for (std::size_t g = 0; g < obj.groups.size(); ++g) {
     const auto part = part_from_name(obj.groups[g].name);
     if (!part) continue;
-    const std::size_t end = g + 1 < obj.groups.size() ? static_cast<std::size_t>(obj.groups[g + 1].first_triangle) : obj.triangles.size();
-    for (std::size_t t = static_cast<std::size_t>(obj.groups[g].first_triangle); t < end; ++t) body.face_part[t] = *part;
+    const std::size_t end = g + 1 < obj.groups.size()
+                                ? static_cast<std::size_t>(obj.groups[g + 1].first_triangle)
+                                : obj.triangles.size();
+    for (std::size_t t = static_cast<std::size_t>(obj.groups[g].first_triangle); t < end; ++t)
+      body.face_part[t] = *part;
   }
   body.skin.positions = std::move(obj.positions);
   body.skin.triangles = std::move(obj.triangles);
@@ -165,7 +179,8 @@ Body read_body(const std::string& path) {
   const io::Node matrix = root.at("scan_to_body");
   if (matrix.size() != 4) matrix.fail("is not a 4x4 matrix");
   for (std::size_t r = 0; r < 4; ++r)
-    for (std::size_t c = 0; c < 4; ++c) body.scan_to_body(static_cast<int>(r), static_cast<int>(c)) = matrix.at(r).at(c).number();
+    for (std::size_t c = 0; c < 4; ++c)
+      body.scan_to_body(static_cast<int>(r), static_cast<int>(c)) = matrix.at(r).at(c).number();
   if (root.has("stance")) {
     const io::Node stance = root.at("stance");
     body.stance_class = stance.string("class", "");
@@ -182,35 +197,42 @@ Body read_body(const std::string& path) {
     landmark.confidence = entry.number("confidence", 0);
     landmark.spread_m = entry.number("spread_m", 0);
     if (entry.has("alternatives"))
-      for (std::size_t i = 0; i < entry.at("alternatives").size(); ++i) landmark.alternatives.push_back(entry.at("alternatives").at(i).vec3());
+      for (std::size_t i = 0; i < entry.at("alternatives").size(); ++i)
+        landmark.alternatives.push_back(entry.at("alternatives").at(i).vec3());
     body.landmarks[name] = std::move(landmark);
   }
   if (root.has("levels"))
     for (const std::string& name : root.at("levels").keys()) {
       const io::Node entry = root.at("levels").at(name);
-      body.levels[name] = {entry.at("y").number(), entry.number("girth_m", 0), entry.number("width_m", 0), entry.number("depth_m", 0),
+      body.levels[name] = {entry.at("y").number(), entry.number("girth_m", 0),
+                           entry.number("width_m", 0), entry.number("depth_m", 0),
                            entry.string("rule", "")};
     }
   if (root.has("girths"))
     for (const std::string& name : root.at("girths").keys())
-      body.girths[name] = {root.at("girths").at(name).at("value_m").number(), root.at("girths").at(name).number("spread_m", 0)};
+      body.girths[name] = {root.at("girths").at(name).at("value_m").number(),
+                           root.at("girths").at(name).number("spread_m", 0)};
   read_frames(root.at("frames"), body);
   if (root.has("bones"))
     for (std::size_t i = 0; i < root.at("bones").size(); ++i) {
       const io::Node bone = root.at("bones").at(i);
-      body.bones.push_back({bone.at("name").string(), bone.string("parent", ""), bone.at("head").vec3(), bone.at("tail").vec3()});
+      body.bones.push_back({bone.at("name").string(), bone.string("parent", ""),
+                            bone.at("head").vec3(), bone.at("tail").vec3()});
     }
   if (root.has("body_class")) {
     body.body_class = root.at("body_class").string("class", "");
     if (root.at("body_class").has("why"))
-      for (std::size_t i = 0; i < root.at("body_class").at("why").size(); ++i) body.body_class_why.push_back(root.at("body_class").at("why").at(i).string());
+      for (std::size_t i = 0; i < root.at("body_class").at("why").size(); ++i)
+        body.body_class_why.push_back(root.at("body_class").at("why").at(i).string());
   }
   if (root.has("mesh") && root.at("mesh").is_string()) { // --anonymise leaves it out
     const std::string mesh_path = io::file_beside(root.at("mesh"));
     read_skin(mesh_path, body);
     const int faces = static_cast<int>(body.skin.triangles.size());
     if (const int expected = root.integer("mesh_faces", faces); faces != expected)
-      throw input_error(mesh_path, "", "has " + std::to_string(faces) + " faces where " + io::file_name(path) + " says " + std::to_string(expected),
+      throw input_error(mesh_path, "",
+                        "has " + std::to_string(faces) + " faces where " + io::file_name(path) +
+                            " says " + std::to_string(expected),
                         "it was cut off or replaced; run scan-landmarks again");
   }
   return body;
@@ -220,7 +242,8 @@ std::string skin_sha256(const std::string& path) {
   const Json document = io::read_document(path, "body", BODY_VERSION);
   const io::Node root(document, path);
   if (!root.has("mesh") || !root.at("mesh").is_string())
-    throw input_error(path, "/mesh", "the body was written without its skin, which cloth would hang on",
+    throw input_error(path, "/mesh",
+                      "the body was written without its skin, which cloth would hang on",
                       "give one that scan-landmarks wrote to a file and without --anonymise");
   return io::sha256(io::read_file(io::file_beside(root.at("mesh"))));
 }
@@ -237,7 +260,8 @@ io::ObjMesh in_groups(const Body& body) {
     const int first = static_cast<int>(obj.triangles.size());
     for (std::size_t t = 0; t < body.skin.triangles.size(); ++t)
       if (body.face_part[t] == part) obj.triangles.push_back(body.skin.triangles[t]);
-    if (static_cast<int>(obj.triangles.size()) > first) obj.groups.push_back({part_name(part), first});
+    if (static_cast<int>(obj.triangles.size()) > first)
+      obj.groups.push_back({part_name(part), first});
   }
   return obj;
 }
@@ -246,12 +270,16 @@ io::ObjMesh in_groups(const Body& body) {
 
 void write_body(const std::string& path, const Body& body, const std::string& tool) {
   const std::string mesh_path = io::mesh_path_beside(path);
-  const std::string text = io::to_text(document_of(body, tool, path == "-" || body.skin.triangles.empty() ? std::string() : io::file_name(mesh_path)));
-  if (path != "-" && !body.skin.triangles.empty()) io::write_obj(mesh_path, in_groups(body), generator_stamp(tool));
+  const std::string text = io::to_text(document_of(
+      body, tool,
+      path == "-" || body.skin.triangles.empty() ? std::string() : io::file_name(mesh_path)));
+  if (path != "-" && !body.skin.triangles.empty())
+    io::write_obj(mesh_path, in_groups(body), generator_stamp(tool));
   io::write_file(path, text);
 }
 
-void write_motion(const std::string& path, const Body& body, const SkinWeights& weights, const Motion& motion, const std::string& tool, Reporter& reporter) {
+void write_motion(const std::string& path, const Body& body, const SkinWeights& weights,
+                  const Motion& motion, const std::string& tool, Reporter& reporter) {
   io::ObjMesh obj = in_groups(body);
   std::string base = io::mesh_path_beside(path);
   base.resize(base.size() - 4);

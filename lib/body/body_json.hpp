@@ -11,7 +11,9 @@ Body read_body(const std::string& path);
 std::string skin_sha256(const std::string& path);
 /// Writes the OBJ beside the document (`.json` -> `.obj`), then the document. @throws Error OUTPUT
 void write_body(const std::string& path, const Body& body, const std::string& tool);
-/// Writes the skin in every pose as NAME.0001.obj, NAME.0002.obj, ... beside the document NAME.json; the vertices and faces are
-/// those of NAME.obj in the same order, so that the sequence is a moving body. @throws Error OUTPUT
-void write_motion(const std::string& path, const Body& body, const SkinWeights& weights, const Motion& motion, const std::string& tool, Reporter& reporter);
+/// Writes the skin in every pose as NAME.0001.obj, NAME.0002.obj, ... beside the document
+/// NAME.json; the vertices and faces are those of NAME.obj in the same order, so that the sequence
+/// is a moving body. @throws Error OUTPUT
+void write_motion(const std::string& path, const Body& body, const SkinWeights& weights,
+                  const Motion& motion, const std::string& tool, Reporter& reporter);
 } // namespace sloper::body

@@ -22,11 +22,13 @@ namespace sloper::body {
 
 namespace {
 
-/// 1 for the skin that cloth lies on and between: all but head, hands and feet, whose folds are no concern of cloth.
+/// 1 for the skin that cloth lies on and between: all but head, hands and feet, whose folds are no
+/// concern of cloth.
 std::vector<char> dressed_skin(const Body& body, const std::vector<Part>& part) {
   std::vector<char> dressed(part.size(), 1);
-  const double ankle = body.has_landmark("ankle_l") && body.has_landmark("ankle_r") ? std::max(body.landmark("ankle_l").y(), body.landmark("ankle_r").y())
-                                                                                    : 0.06 * body.scan.stature_m;
+  const double ankle = body.has_landmark("ankle_l") && body.has_landmark("ankle_r")
+                           ? std::max(body.landmark("ankle_l").y(), body.landmark("ankle_r").y())
+                           : 0.06 * body.scan.stature_m;
   for (std::size_t v = 0; v < part.size(); ++v) {
     const Vec3& p = body.skin.positions[v];
     if (part[v] == Part::HEAD || part[v] == Part::NONE || p.y() < ankle) dressed[v] = 0;
@@ -41,19 +43,22 @@ std::vector<char> dressed_skin(const Body& body, const std::vector<Part>& part) 
 
 /// m between parts that touch: two layers of cloth and their contact.
 constexpr double CLOTH_BETWEEN = 0.004;
-constexpr const char* ESSENTIAL[] = {"head_tip",         "crotch",           "hip_center", "neck_center", "neck_back",  "neck_front",
-                                     "shoulder_joint_l", "shoulder_joint_r", "hand_tip_l", "hand_tip_r",  "acromion_l", "acromion_r",
-                                     "hip_joint_l",      "hip_joint_r",      "ankle_l",    "ankle_r"};
+constexpr const char* ESSENTIAL[] = {
+    "head_tip",         "crotch",           "hip_center", "neck_center", "neck_back",  "neck_front",
+    "shoulder_joint_l", "shoulder_joint_r", "hand_tip_l", "hand_tip_r",  "acromion_l", "acromion_r",
+    "hip_joint_l",      "hip_joint_r",      "ankle_l",    "ankle_r"};
 
 /// What a torso without legs, or without arms, need not show.
 bool may_lack(const std::string& name) {
-  return name == "crotch" || name.starts_with("hip") || name.starts_with("ankle") || name.starts_with("hand_tip") || name.starts_with("shoulder") ||
+  return name == "crotch" || name.starts_with("hip") || name.starts_with("ankle") ||
+         name.starts_with("hand_tip") || name.starts_with("shoulder") ||
          name.starts_with("acromion");
 }
 
 constexpr int STANDARD_JITTER = 3;
-constexpr std::size_t MOST_FACES_TO_JITTER = 80'000; ///< beyond, three more runs of the rules would cost a second
-constexpr double UNSURE = 0.012;                     ///< of stature: a landmark that moves as much by a little jitter
+constexpr std::size_t MOST_FACES_TO_JITTER =
+    80'000;                      ///< beyond, three more runs of the rules would cost a second
+constexpr double UNSURE = 0.012; ///< of stature: a landmark that moves as much by a little jitter
 
 void describe_stance(Body& body, const std::array<ArmTrace, 2>& arms) {
   double sum = 0;
@@ -71,10 +76,13 @@ void describe_stance(Body& body, const std::array<ArmTrace, 2>& arms) {
 /// What a user should know of this scan, good or bad.
 void add_findings(Body& body, const SegmentedScan& sorted, const SkinSurface& skin) {
   char text[160];
-  auto add = [&](const char* severity, const char* place) { body.scan.findings.push_back({severity, text, place}); };
-  std::snprintf(text, sizeof text, "up is %s: score %.2f against %.2f for the next best direction", sorted.up_name.c_str(), sorted.up_score,
-                std::max(0.0, sorted.next_score));
-  add(sorted.up_score - sorted.next_score < 0.15 && sorted.next_score > 0 ? "warning" : "info", "scan");
+  auto add = [&](const char* severity, const char* place) {
+    body.scan.findings.push_back({severity, text, place});
+  };
+  std::snprintf(text, sizeof text, "up is %s: score %.2f against %.2f for the next best direction",
+                sorted.up_name.c_str(), sorted.up_score, std::max(0.0, sorted.next_score));
+  add(sorted.up_score - sorted.next_score < 0.15 && sorted.next_score > 0 ? "warning" : "info",
+      "scan");
   std::snprintf(text, sizeof text, "roughness %.1f mm", 1000 * skin.noise_m);
   add("info", "skin");
   if (sorted.has_floor) {
@@ -85,7 +93,8 @@ void add_findings(Body& body, const SegmentedScan& sorted, const SkinSurface& sk
     std::snprintf(text, sizeof text, "%d loose pieces were left out", sorted.n_debris);
     add("info", "scan");
   }
-  std::snprintf(text, sizeof text, "stance %s: arms %.0f and %.0f degrees from hanging down", body.stance_class.c_str(), body.arm_l_deg, body.arm_r_deg);
+  std::snprintf(text, sizeof text, "stance %s: arms %.0f and %.0f degrees from hanging down",
+                body.stance_class.c_str(), body.arm_l_deg, body.arm_r_deg);
   add("info", "arms");
 }
 
@@ -98,9 +107,11 @@ void add_holes(Body& body, const std::vector<Hole>& holes, const Vec3& origin) {
     std::string near;
     double nearest = 1e300;
     for (const auto& [name, landmark] : body.landmarks)
-      if (const double d = (landmark.p - p).norm(); d < nearest) nearest = d, near = " near " + name;
+      if (const double d = (landmark.p - p).norm(); d < nearest)
+        nearest = d, near = " near " + name;
     char text[160], place[80];
-    std::snprintf(text, sizeof text, "a hole %.0f mm wide (%d open edges)%s", 1000 * hole.width, hole.edges, near.c_str());
+    std::snprintf(text, sizeof text, "a hole %.0f mm wide (%d open edges)%s", 1000 * hole.width,
+                  hole.edges, near.c_str());
     std::snprintf(place, sizeof place, "(%.3f, %.3f, %.3f)", p.x(), p.y(), p.z());
     body.scan.findings.push_back({hole.width > WIDE ? "warning" : "info", text, place});
   }
@@ -108,12 +119,14 @@ void add_holes(Body& body, const std::vector<Hole>& holes, const Vec3& origin) {
 
 /// Which unit was taken and how sure that is: the statures that other units would give.
 void add_unit_finding(Body& body, bool given) {
-  const std::pair<const char*, double> units[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"inch", 0.0254}};
+  const std::pair<const char*, double> units[] = {
+      {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"inch", 0.0254}};
   double own = 1;
   for (const auto& [name, metres] : units)
     if (body.scan.unit == name) own = metres;
   char text[160];
-  std::snprintf(text, sizeof text, "unit %s, %s: %.2f m tall", body.scan.unit.c_str(), given ? "as given" : "guessed", body.scan.stature_m);
+  std::snprintf(text, sizeof text, "unit %s, %s: %.2f m tall", body.scan.unit.c_str(),
+                given ? "as given" : "guessed", body.scan.stature_m);
   std::string what = text;
   bool doubt = false;
   for (const auto& [name, metres] : units) {
@@ -124,7 +137,10 @@ void add_unit_finding(Body& body, bool given) {
     doubt = true;
   }
   if (!doubt) what += "; no other unit gives a person";
-  body.scan.findings.push_back({doubt && !given && (body.scan.stature_m < 1.3 || body.scan.stature_m > 2.2) ? "warning" : "info", what, "scan"});
+  body.scan.findings.push_back(
+      {doubt && !given && (body.scan.stature_m < 1.3 || body.scan.stature_m > 2.2) ? "warning"
+                                                                                   : "info",
+       what, "scan"});
 }
 
 void shift(Body& body, const Vec3& by) {
@@ -142,7 +158,8 @@ public:
   void done(const char* phase) {
     const auto now = std::chrono::steady_clock::now();
     char text[80];
-    std::snprintf(text, sizeof text, "%s: %.3f s", phase, std::chrono::duration<double>(now - m_last).count());
+    std::snprintf(text, sizeof text, "%s: %.3f s", phase,
+                  std::chrono::duration<double>(now - m_last).count());
     m_reporter.info(text);
     m_last = now;
   }
@@ -159,28 +176,37 @@ struct RuleInput {
   const Rules& rules;
 };
 
-/// All rules on body.skin; fills landmarks, levels, girths, stance and class. @return part per vertex of the skin
-std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::string>& trail, Phases* phases) {
+/// All rules on body.skin; fills landmarks, levels, girths, stance and class. @return part per
+/// vertex of the skin
+std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::string>& trail,
+                              Phases* phases) {
   LevelStack levels(body.skin, in.s, 0.0025 * in.s, in.rebuilt ? 0.002 : 0);
   if (phases) phases->done("slicing");
-  const bool crotch_moved = doubt_crotch(levels, in.scan_points, in.rules, in.rebuilt, in.whole, body.scan.findings, trail);
+  const bool crotch_moved = doubt_crotch(levels, in.scan_points, in.rules, in.rebuilt, in.whole,
+                                         body.scan.findings, trail);
   const EdgeGraph graph(body.skin);
-  const std::array<ArmTrace, 2> arms = trace_arms(levels, graph, in.rebuilt ? in.scan_points : std::vector<Vec3>{}, in.rules);
+  const std::array<ArmTrace, 2> arms =
+      trace_arms(levels, graph, in.rebuilt ? in.scan_points : std::vector<Vec3>{}, in.rules);
   describe_stance(body, arms);
   for (const ArmTrace& arm : arms) {
     if (arm.sections.empty()) {
-      trail.push_back(std::string("arm ") + (arm.left ? "left" : "right") + ": cannot be told from the trunk");
+      trail.push_back(std::string("arm ") + (arm.left ? "left" : "right") +
+                      ": cannot be told from the trunk");
       continue;
     }
     char line[200];
-    std::snprintf(line, sizeof line, "arm %s: %zu sections, %.3f m from the hand to the trunk, last girth %.3f m, pit %s", arm.left ? "left" : "right",
-                  arm.sections.size(), arm.length(), arm.sections.back().girth, arm.axilla ? "found" : "not found");
+    std::snprintf(
+        line, sizeof line,
+        "arm %s: %zu sections, %.3f m from the hand to the trunk, last girth %.3f m, pit %s",
+        arm.left ? "left" : "right", arm.sections.size(), arm.length(), arm.sections.back().girth,
+        arm.axilla ? "found" : "not found");
     trail.push_back(line);
   }
   const std::vector<Vec3> normals = vertex_normals(body.skin);
   const FigureClass figure = classify_figure(levels, arms, normals, in.rules, trail);
   const Situation situation{figure.female > 0.5, body.stance_class.front(), in.rebuilt};
-  const Finder finder{levels, arms, normals, in.scan_points, in.rebuilt, crotch_moved, in.rules, situation, figure, body, trail, in.s};
+  const Finder finder{levels,   arms,      normals, in.scan_points, in.rebuilt, crotch_moved,
+                      in.rules, situation, figure,  body,           trail,      in.s};
   find_leg_landmarks(finder);
   find_head_landmarks(finder);
   find_arm_landmarks(finder);
@@ -190,8 +216,9 @@ std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::
   return label_skin(finder);
 }
 
-/// Runs the rules again on the skin turned, tilted and lifted a little and made rough: the spread of a landmark is the root
-/// mean square of how far it moves, and one that is lost in some of the runs loses confidence by their share.
+/// Runs the rules again on the skin turned, tilted and lifted a little and made rough: the spread
+/// of a landmark is the root mean square of how far it moves, and one that is lost in some of the
+/// runs loses confidence by their share.
 void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, Reporter& reporter) {
   struct Sum {
     double squares = 0;
@@ -206,7 +233,9 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
     auto angle = [&](double degrees) { return units::radians(random.uniform(-degrees, degrees)); };
     const double about_z = angle(0.5), about_x = angle(0.5), about_y = angle(1.5);
     const Eigen::Matrix3d turn =
-        (Eigen::AngleAxisd(about_y, Vec3::UnitY()) * Eigen::AngleAxisd(about_x, Vec3::UnitX()) * Eigen::AngleAxisd(about_z, Vec3::UnitZ())).toRotationMatrix();
+        (Eigen::AngleAxisd(about_y, Vec3::UnitY()) * Eigen::AngleAxisd(about_x, Vec3::UnitX()) *
+         Eigen::AngleAxisd(about_z, Vec3::UnitZ()))
+            .toRotationMatrix();
     const Vec3 lift(0, random.uniform(0, 0.0025) * in.s, 0); // where the slices lie
     Body trial;
     trial.scan.stature_m = body.scan.stature_m;
@@ -215,7 +244,8 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
     for (std::size_t v = 0; v < body.skin.positions.size(); ++v) {
       double bump = -2;
       for (int k = 0; k < 4; ++k) bump += random.uniform();
-      trial.skin.positions.push_back(turn * (body.skin.positions[v] + 1.7 * sigma * bump * normals[v]) + lift);
+      trial.skin.positions.push_back(
+          turn * (body.skin.positions[v] + 1.7 * sigma * bump * normals[v]) + lift);
     }
     std::vector<Vec3> points;
     points.reserve(in.scan_points.size());
@@ -224,9 +254,11 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
     apply_rules({points, in.rebuilt, in.whole, in.s, in.rules}, trial, unheard, nullptr);
     auto add = [](Sum& sum, double miss) { sum.squares += miss * miss, ++sum.n; };
     for (const auto& [name, landmark] : trial.landmarks)
-      if (body.has_landmark(name)) add(landmarks[name], (turn.transpose() * (landmark.p - lift) - body.landmark(name)).norm());
+      if (body.has_landmark(name))
+        add(landmarks[name], (turn.transpose() * (landmark.p - lift) - body.landmark(name)).norm());
     for (const auto& [name, girth] : trial.girths)
-      if (const auto it = body.girths.find(name); it != body.girths.end()) add(girths[name], girth.value_m - it->second.value_m);
+      if (const auto it = body.girths.find(name); it != body.girths.end())
+        add(girths[name], girth.value_m - it->second.value_m);
     for (const auto& [name, level] : trial.levels)
       if (const auto it = body.levels.find(name); it != body.levels.end()) {
         add(heights[name], level.y - lift.y() - it->second.y);
@@ -239,14 +271,19 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
     if (landmark.spread_m > UNSURE * in.s) landmark.confidence *= 0.7;
   }
   for (auto& [name, girth] : body.girths) girth.spread_m = girths[name].rms();
-  for (auto& [name, level] : body.levels) level.y_spread_m = heights[name].rms(), level.girth_spread_m = level_girths[name].rms();
+  for (auto& [name, level] : body.levels)
+    level.y_spread_m = heights[name].rms(), level.girth_spread_m = level_girths[name].rms();
 }
 
 } // namespace
 
-MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file, const std::string& sha256, const ScanOptions& options, Reporter& reporter) {
-  for (std::size_t v = 0; v < as_given.positions.size(); ++v) // the readers refuse such files; a caller may hand over anything
-    if (!as_given.positions[v].allFinite()) throw input_error(file, "vertex " + std::to_string(v + 1), "is not a finite number");
+MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
+                          const std::string& sha256, const ScanOptions& options,
+                          Reporter& reporter) {
+  for (std::size_t v = 0; v < as_given.positions.size();
+       ++v) // the readers refuse such files; a caller may hand over anything
+    if (!as_given.positions[v].allFinite())
+      throw input_error(file, "vertex " + std::to_string(v + 1), "is not a finite number");
   MeasuredScan result;
   Body& body = result.body;
   Phases phases(reporter);
@@ -267,10 +304,15 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   }
   const TriangleMesh& given = upright ? turned : as_given;
   CompletedTorso torso; // a scan of the torso alone stands on plain legs until the rules are done
-  const bool is_torso = options.torso_only && !(shows_a_person(sorted) && sorted.up_score > 0.8); // hanging arms look a little like legs
+  const bool is_torso =
+      options.torso_only &&
+      !(shows_a_person(sorted) && sorted.up_score > 0.8); // hanging arms look a little like legs
   if (is_torso) {
     torso = complete_torso(given, options.up, file);
-    sorted = segment_scan(torso.scan, {"xyz"[torso.up.cwiseAbs().maxCoeff() == std::abs(torso.up.x()) ? 0 : torso.up.y() != 0 ? 1 : 2]});
+    sorted =
+        segment_scan(torso.scan, {"xyz"[torso.up.cwiseAbs().maxCoeff() == std::abs(torso.up.x()) ? 0
+                                        : torso.up.y() != 0                                      ? 1
+                                                            : 2]});
   }
   const std::vector<char> labelled = sorted.is_body; // the rim of a torso is body, but no skin
   for (std::size_t v = 0; v < torso.is_cut.size(); ++v)
@@ -278,8 +320,10 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   const TriangleMesh& scan = is_torso ? torso.scan : given;
   const std::vector<Vec3> shape = points_of_body(scan, sorted.is_body, SHAPE_POINTS);
   CanonicalFrame frame = guess_frame(scan, sorted, shape, options.unit, file);
-  // the same body gets the same vertical however it lies in its file; a floor, or a user, knows better
-  if (options.up == "auto" && !is_torso && (upright || !sorted.has_floor)) settle_vertical(scan, shape, sorted, frame, !upright);
+  // the same body gets the same vertical however it lies in its file; a floor, or a user, knows
+  // better
+  if (options.up == "auto" && !is_torso && (upright || !sorted.has_floor))
+    settle_vertical(scan, shape, sorted, frame, !upright);
   body.scan = {io::file_name(file),
                sha256,
                frame.unit,
@@ -290,9 +334,12 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
                frame.stature_m,
                frame.findings};
   std::vector<Vec3> positions(scan.positions.size());
-  for (std::size_t v = 0; v < positions.size(); ++v) positions[v] = transform(frame.scan_to_body, scan.positions[v]);
-  reporter.info("unit " + frame.unit + ", up " + sorted.up_name + ", stature " + std::to_string(frame.stature_m) + " m");
-  SkinSurface skin = make_skin(positions, scan.triangles, sorted.is_body, frame.stature_m, is_torso ? "it has no legs" : "");
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    positions[v] = transform(frame.scan_to_body, scan.positions[v]);
+  reporter.info("unit " + frame.unit + ", up " + sorted.up_name + ", stature " +
+                std::to_string(frame.stature_m) + " m");
+  SkinSurface skin = make_skin(positions, scan.triangles, sorted.is_body, frame.stature_m,
+                               is_torso ? "it has no legs" : "");
   body.skin = std::move(skin.mesh);
   phases.done("frame and skin");
   body.scan.findings.insert(body.scan.findings.end(), skin.findings.begin(), skin.findings.end());
@@ -305,25 +352,33 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   reporter.progress("rules", -1);
   const std::vector<Part> skin_part = apply_rules(input, body, result.trail, &phases);
   phases.done("rules");
-  const int jitter = options.jitter >= 0 ? options.jitter : body.skin.triangles.size() < MOST_FACES_TO_JITTER ? STANDARD_JITTER : 0;
+  const int jitter = options.jitter >= 0                                 ? options.jitter
+                     : body.skin.triangles.size() < MOST_FACES_TO_JITTER ? STANDARD_JITTER
+                                                                         : 0;
   if (jitter > 0) measure_spread(input, jitter, skin.noise_m, body, reporter);
   if (jitter > 0) phases.done("spread");
   else result.trail.push_back("spread: not measured, the usual one of each rule is given");
   body.face_part = label_faces(body.skin.triangles, skin_part);
-  result.vertex_part = label_scan(positions, labelled, skin.of_scan, body.skin, skin_part, 0.03 * s);
+  result.vertex_part =
+      label_scan(positions, labelled, skin.of_scan, body.skin, skin_part, 0.03 * s);
   result.vertex_part.resize(given.positions.size());
-  const OpenedSkin opened = open_touching_skin(body.skin, dressed_skin(body, skin_part), CLOTH_BETWEEN);
+  const OpenedSkin opened =
+      open_touching_skin(body.skin, dressed_skin(body, skin_part), CLOTH_BETWEEN);
   if (opened.vertices > 0) {
     char text[200];
-    std::snprintf(text, sizeof text, "parts touch: %d vertices of the skin drawn back by up to %.1f mm, so that cloth finds a way between", opened.vertices,
-                  1000 * opened.largest_m);
+    std::snprintf(text, sizeof text,
+                  "parts touch: %d vertices of the skin drawn back by up to %.1f mm, so that cloth "
+                  "finds a way between",
+                  opened.vertices, 1000 * opened.largest_m);
     char place[80];
-    std::snprintf(place, sizeof place, "(%.3f, %.3f, %.3f)", opened.place.x(), opened.place.y(), opened.place.z());
+    std::snprintf(place, sizeof place, "(%.3f, %.3f, %.3f)", opened.place.x(), opened.place.y(),
+                  opened.place.z());
     body.scan.findings.push_back({"info", text, place});
   }
   // the origin goes below the middle of the hip joints
   Vec3 origin = Vec3::Zero();
-  if (body.has_landmark("hip_center")) origin = Vec3(-body.landmark("hip_center").x(), 0, -body.landmark("hip_center").z());
+  if (body.has_landmark("hip_center"))
+    origin = Vec3(-body.landmark("hip_center").x(), 0, -body.landmark("hip_center").z());
   shift(body, origin);
   if (is_torso) forget_unseen(body, transform(frame.scan_to_body, torso.seen_from * torso.up).y());
   body.scan_to_body = turn_and_shift(0, origin) * frame.scan_to_body;
@@ -333,7 +388,9 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
     char text[80];
     std::snprintf(text, sizeof text, "%.4f %.4f %.4f", facing.x(), facing.y(), facing.z());
     body.scan.front = text;
-    body.scan.findings.push_back({"info", "the scan leans or lies in its file: set upright on the soles of its feet", "scan"});
+    body.scan.findings.push_back(
+        {"info", "the scan leans or lies in its file: set upright on the soles of its feet",
+         "scan"});
   }
   build_frames(body);
   build_bones(body);

@@ -8,9 +8,11 @@ namespace sloper::body {
 struct ScanOptions {
   std::string unit = "auto"; ///< auto, m, cm, mm, inch
   std::string up = "auto";   ///< auto, x, y, z
-  bool torso_only = false;   ///< a scan without legs is taken too: what it shows is found, the rest is not
+  bool torso_only =
+      false; ///< a scan without legs is taken too: what it shows is found, the rest is not
   Rules rules = Rules::standard();
-  int jitter = -1; ///< runs of the rules on a jittered skin that measure the spread; -1: 3 up to 80,000 faces, else none
+  int jitter = -1; ///< runs of the rules on a jittered skin that measure the spread; -1: 3 up to
+                   ///< 80,000 faces, else none
 };
 
 struct MeasuredScan {
@@ -22,7 +24,10 @@ struct MeasuredScan {
 
 /// @param scan in the file's own unit and order
 /// @param file as the user wrote it, for messages and body.scan.file
-/// @throws Error INPUT when the scan is no standing body (with torso_only: no head above a trunk either)
-MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file, const std::string& sha256, const ScanOptions& options, Reporter& reporter);
+/// @throws Error INPUT when the scan is no standing body (with torso_only: no head above a trunk
+/// either)
+MeasuredScan measure_scan(const TriangleMesh& scan, const std::string& file,
+                          const std::string& sha256, const ScanOptions& options,
+                          Reporter& reporter);
 
 } // namespace sloper::body

@@ -24,7 +24,9 @@ using Eigen::Quaterniond;
 
 constexpr int MAX_JOINTS = 2000, MAX_FRAMES = 2'000'000;
 
-Quaterniond about(int axis, double radians) { return Quaterniond(Eigen::AngleAxisd(radians, Vec3::Unit(axis))); }
+Quaterniond about(int axis, double radians) {
+  return Quaterniond(Eigen::AngleAxisd(radians, Vec3::Unit(axis)));
+}
 
 struct BvhJoint {
   std::string name;
@@ -47,10 +49,13 @@ class Words {
 public:
   Words(std::string_view text, const std::string& name) : m_text(text), m_name(name) {}
   std::string_view next() {
-    while (m_at < m_text.size() && (m_text[m_at] == ' ' || m_text[m_at] == '\t' || m_text[m_at] == '\r' || m_text[m_at] == '\n'))
+    while (m_at < m_text.size() && (m_text[m_at] == ' ' || m_text[m_at] == '\t' ||
+                                    m_text[m_at] == '\r' || m_text[m_at] == '\n'))
       m_line += m_text[m_at++] == '\n';
     const std::size_t begin = m_at;
-    while (m_at < m_text.size() && !(m_text[m_at] == ' ' || m_text[m_at] == '\t' || m_text[m_at] == '\r' || m_text[m_at] == '\n')) ++m_at;
+    while (m_at < m_text.size() && !(m_text[m_at] == ' ' || m_text[m_at] == '\t' ||
+                                     m_text[m_at] == '\r' || m_text[m_at] == '\n'))
+      ++m_at;
     return m_text.substr(begin, m_at - begin);
   }
   std::string_view must() {
@@ -59,14 +64,16 @@ public:
     return word;
   }
   void expect(const char* wanted) {
-    if (const std::string_view word = must(); word != wanted) fail(quoted(word) + " where " + quoted(wanted) + " should stand");
+    if (const std::string_view word = must(); word != wanted)
+      fail(quoted(word) + " where " + quoted(wanted) + " should stand");
   }
   double number() {
     std::string_view word = must();
     if (word[0] == '+') word.remove_prefix(1);
     double x = 0;
     const auto result = std::from_chars(word.data(), word.data() + word.size(), x);
-    if (word.empty() || result.ec != std::errc() || result.ptr != word.data() + word.size() || !std::isfinite(x))
+    if (word.empty() || result.ec != std::errc() || result.ptr != word.data() + word.size() ||
+        !std::isfinite(x))
       fail(quoted(word) + " is not a finite number");
     return x;
   }
@@ -110,7 +117,8 @@ Bvh parse(std::string_view text, const std::string& name) {
       Vec3 offset;
       for (int axis = 0; axis < 3; ++axis) offset[axis] = words.number();
       if (open.back() >= 0) bvh.joints[open.back()].offset = offset;
-      else if (open.size() > 1) { // an end site: kept as a joint without channels, so that the last bone has a direction
+      else if (open.size() > 1) { // an end site: kept as a joint without channels, so that the last
+                                  // bone has a direction
         BvhJoint end;
         end.parent = open[open.size() - 2];
         end.offset = offset;
@@ -121,7 +129,8 @@ Bvh parse(std::string_view text, const std::string& name) {
       if (open.back() < 0) words.fail("an end site has no channels");
       const int n = words.count(6, "channels");
       for (int k = 0; k < n; ++k) {
-        static const char* names[] = {"Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation"};
+        static const char* names[] = {"Xposition", "Yposition", "Zposition",
+                                      "Xrotation", "Yrotation", "Zrotation"};
         const std::string_view channel = words.must();
         const auto* it = std::find(std::begin(names), std::end(names), channel);
         if (it == std::end(names)) words.fail(quoted(channel) + " is no BVH channel");
@@ -157,28 +166,32 @@ struct Names {
   const char* ours;
   std::initializer_list<const char*> theirs;
 };
-const Names SIDED[] = {{"clavicle", {"leftcollar", "lcollar", "leftclavicle"}},
-                       {"upper_arm", {"leftarm", "leftuparm", "leftupperarm", "lshldr", "lshoulder", "leftshoulder"}},
-                       {"forearm", {"leftforearm", "leftlowarm", "leftlowerarm", "lforearm", "leftelbow", "lelbow"}},
-                       {"hand", {"lefthand", "lhand", "leftwrist", "lwrist"}},
-                       {"thigh", {"leftupleg", "leftupperleg", "leftthigh", "lthigh", "lhip", "lefthip"}},
-                       {"shin", {"leftleg", "leftlowleg", "leftlowerleg", "leftshin", "lshin", "leftknee", "lknee"}},
-                       {"foot", {"leftfoot", "lfoot", "leftankle", "lankle"}}};
+const Names SIDED[] = {
+    {"clavicle", {"leftcollar", "lcollar", "leftclavicle"}},
+    {"upper_arm", {"leftarm", "leftuparm", "leftupperarm", "lshldr", "lshoulder", "leftshoulder"}},
+    {"forearm", {"leftforearm", "leftlowarm", "leftlowerarm", "lforearm", "leftelbow", "lelbow"}},
+    {"hand", {"lefthand", "lhand", "leftwrist", "lwrist"}},
+    {"thigh", {"leftupleg", "leftupperleg", "leftthigh", "lthigh", "lhip", "lefthip"}},
+    {"shin", {"leftleg", "leftlowleg", "leftlowerleg", "leftshin", "lshin", "leftknee", "lknee"}},
+    {"foot", {"leftfoot", "lfoot", "leftankle", "lankle"}}};
 
 std::string plain_name(std::string name) {
   if (const auto colon = name.rfind(':'); colon != std::string::npos) name.erase(0, colon + 1);
   std::string out;
   for (const char c : name)
-    if (std::isalnum(static_cast<unsigned char>(c))) out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return out;
 }
 
 int find_joint(const Bvh& bvh, std::initializer_list<const char*> names, bool left) {
   for (const char* wanted : names) {
     std::string name = wanted;
-    if (!left) name.replace(0, name.starts_with("left") ? 4 : 1, name.starts_with("left") ? "right" : "r");
+    if (!left)
+      name.replace(0, name.starts_with("left") ? 4 : 1, name.starts_with("left") ? "right" : "r");
     for (std::size_t j = 0; j < bvh.joints.size(); ++j)
-      if (!bvh.joints[j].name.empty() && plain_name(bvh.joints[j].name) == name) return static_cast<int>(j);
+      if (!bvh.joints[j].name.empty() && plain_name(bvh.joints[j].name) == name)
+        return static_cast<int>(j);
   }
   return -1;
 }
@@ -186,7 +199,8 @@ int find_joint(const Bvh& bvh, std::initializer_list<const char*> names, bool le
 /// Direction of a joint's bone at rest: to its first child that is not at the same place.
 Vec3 rest_direction(const Bvh& bvh, int joint) {
   for (std::size_t j = static_cast<std::size_t>(joint) + 1; j < bvh.joints.size(); ++j)
-    if (bvh.joints[j].parent == joint && bvh.joints[j].offset.norm() > 1e-9) return bvh.joints[j].offset.normalized();
+    if (bvh.joints[j].parent == joint && bvh.joints[j].offset.norm() > 1e-9)
+      return bvh.joints[j].offset.normalized();
   return Vec3::Zero();
 }
 
@@ -199,7 +213,8 @@ Vec3 rest_place(const Bvh& bvh, int joint) {
 struct Followed {
   std::string joint;
   int bvh = -1;
-  Quaterniond align = Quaterniond::Identity(); ///< brings our bone into the direction of the BVH's at rest
+  Quaterniond align =
+      Quaterniond::Identity(); ///< brings our bone into the direction of the BVH's at rest
 };
 
 } // namespace
@@ -207,20 +222,25 @@ struct Followed {
 Pose read_pose(const std::string& path, const Body& body) {
   const io::Json document = io::read_document(path, "pose", 1);
   const io::Node root(document, path);
-  root.allow_only({"format", "version", "generator", "length_unit", "arms_deg", "arm_l_deg", "arm_r_deg", "turn_deg", "shift_m"});
+  root.allow_only({"format", "version", "generator", "length_unit", "arms_deg", "arm_l_deg",
+                   "arm_r_deg", "turn_deg", "shift_m"});
   const std::vector<std::string> names = joint_names(body);
   Pose pose;
   for (const bool left : {true, false}) {
-    const std::string own = left ? "arm_l_deg" : "arm_r_deg", key = root.has(own) ? own : "arms_deg";
+    const std::string own = left ? "arm_l_deg" : "arm_r_deg",
+                      key = root.has(own) ? own : "arms_deg";
     if (!root.has(key)) continue;
     const double degrees = root.at(key).number();
-    if (degrees < 0 || degrees > 180) root.at(key).fail("is not an angle from hanging (0) to upright (180)");
+    if (degrees < 0 || degrees > 180)
+      root.at(key).fail("is not an angle from hanging (0) to upright (180)");
     pose.turn[left ? "upper_arm_l" : "upper_arm_r"] = arm_turn(body, left, units::radians(degrees));
   }
   if (root.has("turn_deg"))
     for (const std::string& name : root.at("turn_deg").keys()) {
       if (std::find(names.begin(), names.end(), name) == names.end())
-        root.at("turn_deg").at(name).fail("the body has no joint \"" + name + "\"" + did_you_mean(name, names, "\""));
+        root.at("turn_deg")
+            .at(name)
+            .fail("the body has no joint \"" + name + "\"" + did_you_mean(name, names, "\""));
       const Vec3 angles = root.at("turn_deg").at(name).vec3();
       Quaterniond q = Quaterniond::Identity();
       for (int axis = 0; axis < 3; ++axis) q = about(axis, units::radians(angles[axis])) * q;
@@ -248,33 +268,42 @@ Motion parse_bvh(std::string_view text, const std::string& name, const Body& bod
     if (theirs < 0 || (!b && ours != "root")) return;
     Followed f{ours, theirs, Quaterniond::Identity()};
     const Vec3 rest = rest_direction(bvh, theirs);
-    if (align && b && rest.norm() > 0.5) f.align = rotation_between(b->tail - b->head, facing * rest);
+    if (align && b && rest.norm() > 0.5)
+      f.align = rotation_between(b->tail - b->head, facing * rest);
     followed.push_back(f);
   };
   follow("root", 0, false);
-  // the last joint of the trunk before neck and arms carries the chest; the spines below it only add to it
+  // the last joint of the trunk before neck and arms carries the chest; the spines below it only
+  // add to it
   int chest = -1;
-  for (const char* wanted : {"spine3", "upperchest", "chest4", "chest3", "chest2", "spine2", "spine1", "chest", "spine", "abdomen"})
+  for (const char* wanted : {"spine3", "upperchest", "chest4", "chest3", "chest2", "spine2",
+                             "spine1", "chest", "spine", "abdomen"})
     if (chest < 0) chest = find_joint(bvh, {wanted}, true);
   follow("spine", chest, false);
   follow("head", find_joint(bvh, {"head", "neck"}, true), false);
   for (const bool left : {true, false})
-    for (const Names& names : SIDED) // a bone of the arm or leg takes the direction that the BVH's has
-      if (const std::string ours = std::string(names.ours) + (left ? "_l" : "_r"); std::string(names.ours) != "clavicle")
+    for (const Names& names :
+         SIDED) // a bone of the arm or leg takes the direction that the BVH's has
+      if (const std::string ours = std::string(names.ours) + (left ? "_l" : "_r");
+          std::string(names.ours) != "clavicle")
         follow(ours, find_joint(bvh, names.theirs, left), std::string(names.ours) != "foot");
   if (followed.size() < 6)
-    throw input_error(name, "HIERARCHY", "few of its joints have a name that is known",
-                      "expected names such as Hips, Spine, LeftArm, LeftForeArm, LeftUpLeg, LeftLeg");
+    throw input_error(
+        name, "HIERARCHY", "few of its joints have a name that is known",
+        "expected names such as Hips, Spine, LeftArm, LeftForeArm, LeftUpLeg, LeftLeg");
   // the hips travel in proportion to the legs
   double scale = 0;
-  const int shin = find_joint(bvh, SIDED[5].theirs, true), foot = find_joint(bvh, SIDED[6].theirs, true);
+  const int shin = find_joint(bvh, SIDED[5].theirs, true),
+            foot = find_joint(bvh, SIDED[6].theirs, true);
   if (shin >= 0 && foot >= 0 && bone("thigh_l") && bone("shin_l")) {
     const double theirs = bvh.joints[shin].offset.norm() + bvh.joints[foot].offset.norm();
-    const double ours = (bone("thigh_l")->tail - bone("thigh_l")->head).norm() + (bone("shin_l")->tail - bone("shin_l")->head).norm();
+    const double ours = (bone("thigh_l")->tail - bone("thigh_l")->head).norm() +
+                        (bone("shin_l")->tail - bone("shin_l")->head).norm();
     if (theirs > 1e-9) scale = ours / theirs;
   }
   Motion motion;
-  const int stride = step_s > 0 ? static_cast<int>(std::clamp(std::round(step_s / bvh.frame_s), 1.0, 1e9)) : 1;
+  const int stride =
+      step_s > 0 ? static_cast<int>(std::clamp(std::round(step_s / bvh.frame_s), 1.0, 1e9)) : 1;
   motion.frame_s = stride * bvh.frame_s;
   const Vec3 hips = bone("spine") ? bone("spine")->head : Vec3::Zero();
   std::optional<Vec3> start;
@@ -297,7 +326,8 @@ Motion parse_bvh(std::string_view text, const std::string& name, const Body& bod
     if (!start) start = Vec3(place.x(), 0, place.z());
     Pose pose;
     std::map<std::string, Quaterniond> of_ours;
-    for (const Followed& f : followed) of_ours[f.joint] = facing * world[f.bvh] * facing.conjugate() * f.align;
+    for (const Followed& f : followed)
+      of_ours[f.joint] = facing * world[f.bvh] * facing.conjugate() * f.align;
     std::map<std::string, Quaterniond> absolute = {{"root", of_ours["root"]}};
     for (const Bone& b : body.bones) { // relative to the parent's turn
       if (b.name.starts_with("pelvis")) {
@@ -320,6 +350,8 @@ Motion parse_bvh(std::string_view text, const std::string& name, const Body& bod
   return motion;
 }
 
-Motion read_bvh(const std::string& path, const Body& body, double step_s) { return parse_bvh(io::read_file(path), path, body, step_s); }
+Motion read_bvh(const std::string& path, const Body& body, double step_s) {
+  return parse_bvh(io::read_file(path), path, body, step_s);
+}
 
 } // namespace sloper::body

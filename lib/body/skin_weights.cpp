@@ -11,9 +11,12 @@ namespace {
 
 /// To both sides of a border, share of stature.
 constexpr double SHOULDER = 0.040, GROIN = 0.045, NECK_BLEND = 0.025;
-constexpr double BEND_LOW = 0.10, BEND_HIGH = 0.60; ///< the trunk bends between these shares of hip centre to neck
-/// The shoulder goes with the clavicle: from this share of it outwards to all, and from so far below the joint, of stature, up to all.
-constexpr double CLAVICLE_NEAR = 0.20, CLAVICLE_FAR = 0.95, CLAVICLE_LOW = 0.13, CLAVICLE_HIGH = 0.02;
+constexpr double BEND_LOW = 0.10,
+                 BEND_HIGH = 0.60; ///< the trunk bends between these shares of hip centre to neck
+/// The shoulder goes with the clavicle: from this share of it outwards to all, and from so far
+/// below the joint, of stature, up to all.
+constexpr double CLAVICLE_NEAR = 0.20, CLAVICLE_FAR = 0.95, CLAVICLE_LOW = 0.13,
+                 CLAVICLE_HIGH = 0.02;
 
 double smooth_step(double x) {
   const double t = std::clamp(x, 0.0, 1.0);
@@ -22,18 +25,21 @@ double smooth_step(double x) {
 
 /// What most of a vertex's faces say.
 std::vector<Part> vertex_parts(const Body& body) {
-  std::vector<std::array<int, N_PARTS>> votes(body.skin.positions.size(), std::array<int, N_PARTS>{});
+  std::vector<std::array<int, N_PARTS>> votes(body.skin.positions.size(),
+                                              std::array<int, N_PARTS>{});
   for (std::size_t t = 0; t < body.skin.triangles.size(); ++t)
     if (body.face_part[t] != Part::NONE)
       for (const int v : body.skin.triangles[t]) ++votes[v][static_cast<int>(body.face_part[t])];
   std::vector<Part> part(votes.size(), Part::TORSO);
   for (std::size_t v = 0; v < votes.size(); ++v)
-    if (const auto most = std::max_element(votes[v].begin(), votes[v].end()); *most > 0) part[v] = static_cast<Part>(most - votes[v].begin());
+    if (const auto most = std::max_element(votes[v].begin(), votes[v].end()); *most > 0)
+      part[v] = static_cast<Part>(most - votes[v].begin());
   return part;
 }
 
 /// Distance over the skin from a part's border, positive inside, at most `reach` to both sides.
-std::vector<double> from_border(const Body& body, const EdgeGraph& graph, const std::vector<Part>& part, Part inside, double reach) {
+std::vector<double> from_border(const Body& body, const EdgeGraph& graph,
+                                const std::vector<Part>& part, Part inside, double reach) {
   std::vector<char> on_border(part.size(), 0);
   for (const Triangle& t : body.skin.triangles) {
     int n = 0;
@@ -45,7 +51,8 @@ std::vector<double> from_border(const Body& body, const EdgeGraph& graph, const 
   for (std::size_t v = 0; v < part.size(); ++v)
     if (on_border[v]) sources.push_back(static_cast<int>(v));
   std::vector<double> d = graph.distances(sources, reach, {});
-  for (std::size_t v = 0; v < d.size(); ++v) d[v] = (part[v] == inside ? 1 : -1) * std::min(d[v], reach);
+  for (std::size_t v = 0; v < d.size(); ++v)
+    d[v] = (part[v] == inside ? 1 : -1) * std::min(d[v], reach);
   return d;
 }
 
@@ -59,14 +66,17 @@ struct Limb {
 
 SkinWeights skin_weights(const Body& body) {
   if (body.skin.triangles.empty() || body.face_part.size() != body.skin.triangles.size())
-    throw input_error(body.scan.file, "", "the body has no skin to pose", "measure the scan again without --anonymise");
+    throw input_error(body.scan.file, "", "the body has no skin to pose",
+                      "measure the scan again without --anonymise");
   auto bone = [&](const std::string& name) -> const Bone* {
     for (const Bone& b : body.bones)
       if (b.name == name) return &b;
     return nullptr;
   };
   const Bone* spine = bone("spine");
-  if (!spine) throw input_error(body.scan.file, "bones", "the body has no spine to pose", "its hip joints or its neck were not found");
+  if (!spine)
+    throw input_error(body.scan.file, "bones", "the body has no spine to pose",
+                      "its hip joints or its neck were not found");
   const double s = std::max(body.scan.stature_m, 0.3);
   SkinWeights out;
   out.joints = joint_names(body);
@@ -96,11 +106,15 @@ SkinWeights skin_weights(const Body& body) {
       double left = whole;
       for (int k = 0; k < 3; ++k) {
         double on = 0;
-        const Bone *here = bone(limb.bones[k]), *next = k < 2 && !limb.bones[k + 1].empty() ? bone(limb.bones[k + 1]) : nullptr;
+        const Bone *here = bone(limb.bones[k]),
+                   *next = k < 2 && !limb.bones[k + 1].empty() ? bone(limb.bones[k + 1]) : nullptr;
         if (!here) break;
         if (next) {
-          const Vec3 axis = ((here->tail - here->head).normalized() + (next->tail - next->head).normalized()).normalized();
-          const double width = std::clamp(0.18 * (here->tail - here->head).norm(), 0.012 * s, 0.035 * s);
+          const Vec3 axis =
+              ((here->tail - here->head).normalized() + (next->tail - next->head).normalized())
+                  .normalized();
+          const double width =
+              std::clamp(0.18 * (here->tail - here->head).norm(), 0.012 * s, 0.035 * s);
           on = smooth_step(0.5 + 0.5 * (body.skin.positions[v] - next->head).dot(axis) / width);
         }
         share[v][joint(limb.bones[k])] += left * (1 - on);
@@ -113,8 +127,10 @@ SkinWeights skin_weights(const Body& body) {
     if (const int j = joint(name); j >= 0) clavicles.emplace_back(bone(name), j);
   const auto of_clavicle = [&](const Bone& b, const Vec3& p) {
     const Vec3 way = b.tail - b.head;
-    const double along = (p.x() - b.head.x()) * way.x() / std::max(way.x() * way.x(), 1e-12), below = (b.tail.y() - p.y()) / s;
-    return smooth_step((along - CLAVICLE_NEAR) / (CLAVICLE_FAR - CLAVICLE_NEAR)) * smooth_step((CLAVICLE_LOW - below) / (CLAVICLE_LOW - CLAVICLE_HIGH));
+    const double along = (p.x() - b.head.x()) * way.x() / std::max(way.x() * way.x(), 1e-12),
+                 below = (b.tail.y() - p.y()) / s;
+    return smooth_step((along - CLAVICLE_NEAR) / (CLAVICLE_FAR - CLAVICLE_NEAR)) *
+           smooth_step((CLAVICLE_LOW - below) / (CLAVICLE_LOW - CLAVICLE_HIGH));
   };
   const Vec3 axis = spine->tail - spine->head;
   for (std::size_t v = 0; v < n; ++v) {
@@ -127,7 +143,8 @@ SkinWeights skin_weights(const Body& body) {
     share[v][0] += trunk * (1 - upper);
     double on_spine = trunk * upper;
     for (const auto& [clavicle, j] : clavicles)
-      if (const double w = of_clavicle(*clavicle, body.skin.positions[v]) * trunk * upper; w > 0) share[v][j] += w, on_spine -= w;
+      if (const double w = of_clavicle(*clavicle, body.skin.positions[v]) * trunk * upper; w > 0)
+        share[v][j] += w, on_spine -= w;
     share[v][joint("spine")] += on_spine;
   }
   out.joint.assign(n, {});
@@ -140,7 +157,8 @@ SkinWeights skin_weights(const Body& body) {
     most.resize(std::min<std::size_t>(most.size(), SkinWeights::MOST));
     double sum = 0;
     for (const auto& [w, j] : most) sum -= w;
-    for (std::size_t k = 0; k < most.size(); ++k) out.joint[v][k] = most[k].second, out.share[v][k] = -most[k].first / sum;
+    for (std::size_t k = 0; k < most.size(); ++k)
+      out.joint[v][k] = most[k].second, out.share[v][k] = -most[k].first / sum;
   }
   return out;
 }

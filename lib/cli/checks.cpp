@@ -27,7 +27,8 @@ Check finite_in(double low, double high, const std::string& unit) {
     const char* end = text.data() + text.size();
     double value = 0;
     const auto [stop, failure] = std::from_chars(begin, end, value);
-    if (failure != std::errc() || stop != end || !std::isfinite(value)) return "'" + text + "' is not a plain finite number (expected " + range + ")";
+    if (failure != std::errc() || stop != end || !std::isfinite(value))
+      return "'" + text + "' is not a plain finite number (expected " + range + ")";
     if (value < low || value > high) return text + " is out of range (expected " + range + ")";
     return {};
   };
@@ -38,24 +39,30 @@ Check input_file() {
   auto check = [](const std::string& path) -> std::string {
     struct stat info {};
     if (path == "-") return {};
-    if (stat(path.c_str(), &info) != 0) throw input_error(path, "", "no such file", "check the path");
-    if (S_ISDIR(info.st_mode)) throw input_error(path, "", "is a folder, not a file", "name the file inside it");
+    if (stat(path.c_str(), &info) != 0)
+      throw input_error(path, "", "no such file", "check the path");
+    if (S_ISDIR(info.st_mode))
+      throw input_error(path, "", "is a folder, not a file", "name the file inside it");
     return {};
   };
   return {"input_file", "FILE", check};
 }
 
 Check output_file() {
-  auto check = [](const std::string& path) -> std::string { return path.empty() ? "an empty file name" : ""; };
+  auto check = [](const std::string& path) -> std::string {
+    return path.empty() ? "an empty file name" : "";
+  };
   return {"output_file", "FILE", check};
 }
 
 Check document_file() {
   auto check = [](const std::string& path) -> std::string {
     if (path.empty()) return "an empty file name";
-    if (path == "-") return "the document has a mesh beside it and cannot go to standard output; name a file";
+    if (path == "-")
+      return "the document has a mesh beside it and cannot go to standard output; name a file";
     if (path.ends_with(".obj"))
-      return path + " names a mesh, where the document is asked for; say " + path.substr(0, path.size() - 4) + ".json, the mesh comes beside it";
+      return path + " names a mesh, where the document is asked for; say " +
+             path.substr(0, path.size() - 4) + ".json, the mesh comes beside it";
     return "";
   };
   return {"output_file", "FILE", check};
@@ -78,7 +85,9 @@ Check one_of(const std::vector<std::string>& words) {
 void refuse_together(const Given& one, std::initializer_list<Given> others) {
   if (!one.second) return;
   for (const auto& [name, given] : others)
-    if (given) throw Error(ErrorKind::USAGE, "", one.first, std::string("does not go with ") + name, "leave one of them out");
+    if (given)
+      throw Error(ErrorKind::USAGE, "", one.first, std::string("does not go with ") + name,
+                  "leave one of them out");
 }
 
 } // namespace sloper::cli

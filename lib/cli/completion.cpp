@@ -20,22 +20,32 @@ static std::string bash(const ToolDescription& tool) {
   std::string function = "_" + tool.name;
   for (char& c : function)
     if (c == '-') c = '_';
-  std::string out = "# bash completion for " + tool.name + "\n" + function +
-                    "() {\n  local word=\"${COMP_WORDS[COMP_CWORD]}\" before=\"${COMP_WORDS[COMP_CWORD-1]}\"\n  COMPREPLY=()\n  case \"$before\" in\n";
+  std::string out =
+      "# bash completion for " + tool.name + "\n" + function +
+      "() {\n  local word=\"${COMP_WORDS[COMP_CWORD]}\" before=\"${COMP_WORDS[COMP_CWORD-1]}\"\n  "
+      "COMPREPLY=()\n  case \"$before\" in\n";
   std::string all, files, plain;
   for (const OptionRow& row : tool.rows) {
     const std::vector<std::string> names = spellings(row);
     for (const std::string& name : names) {
       all += (all.empty() ? "" : " ") + name;
       if (row.value.empty()) continue;
-      if (row.choices.empty()) (row.is_file ? files : plain) += ((row.is_file ? files : plain).empty() ? "" : "|") + name;
-      else out += "    " + name + ") mapfile -t COMPREPLY < <(compgen -W '" + join(row.choices) + "' -- \"$word\"); return ;;\n";
+      if (row.choices.empty())
+        (row.is_file ? files : plain) += ((row.is_file ? files : plain).empty() ? "" : "|") + name;
+      else
+        out += "    " + name + ") mapfile -t COMPREPLY < <(compgen -W '" + join(row.choices) +
+               "' -- \"$word\"); return ;;\n";
     }
   }
-  if (!files.empty()) out += "    " + files + ") mapfile -t COMPREPLY < <(compgen -f -- \"$word\"); return ;;\n";
+  if (!files.empty())
+    out += "    " + files + ") mapfile -t COMPREPLY < <(compgen -f -- \"$word\"); return ;;\n";
   if (!plain.empty()) out += "    " + plain + ") return ;;\n";
-  out += "  esac\n  if [[ $word == -* ]]; then mapfile -t COMPREPLY < <(compgen -W '" + all + "' -- \"$word\")\n";
-  return out + "  else mapfile -t COMPREPLY < <(compgen -f -- \"$word\"); fi\n}\ncomplete -o filenames -F " + function + " " + tool.name + "\n";
+  out += "  esac\n  if [[ $word == -* ]]; then mapfile -t COMPREPLY < <(compgen -W '" + all +
+         "' -- \"$word\")\n";
+  return out +
+         "  else mapfile -t COMPREPLY < <(compgen -f -- \"$word\"); fi\n}\ncomplete -o filenames "
+         "-F " +
+         function + " " + tool.name + "\n";
 }
 
 static std::string quoted(const std::string& text) {
@@ -52,15 +62,20 @@ static std::string zsh(const ToolDescription& tool) {
   const std::string all = "*:", open = "[", colon = ":";
   for (const OptionRow& row : tool.rows) {
     std::string text; // brackets and colons delimit the fields of a specification
-    for (const char c : row.description) text += c == '[' ? "(" : c == ']' ? ")" : c == ':' ? "\\:" : std::string(1, c);
-    const std::string action = !row.choices.empty()                  ? std::string("(").append(join(row.choices)).append(")")
+    for (const char c : row.description)
+      text += c == '[' ? "(" : c == ']' ? ")" : c == ':' ? "\\:" : std::string(1, c);
+    const std::string action = !row.choices.empty()
+                                   ? std::string("(").append(join(row.choices)).append(")")
                                : row.is_file || !row.operand.empty() ? "_files"
                                                                      : " ";
     if (!row.operand.empty()) out += " \\\n  " + quoted(all + row.operand + ":_files");
     for (const std::string& name : spellings(row)) {
       const std::string star = row.repeats ? "*" : "";
       out += " \\\n  " +
-             quoted(star + name + open + text + "]" + (row.value.empty() ? "" : colon + (row.choices.empty() ? row.value : "choice") + colon + action));
+             quoted(star + name + open + text + "]" +
+                    (row.value.empty()
+                         ? ""
+                         : colon + (row.choices.empty() ? row.value : "choice") + colon + action));
     }
   }
   return out + "\n";
@@ -76,7 +91,8 @@ static std::string fish(const ToolDescription& tool) {
     if (!row.value.empty()) out += row.is_file ? " -r -F" : " -x";
     if (!row.choices.empty()) out += " -a " + quoted(join(row.choices));
     std::string text; // fish has its own escape for a quote
-    for (const char c : row.description) text += c == '\'' ? "\\'" : c == '\\' ? "\\\\" : std::string(1, c);
+    for (const char c : row.description)
+      text += c == '\'' ? "\\'" : c == '\\' ? "\\\\" : std::string(1, c);
     out += " -d '" + text + "'\n";
   }
   return out;
@@ -86,7 +102,8 @@ std::string completion(const ToolDescription& tool, const std::string& shell) {
   if (shell == "bash") return bash(tool);
   if (shell == "zsh") return zsh(tool);
   if (shell == "fish") return fish(tool);
-  throw Error(ErrorKind::USAGE, "", "", "--generate-completion: '" + shell + "' is none of bash, zsh, fish");
+  throw Error(ErrorKind::USAGE, "", "",
+              "--generate-completion: '" + shell + "' is none of bash, zsh, fish");
 }
 
 } // namespace sloper::cli

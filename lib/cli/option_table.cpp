@@ -17,7 +17,10 @@ std::string ToolDescription::usage() const {
   std::string out = name + " [OPTION]...";
   for (const OptionRow& row : rows)
     if (row.operand.empty() && row.required)
-      out.append(row.shorts.empty() ? " --" : " -").append(row.shorts.empty() ? row.longs.front() : row.shorts.front()).append(" ").append(row.value);
+      out.append(row.shorts.empty() ? " --" : " -")
+          .append(row.shorts.empty() ? row.longs.front() : row.shorts.front())
+          .append(" ")
+          .append(row.value);
   for (const OptionRow& row : rows)
     if (!row.operand.empty()) out += row.required ? " " + row.operand : " [" + row.operand + "]";
   return out;
@@ -29,7 +32,8 @@ const std::vector<std::pair<int, std::string>>& exit_codes() {
       {1, "the answer is no (a check or a policy was not met)"},
       {2, "wrong command line"},
       {3, "bad or unreadable input"},
-      {4, "computed, but failed: not found, not converged, or outside the tolerance; the best result is written and marked"},
+      {4, "computed, but failed: not found, not converged, or outside the tolerance; the best "
+          "result is written and marked"},
       {5, "cannot write"},
       {70, "a mistake in the program itself, or out of memory"}};
   return codes;

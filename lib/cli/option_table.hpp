@@ -1,5 +1,6 @@
 #pragma once
-/// The one option table: what CLI11 was told, as rows from which help, man page, completion and suggestions are made.
+/// The one option table: what CLI11 was told, as rows from which help, man page, completion and
+/// suggestions are made.
 #include <string>
 #include <vector>
 
@@ -46,7 +47,8 @@ std::string wrap(const std::string& text, std::size_t width, std::size_t indent)
 std::string upper(std::string text); ///< its letters a to z as capitals, in any locale
 
 std::string help_text(const ToolDescription& tool);
-std::string man_page(const ToolDescription& tool);                             ///< groff, section 1
-std::string completion(const ToolDescription& tool, const std::string& shell); ///< shell: bash, zsh or fish
+std::string man_page(const ToolDescription& tool); ///< groff, section 1
+std::string completion(const ToolDescription& tool,
+                       const std::string& shell); ///< shell: bash, zsh or fish
 
 } // namespace sloper::cli

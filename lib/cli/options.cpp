@@ -7,7 +7,8 @@
 namespace sloper::cli {
 
 Option& Option::check(const Check& check) {
-  m_option->check(CLI::Validator([fault = check.fault](std::string& text) { return fault(text); }, check.words, check.name));
+  m_option->check(CLI::Validator([fault = check.fault](std::string& text) { return fault(text); },
+                                 check.words, check.name));
   return *this;
 }
 
@@ -54,16 +55,19 @@ static OptionRow row_of(CLI::Option& option) {
     row.value = type.substr(0, type.find(':'));
     row.choices = split(validator_text(option, "one_of"), '|');
     row.range = validator_text(option, "finite_in");
-    row.is_file = row.value == "FILE" || !validator_text(option, "input_file").empty() || !validator_text(option, "output_file").empty();
+    row.is_file = row.value == "FILE" || !validator_text(option, "input_file").empty() ||
+                  !validator_text(option, "output_file").empty();
     if (row.is_file && row.value == "TEXT") row.value = "FILE";
     if (!row.choices.empty() && row.value == "TEXT") row.value = validator_text(option, "one_of");
     if (row.value == "FLOAT" || row.value == "INT" || row.value == "UINT") row.value = "N";
     if (row.value == "N" && !row.range.empty()) { // the unit says more: --edge-length M
       const std::string unit = row.range.substr(row.range.rfind(' ') + 1);
-      if (unit.size() <= 3 && unit.find_first_of("0123456789") == std::string::npos) row.value = upper(unit);
+      if (unit.size() <= 3 && unit.find_first_of("0123456789") == std::string::npos)
+        row.value = upper(unit);
     }
     const std::string fallback = option.get_default_str();
-    if (!fallback.empty() && row.description.find("default") == std::string::npos) row.description += " (default: " + fallback + ")";
+    if (!fallback.empty() && row.description.find("default") == std::string::npos)
+      row.description += " (default: " + fallback + ")";
   }
   return row;
 }
@@ -71,7 +75,9 @@ static OptionRow row_of(CLI::Option& option) {
 std::vector<OptionRow> option_rows(const CLI::App& app) {
   std::vector<OptionRow> rows;
   for (const CLI::Option* option : app.get_options())
-    if (!option->get_group().empty()) rows.push_back(row_of(const_cast<CLI::Option&>(*option))); // CLI11 reads validators through non-const access only
+    if (!option->get_group().empty())
+      rows.push_back(row_of(const_cast<CLI::Option&>(
+          *option))); // CLI11 reads validators through non-const access only
   return rows;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// One option of a tool and what its value must be. CLI11, which is dear to compile, stays behind this.
+/// One option of a tool and what its value must be. CLI11, which is dear to compile, stays behind
+/// this.
 #include <functional>
 #include <string>
 #include <vector>
@@ -12,14 +13,15 @@ namespace sloper::cli {
 
 /// What a value must be, in words for the help and as a test that returns its complaint.
 struct Check {
-  std::string name;                                     ///< "finite_in": by which the option table knows it
-  std::string words;                                    ///< "0 to 1 m", "FILE", "a|b|c"
+  std::string name;  ///< "finite_in": by which the option table knows it
+  std::string words; ///< "0 to 1 m", "FILE", "a|b|c"
   std::function<std::string(const std::string&)> fault; ///< empty when the value will do
 };
 
 // CLI11's own checks accept NaN, 1e400 and 0x10 and refuse "-".
 
-/// A plain decimal number in [low, high]. @param unit  shown in the help, such as "m"; empty for a pure number
+/// A plain decimal number in [low, high]. @param unit  shown in the help, such as "m"; empty for a
+/// pure number
 Check finite_in(double low, double high, const std::string& unit);
 /// An existing file, or "-". A file that is not there is bad input: exit 3.
 Check input_file();
@@ -27,7 +29,8 @@ Check input_file();
 Check output_file();
 /// A document with a mesh beside it, which cannot go to standard output.
 Check document_file();
-/// One of some words; the complaint suggests the nearest. Shown as a|b|c and offered by the completion.
+/// One of some words; the complaint suggests the nearest. Shown as a|b|c and offered by the
+/// completion.
 Check one_of(const std::vector<std::string>& words);
 
 /// An option and whether it is given.
@@ -42,8 +45,8 @@ public:
   Option& check(const Check& check);
   Option& required();
   Option& type_name(const std::string& word); ///< what stands for the value in the help: "LIST"
-  Option& show_default();                     ///< the value that the variable has now is told in the help
-  bool given() const;                         ///< whether the command line named it; known inside Tool::run's body
+  Option& show_default(); ///< the value that the variable has now is told in the help
+  bool given() const;     ///< whether the command line named it; known inside Tool::run's body
 
 private:
   CLI::Option* m_option;

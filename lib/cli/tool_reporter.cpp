@@ -18,14 +18,17 @@ static void on_stop_signal(int) { g_stop = 1; }
 
 void install_signal_handlers() {
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN); // a limit on file sizes is then an error of writing like a full disk
+  std::signal(SIGXFSZ,
+              SIG_IGN); // a limit on file sizes is then an error of writing like a full disk
   struct sigaction action {};
   action.sa_handler = on_stop_signal;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   for (const int signal_number : {SIGINT, SIGTERM}) {
     struct sigaction before {};
     sigaction(signal_number, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(signal_number, &action, nullptr); // nohup and background jobs keep what they were given
+    if (before.sa_handler != SIG_IGN)
+      sigaction(signal_number, &action,
+                nullptr); // nohup and background jobs keep what they were given
   }
 }
 
@@ -49,7 +52,8 @@ void ToolReporter::clear_line() {
 
 void ToolReporter::line(const std::string& text, const char* color) {
   clear_line();
-  const std::string name = m_color && *color ? std::string(color) + m_tool + ":\033[0m" : m_tool + ":";
+  const std::string name =
+      m_color && *color ? std::string(color) + m_tool + ":\033[0m" : m_tool + ":";
   std::fprintf(stderr, "%s %s\n", name.c_str(), text.c_str());
 }
 
@@ -66,7 +70,8 @@ bool ToolReporter::stop_requested() const { return g_stop != 0; }
 static std::string clock_text(double seconds) {
   char text[32];
   const long whole = std::lround(seconds);
-  if (whole >= 3600) std::snprintf(text, sizeof text, "%ld h %02ld min", whole / 3600, whole % 3600 / 60);
+  if (whole >= 3600)
+    std::snprintf(text, sizeof text, "%ld h %02ld min", whole / 3600, whole % 3600 / 60);
   else if (whole >= 60) std::snprintf(text, sizeof text, "%ld min %02ld s", whole / 60, whole % 60);
   else std::snprintf(text, sizeof text, "%ld s", whole);
   return text;
@@ -86,7 +91,8 @@ void ToolReporter::progress(const std::string& phase, double fraction) {
     fraction = std::min(fraction, 1.0);
     text.append(" ").append(std::to_string(std::lround(100 * fraction))).append(" %");
     const double elapsed = std::chrono::duration<double>(now - m_phase_start).count();
-    if (fraction > 0.02 && fraction < 1 && elapsed > 1) text.append(", ").append(clock_text(elapsed * (1 - fraction) / fraction)).append(" left");
+    if (fraction > 0.02 && fraction < 1 && elapsed > 1)
+      text.append(", ").append(clock_text(elapsed * (1 - fraction) / fraction)).append(" left");
   }
   std::fprintf(stderr, "\r\033[K%s", text.c_str());
   std::fflush(stderr);

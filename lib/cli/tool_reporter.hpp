@@ -1,5 +1,6 @@
 #pragma once
-/// How a tool speaks: warnings and details to stderr, a progress line on a terminal only, Ctrl-C as a stop flag.
+/// How a tool speaks: warnings and details to stderr, a progress line on a terminal only, Ctrl-C as
+/// a stop flag.
 #include <base/progress.hpp>
 #include <chrono>
 #include <string>
@@ -28,7 +29,8 @@ private:
   void line(const std::string& text, const char* color);
 };
 
-/// SIGPIPE is ignored; the first SIGINT or SIGTERM asks to stop, the second one has its usual effect.
+/// SIGPIPE is ignored; the first SIGINT or SIGTERM asks to stop, the second one has its usual
+/// effect.
 void install_signal_handlers();
 
 } // namespace sloper::cli

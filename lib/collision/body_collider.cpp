@@ -10,7 +10,8 @@ namespace sloper::collision {
 
 namespace {
 
-constexpr double TOUCHING = 1e-12; ///< m; nearer than this the direction to the skin is the skin's normal
+constexpr double TOUCHING =
+    1e-12; ///< m; nearer than this the direction to the skin is the skin's normal
 constexpr int RIM = -1, NOT_OWNED = -2;
 
 } // namespace
@@ -22,12 +23,13 @@ BodyCollider::BodyCollider(const TriangleMesh& body, int k) : m_mesh(body) {
   m_tree = TriangleTree(m_mesh.positions, m_mesh.triangles, k);
   m_winding = std::make_shared<LazyWinding>();
   compute_normals();
-  assess_trust();
+  assess_sign_reliability();
   if (m_findings.buried_triangles > 0) m_skin = TriangleTree(m_mesh.positions, skin_triangles(), k);
 }
 
 BodyCollider::BodyCollider(const TriangleMesh& body, const PreparedSkin& known, int k)
-    : m_mesh(body), m_topology(make_topology(body.positions.size(), body.triangles)), m_turned(known.turned), m_findings(known.findings) {
+    : m_mesh(body), m_topology(make_topology(body.positions.size(), body.triangles)),
+      m_turned(known.turned), m_findings(known.findings) {
   for (const int f : m_turned) turn(f);
   assign_features();
   m_tree = TriangleTree(m_mesh.positions, m_mesh.triangles, k, known.order);
@@ -36,7 +38,8 @@ BodyCollider::BodyCollider(const TriangleMesh& body, const PreparedSkin& known, 
   m_trusted_edge.assign(m_topology.edges.size(), 1);
   m_trusted_vertex.assign(m_mesh.positions.size(), 1);
   for (const int f : known.untrusted_faces) m_trusted_face[f] = 0;
-  for (const int side : known.untrusted_edges) m_trusted_edge[m_topology.triangle_edges[side / 3][side % 3]] = 0;
+  for (const int side : known.untrusted_edges)
+    m_trusted_edge[m_topology.triangle_edges[side / 3][side % 3]] = 0;
   for (const int v : known.untrusted_vertices) m_trusted_vertex[v] = 0;
   if (known.buried.empty()) return;
   std::vector<char> buried(m_mesh.triangles.size(), 0);
@@ -88,7 +91,8 @@ void BodyCollider::compute_normals() {
   parallel_for(n, 8192, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       const Triangle& t = m_mesh.triangles[f];
-      const Vec3 corner[3] = {m_mesh.positions[t[0]], m_mesh.positions[t[1]], m_mesh.positions[t[2]]};
+      const Vec3 corner[3] = {m_mesh.positions[t[0]], m_mesh.positions[t[1]],
+                              m_mesh.positions[t[2]]};
       const Vec3 normal = area_normal(corner[0], corner[1], corner[2]);
       const double length = normal.norm();
       m_face_normals[f] = length > 0 ? Vec3(normal / length) : Vec3(Vec3::Zero());
@@ -98,13 +102,16 @@ void BodyCollider::compute_normals() {
       }
     }
   });
-  // triangle by triangle, as they lie in memory: of a large scan a vertex does not know where its triangles are without waiting for them
+  // triangle by triangle, as they lie in memory: of a large scan a vertex does not know where its
+  // triangles are without waiting for them
   m_vertex_normals.assign(m_mesh.positions.size(), Vec3::Zero());
   for (std::size_t f = 0; f < n; ++f)
-    for (int k = 0; k < 3; ++k) m_vertex_normals[m_mesh.triangles[f][k]] += angles[f][k] * m_face_normals[f];
+    for (int k = 0; k < 3; ++k)
+      m_vertex_normals[m_mesh.triangles[f][k]] += angles[f][k] * m_face_normals[f];
   parallel_for(m_mesh.positions.size(), 8192, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v)
-      if (const double length = m_vertex_normals[v].norm(); length > 0) m_vertex_normals[v] /= length;
+      if (const double length = m_vertex_normals[v].norm(); length > 0)
+        m_vertex_normals[v] /= length;
   });
   find_convex_edges();
 }
@@ -123,7 +130,8 @@ void BodyCollider::assign_features() {
 }
 
 void BodyCollider::find_convex_edges() {
-  // An edge in a hollow or on flat skin is never the nearest feature: its faces are at least as near.
+  // An edge in a hollow or on flat skin is never the nearest feature: its faces are at least as
+  // near.
   constexpr double FLAT_SINE = 1e-3;
   parallel_for(m_mesh.triangles.size(), 8192, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
@@ -131,11 +139,13 @@ void BodyCollider::find_convex_edges() {
       for (int k = 0; k < 3; ++k) {
         const int beyond = m_beyond[f][k];
         if (beyond == NOT_OWNED) continue;
-        bool convex = beyond == RIM; // at a rim or where sheets meet there is no hollow side to rule out
+        bool convex =
+            beyond == RIM; // at a rim or where sheets meet there is no hollow side to rule out
         if (!convex) {
           const Triangle& t = m_mesh.triangles[f];
           const Vec3 along = m_mesh.positions[t[(k + 1) % 3]] - m_mesh.positions[t[k]];
-          convex = m_face_normals[f].cross(m_face_normals[beyond]).dot(along) > FLAT_SINE * along.norm();
+          convex =
+              m_face_normals[f].cross(m_face_normals[beyond]).dot(along) > FLAT_SINE * along.norm();
         }
         if (convex) m_owned[f] |= 8 << k;
       }
@@ -147,7 +157,9 @@ Vec3 BodyCollider::pseudonormal(int triangle, int feature) const {
   if (feature < FEATURE_EDGE) return m_vertex_normals[m_mesh.triangles[triangle][feature]];
   if (feature == FEATURE_FACE) return m_face_normals[triangle];
   Vec3 sum = Vec3::Zero();
-  for (int f : m_topology.triangles_of_edge(m_topology.triangle_edges[triangle][feature - FEATURE_EDGE])) sum += m_face_normals[f];
+  for (int f :
+       m_topology.triangles_of_edge(m_topology.triangle_edges[triangle][feature - FEATURE_EDGE]))
+    sum += m_face_normals[f];
   return sum;
 }
 
@@ -162,7 +174,8 @@ double BodyCollider::winding_number(const Vec3& p) const {
   return m_winding->winding.at(m_tree, p);
 }
 
-SignedDistance BodyCollider::signed_distance(const Vec3& p, double max_distance, int hint_triangle) const {
+SignedDistance BodyCollider::signed_distance(const Vec3& p, double max_distance,
+                                             int hint_triangle) const {
   ClosestPoint closest;
   if (m_skin_of.empty()) {
     closest = m_tree.closest_point(p, max_distance, hint_triangle);
@@ -178,7 +191,8 @@ SignedDistance BodyCollider::signed_distance(const Vec3& p, double max_distance,
   result.barycentric = closest.barycentric;
   const Vec3 away = p - closest.point, pseudo = pseudonormal(closest.triangle, closest.feature);
   const double distance = away.norm(), height = away.dot(pseudo);
-  // a pseudonormal at right angles to the way to p says nothing: rounding, or a fold of the mesh onto itself
+  // a pseudonormal at right angles to the way to p says nothing: rounding, or a fold of the mesh
+  // onto itself
   const bool clear = std::abs(height) > 1e-6 * distance * pseudo.norm();
   bool inside;
   if (distance <= TOUCHING) inside = height < 0;
@@ -190,7 +204,8 @@ SignedDistance BodyCollider::signed_distance(const Vec3& p, double max_distance,
   return result;
 }
 
-std::vector<int> BodyCollider::faces_through(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles) const {
+std::vector<int> BodyCollider::faces_through(const std::vector<Vec3>& positions,
+                                             const std::vector<Triangle>& triangles) const {
   return triangles_through(positions, triangles, m_tree);
 }
 

@@ -32,15 +32,18 @@ bool is_single_fan(const Topology& topology, const std::vector<Triangle>& triang
   return reached.size() == around.size();
 }
 
-/// The piece, closed up or nearly, encloses a negative volume about its own middle. A flat or open piece (a floor, a patch)
-/// encloses too little for its area to tell and is left as it is; a ball has volume / area^1.5 = 0.094.
-bool is_inside_out(const TriangleMesh& mesh, const std::vector<int>& piece, const std::vector<signed char>& turn) {
+/// The piece, closed up or nearly, encloses a negative volume about its own middle. A flat or open
+/// piece (a floor, a patch) encloses too little for its area to tell and is left as it is; a ball
+/// has volume / area^1.5 = 0.094.
+bool is_inside_out(const TriangleMesh& mesh, const std::vector<int>& piece,
+                   const std::vector<signed char>& turn) {
   constexpr double LEAST_BULK = 0.01;
   double area = 0, volume = 0;
   Vec3 middle = Vec3::Zero();
   for (int f : piece) {
     const Triangle& t = mesh.triangles[f];
-    const double a = 0.5 * area_normal(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]).norm();
+    const double a =
+        0.5 * area_normal(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]).norm();
     middle += a / 3 * (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]);
     area += a;
   }
@@ -48,7 +51,8 @@ bool is_inside_out(const TriangleMesh& mesh, const std::vector<int>& piece, cons
   middle /= area;
   for (int f : piece) {
     const Triangle& t = mesh.triangles[f];
-    const Vec3 a = mesh.positions[t[0]] - middle, b = mesh.positions[t[1]] - middle, c = mesh.positions[t[2]] - middle;
+    const Vec3 a = mesh.positions[t[0]] - middle, b = mesh.positions[t[1]] - middle,
+               c = mesh.positions[t[2]] - middle;
     volume += turn[f] * a.dot(b.cross(c)) / 6;
   }
   return volume < -LEAST_BULK * std::pow(area, 1.5);
@@ -57,7 +61,8 @@ bool is_inside_out(const TriangleMesh& mesh, const std::vector<int>& piece, cons
 } // namespace
 
 void BodyCollider::turn_faces() {
-  // Each manifold piece is made to agree with itself, keeping the orientation that most of its area has.
+  // Each manifold piece is made to agree with itself, keeping the orientation that most of its area
+  // has.
   const auto n = static_cast<int>(m_mesh.triangles.size());
   std::vector<signed char> side(n, 0); // 1 keep, -1 turn, 0 not reached
   for (int seed = 0; seed < n; ++seed) {
@@ -68,7 +73,9 @@ void BodyCollider::turn_faces() {
     for (std::size_t i = 0; i < piece.size(); ++i) {
       const int f = piece[i];
       const Triangle& t = m_mesh.triangles[f];
-      (side[f] > 0 ? kept_area : turned_area) += area_normal(m_mesh.positions[t[0]], m_mesh.positions[t[1]], m_mesh.positions[t[2]]).norm();
+      (side[f] > 0 ? kept_area : turned_area) +=
+          area_normal(m_mesh.positions[t[0]], m_mesh.positions[t[1]], m_mesh.positions[t[2]])
+              .norm();
       for (int e : m_topology.triangle_edges[f]) {
         const auto pair = m_topology.triangles_of_edge(e);
         if (pair.size() != 2) continue;
@@ -98,7 +105,7 @@ void BodyCollider::turn(int f) {
   std::swap(m_topology.triangle_edges[f][0], m_topology.triangle_edges[f][2]);
 }
 
-void BodyCollider::assess_trust() {
+void BodyCollider::assess_sign_reliability() {
   const auto n = static_cast<int>(m_mesh.triangles.size());
   m_trusted_face.assign(n, 1);
   m_trusted_edge.assign(m_topology.edges.size(), 1);
@@ -107,8 +114,9 @@ void BodyCollider::assess_trust() {
   for (std::size_t e = 0; e < m_topology.edges.size(); ++e) {
     const auto pair = m_topology.triangles_of_edge(static_cast<int>(e));
     const auto& edge = m_topology.edges[e];
-    const bool good =
-        pair.size() == 2 && pair[0] != pair[1] && direction_along(m_mesh.triangles[pair[0]], edge) != direction_along(m_mesh.triangles[pair[1]], edge);
+    const bool good = pair.size() == 2 && pair[0] != pair[1] &&
+                      direction_along(m_mesh.triangles[pair[0]], edge) !=
+                          direction_along(m_mesh.triangles[pair[1]], edge);
     if (good) continue;
     m_trusted_edge[e] = 0;
     (pair.size() == 1 ? m_findings.boundary_edges : m_findings.non_manifold_edges) += 1;
@@ -125,12 +133,15 @@ void BodyCollider::assess_trust() {
     for (int e : m_topology.triangle_edges[f]) m_trusted_edge[e] = 0;
   }
   for (std::size_t e = 0; e < m_topology.edges.size(); ++e)
-    if (!m_trusted_edge[e]) m_trusted_vertex[m_topology.edges[e][0]] = m_trusted_vertex[m_topology.edges[e][1]] = 0;
+    if (!m_trusted_edge[e])
+      m_trusted_vertex[m_topology.edges[e][0]] = m_trusted_vertex[m_topology.edges[e][1]] = 0;
   for (std::size_t v = 0; v < m_mesh.positions.size(); ++v)
-    if (m_trusted_vertex[v] && !is_single_fan(m_topology, m_mesh.triangles, static_cast<int>(v))) m_trusted_vertex[v] = 0;
+    if (m_trusted_vertex[v] && !is_single_fan(m_topology, m_mesh.triangles, static_cast<int>(v)))
+      m_trusted_vertex[v] = 0;
 
   m_findings.buried_triangles = static_cast<int>(std::count(buried.begin(), buried.end(), 1));
-  if (m_findings.buried_triangles == n) m_findings.buried_triangles = 0; // never leave nothing to collide with
+  if (m_findings.buried_triangles == n)
+    m_findings.buried_triangles = 0; // never leave nothing to collide with
   if (m_findings.buried_triangles > 0) number_skin(buried);
 }
 
@@ -143,9 +154,10 @@ void BodyCollider::number_skin(const std::vector<char>& buried) {
   }
 }
 
-/// Asks faces whether their front is outside and their back inside, and stops trusting those that say no. Asked are the
-/// faces around everything doubtful, some of every piece, and then the neighbours of every face that said no: what lies
-/// beyond a ring of faces that say yes is as they are. Returns which faces have the body on both sides.
+/// Asks faces whether their front is outside and their back inside, and stops trusting those that
+/// say no. Asked are the faces around everything doubtful, some of every piece, and then the
+/// neighbours of every face that said no: what lies beyond a ring of faces that say yes is as they
+/// are. Returns which faces have the body on both sides.
 std::vector<char> BodyCollider::ask_winding_numbers() {
   constexpr int SAMPLES = 16; // of each piece
   enum : char { RIGHT, WRONG, BURIED };
@@ -168,7 +180,8 @@ std::vector<char> BodyCollider::ask_winding_numbers() {
   for (int v = 0; v < static_cast<int>(doubtful.size()); ++v)
     if (doubtful[v])
       for (int f : m_topology.triangles_of_vertex(v)) ask(f);
-  const std::vector<int> component = connected_components(m_mesh.positions.size(), m_mesh.triangles);
+  const std::vector<int> component =
+      connected_components(m_mesh.positions.size(), m_mesh.triangles);
   std::vector<int> size(m_mesh.positions.size(), 0), seen(m_mesh.positions.size(), 0);
   for (const Triangle& t : m_mesh.triangles) ++size[component[t[0]]];
   for (int f = 0; f < n; ++f) {
@@ -182,7 +195,8 @@ std::vector<char> BodyCollider::ask_winding_numbers() {
     parallel_for(front.size(), 64, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const Triangle& t = m_mesh.triangles[front[i]];
-        const Vec3 &a = m_mesh.positions[t[0]], &b = m_mesh.positions[t[1]], &c = m_mesh.positions[t[2]];
+        const Vec3 &a = m_mesh.positions[t[0]], &b = m_mesh.positions[t[1]],
+                   &c = m_mesh.positions[t[2]];
         const double side = std::sqrt(area_normal(a, b, c).norm());
         if (!(side > 0)) continue; // has no sides; its neighbours answer for it
         const Vec3 center = (a + b + c) / 3, offset = 1e-3 * side * m_face_normals[front[i]];

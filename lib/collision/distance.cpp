@@ -7,9 +7,11 @@ namespace sloper::collision {
 
 namespace {
 
-/// sin2 of an angle below which cross products of double coordinates carry no direction worth trusting.
+/// sin2 of an angle below which cross products of double coordinates carry no direction worth
+/// trusting.
 constexpr double FLAT = 1e-20;
-constexpr double WELL_SHAPED = 1e-8; ///< likewise, where the signs of the barycentric weights can be trusted
+constexpr double WELL_SHAPED =
+    1e-8; ///< likewise, where the signs of the barycentric weights can be trusted
 
 /// Makes `best` the closest point on edge k where that is nearer.
 void try_edge(const Vec3& p, const Vec3* const corner[3], int k, PointTriangle& best) {
@@ -51,7 +53,9 @@ PointTriangle point_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const 
   const double n2 = n.squaredNorm();
   const double longest2 = std::max(ab.squaredNorm(), ac.squaredNorm());
   PointTriangle best{std::numeric_limits<double>::infinity(), Vec3(1, 0, 0), a, 0};
-  bool seen[3] = {true, true, true}; // edges that p, seen along the normal, lies beyond: only those can be nearest
+  bool seen[3] = {
+      true, true,
+      true}; // edges that p, seen along the normal, lies beyond: only those can be nearest
   if (n2 > FLAT * longest2 * longest2) {
     // barycentric weights of the projection: signed areas over the area
     const double wc = ab.cross(ap).dot(n) / n2, wb = ap.cross(ac).dot(n) / n2, wa = 1 - wb - wc;
@@ -76,10 +80,12 @@ PointTriangle point_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const 
 
 EdgeEdge edge_edge(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1) {
   const Vec3 u = a1 - a0, v = b1 - b0, w = a0 - b0;
-  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), uw = u.dot(w), vw = v.dot(w);
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), uw = u.dot(w),
+               vw = v.dot(w);
   const double det = uu * vv - uv * uv;
   if (det > 1e-14 * uu * vv) {
-    // the lines' closest point on a, clamped; the best t for it; and, where that must be clamped, the best s for that
+    // the lines' closest point on a, clamped; the best t for it; and, where that must be clamped,
+    // the best s for that
     double s = std::clamp((uv * vw - vv * uw) / det, 0.0, 1.0), t = (uv * s + vw) / vv;
     if (t < 0 || t > 1) {
       t = t < 0 ? 0 : 1;
@@ -87,8 +93,10 @@ EdgeEdge edge_edge(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b
     }
     return {(w + s * u - t * v).squaredNorm(), s, t};
   }
-  // parallel or without length: an end point takes part, the nearest of the four end-point-to-segment pairs
-  const PointEdge p0 = point_edge(a0, b0, b1), p1 = point_edge(a1, b0, b1), q0 = point_edge(b0, a0, a1), q1 = point_edge(b1, a0, a1);
+  // parallel or without length: an end point takes part, the nearest of the four
+  // end-point-to-segment pairs
+  const PointEdge p0 = point_edge(a0, b0, b1), p1 = point_edge(a1, b0, b1),
+                  q0 = point_edge(b0, a0, a1), q1 = point_edge(b1, a0, a1);
   EdgeEdge best{p0.squared_distance, 0, p0.t};
   if (p1.squared_distance < best.squared_distance) best = {p1.squared_distance, 1, p1.t};
   if (q0.squared_distance < best.squared_distance) best = {q0.squared_distance, q0.t, 0};

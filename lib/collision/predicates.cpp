@@ -9,7 +9,8 @@ namespace {
 
 constexpr double EPSILON = 0x1.0p-53;
 
-/// An exact sum of doubles that do not overlap, smallest first (Shewchuk 1997, section 2). Zero has no terms.
+/// An exact sum of doubles that do not overlap, smallest first (Shewchuk 1997, section 2). Zero has
+/// no terms.
 template<int CAPACITY> struct Expansion {
   double term[CAPACITY];
   int size = 0;
@@ -106,7 +107,8 @@ bool segments_meet(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s, i
   if (o1 != 0 || o2 != 0 || o3 != 0 || o4 != 0) return true;
   for (int i = 1; i < 3; ++i) { // on one line: the intervals must overlap in both coordinates
     const int x = (drop + i) % 3;
-    if (std::max(p[x], q[x]) < std::min(r[x], s[x]) || std::max(r[x], s[x]) < std::min(p[x], q[x])) return false;
+    if (std::max(p[x], q[x]) < std::min(r[x], s[x]) || std::max(r[x], s[x]) < std::min(p[x], q[x]))
+      return false;
   }
   return true;
 }
@@ -132,7 +134,8 @@ bool coplanar_triangles_intersect(const std::array<Vec3, 3>& a, const std::array
   return coplanar_point_in(a[0], b, drop) || coplanar_point_in(b[0], a, drop);
 }
 
-/// pq touches the plane of t (sides of p and q given, not both zero and not on one side): does it do so inside t?
+/// pq touches the plane of t (sides of p and q given, not both zero and not on one side): does it
+/// do so inside t?
 bool crosses_inside(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
   const int s0 = orientation(p, q, t[0], t[1]), s1 = orientation(p, q, t[1], t[2]);
   if (s0 * s1 < 0) return false;
@@ -146,10 +149,12 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double adx = a.x() - d.x(), ady = a.y() - d.y(), adz = a.z() - d.z();
   const double bdx = b.x() - d.x(), bdy = b.y() - d.y(), bdz = b.z() - d.z();
   const double cdx = c.x() - d.x(), cdy = c.y() - d.y(), cdz = c.z() - d.z();
-  const double bc1 = bdx * cdy, bc2 = cdx * bdy, ca1 = cdx * ady, ca2 = adx * cdy, ab1 = adx * bdy, ab2 = bdx * ady;
+  const double bc1 = bdx * cdy, bc2 = cdx * bdy, ca1 = cdx * ady, ca2 = adx * cdy, ab1 = adx * bdy,
+               ab2 = bdx * ady;
   const double det = adz * (bc1 - bc2) + bdz * (ca1 - ca2) + cdz * (ab1 - ab2);
-  const double permanent =
-      (std::abs(bc1) + std::abs(bc2)) * std::abs(adz) + (std::abs(ca1) + std::abs(ca2)) * std::abs(bdz) + (std::abs(ab1) + std::abs(ab2)) * std::abs(cdz);
+  const double permanent = (std::abs(bc1) + std::abs(bc2)) * std::abs(adz) +
+                           (std::abs(ca1) + std::abs(ca2)) * std::abs(bdz) +
+                           (std::abs(ab1) + std::abs(ab2)) * std::abs(cdz);
   const double bound = (7 + 56 * EPSILON) * EPSILON * permanent;
   if (det > bound) return 1;
   if (-det > bound) return -1;
@@ -160,7 +165,8 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 int projected_orientation(const Vec3& a, const Vec3& b, const Vec3& c, int drop) {
   const int x = (drop + 1) % 3, y = (drop + 2) % 3;
   const double left = (a[x] - c[x]) * (b[y] - c[y]), right = (a[y] - c[y]) * (b[x] - c[x]);
-  const double det = left - right, bound = (3 + 16 * EPSILON) * EPSILON * (std::abs(left) + std::abs(right));
+  const double det = left - right,
+               bound = (3 + 16 * EPSILON) * EPSILON * (std::abs(left) + std::abs(right));
   if (det > bound) return 1;
   if (-det > bound) return -1;
   if (left == 0 && right == 0) return 0;
@@ -176,19 +182,28 @@ bool segment_crosses_triangle(const Vec3& p, const Vec3& q, const std::array<Vec
 bool triangles_intersect(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
   int side_b[3], side_a[3];
   for (int k = 0; k < 3; ++k) side_b[k] = orientation(a[0], a[1], a[2], b[k]);
-  if ((side_b[0] > 0 && side_b[1] > 0 && side_b[2] > 0) || (side_b[0] < 0 && side_b[1] < 0 && side_b[2] < 0)) return false;
+  if ((side_b[0] > 0 && side_b[1] > 0 && side_b[2] > 0) ||
+      (side_b[0] < 0 && side_b[1] < 0 && side_b[2] < 0))
+    return false;
   for (int k = 0; k < 3; ++k) side_a[k] = orientation(b[0], b[1], b[2], a[k]);
-  if ((side_a[0] > 0 && side_a[1] > 0 && side_a[2] > 0) || (side_a[0] < 0 && side_a[1] < 0 && side_a[2] < 0)) return false;
+  if ((side_a[0] > 0 && side_a[1] > 0 && side_a[2] > 0) ||
+      (side_a[0] < 0 && side_a[1] < 0 && side_a[2] < 0))
+    return false;
   const bool coplanar = side_a[0] == 0 && side_a[1] == 0 && side_a[2] == 0;
   if (coplanar || (side_b[0] == 0 && side_b[1] == 0 && side_b[2] == 0)) {
     if (is_flat(a) || is_flat(b)) return false;
     return coplanar && coplanar_triangles_intersect(a, b);
   }
-  // Neither is flat, or a plane would have had all signs zero. The common segment ends on an edge of a or of b.
+  // Neither is flat, or a plane would have had all signs zero. The common segment ends on an edge
+  // of a or of b.
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3;
-    if (side_a[k] * side_a[next] <= 0 && (side_a[k] != 0 || side_a[next] != 0) && crosses_inside(a[k], a[next], b)) return true;
-    if (side_b[k] * side_b[next] <= 0 && (side_b[k] != 0 || side_b[next] != 0) && crosses_inside(b[k], b[next], a)) return true;
+    if (side_a[k] * side_a[next] <= 0 && (side_a[k] != 0 || side_a[next] != 0) &&
+        crosses_inside(a[k], a[next], b))
+      return true;
+    if (side_b[k] * side_b[next] <= 0 && (side_b[k] != 0 || side_b[next] != 0) &&
+        crosses_inside(b[k], b[next], a))
+      return true;
   }
   return false;
 }

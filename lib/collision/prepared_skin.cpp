@@ -15,7 +15,9 @@ namespace {
 constexpr std::string_view MARK = "sloper prepared skin\n";
 constexpr std::size_t KEY_LENGTH = 64, HASH_LENGTH = 64;
 
-template<class T> std::string_view bytes_of(const std::vector<T>& values) { return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)}; }
+template<class T> std::string_view bytes_of(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
 
 std::string header() {
   const std::uint32_t numbers[] = {0x01020304, sizeof(int), PREPARED_SKIN_VERSION};
@@ -38,27 +40,38 @@ bool permutes(const std::vector<int>& order, std::size_t n) {
 }
 
 template<class Skin, class Visit> void visit_lists(Skin& s, const Visit& visit) {
-  for (auto* list : {&s.turned, &s.buried, &s.untrusted_faces, &s.untrusted_edges, &s.untrusted_vertices, &s.order, &s.skin_order}) visit(*list);
+  for (auto* list : {&s.turned, &s.buried, &s.untrusted_faces, &s.untrusted_edges,
+                     &s.untrusted_vertices, &s.order, &s.skin_order})
+    visit(*list);
 }
 
 template<class Findings, class Visit> void visit_findings(Findings& f, const Visit& visit) {
-  for (auto* count : {&f.flipped_triangles, &f.boundary_edges, &f.non_manifold_edges, &f.self_intersections, &f.untrusted_triangles, &f.buried_triangles})
+  for (auto* count : {&f.flipped_triangles, &f.boundary_edges, &f.non_manifold_edges,
+                      &f.self_intersections, &f.untrusted_triangles, &f.buried_triangles})
     visit(*count);
 }
 
 } // namespace
 
 bool PreparedSkin::fits(std::size_t n_vertices, std::size_t n_triangles) const {
-  return ascends_below(turned, n_triangles) && ascends_below(buried, n_triangles) && ascends_below(untrusted_faces, n_triangles) &&
-         ascends_below(untrusted_edges, 3 * n_triangles) && ascends_below(untrusted_vertices, n_vertices) && permutes(order, n_triangles) &&
-         permutes(skin_order, buried.empty() ? 0 : n_triangles - buried.size()) && (buried.empty() || buried.size() < n_triangles);
+  return ascends_below(turned, n_triangles) && ascends_below(buried, n_triangles) &&
+         ascends_below(untrusted_faces, n_triangles) &&
+         ascends_below(untrusted_edges, 3 * n_triangles) &&
+         ascends_below(untrusted_vertices, n_vertices) && permutes(order, n_triangles) &&
+         permutes(skin_order, buried.empty() ? 0 : n_triangles - buried.size()) &&
+         (buried.empty() || buried.size() < n_triangles);
 }
 
-std::string skin_key(const TriangleMesh& skin) { return io::sha256(header() + io::sha256(bytes_of(skin.positions)) + io::sha256(bytes_of(skin.triangles))); }
+std::string skin_key(const TriangleMesh& skin) {
+  return io::sha256(header() + io::sha256(bytes_of(skin.positions)) +
+                    io::sha256(bytes_of(skin.triangles)));
+}
 
 std::string to_bytes(const PreparedSkin& prepared, const std::string& key) {
   std::string bytes = header() + key;
-  const auto add = [&](std::uint64_t number) { bytes.append(reinterpret_cast<const char*>(&number), sizeof number); };
+  const auto add = [&](std::uint64_t number) {
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+  };
   visit_findings(prepared.findings, [&](int count) { add(static_cast<std::uint64_t>(count)); });
   visit_lists(prepared, [&](const std::vector<int>& list) {
     add(list.size());
@@ -67,9 +80,12 @@ std::string to_bytes(const PreparedSkin& prepared, const std::string& key) {
   return bytes + io::sha256(bytes);
 }
 
-std::optional<PreparedSkin> prepared_from_bytes(std::string_view bytes, const std::string& key, std::size_t n_vertices, std::size_t n_triangles) {
+std::optional<PreparedSkin> prepared_from_bytes(std::string_view bytes, const std::string& key,
+                                                std::size_t n_vertices, std::size_t n_triangles) {
   const std::string begin = header() + key;
-  if (key.size() != KEY_LENGTH || bytes.size() < begin.size() + HASH_LENGTH || !bytes.starts_with(begin)) return {};
+  if (key.size() != KEY_LENGTH || bytes.size() < begin.size() + HASH_LENGTH ||
+      !bytes.starts_with(begin))
+    return {};
   std::string_view rest = bytes.substr(0, bytes.size() - HASH_LENGTH);
   if (io::sha256(rest) != bytes.substr(rest.size())) return {};
   rest.remove_prefix(begin.size());

@@ -34,13 +34,15 @@ std::optional<PreparedSkin> SkinCache::read(const std::string& key, const Triang
     known = prepared_from_bytes(*bytes, key, skin.positions.size(), skin.triangles.size());
   } catch (const Error&) { // not ours to read: as if it had never been
   }
-  m_reporter->info(known ? "body known from " + file : file + " is damaged or cannot be read; the body is prepared anew");
+  m_reporter->info(known ? "body known from " + file
+                         : file + " is damaged or cannot be read; the body is prepared anew");
   return known;
 }
 
 void SkinCache::write(const std::string& key, const PreparedSkin& prepared) {
   const std::string file = file_of(key);
-  std::error_code ignored; // what keeps the folder from being made keeps the file from being written
+  std::error_code
+      ignored; // what keeps the folder from being made keeps the file from being written
   std::filesystem::create_directories(m_folder, ignored);
   try {
     io::write_file(file, to_bytes(prepared, key));
@@ -52,6 +54,8 @@ void SkinCache::write(const std::string& key, const PreparedSkin& prepared) {
   }
 }
 
-BodyCollider make_collider(const TriangleMesh& skin, SkinCache* cache) { return cache ? cache->collider(skin) : BodyCollider(skin); }
+BodyCollider make_collider(const TriangleMesh& skin, SkinCache* cache) {
+  return cache ? cache->collider(skin) : BodyCollider(skin);
+}
 
 } // namespace sloper::collision

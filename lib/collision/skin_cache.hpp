@@ -1,7 +1,7 @@
 #pragma once
-/// Colliders of skins that were met before: what is found out about a skin is kept by its content, for the rest of the run and, with a
-/// folder, for other runs. Results are the same bytes with it and without.
-/// Test: tests/collision/test_skin_cache.cpp
+/// Colliders of skins that were met before: what is found out about a skin is kept by its content,
+/// for the rest of the run and, with a folder, for other runs. Results are the same bytes with it
+/// and without. Test: tests/collision/test_skin_cache.cpp
 #include <base/progress.hpp>
 #include <collision/body_collider.hpp>
 #include <map>
@@ -10,13 +10,17 @@ namespace sloper::collision {
 
 class SkinCache {
 public:
-  /// @param folder  made when first written to; empty: nothing is kept beyond this object. Several processes may share it, also from several
-  ///                machines, and it may be emptied at any time: files appear whole, and one that is damaged, cut short or of another version is
-  ///                written anew
-  /// @param reporter  must outlive this; hears once as a warning that the folder cannot be written, all else as info
-  explicit SkinCache(std::string folder = {}, Reporter& reporter = silent_reporter()) : m_folder(std::move(folder)), m_reporter(&reporter) {}
+  /// @param folder  made when first written to; empty: nothing is kept beyond this object. Several
+  /// processes may share it, also from several
+  ///                machines, and it may be emptied at any time: files appear whole, and one that
+  ///                is damaged, cut short or of another version is written anew
+  /// @param reporter  must outlive this; hears once as a warning that the folder cannot be written,
+  /// all else as info
+  explicit SkinCache(std::string folder = {}, Reporter& reporter = silent_reporter())
+      : m_folder(std::move(folder)), m_reporter(&reporter) {}
 
-  /// As BodyCollider(skin). Not for several threads at once. Cost of a skin met before: O(#F), and reading 4 bytes a triangle.
+  /// As BodyCollider(skin). Not for several threads at once. Cost of a skin met before: O(#F), and
+  /// reading 4 bytes a triangle.
   BodyCollider collider(const TriangleMesh& skin);
 
   /// How often colliders were made, from where.

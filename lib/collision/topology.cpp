@@ -14,7 +14,8 @@ Topology make_topology(std::size_t n_vertices, const std::vector<Triangle>& tria
   };
   std::vector<int> begin(n_vertices + 1, 0);
   for (const Triangle& t : triangles)
-    for (int k = 0; k < 3; ++k) ++begin[static_cast<std::size_t>(std::min(t[k], t[(k + 1) % 3])) + 1];
+    for (int k = 0; k < 3; ++k)
+      ++begin[static_cast<std::size_t>(std::min(t[k], t[(k + 1) % 3])) + 1];
   for (std::size_t v = 0; v < n_vertices; ++v) begin[v + 1] += begin[v];
   std::vector<HalfEdge> half_edges(3 * triangles.size());
   std::vector<int> next(begin.begin(), begin.end() - 1);
@@ -29,22 +30,26 @@ Topology make_topology(std::size_t n_vertices, const std::vector<Triangle>& tria
   topology.edge_triangle.reserve(half_edges.size());
   for (std::size_t v = 0; v < n_vertices; ++v) {
     const auto first = half_edges.begin() + begin[v], last = half_edges.begin() + begin[v + 1];
-    std::stable_sort(first, last, [](const HalfEdge& a, const HalfEdge& b) { return a.high < b.high; });
+    std::stable_sort(first, last,
+                     [](const HalfEdge& a, const HalfEdge& b) { return a.high < b.high; });
     for (auto h = first; h != last; ++h) {
       if (h == first || h->high != (h - 1)->high) {
-        if (!topology.edges.empty()) topology.edge_begin.push_back(static_cast<int>(topology.edge_triangle.size()));
+        if (!topology.edges.empty())
+          topology.edge_begin.push_back(static_cast<int>(topology.edge_triangle.size()));
         topology.edges.push_back({static_cast<int>(v), h->high});
       }
       topology.triangle_edges[h->triangle][h->corner] = static_cast<int>(topology.edges.size()) - 1;
       topology.edge_triangle.push_back(h->triangle);
     }
   }
-  if (!topology.edges.empty()) topology.edge_begin.push_back(static_cast<int>(topology.edge_triangle.size()));
+  if (!topology.edges.empty())
+    topology.edge_begin.push_back(static_cast<int>(topology.edge_triangle.size()));
 
   topology.vertex_begin.assign(n_vertices + 1, 0);
   for (const Triangle& t : triangles)
     for (int v : t) ++topology.vertex_begin[static_cast<std::size_t>(v) + 1];
-  for (std::size_t v = 0; v < n_vertices; ++v) topology.vertex_begin[v + 1] += topology.vertex_begin[v];
+  for (std::size_t v = 0; v < n_vertices; ++v)
+    topology.vertex_begin[v + 1] += topology.vertex_begin[v];
   topology.vertex_triangle.resize(3 * triangles.size());
   next.assign(topology.vertex_begin.begin(), topology.vertex_begin.end() - 1);
   for (int f = 0; f < n_triangles; ++f)

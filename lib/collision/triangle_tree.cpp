@@ -9,16 +9,20 @@
 
 namespace sloper::collision {
 
-// 14 adds the corner directions to the box, 18 the edge directions, 26 both: so the list is cut and spliced by k.
-const std::array<Vec3, MAX_AXES> DOP_DIRECTIONS = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 1, 1),  Vec3(1, 1, -1), Vec3(1, -1, 1), Vec3(-1, 1, 1),
-                                                   Vec3(1, 1, 0), Vec3(1, 0, 1), Vec3(0, 1, 1), Vec3(1, -1, 0), Vec3(1, 0, -1), Vec3(0, 1, -1)};
+// 14 adds the corner directions to the box, 18 the edge directions, 26 both: so the list is cut and
+// spliced by k.
+const std::array<Vec3, MAX_AXES> DOP_DIRECTIONS = {
+    Vec3(1, 0, 0),  Vec3(0, 1, 0),  Vec3(0, 0, 1), Vec3(1, 1, 1), Vec3(1, 1, -1),
+    Vec3(1, -1, 1), Vec3(-1, 1, 1), Vec3(1, 1, 0), Vec3(1, 0, 1), Vec3(0, 1, 1),
+    Vec3(1, -1, 0), Vec3(1, 0, -1), Vec3(0, 1, -1)};
 
 namespace {
 
 constexpr float HUGE_FLOAT = std::numeric_limits<float>::max();
 constexpr int SUBTREE_SLOTS = 4096; ///< a subtree of this size is one task of the parallel refit
 
-/// A float not above (below) x: rounding moves x by at most half a unit in the last place, 1.2e-7 |x| undoes that.
+/// A float not above (below) x: rounding moves x by at most half a unit in the last place, 1.2e-7
+/// |x| undoes that.
 float float_below(double x) {
   const auto f = static_cast<float>(x);
   return f - (std::abs(f) * 1.2e-7f + 1e-37f);
@@ -28,12 +32,15 @@ float float_above(double x) {
   return f + (std::abs(f) * 1.2e-7f + 1e-37f);
 }
 
-/// Which of DOP_DIRECTIONS is axis `a` of a tree with `axes` axes: 18-DOPs skip the corner directions.
+/// Which of DOP_DIRECTIONS is axis `a` of a tree with `axes` axes: 18-DOPs skip the corner
+/// directions.
 int direction_index(int a, int axes) { return axes == 9 && a >= 3 ? a + 4 : a; }
 
 void interval(const std::array<Vec3, 3>& corners, int axis, int axes, double& low, double& high) {
   double d[3];
-  for (int k = 0; k < 3; ++k) d[k] = axis < 3 ? corners[k][axis] : DOP_DIRECTIONS[direction_index(axis, axes)].dot(corners[k]);
+  for (int k = 0; k < 3; ++k)
+    d[k] =
+        axis < 3 ? corners[k][axis] : DOP_DIRECTIONS[direction_index(axis, axes)].dot(corners[k]);
   low = std::min(d[0], std::min(d[1], d[2]));
   high = std::max(d[0], std::max(d[1], d[2]));
 }
@@ -44,7 +51,8 @@ int middle_of(int from, int to) { return from + ((to - from) / 2 + 3) / 4 * 4; }
 /// The borders of a node's children, halves of halves; of more than four slots.
 std::array<int, 5> quarters(int begin, int end) {
   const int middle = middle_of(begin, end);
-  return {begin, middle - begin > 4 ? middle_of(begin, middle) : middle, middle, end - middle > 4 ? middle_of(middle, end) : end, end};
+  return {begin, middle - begin > 4 ? middle_of(begin, middle) : middle, middle,
+          end - middle > 4 ? middle_of(middle, end) : end, end};
 }
 
 /// Puts the slots of a subtree in order: each cut goes along the widest side of the centres.
@@ -55,10 +63,11 @@ void sort_slots(std::vector<int>& order, const std::vector<Vec3>& centers, int b
     for (int i = from; i < to; ++i) box.add(centers[order[i]]);
     int axis;
     box.size().maxCoeff(&axis);
-    std::nth_element(order.begin() + from, order.begin() + middle, order.begin() + to, [&](int a, int b) {
-      const double ca = centers[a][axis], cb = centers[b][axis];
-      return ca < cb || (ca == cb && a < b);
-    });
+    std::nth_element(order.begin() + from, order.begin() + middle, order.begin() + to,
+                     [&](int a, int b) {
+                       const double ca = centers[a][axis], cb = centers[b][axis];
+                       return ca < cb || (ca == cb && a < b);
+                     });
   };
   const std::array<int, 5> border = quarters(begin, end);
   cut(begin, border[2], end);
@@ -67,13 +76,15 @@ void sort_slots(std::vector<int>& order, const std::vector<Vec3>& centers, int b
   for (int i = 0; i < 4; ++i) sort_slots(order, centers, border[i], border[i + 1]);
 }
 
-std::vector<int> sorted_triangles(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles) {
+std::vector<int> sorted_triangles(const std::vector<Vec3>& positions,
+                                  const std::vector<Triangle>& triangles) {
   const auto n = static_cast<int>(triangles.size());
   std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::vector<Vec3> centers(n);
   for (int f = 0; f < n; ++f) {
-    const Vec3 &a = positions[triangles[f][0]], &b = positions[triangles[f][1]], &c = positions[triangles[f][2]];
+    const Vec3 &a = positions[triangles[f][0]], &b = positions[triangles[f][1]],
+               &c = positions[triangles[f][2]];
     // the middle of the box, which median splits separate better than the centroid of a sliver
     centers[f] = 0.5 * (a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c));
     for (int i = 0; i < 3; ++i)
@@ -85,14 +96,18 @@ std::vector<int> sorted_triangles(const std::vector<Vec3>& positions, const std:
 
 } // namespace
 
-TriangleTree::TriangleTree(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, int k)
+TriangleTree::TriangleTree(const std::vector<Vec3>& positions,
+                           const std::vector<Triangle>& triangles, int k)
     : TriangleTree(positions, triangles, k, sorted_triangles(positions, triangles)) {}
 
-TriangleTree::TriangleTree(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, int k, std::vector<int> order)
+TriangleTree::TriangleTree(const std::vector<Vec3>& positions,
+                           const std::vector<Triangle>& triangles, int k, std::vector<int> order)
     : m_axes(k / 2), m_triangle_of_slot(std::move(order)) {
-  if (k != 6 && k != 14 && k != 18 && k != 26) throw Error(ErrorKind::INTERNAL, {}, {}, "a k-DOP tree has k = 6, 14, 18 or 26");
+  if (k != 6 && k != 14 && k != 18 && k != 26)
+    throw Error(ErrorKind::INTERNAL, {}, {}, "a k-DOP tree has k = 6, 14, 18 or 26");
   const auto n = static_cast<int>(triangles.size());
-  if (n != n_slots()) throw Error(ErrorKind::INTERNAL, {}, {}, "a tree's order has as many triangles as the mesh");
+  if (n != n_slots())
+    throw Error(ErrorKind::INTERNAL, {}, {}, "a tree's order has as many triangles as the mesh");
   m_nodes.reserve(n / 2 + 1);
   if (n > 0) build(0, n);
   m_slot_of_triangle.resize(n);
@@ -176,7 +191,9 @@ void TriangleTree::refit_node(int index) {
         low = float_below(l);
         high = float_above(h);
       } else if (child >= 0) {
-        const float* lows = a < 3 ? m_nodes[child].low[a] : m_extra[static_cast<std::size_t>(child) * (m_axes - 3) + a - 3].data();
+        const float* lows =
+            a < 3 ? m_nodes[child].low[a]
+                  : m_extra[static_cast<std::size_t>(child) * (m_axes - 3) + a - 3].data();
         const float* highs = a < 3 ? m_nodes[child].high[a] : lows + 4;
         for (int j = 0; j < 4; ++j) {
           low = std::min(low, lows[j]);
@@ -212,7 +229,8 @@ void TriangleTree::fill_leaves() {
       if (m_leaves_of_node[node] < 0) continue;
       Leaves& leaves = m_leaves[m_leaves_of_node[node]];
       for (int i = 0; i < 4; ++i) {
-        const int child = m_nodes[node].child[i] == EMPTY ? m_nodes[node].child[0] : m_nodes[node].child[i];
+        const int child =
+            m_nodes[node].child[i] == EMPTY ? m_nodes[node].child[0] : m_nodes[node].child[i];
         const auto& c = m_corners[-2 - child];
         const Vec3 ab = c[1] - c[0], ac = c[2] - c[0];
         for (int k = 0; k < 3; ++k) {
@@ -233,18 +251,22 @@ void TriangleTree::fill_leaves() {
   m_leaf_slack = static_cast<float>(2e-5 * std::sqrt(side2) + 4e-7 * far);
 }
 
-/// Point to four triangles in float; too small where float cannot tell (flat triangles, projections near an edge), never
-/// above the true distance by more than 1e-4 of it plus m_leaf_slack.
+/// Point to four triangles in float; too small where float cannot tell (flat triangles, projections
+/// near an edge), never above the true distance by more than 1e-4 of it plus m_leaf_slack.
 Float4 TriangleTree::squared_distances(const Leaves& leaves, const Float4 (&p)[3]) {
-  const Float4 zero = Float4::all(0), one = Float4::all(1), tiny = Float4::all(1e-30f), rounding = Float4::all(2e-6f);
+  const Float4 zero = Float4::all(0), one = Float4::all(1), tiny = Float4::all(1e-30f),
+               rounding = Float4::all(2e-6f);
   Float4 ab[3], ac[3], ap[3];
   for (int k = 0; k < 3; ++k) {
     ab[k] = Float4::load(leaves.ab[k]);
     ac[k] = Float4::load(leaves.ac[k]);
     ap[k] = p[k] - Float4::load(leaves.a[k]);
   }
-  const auto dot = [](const Float4* u, const Float4* v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; };
-  const Float4 bb = dot(ab, ab), bc = dot(ab, ac), cc = dot(ac, ac), pb = dot(ap, ab), pc = dot(ap, ac);
+  const auto dot = [](const Float4* u, const Float4* v) {
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+  };
+  const Float4 bb = dot(ab, ab), bc = dot(ab, ac), cc = dot(ac, ac), pb = dot(ap, ab),
+               pc = dot(ap, ac);
   const auto to_edge = [&](const Float4* from, const Float4* edge, Float4 along, Float4 length2) {
     const Float4 t = min(max(along / max(length2, tiny), zero), one);
     const Float4 x = from[0] - t * edge[0], y = from[1] - t * edge[1], z = from[2] - t * edge[2];
@@ -255,14 +277,19 @@ Float4 TriangleTree::squared_distances(const Leaves& leaves, const Float4 (&p)[3
     edge[k] = ac[k] - ab[k];
     from_b[k] = ap[k] - ab[k];
   }
-  const Float4 to_sides = min(min(to_edge(ap, ab, pb, bb), to_edge(ap, ac, pc, cc)), to_edge(from_b, edge, dot(from_b, edge), dot(edge, edge)));
-  const Float4 n[3] = {ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2], ab[0] * ac[1] - ab[1] * ac[0]};
+  const Float4 to_sides = min(min(to_edge(ap, ab, pb, bb), to_edge(ap, ac, pc, cc)),
+                              to_edge(from_b, edge, dot(from_b, edge), dot(edge, edge)));
+  const Float4 n[3] = {ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2],
+                       ab[0] * ac[1] - ab[1] * ac[0]};
   const Float4 nn = dot(n, n), height = dot(n, ap), bbcc = bb * cc;
-  const Float4 above = where_less(height * height / max(nn, tiny), Float4::all(1e-4f) * bbcc, nn); // 0 where nearly flat
+  const Float4 above = where_less(height * height / max(nn, tiny), Float4::all(1e-4f) * bbcc,
+                                  nn); // 0 where nearly flat
   // weights of b and c times nn, and what rounding may have done to them
   const Float4 v1 = cc * pb, v2 = bc * pc, w1 = bb * pc, w2 = bc * pb, v = v1 - v2, w = w1 - w2;
-  const Float4 loose_v = rounding * (absolute(v1) + absolute(v2)), loose_w = rounding * (absolute(w1) + absolute(w2));
-  const Float4 least = min(min(v + loose_v, w + loose_w), bbcc - bc * bc - v - w + loose_v + loose_w + rounding * bbcc);
+  const Float4 loose_v = rounding * (absolute(v1) + absolute(v2)),
+               loose_w = rounding * (absolute(w1) + absolute(w2));
+  const Float4 least = min(min(v + loose_v, w + loose_w),
+                           bbcc - bc * bc - v - w + loose_v + loose_w + rounding * bbcc);
   // inside: the height; outside: the sides
   return min(to_sides, above + where_less(to_sides, least, zero));
 }
@@ -288,7 +315,8 @@ Dop TriangleTree::dop_of_slot(int slot, double margin) const {
     double low, high;
     interval(m_corners[slot], a, m_axes, low, high);
     // the set of points within `margin` reaches margin |d| further along d
-    const double reach = a < 3 ? margin : margin * DOP_DIRECTIONS[direction_index(a, m_axes)].norm();
+    const double reach =
+        a < 3 ? margin : margin * DOP_DIRECTIONS[direction_index(a, m_axes)].norm();
     dop.low[a] = float_below(low - reach);
     dop.high[a] = float_above(high + reach);
   }
@@ -314,14 +342,17 @@ double TriangleTree::first_hit(const Vec3& a, const Vec3& b) const {
   return least;
 }
 
-ClosestPoint TriangleTree::closest_point(const Vec3& p, double max_distance, int hint_triangle) const {
+ClosestPoint TriangleTree::closest_point(const Vec3& p, double max_distance,
+                                         int hint_triangle) const {
   ClosestPoint best;
   double bound = max_distance * max_distance;
   const auto try_slot = [&](int slot) {
     const std::array<Vec3, 3>& c = m_corners[slot];
     const PointTriangle q = point_triangle(p, c[0], c[1], c[2]);
     const int triangle = m_triangle_of_slot[slot];
-    if (!(q.squared_distance < bound || (q.squared_distance == bound && (best.triangle < 0 || triangle < best.triangle)))) return;
+    if (!(q.squared_distance < bound ||
+          (q.squared_distance == bound && (best.triangle < 0 || triangle < best.triangle))))
+      return;
     bound = q.squared_distance;
     best = {triangle, q.point, q.barycentric, q.squared_distance, q.feature};
   };
@@ -329,12 +360,15 @@ ClosestPoint TriangleTree::closest_point(const Vec3& p, double max_distance, int
   if (hint_triangle >= 0 && hint_triangle < n_slots()) try_slot(m_slot_of_triangle[hint_triangle]);
 
   // lower bounds in float: rounding of p and of the differences is covered by the slack
-  const auto px = static_cast<float>(p.x()), py = static_cast<float>(p.y()), pz = static_cast<float>(p.z());
-  const Float4 point[3] = {Float4::all(px), Float4::all(py), Float4::all(pz)}, zero = Float4::all(0);
+  const auto px = static_cast<float>(p.x()), py = static_cast<float>(p.y()),
+             pz = static_cast<float>(p.z());
+  const Float4 point[3] = {Float4::all(px), Float4::all(py), Float4::all(pz)},
+               zero = Float4::all(0);
   const float size = std::max(std::abs(px), std::max(std::abs(py), std::abs(pz)));
   const Float4 slack = Float4::all(2.5e-7f * size);
   const float leaf_slack = m_leaf_slack + 4e-7f * size;
-  float near = 0, near_leaf = 0; // squared float distances up to which a box, a triangle, must be looked at
+  float near = 0,
+        near_leaf = 0; // squared float distances up to which a box, a triangle, must be looked at
   const auto set_near = [&] {
     near = static_cast<float>(bound * (1 + 2e-6));
     const float root = static_cast<float>(std::sqrt(bound)) * (1 + 1e-4f) + leaf_slack;
@@ -354,7 +388,8 @@ ClosestPoint TriangleTree::closest_point(const Vec3& p, double max_distance, int
     if (entry.squared > near) continue;
     const Node& node = m_nodes[entry.node];
     if (m_leaves_hold && m_leaves_of_node[entry.node] >= 0) {
-      int mask = less_equal(squared_distances(m_leaves[m_leaves_of_node[entry.node]], point), Float4::all(near_leaf));
+      int mask = less_equal(squared_distances(m_leaves[m_leaves_of_node[entry.node]], point),
+                            Float4::all(near_leaf));
       const double before = bound;
       while (mask) {
         const int i = std::countr_zero(static_cast<unsigned>(mask));
@@ -366,7 +401,9 @@ ClosestPoint TriangleTree::closest_point(const Vec3& p, double max_distance, int
     }
     Float4 sum = zero;
     for (int k = 0; k < 3; ++k) {
-      const Float4 d = max(max(Float4::load(node.low[k]) - point[k], point[k] - Float4::load(node.high[k])) - slack, zero);
+      const Float4 d = max(
+          max(Float4::load(node.low[k]) - point[k], point[k] - Float4::load(node.high[k])) - slack,
+          zero);
       sum = sum + d * d;
     }
     sum.store(squared);

@@ -7,14 +7,17 @@ namespace sloper::collision {
 
 namespace {
 
-/// Where N and E are nearly at right angles the gradient has no bound; nothing is gained beyond this.
+/// Where N and E are nearly at right angles the gradient has no bound; nothing is gained beyond
+/// this.
 constexpr double LEAST_COSINE = 0.05;
 
 /// The paper's G for one edge through one face; zero where the faces are parallel or have no area.
-Vec3 contour_gradient(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, const Topology& topology, const EdgeFaceIntersection& hit) {
+Vec3 contour_gradient(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles,
+                      const Topology& topology, const EdgeFaceIntersection& hit) {
   const auto [a, b] = topology.edges[hit.edge];
   const Triangle& face = triangles[hit.triangle];
-  const Vec3 normal = area_normal(x[face[0]], x[face[1]], x[face[2]]).normalized(), along = (x[b] - x[a]).normalized();
+  const Vec3 normal = area_normal(x[face[0]], x[face[1]], x[face[2]]).normalized(),
+             along = (x[b] - x[a]).normalized();
   double cosine = along.dot(normal);
   if (std::abs(cosine) < LEAST_COSINE) cosine = cosine < 0 ? -LEAST_COSINE : LEAST_COSINE;
   Vec3 gradient = Vec3::Zero();
@@ -71,8 +74,9 @@ private:
 
 } // namespace
 
-std::vector<UntanglePair> untangle_directions(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, const Topology& topology,
-                                              const TriangleTree& tree) {
+std::vector<UntanglePair> untangle_directions(const std::vector<Vec3>& x,
+                                              const std::vector<Triangle>& triangles,
+                                              const Topology& topology, const TriangleTree& tree) {
   std::vector<UntanglePair> pairs;
   for (const EdgeFaceIntersection& hit : edge_face_intersections(x, triangles, topology, tree))
     pairs.push_back({hit, contour_gradient(x, triangles, topology, hit), 0});
@@ -89,10 +93,13 @@ std::vector<UntanglePair> untangle_directions(const std::vector<Vec3>& x, const 
       const int f = pairs[i].at.triangle;
       ends.push_back({{std::min(f, g), std::max(f, g)}, i, g < f});
     }
-  std::stable_sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.triangles < b.triangles; });
+  std::stable_sort(ends.begin(), ends.end(),
+                   [](const End& a, const End& b) { return a.triangles < b.triangles; });
   Contours contours(pairs.size());
   for (std::size_t i = 1; i < ends.size(); ++i)
-    if (ends[i].triangles == ends[i - 1].triangles) contours.join(ends[i - 1].point, ends[i].point, ends[i - 1].lower_has_edge != ends[i].lower_has_edge);
+    if (ends[i].triangles == ends[i - 1].triangles)
+      contours.join(ends[i - 1].point, ends[i].point,
+                    ends[i - 1].lower_has_edge != ends[i].lower_has_edge);
 
   std::vector<int> number(pairs.size(), -1);
   int n_contours = 0;
@@ -108,14 +115,18 @@ std::vector<UntanglePair> untangle_directions(const std::vector<Vec3>& x, const 
   }
   for (int i = 0; i < static_cast<int>(pairs.size()); ++i) {
     Vec3 gradient = pairs[i].direction;
-    if (!contours.one_sided(i)) gradient = (contours.turned(i) ? -1.0 : 1.0) * sum[pairs[i].contour];
-    pairs[i].direction = gradient / std::sqrt(gradient.squaredNorm() + 0.01); // full length from a gradient of some tenths
+    if (!contours.one_sided(i))
+      gradient = (contours.turned(i) ? -1.0 : 1.0) * sum[pairs[i].contour];
+    pairs[i].direction = gradient / std::sqrt(gradient.squaredNorm() +
+                                              0.01); // full length from a gradient of some tenths
   }
   return pairs;
 }
 
-std::vector<Vec3> untangle_displacements(const std::vector<UntanglePair>& pairs, const std::vector<Triangle>& triangles, const Topology& topology,
-                                         std::size_t n_vertices, double step, const std::vector<double>& inverse_mass) {
+std::vector<Vec3> untangle_displacements(const std::vector<UntanglePair>& pairs,
+                                         const std::vector<Triangle>& triangles,
+                                         const Topology& topology, std::size_t n_vertices,
+                                         double step, const std::vector<double>& inverse_mass) {
   std::vector<Vec3> displacement(n_vertices, Vec3::Zero());
   std::vector<double> weight(n_vertices, 0);
   const auto mobility = [&](int v) { return inverse_mass.empty() ? 1.0 : inverse_mass[v]; };
@@ -133,8 +144,10 @@ std::vector<Vec3> untangle_displacements(const std::vector<UntanglePair>& pairs,
       displacement[v] += w * d;
       weight[v] += w;
     };
-    for (int k = 0; k < 2; ++k) push(edge[k], of_edge[k], step * edge_gives / total * pair.direction);
-    for (int k = 0; k < 3; ++k) push(face[k], pair.at.barycentric[k], -step * face_gives / total * pair.direction);
+    for (int k = 0; k < 2; ++k)
+      push(edge[k], of_edge[k], step * edge_gives / total * pair.direction);
+    for (int k = 0; k < 3; ++k)
+      push(face[k], pair.at.barycentric[k], -step * face_gives / total * pair.direction);
   }
   for (std::size_t v = 0; v < n_vertices; ++v)
     if (weight[v] > 0) displacement[v] /= weight[v];

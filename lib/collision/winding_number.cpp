@@ -10,10 +10,11 @@ namespace sloper::collision {
 namespace {
 
 using Quadratic = std::array<double, 6>; ///< coefficients of xx yy zz xy xz yz
-using Cubic = std::array<double, 10>;    ///< coefficients of xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz
+using Cubic = std::array<double, 10>; ///< coefficients of xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz
 
-/// Moments of a piece of surface about its centre, as the series asks for them: with offsets e, and K the half of the sum of e e^T,
-/// per bit of surface, the normal n, (n . d)(e . d), 2 K n + tr(K) n, and (n . d)(d . K d).
+/// Moments of a piece of surface about its centre, as the series asks for them: with offsets e, and
+/// K the half of the sum of e e^T, per bit of surface, the normal n, (n . d)(e . d), 2 K n + tr(K)
+/// n, and (n . d)(d . K d).
 struct Moments {
   double area = 0;
   Vec3 center = Vec3::Zero(), normal = Vec3::Zero(), linear = Vec3::Zero();
@@ -22,7 +23,12 @@ struct Moments {
 };
 
 Quadratic product(const Vec3& a, const Vec3& b) {
-  return {a[0] * b[0], a[1] * b[1], a[2] * b[2], a[0] * b[1] + a[1] * b[0], a[0] * b[2] + a[2] * b[0], a[1] * b[2] + a[2] * b[1]};
+  return {a[0] * b[0],
+          a[1] * b[1],
+          a[2] * b[2],
+          a[0] * b[1] + a[1] * b[0],
+          a[0] * b[2] + a[2] * b[0],
+          a[1] * b[2] + a[2] * b[1]};
 }
 
 void add_product(const Quadratic& q, const Vec3& s, Cubic& sum) {
@@ -40,7 +46,8 @@ void add_product(const Quadratic& q, const Vec3& s, Cubic& sum) {
 
 /// Twice the symmetric matrix of the form, times s.
 Vec3 twice_times(const Quadratic& q, const Vec3& s) {
-  return {2 * q[0] * s[0] + q[3] * s[1] + q[4] * s[2], q[3] * s[0] + 2 * q[1] * s[1] + q[5] * s[2], q[4] * s[0] + q[5] * s[1] + 2 * q[2] * s[2]};
+  return {2 * q[0] * s[0] + q[3] * s[1] + q[4] * s[2], q[3] * s[0] + 2 * q[1] * s[1] + q[5] * s[2],
+          q[4] * s[0] + q[5] * s[1] + 2 * q[2] * s[2]};
 }
 
 Moments moments_of(const std::array<Vec3, 3>& corners) {
@@ -80,12 +87,13 @@ std::array<double, 2> half_solid_angle(const Vec3& p, const Vec3& a, const Vec3&
   return {u.dot(v.cross(w)), lu * lv * lw + u.dot(v) * lw + v.dot(w) * lu + w.dot(u) * lv};
 }
 
-/// A sum of angles, each within half a turn, of which the tangents are known: as a product of complex numbers, with one arc tangent at
-/// the end.
+/// A sum of angles, each within half a turn, of which the tangents are known: as a product of
+/// complex numbers, with one arc tangent at the end.
 class AngleSum {
 public:
   void add(double sine, double cosine) {
-    const double im = m_re * sine + m_im * cosine + 0.0; // never -0, which an arc tangent takes for the other side
+    const double im = m_re * sine + m_im * cosine +
+                      0.0; // never -0, which an arc tangent takes for the other side
     const double re = m_re * cosine - m_im * sine;
     if (m_im >= 0 && sine >= 0 && im < 0) ++m_turns;
     if (m_im < 0 && sine < 0 && im >= 0) --m_turns;
@@ -113,7 +121,8 @@ WindingNumber::WindingNumber(const TriangleTree& tree, double reach) {
   m_far_of_node.assign(nodes.size(), -1);
   int n_far = 0;
   for (std::size_t node = 0; node < nodes.size(); ++node)
-    if (std::any_of(nodes[node].child, nodes[node].child + 4, [](int child) { return child >= 0; })) m_far_of_node[node] = n_far++;
+    if (std::any_of(nodes[node].child, nodes[node].child + 4, [](int child) { return child >= 0; }))
+      m_far_of_node[node] = n_far++;
   m_far.resize(static_cast<std::size_t>(n_far));
   std::vector<Moments> waiting; // of the nodes whose parent is still to come, the last first
   for (int node = static_cast<int>(nodes.size()) - 1; node >= 0; --node) {
@@ -149,10 +158,12 @@ WindingNumber::WindingNumber(const TriangleTree& tree, double reach) {
       // the farthest corner of the lane's box bounds the radius about the centre
       double radius2 = 0;
       for (int a = 0; a < 3; ++a) {
-        const double low = m.center[a] - nodes[node].low[a][i], high = nodes[node].high[a][i] - m.center[a];
+        const double low = m.center[a] - nodes[node].low[a][i],
+                     high = nodes[node].high[a][i] - m.center[a];
         radius2 += std::max(low * low, high * high);
       }
-      far.reach2[i] = nodes[node].child[i] >= 0 ? static_cast<float>(reach * reach * radius2) : std::numeric_limits<float>::infinity();
+      far.reach2[i] = nodes[node].child[i] >= 0 ? static_cast<float>(reach * reach * radius2)
+                                                : std::numeric_limits<float>::infinity();
     }
   }
 }
@@ -160,15 +171,19 @@ WindingNumber::WindingNumber(const TriangleTree& tree, double reach) {
 double WindingNumber::at(const TriangleTree& tree, const Vec3& p) const {
   const auto& nodes = tree.nodes();
   if (nodes.empty()) return 0;
-  const Float4 px = Float4::all(static_cast<float>(p.x())), py = Float4::all(static_cast<float>(p.y())), pz = Float4::all(static_cast<float>(p.z()));
-  const Float4 nearest2 = Float4::all(1e-18f); // m2: for lanes about whose centre p lies, and which do not count
+  const Float4 px = Float4::all(static_cast<float>(p.x())),
+               py = Float4::all(static_cast<float>(p.y())),
+               pz = Float4::all(static_cast<float>(p.z()));
+  const Float4 nearest2 =
+      Float4::all(1e-18f); // m2: for lanes about whose centre p lies, and which do not count
   const Float4 one = Float4::all(1), three = Float4::all(3), fifteen = Float4::all(15);
   Float4 far_field = Float4::all(0);
   AngleSum near_field;
   const auto add_triangle = [&](int slot) {
     const auto& c = tree.corners(slot);
     const auto [sine, cosine] = half_solid_angle(p, c[0], c[1], c[2]);
-    if (sine != 0 || cosine > 0) near_field.add(sine, cosine); // else p lies in the triangle: neither side
+    if (sine != 0 || cosine > 0)
+      near_field.add(sine, cosine); // else p lies in the triangle: neither side
   };
   int stack[128], top = 0;
   stack[top++] = 0;
@@ -181,22 +196,32 @@ double WindingNumber::at(const TriangleTree& tree, const Vec3& p) const {
       continue;
     }
     const FarField& far = m_far[m_far_of_node[node]];
-    const Float4 dx = Float4::load(far.center[0]) - px, dy = Float4::load(far.center[1]) - py, dz = Float4::load(far.center[2]) - pz;
+    const Float4 dx = Float4::load(far.center[0]) - px, dy = Float4::load(far.center[1]) - py,
+                 dz = Float4::load(far.center[2]) - pz;
     const Float4 r2 = dx * dx + dy * dy + dz * dz, reach2 = Float4::load(far.reach2);
     int near = less_equal(r2, reach2);
     if (near != 15) {
-      const Float4 inverse = one / square_root(max(r2, nearest2)), x = dx * inverse, y = dy * inverse, z = dz * inverse;
+      const Float4 inverse = one / square_root(max(r2, nearest2)), x = dx * inverse,
+                   y = dy * inverse, z = dz * inverse;
       const auto& f = far.first;
       const auto& c = far.cubic;
       const auto get = [](const float* lanes) { return Float4::load(lanes); };
       const Float4 xx = x * x, yy = y * y, zz = z * z;
-      const Float4 quadratic = get(f[0]) * xx + get(f[1]) * yy + get(f[2]) * zz + get(f[3]) * x * y + get(f[4]) * x * z + get(f[5]) * y * z;
-      const Float4 cubic = xx * (get(c[0]) * x + get(c[3]) * y + get(c[4]) * z) + yy * (get(c[1]) * y + get(c[5]) * x + get(c[6]) * z) +
-                           zz * (get(c[2]) * z + get(c[7]) * x + get(c[8]) * y) + get(c[9]) * x * y * z;
-      const Float4 of_normal = get(far.normal[0]) * x + get(far.normal[1]) * y + get(far.normal[2]) * z;
+      const Float4 quadratic = get(f[0]) * xx + get(f[1]) * yy + get(f[2]) * zz +
+                               get(f[3]) * x * y + get(f[4]) * x * z + get(f[5]) * y * z;
+      const Float4 cubic = xx * (get(c[0]) * x + get(c[3]) * y + get(c[4]) * z) +
+                           yy * (get(c[1]) * y + get(c[5]) * x + get(c[6]) * z) +
+                           zz * (get(c[2]) * z + get(c[7]) * x + get(c[8]) * y) +
+                           get(c[9]) * x * y * z;
+      const Float4 of_normal =
+          get(far.normal[0]) * x + get(far.normal[1]) * y + get(far.normal[2]) * z;
       const Float4 of_first = get(f[0]) + get(f[1]) + get(f[2]) - three * quadratic;
-      const Float4 of_second = fifteen * cubic - three * (get(far.linear[0]) * x + get(far.linear[1]) * y + get(far.linear[2]) * z);
-      far_field = far_field + where_less((of_normal + (of_first + of_second * inverse) * inverse) * inverse * inverse, reach2, r2);
+      const Float4 of_second =
+          fifteen * cubic -
+          three * (get(far.linear[0]) * x + get(far.linear[1]) * y + get(far.linear[2]) * z);
+      far_field = far_field + where_less((of_normal + (of_first + of_second * inverse) * inverse) *
+                                             inverse * inverse,
+                                         reach2, r2);
     }
     while (near) {
       const int i = std::countr_zero(static_cast<unsigned>(near));
@@ -207,7 +232,8 @@ double WindingNumber::at(const TriangleTree& tree, const Vec3& p) const {
   }
   alignas(16) float sums[4];
   far_field.store(sums);
-  return (static_cast<double>(sums[0]) + sums[1] + sums[2] + sums[3]) / (4 * units::PI) + near_field.turns();
+  return (static_cast<double>(sums[0]) + sums[1] + sums[2] + sums[3]) / (4 * units::PI) +
+         near_field.turns();
 }
 
 } // namespace sloper::collision

@@ -9,7 +9,8 @@ namespace {
 
 template<class Points> void check_finite(const Points& points, const char* what) {
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (!points[i].allFinite()) throw input_error("", what + (" " + std::to_string(i)), "is not a finite number");
+    if (!points[i].allFinite())
+      throw input_error("", what + (" " + std::to_string(i)), "is not a finite number");
 }
 
 void check_range(const std::vector<int>& indices, std::size_t count, const std::string& what) {
@@ -19,7 +20,9 @@ void check_range(const std::vector<int>& indices, std::size_t count, const std::
 }
 
 void check_count(std::size_t has, std::size_t wants, const char* what) {
-  if (has != wants) throw input_error("", what, "there are " + std::to_string(has) + " for " + std::to_string(wants));
+  if (has != wants)
+    throw input_error("", what,
+                      "there are " + std::to_string(has) + " for " + std::to_string(wants));
 }
 
 } // namespace
@@ -30,7 +33,8 @@ void check_garment(const Garment& garment) {
   check_finite(panels.pattern, "pattern point");
   for (std::size_t f = 0; f < panels.triangles.size(); ++f)
     for (const int v : panels.triangles[f])
-      if (v < 0 || static_cast<std::size_t>(v) >= n) throw input_error("", "triangle " + std::to_string(f), "names a point that is not there");
+      if (v < 0 || static_cast<std::size_t>(v) >= n)
+        throw input_error("", "triangle " + std::to_string(f), "names a point that is not there");
   for (const pattern::MeshSeam& seam : panels.seams) {
     check_range(seam.a, n, "seam " + seam.name + ", stitch");
     check_range(seam.b, n, "seam " + seam.name + ", stitch");
@@ -47,14 +51,17 @@ void check_garment(const Garment& garment) {
   check_count(garment.rest_scale.size(), panels.triangles.size(), "rest length factors");
   for (std::size_t f = 0; f < garment.rest_scale.size(); ++f)
     for (const double scale : garment.rest_scale[f])
-      if (!(std::isfinite(scale) && scale > 0)) throw input_error("", "triangle " + std::to_string(f), "its rest length factor is not a positive number");
+      if (!(std::isfinite(scale) && scale > 0))
+        throw input_error("", "triangle " + std::to_string(f),
+                          "its rest length factor is not a positive number");
 }
 
 std::vector<Triangle> Garment::particle_triangles() const {
   if (particle_of.empty()) return panels.triangles; // unsewn: every vertex is its own particle
   std::vector<Triangle> triangles;
   triangles.reserve(panels.triangles.size());
-  for (const Triangle& t : panels.triangles) triangles.push_back({particle_of[t[0]], particle_of[t[1]], particle_of[t[2]]});
+  for (const Triangle& t : panels.triangles)
+    triangles.push_back({particle_of[t[0]], particle_of[t[1]], particle_of[t[2]]});
   return triangles;
 }
 

@@ -18,7 +18,8 @@ namespace {
 using io::Json;
 using io::Node;
 
-constexpr double WEIGHT_SUM_TOLERANCE = 1e-6; ///< binding weights are written in full, so this only catches damage
+constexpr double WEIGHT_SUM_TOLERANCE =
+    1e-6; ///< binding weights are written in full, so this only catches damage
 
 /// Keys and fields of a material; one table for reading and writing.
 constexpr std::pair<const char*, double Material::*> MATERIAL_NUMBERS[] = {
@@ -91,7 +92,9 @@ Json bind_json(const Bind& bind) {
   for (const auto& weights : bind.particles) {
     Json row = Json::array();
     for (const BindWeight& w : weights)
-      for (const Json& value : {Json(w.frame), Json(w.weight), Json(w.theta), Json(w.z), Json(w.gap)}) row.push_back(value);
+      for (const Json& value :
+           {Json(w.frame), Json(w.weight), Json(w.theta), Json(w.z), Json(w.gap)})
+        row.push_back(value);
     j["particles"].push_back(row);
   }
   return j;
@@ -102,7 +105,9 @@ std::vector<int> read_indices(const Node& node, int end) {
   list.reserve(node.size());
   for (std::size_t i = 0; i < node.size(); ++i) {
     list.push_back(node.at(i).integer());
-    if (list.back() < 0 || list.back() >= end) node.at(i).fail("the index is not among the " + std::to_string(end) + " panel vertices of the mesh");
+    if (list.back() < 0 || list.back() >= end)
+      node.at(i).fail("the index is not among the " + std::to_string(end) +
+                      " panel vertices of the mesh");
   }
   return list;
 }
@@ -120,7 +125,8 @@ double positive(const Node& node) {
 }
 
 void read_panels(const Node& node, pattern::PanelMesh& mesh) {
-  const int n_vertices = static_cast<int>(mesh.pattern.size()), n_triangles = static_cast<int>(mesh.triangles.size());
+  const int n_vertices = static_cast<int>(mesh.pattern.size()),
+            n_triangles = static_cast<int>(mesh.triangles.size());
   int vertex = 0, triangle = 0;
   for (std::size_t k = 0; k < node.size(); ++k) {
     const Node p = node.at(k);
@@ -130,9 +136,11 @@ void read_panels(const Node& node, pattern::PanelMesh& mesh) {
     panel.n_vertices = count(p.at("vertices"));
     panel.first_triangle = triangle;
     panel.n_triangles = count(p.at("triangles"));
-    if (panel.n_vertices > n_vertices - vertex || panel.n_triangles > n_triangles - triangle) p.fail("the panels hold more than the mesh");
+    if (panel.n_vertices > n_vertices - vertex || panel.n_triangles > n_triangles - triangle)
+      p.fail("the panels hold more than the mesh");
     panel.grain = p.at("grain").vec2();
-    if (std::abs(panel.grain.norm() - 1) > 1e-6) p.at("grain").fail("the grain is not a unit direction");
+    if (std::abs(panel.grain.norm() - 1) > 1e-6)
+      p.at("grain").fail("the grain is not a unit direction");
     panel.material = p.string("material", "");
     panel.layer = p.integer("layer", 0);
     panel.part = p.string("part", "");
@@ -141,18 +149,21 @@ void read_panels(const Node& node, pattern::PanelMesh& mesh) {
     triangle += panel.n_triangles;
     for (int f = panel.first_triangle; f < triangle; ++f)
       for (const int v : mesh.triangles[f])
-        if (v < panel.first_vertex || v >= vertex) p.fail("triangle " + std::to_string(f) + " reaches into another panel");
+        if (v < panel.first_vertex || v >= vertex)
+          p.fail("triangle " + std::to_string(f) + " reaches into another panel");
     mesh.panels.push_back(std::move(panel));
   }
   if (vertex != n_vertices || triangle != n_triangles)
-    node.fail("the panels hold fewer vertices or triangles than the mesh", "document and OBJ belong to different garments");
+    node.fail("the panels hold fewer vertices or triangles than the mesh",
+              "document and OBJ belong to different garments");
 }
 
 void read_ids(const Node& node, pattern::PanelMesh& mesh) {
   const Node s = node.at("s"), t = node.at("t");
   for (const Node& list : {s, t})
     if (list.size() != mesh.pattern.size())
-      list.fail("has " + std::to_string(list.size()) + " numbers for " + std::to_string(mesh.pattern.size()) + " panel vertices");
+      list.fail("has " + std::to_string(list.size()) + " numbers for " +
+                std::to_string(mesh.pattern.size()) + " panel vertices");
   mesh.ids.reserve(mesh.pattern.size());
   for (std::size_t k = 0; k < mesh.panels.size(); ++k)
     for (int i = 0; i < mesh.panels[k].n_vertices; ++i) {
@@ -172,7 +183,8 @@ void read_seams(const Node& node, pattern::PanelMesh& mesh) {
                            s.at("length_a_m").number(),
                            s.at("length_b_m").number(),
                            s.has("open") && s.at("open").boolean()};
-    if (seam.a.size() != seam.b.size() || seam.a.size() < 2) s.fail("the two runs of the seam do not pair up");
+    if (seam.a.size() != seam.b.size() || seam.a.size() < 2)
+      s.fail("the two runs of the seam do not pair up");
     mesh.seams.push_back(std::move(seam));
   }
 }
@@ -202,7 +214,8 @@ std::vector<std::array<double, 3>> read_rest_scale(const Node& node, std::size_t
     const Node row = node.at(k);
     if (row.size() != 4) row.fail("expected [triangle, factor, factor, factor]");
     const int f = row.at(std::size_t{0}).integer();
-    if (f < 0 || static_cast<std::size_t>(f) >= n_triangles) row.fail("names a triangle that the mesh does not have");
+    if (f < 0 || static_cast<std::size_t>(f) >= n_triangles)
+      row.fail("names a triangle that the mesh does not have");
     for (std::size_t e = 0; e < 3; ++e) scale[f][e] = positive(row.at(e + 1));
   }
   return scale;
@@ -214,22 +227,28 @@ Bind read_bind(const Node& node, std::size_t n_particles) {
   for (std::size_t k = 0; k < frames.size(); ++k) bind.frames.push_back(frames.at(k).string());
   const Node lengths = node.at("lengths_m");
   if (lengths.size() != frames.size()) lengths.fail("there must be one length for each frame");
-  for (std::size_t k = 0; k < lengths.size(); ++k) bind.lengths_m.push_back(positive(lengths.at(k)));
+  for (std::size_t k = 0; k < lengths.size(); ++k)
+    bind.lengths_m.push_back(positive(lengths.at(k)));
   if (marks.size() != frames.size()) marks.fail("there must be one object of marks for each frame");
   for (std::size_t k = 0; k < marks.size(); ++k) {
     bind.marks.emplace_back();
-    for (const std::string& name : marks.at(k).keys()) bind.marks.back()[name] = marks.at(k).at(name).number();
+    for (const std::string& name : marks.at(k).keys())
+      bind.marks.back()[name] = marks.at(k).at(name).number();
   }
   if (particles.size() != 0 && particles.size() != n_particles)
-    particles.fail("binds " + std::to_string(particles.size()) + " of " + std::to_string(n_particles) + " particles");
+    particles.fail("binds " + std::to_string(particles.size()) + " of " +
+                   std::to_string(n_particles) + " particles");
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Node row = particles.at(p);
-    if (row.size() == 0 || row.size() % 5 != 0) row.fail("expected groups of frame, weight, theta, z, gap");
+    if (row.size() == 0 || row.size() % 5 != 0)
+      row.fail("expected groups of frame, weight, theta, z, gap");
     std::vector<BindWeight> weights;
     double sum = 0;
     for (std::size_t i = 0; i < row.size(); i += 5) {
-      const BindWeight w{row.at(i).integer(), positive(row.at(i + 1)), row.at(i + 2).number(), row.at(i + 3).number(), row.at(i + 4).number()};
-      if (w.frame < 0 || static_cast<std::size_t>(w.frame) >= bind.frames.size()) row.fail("names a frame that is not listed");
+      const BindWeight w{row.at(i).integer(), positive(row.at(i + 1)), row.at(i + 2).number(),
+                         row.at(i + 3).number(), row.at(i + 4).number()};
+      if (w.frame < 0 || static_cast<std::size_t>(w.frame) >= bind.frames.size())
+        row.fail("names a frame that is not listed");
       sum += w.weight;
       weights.push_back(w);
     }
@@ -242,23 +261,29 @@ Bind read_bind(const Node& node, std::size_t n_particles) {
 /// Panel mesh and particles from the OBJ. Unsewn garments have one `v` for each `vt`.
 void take_mesh(const io::ObjMesh& obj, const std::string& path, bool sewn, Garment& garment) {
   if (obj.texture_triangles.size() != obj.triangles.size())
-    throw input_error(path, "", "the faces have no pattern coordinates (vt)", "give the OBJ that was written with the document");
+    throw input_error(path, "", "the faces have no pattern coordinates (vt)",
+                      "give the OBJ that was written with the document");
   std::vector<int> particle_of(obj.texture.size(), -1);
   for (std::size_t f = 0; f < obj.triangles.size(); ++f)
     for (int k = 0; k < 3; ++k) {
       const int t = obj.texture_triangles[f][k], v = obj.triangles[f][k];
-      if (t < 0) throw input_error(path, "face " + std::to_string(f + 1), "a corner has no pattern coordinates (vt)");
+      if (t < 0)
+        throw input_error(path, "face " + std::to_string(f + 1),
+                          "a corner has no pattern coordinates (vt)");
       if (particle_of[t] >= 0 && particle_of[t] != v)
-        throw input_error(path, "face " + std::to_string(f + 1), "vt " + std::to_string(t + 1) + " belongs to two particles");
+        throw input_error(path, "face " + std::to_string(f + 1),
+                          "vt " + std::to_string(t + 1) + " belongs to two particles");
       particle_of[t] = v;
     }
   std::vector<char> used(obj.positions.size(), 0);
   for (std::size_t t = 0; t < particle_of.size(); ++t) {
-    if (particle_of[t] < 0) throw input_error(path, "vt " + std::to_string(t + 1), "the panel vertex is in no triangle");
+    if (particle_of[t] < 0)
+      throw input_error(path, "vt " + std::to_string(t + 1), "the panel vertex is in no triangle");
     used[particle_of[t]] = 1;
   }
   for (std::size_t v = 0; v < used.size(); ++v)
-    if (!used[v]) throw input_error(path, "v " + std::to_string(v + 1), "the particle is in no triangle");
+    if (!used[v])
+      throw input_error(path, "v " + std::to_string(v + 1), "the particle is in no triangle");
   garment.panels.pattern = obj.texture;
   garment.panels.triangles = obj.texture_triangles;
   garment.panels.placed.reserve(particle_of.size());
@@ -266,7 +291,8 @@ void take_mesh(const io::ObjMesh& obj, const std::string& path, bool sewn, Garme
   if (!sewn) {
     for (std::size_t t = 0; t < particle_of.size(); ++t)
       if (particle_of[t] != static_cast<int>(t))
-        throw input_error(path, "vt " + std::to_string(t + 1), "an unsewn garment must have one v for each vt, in the same order");
+        throw input_error(path, "vt " + std::to_string(t + 1),
+                          "an unsewn garment must have one v for each vt, in the same order");
     return;
   }
   garment.particle_of = std::move(particle_of);
@@ -276,7 +302,8 @@ void take_mesh(const io::ObjMesh& obj, const std::string& path, bool sewn, Garme
 void check_whole(const Garment& garment) {
   const std::size_t n = garment.panels.pattern.size();
   const bool sewn = !garment.particle_of.empty();
-  const bool whole = garment.panels.ids.size() == n && (sewn ? garment.particle_of.size() == n : garment.panels.placed.size() == n);
+  const bool whole = garment.panels.ids.size() == n &&
+                     (sewn ? garment.particle_of.size() == n : garment.panels.placed.size() == n);
   if (!whole) throw Error(ErrorKind::INTERNAL, "", "", "a garment to be written is not whole");
 }
 
@@ -291,16 +318,21 @@ Garment read_garment(const std::string& path) {
 Garment garment_from(const io::Node& root, const io::ObjMesh& mesh, const std::string& mesh_name) {
   Garment garment;
   garment.panels.name = root.string("name", "");
-  garment.panels.edge_length = root.number("edge_length_m", 0), garment.panels.seam_length = root.number("seam_edge_length_m", 0);
+  garment.panels.edge_length = root.number("edge_length_m", 0),
+  garment.panels.seam_length = root.number("seam_edge_length_m", 0);
   take_mesh(mesh, mesh_name, root.boolean("sewn", true), garment);
   read_panels(root.at("panels"), garment.panels);
   read_ids(root.at("vertex_ids"), garment.panels);
   read_seams(root.at("seams"), garment.panels);
   if (root.has("findings"))
-    for (std::size_t i = 0; i < root.at("findings").size(); ++i) garment.panels.findings.push_back(root.at("findings").at(i).string());
-  if (root.has("pattern")) garment.panels.source = std::make_shared<pattern::Pattern>(pattern::read_pattern_json(root.at("pattern").json(), root.file()));
+    for (std::size_t i = 0; i < root.at("findings").size(); ++i)
+      garment.panels.findings.push_back(root.at("findings").at(i).string());
+  if (root.has("pattern"))
+    garment.panels.source = std::make_shared<pattern::Pattern>(
+        pattern::read_pattern_json(root.at("pattern").json(), root.file()));
   if (root.has("materials")) garment.materials = read_materials(root.at("materials"));
-  if (root.has("rest_scale")) garment.rest_scale = read_rest_scale(root.at("rest_scale"), garment.panels.triangles.size());
+  if (root.has("rest_scale"))
+    garment.rest_scale = read_rest_scale(root.at("rest_scale"), garment.panels.triangles.size());
   garment.offset_m = root.number("offset_m", garment.offset_m);
   if (garment.offset_m < 0) root.at("offset_m").fail("the contact gap is negative");
   garment.converged = root.boolean("converged", false);
@@ -308,14 +340,16 @@ Garment garment_from(const io::Node& root, const io::ObjMesh& mesh, const std::s
     const Node body = root.at("body");
     garment.body_sha256 = body.string("sha256", "");
     if (body.has("girths_m"))
-      for (const std::string& name : body.at("girths_m").keys()) garment.body_girths_m[name] = positive(body.at("girths_m").at(name));
+      for (const std::string& name : body.at("girths_m").keys())
+        garment.body_girths_m[name] = positive(body.at("girths_m").at(name));
   }
   if (root.has("scene")) garment.scene = read_scene_effects(root.at("scene"));
   if (root.has("bind")) garment.bind = read_bind(root.at("bind"), garment.position.size());
   return garment;
 }
 
-GarmentText garment_text(const Garment& garment, const std::string& mesh_name, const std::string& tool) {
+GarmentText garment_text(const Garment& garment, const std::string& mesh_name,
+                         const std::string& tool) {
   check_whole(garment);
   const bool sewn = !garment.particle_of.empty();
   io::ObjMesh obj;
@@ -336,16 +370,20 @@ GarmentText garment_text(const Garment& garment, const std::string& mesh_name, c
   for (const auto& [name, value] : garment.body_girths_m) girths[name] = value;
   document["body"] = {{"sha256", garment.body_sha256}, {"girths_m", girths}};
   document["materials"] = Json::object();
-  for (const auto& [name, material] : garment.materials) document["materials"][name] = material_json(material);
+  for (const auto& [name, material] : garment.materials)
+    document["materials"][name] = material_json(material);
   document["panels"] = Json::array();
   for (const pattern::PanelInfo& panel : garment.panels.panels) {
     document["panels"].push_back(panel_json(panel));
     obj.groups.push_back({panel.name, panel.first_triangle});
   }
   document["seams"] = Json::array();
-  for (const pattern::MeshSeam& seam : garment.panels.seams) document["seams"].push_back(seam_json(seam));
+  for (const pattern::MeshSeam& seam : garment.panels.seams)
+    document["seams"].push_back(seam_json(seam));
   document["findings"] = garment.panels.findings;
-  if (garment.panels.source) document["pattern"] = pattern::pattern_json(*garment.panels.source, tool, pattern::PatternNumbers::EXACT);
+  if (garment.panels.source)
+    document["pattern"] =
+        pattern::pattern_json(*garment.panels.source, tool, pattern::PatternNumbers::EXACT);
   document["rest_scale"] = rest_scale_json(garment);
   Json s = Json::array(), t = Json::array();
   for (const pattern::StableId& id : garment.panels.ids) {
@@ -361,7 +399,8 @@ GarmentText garment_text(const Garment& garment, const std::string& mesh_name, c
 void write_garment(const std::string& path, const Garment& garment, const std::string& tool) {
   const std::string mesh_path = io::mesh_path_beside(path);
   const GarmentText garment_and_mesh = garment_text(garment, io::file_name(mesh_path), tool);
-  const std::string text = io::to_text(garment_and_mesh.document); // refuses what is not finite before any file is touched
+  const std::string text = io::to_text(
+      garment_and_mesh.document); // refuses what is not finite before any file is touched
   io::write_file(mesh_path, garment_and_mesh.mesh);
   io::write_file(path, text);
 }

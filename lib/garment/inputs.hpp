@@ -16,8 +16,9 @@ struct Start {
   bool draped = false;     ///< it comes from a garment document
 };
 
-/// What a user should know before cloth and body meet: that the panels were placed around another body, or around none and lie flat,
-/// that the garment was draped on another body, or that no body is given where there was one before. Nothing where it is not known (documents of older
+/// What a user should know before cloth and body meet: that the panels were placed around another
+/// body, or around none and lie flat, that the garment was draped on another body, or that no body
+/// is given where there was one before. Nothing where it is not known (documents of older
 /// programs).
 /// @param garment as read: Garment::body_sha256 is of the body that it hung on
 std::vector<std::string> start_findings(const Garment& garment, const Start& start);

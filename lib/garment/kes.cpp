@@ -54,7 +54,9 @@ constexpr Unit UNITS[] = {
 /// One measured property, SI; NaN where it was not given. Mean values fill both directions.
 struct Value {
   double warp = NAN, weft = NAN;
-  double mean() const { return std::isnan(warp) ? weft : std::isnan(weft) ? warp : 0.5 * (warp + weft); }
+  double mean() const {
+    return std::isnan(warp) ? weft : std::isnan(weft) ? warp : 0.5 * (warp + weft);
+  }
   bool given() const { return !std::isnan(mean()); }
 };
 using Values = std::map<std::string, Value>;
@@ -70,7 +72,9 @@ std::string lower(std::string text) {
 }
 
 std::vector<std::string> cells(const std::string& line) {
-  const char separator = line.find(';') != std::string::npos ? ';' : line.find('\t') != std::string::npos ? '\t' : ',';
+  const char separator = line.find(';') != std::string::npos    ? ';'
+                         : line.find('\t') != std::string::npos ? '\t'
+                                                                : ',';
   std::vector<std::string> out;
   std::stringstream stream(line);
   for (std::string cell; std::getline(stream, cell, separator);) out.push_back(trimmed(cell));
@@ -78,7 +82,8 @@ std::vector<std::string> cells(const std::string& line) {
 }
 
 bool known(const std::string& property) {
-  return std::any_of(std::begin(UNITS), std::end(UNITS), [&](const Unit& u) { return property == u.property; });
+  return std::any_of(std::begin(UNITS), std::end(UNITS),
+                     [&](const Unit& u) { return property == u.property; });
 }
 
 class Reader {
@@ -88,14 +93,18 @@ public:
   double factor(int line, const std::string& property, const std::string& unit) const {
     std::string plain;
     for (char c : lower(unit))
-      if (c != '.' && c != ' ' && c != '*' && c != '^' && c != '(' && c != ')' && c != '[' && c != ']') plain += c;
+      if (c != '.' && c != ' ' && c != '*' && c != '^' && c != '(' && c != ')' && c != '[' &&
+          c != ']')
+        plain += c;
     std::string names;
     for (const Unit& u : UNITS) {
       if (property != u.property) continue;
       if (plain.empty() || plain == u.name) return u.factor;
       names += (names.empty() ? "" : ", ") + std::string(u.name);
     }
-    throw input_error(m_file, "line " + std::to_string(line), "unit \"" + unit + "\" of " + property + " is not known", "known are " + names);
+    throw input_error(m_file, "line " + std::to_string(line),
+                      "unit \"" + unit + "\" of " + property + " is not known",
+                      "known are " + names);
   }
 
   double number(int line, const std::string& text) const {
@@ -103,8 +112,10 @@ public:
     std::replace(plain.begin(), plain.end(), ',', '.'); // decimal comma between semicolons
     double value = 0;
     const auto r = std::from_chars(plain.data(), plain.data() + plain.size(), value);
-    if (r.ec != std::errc() || r.ptr != plain.data() + plain.size() || !std::isfinite(value) || value < 0)
-      throw input_error(m_file, "line " + std::to_string(line), "\"" + text + "\" is not a number from 0 on");
+    if (r.ec != std::errc() || r.ptr != plain.data() + plain.size() || !std::isfinite(value) ||
+        value < 0)
+      throw input_error(m_file, "line " + std::to_string(line),
+                        "\"" + text + "\" is not a number from 0 on");
     return value;
   }
 
@@ -172,7 +183,8 @@ double stretch(double emt, double lt, const Values& values, double Value::*direc
 
 Material read_kes(const std::string& path) {
   const auto hash = path.rfind('#');
-  const std::string file = path.substr(0, hash), wanted = hash == std::string::npos ? std::string() : path.substr(hash + 1);
+  const std::string file = path.substr(0, hash),
+                    wanted = hash == std::string::npos ? std::string() : path.substr(hash + 1);
   const Reader reader(file);
   std::stringstream text(io::read_file(file));
   Values values;
@@ -186,7 +198,8 @@ Material read_kes(const std::string& path) {
     const std::vector<std::string> row = cells(line);
     if (header.empty()) {
       header = row;
-      wide = std::any_of(row.begin() + 1, row.end(), [](const std::string& cell) { return known(heading(cell).property); });
+      wide = std::any_of(row.begin() + 1, row.end(),
+                         [](const std::string& cell) { return known(heading(cell).property); });
       continue;
     }
     if (const Heading h = heading(row[0]); !wide) { // one property per row
@@ -196,28 +209,39 @@ Material read_kes(const std::string& path) {
         if (lower(header[c]) == "unit") unit = row[c];
       for (std::size_t c = 1; c < row.size() && c < header.size(); ++c) {
         const std::string column = lower(header[c]);
-        const char d = column == "warp" ? '1' : column == "weft" ? '2' : column == "mean" || column == "value" ? 'm' : ' ';
+        const char d = column == "warp"                        ? '1'
+                       : column == "weft"                      ? '2'
+                       : column == "mean" || column == "value" ? 'm'
+                                                               : ' ';
         if (d == ' ' || row[c].empty() || (d == 'm' && values.count(h.property))) continue;
-        put(values, {h.property, unit, d}, reader.number(number, row[c]) * reader.factor(number, h.property, unit));
+        put(values, {h.property, unit, d},
+            reader.number(number, row[c]) * reader.factor(number, h.property, unit));
       }
       continue;
     }
     names.push_back(row[0]); // one fabric per row
     if (!wanted.empty() && row[0] != wanted) continue;
-    if (!chosen.empty()) throw input_error(file, "line " + std::to_string(number), "a second fabric", "pick one with " + file + "#NAME");
+    if (!chosen.empty())
+      throw input_error(file, "line " + std::to_string(number), "a second fabric",
+                        "pick one with " + file + "#NAME");
     chosen = row[0];
     for (std::size_t c = 1; c < row.size() && c < header.size(); ++c) {
       const Heading h = heading(header[c]);
-      if (known(h.property) && !row[c].empty()) put(values, h, reader.number(number, row[c]) * reader.factor(number, h.property, h.unit));
+      if (known(h.property) && !row[c].empty())
+        put(values, h, reader.number(number, row[c]) * reader.factor(number, h.property, h.unit));
     }
   }
   if (!wanted.empty() && chosen.empty()) {
     std::string list;
     for (const std::string& n : names) list += (list.empty() ? "" : ", ") + n;
-    throw input_error(file, "fabric \"" + wanted + "\"", "is not in the file", list.empty() ? "" : "there are " + list);
+    throw input_error(file, "fabric \"" + wanted + "\"", "is not in the file",
+                      list.empty() ? "" : "there are " + list);
   }
   if (!values["B"].given() || !values["W"].given())
-    throw input_error(file, "", values["W"].given() ? "there is no bending rigidity (B)" : "there is no weight (W)", "see the layouts in the manual of drape");
+    throw input_error(file, "",
+                      values["W"].given() ? "there is no bending rigidity (B)"
+                                          : "there is no weight (W)",
+                      "see the layouts in the manual of drape");
   Material m;
   m.name = chosen.empty() ? io::file_name(file) : chosen;
   m.density_kg_m2 = values["W"].mean();
@@ -236,7 +260,8 @@ Material read_kes(const std::string& path) {
 
 Material material_from(const std::string& name_or_path) {
   const std::string file = name_or_path.substr(0, name_or_path.rfind('#'));
-  if (file.size() > 4 && lower(file.substr(file.size() - 4)) == ".csv") return read_kes(name_or_path);
+  if (file.size() > 4 && lower(file.substr(file.size() - 4)) == ".csv")
+    return read_kes(name_or_path);
   return material_preset(name_or_path);
 }
 

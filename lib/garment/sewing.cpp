@@ -12,7 +12,8 @@ namespace sloper::garment {
 std::vector<int> weld_classes(const pattern::PanelMesh& panels) {
   DisjointSets welded(panels.pattern.size());
   for (const pattern::MeshSeam& seam : panels.seams)
-    for (std::size_t k = 0; k < seam.a.size() && !seam.open; ++k) welded.unite(seam.a[k], seam.b[k]);
+    for (std::size_t k = 0; k < seam.a.size() && !seam.open; ++k)
+      welded.unite(seam.a[k], seam.b[k]);
   return welded.numbers();
 }
 
@@ -24,7 +25,9 @@ void unsew(Garment& garment) {
 
 void weld(Garment& garment, const std::vector<Vec3>& position) {
   garment.particle_of = weld_classes(garment.panels);
-  const int n = garment.particle_of.empty() ? 0 : 1 + *std::max_element(garment.particle_of.begin(), garment.particle_of.end());
+  const int n = garment.particle_of.empty()
+                    ? 0
+                    : 1 + *std::max_element(garment.particle_of.begin(), garment.particle_of.end());
   std::vector<Vec3> sum(n, Vec3::Zero());
   std::vector<int> count(n, 0);
   for (std::size_t v = 0; v < position.size(); ++v) {
@@ -56,23 +59,29 @@ std::vector<int> seam_classes(const Garment& garment) {
   return of;
 }
 
-/// Along a seam of unequal lengths the shorter side decides (the longer one is gathered into it): its length holds for both.
+/// Along a seam of unequal lengths the shorter side decides (the longer one is gathered into it):
+/// its length holds for both.
 static void gather_seams(const Garment& garment, cloth::ClothMesh& mesh) {
   auto spring = [&](int a, int b) {
     const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
     const auto found = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), edge);
-    return found != mesh.edges.end() && *found == edge ? &mesh.springs[found - mesh.edges.begin()] : nullptr;
+    return found != mesh.edges.end() && *found == edge ? &mesh.springs[found - mesh.edges.begin()]
+                                                       : nullptr;
   };
   const auto& pattern = garment.panels.pattern;
   for (const pattern::MeshSeam& seam : garment.panels.seams)
     for (std::size_t k = 0; k + 1 < seam.a.size() && !seam.open; ++k) {
-      cloth::EdgeSpring* a = spring(garment.particle_of[seam.a[k]], garment.particle_of[seam.a[k + 1]]);
-      cloth::EdgeSpring* b = spring(garment.particle_of[seam.b[k]], garment.particle_of[seam.b[k + 1]]);
+      cloth::EdgeSpring* a =
+          spring(garment.particle_of[seam.a[k]], garment.particle_of[seam.a[k + 1]]);
+      cloth::EdgeSpring* b =
+          spring(garment.particle_of[seam.b[k]], garment.particle_of[seam.b[k + 1]]);
       if (!a || !b) continue;
-      const double length_a = (pattern[seam.a[k + 1]] - pattern[seam.a[k]]).norm(), length_b = (pattern[seam.b[k + 1]] - pattern[seam.b[k]]).norm();
+      const double length_a = (pattern[seam.a[k + 1]] - pattern[seam.a[k]]).norm(),
+                   length_b = (pattern[seam.b[k + 1]] - pattern[seam.b[k]]).norm();
       const double shorter = std::min(length_a, length_b);
       if (a == b) {
-        a->rest_length *= shorter / (0.5 * (length_a + length_b)); // welded: it had the mean, edits included
+        a->rest_length *=
+            shorter / (0.5 * (length_a + length_b)); // welded: it had the mean, edits included
       } else {
         a->rest_length *= shorter / length_a;
         b->rest_length *= shorter / length_b;
@@ -80,19 +89,22 @@ static void gather_seams(const Garment& garment, cloth::ClothMesh& mesh) {
     }
 }
 
-/// A pleat is pressed: along its folds cloth does not spring back to flat. Where the scene has creases, these say how folds are pressed.
+/// A pleat is pressed: along its folds cloth does not spring back to flat. Where the scene has
+/// creases, these say how folds are pressed.
 static void press_pleats(const Garment& garment, cloth::ClothMesh& mesh) {
   if (!garment.scene.creases.empty()) return;
   std::vector<std::array<int, 2>> folds;
   for (const auto& [a, b] : pattern::pleat_edges(garment.panels)) {
-    const int i = garment.particle_of[static_cast<std::size_t>(a)], j = garment.particle_of[static_cast<std::size_t>(b)];
+    const int i = garment.particle_of[static_cast<std::size_t>(a)],
+              j = garment.particle_of[static_cast<std::size_t>(b)];
     folds.push_back({std::min(i, j), std::max(i, j)});
   }
   if (folds.empty()) return;
   std::sort(folds.begin(), folds.end());
   for (cloth::Hinge& hinge : mesh.hinges)
     if (std::binary_search(folds.begin(), folds.end(),
-                           std::array{std::min(hinge.particle[0], hinge.particle[1]), std::max(hinge.particle[0], hinge.particle[1])}))
+                           std::array{std::min(hinge.particle[0], hinge.particle[1]),
+                                      std::max(hinge.particle[0], hinge.particle[1])}))
       hinge.stiffness = 0;
 }
 
@@ -110,13 +122,17 @@ cloth::ClothMesh cloth_mesh_of(const Garment& garment) {
         t.particle[k] = garment.particle_of[v];
         t.flat[k] = Vec2(panels.pattern[v].dot(weft), panels.pattern[v].dot(warp));
       }
-      if (t.particle[0] == t.particle[1] || t.particle[1] == t.particle[2] || t.particle[2] == t.particle[0])
-        throw input_error("", "panel " + panel.name + ", triangle " + std::to_string(f - panel.first_triangle),
-                          "a seam welds two corners of one triangle together", "use a smaller --edge-length");
+      if (t.particle[0] == t.particle[1] || t.particle[1] == t.particle[2] ||
+          t.particle[2] == t.particle[0])
+        throw input_error(
+            "", "panel " + panel.name + ", triangle " + std::to_string(f - panel.first_triangle),
+            "a seam welds two corners of one triangle together", "use a smaller --edge-length");
       t.fabric = static_cast<int>(fabrics.size()) - 1;
     }
   }
-  cloth::ClothMesh mesh = cloth::make_cloth_mesh(static_cast<int>(garment.position.size()), std::move(triangles), std::move(fabrics), garment.rest_scale);
+  cloth::ClothMesh mesh =
+      cloth::make_cloth_mesh(static_cast<int>(garment.position.size()), std::move(triangles),
+                             std::move(fabrics), garment.rest_scale);
   gather_seams(garment, mesh);
   press_pleats(garment, mesh);
   return mesh;

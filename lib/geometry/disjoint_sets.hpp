@@ -1,5 +1,6 @@
 #pragma once
-/// Elements 0, 1, 2 ... in sets that are joined one by one: a disjoint-set forest with path halving (Tarjan and van Leeuwen 1984).
+/// Elements 0, 1, 2 ... in sets that are joined one by one: a disjoint-set forest with path halving
+/// (Tarjan and van Leeuwen 1984).
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -10,7 +11,9 @@ namespace sloper {
 class DisjointSets {
 public:
   /// @param n  elements, each alone in its set
-  explicit DisjointSets(std::size_t n = 0) : m_parent(n) { std::iota(m_parent.begin(), m_parent.end(), 0); }
+  explicit DisjointSets(std::size_t n = 0) : m_parent(n) {
+    std::iota(m_parent.begin(), m_parent.end(), 0);
+  }
 
   std::size_t size() const { return m_parent.size(); } ///< elements
 
@@ -20,7 +23,8 @@ public:
     return m_parent.back();
   }
 
-  /// The element that stands for the set of i: the lowest of the set, where only unite() joined it. 0 <= i < size()
+  /// The element that stands for the set of i: the lowest of the set, where only unite() joined it.
+  /// 0 <= i < size()
   int find(int i) {
     while (parent(i) != i) i = parent(i) = parent(parent(i));
     return i;
@@ -30,20 +34,23 @@ public:
     return i;
   }
 
-  /// Joins the sets of a and b; the lower of their two elements stands for both, so that the order of calls does not matter.
+  /// Joins the sets of a and b; the lower of their two elements stands for both, so that the order
+  /// of calls does not matter.
   void unite(int a, int b) {
     a = find(a);
     b = find(b);
     parent(std::max(a, b)) = std::min(a, b);
   }
 
-  /// The same; what stands for the set of b stands for both. For callers whose results follow the order of joining.
+  /// The same; what stands for the set of b stands for both. For callers whose results follow the
+  /// order of joining.
   void unite_into(int a, int b) {
     b = find(b);
     parent(find(a)) = b;
   }
 
-  /// The number of each element's set, #size(); sets are counted from 0 in the order of their first elements.
+  /// The number of each element's set, #size(); sets are counted from 0 in the order of their first
+  /// elements.
   std::vector<int> numbers() {
     std::vector<int> of(size()), number(size(), -1);
     int count = 0;

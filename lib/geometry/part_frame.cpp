@@ -16,7 +16,8 @@ Vec3 PartFrame::point(const PartCoordinates& c) const {
   return lower + c.z * length() * a + c.r * (std::cos(theta) * theta_zero + std::sin(theta) * side);
 }
 
-PartFrame make_part_frame(const Vec3& lower, const Vec3& upper, const Vec3& forward, bool mirrored) {
+PartFrame make_part_frame(const Vec3& lower, const Vec3& upper, const Vec3& forward,
+                          bool mirrored) {
   PartFrame frame{lower, upper, Vec3::UnitZ(), mirrored};
   const Vec3 a = frame.axis();
   Vec3 zero = forward - forward.dot(a) * a;

@@ -1,9 +1,10 @@
 #pragma once
-/// The cylindrical frame of a body part and its coordinates r, theta, z (Sul et al. 2010, Table 2 and Figure 3).
+/// The cylindrical frame of a body part and its coordinates r, theta, z (Sul et al. 2010, Table 2
+/// and Figure 3).
 ///
-/// axis a = (U - L)/|U - L|; z = (p - L).a/|U - L|, 0 at L and 1 at U, unbounded; theta = angle about a from
-/// `theta_zero`, right-handed about a, its sign turned where `mirrored`, so that left and right parts share coordinates;
-/// r = distance from the axis, m.
+/// axis a = (U - L)/|U - L|; z = (p - L).a/|U - L|, 0 at L and 1 at U, unbounded; theta = angle
+/// about a from `theta_zero`, right-handed about a, its sign turned where `mirrored`, so that left
+/// and right parts share coordinates; r = distance from the axis, m.
 #include <geometry/types.hpp>
 namespace sloper {
 
@@ -25,7 +26,8 @@ struct PartFrame {
   Vec3 point(const PartCoordinates& c) const; ///< inverse of coordinates()
 };
 
-/// A frame from L to U whose theta = 0 is `forward` made square to the axis (+y where forward is along the axis).
+/// A frame from L to U whose theta = 0 is `forward` made square to the axis (+y where forward is
+/// along the axis).
 PartFrame make_part_frame(const Vec3& lower, const Vec3& upper, const Vec3& forward, bool mirrored);
 
 } // namespace sloper

@@ -8,7 +8,9 @@
 
 namespace sloper {
 
-Eigen::Quaterniond rotation_between(const Vec3& from, const Vec3& to) { return Eigen::Quaterniond::FromTwoVectors(from, to); }
+Eigen::Quaterniond rotation_between(const Vec3& from, const Vec3& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
+}
 
 Mat3 nearest_rotation(const Mat3& covariance) {
   const Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -17,6 +19,8 @@ Mat3 nearest_rotation(const Mat3& covariance) {
   return v * svd.matrixU().transpose();
 }
 
-double degrees_between(const Vec3& a, const Vec3& b) { return units::degrees(std::acos(std::clamp(a.dot(b) / (a.norm() * b.norm()), -1.0, 1.0))); }
+double degrees_between(const Vec3& a, const Vec3& b) {
+  return units::degrees(std::acos(std::clamp(a.dot(b) / (a.norm() * b.norm()), -1.0, 1.0)));
+}
 
 } // namespace sloper

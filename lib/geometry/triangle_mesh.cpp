@@ -39,7 +39,8 @@ std::vector<std::array<int, 2>> sorted_edges(const std::vector<Triangle>& triang
   std::vector<std::array<int, 2>> edges;
   edges.reserve(triangles.size() * 3);
   for (const Triangle& t : triangles)
-    for (int k = 0; k < 3; ++k) edges.push_back({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
+    for (int k = 0; k < 3; ++k)
+      edges.push_back({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
   std::sort(edges.begin(), edges.end());
   return edges;
 }
@@ -56,11 +57,13 @@ std::vector<std::array<int, 2>> free_edges_of(const std::vector<Triangle>& trian
   const std::vector<std::array<int, 2>> edges = sorted_edges(triangles);
   std::vector<std::array<int, 2>> free;
   for (std::size_t i = 0; i < edges.size(); ++i)
-    if ((i == 0 || edges[i] != edges[i - 1]) && (i + 1 == edges.size() || edges[i] != edges[i + 1])) free.push_back(edges[i]);
+    if ((i == 0 || edges[i] != edges[i - 1]) && (i + 1 == edges.size() || edges[i] != edges[i + 1]))
+      free.push_back(edges[i]);
   return free;
 }
 
-std::vector<int> connected_components(std::size_t n_vertices, const std::vector<Triangle>& triangles) {
+std::vector<int> connected_components(std::size_t n_vertices,
+                                      const std::vector<Triangle>& triangles) {
   DisjointSets joined(n_vertices);
   for (const Triangle& t : triangles)
     for (int k = 1; k < 3; ++k) joined.unite(t[0], t[k]);

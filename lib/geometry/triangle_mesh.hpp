@@ -22,9 +22,12 @@ struct Box3 {
 Box3 bounding_box(const std::vector<Vec3>& points);
 
 /// Twice the area times the unit normal, by the right-hand rule.
-inline Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).cross(c - a); }
+inline Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return (b - a).cross(c - a);
+}
 
-/// Unit vertex normals weighted by the angle at the vertex (Thuermer and Wuethrich 1998). #V by 3; zero where no triangle meets.
+/// Unit vertex normals weighted by the angle at the vertex (Thuermer and Wuethrich 1998). #V by 3;
+/// zero where no triangle meets.
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
 
 /// Undirected edges, each once, as sorted pairs in lexicographic order.
@@ -32,7 +35,9 @@ std::vector<std::array<int, 2>> edges_of(const std::vector<Triangle>& triangles)
 /// Those of them that only one triangle has.
 std::vector<std::array<int, 2>> free_edges_of(const std::vector<Triangle>& triangles);
 
-/// Component number of every vertex (0 is the component of the lowest vertex index); isolated vertices have their own.
-std::vector<int> connected_components(std::size_t n_vertices, const std::vector<Triangle>& triangles);
+/// Component number of every vertex (0 is the component of the lowest vertex index); isolated
+/// vertices have their own.
+std::vector<int> connected_components(std::size_t n_vertices,
+                                      const std::vector<Triangle>& triangles);
 
 } // namespace sloper

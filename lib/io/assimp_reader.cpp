@@ -21,7 +21,8 @@ namespace {
 constexpr const char* EXTENSIONS[] = {"glb", "gltf", "fbx", "dae", "off", "x3d", "wrl"};
 constexpr unsigned LONGEST_S = 60;
 
-/// What the child tells: sizes, then positions and corners, or the length of a complaint and its text.
+/// What the child tells: sizes, then positions and corners, or the length of a complaint and its
+/// text.
 struct Header {
   std::size_t positions = 0, triangles = 0, complaint = 0;
 };
@@ -50,7 +51,8 @@ bool read_all(int from, void* data, std::size_t size) {
 TriangleMesh import(const std::string& path, std::string& complaint) {
   TriangleMesh mesh;
   Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  const aiScene* scene =
+      importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (!scene || scene->mNumMeshes == 0) {
     complaint = importer.GetErrorString();
     if (complaint.empty()) complaint = "it holds no mesh";
@@ -70,10 +72,12 @@ TriangleMesh import(const std::string& path, std::string& complaint) {
       const aiFace& face = part.mFaces[f];
       if (face.mNumIndices != 3) continue; // points and lines
       if (*std::max_element(face.mIndices, face.mIndices + 3) >= part.mNumVertices) {
-        complaint = "face " + std::to_string(f) + " of mesh " + std::to_string(m) + " has a vertex that is not there";
+        complaint = "face " + std::to_string(f) + " of mesh " + std::to_string(m) +
+                    " has a vertex that is not there";
         return mesh;
       }
-      mesh.triangles.push_back({index[face.mIndices[0]], index[face.mIndices[1]], index[face.mIndices[2]]});
+      mesh.triangles.push_back(
+          {index[face.mIndices[0]], index[face.mIndices[1]], index[face.mIndices[2]]});
     }
   }
   return mesh;
@@ -98,11 +102,15 @@ TriangleMesh import(const std::string& path, std::string& complaint) {
 
 } // namespace
 
-bool is_read_by_assimp(const std::string& extension) { return std::find(std::begin(EXTENSIONS), std::end(EXTENSIONS), extension) != std::end(EXTENSIONS); }
+bool is_read_by_assimp(const std::string& extension) {
+  return std::find(std::begin(EXTENSIONS), std::end(EXTENSIONS), extension) != std::end(EXTENSIONS);
+}
 
 TriangleMesh read_with_assimp(const std::string& path, const std::string& extension) {
   int pipe[2];
-  if (::pipe(pipe) != 0) throw Error(ErrorKind::INTERNAL, path, "", std::string("no pipe could be made: ") + std::strerror(errno));
+  if (::pipe(pipe) != 0)
+    throw Error(ErrorKind::INTERNAL, path, "",
+                std::string("no pipe could be made: ") + std::strerror(errno));
   const pid_t child = ::fork();
   if (child == 0) {
     ::close(pipe[0]);
@@ -117,20 +125,27 @@ TriangleMesh read_with_assimp(const std::string& path, const std::string& extens
     complaint.resize(header.complaint);
     mesh.positions.resize(header.positions);
     mesh.triangles.resize(header.triangles);
-    whole = read_all(pipe[0], complaint.data(), complaint.size()) && read_all(pipe[0], mesh.positions.data(), mesh.positions.size() * sizeof(Vec3)) &&
+    whole = read_all(pipe[0], complaint.data(), complaint.size()) &&
+            read_all(pipe[0], mesh.positions.data(), mesh.positions.size() * sizeof(Vec3)) &&
             read_all(pipe[0], mesh.triangles.data(), mesh.triangles.size() * sizeof(Triangle));
   }
   ::close(pipe[0]);
   int status = 0;
   while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
   const std::string next = "export it as OBJ or PLY";
-  if (child < 0) throw Error(ErrorKind::INTERNAL, path, "", std::string("no process could be started: ") + std::strerror(errno));
+  if (child < 0)
+    throw Error(ErrorKind::INTERNAL, path, "",
+                std::string("no process could be started: ") + std::strerror(errno));
   if (!whole && WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
     throw input_error(path, "", "was not read within " + std::to_string(LONGEST_S) + " s", next);
-  if (!whole) throw input_error(path, "", "is so broken that it crashes what reads " + extension + " (assimp)", next);
-  if (!complaint.empty()) throw input_error(path, "", "cannot be read as " + extension + ": " + complaint, next);
+  if (!whole)
+    throw input_error(path, "",
+                      "is so broken that it crashes what reads " + extension + " (assimp)", next);
+  if (!complaint.empty())
+    throw input_error(path, "", "cannot be read as " + extension + ": " + complaint, next);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-    if (!mesh.positions[v].allFinite()) throw input_error(path, "vertex " + std::to_string(v), "a coordinate is not finite");
+    if (!mesh.positions[v].allFinite())
+      throw input_error(path, "vertex " + std::to_string(v), "a coordinate is not finite");
   return mesh;
 }
 

@@ -33,7 +33,9 @@ static std::string read_descriptor(int fd, const std::string& name) {
 
 std::string read_file(const std::string& path) {
   std::optional<std::string> bytes = read_file_if_there(path);
-  if (!bytes) throw input_error(path, "", std::string("cannot open: ") + std::strerror(errno), "check the path");
+  if (!bytes)
+    throw input_error(path, "", std::string("cannot open: ") + std::strerror(errno),
+                      "check the path");
   return std::move(*bytes);
 }
 
@@ -41,7 +43,9 @@ std::optional<std::string> read_file_if_there(const std::string& path) {
   if (path == "-") return read_descriptor(STDIN_FILENO, "standard input");
   const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0 && (errno == ENOENT || errno == ENOTDIR)) return {};
-  if (fd < 0) throw input_error(path, "", std::string("cannot open: ") + std::strerror(errno), "check the path");
+  if (fd < 0)
+    throw input_error(path, "", std::string("cannot open: ") + std::strerror(errno),
+                      "check the path");
   try {
     std::string bytes = read_descriptor(fd, path);
     close(fd);
@@ -52,7 +56,8 @@ std::optional<std::string> read_file_if_there(const std::string& path) {
   }
 }
 
-static Error write_error(const std::string& name, const std::string& what, int reason, const std::string& next_step = {}) {
+static Error write_error(const std::string& name, const std::string& what, int reason,
+                         const std::string& next_step = {}) {
   return {ErrorKind::OUTPUT, name, "", what + ": " + std::strerror(reason), next_step};
 }
 
@@ -67,15 +72,19 @@ static int write_all(int fd, std::string_view bytes) {
   return 0;
 }
 
-/// Bytes into something that is no regular file (a device, a pipe): renaming would replace the thing itself.
+/// Bytes into something that is no regular file (a device, a pipe): renaming would replace the
+/// thing itself.
 static void write_into(int fd, std::string_view bytes, const std::string& name) {
   const int reason = write_all(fd, bytes);
-  if (reason != 0 && reason != EPIPE) throw write_error(name, "cannot write", reason); // a reader that has seen enough is not an error
+  if (reason != 0 && reason != EPIPE)
+    throw write_error(name, "cannot write",
+                      reason); // a reader that has seen enough is not an error
 }
 
 static int write_and_sync(int fd, std::string_view bytes) {
   int reason = write_all(fd, bytes);
-  if (reason == 0 && fsync(fd) != 0 && errno != EINVAL && errno != EROFS) reason = errno; // some file systems cannot sync
+  if (reason == 0 && fsync(fd) != 0 && errno != EINVAL && errno != EROFS)
+    reason = errno; // some file systems cannot sync
   if (close(fd) != 0 && reason == 0) reason = errno;
   return reason;
 }
@@ -84,7 +93,8 @@ void write_file(const std::string& path, std::string_view bytes) {
   if (path == "-") return write_into(STDOUT_FILENO, bytes, "standard output");
   struct stat info {};
   const bool exists = stat(path.c_str(), &info) == 0;
-  if (exists && S_ISDIR(info.st_mode)) throw Error(ErrorKind::OUTPUT, path, "", "is a folder, not a file", "name a file");
+  if (exists && S_ISDIR(info.st_mode))
+    throw Error(ErrorKind::OUTPUT, path, "", "is a folder, not a file", "name a file");
   if (exists && !S_ISREG(info.st_mode)) {
     const int fd = open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (fd < 0) throw write_error(path, "cannot write", errno);
@@ -104,7 +114,8 @@ void write_file(const std::string& path, std::string_view bytes) {
   }
   const std::string temporary = target + ".tmp." + std::to_string(getpid());
   const int fd = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (fd < 0) throw write_error(path, "cannot write", errno, "check that the folder exists and is writable");
+  if (fd < 0)
+    throw write_error(path, "cannot write", errno, "check that the folder exists and is writable");
   if (const int reason = write_and_sync(fd, bytes)) {
     unlink(temporary.c_str());
     throw write_error(path, "cannot write", reason);
@@ -119,7 +130,8 @@ void write_file(const std::string& path, std::string_view bytes) {
 std::string sha256(std::string_view bytes) {
   unsigned char digest[EVP_MAX_MD_SIZE];
   unsigned int length = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr) != 1) throw Error(ErrorKind::INTERNAL, "", "", "SHA-256 is not available");
+  if (EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr) != 1)
+    throw Error(ErrorKind::INTERNAL, "", "", "SHA-256 is not available");
   std::string hex;
   for (unsigned int i = 0; i < length; ++i) {
     char pair[3];
@@ -133,7 +145,8 @@ std::string numbered_path(const std::string& path, std::size_t k, std::size_t n)
   std::string digits = std::to_string(k);
   digits.insert(0, std::to_string(n).size() - digits.size(), '0');
   const std::size_t dot = path.rfind('.'), slash = path.rfind('/');
-  if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) return path + "-" + digits;
+  if (dot == std::string::npos || (slash != std::string::npos && dot < slash))
+    return path + "-" + digits;
   return path.substr(0, dot) + "-" + digits + path.substr(dot);
 }
 

@@ -20,8 +20,11 @@ public:
   bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
     if (event == Json::parse_event_t::object_start) m_keys.emplace_back();
     else if (event == Json::parse_event_t::object_end) m_keys.pop_back();
-    else if (event == Json::parse_event_t::key && !m_keys.back().insert(parsed.get<std::string>()).second)
-      throw input_error(m_name, "", "the key \"" + parsed.get<std::string>() + "\" stands twice in one object", "remove one of them");
+    else if (event == Json::parse_event_t::key &&
+             !m_keys.back().insert(parsed.get<std::string>()).second)
+      throw input_error(m_name, "",
+                        "the key \"" + parsed.get<std::string>() + "\" stands twice in one object",
+                        "remove one of them");
     return true;
   }
 
@@ -40,7 +43,8 @@ void append_text(std::string& out, const Json& value, int indent, const std::str
   switch (value.type()) {
   case Json::value_t::number_float: {
     const double x = value.get<double>();
-    if (!std::isfinite(x)) throw Error(ErrorKind::INTERNAL, "", pointer, "a number to be written is not finite");
+    if (!std::isfinite(x))
+      throw Error(ErrorKind::INTERNAL, "", pointer, "a number to be written is not finite");
     char buffer[32];
     const auto end = std::to_chars(buffer, buffer + sizeof buffer, x == 0 ? 0.0 : x).ptr; // no "-0"
     out.append(buffer, end);
@@ -66,7 +70,8 @@ void append_text(std::string& out, const Json& value, int indent, const std::str
     for (const auto& [key, v] : value.items()) {
       if (!first) out += ',';
       first = false;
-      out += '\n' + std::string(static_cast<std::size_t>(indent) + 2, ' ') + Json(key).dump(-1, ' ', false, Json::error_handler_t::replace) + ": ";
+      out += '\n' + std::string(static_cast<std::size_t>(indent) + 2, ' ') +
+             Json(key).dump(-1, ' ', false, Json::error_handler_t::replace) + ": ";
       append_text(out, v, indent + 2, pointer + "/" + key);
     }
     if (!first) out += '\n' + std::string(static_cast<std::size_t>(indent), ' ');
@@ -80,7 +85,8 @@ void append_text(std::string& out, const Json& value, int indent, const std::str
 } // namespace
 
 Json parse_json(const std::string& text, const std::string& name) {
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw input_error(name, "", "the file is empty", "expected a JSON document");
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw input_error(name, "", "the file is empty", "expected a JSON document");
   Json value;
   try {
     value = Json::parse(text, DuplicateKeyCheck(name));
@@ -90,21 +96,27 @@ Json parse_json(const std::string& text, const std::string& name) {
     // Meshes lie beside their documents, and scans come before them: the commonest slip.
     for (const char* ending : {".obj", ".ply", ".stl", ".3ds", ".xyz"})
       if (name.size() > 4 && name.compare(name.size() - 4, 4, ending) == 0)
-        throw input_error(name, "line " + std::to_string(line), "is a mesh where a JSON document belongs",
-                          "give the .json that was written with it; of a scan, scan-landmarks makes one");
-    throw input_error(name, "line " + std::to_string(line), "not valid JSON", "check that the file is complete and is a JSON document");
+        throw input_error(
+            name, "line " + std::to_string(line), "is a mesh where a JSON document belongs",
+            "give the .json that was written with it; of a scan, scan-landmarks makes one");
+    throw input_error(name, "line " + std::to_string(line), "not valid JSON",
+                      "check that the file is complete and is a JSON document");
   } catch (const Json::out_of_range&) {
     throw input_error(name, "", "a number is too large to be stored");
   }
   return value;
 }
 
-Json read_json(const std::string& path) { return parse_json(read_file(path), path == "-" ? "standard input" : path); }
+Json read_json(const std::string& path) {
+  return parse_json(read_file(path), path == "-" ? "standard input" : path);
+}
 
 /// What was expected, and where such a document comes from.
 static std::string expected_document(const std::string& format) {
-  const std::pair<const char*, const char*> makers[] = {
-      {"body", "scan-landmarks"}, {"panels", "pattern-mesh"}, {"garment", "drape or retarget-garment"}, {"fit", "retarget-garment --fit"}};
+  const std::pair<const char*, const char*> makers[] = {{"body", "scan-landmarks"},
+                                                        {"panels", "pattern-mesh"},
+                                                        {"garment", "drape or retarget-garment"},
+                                                        {"fit", "retarget-garment --fit"}};
   for (const auto& [name, maker] : makers)
     if (format == name) return "expected a \"" + format + "\" document, as " + maker + " writes it";
   return "expected a \"" + format + "\" document";
@@ -116,17 +128,22 @@ Json read_document(const std::string& path, const std::string& format, int newes
   return document;
 }
 
-void check_envelope(const Json& document, const std::string& path, const std::string& format, int newest) {
+void check_envelope(const Json& document, const std::string& path, const std::string& format,
+                    int newest) {
   const std::string name = path == "-" ? "standard input" : path;
   const Node node(document, name);
-  if (!node.is_object() || !node.has("format")) throw input_error(name, "/format", "is not a Sloper document", expected_document(format));
+  if (!node.is_object() || !node.has("format"))
+    throw input_error(name, "/format", "is not a Sloper document", expected_document(format));
   if (const std::string got = node.at("format").string(); got != format)
     throw input_error(name, "/format", "is a \"" + got + "\" document", expected_document(format));
   const int version = node.at("version").integer();
-  if (version < 1) throw input_error(name, "/version", std::to_string(version) + " is not a version", "expected 1 to " + std::to_string(newest));
+  if (version < 1)
+    throw input_error(name, "/version", std::to_string(version) + " is not a version",
+                      "expected 1 to " + std::to_string(newest));
   if (version > newest)
     throw input_error(name, "/version",
-                      "version " + std::to_string(version) + " is newer than version " + std::to_string(newest) + ", the newest this program reads",
+                      "version " + std::to_string(version) + " is newer than version " +
+                          std::to_string(newest) + ", the newest this program reads",
                       "update Sloper");
 }
 
@@ -146,9 +163,13 @@ std::string to_text(const Json& document) {
   return out;
 }
 
-void write_json(const std::string& path, const Json& document) { write_file(path, to_text(document)); }
+void write_json(const std::string& path, const Json& document) {
+  write_file(path, to_text(document));
+}
 
-bool Node::has(const std::string& key) const { return m_value->is_object() && m_value->contains(key); }
+bool Node::has(const std::string& key) const {
+  return m_value->is_object() && m_value->contains(key);
+}
 std::size_t Node::size() const { return m_value->size(); }
 bool Node::is_array() const { return m_value->is_array(); }
 bool Node::is_object() const { return m_value->is_object(); }
@@ -159,7 +180,9 @@ bool Node::is_null() const { return m_value->is_null(); }
 Node Node::at(const std::string& key) const {
   if (!m_value->is_object()) fail("expected an object");
   const auto found = m_value->find(key);
-  if (found == m_value->end()) fail("\"" + key + "\" is missing", "add it, or write the file again with the program that makes it");
+  if (found == m_value->end())
+    fail("\"" + key + "\" is missing",
+         "add it, or write the file again with the program that makes it");
   return {*found, m_file, m_pointer + "/" + key};
 }
 
@@ -192,10 +215,18 @@ std::string Node::string() const {
   return m_value->get<std::string>();
 }
 
-double Node::number(const std::string& key, double fallback) const { return has(key) ? at(key).number() : fallback; }
-int Node::integer(const std::string& key, int fallback) const { return has(key) ? at(key).integer() : fallback; }
-bool Node::boolean(const std::string& key, bool fallback) const { return has(key) ? at(key).boolean() : fallback; }
-std::string Node::string(const std::string& key, const std::string& fallback) const { return has(key) ? at(key).string() : fallback; }
+double Node::number(const std::string& key, double fallback) const {
+  return has(key) ? at(key).number() : fallback;
+}
+int Node::integer(const std::string& key, int fallback) const {
+  return has(key) ? at(key).integer() : fallback;
+}
+bool Node::boolean(const std::string& key, bool fallback) const {
+  return has(key) ? at(key).boolean() : fallback;
+}
+std::string Node::string(const std::string& key, const std::string& fallback) const {
+  return has(key) ? at(key).string() : fallback;
+}
 
 Vec2 Node::vec2() const {
   if (!m_value->is_array() || m_value->size() != 2) fail("expected two numbers");
@@ -231,7 +262,8 @@ Json to_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
 std::string mesh_path_beside(const std::string& path) {
   const std::string ending = ".json";
-  if (path.size() > ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0)
+  if (path.size() > ending.size() &&
+      path.compare(path.size() - ending.size(), ending.size(), ending) == 0)
     return path.substr(0, path.size() - ending.size()) + ".obj";
   return path + ".obj";
 }
@@ -257,7 +289,9 @@ std::string path_beside(const std::string& document_path, const std::string& nam
 
 std::string file_beside(const Node& name) {
   const std::string path = path_beside(name.file(), name.string());
-  if (!std::filesystem::exists(path)) name.fail("there is no " + path, "keep it beside the document under this name, or run again what wrote both");
+  if (!std::filesystem::exists(path))
+    name.fail("there is no " + path,
+              "keep it beside the document under this name, or run again what wrote both");
   return path;
 }
 

@@ -10,7 +10,8 @@ namespace sloper::io {
 
 /// x, y, z of each point, one after the other.
 Json flat_points(const std::vector<Vec3>& points);
-/// Those of flat_points(). @throws Error INPUT where the count is no multiple of three, or a value is no number
+/// Those of flat_points(). @throws Error INPUT where the count is no multiple of three, or a value
+/// is no number
 std::vector<Vec3> read_flat_points(const Node& node);
 
 std::vector<double> read_numbers(const Node& node);      ///< @throws Error INPUT

@@ -13,8 +13,8 @@ public:
   LineFollower(const LineFollower&) = delete;
   LineFollower& operator=(const LineFollower&) = delete;
 
-  /// The next whole line, without its end; waits for it at most so long. A file's last line counts once its newline is there; what
-  /// standard input ends with counts without.
+  /// The next whole line, without its end; waits for it at most so long. A file's last line counts
+  /// once its newline is there; what standard input ends with counts without.
   std::optional<std::string> next(int wait_ms);
   /// Nothing more can come: standard input was closed, and all of it was given. A file never ends.
   bool ended() const { return m_closed && m_buffer.empty(); }

@@ -15,7 +15,8 @@ public:
   Parser(std::string_view text, const std::string& name) : m_text(text), m_name(name) {}
 
   ObjMesh run() {
-    if (m_text.substr(0, 3) == "\xEF\xBB\xBF") m_text.remove_prefix(3); // byte order mark, as some editors write it
+    if (m_text.substr(0, 3) == "\xEF\xBB\xBF")
+      m_text.remove_prefix(3); // byte order mark, as some editors write it
     while (m_at < m_text.size()) {
       auto end = m_text.find('\n', m_at);
       if (end == std::string_view::npos) end = m_text.size();
@@ -44,7 +45,8 @@ private:
     } else if (key == "g" || key == "o") {
       const std::string name(word());
       const int at = static_cast<int>(m_mesh.triangles.size());
-      if (!m_mesh.groups.empty() && m_mesh.groups.back().first_triangle == at) m_mesh.groups.back().name = name;
+      if (!m_mesh.groups.empty() && m_mesh.groups.back().first_triangle == at)
+        m_mesh.groups.back().name = name;
       else m_mesh.groups.push_back({name, at});
     }
   }
@@ -76,9 +78,12 @@ private:
   int index(std::string_view text, std::size_t size) {
     long i = 0;
     const auto result = std::from_chars(text.data(), text.data() + text.size(), i);
-    if (result.ec != std::errc() || result.ptr != text.data() + text.size()) fail("\"" + std::string(text) + "\" is not an index");
+    if (result.ec != std::errc() || result.ptr != text.data() + text.size())
+      fail("\"" + std::string(text) + "\" is not an index");
     if (i < 0) i += static_cast<long>(size) + 1;
-    if (i < 1 || i > static_cast<long>(size)) fail("the face names " + std::string(text) + ", but only " + std::to_string(size) + " stand above it");
+    if (i < 1 || i > static_cast<long>(size))
+      fail("the face names " + std::string(text) + ", but only " + std::to_string(size) +
+           " stand above it");
     return static_cast<int>(i - 1);
   }
 
@@ -88,7 +93,8 @@ private:
     double x = 0;
     const auto result = std::from_chars(text.data(), text.data() + text.size(), x);
     if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size())
-      fail(text.empty() ? "a number is missing" : "\"" + std::string(text.substr(0, 20)) + "\" is not a number");
+      fail(text.empty() ? "a number is missing"
+                        : "\"" + std::string(text.substr(0, 20)) + "\" is not a number");
     if (!std::isfinite(x)) fail("a coordinate is not finite");
     return x;
   }
@@ -118,7 +124,8 @@ private:
 };
 
 void append_number(std::string& out, double x) {
-  if (!std::isfinite(x)) throw Error(ErrorKind::INTERNAL, "", "", "a coordinate to be written is not finite");
+  if (!std::isfinite(x))
+    throw Error(ErrorKind::INTERNAL, "", "", "a coordinate to be written is not finite");
   char buffer[32];
   out += ' ';
   out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, x == 0 ? 0.0 : x).ptr);
@@ -132,11 +139,14 @@ void append_index(std::string& out, char before, int from_zero) {
 
 } // namespace
 
-ObjMesh parse_obj(std::string_view text, const std::string& name) { return Parser(text, name).run(); }
+ObjMesh parse_obj(std::string_view text, const std::string& name) {
+  return Parser(text, name).run();
+}
 
 ObjMesh read_obj(const std::string& path) {
   ObjMesh mesh = parse_obj(read_file(path), path);
-  if (mesh.positions.empty()) throw input_error(path, "", "has no vertices", "the file is empty or no OBJ");
+  if (mesh.positions.empty())
+    throw input_error(path, "", "has no vertices", "the file is empty or no OBJ");
   return mesh;
 }
 
@@ -155,17 +165,21 @@ std::string obj_text(const ObjMesh& mesh, const std::string& comment) {
   }
   std::size_t group = 0;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    while (group < mesh.groups.size() && mesh.groups[group].first_triangle <= static_cast<int>(f)) out += "g " + mesh.groups[group++].name + "\n";
+    while (group < mesh.groups.size() && mesh.groups[group].first_triangle <= static_cast<int>(f))
+      out += "g " + mesh.groups[group++].name + "\n";
     out += 'f';
     for (int k = 0; k < 3; ++k) {
       append_index(out, ' ', mesh.triangles[f][k]);
-      if (!mesh.texture_triangles.empty() && mesh.texture_triangles[f][k] >= 0) append_index(out, '/', mesh.texture_triangles[f][k]);
+      if (!mesh.texture_triangles.empty() && mesh.texture_triangles[f][k] >= 0)
+        append_index(out, '/', mesh.texture_triangles[f][k]);
     }
     out += '\n';
   }
   return out;
 }
 
-void write_obj(const std::string& path, const ObjMesh& mesh, const std::string& comment) { write_file(path, obj_text(mesh, comment)); }
+void write_obj(const std::string& path, const ObjMesh& mesh, const std::string& comment) {
+  write_file(path, obj_text(mesh, comment));
+}
 
 } // namespace sloper::io

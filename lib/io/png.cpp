@@ -14,7 +14,8 @@ static void append_bytes(png_structp png, png_bytep data, png_size_t size) {
   static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
 }
 
-std::string png_bytes(const Image& image, const std::vector<std::pair<std::string, std::string>>& texts) {
+std::string png_bytes(const Image& image,
+                      const std::vector<std::pair<std::string, std::string>>& texts) {
   std::string out;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
@@ -34,7 +35,8 @@ std::string png_bytes(const Image& image, const std::vector<std::pair<std::strin
   }
   png_set_write_fn(png, &out, append_bytes, nullptr);
   png_set_compression_level(png, 4);
-  png_set_IHDR(png, info, image.width, image.height, 8, PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, image.width, image.height, 8, PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_set_pHYs(png, info, 5906, 5906, PNG_RESOLUTION_METER); // 150 dots per inch
   if (!chunks.empty()) png_set_text(png, info, chunks.data(), static_cast<int>(chunks.size()));
@@ -45,7 +47,8 @@ std::string png_bytes(const Image& image, const std::vector<std::pair<std::strin
   return out;
 }
 
-void write_png(const std::string& path, const Image& image, const std::vector<std::pair<std::string, std::string>>& texts) {
+void write_png(const std::string& path, const Image& image,
+               const std::vector<std::pair<std::string, std::string>>& texts) {
   write_file(path, png_bytes(image, texts));
 }
 
@@ -60,14 +63,16 @@ std::string big_endian(std::uint32_t x, int n_bytes = 4) {
 void append_chunk(std::string& to, const std::string& name, std::string_view data) {
   const std::string body = name + std::string(data);
   to += big_endian(static_cast<std::uint32_t>(data.size())) + body;
-  to += big_endian(static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()))));
+  to += big_endian(static_cast<std::uint32_t>(
+      crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()))));
 }
 
 /// Calls visit(name, data) for the chunks of a PNG of our own.
 template<class F> void for_chunks(const std::string& png, F&& visit) {
   for (std::size_t at = 8; at + 12 <= png.size();) {
     std::uint32_t size = 0;
-    for (int k = 0; k < 4; ++k) size = size << 8 | static_cast<unsigned char>(png[at + static_cast<std::size_t>(k)]);
+    for (int k = 0; k < 4; ++k)
+      size = size << 8 | static_cast<unsigned char>(png[at + static_cast<std::size_t>(k)]);
     visit(png.substr(at + 4, 4), std::string_view(png).substr(at + 8, size));
     at += 12 + size;
   }
@@ -75,7 +80,8 @@ template<class F> void for_chunks(const std::string& png, F&& visit) {
 
 } // namespace
 
-std::string apng_bytes(const std::vector<Image>& images, double seconds, const std::vector<std::pair<std::string, std::string>>& texts) {
+std::string apng_bytes(const std::vector<Image>& images, double seconds,
+                       const std::vector<std::pair<std::string, std::string>>& texts) {
   if (images.empty()) throw Error(ErrorKind::INTERNAL, "", "", "an animation needs pictures");
   std::string out;
   std::uint32_t sequence = 0;
@@ -89,13 +95,19 @@ std::string apng_bytes(const std::vector<Image>& images, double seconds, const s
     for_chunks(png, [&](const std::string& name, std::string_view data) {
       if (name == "IDAT" && !opened) {
         opened = true;
-        if (first) append_chunk(out, "acTL", big_endian(static_cast<std::uint32_t>(images.size())) + big_endian(0));
+        if (first)
+          append_chunk(out, "acTL",
+                       big_endian(static_cast<std::uint32_t>(images.size())) + big_endian(0));
         append_chunk(out, "fcTL",
-                     big_endian(sequence++) + big_endian(static_cast<std::uint32_t>(image.width)) + big_endian(static_cast<std::uint32_t>(image.height)) +
-                         big_endian(0) + big_endian(0) + big_endian(static_cast<std::uint32_t>(std::lround(1000 * seconds)), 2) + big_endian(1000, 2) +
+                     big_endian(sequence++) + big_endian(static_cast<std::uint32_t>(image.width)) +
+                         big_endian(static_cast<std::uint32_t>(image.height)) + big_endian(0) +
+                         big_endian(0) +
+                         big_endian(static_cast<std::uint32_t>(std::lround(1000 * seconds)), 2) +
+                         big_endian(1000, 2) +
                          std::string(2, '\0')); // each picture replaces the one before
       }
-      if (name == "IDAT" && !first) append_chunk(out, "fdAT", big_endian(sequence++) + std::string(data));
+      if (name == "IDAT" && !first)
+        append_chunk(out, "fdAT", big_endian(sequence++) + std::string(data));
       else if (first && name != "IEND") append_chunk(out, name, data);
     });
   }
@@ -108,7 +120,8 @@ Image read_png(const std::string& path) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
-    throw input_error(path, "", "is not a readable PNG", "give a picture that render-png or another program wrote as PNG");
+    throw input_error(path, "", "is not a readable PNG",
+                      "give a picture that render-png or another program wrote as PNG");
   png.format = PNG_FORMAT_RGBA;
   Image image;
   image.width = static_cast<int>(png.width);
@@ -118,7 +131,8 @@ Image read_png(const std::string& path) {
     throw input_error(path, "", "is larger than 16384 pixels a side", "give a smaller picture");
   }
   image.rgba.resize(PNG_IMAGE_SIZE(png));
-  if (!png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr)) throw input_error(path, "", "is a damaged PNG", "write it again");
+  if (!png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr))
+    throw input_error(path, "", "is a damaged PNG", "write it again");
   return image;
 }
 

@@ -9,17 +9,27 @@ namespace sloper::io {
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba; ///< 4 width height, not premultiplied
-  std::uint8_t* at(int x, int y) { return rgba.data() + 4 * (static_cast<std::size_t>(y) * width + x); }
-  const std::uint8_t* at(int x, int y) const { return rgba.data() + 4 * (static_cast<std::size_t>(y) * width + x); }
+  std::uint8_t* at(int x, int y) {
+    return rgba.data() + 4 * (static_cast<std::size_t>(y) * width + x);
+  }
+  const std::uint8_t* at(int x, int y) const {
+    return rgba.data() + 4 * (static_cast<std::size_t>(y) * width + x);
+  }
 };
 
-/// Bytes of a PNG with sRGB and pHYs chunks and the given text chunks (keyword, text); the same for the same input.
-std::string png_bytes(const Image& image, const std::vector<std::pair<std::string, std::string>>& texts);
-void write_png(const std::string& path, const Image& image, const std::vector<std::pair<std::string, std::string>>& texts); ///< @throws Error OUTPUT
-/// An animated PNG (PNG specification, third edition: acTL, fcTL and fdAT) of pictures of one size, repeated without end;
-/// programs that do not know animation show the first picture. @param seconds of one picture, 1/1000 to 60
+/// Bytes of a PNG with sRGB and pHYs chunks and the given text chunks (keyword, text); the same for
+/// the same input.
+std::string png_bytes(const Image& image,
+                      const std::vector<std::pair<std::string, std::string>>& texts);
+void write_png(
+    const std::string& path, const Image& image,
+    const std::vector<std::pair<std::string, std::string>>& texts); ///< @throws Error OUTPUT
+/// An animated PNG (PNG specification, third edition: acTL, fcTL and fdAT) of pictures of one size,
+/// repeated without end; programs that do not know animation show the first picture. @param seconds
+/// of one picture, 1/1000 to 60
 /// @throws Error INTERNAL for no pictures or pictures of different sizes
-std::string apng_bytes(const std::vector<Image>& images, double seconds, const std::vector<std::pair<std::string, std::string>>& texts);
+std::string apng_bytes(const std::vector<Image>& images, double seconds,
+                       const std::vector<std::pair<std::string, std::string>>& texts);
 Image read_png(const std::string& path); ///< @throws Error INPUT
 
 } // namespace sloper::io

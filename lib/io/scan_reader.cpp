@@ -14,9 +14,11 @@ namespace sloper::io {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "binary scans are read on little-endian machines");
+static_assert(std::endian::native == std::endian::little,
+              "binary scans are read on little-endian machines");
 
-constexpr std::size_t MAX_ELEMENTS = 100'000'000; ///< more than any scan; a header that promises more is a broken file
+constexpr std::size_t MAX_ELEMENTS =
+    100'000'000; ///< more than any scan; a header that promises more is a broken file
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ',' || c == ';'; }
 
@@ -58,7 +60,8 @@ private:
   std::size_t m_at = 0, m_number = 0;
 };
 
-// ---------------------------------------------------------------------------------------------------------------- PLY
+// ----------------------------------------------------------------------------------------------------------------
+// PLY
 
 enum class PlyType { I8, U8, I16, U16, I32, U32, F32, F64 };
 
@@ -82,7 +85,8 @@ struct PlyElement {
 
 class PlyReader {
 public:
-  PlyReader(std::string_view bytes, const std::string& name) : m_bytes(bytes), m_name(name), m_lines(bytes) {}
+  PlyReader(std::string_view bytes, const std::string& name)
+      : m_bytes(bytes), m_name(name), m_lines(bytes) {}
 
   TriangleMesh run() {
     read_header();
@@ -90,17 +94,20 @@ public:
     for (const Triangle& t : m_mesh.triangles)
       for (int v : t)
         if (v < 0 || v >= static_cast<int>(m_mesh.positions.size()))
-          fail("face", "names vertex " + std::to_string(v) + ", but there are only " + std::to_string(m_mesh.positions.size()));
+          fail("face", "names vertex " + std::to_string(v) + ", but there are only " +
+                           std::to_string(m_mesh.positions.size()));
     return std::move(m_mesh);
   }
 
 private:
   PlyType type_of(std::string_view word) {
     static const std::pair<const char*, PlyType> names[] = {
-        {"char", PlyType::I8},   {"int8", PlyType::I8},     {"uchar", PlyType::U8},   {"uint8", PlyType::U8},
-        {"short", PlyType::I16}, {"int16", PlyType::I16},   {"ushort", PlyType::U16}, {"uint16", PlyType::U16},
-        {"int", PlyType::I32},   {"int32", PlyType::I32},   {"uint", PlyType::U32},   {"uint32", PlyType::U32},
-        {"float", PlyType::F32}, {"float32", PlyType::F32}, {"double", PlyType::F64}, {"float64", PlyType::F64}};
+        {"char", PlyType::I8},    {"int8", PlyType::I8},     {"uchar", PlyType::U8},
+        {"uint8", PlyType::U8},   {"short", PlyType::I16},   {"int16", PlyType::I16},
+        {"ushort", PlyType::U16}, {"uint16", PlyType::U16},  {"int", PlyType::I32},
+        {"int32", PlyType::I32},  {"uint", PlyType::U32},    {"uint32", PlyType::U32},
+        {"float", PlyType::F32},  {"float32", PlyType::F32}, {"double", PlyType::F64},
+        {"float64", PlyType::F64}};
     for (const auto& [name, type] : names)
       if (word == name) return type;
     fail(m_lines.place(), '"' + std::string(word.substr(0, 20)) + "\" is not a PLY type");
@@ -117,11 +124,13 @@ private:
         const std::string_view kind = next_word(line);
         m_ascii = kind == "ascii";
         m_swap = kind == "binary_big_endian";
-        if (!m_ascii && !m_swap && kind != "binary_little_endian") fail(m_lines.place(), "unknown PLY format \"" + std::string(kind.substr(0, 30)) + "\"");
+        if (!m_ascii && !m_swap && kind != "binary_little_endian")
+          fail(m_lines.place(), "unknown PLY format \"" + std::string(kind.substr(0, 30)) + "\"");
       } else if (key == "element") {
         PlyElement element{std::string(next_word(line)), 0, {}};
         double count = -1;
-        const bool is_count = parse_number(next_word(line), count) && count >= 0 && count <= static_cast<double>(MAX_ELEMENTS); // false for nan
+        const bool is_count = parse_number(next_word(line), count) && count >= 0 &&
+                              count <= static_cast<double>(MAX_ELEMENTS); // false for nan
         if (!is_count) fail(m_lines.place(), "not a count of elements");
         element.count = static_cast<std::size_t>(count);
         m_elements.push_back(element);
@@ -146,11 +155,15 @@ private:
     if (m_ascii) {
       double x = 0;
       const std::string_view word = next_word(line);
-      if (!parse_number(word, x)) fail(m_lines.place(), word.empty() ? "a number is missing" : '"' + std::string(word.substr(0, 20)) + "\" is not a number");
+      if (!parse_number(word, x))
+        fail(m_lines.place(), word.empty()
+                                  ? "a number is missing"
+                                  : '"' + std::string(word.substr(0, 20)) + "\" is not a number");
       return x;
     }
     const int n = size_of(type);
-    if (m_at + n > m_bytes.size()) fail("byte " + std::to_string(m_at), "the file ends early", "the copy is probably truncated");
+    if (m_at + n > m_bytes.size())
+      fail("byte " + std::to_string(m_at), "the file ends early", "the copy is probably truncated");
     char raw[8];
     std::memcpy(raw, m_bytes.data() + m_at, n);
     if (m_swap) std::reverse(raw, raw + n);
@@ -178,14 +191,18 @@ private:
     int axes = 0;
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
       const std::string& name = element.properties[k].name;
-      axis_of[k] = is_vertex && !element.properties[k].is_list && (name == "x" || name == "y" || name == "z") ? name[0] - 'x' : -1;
+      axis_of[k] =
+          is_vertex && !element.properties[k].is_list && (name == "x" || name == "y" || name == "z")
+              ? name[0] - 'x'
+              : -1;
       axes += axis_of[k] >= 0;
     }
     if (is_vertex && axes != 3) fail("header", "the vertices have no x, y and z");
     std::vector<int> corners;
     for (std::size_t i = 0; i < element.count; ++i) {
       std::string_view line;
-      if (m_ascii && !m_lines.next(line)) fail(m_lines.place(), "the file ends early", "the copy is probably truncated");
+      if (m_ascii && !m_lines.next(line))
+        fail(m_lines.place(), "the file ends early", "the copy is probably truncated");
       Vec3 p = Vec3::Zero();
       for (std::size_t k = 0; k < element.properties.size(); ++k) {
         const PlyProperty& property = element.properties[k];
@@ -195,14 +212,17 @@ private:
           continue;
         }
         const double count = value(property.count_type, line);
-        if (!(count >= 0 && count <= 100000)) fail(element.name + " " + std::to_string(i), "not a count of corners");
-        const bool corner_list = is_face && (property.name == "vertex_indices" || property.name == "vertex_index");
+        if (!(count >= 0 && count <= 100000))
+          fail(element.name + " " + std::to_string(i), "not a count of corners");
+        const bool corner_list =
+            is_face && (property.name == "vertex_indices" || property.name == "vertex_index");
         corners.clear();
         for (int c = 0; c < static_cast<int>(count); ++c) {
           const double x = value(property.type, line);
           if (corner_list) corners.push_back(x >= 0 && x < 2e9 ? static_cast<int>(x) : -1);
         }
-        for (std::size_t c = 2; corner_list && c < corners.size(); ++c) m_mesh.triangles.push_back({corners[0], corners[c - 1], corners[c]});
+        for (std::size_t c = 2; corner_list && c < corners.size(); ++c)
+          m_mesh.triangles.push_back({corners[0], corners[c - 1], corners[c]});
       }
       if (!is_vertex) continue;
       if (!p.allFinite()) fail("vertex " + std::to_string(i), "a coordinate is not finite");
@@ -210,7 +230,8 @@ private:
     }
   }
 
-  [[noreturn]] void fail(const std::string& place, const std::string& fact, const std::string& next_step = {}) const {
+  [[noreturn]] void fail(const std::string& place, const std::string& fact,
+                         const std::string& next_step = {}) const {
     throw input_error(m_name, place, fact, next_step);
   }
 
@@ -231,17 +252,23 @@ void add_facet(TriangleMesh& mesh, const Vec3 (&corner)[3]) {
 
 } // namespace
 
-TriangleMesh parse_ply(std::string_view bytes, const std::string& name) { return PlyReader(bytes, name).run(); }
+TriangleMesh parse_ply(std::string_view bytes, const std::string& name) {
+  return PlyReader(bytes, name).run();
+}
 
 TriangleMesh parse_stl(std::string_view bytes, const std::string& name) {
   TriangleMesh mesh;
   std::uint32_t count = 0;
   if (bytes.size() >= 84) std::memcpy(&count, bytes.data() + 80, 4);
-  const bool is_text = bytes.substr(0, 5) == "solid" && bytes.substr(0, 2000).find("facet") != std::string_view::npos;
+  const bool is_text = bytes.substr(0, 5) == "solid" &&
+                       bytes.substr(0, 2000).find("facet") != std::string_view::npos;
   if (!is_text) {
-    if (bytes.size() < 84) throw input_error(name, "", "is too short for an STL file", "the copy is probably truncated");
+    if (bytes.size() < 84)
+      throw input_error(name, "", "is too short for an STL file", "the copy is probably truncated");
     if (84 + 50 * static_cast<std::size_t>(count) > bytes.size())
-      throw input_error(name, "header", "promises " + std::to_string(count) + " facets, but the file ends early", "the copy is probably truncated");
+      throw input_error(name, "header",
+                        "promises " + std::to_string(count) + " facets, but the file ends early",
+                        "the copy is probably truncated");
     mesh.positions.reserve(3 * static_cast<std::size_t>(count));
     for (std::uint32_t f = 0; f < count; ++f) {
       float raw[12];
@@ -249,7 +276,8 @@ TriangleMesh parse_stl(std::string_view bytes, const std::string& name) {
       Vec3 corner[3];
       for (int k = 0; k < 3; ++k) {
         corner[k] = Vec3(raw[3 + 3 * k], raw[4 + 3 * k], raw[5 + 3 * k]);
-        if (!corner[k].allFinite()) throw input_error(name, "facet " + std::to_string(f), "a coordinate is not finite");
+        if (!corner[k].allFinite())
+          throw input_error(name, "facet " + std::to_string(f), "a coordinate is not finite");
       }
       add_facet(mesh, corner);
     }
@@ -266,7 +294,9 @@ TriangleMesh parse_stl(std::string_view bytes, const std::string& name) {
         throw input_error(name, lines.place(), "a vertex is not three finite numbers");
     if (++k == 3) add_facet(mesh, corner), k = 0;
   }
-  if (k != 0) throw input_error(name, lines.place(), "the last facet is not complete", "the copy is probably truncated");
+  if (k != 0)
+    throw input_error(name, lines.place(), "the last facet is not complete",
+                      "the copy is probably truncated");
   return mesh;
 }
 
@@ -275,16 +305,21 @@ TriangleMesh parse_xyz(std::string_view bytes, const std::string& name) {
   Lines lines(bytes);
   std::string_view line;
   while (lines.next(line)) {
-    if (line.find('\0') != std::string_view::npos) throw input_error(name, lines.place(), "is not text", "expected x y z on every line");
+    if (line.find('\0') != std::string_view::npos)
+      throw input_error(name, lines.place(), "is not text", "expected x y z on every line");
     std::string_view word = next_word(line);
     if (word.empty() || word[0] == '#' || word.substr(0, 2) == "//") continue;
     Vec3 p;
     for (int axis = 0; axis < 3; ++axis) {
       if (!parse_number(word, p[axis])) {
         if (mesh.positions.empty() && axis == 0) break; // a heading line
-        throw input_error(name, lines.place(), word.empty() ? "has fewer than three numbers" : "\"" + std::string(word.substr(0, 20)) + "\" is not a number");
+        throw input_error(name, lines.place(),
+                          word.empty()
+                              ? "has fewer than three numbers"
+                              : "\"" + std::string(word.substr(0, 20)) + "\" is not a number");
       }
-      if (!std::isfinite(p[axis])) throw input_error(name, lines.place(), "a coordinate is not finite");
+      if (!std::isfinite(p[axis]))
+        throw input_error(name, lines.place(), "a coordinate is not finite");
       if (axis < 2) word = next_word(line);
       else mesh.positions.push_back(p);
     }
@@ -294,20 +329,26 @@ TriangleMesh parse_xyz(std::string_view bytes, const std::string& name) {
 
 namespace {
 
-constexpr const char* EXPECTED = "expected a scan in OBJ, PLY, STL, 3DS, XYZ, glTF, FBX, Collada, OFF or X3D";
+constexpr const char* EXPECTED =
+    "expected a scan in OBJ, PLY, STL, 3DS, XYZ, glTF, FBX, Collada, OFF or X3D";
 
 /// By the extension, or by the first bytes where that says nothing.
 std::string format_of(const std::string& path, std::string_view bytes) {
-  std::string extension = path.substr(std::min(path.size(), path.find_last_of("./") == std::string::npos ? path.size() : path.find_last_of("./") + 1));
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::string extension = path.substr(std::min(
+      path.size(),
+      path.find_last_of("./") == std::string::npos ? path.size() : path.find_last_of("./") + 1));
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const char* points : {"asc", "txt", "pts", "csv"})
     if (extension == points) return "xyz";
   for (const char* ours : {"obj", "ply", "stl", "3ds", "xyz"})
     if (extension == ours) return extension;
   if (is_read_by_assimp(extension)) return extension;
   const std::string_view head = bytes.substr(0, 4000);
-  if (const std::size_t first = head.find_first_not_of(" \t\r\n"); first != std::string_view::npos && head[first] == '{')
-    throw input_error(path, "", "is a JSON document, not a scan", std::string(EXPECTED) + "; a document's mesh is the .obj beside it");
+  if (const std::size_t first = head.find_first_not_of(" \t\r\n");
+      first != std::string_view::npos && head[first] == '{')
+    throw input_error(path, "", "is a JSON document, not a scan",
+                      std::string(EXPECTED) + "; a document's mesh is the .obj beside it");
   if (head.substr(0, 3) == "ply") return "ply";
   if (head.find("\nv ") != std::string_view::npos || head.substr(0, 2) == "v ") return "obj";
   return head.substr(0, 5) == "solid" ? "stl" : "xyz";

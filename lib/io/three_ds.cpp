@@ -9,9 +9,17 @@ namespace sloper::io {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "binary scans are read on little-endian machines");
+static_assert(std::endian::native == std::endian::little,
+              "binary scans are read on little-endian machines");
 
-enum Chunk : std::uint16_t { MAIN = 0x4D4D, EDITOR = 0x3D3D, OBJECT = 0x4000, MESH = 0x4100, VERTICES = 0x4110, FACES = 0x4120 };
+enum Chunk : std::uint16_t {
+  MAIN = 0x4D4D,
+  EDITOR = 0x3D3D,
+  OBJECT = 0x4000,
+  MESH = 0x4100,
+  VERTICES = 0x4110,
+  FACES = 0x4120
+};
 constexpr int DEPTH = 8;
 constexpr std::size_t HEADER = 6; ///< of a chunk: u16 kind, u32 length with the header
 
@@ -21,14 +29,16 @@ public:
   ThreeDsReader(std::string_view bytes, const std::string& name) : m_bytes(bytes), m_name(name) {}
 
   TriangleMesh run() {
-    if (m_bytes.size() < HEADER || read<std::uint16_t>(0) != MAIN) fail(0, "does not begin as a 3DS file does");
+    if (m_bytes.size() < HEADER || read<std::uint16_t>(0) != MAIN)
+      fail(0, "does not begin as a 3DS file does");
     read_chunks(0, m_bytes.size(), 0);
     return std::move(m_mesh);
   }
 
 private:
   template<class T> T read(std::size_t at) const {
-    if (at + sizeof(T) > m_bytes.size()) fail(at, "the file ends early", "the copy is probably truncated");
+    if (at + sizeof(T) > m_bytes.size())
+      fail(at, "the file ends early", "the copy is probably truncated");
     T value;
     std::memcpy(&value, m_bytes.data() + at, sizeof value);
     return value;
@@ -40,12 +50,14 @@ private:
       const auto kind = read<std::uint16_t>(at);
       const std::size_t length = read<std::uint32_t>(at + 2);
       if (length < HEADER) fail(at, "a chunk is shorter than its own header");
-      if (at + length > end) fail(at, "a chunk ends behind what holds it", "the copy is probably truncated");
+      if (at + length > end)
+        fail(at, "a chunk ends behind what holds it", "the copy is probably truncated");
       const std::size_t inside = at + HEADER, close = at + length;
       if (kind == MAIN || kind == EDITOR) read_chunks(inside, close, depth + 1);
       else if (kind == OBJECT) read_object(inside, close, depth);
       else if (kind == MESH) {
-        m_first = static_cast<int>(m_mesh.positions.size()); // faces count from their own mesh's first vertex
+        m_first = static_cast<int>(
+            m_mesh.positions.size()); // faces count from their own mesh's first vertex
         read_chunks(inside, close, depth + 1);
       } else if (kind == VERTICES) read_vertices(inside, close);
       else if (kind == FACES) read_faces(inside, close);
@@ -60,30 +72,37 @@ private:
 
   void read_vertices(std::size_t at, std::size_t end) {
     const std::size_t n = read<std::uint16_t>(at);
-    if (at + 2 + 12 * n > end) fail(at, "promises " + std::to_string(n) + " vertices, but its chunk ends early");
+    if (at + 2 + 12 * n > end)
+      fail(at, "promises " + std::to_string(n) + " vertices, but its chunk ends early");
     for (std::size_t v = 0; v < n; ++v) {
       Vec3 p;
-      for (std::size_t axis = 0; axis < 3; ++axis) p[static_cast<int>(axis)] = read<float>(at + 2 + 12 * v + 4 * axis);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        p[static_cast<int>(axis)] = read<float>(at + 2 + 12 * v + 4 * axis);
       if (!p.allFinite()) fail(at + 2 + 12 * v, "a coordinate is not finite");
       m_mesh.positions.push_back(p);
     }
   }
 
   void read_faces(std::size_t at, std::size_t end) {
-    const std::size_t n = read<std::uint16_t>(at), vertices = m_mesh.positions.size() - static_cast<std::size_t>(m_first);
-    if (at + 2 + 8 * n > end) fail(at, "promises " + std::to_string(n) + " faces, but its chunk ends early");
+    const std::size_t n = read<std::uint16_t>(at),
+                      vertices = m_mesh.positions.size() - static_cast<std::size_t>(m_first);
+    if (at + 2 + 8 * n > end)
+      fail(at, "promises " + std::to_string(n) + " faces, but its chunk ends early");
     for (std::size_t f = 0; f < n; ++f) {
       Triangle t;
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t v = read<std::uint16_t>(at + 2 + 8 * f + 2 * k);
-        if (v >= vertices) fail(at + 2 + 8 * f, "a face names vertex " + std::to_string(v) + ", but there are only " + std::to_string(vertices));
+        if (v >= vertices)
+          fail(at + 2 + 8 * f, "a face names vertex " + std::to_string(v) +
+                                   ", but there are only " + std::to_string(vertices));
         t[k] = m_first + static_cast<int>(v);
       }
       m_mesh.triangles.push_back(t);
     }
   }
 
-  [[noreturn]] void fail(std::size_t at, const std::string& fact, const std::string& next_step = {}) const {
+  [[noreturn]] void fail(std::size_t at, const std::string& fact,
+                         const std::string& next_step = {}) const {
     throw input_error(m_name, "byte " + std::to_string(at), fact, next_step);
   }
 
@@ -95,6 +114,8 @@ private:
 
 } // namespace
 
-TriangleMesh parse_3ds(std::string_view bytes, const std::string& name) { return ThreeDsReader(bytes, name).run(); }
+TriangleMesh parse_3ds(std::string_view bytes, const std::string& name) {
+  return ThreeDsReader(bytes, name).run();
+}
 
 } // namespace sloper::io

@@ -20,7 +20,8 @@ std::vector<int> vertex_list(const io::Node& node, std::size_t n_vertices) {
   std::vector<int> out;
   for (std::size_t k = 0; k < node.size(); ++k) {
     const int v = node.at(k).integer();
-    if (v < 0 || static_cast<std::size_t>(v) >= n_vertices) node.fail("vertex " + std::to_string(v) + " is not in the mesh");
+    if (v < 0 || static_cast<std::size_t>(v) >= n_vertices)
+      node.fail("vertex " + std::to_string(v) + " is not in the mesh");
     out.push_back(v);
   }
   return out;
@@ -39,7 +40,8 @@ Placement placement_of(const io::Node& by) {
 
 void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std::string& tool) {
   io::ObjMesh obj;
-  obj.positions = mesh.placed, obj.texture = mesh.pattern, obj.triangles = mesh.triangles, obj.texture_triangles = mesh.triangles;
+  obj.positions = mesh.placed, obj.texture = mesh.pattern, obj.triangles = mesh.triangles,
+  obj.texture_triangles = mesh.triangles;
   for (const PanelInfo& p : mesh.panels) obj.groups.push_back({p.name, p.first_triangle});
   const std::string mesh_path = io::mesh_path_beside(path);
 
@@ -48,7 +50,8 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
   doc["mesh"] = io::file_name(mesh_path);
   doc["edge_length"] = mesh.edge_length;
   if (mesh.seam_length > 0) doc["seam_edge_length"] = mesh.seam_length;
-  if (mesh.placement != Placement::UNKNOWN) doc["placement"] = {{"by", PLACEMENTS[static_cast<int>(mesh.placement)]}};
+  if (mesh.placement != Placement::UNKNOWN)
+    doc["placement"] = {{"by", PLACEMENTS[static_cast<int>(mesh.placement)]}};
   if (!mesh.body_sha256.empty()) doc["placement"]["body_sha256"] = mesh.body_sha256;
   io::Json panels = io::Json::array();
   for (std::size_t k = 0; k < mesh.panels.size(); ++k) {
@@ -94,7 +97,8 @@ PanelMesh read_panel_mesh(const std::string& path) {
   const io::ObjMesh obj = io::read_obj(io::file_beside(doc.at("mesh")));
   PanelMesh mesh;
   mesh.name = doc.string("name", "");
-  mesh.edge_length = doc.number("edge_length", 0), mesh.seam_length = doc.number("seam_edge_length", 0);
+  mesh.edge_length = doc.number("edge_length", 0),
+  mesh.seam_length = doc.number("seam_edge_length", 0);
   mesh.placed = obj.positions, mesh.pattern = obj.texture, mesh.triangles = obj.triangles;
   if (doc.has("placement")) {
     mesh.placement = placement_of(doc.at("placement").at("by"));
@@ -102,31 +106,39 @@ PanelMesh read_panel_mesh(const std::string& path) {
   }
   const std::size_t n = mesh.placed.size();
   if (mesh.pattern.size() != n)
-    doc.at("mesh").fail("the mesh has " + std::to_string(n) + " v and " + std::to_string(mesh.pattern.size()) + " vt",
+    doc.at("mesh").fail("the mesh has " + std::to_string(n) + " v and " +
+                            std::to_string(mesh.pattern.size()) + " vt",
                         "write both files with one pattern-mesh run");
   const io::Node panels = doc.at("panels");
   int vertex = 0, triangle = 0;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const io::Node node = panels.at(k);
     PanelInfo p;
-    p.name = node.at("name").string(), p.part = node.string("part", ""), p.material = node.string("material", ""), p.layer = node.integer("layer", 0);
+    p.name = node.at("name").string(), p.part = node.string("part", ""),
+    p.material = node.string("material", ""), p.layer = node.integer("layer", 0);
     p.grain = node.at("grain").vec2();
-    p.first_vertex = node.at("vertices").at(0).integer(), p.n_vertices = node.at("vertices").at(1).integer();
-    p.first_triangle = node.at("triangles").at(0).integer(), p.n_triangles = node.at("triangles").at(1).integer();
-    if (p.first_vertex != vertex || p.n_vertices < 0 || p.first_triangle != triangle || p.n_triangles < 0)
+    p.first_vertex = node.at("vertices").at(0).integer(),
+    p.n_vertices = node.at("vertices").at(1).integer();
+    p.first_triangle = node.at("triangles").at(0).integer(),
+    p.n_triangles = node.at("triangles").at(1).integer();
+    if (p.first_vertex != vertex || p.n_vertices < 0 || p.first_triangle != triangle ||
+        p.n_triangles < 0)
       node.fail("panel " + p.name + " does not follow the panel before it");
     vertex += p.n_vertices, triangle += p.n_triangles;
     p.outline = vertex_list(node.at("outline"), n);
     const io::Node st = node.at("st");
     if (st.size() != 2 * static_cast<std::size_t>(p.n_vertices))
-      st.fail("there are " + std::to_string(st.size()) + " numbers for " + std::to_string(p.n_vertices) + " vertices");
+      st.fail("there are " + std::to_string(st.size()) + " numbers for " +
+              std::to_string(p.n_vertices) + " vertices");
     for (std::size_t v = 0; v < static_cast<std::size_t>(p.n_vertices); ++v)
       mesh.ids.push_back({static_cast<int>(k), st.at(2 * v).number(), st.at(2 * v + 1).number()});
     mesh.panels.push_back(p);
   }
-  if (static_cast<std::size_t>(vertex) != n || static_cast<std::size_t>(triangle) != mesh.triangles.size())
-    panels.fail("panels have " + std::to_string(vertex) + " vertices and " + std::to_string(triangle) + " triangles, the mesh " + std::to_string(n) + " and " +
-                    std::to_string(mesh.triangles.size()),
+  if (static_cast<std::size_t>(vertex) != n ||
+      static_cast<std::size_t>(triangle) != mesh.triangles.size())
+    panels.fail("panels have " + std::to_string(vertex) + " vertices and " +
+                    std::to_string(triangle) + " triangles, the mesh " + std::to_string(n) +
+                    " and " + std::to_string(mesh.triangles.size()),
                 "write both files with one pattern-mesh run");
   const io::Node seams = doc.at("seams");
   for (std::size_t k = 0; k < seams.size(); ++k) {
@@ -139,12 +151,15 @@ PanelMesh read_panel_mesh(const std::string& path) {
                node.number("length_b", 0),
                node.has("open") && node.at("open").boolean()};
     if (s.a.size() != s.b.size() || s.a.size() < 2)
-      node.fail("seam " + s.name + " has " + std::to_string(s.a.size()) + " and " + std::to_string(s.b.size()) + " vertices");
+      node.fail("seam " + s.name + " has " + std::to_string(s.a.size()) + " and " +
+                std::to_string(s.b.size()) + " vertices");
     mesh.seams.push_back(std::move(s));
   }
   if (doc.has("findings"))
-    for (std::size_t k = 0; k < doc.at("findings").size(); ++k) mesh.findings.push_back(doc.at("findings").at(k).string());
-  if (doc.has("pattern")) mesh.source = std::make_shared<Pattern>(read_pattern_json(doc.at("pattern").json(), path));
+    for (std::size_t k = 0; k < doc.at("findings").size(); ++k)
+      mesh.findings.push_back(doc.at("findings").at(k).string());
+  if (doc.has("pattern"))
+    mesh.source = std::make_shared<Pattern>(read_pattern_json(doc.at("pattern").json(), path));
   return mesh;
 }
 

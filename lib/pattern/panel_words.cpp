@@ -5,10 +5,13 @@
 
 namespace sloper::pattern {
 
-/// Adds the words that parts of Chinese, Japanese and Korean names stand for, which are written without gaps, in UTF-8.
+/// Adds the words that parts of Chinese, Japanese and Korean names stand for, which are written
+/// without gaps, in UTF-8.
 static void add_east_asian(const std::string& name, Words& words) {
   const auto add = [&](const char* word, std::initializer_list<const char*> parts) {
-    if (std::any_of(parts.begin(), parts.end(), [&](const char* part) { return name.find(part) != std::string::npos; })) words.insert(word);
+    if (std::any_of(parts.begin(), parts.end(),
+                    [&](const char* part) { return name.find(part) != std::string::npos; }))
+      words.insert(word);
   };
   add("front", {"\u524d", "\uc55e"});
   add("back", {"\u540e", "\u5f8c", "\ub4a4"});
@@ -31,7 +34,8 @@ Words words_of(const std::string& name) {
   char last = 0;
   for (char c : name + "_") {
     const bool letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
-    if (!letter || (std::isupper(static_cast<unsigned char>(c)) && std::islower(static_cast<unsigned char>(last)))) {
+    if (!letter || (std::isupper(static_cast<unsigned char>(c)) &&
+                    std::islower(static_cast<unsigned char>(last)))) {
       if (!word.empty()) words.insert(word);
       word.clear();
     }
@@ -42,7 +46,8 @@ Words words_of(const std::string& name) {
 }
 
 bool any_of(const Words& words, std::initializer_list<const char*> wanted) {
-  return std::any_of(wanted.begin(), wanted.end(), [&](const char* w) { return words.count(w) != 0; });
+  return std::any_of(wanted.begin(), wanted.end(),
+                     [&](const char* w) { return words.count(w) != 0; });
 }
 
 bool any_begins(const Words& words, std::initializer_list<const char*> starts) {
@@ -53,27 +58,44 @@ bool any_begins(const Words& words, std::initializer_list<const char*> starts) {
 }
 
 bool says_sleeve(const Words& words) {
-  return any_begins(words, {"sleeve", "slv", "manche", "manga", "manica", "rukav", "rekaw", "mouw", "aermel", "rmel"}) || any_of(words, {"sl"});
+  return any_begins(words, {"sleeve", "slv", "manche", "manga", "manica", "rukav", "rekaw", "mouw",
+                            "aermel", "rmel"}) ||
+         any_of(words, {"sl"});
 }
 bool says_cuff(const Words& words) { return any_begins(words, {"cuff", "mansch"}); }
 bool says_neck(const Words& words) {
-  return any_begins(words, {"collar", "stand", "neck", "hood", "turtle", "lapel", "kragen", "kapuze", "cuello", "capuch", "colletto"}) ||
+  return any_begins(words, {"collar", "stand", "neck", "hood", "turtle", "lapel", "kragen",
+                            "kapuze", "cuello", "capuch", "colletto"}) ||
          any_of(words, {"col"});
 }
-bool says_legs(const Words& words) { return any_begins(words, {"leg", "pant", "trouser", "short", "jean", "hose", "pantal"}); }
-bool says_skirt(const Words& words) { return any_begins(words, {"skirt", "gore", "waist", "rock", "jupe", "falda", "gonna"}) || any_of(words, {"wb"}); }
-bool says_front(const Words& words) {
-  return any_begins(words, {"front", "frt", "ftorso", "fbodice", "vorder", "devant", "delanter", "davanti"}) || any_of(words, {"f", "cf", "fr"});
+bool says_legs(const Words& words) {
+  return any_begins(words, {"leg", "pant", "trouser", "short", "jean", "hose", "pantal"});
+}
+bool says_skirt(const Words& words) {
+  return any_begins(words, {"skirt", "gore", "waist", "rock", "jupe", "falda", "gonna"}) ||
+         any_of(words, {"wb"});
+}
+bool name_suggests_front(const Words& words) {
+  return any_begins(words, {"front", "frt", "ftorso", "fbodice", "vorder", "devant", "delanter",
+                            "davanti"}) ||
+         any_of(words, {"f", "cf", "fr"});
 }
 bool says_back(const Words& words) {
-  return any_begins(words, {"back", "bck", "rear", "bk", "btorso", "bbodice", "rueck", "hinter", "espalda", "traser", "dietro", "yoke"}) ||
+  return any_begins(words, {"back", "bck", "rear", "bk", "btorso", "bbodice", "rueck", "hinter",
+                            "espalda", "traser", "dietro", "yoke"}) ||
          any_of(words, {"b", "cb", "dos"});
 }
-bool says_left(const Words& words) { return any_of(words, {"l", "left", "lft", "links", "linke", "linker", "gauche", "izquierda"}); }
-bool says_right(const Words& words) { return any_of(words, {"r", "right", "rgt", "rechts", "rechte", "rechter", "droit", "droite", "derecha"}); }
+bool says_left(const Words& words) {
+  return any_of(words, {"l", "left", "lft", "links", "linke", "linker", "gauche", "izquierda"});
+}
+bool says_right(const Words& words) {
+  return any_of(words,
+                {"r", "right", "rgt", "rechts", "rechte", "rechter", "droit", "droite", "derecha"});
+}
 
 bool says_anything(const Words& words) {
-  return says_sleeve(words) || says_cuff(words) || says_neck(words) || says_legs(words) || says_skirt(words) || says_front(words) || says_back(words);
+  return says_sleeve(words) || says_cuff(words) || says_neck(words) || says_legs(words) ||
+         says_skirt(words) || name_suggests_front(words) || says_back(words);
 }
 
 } // namespace sloper::pattern

@@ -8,19 +8,21 @@ namespace sloper::pattern {
 
 using Words = std::set<std::string>;
 
-/// Lower-case words of a name: "skirtFront_L2" is skirt, front, l. Of a Chinese, Japanese or Korean one the English words that its parts stand for.
+/// Lower-case words of a name: "skirtFront_L2" is skirt, front, l. Of a Chinese, Japanese or Korean
+/// one the English words that its parts stand for.
 Words words_of(const std::string& name);
 bool any_of(const Words& words, std::initializer_list<const char*> wanted);
 /// Whether some word begins with one of these.
 bool any_begins(const Words& words, std::initializer_list<const char*> starts);
 
-/// What pieces are called in the languages that patterns come in; in ASCII, as many files have them.
+/// What pieces are called in the languages that patterns come in; in ASCII, as many files have
+/// them.
 bool says_sleeve(const Words& words);
 bool says_cuff(const Words& words);
 bool says_neck(const Words& words); ///< collar, stand, hood
 bool says_legs(const Words& words); ///< trousers, their parts and bands
 bool says_skirt(const Words& words);
-bool says_front(const Words& words);
+bool name_suggests_front(const Words& words);
 bool says_back(const Words& words);
 bool says_left(const Words& words);
 bool says_right(const Words& words);

@@ -1,5 +1,6 @@
 #pragma once
-/// Outline curves: chains of straight and cubic Bezier segments, measured and sampled by arc length.
+/// Outline curves: chains of straight and cubic Bezier segments, measured and sampled by arc
+/// length.
 #include <geometry/types.hpp>
 
 #include <vector>
@@ -16,7 +17,8 @@ struct Segment {
   static Segment cubic(const Vec2& a, const Vec2& c1, const Vec2& c2, const Vec2& b);
   Vec2 at(double t) const;
   Vec2 derivative(double t) const;
-  double length(double t0, double t1) const; ///< by Gauss-Legendre, about 1e-9 relative for a quarter turn
+  double length(double t0,
+                double t1) const; ///< by Gauss-Legendre, about 1e-9 relative for a quarter turn
   Segment reversed() const;
 };
 
@@ -37,7 +39,9 @@ public:
   double length() const { return m_knots.back().s; }
   Vec2 at(double s) const; ///< s in m, clamped to [0, length]; both ends are returned exactly
   Vec2 tangent(double s) const;
-  Path between(double s0, double s1) const; ///< the stretch from s0 to s1 > s0, m; both ends as at() gives them
+  Path
+  between(double s0,
+          double s1) const; ///< the stretch from s0 to s1 > s0, m; both ends as at() gives them
 
 private:
   struct Knot {
@@ -51,7 +55,8 @@ private:
 
 double length(const Path& path);
 
-/// How far the tangent turns along the stretch [s0, s1] (m), all bends added, rad; corners between segments count.
+/// How far the tangent turns along the stretch [s0, s1] (m), all bends added, rad; corners between
+/// segments count.
 double turning(const ArcLength& arc, double s0, double s1);
 
 /// Signed area of a closed chain of paths, m2, exact for Beziers; positive when counter-clockwise.

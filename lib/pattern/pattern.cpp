@@ -20,7 +20,9 @@ const PanelEdge& Panel::edge(int index) const {
   throw std::out_of_range("panel edge");
 }
 
-PanelEdge& Panel::edge(int index) { return const_cast<PanelEdge&>(static_cast<const Panel&>(*this).edge(index)); }
+PanelEdge& Panel::edge(int index) {
+  return const_cast<PanelEdge&>(static_cast<const Panel&>(*this).edge(index));
+}
 
 int Panel::find_edge(const std::string& wanted) const {
   int k = 0;
@@ -39,7 +41,8 @@ int Pattern::find_panel(const std::string& wanted) const {
 }
 
 double run_length(const Pattern& pattern, const Run& run) {
-  return std::abs(run.to - run.from) * length(pattern.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path);
+  return std::abs(run.to - run.from) *
+         length(pattern.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path);
 }
 
 double side_length(const Pattern& pattern, const std::vector<Run>& side) {
@@ -55,7 +58,8 @@ Vec2 reflect(const Vec2& p, const Vec2& origin, const Vec2& along) {
   return origin + 2 * d.dot(along) * along - d;
 }
 
-std::vector<PanelEdge> reflected(const std::vector<PanelEdge>& edges, const Vec2& origin, const Vec2& along, const std::string& suffix) {
+std::vector<PanelEdge> reflected(const std::vector<PanelEdge>& edges, const Vec2& origin,
+                                 const Vec2& along, const std::string& suffix) {
   std::vector<PanelEdge> out;
   for (auto it = edges.rbegin(); it != edges.rend(); ++it) {
     PanelEdge e{it->name + suffix, reversed(it->path)};
@@ -68,7 +72,8 @@ std::vector<PanelEdge> reflected(const std::vector<PanelEdge>& edges, const Vec2
 
 } // namespace
 
-bool unfold(Panel& panel, int fold_edge, const std::string& suffix, const std::string& mirror_suffix) {
+bool unfold(Panel& panel, int fold_edge, const std::string& suffix,
+            const std::string& mirror_suffix) {
   auto& loop = panel.loops[0];
   if (fold_edge >= static_cast<int>(loop.size()) || loop.size() < 2) return false;
   const Path line = loop[static_cast<std::size_t>(fold_edge)].path;

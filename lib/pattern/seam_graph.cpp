@@ -4,17 +4,21 @@
 
 namespace sloper::pattern {
 
-SeamGraph::SeamGraph(const PanelMesh& mesh) : m_mesh(&mesh), m_panel_of(mesh.pattern.size()), m_neighbours(mesh.panels.size()) {
+SeamGraph::SeamGraph(const PanelMesh& mesh)
+    : m_mesh(&mesh), m_panel_of(mesh.pattern.size()), m_neighbours(mesh.panels.size()) {
   for (std::size_t p = 0; p < mesh.panels.size(); ++p)
-    for (int v = mesh.panels[p].first_vertex; v < mesh.panels[p].first_vertex + mesh.panels[p].n_vertices; ++v)
+    for (int v = mesh.panels[p].first_vertex;
+         v < mesh.panels[p].first_vertex + mesh.panels[p].n_vertices; ++v)
       m_panel_of[static_cast<std::size_t>(v)] = static_cast<int>(p);
   std::vector<std::set<int>> sets(mesh.panels.size());
   for (const MeshSeam& s : mesh.seams)
     for (std::size_t k = 0; k < s.a.size(); ++k) {
       const int p = panel_of(s.a[k]), q = panel_of(s.b[k]);
-      if (p != q) sets[static_cast<std::size_t>(p)].insert(q), sets[static_cast<std::size_t>(q)].insert(p);
+      if (p != q)
+        sets[static_cast<std::size_t>(p)].insert(q), sets[static_cast<std::size_t>(q)].insert(p);
     }
-  for (std::size_t p = 0; p < sets.size(); ++p) m_neighbours[p].assign(sets[p].begin(), sets[p].end());
+  for (std::size_t p = 0; p < sets.size(); ++p)
+    m_neighbours[p].assign(sets[p].begin(), sets[p].end());
 }
 
 std::vector<std::vector<std::array<int, 2>>> SeamGraph::between(int p, int q) const {

@@ -11,16 +11,19 @@ namespace {
 
 constexpr double FINE = 0.006; // m: edges shorter than this look smooth
 constexpr std::size_t MOST_TRIANGLES = 200000;
-constexpr double CURVE = 0.75;                       // how far patches leave their triangles; 1 reaches the tangent planes
+constexpr double CURVE =
+    0.75; // how far patches leave their triangles; 1 reaches the tangent planes
 constexpr double MOST_IN = 0.0002, MOST_OUT = 0.003; // m, in each round
 constexpr double LEAST_RIM = 0.0012;                 // m: thinner rims cannot be seen
 
 int mid_vertex(DrawMesh& mesh, int a, int b) {
   const int m = static_cast<int>(mesh.positions.size());
-  const Vec3 p = mesh.positions[a], q = mesh.positions[b], np = mesh.normals[a], nq = mesh.normals[b], flat = 0.5 * (p + q);
+  const Vec3 p = mesh.positions[a], q = mesh.positions[b], np = mesh.normals[a],
+             nq = mesh.normals[b], flat = 0.5 * (p + q);
   const Vec3 on_p = flat - (flat - p).dot(np) * np, on_q = flat - (flat - q).dot(nq) * nq;
   const Vec3 sum = np + nq, n = sum.norm() > 1e-9 ? Vec3(sum.normalized()) : np;
-  // Inwards no further than the cloth lies off the skin, outwards no further than folds lie off each other.
+  // Inwards no further than the cloth lies off the skin, outwards no further than folds lie off
+  // each other.
   Vec3 curved = CURVE * (0.5 * (on_p + on_q) - flat);
   const double most = curved.dot(n) < 0 ? MOST_IN : MOST_OUT, length = curved.norm();
   if (length > most) curved *= most / length;
@@ -41,7 +44,8 @@ void split(DrawMesh& mesh) {
   std::unordered_map<std::uint64_t, int> middle;
   middle.reserve(mesh.triangles.size() * 2);
   auto mid = [&](int a, int b) {
-    const auto key = static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint64_t>(std::max(a, b));
+    const auto key = static_cast<std::uint64_t>(std::min(a, b)) << 32 |
+                     static_cast<std::uint64_t>(std::max(a, b));
     const auto [found, is_new] = middle.try_emplace(key, 0);
     if (is_new) found->second = mid_vertex(mesh, std::min(a, b), std::max(a, b));
     return found->second;
@@ -84,11 +88,16 @@ void measure_borders(DrawMesh& mesh) {
   };
   std::unordered_map<std::uint64_t, Cell> grid;
   auto key = [](int panel, std::int64_t x, std::int64_t y) {
-    return static_cast<std::uint64_t>(panel) << 48 ^ static_cast<std::uint64_t>(x + (1 << 22)) << 24 ^ static_cast<std::uint64_t>(y + (1 << 22));
+    return static_cast<std::uint64_t>(panel) << 48 ^
+           static_cast<std::uint64_t>(x + (1 << 22)) << 24 ^
+           static_cast<std::uint64_t>(y + (1 << 22));
   };
-  auto cell = [](double x) { return static_cast<std::int64_t>(std::floor(std::clamp(x / BORDER_REACH, -4e6, 4e6))); };
+  auto cell = [](double x) {
+    return static_cast<std::int64_t>(std::floor(std::clamp(x / BORDER_REACH, -4e6, 4e6)));
+  };
   for (std::size_t k = 0; k < mesh.lines.size(); ++k) {
-    const Vec2 a = mesh.uv[mesh.lines[k][0]], b = mesh.uv[mesh.lines[k][1]], low = a.cwiseMin(b), high = a.cwiseMax(b);
+    const Vec2 a = mesh.uv[mesh.lines[k][0]], b = mesh.uv[mesh.lines[k][1]], low = a.cwiseMin(b),
+               high = a.cwiseMax(b);
     if ((high - low).maxCoeff() > 1) continue; // no fabric has such an edge
     for (std::int64_t y = cell(low.y()) - 1; y <= cell(high.y()) + 1; ++y)
       for (std::int64_t x = cell(low.x()) - 1; x <= cell(high.x()) + 1; ++x)
@@ -99,7 +108,8 @@ void measure_borders(DrawMesh& mesh) {
     if (found == grid.end()) continue;
     for (int k : found->second.lines) {
       double& nearest = mesh.is_hem[k] ? mesh.hem[v] : mesh.seam[v];
-      nearest = std::min(nearest, distance_to_segment(mesh.uv[v], mesh.uv[mesh.lines[k][0]], mesh.uv[mesh.lines[k][1]]));
+      nearest = std::min(nearest, distance_to_segment(mesh.uv[v], mesh.uv[mesh.lines[k][0]],
+                                                      mesh.uv[mesh.lines[k][1]]));
     }
   }
 }
@@ -111,7 +121,8 @@ void add_rim(DrawMesh& mesh) {
   auto copy = [&](int v) {
     const auto [found, is_new] = inner.try_emplace(v, static_cast<int>(mesh.positions.size()));
     if (is_new) {
-      const Vec3 p = mesh.positions[v] - thickness * mesh.normals[v], n = mesh.normals[v], c = mesh.colors[v];
+      const Vec3 p = mesh.positions[v] - thickness * mesh.normals[v], n = mesh.normals[v],
+                 c = mesh.colors[v];
       const Vec2 uv = mesh.uv[v];
       mesh.positions.push_back(p);
       mesh.normals.push_back(n);
@@ -137,9 +148,12 @@ void add_rim(DrawMesh& mesh) {
 void smooth_cloth(DrawMesh& mesh) {
   if (!mesh.is_cloth || mesh.triangles.empty() || mesh.uv.empty()) return;
   double sum = 0;
-  for (const Triangle& t : mesh.triangles) sum += (mesh.positions[t[1]] - mesh.positions[t[0]]).norm();
+  for (const Triangle& t : mesh.triangles)
+    sum += (mesh.positions[t[1]] - mesh.positions[t[0]]).norm();
   double edge = sum / static_cast<double>(mesh.triangles.size());
-  for (int round = 0; round < 3 && edge > FINE && mesh.triangles.size() * 4 <= MOST_TRIANGLES; ++round, edge *= 0.5) split(mesh);
+  for (int round = 0; round < 3 && edge > FINE && mesh.triangles.size() * 4 <= MOST_TRIANGLES;
+       ++round, edge *= 0.5)
+    split(mesh);
   measure_borders(mesh);
   add_rim(mesh);
 }

@@ -22,7 +22,8 @@ public:
         high = high.cwiseMax(at(v));
       }
       for (int y = cell(low.y() - REACH); y <= cell(high.y() + REACH); ++y)
-        for (int x = cell(low.x() - REACH); x <= cell(high.x() + REACH); ++x) m_cells[y * N + x].push_back(f);
+        for (int x = cell(low.x() - REACH); x <= cell(high.x() + REACH); ++x)
+          m_cells[y * N + x].push_back(f);
     }
   }
   /// The world point at (s, t), or at the nearest place of a triangle next to it.
@@ -42,7 +43,8 @@ public:
       best = off;
       found = true;
       point = Vec3::Zero();
-      for (int k = 0; k < 3; ++k) point += inside[k] * m_garment.position[m_garment.particle_of[t[k]]];
+      for (int k = 0; k < 3; ++k)
+        point += inside[k] * m_garment.position[m_garment.particle_of[t[k]]];
       if (off < SAME * SAME) break;
     }
     return found;
@@ -63,7 +65,9 @@ std::vector<double> drape_difference(const garment::Garment& a, const garment::G
   std::vector<double> result(a.particle_of.size(), NO_VALUE);
   bool common = false;
   for (const pattern::PanelInfo& panel : a.panels.panels) {
-    const auto like = std::find_if(b.panels.panels.begin(), b.panels.panels.end(), [&](const pattern::PanelInfo& other) { return other.name == panel.name; });
+    const auto like =
+        std::find_if(b.panels.panels.begin(), b.panels.panels.end(),
+                     [&](const pattern::PanelInfo& other) { return other.name == panel.name; });
     if (like == b.panels.panels.end()) continue;
     common = true;
     const PanelLookup lookup(b, static_cast<int>(like - b.panels.panels.begin()));
@@ -73,12 +77,16 @@ std::vector<double> drape_difference(const garment::Garment& a, const garment::G
       const Vec3& p = a.position[a.particle_of[v]];
       Vec3 q;
       // Equal meshes keep their order: then no search is needed.
-      if (v - panel.first_vertex < like->n_vertices && std::abs(b.panels.ids[other].s - id.s) < SAME && std::abs(b.panels.ids[other].t - id.t) < SAME)
+      if (v - panel.first_vertex < like->n_vertices &&
+          std::abs(b.panels.ids[other].s - id.s) < SAME &&
+          std::abs(b.panels.ids[other].t - id.t) < SAME)
         result[v] = (p - b.position[b.particle_of[other]]).norm();
       else if (lookup.find({id.s, id.t}, q)) result[v] = (p - q).norm();
     }
   }
-  if (!common) throw Error(ErrorKind::USAGE, "", "--map difference", "the two garments have no panel name in common", "give two drapes of one pattern");
+  if (!common)
+    throw Error(ErrorKind::USAGE, "", "--map difference",
+                "the two garments have no panel name in common", "give two drapes of one pattern");
   return result;
 }
 

@@ -13,7 +13,8 @@
 namespace sloper::render {
 
 struct SurfaceVertex {
-  float position[3], normal[3], color[4], cloth[4], value[3]; // of the map, light of the key, whether the map has a value
+  float position[3], normal[3], color[4], cloth[4],
+      value[3]; // of the map, light of the key, whether the map has a value
 };
 struct LineVertex {
   float position[3], other[3], color[4];
@@ -23,7 +24,8 @@ namespace {
 
 constexpr int GROUND_RINGS = 28, GROUND_SPOKES = 56;
 constexpr double SMOOTHED_IN = 0.0006; // m, as far as smooth_cloth() moves cloth inwards
-constexpr double LINE_LIFT = 0.0002;   // m that lines lie in front of their surface, and stay behind cloth in front of it
+constexpr double LINE_LIFT =
+    0.0002; // m that lines lie in front of their surface, and stay behind cloth in front of it
 enum Kind { BODY = 0, CLOTH = 1, FLAT = 2, GROUND = 3 };
 
 void put(float* to, const Vec3& v) {
@@ -47,7 +49,9 @@ DrawMesh make_ground(const std::vector<DrawMesh>& meshes) {
       ground.normals.push_back(Vec3(0, 1, 0));
       ground.colors.push_back(Vec3::Zero());
       if (r == 0) continue;
-      const int a0 = (r - 1) * GROUND_SPOKES + s, a1 = (r - 1) * GROUND_SPOKES + (s + 1) % GROUND_SPOKES, b0 = a0 + GROUND_SPOKES, b1 = a1 + GROUND_SPOKES;
+      const int a0 = (r - 1) * GROUND_SPOKES + s,
+                a1 = (r - 1) * GROUND_SPOKES + (s + 1) % GROUND_SPOKES, b0 = a0 + GROUND_SPOKES,
+                b1 = a1 + GROUND_SPOKES;
       ground.triangles.push_back({a0, a1, b1});
       ground.triangles.push_back({a0, b1, b0});
     }
@@ -62,7 +66,8 @@ struct Renderer::Impl {
   std::unique_ptr<Context> context;
   Gl gl;
   std::array<GLuint, 4> surface_programs{}; ///< by kind
-  GLuint line_program = 0, surface_array = 0, line_array = 0, surface_buffer = 0, line_buffer = 0, framebuffer = 0;
+  GLuint line_program = 0, surface_array = 0, line_array = 0, surface_buffer = 0, line_buffer = 0,
+         framebuffer = 0;
   DrawMesh ground;
   std::unique_ptr<Occlusion> occlusion;
   std::vector<SurfaceVertex> vertices; ///< of all meshes, then the ground
@@ -76,7 +81,8 @@ struct Renderer::Impl {
   bool wants_depth = false;
   std::vector<float> depth;
 
-  Impl(const std::vector<DrawMesh>& m, const DrawOptions& o) : meshes(m), options(o), context(make_context(o.context)), gl(*context) {
+  Impl(const std::vector<DrawMesh>& m, const DrawOptions& o)
+      : meshes(m), options(o), context(make_context(o.context)), gl(*context) {
     make_framebuffer();
     line_program = gl.program(LINE_VERTEX_SHADER, LINE_FRAGMENT_SHADER);
     if (options.ground) ground = make_ground(meshes);
@@ -85,43 +91,61 @@ struct Renderer::Impl {
   }
 
   void make_framebuffer() {
-    const int width = options.width * options.supersample, height = options.height * options.supersample;
+    const int width = options.width * options.supersample,
+              height = options.height * options.supersample;
     GLint largest = 0;
     gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
     if (width > largest || height > largest)
-      throw Error(ErrorKind::USAGE, "", "--size", "OpenGL draws at most " + std::to_string(largest / options.supersample) + " pixels a side here");
+      throw Error(ErrorKind::USAGE, "", "--size",
+                  "OpenGL draws at most " + std::to_string(largest / options.supersample) +
+                      " pixels a side here");
     GLuint buffers[2];
     gl.GenFramebuffers(1, &framebuffer);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl.GenRenderbuffers(2, buffers);
-    const GLenum formats[] = {GL_RGBA8, GL_DEPTH_COMPONENT24}, slots[] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
+    const GLenum formats[] = {GL_RGBA8, GL_DEPTH_COMPONENT24},
+                 slots[] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
     for (int k = 0; k < 2; ++k) {
       gl.BindRenderbuffer(GL_RENDERBUFFER, buffers[k]);
       gl.RenderbufferStorage(GL_RENDERBUFFER, formats[k], width, height);
       gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, slots[k], GL_RENDERBUFFER, buffers[k]);
     }
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-      throw Error(ErrorKind::INTERNAL, "", "", "OpenGL gives no picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
+      throw Error(ErrorKind::INTERNAL, "", "",
+                  "OpenGL gives no picture of " + std::to_string(width) + " x " +
+                      std::to_string(height) + " pixels",
                   "ask for a smaller --size");
   }
 
-  /// Vertices without a value take the mean of their neighbours' and stay marked: half-way between them and the others the map ends, in
-  /// colours that were there, not in those of a value far outside.
+  /// Vertices without a value take the mean of their neighbours' and stay marked: half-way between
+  /// them and the others the map ends, in colours that were there, not in those of a value far
+  /// outside.
   void carry_values_over_the_border(const std::vector<Triangle>& triangles, int base) {
-    std::vector<std::array<float, 2>> sum(vertices.size() - static_cast<std::size_t>(base)); // of values, their number
+    std::vector<std::array<float, 2>> sum(
+        vertices.size() - static_cast<std::size_t>(base)); // of values, their number
     for (const Triangle& t : triangles)
       for (int v : t)
         for (int w : t)
-          if (const SurfaceVertex& from = vertices[static_cast<std::size_t>(base + w)]; from.value[2] > 0)
-            sum[static_cast<std::size_t>(v)][0] += from.value[0], sum[static_cast<std::size_t>(v)][1] += 1;
+          if (const SurfaceVertex& from = vertices[static_cast<std::size_t>(base + w)];
+              from.value[2] > 0)
+            sum[static_cast<std::size_t>(v)][0] += from.value[0],
+                sum[static_cast<std::size_t>(v)][1] += 1;
     for (std::size_t v = 0; v < sum.size(); ++v)
-      if (SurfaceVertex& to = vertices[static_cast<std::size_t>(base) + v]; to.value[2] == 0 && sum[v][1] > 0) to.value[0] = sum[v][0] / sum[v][1];
+      if (SurfaceVertex& to = vertices[static_cast<std::size_t>(base) + v];
+          to.value[2] == 0 && sum[v][1] > 0)
+        to.value[0] = sum[v][0] / sum[v][1];
   }
 
-  void append(const DrawMesh& mesh, int kind, std::vector<GLuint>& indices, std::vector<LineVertex>& lines, std::vector<GLuint>& line_indices) {
+  void append(const DrawMesh& mesh, int kind, std::vector<GLuint>& indices,
+              std::vector<LineVertex>& lines, std::vector<GLuint>& line_indices) {
     const int base = static_cast<int>(vertices.size());
     const bool mapped = !options.map_colors.empty() && !mesh.values.empty();
-    Part part{kind,          static_cast<int>(indices.size()), static_cast<int>(mesh.triangles.size() * 3), base, static_cast<int>(line_indices.size()), 0,
+    Part part{kind,
+              static_cast<int>(indices.size()),
+              static_cast<int>(mesh.triangles.size() * 3),
+              base,
+              static_cast<int>(line_indices.size()),
+              0,
               mesh.is_closed};
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
       SurfaceVertex out{};
@@ -140,7 +164,8 @@ struct Renderer::Impl {
       }
       out.value[1] = 1;
       if (mapped && mesh.values[v] != NO_VALUE) {
-        out.value[0] = static_cast<float>(std::clamp((mesh.values[v] - options.map_low) / (options.map_high - options.map_low), 0.0, 1.0));
+        out.value[0] = static_cast<float>(std::clamp(
+            (mesh.values[v] - options.map_low) / (options.map_high - options.map_low), 0.0, 1.0));
         out.value[2] = 1;
       }
       vertices.push_back(out);
@@ -158,7 +183,9 @@ struct Renderer::Impl {
             LineVertex out{};
             put(out.position, mesh.positions[end ? b : a]);
             put(out.other, mesh.positions[end ? a : b]);
-            put(out.color, mesh.is_flat || mapped ? Vec3(0.12, 0.12, 0.13) : Vec3(0.62 * mesh.colors[a].array().pow(1 / 2.2)));
+            put(out.color, mesh.is_flat || mapped
+                               ? Vec3(0.12, 0.12, 0.13)
+                               : Vec3(0.62 * mesh.colors[a].array().pow(1 / 2.2)));
             out.color[3] = side;
             lines.push_back(out);
           }
@@ -173,7 +200,8 @@ struct Renderer::Impl {
     std::vector<LineVertex> lines;
     for (bool cloth : {true, false})
       for (const DrawMesh& mesh : meshes)
-        if (mesh.is_cloth == cloth) append(mesh, mesh.is_flat ? FLAT : cloth ? CLOTH : BODY, indices, lines, line_indices);
+        if (mesh.is_cloth == cloth)
+          append(mesh, mesh.is_flat ? FLAT : cloth ? CLOTH : BODY, indices, lines, line_indices);
     if (!ground.positions.empty()) append(ground, GROUND, indices, lines, line_indices);
     if (options.occlusion_directions > 0) {
       occlusion = std::make_unique<Occlusion>(meshes);
@@ -181,21 +209,26 @@ struct Renderer::Impl {
       for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v].color[3] = sky[v];
       if (!ground.positions.empty()) soften_ground();
     }
-    auto upload = [&](GLuint& array, GLuint& buffer, const auto& data, const std::vector<GLuint>& elements, std::initializer_list<int> sizes) {
+    auto upload = [&](GLuint& array, GLuint& buffer, const auto& data,
+                      const std::vector<GLuint>& elements, std::initializer_list<int> sizes) {
       GLuint element_buffer = 0;
       gl.GenVertexArrays(1, &array);
       gl.BindVertexArray(array);
       gl.GenBuffers(1, &buffer);
       gl.GenBuffers(1, &element_buffer);
       gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
-      gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data.size() * sizeof data[0]), data.data(), GL_STATIC_DRAW);
+      gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(data.size() * sizeof data[0]),
+                    data.data(), GL_STATIC_DRAW);
       gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, element_buffer);
-      gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(elements.size() * sizeof(GLuint)), elements.data(), GL_STATIC_DRAW);
+      gl.BufferData(GL_ELEMENT_ARRAY_BUFFER,
+                    static_cast<GLsizeiptr>(elements.size() * sizeof(GLuint)), elements.data(),
+                    GL_STATIC_DRAW);
       GLuint slot = 0;
       std::size_t offset = 0;
       for (int size : sizes) {
         gl.EnableVertexAttribArray(slot);
-        gl.VertexAttribPointer(slot++, size, GL_FLOAT, GL_FALSE, sizeof data[0], reinterpret_cast<const void*>(offset));
+        gl.VertexAttribPointer(slot++, size, GL_FLOAT, GL_FALSE, sizeof data[0],
+                               reinterpret_cast<const void*>(offset));
         offset += static_cast<std::size_t>(size) * sizeof(float);
       }
     };
@@ -216,7 +249,8 @@ struct Renderer::Impl {
           for (int dr = -1; dr <= 1; ++dr)
             for (int ds = -2; ds <= 2; ++ds) {
               const int q = std::clamp(r + dr, 0, GROUND_RINGS);
-              sum += before[static_cast<std::size_t>(q * GROUND_SPOKES + (s + ds + GROUND_SPOKES) % GROUND_SPOKES)];
+              sum += before[static_cast<std::size_t>(q * GROUND_SPOKES +
+                                                     (s + ds + GROUND_SPOKES) % GROUND_SPOKES)];
               ++weight;
             }
           light[static_cast<std::size_t>(r * GROUND_SPOKES + s)] = sum / weight;
@@ -230,7 +264,8 @@ struct Renderer::Impl {
     GLuint texture = 0;
     gl.GenTextures(1, &texture);
     gl.BindTexture(GL_TEXTURE_2D, texture);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, options.print.width, options.print.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, options.print.rgba.data());
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, options.print.width, options.print.height, 0,
+                  GL_RGBA, GL_UNSIGNED_BYTE, options.print.rgba.data());
     gl.GenerateMipmap(GL_TEXTURE_2D);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   }
@@ -239,31 +274,40 @@ struct Renderer::Impl {
   void light_from(double azimuth) {
     if (!occlusion || azimuth == lit_azimuth) return;
     lit_azimuth = azimuth;
-    const Vec3 right(std::cos(azimuth), 0, -std::sin(azimuth)), front(std::sin(azimuth), 0, std::cos(azimuth));
+    const Vec3 right(std::cos(azimuth), 0, -std::sin(azimuth)),
+        front(std::sin(azimuth), 0, std::cos(azimuth));
     const Vec3 towards = (-0.62 * right + Vec3(0, 0.60, 0) + 0.50 * front).normalized();
     const std::vector<float> key = occlusion->key(points, normals, towards, 0.16);
     for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v].value[1] = key[v];
     gl.BindBuffer(GL_ARRAY_BUFFER, surface_buffer);
-    gl.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(vertices.size() * sizeof vertices[0]), vertices.data());
+    gl.BufferSubData(GL_ARRAY_BUFFER, 0,
+                     static_cast<GLsizeiptr>(vertices.size() * sizeof vertices[0]),
+                     vertices.data());
   }
 
-  /// The program of one kind of surface, made when first asked for; its uniforms are set for this camera.
+  /// The program of one kind of surface, made when first asked for; its uniforms are set for this
+  /// camera.
   void use_surface(int kind, const Camera& camera) {
     GLuint& program = surface_programs[static_cast<std::size_t>(kind)];
     if (!program) {
-      const std::string source = "#version 330\nconst int kind = " + std::to_string(kind) + ", fabric = " + std::to_string(static_cast<int>(options.fabric)) +
-                                 ", steps = " + std::to_string(options.map_colors.size()) + ";\n" + SURFACE_FRAGMENT_SHADER;
+      const std::string source = "#version 330\nconst int kind = " + std::to_string(kind) +
+                                 ", fabric = " + std::to_string(static_cast<int>(options.fabric)) +
+                                 ", steps = " + std::to_string(options.map_colors.size()) + ";\n" +
+                                 SURFACE_FRAGMENT_SHADER;
       program = gl.program(SURFACE_VERTEX_SHADER, source.c_str());
     }
     Eigen::Matrix4f clip = camera.matrix().cast<float>();
-    // Cloth made smooth for drawing may dip this far below where it lies: the skin must not come through it.
-    if (kind == BODY) clip.row(2) += static_cast<float>(SMOOTHED_IN / camera.half_depth) * clip.row(3);
+    // Cloth made smooth for drawing may dip this far below where it lies: the skin must not come
+    // through it.
+    if (kind == BODY)
+      clip.row(2) += static_cast<float>(SMOOTHED_IN / camera.half_depth) * clip.row(3);
     const Eigen::Matrix3f turn = camera.turn.cast<float>();
     auto at = [&](const char* name) { return gl.GetUniformLocation(program, name); };
     gl.UseProgram(program);
     gl.UniformMatrix4fv(at("clip"), 1, GL_FALSE, clip.data());
     gl.UniformMatrix3fv(at("turn"), 1, GL_FALSE, turn.data());
-    gl.Uniform3f(at("center"), static_cast<float>(camera.center.x()), static_cast<float>(camera.center.y()), static_cast<float>(camera.center.z()));
+    gl.Uniform3f(at("center"), static_cast<float>(camera.center.x()),
+                 static_cast<float>(camera.center.y()), static_cast<float>(camera.center.z()));
     gl.Uniform1f(at("eye"), static_cast<float>(camera.distance));
     gl.Uniform1f(at("print_size"), static_cast<float>(options.print_size));
     gl.Uniform3f(at("accent"), 0.78f, 0.76f, 0.70f);
@@ -272,18 +316,25 @@ struct Renderer::Impl {
       for (int k = 0; k < 8; ++k) put(scale + 3 * k, options.map_colors[k]);
       gl.Uniform3fv(at("scale"), 8, scale);
       const Vec3 none = no_value_color();
-      gl.Uniform3f(at("no_value"), static_cast<float>(none.x()), static_cast<float>(none.y()), static_cast<float>(none.z()));
+      gl.Uniform3f(at("no_value"), static_cast<float>(none.x()), static_cast<float>(none.y()),
+                   static_cast<float>(none.z()));
     }
   }
 
   void draw_parts(const Camera& camera) {
     const Eigen::Matrix4f clip = camera.matrix().cast<float>();
-    auto uniform = [&](GLuint program, const char* name) { return gl.GetUniformLocation(program, name); };
+    auto uniform = [&](GLuint program, const char* name) {
+      return gl.GetUniformLocation(program, name);
+    };
     gl.UseProgram(line_program);
     gl.UniformMatrix4fv(uniform(line_program, "clip"), 1, GL_FALSE, clip.data());
-    gl.Uniform2f(uniform(line_program, "half_size"), 0.5f * static_cast<float>(options.width), 0.5f * static_cast<float>(options.height));
-    gl.Uniform1f(uniform(line_program, "width"), 0.9f * std::max(1.f, static_cast<float>(std::min(options.width, options.height)) / 1200.f));
-    gl.Uniform1f(uniform(line_program, "nearer"), static_cast<float>(LINE_LIFT / camera.half_depth));
+    gl.Uniform2f(uniform(line_program, "half_size"), 0.5f * static_cast<float>(options.width),
+                 0.5f * static_cast<float>(options.height));
+    gl.Uniform1f(
+        uniform(line_program, "width"),
+        0.9f * std::max(1.f, static_cast<float>(std::min(options.width, options.height)) / 1200.f));
+    gl.Uniform1f(uniform(line_program, "nearer"),
+                 static_cast<float>(LINE_LIFT / camera.half_depth));
     for (const Part& part : parts) {
       const bool ground_seen = part.kind == GROUND && camera.elevation > units::radians(2);
       if (part.kind == GROUND && !ground_seen) continue;
@@ -295,13 +346,16 @@ struct Renderer::Impl {
       }
       if (part.is_closed) gl.Enable(GL_CULL_FACE);
       gl.DrawElements(GL_TRIANGLES, part.n_indices, GL_UNSIGNED_INT,
-                      reinterpret_cast<const void*>(static_cast<std::size_t>(part.first_index) * sizeof(GLuint)));
+                      reinterpret_cast<const void*>(static_cast<std::size_t>(part.first_index) *
+                                                    sizeof(GLuint)));
       gl.Disable(GL_BLEND);
       gl.Disable(GL_CULL_FACE);
       if (part.n_lines == 0) continue;
       gl.UseProgram(line_program);
       gl.BindVertexArray(line_array);
-      gl.DrawElements(GL_TRIANGLES, part.n_lines, GL_UNSIGNED_INT, reinterpret_cast<const void*>(static_cast<std::size_t>(part.first_line) * sizeof(GLuint)));
+      gl.DrawElements(GL_TRIANGLES, part.n_lines, GL_UNSIGNED_INT,
+                      reinterpret_cast<const void*>(static_cast<std::size_t>(part.first_line) *
+                                                    sizeof(GLuint)));
     }
   }
 
@@ -322,21 +376,31 @@ struct Renderer::Impl {
     image.rgba.resize(4 * static_cast<std::size_t>(image.width) * image.height);
     constexpr unsigned n = S * S;
     const std::size_t row = 4 * static_cast<std::size_t>(image.width) * S;
-    const unsigned color = static_cast<unsigned>(options.background.value_or(0)), behind[] = {color >> 16 & 255, color >> 8 & 255, color & 255};
+    const unsigned color = static_cast<unsigned>(options.background.value_or(0)),
+                   behind[] = {color >> 16 & 255, color >> 8 & 255, color & 255};
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x) {
         unsigned sum[4] = {};
-        const std::uint8_t* corner = pixels.data() + row * static_cast<std::size_t>((image.height - 1 - y) * S) + 4 * static_cast<std::size_t>(x * S);
+        const std::uint8_t* corner = pixels.data() +
+                                     row * static_cast<std::size_t>((image.height - 1 - y) * S) +
+                                     4 * static_cast<std::size_t>(x * S);
         for (int dy = 0; dy < S; ++dy)
           for (int dx = 0; dx < S; ++dx)
-            for (int k = 0; k < 4; ++k) sum[k] += corner[row * static_cast<std::size_t>(dy) + 4 * static_cast<std::size_t>(dx) + k];
+            for (int k = 0; k < 4; ++k)
+              sum[k] +=
+                  corner[row * static_cast<std::size_t>(dy) + 4 * static_cast<std::size_t>(dx) + k];
         std::uint8_t* out = image.at(x, y);
         if (!options.background) { // colours are multiplied by coverage: undo that
-          for (int k = 0; k < 3; ++k) out[k] = sum[3] ? static_cast<std::uint8_t>(std::min(255u, (255 * sum[k] + sum[3] / 2) / sum[3])) : 0;
+          for (int k = 0; k < 3; ++k)
+            out[k] = sum[3] ? static_cast<std::uint8_t>(
+                                  std::min(255u, (255 * sum[k] + sum[3] / 2) / sum[3]))
+                            : 0;
           out[3] = static_cast<std::uint8_t>((sum[3] + n / 2) / n);
         } else {
           const unsigned rest = 255 * n - sum[3];
-          for (int k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>((255 * sum[k] + rest * behind[k] + 255 * n / 2) / (255 * n));
+          for (int k = 0; k < 3; ++k)
+            out[k] = static_cast<std::uint8_t>((255 * sum[k] + rest * behind[k] + 255 * n / 2) /
+                                               (255 * n));
           out[3] = 255;
         }
       }
@@ -347,7 +411,8 @@ struct Renderer::Impl {
     context->make_current();
     light_from(camera.azimuth);
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    const int width = options.width * options.supersample, height = options.height * options.supersample;
+    const int width = options.width * options.supersample,
+              height = options.height * options.supersample;
     gl.Viewport(0, 0, width, height);
     gl.Enable(GL_DEPTH_TEST);
     gl.DepthFunc(GL_LEQUAL);
@@ -364,15 +429,19 @@ struct Renderer::Impl {
   }
 };
 
-Renderer::Renderer(const std::vector<DrawMesh>& meshes, const DrawOptions& options) : m_impl(std::make_unique<Impl>(meshes, options)) {}
+Renderer::Renderer(const std::vector<DrawMesh>& meshes, const DrawOptions& options)
+    : m_impl(std::make_unique<Impl>(meshes, options)) {}
 Renderer::~Renderer() = default;
 io::Image Renderer::draw(const Camera& camera) { return m_impl->draw(camera); }
 void Renderer::keep_depth(bool yes) { m_impl->wants_depth = yes; }
 
 bool Renderer::is_visible(const Vec3& pixel, double slack) const {
   const Impl& impl = *m_impl;
-  const int s = impl.options.supersample, x = static_cast<int>(pixel.x() * s), y = static_cast<int>((impl.options.height - pixel.y()) * s);
-  if (impl.depth.empty() || x < 0 || y < 0 || x >= impl.options.width * s || y >= impl.options.height * s) return true;
+  const int s = impl.options.supersample, x = static_cast<int>(pixel.x() * s),
+            y = static_cast<int>((impl.options.height - pixel.y()) * s);
+  if (impl.depth.empty() || x < 0 || y < 0 || x >= impl.options.width * s ||
+      y >= impl.options.height * s)
+    return true;
   return pixel.z() - slack <= impl.depth[static_cast<std::size_t>(y) * impl.options.width * s + x];
 }
 

@@ -12,11 +12,11 @@ enum class Fabric { PLAIN, WOVEN, TWILL, STRIPES, CHECKS, PRINT };
 
 struct DrawOptions {
   int width = 800, height = 1000;
-  int supersample = 2;                      ///< 1 to 4: each pixel is the mean of its square
-  int occlusion_directions = 32;            ///< of the ambient light; 0 leaves everything unshadowed
+  int supersample = 2;           ///< 1 to 4: each pixel is the mean of its square
+  int occlusion_directions = 32; ///< of the ambient light; 0 leaves everything unshadowed
   std::optional<int> background = 0xffffff; ///< 0xRRGGBB; none: transparent
-  bool ground = true;                       ///< a soft shadow on the floor, seen from above the horizon
-  bool border_lines = true;                 ///< seams and hems
+  bool ground = true;       ///< a soft shadow on the floor, seen from above the horizon
+  bool border_lines = true; ///< seams and hems
   Fabric fabric = Fabric::WOVEN;
   io::Image print;              ///< repeats along warp and weft
   double print_size = 0.1;      ///< m, width and height of one repeat
@@ -28,13 +28,15 @@ struct DrawOptions {
 /// Light is baked and everything handed to OpenGL once; any number of views are then drawn from it.
 class Renderer {
 public:
-  /// @param meshes kept by reference @throws Error INTERNAL without OpenGL, USAGE when the picture is larger than it can draw
+  /// @param meshes kept by reference @throws Error INTERNAL without OpenGL, USAGE when the picture
+  /// is larger than it can draw
   Renderer(const std::vector<DrawMesh>& meshes, const DrawOptions& options);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
   io::Image draw(const Camera& camera);
-  /// True where nothing of the picture drawn last is nearer than a point at this pixel and depth, less `slack` (depth).
+  /// True where nothing of the picture drawn last is nearer than a point at this pixel and depth,
+  /// less `slack` (depth).
   bool is_visible(const Vec3& pixel, double slack) const;
   /// Reads depths back with each picture, for is_visible().
   void keep_depth(bool yes);

@@ -18,17 +18,22 @@ namespace {
 
 std::string extension(const std::string& path) {
   const std::size_t dot = path.rfind('.');
-  return dot == std::string::npos || path.find('/', dot) != std::string::npos ? "" : path.substr(dot + 1);
+  return dot == std::string::npos || path.find('/', dot) != std::string::npos
+             ? ""
+             : path.substr(dot + 1);
 }
 
 Vec3 shown_color(const DrawMesh& mesh, std::size_t v, const Legend& legend) {
   if (mesh.values.empty() || legend.steps.empty()) return mesh.colors[v];
   if (mesh.values[v] == NO_VALUE) return no_value_color();
-  const double t = std::clamp((mesh.values[v] - legend.low) / (legend.high - legend.low), 0.0, 0.9999);
+  const double t =
+      std::clamp((mesh.values[v] - legend.low) / (legend.high - legend.low), 0.0, 0.9999);
   return legend.steps[static_cast<std::size_t>(t * static_cast<double>(legend.steps.size()))];
 }
 
-template<class T> void append(std::string& bytes, const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
+template<class T> void append(std::string& bytes, const T& value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
 
 void append_number(std::string& text, double x) {
   char buffer[32];
@@ -41,11 +46,16 @@ public:
   std::string bytes;
   io::Json views = io::Json::array(), accessors = io::Json::array();
   /// @param target 34962 vertices, 34963 indices
-  int add(const void* data, std::size_t n_bytes, std::size_t count, int component, const char* type, int target) {
-    views.push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", n_bytes}, {"target", target}});
+  int add(const void* data, std::size_t n_bytes, std::size_t count, int component, const char* type,
+          int target) {
+    views.push_back(
+        {{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", n_bytes}, {"target", target}});
     bytes.append(static_cast<const char*>(data), n_bytes);
     bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
-    accessors.push_back({{"bufferView", views.size() - 1}, {"componentType", component}, {"count", count}, {"type", type}});
+    accessors.push_back({{"bufferView", views.size() - 1},
+                         {"componentType", component},
+                         {"count", count},
+                         {"type", type}});
     return static_cast<int>(accessors.size()) - 1;
   }
   /// Bytes that are no numbers of the scene. @returns their view
@@ -61,7 +71,8 @@ public:
 };
 
 /// @param skin   of the rig, or null   @param print_size  of the printed cloth, or 0
-io::Json add_mesh(GlbBuffer& buffer, const DrawMesh& mesh, const Legend& legend, const Rig::Skin* skin, double print_size) {
+io::Json add_mesh(GlbBuffer& buffer, const DrawMesh& mesh, const Legend& legend,
+                  const Rig::Skin* skin, double print_size) {
   const bool printed = print_size > 0 && !mesh.uv.empty();
   std::vector<float> positions, normals, colors, uv;
   Eigen::Vector3f low = Eigen::Vector3f::Constant(std::numeric_limits<float>::max()), high = -low;
@@ -69,8 +80,10 @@ io::Json add_mesh(GlbBuffer& buffer, const DrawMesh& mesh, const Legend& legend,
     const Eigen::Vector3f p = mesh.positions[v].cast<float>();
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
-    const Vec3 c = printed ? Vec3::Ones() : shown_color(mesh, v, legend);          // a texture is multiplied by it
-    const Vec3 n = mesh.normals[v].norm() > 0.5 ? mesh.normals[v] : Vec3(0, 1, 0); // glTF wants unit normals
+    const Vec3 c =
+        printed ? Vec3::Ones() : shown_color(mesh, v, legend); // a texture is multiplied by it
+    const Vec3 n =
+        mesh.normals[v].norm() > 0.5 ? mesh.normals[v] : Vec3(0, 1, 0); // glTF wants unit normals
     for (int k = 0; k < 3; ++k) {
       positions.push_back(p[k]);
       normals.push_back(static_cast<float>(n[k]));
@@ -97,21 +110,31 @@ io::Json add_mesh(GlbBuffer& buffer, const DrawMesh& mesh, const Legend& legend,
         joints.push_back(static_cast<std::uint16_t>(skin->joint[v][k]));
         weights.push_back(static_cast<float>(skin->weight[v][k]));
       }
-    attributes["JOINTS_0"] = buffer.add(joints.data(), joints.size() * sizeof(std::uint16_t), mesh.positions.size(), 5123, "VEC4", 34962);
+    attributes["JOINTS_0"] = buffer.add(joints.data(), joints.size() * sizeof(std::uint16_t),
+                                        mesh.positions.size(), 5123, "VEC4", 34962);
     attributes["WEIGHTS_0"] = buffer.add_floats(weights, 4, "VEC4");
   }
-  const int elements = buffer.add(indices.data(), indices.size() * sizeof(std::uint32_t), indices.size(), 5125, "SCALAR", 34963);
-  return {{"name", mesh.name}, {"primitives", {{{"attributes", attributes}, {"indices", elements}, {"material", printed ? 2 : mesh.is_cloth ? 1 : 0}}}}};
+  const int elements = buffer.add(indices.data(), indices.size() * sizeof(std::uint32_t),
+                                  indices.size(), 5125, "SCALAR", 34963);
+  return {{"name", mesh.name},
+          {"primitives",
+           {{{"attributes", attributes},
+             {"indices", elements},
+             {"material", printed         ? 2
+                          : mesh.is_cloth ? 1
+                                          : 0}}}}};
 }
 
-/// Joint nodes after `nodes`, each placed from its parent's, and the skin that names them. In the bind pose nothing is turned, so
-/// that a joint's inverse matrix only moves its head to the origin.
+/// Joint nodes after `nodes`, each placed from its parent's, and the skin that names them. In the
+/// bind pose nothing is turned, so that a joint's inverse matrix only moves its head to the origin.
 io::Json add_skin(GlbBuffer& buffer, io::Json& nodes, const Rig& rig) {
   const std::size_t first = nodes.size();
   std::vector<float> inverse;
   io::Json joints = io::Json::array();
   for (std::size_t j = 0; j < rig.names.size(); ++j) {
-    const Vec3 from = rig.parent[j] < 0 ? Vec3(0, 0, 0) : rig.head[static_cast<std::size_t>(rig.parent[j])], at = rig.head[j] - from;
+    const Vec3 from = rig.parent[j] < 0 ? Vec3(0, 0, 0)
+                                        : rig.head[static_cast<std::size_t>(rig.parent[j])],
+               at = rig.head[j] - from;
     io::Json children = io::Json::array();
     for (std::size_t k = j + 1; k < rig.names.size(); ++k)
       if (rig.parent[k] == static_cast<int>(j)) children.push_back(first + k);
@@ -120,7 +143,8 @@ io::Json add_skin(GlbBuffer& buffer, io::Json& nodes, const Rig& rig) {
     joints.push_back(first + j);
     Mat4 matrix = Mat4::Identity();
     matrix.block<3, 1>(0, 3) = -rig.head[j];
-    for (int k = 0; k < 16; ++k) inverse.push_back(static_cast<float>(matrix(k % 4, k / 4))); // columns
+    for (int k = 0; k < 16; ++k)
+      inverse.push_back(static_cast<float>(matrix(k % 4, k / 4))); // columns
   }
   const int matrices = buffer.add_floats(inverse, 16, "MAT4");
   buffer.views.back().erase("target"); // no vertex attribute
@@ -128,7 +152,8 @@ io::Json add_skin(GlbBuffer& buffer, io::Json& nodes, const Rig& rig) {
 }
 
 std::string obj_text(const std::vector<DrawMesh>& meshes, const std::string& material_file) {
-  std::string text = "# " + generator_stamp("render-png") + ", m, y up\nmtllib " + material_file + "\n";
+  std::string text =
+      "# " + generator_stamp("render-png") + ", m, y up\nmtllib " + material_file + "\n";
   auto line = [&](const char* key, std::initializer_list<double> numbers) {
     text += key;
     for (double x : numbers) {
@@ -148,7 +173,9 @@ std::string obj_text(const std::vector<DrawMesh>& meshes, const std::string& mat
       text += 'f';
       for (int v : t) {
         const std::string at = std::to_string(v0 + static_cast<std::size_t>(v));
-        text += " " + at + "/" + (mesh.uv.empty() ? "" : std::to_string(t0 + static_cast<std::size_t>(v))) + "/" + at;
+        text += " " + at + "/" +
+                (mesh.uv.empty() ? "" : std::to_string(t0 + static_cast<std::size_t>(v))) + "/" +
+                at;
       }
       text += '\n';
     }
@@ -177,18 +204,27 @@ std::string ply_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend)
     n_vertices += mesh.positions.size();
     n_faces += mesh.triangles.size();
   }
-  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment " + generator_stamp("render-png") + ", m, y up" +
-                      (legend.title.empty() ? "" : "; value is " + legend.title + ", " + legend.unit) + "\nelement vertex " + std::to_string(n_vertices) +
-                      "\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
-                      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float value\nelement face " +
-                      std::to_string(n_faces) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  std::string bytes =
+      "ply\nformat binary_little_endian 1.0\ncomment " + generator_stamp("render-png") +
+      ", m, y up" +
+      (legend.title.empty() ? "" : "; value is " + legend.title + ", " + legend.unit) +
+      "\nelement vertex " + std::to_string(n_vertices) +
+      "\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float "
+      "ny\nproperty float nz\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float "
+      "value\nelement face " +
+      std::to_string(n_faces) + "\nproperty list uchar int vertex_indices\nend_header\n";
   for (const DrawMesh& mesh : meshes)
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
       for (const Vec3& p : {mesh.positions[v], mesh.normals[v]})
         for (int k = 0; k < 3; ++k) append(bytes, static_cast<float>(p[k]));
       const Vec3 c = shown_color(mesh, v, legend);
-      for (int k = 0; k < 3; ++k) append(bytes, static_cast<std::uint8_t>(std::lround(255 * std::clamp(to_srgb(c[k]), 0.0, 1.0))));
-      append(bytes, mesh.values.empty() || mesh.values[v] == NO_VALUE ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(mesh.values[v]));
+      for (int k = 0; k < 3; ++k)
+        append(bytes,
+               static_cast<std::uint8_t>(std::lround(255 * std::clamp(to_srgb(c[k]), 0.0, 1.0))));
+      append(bytes, mesh.values.empty() || mesh.values[v] == NO_VALUE
+                        ? std::numeric_limits<float>::quiet_NaN()
+                        : static_cast<float>(mesh.values[v]));
     }
   int base = 0;
   for (const DrawMesh& mesh : meshes) {
@@ -214,10 +250,12 @@ bool is_export(const std::string& path) {
   return e == "glb" || e == "obj" || e == "ply";
 }
 
-std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend, const Rig* rig, const Print* print) {
+std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend, const Rig* rig,
+                      const Print* print) {
   if (!legend.steps.empty()) print = nullptr; // the map's colours are shown
   GlbBuffer buffer;
-  io::Json document = {{"asset", {{"version", "2.0"}, {"generator", generator_stamp("render-png")}}}, {"scene", 0}};
+  io::Json document = {
+      {"asset", {{"version", "2.0"}, {"generator", generator_stamp("render-png")}}}, {"scene", 0}};
   io::Json nodes = io::Json::array(), drawn = io::Json::array(), roots = io::Json::array();
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     if (meshes[m].triangles.empty()) continue;
@@ -235,14 +273,18 @@ std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend,
   document["nodes"] = nodes;
   document["meshes"] = drawn;
   auto material = [](const char* name, double roughness, bool two_sided) {
-    return io::Json{{"name", name}, {"doubleSided", two_sided}, {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", roughness}}}};
+    return io::Json{
+        {"name", name},
+        {"doubleSided", two_sided},
+        {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", roughness}}}};
   };
   document["materials"] = {material("skin", 0.7, false), material("cloth", 0.9, true)};
   if (print) {
     document["materials"].push_back(material("printed cloth", 0.9, true));
     document["materials"].back()["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
     document["textures"] = {{{"source", 0}}}; // without a sampler it repeats
-    document["images"] = {{{"mimeType", "image/png"}, {"bufferView", buffer.add_bytes(io::png_bytes(print->image, {}))}}};
+    document["images"] = {{{"mimeType", "image/png"},
+                           {"bufferView", buffer.add_bytes(io::png_bytes(print->image, {}))}}};
   }
   document["accessors"] = buffer.accessors;
   document["bufferViews"] = buffer.views;
@@ -259,7 +301,8 @@ std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend,
   return bytes;
 }
 
-void export_scene(const std::string& path, const std::vector<DrawMesh>& meshes, const Legend& legend, const Rig* rig, const Print* print) {
+void export_scene(const std::string& path, const std::vector<DrawMesh>& meshes,
+                  const Legend& legend, const Rig* rig, const Print* print) {
   const std::string e = extension(path);
   if (e == "glb") {
     io::write_file(path, glb_bytes(meshes, legend, rig, print));
@@ -270,7 +313,8 @@ void export_scene(const std::string& path, const std::vector<DrawMesh>& meshes, 
     io::write_file(materials, mtl_text(meshes));
     io::write_file(path, obj_text(meshes, io::file_name(materials)));
   } else {
-    throw Error(ErrorKind::USAGE, "", "-o " + path, "is no kind of file that can be written", "end it in .png, .glb, .obj or .ply");
+    throw Error(ErrorKind::USAGE, "", "-o " + path, "is no kind of file that can be written",
+                "end it in .png, .glb, .obj or .ply");
   }
 }
 

@@ -64,7 +64,9 @@ Gl::Gl(const Context& context) {
 
 GLuint Gl::program(const char* vertex_shader, const char* fragment_shader) const {
   const GLuint result = CreateProgram();
-  for (const auto& [kind, source] : {std::pair<GLenum, const char*>{GL_VERTEX_SHADER, vertex_shader}, {GL_FRAGMENT_SHADER, fragment_shader}}) {
+  for (const auto& [kind, source] :
+       {std::pair<GLenum, const char*>{GL_VERTEX_SHADER, vertex_shader},
+        {GL_FRAGMENT_SHADER, fragment_shader}}) {
     const GLuint shader = CreateShader(kind);
     ShaderSource(shader, 1, &source, nullptr);
     CompileShader(shader);

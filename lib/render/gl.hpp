@@ -1,5 +1,6 @@
 #pragma once
-/// The OpenGL functions that drawing uses, looked up in a context; and a program made of two shaders.
+/// The OpenGL functions that drawing uses, looked up in a context; and a program made of two
+/// shaders.
 #include <render/context.hpp>
 
 #include <GL/glcorearb.h>
@@ -64,7 +65,8 @@ struct Gl {
   GLuint program(const char* vertex_shader, const char* fragment_shader) const;
 };
 
-/// GLSL 330. Attributes of the surface: 0 position, 1 normal, 2 colour and light, 3 warp-aligned uv, seam and hem distance, 4 map value, key light.
+/// GLSL 330. Attributes of the surface: 0 position, 1 normal, 2 colour and light, 3 warp-aligned
+/// uv, seam and hem distance, 4 map value, key light.
 extern const char* const SURFACE_VERTEX_SHADER;
 extern const char* const SURFACE_FRAGMENT_SHADER; ///< without its version and constants: see there
 /// Attributes of lines: 0 position, 1 the other end, 2 colour and side.

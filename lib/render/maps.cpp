@@ -29,7 +29,8 @@ struct VertexMean {
     }
   }
   std::vector<double> result() {
-    for (std::size_t v = 0; v < sum.size(); ++v) sum[v] = weight[v] > 0 ? sum[v] / weight[v] : NO_VALUE;
+    for (std::size_t v = 0; v < sum.size(); ++v)
+      sum[v] = weight[v] > 0 ? sum[v] / weight[v] : NO_VALUE;
     return std::move(sum);
   }
 };
@@ -48,7 +49,8 @@ double strain_value(const Garment& g, int panel, const garment::TriangleStrain& 
 }
 
 /// Values of triangles at panel vertices; the triangles' own, by area, for the legend.
-std::vector<double> strain_values(const Garment& g, Map map, std::vector<garment::Weighted>& by_area) {
+std::vector<double> strain_values(const Garment& g, Map map,
+                                  std::vector<garment::Weighted>& by_area) {
   VertexMean mean(g.panels.pattern.size());
   const std::vector<garment::TriangleStrain> strains = garment::triangle_strains(g, g.position);
   for (std::size_t p = 0; p < g.panels.panels.size(); ++p) {
@@ -75,7 +77,8 @@ std::vector<double> gaps(const Garment& g, const collision::BodyCollider& body) 
   return by_vertex;
 }
 
-std::vector<double> pressure_values(const Garment& g, const collision::BodyCollider& body, std::vector<garment::Weighted>& by_area) {
+std::vector<double> pressure_values(const Garment& g, const collision::BodyCollider& body,
+                                    std::vector<garment::Weighted>& by_area) {
   const std::vector<garment::TriangleStrain> strains = garment::triangle_strains(g, g.position);
   const std::vector<double> pressures = garment::contact_pressures(g, strains, body);
   VertexMean mean(g.panels.pattern.size());
@@ -87,8 +90,9 @@ std::vector<double> pressure_values(const Garment& g, const collision::BodyColli
   return mean.result();
 }
 
-/// By panel vertex: whether it is a sleeve's. A panel that lies nearly all on the arm or off it is taken as a whole, so that the border is the
-/// armhole; one that goes on from the trunk into the sleeve is parted where the arm has the greater weight.
+/// By panel vertex: whether it is a sleeve's. A panel that lies nearly all on the arm or off it is
+/// taken as a whole, so that the border is the armhole; one that goes on from the trunk into the
+/// sleeve is parted where the arm has the greater weight.
 std::vector<char> on_sleeves(const Garment& g) {
   std::vector<char> sleeve;
   for (int particle : g.particle_of) {
@@ -99,19 +103,25 @@ std::vector<char> on_sleeves(const Garment& g) {
   }
   for (const pattern::PanelInfo& panel : g.panels.panels) {
     const auto first = sleeve.begin() + panel.first_vertex, last = first + panel.n_vertices;
-    const double share = panel.n_vertices > 0 ? static_cast<double>(std::count(first, last, 1)) / panel.n_vertices : 0;
+    const double share = panel.n_vertices > 0
+                             ? static_cast<double>(std::count(first, last, 1)) / panel.n_vertices
+                             : 0;
     if (share < NEARLY_NONE || share > 1 - NEARLY_NONE) std::fill(first, last, share > 0.5);
   }
   return sleeve;
 }
 
-std::vector<double> ease_values(const Garment& g, const body::Body& body, const collision::BodyCollider& skin) {
+std::vector<double> ease_values(const Garment& g, const body::Body& body,
+                                const collision::BodyCollider& skin) {
   if (g.bind.empty())
-    throw Error(ErrorKind::USAGE, "", "--map ease", "needs a garment that hangs on a body", "give the shirt.json that drape or retarget-garment wrote");
+    throw Error(ErrorKind::USAGE, "", "--map ease", "needs a garment that hangs on a body",
+                "give the shirt.json that drape or retarget-garment wrote");
   std::map<double, double> ease; // by height
-  for (const garment::FitRow& row : garment::fit_garment(g, body, skin, garment::standard_fit_policy()).rows)
+  for (const garment::FitRow& row :
+       garment::fit_garment(g, body, skin, garment::standard_fit_policy()).rows)
     if (row.kind == "level") ease[row.height_m] = 100 * row.ease_m;
-  if (ease.empty()) throw Error(ErrorKind::USAGE, "", "--map ease", "no trunk level goes through this garment");
+  if (ease.empty())
+    throw Error(ErrorKind::USAGE, "", "--map ease", "no trunk level goes through this garment");
   const std::vector<char> sleeve = on_sleeves(g);
   std::vector<double> values;
   for (std::size_t v = 0; v < g.particle_of.size(); ++v) {
@@ -122,7 +132,8 @@ std::vector<double> ease_values(const Garment& g, const body::Body& body, const 
     else if (above == ease.begin()) values.push_back(above->second);
     else {
       const auto below = std::prev(above);
-      values.push_back(below->second + (above->second - below->second) * (y - below->first) / (above->first - below->first));
+      values.push_back(below->second + (above->second - below->second) * (y - below->first) /
+                                           (above->first - below->first));
     }
   }
   return values;
@@ -131,13 +142,15 @@ std::vector<double> ease_values(const Garment& g, const body::Body& body, const 
 /// The legend's quantiles, by area. @returns the size that 99 of 100 parts do not exceed
 double summarise(std::vector<garment::Weighted> all, Legend& legend) {
   if (all.empty()) return 0;
-  legend.p50 = garment::area_quantile(all, 0.5), legend.p1 = garment::area_quantile(all, 0.01), legend.p99 = garment::area_quantile(all, 0.99);
+  legend.p50 = garment::area_quantile(all, 0.5), legend.p1 = garment::area_quantile(all, 0.01),
+  legend.p99 = garment::area_quantile(all, 0.99);
   legend.least = all.front().value, legend.largest = all.back().value;
   for (garment::Weighted& v : all) v.value = std::abs(v.value);
   return garment::area_quantile(all, 0.99);
 }
 
-/// How much lies beyond the ends of the scale, by the weights of the quantiles, so that both say the same.
+/// How much lies beyond the ends of the scale, by the weights of the quantiles, so that both say
+/// the same.
 void count_outside(const std::vector<garment::Weighted>& values, Legend& legend) {
   double all = 0, below = 0, beyond = 0;
   const double slack = 1e-9 * (legend.high - legend.low);
@@ -159,24 +172,41 @@ double choose_range(double most, std::initializer_list<double> ranges) {
 /// Title, unit and range of a map. @param most of the values that the range should hold
 void choose_scale(Map map, double most, Legend& legend) {
   switch (map) {
-  case Map::GAP: legend.title = "gap to the skin", legend.unit = "mm", legend.high = choose_range(most, {40, 80, 120, 160, 240, 320}); break;
-  case Map::PENETRATION: legend.title = "depth in the skin", legend.unit = "mm", legend.high = choose_range(legend.largest, {0.8, 4, 8, 16, 40, 80}); break;
+  case Map::GAP:
+    legend.title = "gap to the skin", legend.unit = "mm",
+    legend.high = choose_range(most, {40, 80, 120, 160, 240, 320});
+    break;
+  case Map::PENETRATION:
+    legend.title = "depth in the skin", legend.unit = "mm",
+    legend.high = choose_range(legend.largest, {0.8, 4, 8, 16, 40, 80});
+    break;
   case Map::PRESSURE:
-    legend.title = "contact pressure", legend.unit = "Pa", legend.high = choose_range(most, {80, 160, 400, 800, 1600, 4000, 8000, 40000});
+    legend.title = "contact pressure", legend.unit = "Pa",
+    legend.high = choose_range(most, {80, 160, 400, 800, 1600, 4000, 8000, 40000});
     break;
   case Map::EASE:
-    legend.title = "ease at the level", legend.unit = "cm", legend.high = choose_range(most, {8, 16, 24, 32, 48, 80}), legend.diverging = true;
+    legend.title = "ease at the level", legend.unit = "cm",
+    legend.high = choose_range(most, {8, 16, 24, 32, 48, 80}), legend.diverging = true;
     break;
-  case Map::DIFFERENCE: legend.title = "difference", legend.unit = "mm", legend.high = choose_range(most, {0.8, 1.6, 4, 8, 16, 40, 80, 160, 400, 800}); break;
-  case Map::LIMIT: legend.title = "share of strain limit", legend.unit = "%", legend.high = choose_range(most, {8, 16, 40, 80, 160, 400, 1600}); break;
+  case Map::DIFFERENCE:
+    legend.title = "difference", legend.unit = "mm",
+    legend.high = choose_range(most, {0.8, 1.6, 4, 8, 16, 40, 80, 160, 400, 800});
+    break;
+  case Map::LIMIT:
+    legend.title = "share of strain limit", legend.unit = "%",
+    legend.high = choose_range(most, {8, 16, 40, 80, 160, 400, 1600});
+    break;
   default:
     legend.title = map == Map::STRAIN ? "strain" : "strain, " + map_names()[static_cast<int>(map)];
-    legend.unit = "%", legend.high = choose_range(most, {4, 8, 12, 20, 40}), legend.diverging = true;
+    legend.unit = "%", legend.high = choose_range(most, {4, 8, 12, 20, 40}),
+    legend.diverging = true;
   }
 }
 
 void color_parts(Scene& scene) {
-  if (!scene.body) throw Error(ErrorKind::USAGE, "", "--map parts", "needs a body", "give body.json as a document");
+  if (!scene.body)
+    throw Error(ErrorKind::USAGE, "", "--map parts", "needs a body",
+                "give body.json as a document");
   static const int colors[] = {0xc4a484, 0x7fa3c7, 0xd9b45b, 0xc98a9c, 0x7fb69a, 0x9a8fc0};
   DrawMesh& mesh = scene.meshes[scene.body_mesh];
   DrawMesh split = mesh; // corners of their own, so that parts have sharp borders
@@ -187,7 +217,8 @@ void color_parts(Scene& scene) {
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
     for (int& v : split.triangles[f]) {
       const int part = static_cast<int>(scene.body->face_part[f]);
-      const auto [found, is_new] = vertex.try_emplace({part, v}, static_cast<int>(split.positions.size()));
+      const auto [found, is_new] =
+          vertex.try_emplace({part, v}, static_cast<int>(split.positions.size()));
       if (is_new) {
         split.positions.push_back(mesh.positions[v]);
         split.normals.push_back(mesh.normals[v]);
@@ -201,15 +232,25 @@ void color_parts(Scene& scene) {
 } // namespace
 
 const std::vector<std::string>& map_names() {
-  static const std::vector<std::string> names = {"none", "strain",   "warp", "weft",        "bias",       "limit",
-                                                 "gap",  "pressure", "ease", "penetration", "difference", "parts"};
+  static const std::vector<std::string> names = {"none", "strain",      "warp",       "weft",
+                                                 "bias", "limit",       "gap",        "pressure",
+                                                 "ease", "penetration", "difference", "parts"};
   return names;
 }
 
 Vec3 scale_color(double t, bool diverging) {
-  // Anchors in linear light. Sequential: dark blue - teal - yellow, rising evenly in lightness. Diverging: blue - white - red.
-  static const Vec3 sequential[] = {{0.06, 0.02, 0.12}, {0.05, 0.09, 0.27}, {0.02, 0.21, 0.26}, {0.07, 0.42, 0.17}, {0.82, 0.78, 0.04}};
-  static const Vec3 apart[] = {{0.01, 0.06, 0.30}, {0.16, 0.35, 0.60}, {0.85, 0.85, 0.83}, {0.75, 0.25, 0.14}, {0.35, 0.01, 0.02}};
+  // Anchors in linear light. Sequential: dark blue - teal - yellow, rising evenly in lightness.
+  // Diverging: blue - white - red.
+  static const Vec3 sequential[] = {{0.06, 0.02, 0.12},
+                                    {0.05, 0.09, 0.27},
+                                    {0.02, 0.21, 0.26},
+                                    {0.07, 0.42, 0.17},
+                                    {0.82, 0.78, 0.04}};
+  static const Vec3 apart[] = {{0.01, 0.06, 0.30},
+                               {0.16, 0.35, 0.60},
+                               {0.85, 0.85, 0.83},
+                               {0.75, 0.25, 0.14},
+                               {0.35, 0.01, 0.02}};
   const Vec3* anchors = diverging ? apart : sequential;
   const double s = std::clamp(diverging ? 0.5 * (t + 1) : t, 0.0, 1.0) * 4;
   const int k = std::min(static_cast<int>(s), 3);
@@ -226,12 +267,16 @@ Legend apply_map(Scene& scene, Map map, double limit) {
     return legend;
   }
   const std::string option = "--map " + map_names()[static_cast<int>(map)];
-  if (scene.garments.empty()) throw Error(ErrorKind::USAGE, "", option, "needs a garment with pattern coordinates", "give shirt.json as a document");
+  if (scene.garments.empty())
+    throw Error(ErrorKind::USAGE, "", option, "needs a garment with pattern coordinates",
+                "give shirt.json as a document");
   std::vector<std::vector<double>> values;
   std::vector<garment::Weighted> by_area; // of maps whose values are the triangles' own
   if (map == Map::DIFFERENCE) {
     if (scene.garments.size() != 2)
-      throw Error(ErrorKind::USAGE, "", option, "compares two garments, not " + std::to_string(scene.garments.size()), "give two shirt.json of one pattern");
+      throw Error(ErrorKind::USAGE, "", option,
+                  "compares two garments, not " + std::to_string(scene.garments.size()),
+                  "give two shirt.json of one pattern");
     values.push_back(drape_difference(scene.garments[0], scene.garments[1]));
     for (double& v : values[0]) v = v == NO_VALUE ? v : 1000 * v;
     const int hidden = scene.garment_mesh[1];
@@ -240,10 +285,13 @@ Legend apply_map(Scene& scene, Map map, double limit) {
     scene.garment_mesh.pop_back();
     for (int* mesh : {&scene.garment_mesh[0], &scene.body_mesh})
       if (*mesh > hidden) --*mesh;
-  } else if (map == Map::STRAIN || map == Map::WARP || map == Map::WEFT || map == Map::BIAS || map == Map::LIMIT) {
+  } else if (map == Map::STRAIN || map == Map::WARP || map == Map::WEFT || map == Map::BIAS ||
+             map == Map::LIMIT) {
     for (const Garment& g : scene.garments) values.push_back(strain_values(g, map, by_area));
   } else {
-    if (!scene.body) throw Error(ErrorKind::USAGE, "", option, "needs the body too", "give body.json as a document");
+    if (!scene.body)
+      throw Error(ErrorKind::USAGE, "", option, "needs the body too",
+                  "give body.json as a document");
     const collision::BodyCollider body(scene.body->skin);
     for (const Garment& g : scene.garments) {
       if (map == Map::PRESSURE) values.push_back(pressure_values(g, body, by_area));
@@ -262,18 +310,26 @@ Legend apply_map(Scene& scene, Map map, double limit) {
   if (limit > 0) legend.high = limit;
   legend.low = legend.diverging ? -legend.high : 0;
   count_outside(by_area, legend);
-  for (const auto& list : values) legend.has_gaps |= std::count(list.begin(), list.end(), NO_VALUE) > 0;
-  for (int k = 0; k < 8; ++k) legend.steps.push_back(scale_color(legend.diverging ? (k - 3.5) / 3.5 : k / 7.0, legend.diverging));
-  for (std::size_t g = 0; g < values.size(); ++g) scene.meshes[scene.garment_mesh[g]].values = values[g];
+  for (const auto& list : values)
+    legend.has_gaps |= std::count(list.begin(), list.end(), NO_VALUE) > 0;
+  for (int k = 0; k < 8; ++k)
+    legend.steps.push_back(
+        scale_color(legend.diverging ? (k - 3.5) / 3.5 : k / 7.0, legend.diverging));
+  for (std::size_t g = 0; g < values.size(); ++g)
+    scene.meshes[scene.garment_mesh[g]].values = values[g];
   return legend;
 }
 
 std::string values_csv(const Scene& scene, const Legend& legend) {
-  std::string text = "document,panel,s,t,x_m,y_m,z_m," + (legend.title.empty() ? "value" : legend.title.substr(0, legend.title.find(','))) + "_" +
-                     (legend.unit == "%" ? "percent" : legend.unit) + "\n";
+  std::string text =
+      "document,panel,s,t,x_m,y_m,z_m," +
+      (legend.title.empty() ? "value" : legend.title.substr(0, legend.title.find(','))) + "_" +
+      (legend.unit == "%" ? "percent" : legend.unit) + "\n";
   std::replace(text.begin(), text.end(), ' ', '_');
   char buffer[32];
-  auto number = [&](double x) { return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, x).ptr); };
+  auto number = [&](double x) {
+    return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, x).ptr);
+  };
   for (std::size_t g = 0; g < scene.garments.size(); ++g) {
     const Garment& garment = scene.garments[g];
     const std::vector<double>& values = scene.meshes[scene.garment_mesh[g]].values;
@@ -282,11 +338,13 @@ std::string values_csv(const Scene& scene, const Legend& legend) {
       const Vec3& p = garment.position[garment.particle_of[v]];
       std::string panel = garment.panels.panels[id.panel].name;
       if (panel.find_first_of(",\"\n") != std::string::npos) {
-        for (std::size_t at = 0; (at = panel.find('"', at)) != std::string::npos; at += 2) panel.insert(at, 1, '"');
+        for (std::size_t at = 0; (at = panel.find('"', at)) != std::string::npos; at += 2)
+          panel.insert(at, 1, '"');
         panel = "\"" + panel + "\"";
       }
-      text += std::to_string(g + 1) + "," + panel + "," + number(id.s) + "," + number(id.t) + "," + number(p.x()) + "," + number(p.y()) + "," + number(p.z()) +
-              "," + (values.empty() || values[v] == NO_VALUE ? "" : number(values[v])) + "\n";
+      text += std::to_string(g + 1) + "," + panel + "," + number(id.s) + "," + number(id.t) + "," +
+              number(p.x()) + "," + number(p.y()) + "," + number(p.z()) + "," +
+              (values.empty() || values[v] == NO_VALUE ? "" : number(values[v])) + "\n";
     }
   }
   return text;

@@ -40,7 +40,8 @@ Occlusion::Occlusion(const std::vector<DrawMesh>& meshes) {
   m_radius = std::max(1e-6, 0.5 * box.size().norm());
   const double cell = std::max(box.size().maxCoeff(), 1e-6) / CELLS;
   for (const DrawMesh& mesh : meshes) {
-    // Points of one cell become one at their mean; each mesh apart, so that cloth stays off the skin.
+    // Points of one cell become one at their mean; each mesh apart, so that cloth stays off the
+    // skin.
     std::unordered_map<std::uint64_t, int> cell_of;
     std::vector<int> cluster(mesh.positions.size());
     std::vector<Vec3> sum;
@@ -48,7 +49,9 @@ Occlusion::Occlusion(const std::vector<DrawMesh>& meshes) {
     cell_of.reserve(mesh.positions.size() / 2);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
       const Vec3 at = (mesh.positions[v] - box.low) / cell;
-      const std::uint64_t key = static_cast<std::uint64_t>(at.x()) << 40 | static_cast<std::uint64_t>(at.y()) << 20 | static_cast<std::uint64_t>(at.z());
+      const std::uint64_t key = static_cast<std::uint64_t>(at.x()) << 40 |
+                                static_cast<std::uint64_t>(at.y()) << 20 |
+                                static_cast<std::uint64_t>(at.z());
       const auto [found, is_new] = cell_of.try_emplace(key, static_cast<int>(sum.size()));
       if (is_new) {
         sum.emplace_back(Vec3::Zero());
@@ -59,7 +62,8 @@ Occlusion::Occlusion(const std::vector<DrawMesh>& meshes) {
       ++count[found->second];
     }
     const int base = static_cast<int>(m_positions.size());
-    for (std::size_t k = 0; k < sum.size(); ++k) m_positions.push_back((sum[k] / count[k] - m_center).cast<float>());
+    for (std::size_t k = 0; k < sum.size(); ++k)
+      m_positions.push_back((sum[k] / count[k] - m_center).cast<float>());
     for (const Triangle& t : mesh.triangles) {
       const int a = cluster[t[0]], b = cluster[t[1]], c = cluster[t[2]];
       if (a == b || b == c || c == a) continue;
@@ -80,7 +84,8 @@ Occlusion::DepthMap Occlusion::depth_from(const Vec3& direction) const {
   map.height.assign(static_cast<std::size_t>(MAP_SIZE) * MAP_SIZE, -1e9f);
   std::vector<Eigen::Vector3f> at(m_positions.size());
   for (std::size_t v = 0; v < at.size(); ++v)
-    at[v] = {m_positions[v].dot(map.right) * map.scale + 0.5f * MAP_SIZE, m_positions[v].dot(map.up) * map.scale + 0.5f * MAP_SIZE,
+    at[v] = {m_positions[v].dot(map.right) * map.scale + 0.5f * MAP_SIZE,
+             m_positions[v].dot(map.up) * map.scale + 0.5f * MAP_SIZE,
              m_positions[v].dot(map.towards)};
   for (const Triangle& t : m_triangles) {
     const Eigen::Vector3f &a = at[t[0]], &b = at[t[1]], &c = at[t[2]];
@@ -90,13 +95,17 @@ Occlusion::DepthMap Occlusion::depth_from(const Vec3& direction) const {
               y1 = std::min(MAP_SIZE - 1, static_cast<int>(std::max({a.y(), b.y(), c.y()})));
     const float area = (b.x() - a.x()) * (c.y() - a.y()) - (c.x() - a.x()) * (b.y() - a.y());
     if (std::abs(area) < 1e-6f) continue;
-    if (area < 0 && m_is_solid[&t - m_triangles.data()]) continue; // a body's far side lies below its near side
+    if (area < 0 && m_is_solid[&t - m_triangles.data()])
+      continue; // a body's far side lies below its near side
     const float inverse = 1 / area;
-    const float ux = (c.y() - a.y()) * inverse, uy = (a.x() - c.x()) * inverse, vx = (a.y() - b.y()) * inverse, vy = (b.x() - a.x()) * inverse;
+    const float ux = (c.y() - a.y()) * inverse, uy = (a.x() - c.x()) * inverse,
+                vx = (a.y() - b.y()) * inverse, vy = (b.x() - a.x()) * inverse;
     const float slope_x = ux * (b.z() - a.z()) + vx * (c.z() - a.z());
     for (int y = y0; y <= y1; ++y) {
-      const float dx = static_cast<float>(x0) + 0.5f - a.x(), dy = static_cast<float>(y) + 0.5f - a.y();
-      float u = ux * dx + uy * dy, v = vx * dx + vy * dy, z = a.z() + u * (b.z() - a.z()) + v * (c.z() - a.z());
+      const float dx = static_cast<float>(x0) + 0.5f - a.x(),
+                  dy = static_cast<float>(y) + 0.5f - a.y();
+      float u = ux * dx + uy * dy, v = vx * dx + vy * dy,
+            z = a.z() + u * (b.z() - a.z()) + v * (c.z() - a.z());
       float* row = map.height.data() + static_cast<std::size_t>(y) * MAP_SIZE;
       for (int x = x0; x <= x1; ++x, u += ux, v += vx, z += slope_x)
         if (u >= 0 && v >= 0 && u + v <= 1 && z > row[x]) row[x] = z;
@@ -105,13 +114,15 @@ Occlusion::DepthMap Occlusion::depth_from(const Vec3& direction) const {
   return map;
 }
 
-void Occlusion::receive(const DepthMap& map, const std::vector<Vec3>& points, const std::vector<Vec3>& normals, std::vector<float>& lit,
+void Occlusion::receive(const DepthMap& map, const std::vector<Vec3>& points,
+                        const std::vector<Vec3>& normals, std::vector<float>& lit,
                         std::vector<float>& all, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
     const float facing = normals[i].cast<float>().dot(map.towards);
     if (facing <= LEAST_FACING) continue;
     const Eigen::Vector3f p = points[i].cast<float>() - map.center;
-    const float x = p.dot(map.right) * map.scale + 0.5f * MAP_SIZE - 0.5f, y = p.dot(map.up) * map.scale + 0.5f * MAP_SIZE - 0.5f;
+    const float x = p.dot(map.right) * map.scale + 0.5f * MAP_SIZE - 0.5f,
+                y = p.dot(map.up) * map.scale + 0.5f * MAP_SIZE - 0.5f;
     all[i] += facing;
     if (!(x >= 0 && y >= 0 && x < MAP_SIZE - 2 && y < MAP_SIZE - 2)) {
       lit[i] += facing;
@@ -120,16 +131,20 @@ void Occlusion::receive(const DepthMap& map, const std::vector<Vec3>& points, co
     const int ix = static_cast<int>(x), iy = static_cast<int>(y);
     const float fx = x - static_cast<float>(ix), fy = y - static_cast<float>(iy);
     // A surface seen askew rises within a pixel: the bias grows with its slope.
-    const float limit = p.dot(map.towards) + BIAS + std::min(0.02f, 0.7f * std::sqrt(1 - std::min(1.f, facing * facing)) / facing / map.scale);
+    const float limit =
+        p.dot(map.towards) + BIAS +
+        std::min(0.02f, 0.7f * std::sqrt(1 - std::min(1.f, facing * facing)) / facing / map.scale);
     const float* row = map.height.data() + static_cast<std::size_t>(iy) * MAP_SIZE + ix;
     auto open = [&](float height) { return 1 - std::clamp((height - limit) / SOFT, 0.f, 1.f); };
-    const float share = (1 - fy) * ((1 - fx) * open(row[0]) + fx * open(row[1])) + fy * ((1 - fx) * open(row[MAP_SIZE]) + fx * open(row[MAP_SIZE + 1]));
+    const float share = (1 - fy) * ((1 - fx) * open(row[0]) + fx * open(row[1])) +
+                        fy * ((1 - fx) * open(row[MAP_SIZE]) + fx * open(row[MAP_SIZE + 1]));
     lit[i] += facing * share;
   }
 }
 
-std::vector<float> Occlusion::gather(const std::vector<Vec3>& directions, const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
-                                     float unlit) const {
+std::vector<float> Occlusion::gather(const std::vector<Vec3>& directions,
+                                     const std::vector<Vec3>& points,
+                                     const std::vector<Vec3>& normals, float unlit) const {
   std::vector<DepthMap> maps(directions.size());
   parallel_for(directions.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) maps[k] = depth_from(directions[k]);
@@ -142,10 +157,13 @@ std::vector<float> Occlusion::gather(const std::vector<Vec3>& directions, const 
   return lit;
 }
 
-std::vector<float> Occlusion::sky(const std::vector<Vec3>& points, const std::vector<Vec3>& normals, int directions) const {
+std::vector<float> Occlusion::sky(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
+                                  int directions) const {
   std::vector<Vec3> from;
-  for (int k = 0; k < directions; ++k) { // spread evenly, from the zenith to somewhat below the horizon: the ground gives light back
-    const double y = 1 - 1.6 * (k + 0.5) / directions, around = k * 2.399963229728653, r = std::sqrt(std::max(0.0, 1 - y * y)); // golden angle
+  for (int k = 0; k < directions; ++k) { // spread evenly, from the zenith to somewhat below the
+                                         // horizon: the ground gives light back
+    const double y = 1 - 1.6 * (k + 0.5) / directions, around = k * 2.399963229728653,
+                 r = std::sqrt(std::max(0.0, 1 - y * y)); // golden angle
     from.emplace_back(r * std::cos(around), y, r * std::sin(around));
   }
   std::vector<float> light = gather(from, points, normals, 0.5f);
@@ -153,7 +171,8 @@ std::vector<float> Occlusion::sky(const std::vector<Vec3>& points, const std::ve
   return light;
 }
 
-std::vector<float> Occlusion::key(const std::vector<Vec3>& points, const std::vector<Vec3>& normals, const Vec3& towards, double spread) const {
+std::vector<float> Occlusion::key(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
+                                  const Vec3& towards, double spread) const {
   const Vec3 a = any_square(towards), b = towards.cross(a);
   std::vector<Vec3> from;
   for (int k = 0; k < 7; ++k) {

@@ -1,8 +1,10 @@
 #pragma once
-/// How much light reaches each vertex: ambient occlusion of the sky and soft shadow of the key light.
+/// How much light reaches each vertex: ambient occlusion of the sky and soft shadow of the key
+/// light.
 ///
-/// Depth pictures of the scene from many directions, drawn by the processor over a thinned copy of the meshes; a vertex is lit
-/// from a direction when nothing there is nearer. No OpenGL: every back end draws the same light.
+/// Depth pictures of the scene from many directions, drawn by the processor over a thinned copy of
+/// the meshes; a vertex is lit from a direction when nothing there is nearer. No OpenGL: every back
+/// end draws the same light.
 #include <render/scene.hpp>
 namespace sloper::render {
 
@@ -12,16 +14,20 @@ public:
   explicit Occlusion(const std::vector<DrawMesh>& meshes);
 
   /// Share of the sky that each vertex sees, 0..1, weighted by the cosine. @param directions 1..256
-  std::vector<float> sky(const std::vector<Vec3>& points, const std::vector<Vec3>& normals, int directions) const;
+  std::vector<float> sky(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
+                         int directions) const;
   /// Share of a light as wide as `spread` (rad) around `towards` that reaches each vertex, 0..1.
-  std::vector<float> key(const std::vector<Vec3>& points, const std::vector<Vec3>& normals, const Vec3& towards, double spread) const;
+  std::vector<float> key(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
+                         const Vec3& towards, double spread) const;
 
 private:
   struct DepthMap;
   DepthMap depth_from(const Vec3& direction) const;
-  static void receive(const DepthMap& map, const std::vector<Vec3>& points, const std::vector<Vec3>& normals, std::vector<float>& lit, std::vector<float>& all,
-                      std::size_t begin, std::size_t end);
-  std::vector<float> gather(const std::vector<Vec3>& directions, const std::vector<Vec3>& points, const std::vector<Vec3>& normals, float unlit) const;
+  static void receive(const DepthMap& map, const std::vector<Vec3>& points,
+                      const std::vector<Vec3>& normals, std::vector<float>& lit,
+                      std::vector<float>& all, std::size_t begin, std::size_t end);
+  std::vector<float> gather(const std::vector<Vec3>& directions, const std::vector<Vec3>& points,
+                            const std::vector<Vec3>& normals, float unlit) const;
   std::vector<Eigen::Vector3f> m_positions; ///< of the thinned meshes
   std::vector<Triangle> m_triangles;
   std::vector<char> m_is_solid; ///< by triangle: seen from outside only

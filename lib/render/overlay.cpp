@@ -20,7 +20,8 @@ FT_Face face() {
     FT_Library library = nullptr;
     FT_Face f = nullptr;
     if (FT_Init_FreeType(&library) || FT_New_Face(library, SLOPER_FONT, 0, &f))
-      throw Error(ErrorKind::INTERNAL, SLOPER_FONT, "", "the font cannot be opened", "install the package fonts-dejavu-core");
+      throw Error(ErrorKind::INTERNAL, SLOPER_FONT, "", "the font cannot be opened",
+                  "install the package fonts-dejavu-core");
     return f;
   }();
   return opened;
@@ -29,7 +30,9 @@ FT_Face face() {
 void blend(std::uint8_t* pixel, int color, double alpha) {
   const double under = pixel[3] / 255.0 * (1 - alpha), all = alpha + under;
   if (all <= 0) return;
-  for (int k = 0; k < 3; ++k) pixel[k] = static_cast<std::uint8_t>(std::lround(((color >> (16 - 8 * k) & 255) * alpha + pixel[k] * under) / all));
+  for (int k = 0; k < 3; ++k)
+    pixel[k] = static_cast<std::uint8_t>(
+        std::lround(((color >> (16 - 8 * k) & 255) * alpha + pixel[k] * under) / all));
   pixel[3] = static_cast<std::uint8_t>(std::lround(255 * all));
 }
 
@@ -40,16 +43,19 @@ template<class F> void for_code_points(const std::string& text, F&& visit) {
     unsigned long code = c;
     int more = c < 0x80 ? 0 : c >= 0xf0 ? 3 : c >= 0xe0 ? 2 : c >= 0xc0 ? 1 : -1;
     if (more > 0) code = c & (0x3f >> more);
-    for (; more > 0 && i < text.size() && (text[i] & 0xc0) == 0x80; --more) code = code << 6 | (text[i++] & 0x3f);
+    for (; more > 0 && i < text.size() && (text[i] & 0xc0) == 0x80; --more)
+      code = code << 6 | (text[i++] & 0x3f);
     visit(more == 0 ? code : 0xfffdUL);
   }
 }
 
 /// Blends over all pixels of a box by coverage(x, y) of their middles.
-template<class F> void cover(io::Image& image, double x0, double y0, double x1, double y1, int color, F&& coverage) {
+template<class F>
+void cover(io::Image& image, double x0, double y0, double x1, double y1, int color, F&& coverage) {
   if (!(x1 >= 0 && y1 >= 0 && x0 <= image.width && y0 <= image.height)) return;
   for (int y = std::max(0, static_cast<int>(y0)); y <= std::min<double>(image.height - 1, y1); ++y)
-    for (int x = std::max(0, static_cast<int>(x0)); x <= std::min<double>(image.width - 1, x1); ++x) {
+    for (int x = std::max(0, static_cast<int>(x0)); x <= std::min<double>(image.width - 1, x1);
+         ++x) {
       const double alpha = std::clamp(coverage(x + 0.5, y + 0.5), 0.0, 1.0);
       if (alpha > 0) blend(image.at(x, y), color, alpha);
     }
@@ -63,12 +69,15 @@ void fill(io::Image& image, int x0, int y0, int x1, int y1, const Vec3& linear) 
   for (int y = std::max(y0, 0); y < std::min(y1, image.height); ++y)
     for (int x = std::max(x0, 0); x < std::min(x1, image.width); ++x) {
       std::uint8_t* pixel = image.at(x, y);
-      for (int k = 0; k < 3; ++k) pixel[k] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(to_srgb(linear[k]), 0.0, 1.0)));
+      for (int k = 0; k < 3; ++k)
+        pixel[k] =
+            static_cast<std::uint8_t>(std::lround(255 * std::clamp(to_srgb(linear[k]), 0.0, 1.0)));
       pixel[3] = 255;
     }
 }
 
-/// The end of a colour bar: pointed where values lie beyond it. @param way -1 up, 1 down @param linear null: nothing does
+/// The end of a colour bar: pointed where values lie beyond it. @param way -1 up, 1 down @param
+/// linear null: nothing does
 void draw_tip(io::Image& image, int left, int end, int width, int way, const Vec3* linear) {
   if (!linear) return;
   for (int k = 0; k < width / 2; ++k) {
@@ -83,12 +92,14 @@ int text_width(const std::string& text, int size) {
   FT_Set_Pixel_Sizes(face(), 0, static_cast<FT_UInt>(size));
   int width = 0;
   for_code_points(text, [&](unsigned long code) {
-    if (!FT_Load_Char(face(), code, FT_LOAD_DEFAULT)) width += static_cast<int>(face()->glyph->advance.x >> 6);
+    if (!FT_Load_Char(face(), code, FT_LOAD_DEFAULT))
+      width += static_cast<int>(face()->glyph->advance.x >> 6);
   });
   return width;
 }
 
-void draw_text(io::Image& image, const std::string& text, int x, int y, int size, Align align, int color) {
+void draw_text(io::Image& image, const std::string& text, int x, int y, int size, Align align,
+               int color) {
   if (align != Align::LEFT) x -= text_width(text, size) / (align == Align::CENTER ? 2 : 1);
   FT_Set_Pixel_Sizes(face(), 0, static_cast<FT_UInt>(size));
   for_code_points(text, [&](unsigned long code) {
@@ -96,47 +107,67 @@ void draw_text(io::Image& image, const std::string& text, int x, int y, int size
     const FT_GlyphSlot glyph = face()->glyph;
     for (unsigned r = 0; r < glyph->bitmap.rows; ++r)
       for (unsigned q = 0; q < glyph->bitmap.width; ++q) {
-        const int px = x + glyph->bitmap_left + static_cast<int>(q), py = y - glyph->bitmap_top + static_cast<int>(r);
+        const int px = x + glyph->bitmap_left + static_cast<int>(q),
+                  py = y - glyph->bitmap_top + static_cast<int>(r);
         if (px >= 0 && py >= 0 && px < image.width && py < image.height)
-          blend(image.at(px, py), color, glyph->bitmap.buffer[static_cast<int>(r) * glyph->bitmap.pitch + static_cast<int>(q)] / 255.0);
+          blend(image.at(px, py), color,
+                glyph->bitmap
+                        .buffer[static_cast<int>(r) * glyph->bitmap.pitch + static_cast<int>(q)] /
+                    255.0);
       }
     x += static_cast<int>(glyph->advance.x >> 6);
   });
 }
 
-void draw_text_halo(io::Image& image, const std::string& text, int x, int y, int size, Align align, int color) {
-  for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, 1}, {-1, 1}, {1, -1}})
+void draw_text_halo(io::Image& image, const std::string& text, int x, int y, int size, Align align,
+                    int color) {
+  for (const auto& [dx, dy] :
+       {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, 1}, {-1, 1}, {1, -1}})
     draw_text(image, text, x + dx, y + dy, size, align, 0xffffff);
   draw_text(image, text, x, y, size, align, color);
 }
 
-void draw_line(io::Image& image, double x0, double y0, double x1, double y1, double width, int color, double opacity) {
+void draw_line(io::Image& image, double x0, double y0, double x1, double y1, double width,
+               int color, double opacity) {
   const double dx = x1 - x0, dy = y1 - y0, length2 = dx * dx + dy * dy, r = 0.5 * width + 1;
   if (!std::isfinite(length2) || length2 > 1e10) return;
-  cover(image, std::min(x0, x1) - r, std::min(y0, y1) - r, std::max(x0, x1) + r, std::max(y0, y1) + r, color, [&](double x, double y) {
-    const double t = length2 > 0 ? std::clamp(((x - x0) * dx + (y - y0) * dy) / length2, 0.0, 1.0) : 0;
-    return opacity * std::min(1.0, 0.5 * width + 0.5 - std::hypot(x - x0 - t * dx, y - y0 - t * dy));
-  });
+  cover(image, std::min(x0, x1) - r, std::min(y0, y1) - r, std::max(x0, x1) + r,
+        std::max(y0, y1) + r, color, [&](double x, double y) {
+          const double t =
+              length2 > 0 ? std::clamp(((x - x0) * dx + (y - y0) * dy) / length2, 0.0, 1.0) : 0;
+          return opacity *
+                 std::min(1.0, 0.5 * width + 0.5 - std::hypot(x - x0 - t * dx, y - y0 - t * dy));
+        });
 }
 
-void draw_disc(io::Image& image, double cx, double cy, double radius, int color, double ring, double opacity) {
+void draw_disc(io::Image& image, double cx, double cy, double radius, int color, double ring,
+               double opacity) {
   const double r = radius + 1;
   cover(image, cx - r, cy - r, cx + r, cy + r, color, [&](double x, double y) {
     const double d = std::hypot(x - cx, y - cy);
-    return opacity * (ring > 0 ? std::min(1.0, 0.5 * ring + 0.5 - std::abs(d - radius)) : std::min(1.0, radius + 0.5 - d));
+    return opacity * (ring > 0 ? std::min(1.0, 0.5 * ring + 0.5 - std::abs(d - radius))
+                               : std::min(1.0, radius + 0.5 - d));
   });
 }
 
-static int legend_font(int width, int height) { return std::max(10, std::min(height / 55, width / 36)); }
+static int legend_font(int width, int height) {
+  return std::max(10, std::min(height / 55, width / 36));
+}
 
-int legend_width(const Legend& legend, int width, int height) { return legend.steps.empty() ? 0 : std::min(width / 2, 8 * legend_font(width, height)); }
+int legend_width(const Legend& legend, int width, int height) {
+  return legend.steps.empty() ? 0 : std::min(width / 2, 8 * legend_font(width, height));
+}
 
 /// What stands below a colour bar, line by line.
 static std::vector<std::string> legend_notes(const Legend& legend) {
-  const std::pair<const char*, double> all[] = {
-      {"min  ", legend.least}, {"p1  ", legend.p1}, {"p50  ", legend.p50}, {"p99  ", legend.p99}, {"max  ", legend.largest}};
+  const std::pair<const char*, double> all[] = {{"min  ", legend.least},
+                                                {"p1  ", legend.p1},
+                                                {"p50  ", legend.p50},
+                                                {"p99  ", legend.p99},
+                                                {"max  ", legend.largest}};
   std::vector<std::string> notes;
-  for (std::size_t k = legend.diverging ? 0 : 2; k < std::size(all); ++k) // what has no other side needs no lower end
+  for (std::size_t k = legend.diverging ? 0 : 2; k < std::size(all);
+       ++k) // what has no other side needs no lower end
     notes.push_back(all[k].first + number(all[k].second) + " " + legend.unit);
   if (legend.beyond > 0) notes.push_back("above " + share(legend.beyond));
   if (legend.below > 0) notes.push_back("below " + share(legend.below));
@@ -149,16 +180,22 @@ void draw_legend(io::Image& image, const Legend& legend) {
   const std::vector<std::string> notes = legend_notes(legend);
   const int n = static_cast<int>(legend.steps.size()), lines = static_cast<int>(notes.size());
   const int font = legend_font(image.width, image.height), bar_width = 2 * font;
-  const int left = image.width - 6 * font, right = image.width - font, top = image.height / 8 + 2 * font;
+  const int left = image.width - 6 * font, right = image.width - font,
+            top = image.height / 8 + 2 * font;
   const auto below_bar = [&](int line) { return (4 + 3 * line) * font / 2 + font / 2; };
   // In a small picture the bar leaves room for what stands below it.
-  const int step = std::max(2, std::min(image.height / 22, (image.height - font / 2 - below_bar(lines - 1) - top) / n));
-  for (int k = 0; k < n; ++k) fill(image, left, top + k * step, left + bar_width, top + (k + 1) * step, legend.steps[static_cast<std::size_t>(n - 1 - k)]);
+  const int step = std::max(
+      2, std::min(image.height / 22, (image.height - font / 2 - below_bar(lines - 1) - top) / n));
+  for (int k = 0; k < n; ++k)
+    fill(image, left, top + k * step, left + bar_width, top + (k + 1) * step,
+         legend.steps[static_cast<std::size_t>(n - 1 - k)]);
   draw_tip(image, left, top, bar_width, -1, legend.beyond > 0 ? &legend.steps.back() : nullptr);
-  draw_tip(image, left, top + n * step, bar_width, 1, legend.below > 0 ? &legend.steps.front() : nullptr);
+  draw_tip(image, left, top + n * step, bar_width, 1,
+           legend.below > 0 ? &legend.steps.front() : nullptr);
   const int every = 2 * step < font ? n / 2 : 2; // numbers do not cover each other
   for (int k = 0; k <= n; k += every)
-    draw_text_halo(image, number(legend.high - k * (legend.high - legend.low) / n), left + bar_width + font / 2, top + step * k + font * 3 / 8, font);
+    draw_text_halo(image, number(legend.high - k * (legend.high - legend.low) / n),
+                   left + bar_width + font / 2, top + step * k + font * 3 / 8, font);
   draw_text_halo(image, legend.title, right, top - font * 15 / 4, font, Align::RIGHT);
   draw_text_halo(image, legend.unit, right, top - font * 19 / 8, font, Align::RIGHT);
   for (int line = 0; line < lines; ++line) {
@@ -172,28 +209,37 @@ void draw_legend(io::Image& image, const Legend& legend) {
   }
 }
 
-io::Image contact_sheet(const std::vector<io::Image>& images, const std::vector<std::string>& captions, int columns) {
-  const std::size_t n = images.size(), across = static_cast<std::size_t>(std::max(columns, 1)), rows = (n + across - 1) / across;
+io::Image contact_sheet(const std::vector<io::Image>& images,
+                        const std::vector<std::string>& captions, int columns) {
+  const std::size_t n = images.size(), across = static_cast<std::size_t>(std::max(columns, 1)),
+                    rows = (n + across - 1) / across;
   std::vector<int> left(std::min(n, across) + 1, 0), top(rows + 1, 0);
   std::vector<int> width(left.size(), 1), height(rows, 1);
   for (std::size_t k = 0; k < n; ++k) {
     width[k % across] = std::max(width[k % across], images[k].width);
     height[k / across] = std::max(height[k / across], images[k].height);
   }
-  const bool captioned = std::any_of(captions.begin(), captions.end(), [](const std::string& c) { return !c.empty(); });
-  const int font = std::max(10, *std::max_element(height.begin(), height.end()) / 40), strip = captioned ? 2 * font : 0;
+  const bool captioned = std::any_of(captions.begin(), captions.end(),
+                                     [](const std::string& c) { return !c.empty(); });
+  const int font = std::max(10, *std::max_element(height.begin(), height.end()) / 40),
+            strip = captioned ? 2 * font : 0;
   for (std::size_t c = 0; c + 1 < left.size(); ++c) left[c + 1] = left[c] + width[c];
   for (std::size_t r = 0; r < rows; ++r) top[r + 1] = top[r] + height[r] + strip;
   io::Image sheet;
   sheet.width = left.back();
   sheet.height = top.back();
-  if (sheet.width > 16384 || sheet.height > 16384) throw Error(ErrorKind::USAGE, "", "--sheet", "the sheet would be larger than 16384 pixels");
-  sheet.rgba.assign(4 * static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height), 255);
+  if (sheet.width > 16384 || sheet.height > 16384)
+    throw Error(ErrorKind::USAGE, "", "--sheet", "the sheet would be larger than 16384 pixels");
+  sheet.rgba.assign(
+      4 * static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height), 255);
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t column = k % across, row = k / across;
     const int x0 = left[column] + (width[column] - images[k].width) / 2, y0 = top[row];
-    for (int y = 0; y < images[k].height; ++y) std::copy_n(images[k].at(0, y), 4 * images[k].width, sheet.at(x0, y0 + y));
-    if (captioned && k < captions.size()) draw_text(sheet, captions[k], left[column] + width[column] / 2, y0 + height[row] + font, font, Align::CENTER);
+    for (int y = 0; y < images[k].height; ++y)
+      std::copy_n(images[k].at(0, y), 4 * images[k].width, sheet.at(x0, y0 + y));
+    if (captioned && k < captions.size())
+      draw_text(sheet, captions[k], left[column] + width[column] / 2, y0 + height[row] + font, font,
+                Align::CENTER);
   }
   return sheet;
 }
@@ -201,18 +247,25 @@ io::Image contact_sheet(const std::vector<io::Image>& images, const std::vector<
 Comparison compare(const io::Image& a, const io::Image& b, const io::Image* mask) {
   if (a.width != b.width || a.height != b.height)
     throw input_error("", "",
-                      "the pictures differ in size: " + std::to_string(a.width) + " x " + std::to_string(a.height) + " and " + std::to_string(b.width) + " x " +
+                      "the pictures differ in size: " + std::to_string(a.width) + " x " +
+                          std::to_string(a.height) + " and " + std::to_string(b.width) + " x " +
                           std::to_string(b.height));
-  if (mask && (mask->width != a.width || mask->height != a.height)) throw input_error("", "", "the mask's size is not that of the pictures");
-  auto counts = [&](int x, int y) { return !mask || (mask->at(x, y)[0] >= 128 && mask->at(x, y)[3] >= 128); };
+  if (mask && (mask->width != a.width || mask->height != a.height))
+    throw input_error("", "", "the mask's size is not that of the pictures");
+  auto counts = [&](int x, int y) {
+    return !mask || (mask->at(x, y)[0] >= 128 && mask->at(x, y)[3] >= 128);
+  };
   constexpr int FAR = 32; // of 255: another colour, not another rounding
   Comparison result;
   result.picture = a;
-  auto luminance = [](const std::uint8_t* p) { return (0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]) * p[3] / 255.0; };
+  auto luminance = [](const std::uint8_t* p) {
+    return (0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]) * p[3] / 255.0;
+  };
   for (int y = 0; y < a.height; ++y)
     for (int x = 0; x < a.width; ++x) {
       int d = 0;
-      for (int k = 0; k < 4 && counts(x, y); ++k) d = std::max(d, std::abs(a.at(x, y)[k] - b.at(x, y)[k]));
+      for (int k = 0; k < 4 && counts(x, y); ++k)
+        d = std::max(d, std::abs(a.at(x, y)[k] - b.at(x, y)[k]));
       result.largest = std::max(result.largest, d);
       result.different += d > 2;
       result.far += d > FAR;
@@ -223,7 +276,9 @@ Comparison compare(const io::Image& a, const io::Image& b, const io::Image* mask
       out[1] = out[2] = d > 2 ? static_cast<std::uint8_t>(std::max(0, 120 - d)) : grey;
       out[3] = 255;
     }
-  if (result.counted == 0) throw input_error("", "", "the mask is dark everywhere: no pixel counts", "make it bright where pixels are to be compared");
+  if (result.counted == 0)
+    throw input_error("", "", "the mask is dark everywhere: no pixel counts",
+                      "make it bright where pixels are to be compared");
   double sum = 0;
   long blocks = 0;
   for (int y = 0; y + 8 <= a.height; y += 8)
@@ -233,10 +288,12 @@ Comparison compare(const io::Image& a, const io::Image& b, const io::Image* mask
       for (int k = 0; k < 64; ++k) whole &= counts(x + k % 8, y + k / 8);
       if (!whole) continue;
       for (int k = 0; k < 64; ++k) {
-        const double la = luminance(a.at(x + k % 8, y + k / 8)), lb = luminance(b.at(x + k % 8, y + k / 8));
+        const double la = luminance(a.at(x + k % 8, y + k / 8)),
+                     lb = luminance(b.at(x + k % 8, y + k / 8));
         sa += la, sb += lb, saa += la * la, sbb += lb * lb, sab += la * lb;
       }
-      const double ma = sa / 64, mb = sb / 64, va = saa / 64 - ma * ma, vb = sbb / 64 - mb * mb, cov = sab / 64 - ma * mb;
+      const double ma = sa / 64, mb = sb / 64, va = saa / 64 - ma * ma, vb = sbb / 64 - mb * mb,
+                   cov = sab / 64 - ma * mb;
       const double c1 = 6.5025, c2 = 58.5225;
       sum += (2 * ma * mb + c1) * (2 * cov + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
       ++blocks;

@@ -41,11 +41,13 @@ Sheet lay_out(const Scene& scene, double width_over_height) {
       sheet.mesh.normals.push_back(Vec3(0, 0, 1));
       sheet.mesh.values.push_back(v < cloth.values.size() ? cloth.values[v] : NO_VALUE);
     }
-    for (const Triangle& t : cloth.triangles) sheet.mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+    for (const Triangle& t : cloth.triangles)
+      sheet.mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
     for (const auto& [a, b] : cloth.lines) sheet.mesh.lines.push_back({base + a, base + b});
     for (const pattern::PanelInfo& info : garment.panels.panels) {
       if (info.n_vertices == 0) continue;
-      Sheet::Panel panel{&garment, &info, base + info.first_vertex, Vec2::Constant(1e9), Vec2::Constant(-1e9)};
+      Sheet::Panel panel{&garment, &info, base + info.first_vertex, Vec2::Constant(1e9),
+                         Vec2::Constant(-1e9)};
       for (int v = panel.first; v < panel.first + info.n_vertices; ++v) {
         panel.low = panel.low.cwiseMin(sheet.mesh.uv[v]);
         panel.high = panel.high.cwiseMax(sheet.mesh.uv[v]);
@@ -59,7 +61,8 @@ Sheet lay_out(const Scene& scene, double width_over_height) {
   for (std::size_t p = 0; p < sheet.panels.size(); ++p) {
     Sheet::Panel& panel = sheet.panels[p];
     const Vec2 shift = corners[p] - panel.low;
-    for (int v = panel.first; v < panel.first + panel.info->n_vertices; ++v) sheet.mesh.positions[v].head<2>() = sheet.mesh.uv[v] + shift;
+    for (int v = panel.first; v < panel.first + panel.info->n_vertices; ++v)
+      sheet.mesh.positions[v].head<2>() = sheet.mesh.uv[v] + shift;
     panel.low += shift;
     panel.high += shift;
   }
@@ -70,7 +73,8 @@ Sheet lay_out(const Scene& scene, double width_over_height) {
 Vec3 middle_of(const Sheet& sheet, const Sheet::Panel& panel) {
   const auto& p = sheet.mesh.positions;
   Vec3 mean = Vec3::Zero(), best = Vec3::Zero();
-  for (int v = panel.first; v < panel.first + panel.info->n_vertices; ++v) mean += p[v] / panel.info->n_vertices;
+  for (int v = panel.first; v < panel.first + panel.info->n_vertices; ++v)
+    mean += p[v] / panel.info->n_vertices;
   double nearest = 1e9;
   for (int v = panel.first; v < panel.first + panel.info->n_vertices; ++v)
     if ((p[v] - mean).norm() < nearest) {
@@ -89,12 +93,17 @@ struct SeamSide {
 };
 
 int panel_of(const pattern::PanelMesh& panels, int vertex) {
-  const auto owns = [&](const pattern::PanelInfo& p) { return vertex >= p.first_vertex && vertex < p.first_vertex + p.n_vertices; };
-  return static_cast<int>(std::find_if(panels.panels.begin(), panels.panels.end(), owns) - panels.panels.begin());
+  const auto owns = [&](const pattern::PanelInfo& p) {
+    return vertex >= p.first_vertex && vertex < p.first_vertex + p.n_vertices;
+  };
+  return static_cast<int>(std::find_if(panels.panels.begin(), panels.panels.end(), owns) -
+                          panels.panels.begin());
 }
 
 /// Both sides of every seam, panel by panel, in the garments' order.
-template<class Visit> void for_each_seam_side(const Sheet& sheet, const Camera& camera, const io::Image& image, const Visit& visit) {
+template<class Visit>
+void for_each_seam_side(const Sheet& sheet, const Camera& camera, const io::Image& image,
+                        const Visit& visit) {
   const garment::Garment* done = nullptr;
   for (const Sheet::Panel& panel : sheet.panels) {
     if (panel.garment == done) continue;
@@ -103,13 +112,18 @@ template<class Visit> void for_each_seam_side(const Sheet& sheet, const Camera& 
     SeamSide side{0, &panels, {}, {}};
     const int base = panel.first - panel.info->first_vertex;
     for (std::size_t v = 0; v < panels.pattern.size(); ++v)
-      side.at.push_back(camera.pixel(sheet.mesh.positions[static_cast<std::size_t>(base) + v], image.width, image.height).head<2>());
+      side.at.push_back(camera
+                            .pixel(sheet.mesh.positions[static_cast<std::size_t>(base) + v],
+                                   image.width, image.height)
+                            .head<2>());
     for (const pattern::MeshSeam& seam : panels.seams) {
       for (const std::vector<int>* run : {&seam.a, &seam.b}) {
         for (std::size_t first = 0, end = 0; first < run->size(); first = end) {
           const int panel_index = panel_of(panels, (*run)[first]);
-          for (end = first; end < run->size() && panel_of(panels, (*run)[end]) == panel_index;) ++end;
-          side.run.assign(run->begin() + static_cast<long>(first), run->begin() + static_cast<long>(end));
+          for (end = first; end < run->size() && panel_of(panels, (*run)[end]) == panel_index;)
+            ++end;
+          side.run.assign(run->begin() + static_cast<long>(first),
+                          run->begin() + static_cast<long>(end));
           if (side.run.size() > 1) visit(side);
         }
       }
@@ -125,7 +139,8 @@ void draw_seam(io::Image& image, const SeamSide& side, double width) {
   }
 }
 
-/// Where the number of a seam's side is written: beside its middle, inside the panel. None where there is no room, in a small picture.
+/// Where the number of a seam's side is written: beside its middle, inside the panel. None where
+/// there is no room, in a small picture.
 std::optional<Vec2> number_place(const SeamSide& side, int font) {
   const std::vector<int>& run = side.run;
   const std::vector<Vec2>& at = side.at;
@@ -134,15 +149,18 @@ std::optional<Vec2> number_place(const SeamSide& side, int font) {
   const int first = run[(run.size() - 1) / 2], second = run[(run.size() - 1) / 2 + 1];
   const Vec2 &a = at[first], &b = at[second];
   if (!((b - a).norm() > 0) || length < 2 * font) return {};
-  const pattern::PanelInfo& info = side.panels->panels[static_cast<std::size_t>(panel_of(*side.panels, first))];
+  const pattern::PanelInfo& info =
+      side.panels->panels[static_cast<std::size_t>(panel_of(*side.panels, first))];
   double low = 1e9, high = -1e9;
-  for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) low = std::min(low, at[v].y()), high = std::max(high, at[v].y());
+  for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v)
+    low = std::min(low, at[v].y()), high = std::max(high, at[v].y());
   if (high - low < 1.2 * font) return {};
   // the panel lies on the side of the triangle that the segment belongs to
   Vec2 aside = Vec2(a.y() - b.y(), b.x() - a.x()).normalized();
   for (int f = info.first_triangle; f < info.first_triangle + info.n_triangles; ++f) {
     const Triangle& t = side.panels->triangles[f];
-    if (std::count(t.begin(), t.end(), first) + std::count(t.begin(), t.end(), second) < 2) continue;
+    if (std::count(t.begin(), t.end(), first) + std::count(t.begin(), t.end(), second) < 2)
+      continue;
     if (aside.dot((at[t[0]] + at[t[1]] + at[t[2]]) / 3 - a) < 0) aside = -aside;
     break;
   }
@@ -151,44 +169,62 @@ std::optional<Vec2> number_place(const SeamSide& side, int font) {
 
 /// Seams in colours, and with numbers on both their sides: colours repeat after a dozen.
 void draw_seams(io::Image& image, const Sheet& sheet, const Camera& camera, double unit, int font) {
-  for_each_seam_side(sheet, camera, image, [&](const SeamSide& side) { draw_seam(image, side, 3 * unit); });
+  for_each_seam_side(sheet, camera, image,
+                     [&](const SeamSide& side) { draw_seam(image, side, 3 * unit); });
   for_each_seam_side(sheet, camera, image, [&](const SeamSide& side) {
     if (const std::optional<Vec2> place = number_place(side, font))
-      draw_text_halo(image, std::to_string(side.seam + 1), static_cast<int>(std::lround(place->x())), static_cast<int>(std::lround(place->y() + 0.36 * font)),
-                     font, Align::CENTER, seam_color(side.seam) >> 1 & 0x7f7f7f);
+      draw_text_halo(image, std::to_string(side.seam + 1),
+                     static_cast<int>(std::lround(place->x())),
+                     static_cast<int>(std::lround(place->y() + 0.36 * font)), font, Align::CENTER,
+                     seam_color(side.seam) >> 1 & 0x7f7f7f);
   });
 }
 
-/// Name, size and grain of a panel, on it or, where it has no room, above it. @param mapped colours of a map lie below: text has a halo
-void draw_name(io::Image& image, const Sheet& sheet, const Sheet::Panel& panel, const Camera& camera, double unit, int font, bool mapped) {
+/// Name, size and grain of a panel, on it or, where it has no room, above it. @param mapped colours
+/// of a map lie below: text has a halo
+void draw_name(io::Image& image, const Sheet& sheet, const Sheet::Panel& panel,
+               const Camera& camera, double unit, int font, bool mapped) {
   const Vec3 at = camera.pixel(middle_of(sheet, panel), image.width, image.height);
   const Vec2 size = panel.high - panel.low;
-  const double pixels_per_m = 0.5 * image.height / camera.half_height, arrow = std::min(0.28 * size.y() * pixels_per_m, 60 * unit);
+  const double pixels_per_m = 0.5 * image.height / camera.half_height,
+               arrow = std::min(0.28 * size.y() * pixels_per_m, 60 * unit);
   const auto write = mapped ? draw_text_halo : draw_text;
   const int color = mapped ? 0x101010 : 0x404040;
-  const bool narrow = size.y() * pixels_per_m < 6 * font; // no room for the name between the numbers of seams
+  const bool narrow =
+      size.y() * pixels_per_m < 6 * font; // no room for the name between the numbers of seams
   const std::string text = decimals(100 * size.x(), 1) + " x " + centimetres(size.y());
-  const bool outside = narrow || std::max(text_width(panel.info->name, font), text_width(text, font - 2)) > 0.8 * size.x() * pixels_per_m;
+  const bool outside =
+      narrow || std::max(text_width(panel.info->name, font), text_width(text, font - 2)) >
+                    0.8 * size.x() * pixels_per_m;
   if (outside) {
-    const Vec3 above = camera.pixel(Vec3(0.5 * (panel.low.x() + panel.high.x()), panel.high.y(), 0), image.width, image.height);
-    draw_text(image, panel.info->name, static_cast<int>(above.x()), static_cast<int>(above.y() - 0.45 * font), font, Align::CENTER, color);
+    const Vec3 above = camera.pixel(Vec3(0.5 * (panel.low.x() + panel.high.x()), panel.high.y(), 0),
+                                    image.width, image.height);
+    draw_text(image, panel.info->name, static_cast<int>(above.x()),
+              static_cast<int>(above.y() - 0.45 * font), font, Align::CENTER, color);
   } else {
-    write(image, panel.info->name, static_cast<int>(at.x()), static_cast<int>(at.y()), font, Align::CENTER, color);
-    write(image, text, static_cast<int>(at.x()), static_cast<int>(at.y() + 1.3 * font), font - 2, Align::CENTER, color);
+    write(image, panel.info->name, static_cast<int>(at.x()), static_cast<int>(at.y()), font,
+          Align::CENTER, color);
+    write(image, text, static_cast<int>(at.x()), static_cast<int>(at.y() + 1.3 * font), font - 2,
+          Align::CENTER, color);
   }
   if (narrow) return;
-  const double base = outside ? at.y() + 0.5 * arrow : at.y() - 1.6 * font; // the grain: warp runs upwards
+  const double base =
+      outside ? at.y() + 0.5 * arrow : at.y() - 1.6 * font; // the grain: warp runs upwards
   if (mapped) draw_line(image, at.x(), base, at.x(), base - arrow, 3 * unit, 0xffffff);
   draw_line(image, at.x(), base, at.x(), base - arrow, 1.2 * unit, color);
-  for (double side : {-1.0, 1.0}) draw_line(image, at.x(), base - arrow, at.x() + side * 4 * unit, base - arrow + 7 * unit, 1.2 * unit, color);
+  for (double side : {-1.0, 1.0})
+    draw_line(image, at.x(), base - arrow, at.x() + side * 4 * unit, base - arrow + 7 * unit,
+              1.2 * unit, color);
 }
 
 } // namespace
 
-std::vector<Vec2> pack_panels(const std::vector<Vec2>& sizes, double gap, double width_over_height) {
+std::vector<Vec2> pack_panels(const std::vector<Vec2>& sizes, double gap,
+                              double width_over_height) {
   std::vector<std::size_t> order(sizes.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return sizes[a].y() > sizes[b].y(); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return sizes[a].y() > sizes[b].y(); });
   double widest = 0, total = 0;
   for (const Vec2& s : sizes) {
     widest = std::max(widest, s.x());
@@ -213,7 +249,8 @@ std::vector<Vec2> pack_panels(const std::vector<Vec2>& sizes, double gap, double
   double least = 1e300;
   for (int k = 0; k <= 40; ++k) {
     const Vec2 size = pack(widest + (total - widest) * k / 40.0, trial);
-    const double height = std::max(size.y(), size.x() / width_over_height); // of the picture that holds them
+    const double height =
+        std::max(size.y(), size.x() / width_over_height); // of the picture that holds them
     if (height < least * 0.999) {
       least = height;
       best = trial;
@@ -224,7 +261,8 @@ std::vector<Vec2> pack_panels(const std::vector<Vec2>& sizes, double gap, double
 
 io::Image draw_pattern(const Scene& scene, const DrawOptions& options) {
   if (scene.garments.empty())
-    throw Error(ErrorKind::USAGE, "", "--view pattern", "needs a garment, panels or a pattern", "give panels.json, shirt.json or the pattern's file");
+    throw Error(ErrorKind::USAGE, "", "--view pattern", "needs a garment, panels or a pattern",
+                "give panels.json, shirt.json or the pattern's file");
   DrawOptions flat = options;
   flat.occlusion_directions = 0;
   flat.ground = false;
@@ -233,7 +271,8 @@ io::Image draw_pattern(const Scene& scene, const DrawOptions& options) {
   const double aspect = static_cast<double>(options.width) / options.height;
   const double unit = std::max(1.0, options.height / 1000.0);
   const int font = std::max(9, static_cast<int>(std::lround(13 * unit)));
-  const double name = 1.5 * font / options.height, bar_below = (12 * unit + 0.8 * font) / options.height; // of the height, kept free
+  const double name = 1.5 * font / options.height,
+               bar_below = (12 * unit + 0.8 * font) / options.height; // of the height, kept free
   std::vector<DrawMesh> meshes;
   const Sheet sheet = lay_out(scene, aspect * share / (1 - name - bar_below));
   meshes.push_back(sheet.mesh);
@@ -248,10 +287,12 @@ io::Image draw_pattern(const Scene& scene, const DrawOptions& options) {
   io::Image image = renderer.draw(camera);
   const double pixels_per_m = 0.5 * options.height / camera.half_height;
   draw_seams(image, sheet, camera, unit, font - 2);
-  for (const Sheet::Panel& panel : sheet.panels) draw_name(image, sheet, panel, camera, unit, font, mapped);
+  for (const Sheet::Panel& panel : sheet.panels)
+    draw_name(image, sheet, panel, camera, unit, font, mapped);
   const double bar = 0.1 * pixels_per_m, y = options.height - 12 * unit;
   draw_line(image, 12 * unit, y, 12 * unit + bar, y, 2 * unit, 0x303030);
-  draw_text(image, "10 cm", static_cast<int>(16 * unit + bar), static_cast<int>(y + 0.35 * font), font);
+  draw_text(image, "10 cm", static_cast<int>(16 * unit + bar), static_cast<int>(y + 0.35 * font),
+            font);
   return image;
 }
 

@@ -15,7 +15,8 @@ constexpr double SAMPLE_CELL = 0.02;                 // m: skin is sampled once 
 constexpr float REACH = 0.04F, REACH_PER_GAP = 0.5F; // m, and of the gap
 
 /// The four largest of the shares, made to sum to 1.
-void keep_four(const Eigen::VectorXd& share, std::array<int, 4>& joint, std::array<double, 4>& weight) {
+void keep_four(const Eigen::VectorXd& share, std::array<int, 4>& joint,
+               std::array<double, 4>& weight) {
   std::vector<int> order(static_cast<std::size_t>(share.size()));
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return share[a] > share[b]; });
@@ -36,7 +37,8 @@ struct Samples {
 Rig::Skin along_with(const std::vector<Vec3>& positions, const Samples& samples) {
   const auto n = static_cast<Eigen::Index>(samples.at.size());
   Eigen::Array<float, Eigen::Dynamic, 3> at(n, 3);
-  for (Eigen::Index s = 0; s < n; ++s) at.row(s) = samples.at[static_cast<std::size_t>(s)].cast<float>().transpose();
+  for (Eigen::Index s = 0; s < n; ++s)
+    at.row(s) = samples.at[static_cast<std::size_t>(s)].cast<float>().transpose();
   Rig::Skin skin;
   skin.joint.resize(positions.size());
   skin.weight.resize(positions.size());
@@ -45,8 +47,10 @@ Rig::Skin along_with(const std::vector<Vec3>& positions, const Samples& samples)
     Eigen::VectorXd share(samples.share[0].size());
     for (std::size_t v = begin; v < end; ++v) {
       const Eigen::Vector3f p = positions[v].cast<float>();
-      distance2 = (at.col(0) - p.x()).square() + (at.col(1) - p.y()).square() + (at.col(2) - p.z()).square();
-      const float gap = std::sqrt(distance2.minCoeff()), reach = REACH + REACH_PER_GAP * gap, most2 = (gap + reach) * (gap + reach);
+      distance2 = (at.col(0) - p.x()).square() + (at.col(1) - p.y()).square() +
+                  (at.col(2) - p.z()).square();
+      const float gap = std::sqrt(distance2.minCoeff()), reach = REACH + REACH_PER_GAP * gap,
+                  most2 = (gap + reach) * (gap + reach);
       share.setZero();
       for (Eigen::Index s = 0; s < n; ++s) {
         if (distance2[s] >= most2) continue;
@@ -76,7 +80,8 @@ std::optional<Rig> make_rig(const Scene& scene, const std::vector<DrawMesh>& mes
   Rig rig;
   rig.names = weights.joints;
   const auto bone = [&](const std::string& name) {
-    return std::find_if(body.bones.begin(), body.bones.end(), [&](const body::Bone& b) { return b.name == name; });
+    return std::find_if(body.bones.begin(), body.bones.end(),
+                        [&](const body::Bone& b) { return b.name == name; });
   };
   for (const std::string& name : rig.names) {
     const bool root = rig.names.front() == name;
@@ -84,7 +89,8 @@ std::optional<Rig> make_rig(const Scene& scene, const std::vector<DrawMesh>& mes
     if (own == body.bones.end()) return {};
     rig.head.push_back(own->head);
     int parent = root ? -1 : 0;
-    for (auto above = root ? body.bones.end() : bone(own->parent); above != body.bones.end() && parent == 0; above = bone(above->parent)) {
+    for (auto above = root ? body.bones.end() : bone(own->parent);
+         above != body.bones.end() && parent == 0; above = bone(above->parent)) {
       const auto known = std::find(rig.names.begin(), rig.names.end(), above->name);
       if (known != rig.names.end()) parent = static_cast<int>(known - rig.names.begin());
     }
@@ -100,15 +106,20 @@ std::optional<Rig> make_rig(const Scene& scene, const std::vector<DrawMesh>& mes
   std::set<std::array<long, 3>> sampled;
   for (std::size_t v = 0; v < skin.size(); ++v) {
     Eigen::VectorXd share = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rig.names.size()));
-    for (std::size_t k = 0; k < body::SkinWeights::MOST; ++k) share[weights.joint[v][k]] += weights.share[v][k];
+    for (std::size_t k = 0; k < body::SkinWeights::MOST; ++k)
+      share[weights.joint[v][k]] += weights.share[v][k];
     keep_four(share, of_body.joint[v], of_body.weight[v]);
     const Vec3 cell = skin[v] / SAMPLE_CELL;
-    if (!sampled.insert({std::lround(cell.x()), std::lround(cell.y()), std::lround(cell.z())}).second) continue;
+    if (!sampled.insert({std::lround(cell.x()), std::lround(cell.y()), std::lround(cell.z())})
+             .second)
+      continue;
     samples.at.push_back(skin[v]);
     samples.share.push_back(share);
   }
   if (!scene.draped || samples.at.empty()) return rig;
-  for (const int mesh : scene.garment_mesh) rig.skins[static_cast<std::size_t>(mesh)] = along_with(meshes[static_cast<std::size_t>(mesh)].positions, samples);
+  for (const int mesh : scene.garment_mesh)
+    rig.skins[static_cast<std::size_t>(mesh)] =
+        along_with(meshes[static_cast<std::size_t>(mesh)].positions, samples);
   return rig;
 }
 

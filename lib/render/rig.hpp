@@ -17,9 +17,10 @@ struct Rig {
   std::vector<Skin> skins;        ///< by mesh; empty for what does not move with the body
 };
 
-/// The body by its bones and body::skin_weights(). Garments go along as if they stuck to the skin about them: a vertex at the gap d has
-/// the mean weights of the skin less than 1.5 d + 4 cm away, the nearest counting most, so that a skirt between two legs goes half
-/// with each. Nothing without a body, or where the scan's bones were not found.
+/// The body by its bones and body::skin_weights(). Garments go along as if they stuck to the skin
+/// about them: a vertex at the gap d has the mean weights of the skin less than 1.5 d + 4 cm away,
+/// the nearest counting most, so that a skirt between two legs goes half with each. Nothing without
+/// a body, or where the scan's bones were not found.
 /// @param meshes  to be exported: the scene's, the cloth's perhaps finer
 std::optional<Rig> make_rig(const Scene& scene, const std::vector<DrawMesh>& meshes);
 

@@ -41,7 +41,8 @@ DrawMesh obj_mesh(const io::ObjMesh& obj) {
   if (obj.texture_triangles.empty()) return mesh;
   mesh.is_cloth = true;
   for (std::size_t g = 0; g < obj.groups.size(); ++g) {
-    const std::size_t end = g + 1 < obj.groups.size() ? obj.groups[g + 1].first_triangle : obj.triangles.size();
+    const std::size_t end =
+        g + 1 < obj.groups.size() ? obj.groups[g + 1].first_triangle : obj.triangles.size();
     for (std::size_t f = obj.groups[g].first_triangle; f < end; ++f)
       for (int v : obj.triangles[f]) mesh.colors[v] = panel_color(static_cast<int>(g));
   }
@@ -51,19 +52,25 @@ DrawMesh obj_mesh(const io::ObjMesh& obj) {
 /// A document's "format"; files of pattern programs, which have none, count as "pattern".
 std::string format_of(const io::Json& document, const std::string& path) {
   const std::string format = io::Node(document, path).string("format", "");
-  return format == "sewing-spec" || (format.empty() && document.is_object() && (document.contains("pattern") || document.contains("panels"))) ? "pattern"
-                                                                                                                                              : format;
+  return format == "sewing-spec" || (format.empty() && document.is_object() &&
+                                     (document.contains("pattern") || document.contains("panels")))
+             ? "pattern"
+             : format;
 }
 
-constexpr const char* DRAWABLE = "give body.json, shirt.json, panels.json, a pattern, or an OBJ, PLY or STL mesh";
+constexpr const char* DRAWABLE =
+    "give body.json, shirt.json, panels.json, a pattern, or an OBJ, PLY or STL mesh";
 
 /// @throws Error INPUT for what can be no document
 void refuse_no_document(const std::string& path) {
   const std::string text = io::read_file(path);
-  if (text.rfind("\x89PNG", 0) == 0) throw input_error(path, "", "is a picture already", "--sheet puts pictures side by side, --compare compares two");
+  if (text.rfind("\x89PNG", 0) == 0)
+    throw input_error(path, "", "is a picture already",
+                      "--sheet puts pictures side by side, --compare compares two");
   const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == std::string::npos) throw input_error(path, "", "the file is empty", DRAWABLE);
-  if (text[first] != '{') throw input_error(path, "", "is neither a document nor a mesh by its ending", DRAWABLE);
+  if (text[first] != '{')
+    throw input_error(path, "", "is neither a document nor a mesh by its ending", DRAWABLE);
 }
 
 void read_one(Scene& scene, const std::string& path) {
@@ -95,7 +102,8 @@ void read_one(Scene& scene, const std::string& path) {
     garment::Garment g;
     g.panels = pattern::read_panel_mesh(path);
     g.position = g.panels.placed;
-    for (std::size_t v = 0; v < g.position.size(); ++v) g.particle_of.push_back(static_cast<int>(v));
+    for (std::size_t v = 0; v < g.position.size(); ++v)
+      g.particle_of.push_back(static_cast<int>(v));
     scene.garment_mesh.push_back(static_cast<int>(scene.meshes.size()));
     scene.meshes.push_back(cloth_mesh(g));
     scene.garments.push_back(std::move(g));
@@ -103,12 +111,16 @@ void read_one(Scene& scene, const std::string& path) {
     garment::Garment g;
     g.panels = pattern::mesh_pattern(pattern::read_pattern(path, ""), PATTERN_EDGE, path);
     g.position = g.panels.placed;
-    for (std::size_t v = 0; v < g.position.size(); ++v) g.particle_of.push_back(static_cast<int>(v));
+    for (std::size_t v = 0; v < g.position.size(); ++v)
+      g.particle_of.push_back(static_cast<int>(v));
     scene.garment_mesh.push_back(static_cast<int>(scene.meshes.size()));
     scene.meshes.push_back(cloth_mesh(g));
     scene.garments.push_back(std::move(g));
   } else {
-    throw input_error(path, "/format", format.empty() ? "is not a Sloper document" : "a \"" + format + "\" document cannot be drawn", DRAWABLE);
+    throw input_error(path, "/format",
+                      format.empty() ? "is not a Sloper document"
+                                     : "a \"" + format + "\" document cannot be drawn",
+                      DRAWABLE);
   }
 }
 
@@ -127,10 +139,12 @@ DrawMesh cloth_mesh(const garment::Garment& g) {
   mesh.colors.resize(g.particle_of.size());
   mesh.uv.resize(g.particle_of.size());
   for (const pattern::PanelInfo& panel : panels.panels) {
-    mesh.panel_of.insert(mesh.panel_of.end(), panel.n_vertices, static_cast<int>(mesh.panels.size()));
+    mesh.panel_of.insert(mesh.panel_of.end(), panel.n_vertices,
+                         static_cast<int>(mesh.panels.size()));
     mesh.panels.push_back(panel.name);
     const Vec2 warp = panel.grain.normalized(), weft(warp.y(), -warp.x());
-    for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) mesh.uv[v] = {panels.pattern[v].dot(weft), panels.pattern[v].dot(warp)};
+    for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v)
+      mesh.uv[v] = {panels.pattern[v].dot(weft), panels.pattern[v].dot(warp)};
   }
   std::map<std::array<int, 2>, int> uses, welded_uses;
   auto sorted = [](int a, int b) { return std::array<int, 2>{std::min(a, b), std::max(a, b)}; };
@@ -141,7 +155,8 @@ DrawMesh cloth_mesh(const garment::Garment& g) {
     }
   for (const auto& [edge, count] : uses)
     if (count == 1) mesh.lines.push_back(edge); // a panel's border: a seam or a hem
-  for (const auto& edge : mesh.lines) mesh.is_hem.push_back(welded_uses[sorted(g.particle_of[edge[0]], g.particle_of[edge[1]])] == 1);
+  for (const auto& edge : mesh.lines)
+    mesh.is_hem.push_back(welded_uses[sorted(g.particle_of[edge[0]], g.particle_of[edge[1]])] == 1);
   const auto material = g.materials.find("");
   mesh.thickness = material != g.materials.end() ? material->second.thickness_m : 0.0005;
   return mesh;
@@ -153,29 +168,39 @@ Vec3 linear_color(int hex) {
 }
 
 Vec3 panel_color(int k) {
-  static const int palette[] = {0x5b8db8, 0xe3a55b, 0x7fb69a, 0xc98aa8, 0xd9c867, 0x8f86bd, 0xc97b5f, 0x79b7d0};
+  static const int palette[] = {0x5b8db8, 0xe3a55b, 0x7fb69a, 0xc98aa8,
+                                0xd9c867, 0x8f86bd, 0xc97b5f, 0x79b7d0};
   return linear_color(palette[k % 8]);
 }
 
 void color_cloth(Scene& scene, ClothColors how, const std::vector<int>& colors) {
   static const int garment_palette[] = {0x4f7396, 0xb5654a, 0x6f8f72, 0x8a6f9e};
-  std::map<std::string, int> of_material = {{"denim", 0x34475f}, {"silk", 0xb89c84}, {"wool-suiting", 0x5b5c61}, {"jersey", 0x86919c}, {"canvas", 0x9c8c6a}};
+  std::map<std::string, int> of_material = {{"denim", 0x34475f},
+                                            {"silk", 0xb89c84},
+                                            {"wool-suiting", 0x5b5c61},
+                                            {"jersey", 0x86919c},
+                                            {"canvas", 0x9c8c6a}};
   int k = 0;
   for (DrawMesh& mesh : scene.meshes) {
     if (!mesh.is_cloth || mesh.panel_of.empty()) continue;
     int color = garment_palette[k % 4];
     const auto g =
-        static_cast<std::size_t>(std::find(scene.garment_mesh.begin(), scene.garment_mesh.end(), &mesh - scene.meshes.data()) - scene.garment_mesh.begin());
+        static_cast<std::size_t>(std::find(scene.garment_mesh.begin(), scene.garment_mesh.end(),
+                                           &mesh - scene.meshes.data()) -
+                                 scene.garment_mesh.begin());
     if (k < static_cast<int>(colors.size())) color = colors[k];
     else if (g < scene.garments.size())
-      if (const auto own = of_material.extract(garment::main_material(scene.garments[g]))) color = own.mapped(); // one garment alone has it
+      if (const auto own = of_material.extract(garment::main_material(scene.garments[g])))
+        color = own.mapped(); // one garment alone has it
     const Vec3 one = linear_color(color);
-    for (std::size_t v = 0; v < mesh.colors.size(); ++v) mesh.colors[v] = how == ClothColors::PANELS ? panel_color(mesh.panel_of[v]) : one;
+    for (std::size_t v = 0; v < mesh.colors.size(); ++v)
+      mesh.colors[v] = how == ClothColors::PANELS ? panel_color(mesh.panel_of[v]) : one;
     ++k;
   }
 }
 
-// Edges are told apart by a hash that changes its sign with their direction: a sum of nothing left over is chance once in 2^64.
+// Edges are told apart by a hash that changes its sign with their direction: a sum of nothing left
+// over is chance once in 2^64.
 bool is_closed(const TriangleMesh& mesh) {
   const auto mixed = [](std::uint64_t x) { // splitmix64
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -186,11 +211,14 @@ bool is_closed(const TriangleMesh& mesh) {
   double volume = 0;
   for (const Triangle& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto a = static_cast<std::uint64_t>(t[k]), b = static_cast<std::uint64_t>(t[(k + 1) % 3]);
-      const std::uint64_t h = mixed((std::min(a, b) << 32 | std::max(a, b)) + 0x9e3779b97f4a7c15ULL);
+      const auto a = static_cast<std::uint64_t>(t[k]),
+                 b = static_cast<std::uint64_t>(t[(k + 1) % 3]);
+      const std::uint64_t h =
+          mixed((std::min(a, b) << 32 | std::max(a, b)) + 0x9e3779b97f4a7c15ULL);
       left += a < b ? h : std::uint64_t{0} - h;
     }
-    const Vec3 &a = mesh.positions[static_cast<std::size_t>(t[0])], &b = mesh.positions[static_cast<std::size_t>(t[1])],
+    const Vec3 &a = mesh.positions[static_cast<std::size_t>(t[0])],
+               &b = mesh.positions[static_cast<std::size_t>(t[1])],
                &c = mesh.positions[static_cast<std::size_t>(t[2])];
     volume += a.dot(b.cross(c));
   }
@@ -207,20 +235,28 @@ Scene read_scene(const std::vector<std::string>& paths) {
     const int body_before = scene.body_mesh;
     read_one(scene, path);
     if (scene.body_mesh != body_before) body = path;
-    if (scene.garments.size() > garments && !scene.garments.back().body_sha256.empty()) draped.push_back(path), which.push_back(garments);
+    if (scene.garments.size() > garments && !scene.garments.back().body_sha256.empty())
+      draped.push_back(path), which.push_back(garments);
     scene.names.push_back(io::file_name(path));
-    for (std::size_t m = before; m < scene.meshes.size(); ++m) scene.meshes[m].name = scene.names.back().substr(0, scene.names.back().find('.'));
+    for (std::size_t m = before; m < scene.meshes.size(); ++m)
+      scene.meshes[m].name = scene.names.back().substr(0, scene.names.back().find('.'));
   }
   if (!body.empty() && body != "-" && !scene.body->skin.positions.empty() && !draped.empty()) {
     const std::string skin = body::skin_sha256(body);
     for (std::size_t k = 0; k < draped.size(); ++k)
-      for (const std::string& finding : garment::start_findings(scene.garments[which[k]], {draped[k], body, skin, true})) scene.findings.push_back(finding);
+      for (const std::string& finding :
+           garment::start_findings(scene.garments[which[k]], {draped[k], body, skin, true}))
+        scene.findings.push_back(finding);
   }
   std::size_t triangles = 0;
   for (const DrawMesh& m : scene.meshes) triangles += m.triangles.size();
   if (triangles == 0 && scene.body)
-    throw input_error(paths.front(), "", "the body was written without its skin, and there is nothing else to draw", "give one written without --anonymise");
-  if (triangles == 0) throw input_error(paths.front(), "", "there is no triangle to draw", "points are made a body by scan-landmarks: draw its body.json");
+    throw input_error(paths.front(), "",
+                      "the body was written without its skin, and there is nothing else to draw",
+                      "give one written without --anonymise");
+  if (triangles == 0)
+    throw input_error(paths.front(), "", "there is no triangle to draw",
+                      "points are made a body by scan-landmarks: draw its body.json");
   return scene;
 }
 

@@ -23,11 +23,12 @@ void main() {
   light = vec4(color_in.a, value_in.y, value_in.x, value_in.z);
 })";
 
-// Two-sided. Sky from above, a warm key light from the upper left that throws soft shadows, a cool fill from the right, a rim
-// that parts cloth from ground. Map values become eight steps. Cloth is woven: slubs along warp and weft from afar, threads
-// near by; each fades before it is finer than a pixel. Constants come before it: kind (0 body, 1 cloth, 2 flat, 3 ground shadow),
-// fabric (0 plain, 1 woven, 2 twill, 3 stripes, 4 checks, 5 print), steps (of a map, 0: none). A processor would compute every
-// branch of a uniform for every pixel.
+// Two-sided. Sky from above, a warm key light from the upper left that throws soft shadows, a cool
+// fill from the right, a rim that parts cloth from ground. Map values become eight steps. Cloth is
+// woven: slubs along warp and weft from afar, threads near by; each fades before it is finer than a
+// pixel. Constants come before it: kind (0 body, 1 cloth, 2 flat, 3 ground shadow), fabric (0
+// plain, 1 woven, 2 twill, 3 stripes, 4 checks, 5 print), steps (of a map, 0: none). A processor
+// would compute every branch of a uniform for every pixel.
 const char* const SURFACE_FRAGMENT_SHADER = R"(
 in vec3 view, normal, color;
 in vec4 cloth;
@@ -127,7 +128,8 @@ void main() {
   pixel = vec4(clamp(srgb, 0.0, 1.0), 1.0);
 })";
 
-// A segment becomes a rectangle of `width` pixels that lies a little nearer to the viewer than the surface.
+// A segment becomes a rectangle of `width` pixels that lies a little nearer to the viewer than the
+// surface.
 const char* const LINE_VERTEX_SHADER = R"(#version 330
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 other;

@@ -13,8 +13,10 @@ namespace sloper::render {
 std::array<int, 2> parse_size(const std::string& text) {
   int w = 0, h = 0;
   char end = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &w, &h, &end) != 2 || w < 16 || h < 16 || w > 8192 || h > 8192)
-    throw Error(ErrorKind::USAGE, "", "--size " + text, "is not a size from 16x16 to 8192x8192", "write for example --size 800x1000");
+  if (std::sscanf(text.c_str(), "%dx%d%c", &w, &h, &end) != 2 || w < 16 || h < 16 || w > 8192 ||
+      h > 8192)
+    throw Error(ErrorKind::USAGE, "", "--size " + text, "is not a size from 16x16 to 8192x8192",
+                "write for example --size 800x1000");
   return {w, h};
 }
 
@@ -27,9 +29,11 @@ int samples_for(const std::array<int, 2>& size) {
   return samples;
 }
 
-static int parse_color(const std::string& option, const std::string& word, const std::string& or_else = "") {
+static int parse_color(const std::string& option, const std::string& word,
+                       const std::string& or_else = "") {
   if (word.size() != 6 || word.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
-    throw Error(ErrorKind::USAGE, "", option + " " + word, "is not a colour", "write " + or_else + "six hexadecimal digits, for example " + option + " 4f7396");
+    throw Error(ErrorKind::USAGE, "", option + " " + word, "is not a colour",
+                "write " + or_else + "six hexadecimal digits, for example " + option + " 4f7396");
   return std::stoi(word, nullptr, 16);
 }
 
@@ -41,26 +45,38 @@ std::vector<int> parse_colors(const std::string& text) {
 
 std::optional<int> parse_background(const std::string& text) {
   if (text == "transparent") return std::nullopt;
-  return text == "white" ? 0xffffff : text == "grey" ? 0xdbdbdb : parse_color("--background", text, "white, grey, transparent or ");
+  return text == "white"  ? 0xffffff
+         : text == "grey" ? 0xdbdbdb
+                          : parse_color("--background", text, "white, grey, transparent or ");
 }
 
-ClothColors choose_fabric(const std::string& fabric, bool colors_given, const Scene& scene, DrawOptions& options) {
-  const std::pair<const char*, Fabric> known[] = {
-      {"plain", Fabric::PLAIN}, {"woven", Fabric::WOVEN}, {"twill", Fabric::TWILL}, {"stripes", Fabric::STRIPES}, {"checks", Fabric::CHECKS}};
+ClothColors choose_fabric(const std::string& fabric, bool colors_given, const Scene& scene,
+                          DrawOptions& options) {
+  const std::pair<const char*, Fabric> known[] = {{"plain", Fabric::PLAIN},
+                                                  {"woven", Fabric::WOVEN},
+                                                  {"twill", Fabric::TWILL},
+                                                  {"stripes", Fabric::STRIPES},
+                                                  {"checks", Fabric::CHECKS}};
   const bool panels = fabric == "panels" || (fabric == "auto" && !scene.draped && !colors_given);
   options.fabric = panels ? Fabric::PLAIN : Fabric::WOVEN;
   if (panels) return ClothColors::PANELS;
   for (const auto& [name, kind] : known)
     if (fabric == name) return options.fabric = kind, ClothColors::GARMENTS;
-  const auto is_denim = [](const garment::Garment& g) { return garment::main_material(g) == "denim"; };
+  const auto is_denim = [](const garment::Garment& g) {
+    return garment::main_material(g) == "denim";
+  };
   if (fabric == "auto") {
-    if (!scene.garments.empty() && std::all_of(scene.garments.begin(), scene.garments.end(), is_denim)) options.fabric = Fabric::TWILL;
+    if (!scene.garments.empty() &&
+        std::all_of(scene.garments.begin(), scene.garments.end(), is_denim))
+      options.fabric = Fabric::TWILL;
     return ClothColors::GARMENTS;
   }
   if (io::ending_of(fabric) != ".png") {
     std::vector<std::string> names{"auto", "panels"};
     for (const auto& [name, kind] : known) names.emplace_back(name);
-    throw unknown_word("--fabric", fabric, names, "known are auto, panels, plain, woven, twill, stripes, checks and files ending in .png");
+    throw unknown_word(
+        "--fabric", fabric, names,
+        "known are auto, panels, plain, woven, twill, stripes, checks and files ending in .png");
   }
   options.fabric = Fabric::PRINT;
   options.print = io::read_png(fabric);
@@ -71,8 +87,10 @@ void check_pixels(const std::array<int, 2>& size, std::size_t views) {
   constexpr double MOST = 268e6; // of one picture: 16384 x 16384, a gigabyte
   const double pixels = static_cast<double>(size[0]) * size[1] * static_cast<double>(views);
   if (pixels <= MOST) return;
-  throw Error(ErrorKind::USAGE, "", "--size " + std::to_string(size[0]) + "x" + std::to_string(size[1]),
-              std::to_string(views) + " views of that size are " + std::to_string(std::llround(pixels / 1e6)) + " million pixels, more than 268",
+  throw Error(ErrorKind::USAGE, "",
+              "--size " + std::to_string(size[0]) + "x" + std::to_string(size[1]),
+              std::to_string(views) + " views of that size are " +
+                  std::to_string(std::llround(pixels / 1e6)) + " million pixels, more than 268",
               "make it smaller, ask for fewer views, or write --as files");
 }
 

@@ -21,7 +21,8 @@ double length_of(const std::vector<Vec2>& points) {
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 bool segments_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  const double s = cross(b - a, c - a), t = cross(b - a, d - a), u = cross(d - c, a - c), v = cross(d - c, b - c);
+  const double s = cross(b - a, c - a), t = cross(b - a, d - a), u = cross(d - c, a - c),
+               v = cross(d - c, b - c);
   return s * t < 0 && u * v < 0;
 }
 
@@ -29,20 +30,27 @@ bool is_simple(const std::vector<Vec2>& loop) {
   const std::size_t n = loop.size();
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 2; j < n; ++j)
-      if (!(i == 0 && j + 1 == n) && segments_cross(loop[i], loop[i + 1], loop[j], loop[(j + 1) % n])) return false;
+      if (!(i == 0 && j + 1 == n) &&
+          segments_cross(loop[i], loop[i + 1], loop[j], loop[(j + 1) % n]))
+        return false;
   return true;
 }
 
 } // namespace
 
-void Draft::sew(const std::string& panel_a, const std::string& edge_a, const std::string& panel_b, const std::string& edge_b, double ease,
-                const std::string& kind) {
+void Draft::sew(const std::string& panel_a, const std::string& edge_a, const std::string& panel_b,
+                const std::string& edge_b, double ease, const std::string& kind) {
   seams.push_back({panel_a + "." + edge_a, panel_a, edge_a, panel_b, edge_b, kind, false, ease});
 }
 
 void Draft::remove(const std::string& panel) {
-  panels.erase(std::remove_if(panels.begin(), panels.end(), [&](const DraftPanel& p) { return p.name == panel; }), panels.end());
-  seams.erase(std::remove_if(seams.begin(), seams.end(), [&](const DraftSeam& s) { return s.panel_a == panel || s.panel_b == panel; }), seams.end());
+  panels.erase(std::remove_if(panels.begin(), panels.end(),
+                              [&](const DraftPanel& p) { return p.name == panel; }),
+               panels.end());
+  seams.erase(
+      std::remove_if(seams.begin(), seams.end(),
+                     [&](const DraftSeam& s) { return s.panel_a == panel || s.panel_b == panel; }),
+      seams.end());
 }
 
 const DraftPanel& Draft::panel(const std::string& wanted) const {
@@ -60,16 +68,20 @@ int edge_index(const DraftPanel& panel, const std::string& edge) {
 std::vector<Vec2> edge_points(const DraftPanel& panel, int edge, int n) {
   const Vec2 &a = panel.points[edge], &b = panel.points[(edge + 1) % panel.points.size()];
   std::vector<Vec2> points;
-  for (int i = 0; i <= n; ++i) points.push_back(at(a, panel.edges[edge].control, b, static_cast<double>(i) / n));
+  for (int i = 0; i <= n; ++i)
+    points.push_back(at(a, panel.edges[edge].control, b, static_cast<double>(i) / n));
   return points;
 }
 
-double edge_length(const DraftPanel& panel, const std::string& edge) { return length_of(edge_points(panel, edge_index(panel, edge), 256)); }
+double edge_length(const DraftPanel& panel, const std::string& edge) {
+  return length_of(edge_points(panel, edge_index(panel, edge), 256));
+}
 
 std::vector<Vec2> outline_points(const DraftPanel& panel, int per_edge) {
   std::vector<Vec2> loop;
   for (std::size_t e = 0; e < panel.edges.size(); ++e) {
-    const std::vector<Vec2> points = edge_points(panel, static_cast<int>(e), panel.edges[e].control.empty() ? 1 : per_edge);
+    const std::vector<Vec2> points =
+        edge_points(panel, static_cast<int>(e), panel.edges[e].control.empty() ? 1 : per_edge);
     loop.insert(loop.end(), points.begin(), points.end() - 1);
   }
   return loop;
@@ -85,7 +97,8 @@ DraftPanel mirrored(const DraftPanel& panel, const std::string& name, const std:
     m.points[i] = flip(panel.points[(n - i) % n]);
     const DraftEdge& old = panel.edges[n - 1 - i];
     m.edges[i] = {old.name, {}};
-    for (auto c = old.control.rbegin(); c != old.control.rend(); ++c) m.edges[i].control.push_back(flip(*c));
+    for (auto c = old.control.rbegin(); c != old.control.rend(); ++c)
+      m.edges[i].control.push_back(flip(*c));
   }
   m.grain = flip(panel.grain);
   m.placement.part = part;
@@ -95,7 +108,8 @@ DraftPanel mirrored(const DraftPanel& panel, const std::string& name, const std:
   return m;
 }
 
-void split_edge(DraftPanel& panel, const std::string& edge, double fraction, const std::string& first, const std::string& second) {
+void split_edge(DraftPanel& panel, const std::string& edge, double fraction,
+                const std::string& first, const std::string& second) {
   const int e = edge_index(panel, edge);
   const Vec2 a = panel.points[e], b = panel.points[(e + 1) % panel.points.size()];
   const std::vector<Vec2> c = panel.edges[e].control;
@@ -113,8 +127,11 @@ void split_edge(DraftPanel& panel, const std::string& edge, double fraction, con
       }
       sum += step;
     }
-    const auto mix = [t](const Vec2& p, const Vec2& q) { return Vec2(p + t * (q - p)); }; // de Casteljau
-    const Vec2 ac = mix(a, c[0]), cc = mix(c[0], c[1]), cb = mix(c[1], b), acc = mix(ac, cc), ccb = mix(cc, cb);
+    const auto mix = [t](const Vec2& p, const Vec2& q) {
+      return Vec2(p + t * (q - p));
+    }; // de Casteljau
+    const Vec2 ac = mix(a, c[0]), cc = mix(c[0], c[1]), cb = mix(c[1], b), acc = mix(ac, cc),
+               ccb = mix(cc, cb);
     middle = mix(acc, ccb);
     one.control = {ac, acc};
     two.control = {ccb, cb};
@@ -129,16 +146,18 @@ std::vector<std::string> draft_faults(const Draft& draft) {
   for (const DraftPanel& p : draft.panels) {
     const std::vector<Vec2> loop = outline_points(p);
     double area = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i) area += 0.5 * cross(loop[i], loop[(i + 1) % loop.size()]);
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      area += 0.5 * cross(loop[i], loop[(i + 1) % loop.size()]);
     if (area <= 0) faults.push_back(p.name + ": outline runs clockwise");
     if (!is_simple(loop)) faults.push_back(p.name + ": outline crosses itself");
   }
   for (const DraftSeam& s : draft.seams) {
-    const double a = edge_length(draft.panel(s.panel_a), s.edge_a), b = edge_length(draft.panel(s.panel_b), s.edge_b);
+    const double a = edge_length(draft.panel(s.panel_a), s.edge_a),
+                 b = edge_length(draft.panel(s.panel_b), s.edge_b);
     if (std::abs(a / b - 1 - s.ease) > 0.01) {
       char text[160];
-      std::snprintf(text, sizeof text, "%s.%s is %.1f mm, %s.%s is %.1f mm", s.panel_a.c_str(), s.edge_a.c_str(), 1000 * a, s.panel_b.c_str(), s.edge_b.c_str(),
-                    1000 * b);
+      std::snprintf(text, sizeof text, "%s.%s is %.1f mm, %s.%s is %.1f mm", s.panel_a.c_str(),
+                    s.edge_a.c_str(), 1000 * a, s.panel_b.c_str(), s.edge_b.c_str(), 1000 * b);
       faults.push_back(text);
     }
   }

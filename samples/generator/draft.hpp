@@ -1,8 +1,9 @@
 #pragma once
 /// A sewing pattern while it is drafted: panels of named edges, and seams between edges.
 ///
-/// Pattern coordinates are metres, x to the viewer's right and y up as the finished garment is seen from outside, so a
-/// front panel's +x is the wearer's left and a back panel's +x the wearer's right. Outlines run counter-clockwise.
+/// Pattern coordinates are metres, x to the viewer's right and y up as the finished garment is seen
+/// from outside, so a front panel's +x is the wearer's left and a back panel's +x the wearer's
+/// right. Outlines run counter-clockwise.
 #include <functional>
 #include <geometry/types.hpp>
 #include <map>
@@ -19,8 +20,10 @@ struct DraftEdge {
 /// Where a panel is placed before sewing: wrapped around a body part.
 struct DraftPlacement {
   std::string part = "torso"; ///< a part of the body document, or "lower_body"
-  double theta_deg = 0;       ///< of the panel's anchor: around the trunk and neck 0 is the front, 90 the wearer's left; on arms 0 is the outer side
-  double height = 0;          ///< m above the floor of the anchor, on the body that the pattern is made for; below 0: not said
+  double theta_deg = 0; ///< of the panel's anchor: around the trunk and neck 0 is the front, 90 the
+                        ///< wearer's left; on arms 0 is the outer side
+  double height = 0; ///< m above the floor of the anchor, on the body that the pattern is made for;
+                     ///< below 0: not said
   Vec2 anchor = Vec2::Zero(); ///< pattern point that goes there
 };
 
@@ -36,7 +39,8 @@ struct DraftSeam {
   std::string name;
   std::string panel_a, edge_a, panel_b, edge_b;
   std::string kind = "seam";   ///< or "closure"
-  bool same_direction = false; ///< start sews to start; otherwise, as between neighbours seen from outside, start to end
+  bool same_direction = false; ///< start sews to start; otherwise, as between neighbours seen from
+                               ///< outside, start to end
   double ease = 0;             ///< intended (length a / length b) - 1
 };
 
@@ -46,15 +50,16 @@ struct Draft {
   std::vector<DraftSeam> seams;
 
   void add(DraftPanel panel) { panels.push_back(std::move(panel)); }
-  void sew(const std::string& panel_a, const std::string& edge_a, const std::string& panel_b, const std::string& edge_b, double ease = 0,
-           const std::string& kind = "seam");
+  void sew(const std::string& panel_a, const std::string& edge_a, const std::string& panel_b,
+           const std::string& edge_b, double ease = 0, const std::string& kind = "seam");
   void remove(const std::string& panel);                  ///< with its seams
   const DraftPanel& panel(const std::string& name) const; ///< @throws Error INTERNAL
 };
 
 /// Body measures that the drafts need, m. Girths are taut.
 struct Measures {
-  double stature = 1.65, bust = 0.92, waist = 0.74, hip = 0.98, neck = 0.335, upper_arm = 0.285, wrist = 0.155, knee = 0.37, ankle = 0.215;
+  double stature = 1.65, bust = 0.92, waist = 0.74, hip = 0.98, neck = 0.335, upper_arm = 0.285,
+         wrist = 0.155, knee = 0.37, ankle = 0.215;
   double back_length = 0.39;      ///< back neck point to waist, vertical
   double waist_to_hip = 0.20;     ///< vertical
   double body_rise = 0.28;        ///< waist to crotch, vertical
@@ -76,9 +81,11 @@ std::vector<Vec2> outline_points(const DraftPanel& panel, int per_edge = 24);
 DraftPanel mirrored(const DraftPanel& panel, const std::string& name, const std::string& part);
 
 /// Cuts an edge in two at a fraction of its length, measured from its start.
-void split_edge(DraftPanel& panel, const std::string& edge, double fraction, const std::string& first, const std::string& second);
+void split_edge(DraftPanel& panel, const std::string& edge, double fraction,
+                const std::string& first, const std::string& second);
 
-/// What is wrong with a draft: crossing outline, clockwise outline, seam lengths off by more than 1 % of the intended ratio. Empty when sound.
+/// What is wrong with a draft: crossing outline, clockwise outline, seam lengths off by more than 1
+/// % of the intended ratio. Empty when sound.
 std::vector<std::string> draft_faults(const Draft& draft);
 
 /// x in [low, high] with f(x) = 0, f rising or falling; the nearer end when there is none.
@@ -88,7 +95,8 @@ double solve(double low, double high, const std::function<double(double)>& f);
 Draft draft_shirt(const Measures& m);
 Draft draft_tshirt(const Measures& m);
 Draft draft_skirt(const Measures& m);
-/// @param more_flare  m, 0 or more: by which each side seam leans out more at the hem, on either side of it
+/// @param more_flare  m, 0 or more: by which each side seam leans out more at the hem, on either
+/// side of it
 /// @throws Error USAGE where the seams would lie nearly level
 Draft draft_flared_skirt(const Measures& m, double more_flare);
 Draft draft_trousers(const Measures& m);

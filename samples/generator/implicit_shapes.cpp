@@ -3,7 +3,8 @@
 #include <cmath>
 namespace sloper::samples {
 
-MonotoneCurve::MonotoneCurve(std::vector<double> x, std::vector<double> y) : m_x(std::move(x)), m_y(std::move(y)), m_slope(m_x.size(), 0.0) {
+MonotoneCurve::MonotoneCurve(std::vector<double> x, std::vector<double> y)
+    : m_x(std::move(x)), m_y(std::move(y)), m_slope(m_x.size(), 0.0) {
   const std::size_t n = m_x.size();
   std::vector<double> d(n - 1);
   for (std::size_t i = 0; i + 1 < n; ++i) d[i] = (m_y[i + 1] - m_y[i]) / (m_x[i + 1] - m_x[i]);
@@ -21,14 +22,18 @@ MonotoneCurve::MonotoneCurve(std::vector<double> x, std::vector<double> y) : m_x
 double MonotoneCurve::at(double x) const {
   if (x <= m_x.front()) return m_y.front();
   if (x >= m_x.back()) return m_y.back();
-  const std::size_t i = static_cast<std::size_t>(std::upper_bound(m_x.begin(), m_x.end(), x) - m_x.begin()) - 1;
+  const std::size_t i =
+      static_cast<std::size_t>(std::upper_bound(m_x.begin(), m_x.end(), x) - m_x.begin()) - 1;
   const double h = m_x[i + 1] - m_x[i], t = (x - m_x[i]) / h, s = 1 - t;
-  return s * s * (1 + 2 * t) * m_y[i] + t * t * (1 + 2 * s) * m_y[i + 1] + h * t * s * (s * m_slope[i] - t * m_slope[i + 1]);
+  return s * s * (1 + 2 * t) * m_y[i] + t * t * (1 + 2 * s) * m_y[i + 1] +
+         h * t * s * (s * m_slope[i] - t * m_slope[i + 1]);
 }
 
-Tube::Tube(const std::vector<TubeKnot>& knots, double round_low, double round_high) : m_round_low(round_low), m_round_high(round_high) {
-  static constexpr double TubeKnot::*CHANNELS[] = {&TubeKnot::center_x, &TubeKnot::center_z, &TubeKnot::left,    &TubeKnot::right,
-                                                   &TubeKnot::front,    &TubeKnot::back,     &TubeKnot::exponent};
+Tube::Tube(const std::vector<TubeKnot>& knots, double round_low, double round_high)
+    : m_round_low(round_low), m_round_high(round_high) {
+  static constexpr double TubeKnot::*CHANNELS[] = {
+      &TubeKnot::center_x, &TubeKnot::center_z, &TubeKnot::left,    &TubeKnot::right,
+      &TubeKnot::front,    &TubeKnot::back,     &TubeKnot::exponent};
   constexpr int N = 400; // a table, so that a distance costs one linear interpolation
   m_low = knots.front().y;
   m_high = knots.back().y;
@@ -48,19 +53,22 @@ Tube::Tube(const std::vector<TubeKnot>& knots, double round_low, double round_hi
 }
 
 TubeKnot Tube::section(double y) const {
-  const double u = std::clamp((y - m_low) / m_step, 0.0, static_cast<double>(m_table.size() - 1) - 1e-9);
+  const double u =
+      std::clamp((y - m_low) / m_step, 0.0, static_cast<double>(m_table.size() - 1) - 1e-9);
   const int i = static_cast<int>(u);
   const double t = u - i;
   const TubeKnot &a = m_table[i], &b = m_table[i + 1];
   const auto mix = [t](double p, double q) { return p + t * (q - p); };
-  return {mix(a.y, b.y),         mix(a.center_x, b.center_x), mix(a.center_z, b.center_z), mix(a.left, b.left),
-          mix(a.right, b.right), mix(a.front, b.front),       mix(a.back, b.back),         mix(a.exponent, b.exponent)};
+  return {mix(a.y, b.y),       mix(a.center_x, b.center_x), mix(a.center_z, b.center_z),
+          mix(a.left, b.left), mix(a.right, b.right),       mix(a.front, b.front),
+          mix(a.back, b.back), mix(a.exponent, b.exponent)};
 }
 
 double Tube::distance(const Vec3& p) const {
   const TubeKnot s = section(p.y());
   const double x = p.x() - s.center_x, z = p.z() - s.center_z;
-  const double u = std::abs(x) / (x > 0 ? s.left : s.right), v = std::abs(z) / (z > 0 ? s.front : s.back);
+  const double u = std::abs(x) / (x > 0 ? s.left : s.right),
+               v = std::abs(z) / (z > 0 ? s.front : s.back);
   const double rho = std::pow(std::pow(u, s.exponent) + std::pow(v, s.exponent), 1 / s.exponent);
   const double r = std::sqrt(x * x + z * z);
   const double inner = std::min(std::min(s.left, s.right), std::min(s.front, s.back));

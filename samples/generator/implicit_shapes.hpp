@@ -1,11 +1,13 @@
 #pragma once
 /// The few implicit shapes that the mannequin is made of, and how they are blended.
-/// Every shape answers a length that is negative inside, zero on the surface and near it about the distance, m.
+/// Every shape answers a length that is negative inside, zero on the surface and near it about the
+/// distance, m.
 #include <geometry/types.hpp>
 #include <vector>
 namespace sloper::samples {
 
-/// One cross-section of a tube: a superellipse in the local x-z plane with a radius of its own on each of four sides.
+/// One cross-section of a tube: a superellipse in the local x-z plane with a radius of its own on
+/// each of four sides.
 struct TubeKnot {
   double y;                  ///< place along the tube
   double center_x, center_z; ///< of the section
@@ -14,8 +16,8 @@ struct TubeKnot {
   double exponent = 2;       ///< 2 is an ellipse, larger is squarer
 };
 
-/// A tube along local y through cross-sections, with rounded ends. Sections are interpolated by monotone cubics
-/// (Fritsch and Carlson 1980), so that a girth never overshoots between two knots.
+/// A tube along local y through cross-sections, with rounded ends. Sections are interpolated by
+/// monotone cubics (Fritsch and Carlson 1980), so that a girth never overshoots between two knots.
 class Tube {
 public:
   Tube() = default;

@@ -26,8 +26,10 @@ Vec3 exit_point(const Field& f, const Vec3& from, const Vec3& direction) {
 
 class Truth {
 public:
-  Truth(const TriangleMesh& mesh, const std::vector<unsigned char>& parts, const BodyField& body, const Mannequin& shape)
-      : m_mesh(mesh), m_parts(parts), m_body(body), m_female(shape.sex == "f"), m_field([&body](const Vec3& p) { return body.all(p); }) {}
+  Truth(const TriangleMesh& mesh, const std::vector<unsigned char>& parts, const BodyField& body,
+        const Mannequin& shape)
+      : m_mesh(mesh), m_parts(parts), m_body(body), m_female(shape.sex == "f"),
+        m_field([&body](const Vec3& p) { return body.all(p); }) {}
 
   io::Json document(const Mannequin& shape) {
     joints();
@@ -44,10 +46,15 @@ public:
     d["front"] = "+z";
     d["mesh"]["vertices"] = m_mesh.positions.size();
     d["mesh"]["triangles"] = m_mesh.triangles.size();
-    d["sample"] = {{"sex", shape.sex}, {"bmi", shape.bmi}, {"arm_deg", shape.arm_deg}, {"leg_deg", shape.leg_deg}};
+    d["sample"] = {{"sex", shape.sex},
+                   {"bmi", shape.bmi},
+                   {"arm_deg", shape.arm_deg},
+                   {"leg_deg", shape.leg_deg}};
     d["derived"]["stature_m"] = bounding_box(m_mesh.positions).high.y();
     double volume = 0;
-    for (const Triangle& t : m_mesh.triangles) volume += m_mesh.positions[t[0]].dot(m_mesh.positions[t[1]].cross(m_mesh.positions[t[2]])) / 6;
+    for (const Triangle& t : m_mesh.triangles)
+      volume +=
+          m_mesh.positions[t[0]].dot(m_mesh.positions[t[1]].cross(m_mesh.positions[t[2]])) / 6;
     d["derived"]["volume_m3"] = volume;
     d["landmarks"] = m_landmarks;
     d["levels"] = m_levels;
@@ -61,7 +68,8 @@ private:
     if (std::string(compare) != "xyz") m_landmarks[name]["compare"] = compare;
   }
   /// Both sides; the figure is symmetric.
-  void pair(const std::string& name, const Vec3& left, const char* trust, const char* compare = "xyz") {
+  void pair(const std::string& name, const Vec3& left, const char* trust,
+            const char* compare = "xyz") {
     put(name + "_l", left, trust, compare);
     put(name + "_r", Vec3(-left.x(), left.y(), left.z()), trust, compare);
   }
@@ -70,7 +78,8 @@ private:
   Vec3 farthest(const Vec3& d, const std::function<bool(int)>& keep) const {
     int best = -1;
     for (int i = 0; i < static_cast<int>(m_mesh.positions.size()); ++i)
-      if (keep(i) && (best < 0 || m_mesh.positions[i].dot(d) > m_mesh.positions[best].dot(d))) best = i;
+      if (keep(i) && (best < 0 || m_mesh.positions[i].dot(d) > m_mesh.positions[best].dot(d)))
+        best = i;
     return best < 0 ? Vec3(Vec3::Zero()) : m_mesh.positions[best];
   }
 
@@ -81,7 +90,9 @@ private:
     });
   }
   Section2 part_section(const Vec3& point, const Vec3& normal, unsigned char part) const {
-    return mesh_section(m_mesh, point, normal, [&](const Triangle& t) { return m_parts[t[0]] == part || m_parts[t[1]] == part || m_parts[t[2]] == part; });
+    return mesh_section(m_mesh, point, normal, [&](const Triangle& t) {
+      return m_parts[t[0]] == part || m_parts[t[1]] == part || m_parts[t[2]] == part;
+    });
   }
 
   void joints() {
@@ -101,11 +112,15 @@ private:
     const Vec3 tip = farthest(along, [this](int i) { return m_parts[i] == ARM_L; });
     pair("hand_tip", tip, "high");
     pair("hand_extreme", tip, "high");
-    const auto foot = [&](int i) { return m_mesh.positions[i].x() > 0 && m_mesh.positions[i].y() < 0.06 * h; };
-    pair("foot_tip", farthest(Vec3::UnitZ(), foot), "high", "yz"); // toes are of one length: which of them is foremost is no matter
+    const auto foot = [&](int i) {
+      return m_mesh.positions[i].x() > 0 && m_mesh.positions[i].y() < 0.06 * h;
+    };
+    pair("foot_tip", farthest(Vec3::UnitZ(), foot), "high",
+         "yz"); // toes are of one length: which of them is foremost is no matter
     pair("heel", farthest(-Vec3::UnitZ(), foot), "high", "z");
     // The crotch is the lowest point of the mid-plane section.
-    const Section2 middle = mesh_section(m_mesh, Vec3::Zero(), Vec3::UnitX(), [](const Triangle&) { return true; });
+    const Section2 middle =
+        mesh_section(m_mesh, Vec3::Zero(), Vec3::UnitX(), [](const Triangle&) { return true; });
     m_crotch = middle.low.y();
     Vec3 at(0, m_crotch, 0);
     double best = 1e9;
@@ -129,7 +144,9 @@ private:
     const double z = back.z() + 0.32 * (front.z() - back.z());
     const Vec3 side = exit_point(m_field, Vec3(0.046 * h, 0.80 * h, z), Vec3::UnitY());
     pair("neck_side", side, "medium");
-    pair("acromion", exit_point(m_field, m_body.shoulder_joint, Vec3(0.60 - 0.85 * m_body.lift, 0.80, -0.10)), "medium");
+    pair("acromion",
+         exit_point(m_field, m_body.shoulder_joint, Vec3(0.60 - 0.85 * m_body.lift, 0.80, -0.10)),
+         "medium");
     pair("olecranon", exit_point(m_field, m_body.elbow, -Vec3::UnitZ()), "medium");
     // Neck base: the ring on the skin through front, side and back neck point.
     const MonotoneCurve height({0, 0.5 * units::PI, units::PI}, {yf, side.y(), yb});
@@ -137,15 +154,19 @@ private:
     Vec3 last = front;
     for (int k = 1; k <= 45; ++k) {
       const double angle = units::PI * k / 45, y = height.at(angle);
-      const Vec3 p = exit_point(m_field, Vec3(0, y, m_neck_center.z()), Vec3(std::sin(angle), 0, std::cos(angle)));
+      const Vec3 p = exit_point(m_field, Vec3(0, y, m_neck_center.z()),
+                                Vec3(std::sin(angle), 0, std::cos(angle)));
       ring += 2 * (p - last).norm();
       last = p;
     }
     m_girths["neck_base"] = ring;
     const auto near_neck = [&](const Triangle& t) {
-      return (m_mesh.positions[t[0]] - m_neck_center).norm() < 0.09 * h && m_parts[t[0]] != ARM_L && m_parts[t[0]] != ARM_R;
+      return (m_mesh.positions[t[0]] - m_neck_center).norm() < 0.09 * h && m_parts[t[0]] != ARM_L &&
+             m_parts[t[0]] != ARM_R;
     };
-    m_girths["neck"] = mesh_section(m_mesh, m_body.neck_axis_point(0.863 * h), m_body.neck_front_direction().cross(Vec3::UnitX()), near_neck).girth_m;
+    m_girths["neck"] = mesh_section(m_mesh, m_body.neck_axis_point(0.863 * h),
+                                    m_body.neck_front_direction().cross(Vec3::UnitX()), near_neck)
+                           .girth_m;
   }
 
   void armpits() {
@@ -181,9 +202,12 @@ private:
       const Vec3& p = m_mesh.positions[i];
       return p.x() > 0.01 * h && std::abs(p.y() - m_body.y_bust) < 0.05 * h && m_parts[i] == TORSO;
     };
-    // A woman's: slide from the foremost vertex to the foremost point of the surface. A man's has no such point: the
-    // middle of the breast muscle.
-    Vec3 bust = m_female ? farthest(Vec3::UnitZ(), chest) : exit_point(m_field, Vec3(m_body.breast_center.x(), m_body.breast_center.y(), 0), Vec3::UnitZ());
+    // A woman's: slide from the foremost vertex to the foremost point of the surface. A man's has
+    // no such point: the middle of the breast muscle.
+    Vec3 bust =
+        m_female ? farthest(Vec3::UnitZ(), chest)
+                 : exit_point(m_field, Vec3(m_body.breast_center.x(), m_body.breast_center.y(), 0),
+                              Vec3::UnitZ());
     for (int k = 0; m_female && k < 60; ++k) {
       const Vec3 n = field_normal(m_field, bust);
       bust = onto_surface(m_field, bust + 0.03 * (Vec3::UnitZ() - n.z() * n), 1);
@@ -213,8 +237,12 @@ private:
 
   void level(const std::string& name, double y, const char* trust) {
     const Section2 s = trunk_section(y);
-    m_levels[name] = {{"y", y},         {"girth_m", s.girth_m}, {"width_m", s.high.x() - s.low.x()}, {"depth_m", s.high.z() - s.low.z()},
-                      {"trust", trust}, {"girth_trust", trust}};
+    m_levels[name] = {{"y", y},
+                      {"girth_m", s.girth_m},
+                      {"width_m", s.high.x() - s.low.x()},
+                      {"depth_m", s.high.z() - s.low.z()},
+                      {"trust", trust},
+                      {"girth_trust", trust}};
   }
 
   void levels() {
@@ -223,7 +251,8 @@ private:
     const double fold = m_body.y_fold;
     level("underbust", fold, "medium");
     m_levels["underbust"]["applies"] = m_female;
-    m_levels["underbust"]["girth_trust"] = "low"; // it changes by a centimetre for two millimetres of height
+    m_levels["underbust"]["girth_trust"] =
+        "low"; // it changes by a centimetre for two millimetres of height
     level("waist_semantic", m_body.y_waist, "medium");
     level("omphalion", m_body.y_omphalion, "low");
     level("abdomen", m_abdomen_y, "medium");
@@ -239,15 +268,20 @@ private:
       const Section2 s = trunk_section(y);
       samples.push_back({y, s.girth_m, s.high.x() - s.low.x()});
     }
-    const auto smallest = [&](const char* name, double Sample::*what, double flat, double prominence) {
+    const auto smallest = [&](const char* name, double Sample::*what, double flat,
+                              double prominence) {
       std::size_t best = 0;
       for (std::size_t i = 0; i < samples.size(); ++i)
         if (samples[i].*what < samples[best].*what) best = i;
       level(name, samples[best].y, "high");
       double above = 0, range_low = samples[best].y, range_high = range_low;
-      for (std::size_t i = best; i < samples.size(); ++i) above = std::max(above, samples[i].*what - samples[best].*what);
-      for (std::size_t i = best; i < samples.size() && samples[i].*what < samples[best].*what + flat; ++i) range_high = samples[i].y;
-      for (std::size_t i = best + 1; i-- > 0 && samples[i].*what < samples[best].*what + flat;) range_low = samples[i].y;
+      for (std::size_t i = best; i < samples.size(); ++i)
+        above = std::max(above, samples[i].*what - samples[best].*what);
+      for (std::size_t i = best;
+           i < samples.size() && samples[i].*what < samples[best].*what + flat; ++i)
+        range_high = samples[i].y;
+      for (std::size_t i = best + 1; i-- > 0 && samples[i].*what < samples[best].*what + flat;)
+        range_low = samples[i].y;
       m_levels[name]["valid"] = above >= prominence;
       m_levels[name]["y_range"] = {range_low, range_high};
     };
@@ -265,18 +299,24 @@ private:
 
   void girths() {
     const Vec3 up = Vec3::UnitY();
-    const auto both = [&](const std::string& name, double value) { m_girths[name + "_l"] = value, m_girths[name + "_r"] = value; };
+    const auto both = [&](const std::string& name, double value) {
+      m_girths[name + "_l"] = value, m_girths[name + "_r"] = value;
+    };
     both("thigh", part_section(Vec3(0, m_crotch - 0.010, 0), up, LEG_L).girth_m);
     both("knee", part_section(m_body.knee, up, LEG_L).girth_m);
     double calf = 0, calf_y = 0, thin = 1e9;
     for (double y = m_body.ankle.y(); y < m_body.knee.y(); y += 0.004)
-      if (const double g = part_section(Vec3(0, y, 0), up, LEG_L).girth_m; y > 0.12 * m_body.stature && y < 0.26 * m_body.stature && g > calf)
+      if (const double g = part_section(Vec3(0, y, 0), up, LEG_L).girth_m;
+          y > 0.12 * m_body.stature && y < 0.26 * m_body.stature && g > calf)
         calf = g, calf_y = y;
-    for (double y = m_body.ankle.y(); y < calf_y; y += 0.004) thin = std::min(thin, part_section(Vec3(0, y, 0), up, LEG_L).girth_m);
+    for (double y = m_body.ankle.y(); y < calf_y; y += 0.004)
+      thin = std::min(thin, part_section(Vec3(0, y, 0), up, LEG_L).girth_m);
     both("calf", calf);
     both("ankle_min", thin);
-    const Vec3 upper = (m_body.elbow - m_body.shoulder_joint).normalized(), lower = (m_body.wrist - m_body.elbow).normalized();
-    both("upper_arm", part_section(0.5 * (m_body.shoulder_joint + m_body.elbow), upper, ARM_L).girth_m);
+    const Vec3 upper = (m_body.elbow - m_body.shoulder_joint).normalized(),
+               lower = (m_body.wrist - m_body.elbow).normalized();
+    both("upper_arm",
+         part_section(0.5 * (m_body.shoulder_joint + m_body.elbow), upper, ARM_L).girth_m);
     both("wrist", part_section(m_body.wrist, lower, ARM_L).girth_m);
   }
 
@@ -299,9 +339,12 @@ std::vector<unsigned char> vertex_parts(const TriangleMesh& mesh, const BodyFiel
     const Vec3 left(std::abs(p.x()), p.y(), p.z());
     const bool is_left = p.x() > 0;
     // The neck's base runs down from back to front.
-    const double base = body.y_neck_back + (body.y_neck_front - body.y_neck_back) * std::clamp((p.z() + 0.05 * h) / (0.085 * h), 0.0, 1.2);
+    const double base =
+        body.y_neck_back + (body.y_neck_front - body.y_neck_back) *
+                               std::clamp((p.z() + 0.05 * h) / (0.085 * h), 0.0, 1.2);
     if (p.y() > base && left.x() < 0.06 * h) parts.push_back(HEAD);
-    else if (body.arm(left) < body.trunk(left) && left.x() > body.shoulder_joint.x() - 0.02 * h && body.arm(left) < body.leg(left))
+    else if (body.arm(left) < body.trunk(left) && left.x() > body.shoulder_joint.x() - 0.02 * h &&
+             body.arm(left) < body.leg(left))
       parts.push_back(is_left ? ARM_L : ARM_R);
     else if (p.y() < 0.46 * h + 0.45 * left.x()) parts.push_back(is_left ? LEG_L : LEG_R);
     else parts.push_back(TORSO);
@@ -309,7 +352,8 @@ std::vector<unsigned char> vertex_parts(const TriangleMesh& mesh, const BodyFiel
   return parts;
 }
 
-io::Json mannequin_truth(const TriangleMesh& mesh, const std::vector<unsigned char>& parts, const BodyField& field, const Mannequin& shape) {
+io::Json mannequin_truth(const TriangleMesh& mesh, const std::vector<unsigned char>& parts,
+                         const BodyField& field, const Mannequin& shape) {
   return Truth(mesh, parts, field, shape).document(shape);
 }
 

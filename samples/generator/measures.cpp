@@ -70,20 +70,26 @@ void set_measure(Measures& m, const std::string& name, double value) {
   for (const auto& [known, member] : measure_names()) {
     names.push_back(known);
     if (known == name) {
-      if (!(value > 0.02 && value < 2.5)) throw Error(ErrorKind::USAGE, "", "--measure " + name, "is not a length of a person, in m");
+      if (!(value > 0.02 && value < 2.5))
+        throw Error(ErrorKind::USAGE, "", "--measure " + name, "is not a length of a person, in m");
       m.*member = value;
       return;
     }
   }
-  throw Error(ErrorKind::USAGE, "", "--measure", "there is no measure \"" + name + "\"" + did_you_mean(name, names, "\""), "see --help");
+  throw Error(ErrorKind::USAGE, "", "--measure",
+              "there is no measure \"" + name + "\"" + did_you_mean(name, names, "\""),
+              "see --help");
 }
 
 Measures measures_from_body(const io::Json& body, const std::string& file) {
-  if (body.is_object() && body.contains("format")) io::check_envelope(body, file, "body", BODY_VERSION); // a mannequin's truth states none
+  if (body.is_object() && body.contains("format"))
+    io::check_envelope(body, file, "body", BODY_VERSION); // a mannequin's truth states none
   const Reader r(body, file);
   Measures m;
   Vec3 p, q;
-  if (!r.point("head_tip", p) || p.y() < 0.5) throw input_error(file, "/landmarks/head_tip", "stature is not known", "give a body document with a head_tip");
+  if (!r.point("head_tip", p) || p.y() < 0.5)
+    throw input_error(file, "/landmarks/head_tip", "stature is not known",
+                      "give a body document with a head_tip");
   scale_all(m, p.y() / m.stature);
   double y = 0, girth = 0, waist_y = m.waist_height();
   for (const char* name : {"waist_girth_min", "waist_semantic", "omphalion"})
@@ -92,9 +98,11 @@ Measures measures_from_body(const io::Json& body, const std::string& file) {
       waist_y = y;
       break;
     }
-  // The narrowest girth may lie anywhere on a bellied body; garments hang at the modelled waist there.
+  // The narrowest girth may lie anywhere on a bellied body; garments hang at the modelled waist
+  // there.
   double semantic_y = 0, semantic_girth = 0;
-  if (r.level("waist_semantic", semantic_girth, semantic_y) && std::abs(semantic_y - waist_y) > 0.04) {
+  if (r.level("waist_semantic", semantic_girth, semantic_y) &&
+      std::abs(semantic_y - waist_y) > 0.04) {
     m.waist = semantic_girth;
     waist_y = semantic_y;
   }
@@ -116,7 +124,8 @@ Measures measures_from_body(const io::Json& body, const std::string& file) {
     m.shoulder_height = p.y();
     if (r.point("neck_side_l", q)) m.shoulder = (p - q).norm();
     Vec3 elbow, wrist;
-    if (r.point("elbow_l", elbow) && r.point("wrist_l", wrist)) m.arm_length = (elbow - p).norm() + (wrist - elbow).norm();
+    if (r.point("elbow_l", elbow) && r.point("wrist_l", wrist))
+      m.arm_length = (elbow - p).norm() + (wrist - elbow).norm();
   }
   r.girth("neck", m.neck);
   r.girth("upper_arm_l", m.upper_arm);
@@ -141,22 +150,31 @@ io::Json pattern_document(const Draft& draft) {
       path.push_back({"M", cm(a.x()), cm(a.y())});
       const std::vector<Vec2>& c = p.edges[i].control;
       if (c.empty()) path.push_back({"L", cm(b.x()), cm(b.y())});
-      else path.push_back({"C", cm(c[0].x()), cm(c[0].y()), cm(c[1].x()), cm(c[1].y()), cm(b.x()), cm(b.y())});
+      else
+        path.push_back(
+            {"C", cm(c[0].x()), cm(c[0].y()), cm(c[1].x()), cm(c[1].y()), cm(b.x()), cm(b.y())});
       panel["outline"].push_back({{"edge", p.edges[i].name}, {"path", path}});
     }
     panel["grain"] = {p.grain.x(), p.grain.y()};
-    panel["place"] = {{"part", p.placement.part}, {"theta_deg", p.placement.theta_deg}, {"anchor", {cm(p.placement.anchor.x()), cm(p.placement.anchor.y())}}};
+    panel["place"] = {{"part", p.placement.part},
+                      {"theta_deg", p.placement.theta_deg},
+                      {"anchor", {cm(p.placement.anchor.x()), cm(p.placement.anchor.y())}}};
     if (p.placement.height > 0) panel["place"]["height"] = cm(p.placement.height);
     d["panels"].push_back(panel);
   }
   d["seams"] = io::Json::array();
   for (const DraftSeam& s : draft.seams) {
-    io::Json a = {{"panel", s.panel_a}, {"edge", s.edge_a}}, b = {{"panel", s.panel_b}, {"edge", s.edge_b}};
-    if (s.same_direction) { // otherwise neighbours' outlines run against each other, which is the format's rule
+    io::Json a = {{"panel", s.panel_a}, {"edge", s.edge_a}},
+             b = {{"panel", s.panel_b}, {"edge", s.edge_b}};
+    if (s.same_direction) { // otherwise neighbours' outlines run against each other, which is the
+                            // format's rule
       b["from"] = 0;
       b["to"] = 1;
     }
-    io::Json seam = {{"name", s.name}, {"kind", s.kind}, {"a", io::Json::array({a})}, {"b", io::Json::array({b})}};
+    io::Json seam = {{"name", s.name},
+                     {"kind", s.kind},
+                     {"a", io::Json::array({a})},
+                     {"b", io::Json::array({b})}};
     if (s.ease != 0) seam["ease"] = "sleeve cap";
     d["seams"].push_back(seam);
   }

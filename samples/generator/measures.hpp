@@ -3,8 +3,8 @@
 #include "draft.hpp"
 #include <io/json_fwd.hpp>
 namespace sloper::samples {
-/// From a body document or a mannequin's truth: both name landmarks, levels and girths alike. What is missing is taken
-/// from stature by average proportions.
+/// From a body document or a mannequin's truth: both name landmarks, levels and girths alike. What
+/// is missing is taken from stature by average proportions.
 /// @throws Error INPUT when stature cannot be had
 Measures measures_from_body(const io::Json& body, const std::string& file);
 /// Sets one measure by name. @throws Error USAGE with the nearest name

@@ -7,29 +7,44 @@
 #include <string>
 #include <utility>
 namespace sloper::samples {
-inline constexpr double LONGEST = 2.5, SHORTEST = 0.1; ///< m, of what is measured on a person: more is meant in another unit
-/// @param option  for messages: "--measure". @throws Error USAGE with the form that is expected and, where a unit can be guessed, with the number in it
-inline std::pair<std::string, double> named_length(const std::string& option, const std::string& text) {
+inline constexpr double
+    LONGEST = 2.5,
+    SHORTEST = 0.1; ///< m, of what is measured on a person: more is meant in another unit
+/// @param option  for messages: "--measure". @throws Error USAGE with the form that is expected
+/// and, where a unit can be guessed, with the number in it
+inline std::pair<std::string, double> named_length(const std::string& option,
+                                                   const std::string& text) {
   const std::size_t equal = text.find('=');
-  const std::string name = text.substr(0, equal), length = equal == std::string::npos ? "" : text.substr(equal + 1);
+  const std::string name = text.substr(0, equal),
+                    length = equal == std::string::npos ? "" : text.substr(equal + 1);
   double value = 0;
   const auto [rest, failure] = std::from_chars(length.data(), length.data() + length.size(), value);
   const std::string unit(rest, length.data() + length.size());
-  const double factor = unit.empty() || unit == "m" ? 1 : unit == "cm" ? 0.01 : unit == "mm" ? 0.001 : unit == "in" ? 0.0254 : 0;
+  const double factor = unit.empty() || unit == "m" ? 1
+                        : unit == "cm"              ? 0.01
+                        : unit == "mm"              ? 0.001
+                        : unit == "in"              ? 0.0254
+                                                    : 0;
   if (name.empty() || failure != std::errc() || factor == 0 || !std::isfinite(value))
-    throw Error(ErrorKind::USAGE, "", option, "\"" + text + "\" is not NAME=METRES", "for example " + option + " waist=0.75");
+    throw Error(ErrorKind::USAGE, "", option, "\"" + text + "\" is not NAME=METRES",
+                "for example " + option + " waist=0.75");
   const auto say = [&](double metres) {
     char number[32];
     std::snprintf(number, sizeof number, "%.4g", metres);
     return option + " " + name + "=" + number;
   };
   if (!unit.empty())
-    throw Error(ErrorKind::USAGE, "", option, "\"" + text + "\" names a unit: lengths are in metres, without one", "say " + say(factor * value));
+    throw Error(ErrorKind::USAGE, "", option,
+                "\"" + text + "\" names a unit: lengths are in metres, without one",
+                "say " + say(factor * value));
   if (value > LONGEST) {
     const bool mm = value > 100 * LONGEST;
     const double meant = value / (mm ? 1000 : 100);
-    throw Error(ErrorKind::USAGE, "", option, "\"" + text + "\" would be " + length + " m: lengths are in metres",
-                meant < SHORTEST ? "for example " + say(0.75) : "where " + length + (mm ? " mm" : " cm") + " are meant, say " + say(meant));
+    throw Error(ErrorKind::USAGE, "", option,
+                "\"" + text + "\" would be " + length + " m: lengths are in metres",
+                meant < SHORTEST
+                    ? "for example " + say(0.75)
+                    : "where " + length + (mm ? " mm" : " cm") + " are meant, say " + say(meant));
   }
   return {name, value};
 }

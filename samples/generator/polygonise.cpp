@@ -7,8 +7,10 @@
 namespace sloper::samples {
 namespace {
 
-constexpr int BLOCK = 6;        ///< cells along one side of a block that is skipped as a whole when far from the surface
-constexpr double FAR_OFF = 2.5; ///< a field value this many times the block's half diagonal is taken as far from the surface
+constexpr int BLOCK =
+    6; ///< cells along one side of a block that is skipped as a whole when far from the surface
+constexpr double FAR_OFF = 2.5; ///< a field value this many times the block's half diagonal is
+                                ///< taken as far from the surface
 
 /// The field on the corners of a grid; corners far from the surface hold only the right sign.
 struct Grid {
@@ -16,14 +18,18 @@ struct Grid {
   double cell;
   int nx, ny, nz; ///< corners
   std::vector<float> value;
-  std::size_t at(int i, int j, int k) const { return (static_cast<std::size_t>(k) * ny + j) * nx + i; }
+  std::size_t at(int i, int j, int k) const {
+    return (static_cast<std::size_t>(k) * ny + j) * nx + i;
+  }
   Vec3 point(int i, int j, int k) const { return origin + cell * Vec3(i, j, k); }
 };
 
 Grid sample(const Field& f, const Box3& box, double cell, const Vec3& shift) {
   Grid g;
   g.cell = cell;
-  const auto corners = [&](double size) { return (static_cast<int>(std::ceil(size / cell / BLOCK)) + 1) * BLOCK + 1; };
+  const auto corners = [&](double size) {
+    return (static_cast<int>(std::ceil(size / cell / BLOCK)) + 1) * BLOCK + 1;
+  };
   g.nx = corners(box.size().x());
   g.ny = corners(box.size().y());
   g.nz = corners(box.size().z());
@@ -33,19 +39,24 @@ Grid sample(const Field& f, const Box3& box, double cell, const Vec3& shift) {
   for (int k = 0; k + 1 < g.nz; k += BLOCK)
     for (int j = 0; j + 1 < g.ny; j += BLOCK)
       for (int i = 0; i + 1 < g.nx; i += BLOCK) {
-        const double middle = f(g.origin + cell * Vec3(i + 0.5 * BLOCK, j + 0.5 * BLOCK, k + 0.5 * BLOCK));
+        const double middle =
+            f(g.origin + cell * Vec3(i + 0.5 * BLOCK, j + 0.5 * BLOCK, k + 0.5 * BLOCK));
         const bool far = std::abs(middle) > reach;
         for (int c = k; c < std::min(k + BLOCK, g.nz); ++c)
           for (int b = j; b < std::min(j + BLOCK, g.ny); ++b)
-            for (int a = i; a < std::min(i + BLOCK, g.nx); ++a) g.value[g.at(a, b, c)] = static_cast<float>(far ? middle : f(g.point(a, b, c)));
+            for (int a = i; a < std::min(i + BLOCK, g.nx); ++a)
+              g.value[g.at(a, b, c)] = static_cast<float>(far ? middle : f(g.point(a, b, c)));
       }
   return g;
 }
 
-/// The twelve edges of a cell as pairs of corners (corner bits: x, y, z), in the order axis * 4 + place.
-constexpr int EDGE[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3}, {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+/// The twelve edges of a cell as pairs of corners (corner bits: x, y, z), in the order axis * 4 +
+/// place.
+constexpr int EDGE[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
+                             {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
 /// The six faces as corner loops.
-constexpr int FACE[6][4] = {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}};
+constexpr int FACE[6][4] = {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                            {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}};
 
 int edge_between(int a, int b) {
   for (int e = 0; e < 12; ++e)
@@ -53,8 +64,9 @@ int edge_between(int a, int b) {
   return -1;
 }
 
-/// The patches of surface in a cell: patch[e] numbers the patch of a crossed edge, -1 where the edge is not crossed.
-/// On a face with two inside corners across a diagonal, the inside corners are kept apart.
+/// The patches of surface in a cell: patch[e] numbers the patch of a crossed edge, -1 where the
+/// edge is not crossed. On a face with two inside corners across a diagonal, the inside corners are
+/// kept apart.
 int cell_patches(const double v[8], int patch[12]) {
   int link[12][2], n_links[12] = {};
   for (const auto& loop : FACE) {
@@ -88,7 +100,8 @@ int cell_patches(const double v[8], int patch[12]) {
   return patches;
 }
 
-/// One vertex for every patch of surface in a cell, one quad around every grid edge that the surface crosses.
+/// One vertex for every patch of surface in a cell, one quad around every grid edge that the
+/// surface crosses.
 TriangleMesh surface_net(const Grid& g) {
   TriangleMesh mesh;
   std::vector<int> cell_of(g.value.size(), -1);
@@ -139,15 +152,22 @@ TriangleMesh surface_net(const Grid& g) {
       for (int i = 1; i + 1 < g.nx; ++i) {
         const bool in = g.value[g.at(i, j, k)] < 0;
         // The vertex of cell (a, b, c) for its own edge `e`, which is the grid edge at hand.
-        const auto id = [&](int a, int b, int c, int e) { return vertex_of_edge[cell_of[g.at(a, b, c)]][e]; };
-        if (in != (g.value[g.at(i + 1, j, k)] < 0)) quad(id(i, j - 1, k - 1, 3), id(i, j, k - 1, 2), id(i, j, k, 0), id(i, j - 1, k, 1), !in);
-        if (in != (g.value[g.at(i, j + 1, k)] < 0)) quad(id(i - 1, j, k - 1, 7), id(i - 1, j, k, 5), id(i, j, k, 4), id(i, j, k - 1, 6), !in);
-        if (in != (g.value[g.at(i, j, k + 1)] < 0)) quad(id(i - 1, j - 1, k, 11), id(i, j - 1, k, 10), id(i, j, k, 8), id(i - 1, j, k, 9), !in);
+        const auto id = [&](int a, int b, int c, int e) {
+          return vertex_of_edge[cell_of[g.at(a, b, c)]][e];
+        };
+        if (in != (g.value[g.at(i + 1, j, k)] < 0))
+          quad(id(i, j - 1, k - 1, 3), id(i, j, k - 1, 2), id(i, j, k, 0), id(i, j - 1, k, 1), !in);
+        if (in != (g.value[g.at(i, j + 1, k)] < 0))
+          quad(id(i - 1, j, k - 1, 7), id(i - 1, j, k, 5), id(i, j, k, 4), id(i, j, k - 1, 6), !in);
+        if (in != (g.value[g.at(i, j, k + 1)] < 0))
+          quad(id(i - 1, j - 1, k, 11), id(i, j - 1, k, 10), id(i, j, k, 8), id(i - 1, j, k, 9),
+               !in);
       }
   return mesh;
 }
 
-/// Swaps diagonals toward six triangles a vertex where the two triangles are nearly flat: evens out the quads' split.
+/// Swaps diagonals toward six triangles a vertex where the two triangles are nearly flat: evens out
+/// the quads' split.
 void even_valence(TriangleMesh& mesh) {
   for (int round = 0; round < 3; ++round) {
     std::map<std::pair<int, int>, std::array<int, 2>> side; // edge -> its two triangles
@@ -155,7 +175,8 @@ void even_valence(TriangleMesh& mesh) {
     for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
       for (int e = 0; e < 3; ++e) {
         const int a = mesh.triangles[t][e], b = mesh.triangles[t][(e + 1) % 3];
-        auto [it, fresh] = side.try_emplace({std::min(a, b), std::max(a, b)}, std::array<int, 2>{t, -1});
+        auto [it, fresh] =
+            side.try_emplace({std::min(a, b), std::max(a, b)}, std::array<int, 2>{t, -1});
         if (!fresh) it->second[1] = t;
         ++valence[a];
       }
@@ -175,16 +196,21 @@ void even_valence(TriangleMesh& mesh) {
         const auto square = [](int n) { return (n - 6) * (n - 6); };
         return square(va) + square(vb) + square(vc) + square(vd);
       };
-      if (cost(valence[a] - 1, valence[b] - 1, valence[c] + 1, valence[d] + 1) >= cost(valence[a], valence[b], valence[c], valence[d])) continue;
+      if (cost(valence[a] - 1, valence[b] - 1, valence[c] + 1, valence[d] + 1) >=
+          cost(valence[a], valence[b], valence[c], valence[d]))
+        continue;
       const auto& p = mesh.positions;
       const auto& f0 = mesh.triangles[t0];
       const auto& f1 = mesh.triangles[t1];
-      const Vec3 n0 = area_normal(p[f0[0]], p[f0[1]], p[f0[2]]).normalized(), n1 = area_normal(p[f1[0]], p[f1[1]], p[f1[2]]).normalized();
+      const Vec3 n0 = area_normal(p[f0[0]], p[f0[1]], p[f0[2]]).normalized(),
+                 n1 = area_normal(p[f1[0]], p[f1[1]], p[f1[2]]).normalized();
       // In t0 the edge runs either a -> b or b -> a; keep the orientation.
       bool forward = false;
       for (int e = 0; e < 3; ++e) forward |= f0[e] == a && f0[(e + 1) % 3] == b;
-      const Triangle g0 = forward ? Triangle{a, d, c} : Triangle{b, d, c}, g1 = forward ? Triangle{d, b, c} : Triangle{d, a, c};
-      const Vec3 m0 = area_normal(p[g0[0]], p[g0[1]], p[g0[2]]).normalized(), m1 = area_normal(p[g1[0]], p[g1[1]], p[g1[2]]).normalized();
+      const Triangle g0 = forward ? Triangle{a, d, c} : Triangle{b, d, c},
+                     g1 = forward ? Triangle{d, b, c} : Triangle{d, a, c};
+      const Vec3 m0 = area_normal(p[g0[0]], p[g0[1]], p[g0[2]]).normalized(),
+                 m1 = area_normal(p[g1[0]], p[g1[1]], p[g1[2]]).normalized();
       if (n0.dot(n1) < 0.9 || m0.dot(m1) < 0.9 || m0.dot(n0) < 0.9) continue;
       mesh.triangles[t0] = g0;
       mesh.triangles[t1] = g1;
@@ -282,7 +308,8 @@ TriangleMesh polygonise(const Field& f, const Box3& box, double cell) {
     relax(mesh, f, 4);
     return mesh;
   }
-  throw Error(ErrorKind::FAILED, "", "mannequin", "no grid gives a closed manifold", "change --cell");
+  throw Error(ErrorKind::FAILED, "", "mannequin", "no grid gives a closed manifold",
+              "change --cell");
 }
 
 } // namespace sloper::samples

@@ -14,13 +14,18 @@ Section2 hull_section(const std::vector<Vec3>& points, const Vec3& u, const Vec3
     q.emplace_back((p - o).dot(u), (p - o).dot(v));
     box.add(p);
   }
-  std::sort(q.begin(), q.end(), [](const Vec2& a, const Vec2& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
+  std::sort(q.begin(), q.end(), [](const Vec2& a, const Vec2& b) {
+    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+  });
   std::vector<Vec2> hull;
-  const auto turn = [](const Vec2& a, const Vec2& b, const Vec2& c) { return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x(); };
+  const auto turn = [](const Vec2& a, const Vec2& b, const Vec2& c) {
+    return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+  };
   for (int half = 0; half < 2; ++half) { // Andrew's monotone chain
     const std::size_t base = hull.size();
     for (const Vec2& p : q) {
-      while (hull.size() >= base + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+      while (hull.size() >= base + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0)
+        hull.pop_back();
       hull.push_back(p);
     }
     hull.pop_back();
@@ -43,7 +48,8 @@ Section2 hull_section(const std::vector<Vec3>& points, const Vec3& u, const Vec3
   return s;
 }
 
-Section2 field_section(const Field& f, const Vec3& center, const Vec3& u, const Vec3& v, double reach) {
+Section2 field_section(const Field& f, const Vec3& center, const Vec3& u, const Vec3& v,
+                       double reach) {
   constexpr int N = 90;
   constexpr double STEP = 0.015;
   std::vector<Vec3> points;
@@ -64,7 +70,8 @@ Section2 field_section(const Field& f, const Vec3& center, const Vec3& u, const 
   return hull_section(points, u, v);
 }
 
-Section2 mesh_section(const TriangleMesh& mesh, const Vec3& point, const Vec3& normal, const std::function<bool(const Triangle&)>& keep) {
+Section2 mesh_section(const TriangleMesh& mesh, const Vec3& point, const Vec3& normal,
+                      const std::function<bool(const Triangle&)>& keep) {
   std::vector<Vec3> points;
   for (const Triangle& t : mesh.triangles) {
     double d[3];
@@ -73,10 +80,13 @@ Section2 mesh_section(const TriangleMesh& mesh, const Vec3& point, const Vec3& n
     if (!keep(t)) continue;
     for (int k = 0; k < 3; ++k) {
       const int m = (k + 1) % 3;
-      if ((d[k] > 0) != (d[m] > 0)) points.push_back(mesh.positions[t[k]] + d[k] / (d[k] - d[m]) * (mesh.positions[t[m]] - mesh.positions[t[k]]));
+      if ((d[k] > 0) != (d[m] > 0))
+        points.push_back(mesh.positions[t[k]] +
+                         d[k] / (d[k] - d[m]) * (mesh.positions[t[m]] - mesh.positions[t[k]]));
     }
   }
-  const Vec3 u = normal.cross(std::abs(normal.z()) < 0.9 ? Vec3::UnitZ() : Vec3::UnitX()).normalized();
+  const Vec3 u =
+      normal.cross(std::abs(normal.z()) < 0.9 ? Vec3::UnitZ() : Vec3::UnitX()).normalized();
   return hull_section(points, u, normal.cross(u));
 }
 

@@ -8,14 +8,18 @@
 using namespace sloper;
 
 TEST(Error, says_file_place_fact_and_next_step_in_that_order) {
-  const Error e = input_error("pattern.json", "/panels/2", "seam refers to panel \"sleve\"", "name a panel of this pattern");
-  EXPECT_STREQ(e.what(), "pattern.json: /panels/2: seam refers to panel \"sleve\"; name a panel of this pattern");
+  const Error e = input_error("pattern.json", "/panels/2", "seam refers to panel \"sleve\"",
+                              "name a panel of this pattern");
+  EXPECT_STREQ(
+      e.what(),
+      "pattern.json: /panels/2: seam refers to panel \"sleve\"; name a panel of this pattern");
 }
 
 TEST(Error, leaves_out_what_is_empty) {
   EXPECT_STREQ(input_error("", "", "is empty").what(), "is empty");
   EXPECT_STREQ(input_error("a.obj", "", "is empty").what(), "a.obj: is empty");
-  EXPECT_STREQ(input_error("", "line 3", "is empty", "mend it").what(), "line 3: is empty; mend it");
+  EXPECT_STREQ(input_error("", "line 3", "is empty", "mend it").what(),
+               "line 3: is empty; mend it");
 }
 
 TEST(Error, has_the_exit_code_of_its_kind) {
@@ -29,7 +33,8 @@ TEST(Error, has_the_exit_code_of_its_kind) {
 TEST(Error, names_the_option_and_the_nearest_word) {
   const Error e = unknown_word("--view", "fromt", {"front", "back"}, "known are front and back");
   EXPECT_EQ(e.exit_code(), 2);
-  EXPECT_STREQ(e.what(), "--view fromt: is not known (did you mean 'front'?); known are front and back");
+  EXPECT_STREQ(e.what(),
+               "--view fromt: is not known (did you mean 'front'?); known are front and back");
 }
 
 TEST(DidYouMean, names_the_nearest_of_the_known_words) {
@@ -44,6 +49,10 @@ TEST(DidYouMean, is_empty_when_nothing_is_near) {
   EXPECT_EQ(did_you_mean("x", {}), "");
 }
 
-TEST(DidYouMean, takes_the_first_of_two_equally_near) { EXPECT_EQ(did_you_mean("cat", {"bat", "rat"}), " (did you mean 'bat'?)"); }
+TEST(DidYouMean, takes_the_first_of_two_equally_near) {
+  EXPECT_EQ(did_you_mean("cat", {"bat", "rat"}), " (did you mean 'bat'?)");
+}
 
-TEST(Version, stamps_a_document_with_tool_and_version) { EXPECT_EQ(generator_stamp("drape"), std::string("drape ") + SLOPER_VERSION); }
+TEST(Version, stamps_a_document_with_tool_and_version) {
+  EXPECT_EQ(generator_stamp("drape"), std::string("drape ") + SLOPER_VERSION);
+}

@@ -35,7 +35,9 @@ TEST_P(Parallel, cuts_chunks_at_the_same_places) {
 TEST_P(Parallel, sums_to_the_same_bits_for_any_number_of_threads) {
   auto term = [](std::size_t begin, std::size_t end) {
     double sum = 0;
-    for (std::size_t i = begin; i < end; ++i) sum += std::sin(static_cast<double>(i) * 1e3) * std::pow(10.0, static_cast<double>(i % 17) - 8);
+    for (std::size_t i = begin; i < end; ++i)
+      sum +=
+          std::sin(static_cast<double>(i) * 1e3) * std::pow(10.0, static_cast<double>(i % 17) - 8);
     return sum;
   };
   std::vector<double> part;

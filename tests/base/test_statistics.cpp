@@ -6,7 +6,8 @@ using namespace sloper;
 
 TEST(Quantiles, are_values_of_the_list_at_the_lower_place) {
   const std::vector<double> values = {5, 1, 4, 2, 3, 6};
-  for (const auto& [q, expected] : {std::pair{0.0, 1.0}, {0.19, 1.0}, {0.2, 2.0}, {0.5, 3.0}, {0.99, 5.0}, {1.0, 6.0}}) {
+  for (const auto& [q, expected] :
+       {std::pair{0.0, 1.0}, {0.19, 1.0}, {0.2, 2.0}, {0.5, 3.0}, {0.99, 5.0}, {1.0, 6.0}}) {
     std::vector<double> copy = values;
     EXPECT_EQ(lower_quantile(copy, q), expected) << q;
   }

@@ -1,7 +1,9 @@
-/// Scenes that other cloth programs were timed on, simulated as they were (dynamics, 60 frames), and then brought to rest.
-/// Usage: bench_rivals FOLDER [SCENE ...]: FOLDER holds scenes.json and its OBJ files (z up). A scene's name may end in "+self"
-/// (self contact), "+rest" (on to rest: the scene's frames, then steps without inertia, which alone would crumple cloth in free fall) or both. Prints one
-/// line a scene, to rest one for each of SLOPER_BENCH_STARTS starts from SLOPER_BENCH_START on, and their mean. One thread.
+/// Scenes that other cloth programs were timed on, simulated as they were (dynamics, 60 frames),
+/// and then brought to rest. Usage: bench_rivals FOLDER [SCENE ...]: FOLDER holds scenes.json and
+/// its OBJ files (z up). A scene's name may end in "+self" (self contact), "+rest" (on to rest: the
+/// scene's frames, then steps without inertia, which alone would crumple cloth in free fall) or
+/// both. Prints one line a scene, to rest one for each of SLOPER_BENCH_STARTS starts from
+/// SLOPER_BENCH_START on, and their mean. One thread.
 #include <base/parallel.hpp>
 #include <base/random.hpp>
 #include <chrono>
@@ -41,7 +43,8 @@ const char* environment(const char* name, const char* fallback) {
 ClothMesh cloth_of(const TriangleMesh& rest, double density) {
   std::vector<RestTriangle> triangles;
   for (const Triangle& t : rest.triangles) {
-    const Vec3 u = rest.positions[t[1]] - rest.positions[t[0]], v = rest.positions[t[2]] - rest.positions[t[0]];
+    const Vec3 u = rest.positions[t[1]] - rest.positions[t[0]],
+               v = rest.positions[t[2]] - rest.positions[t[0]];
     const Vec3 along = u.normalized(), across = (v - v.dot(along) * along).normalized();
     triangles.push_back({t, {Vec2(0, 0), Vec2(u.norm(), 0), Vec2(v.dot(along), v.dot(across))}, 0});
   }
@@ -58,10 +61,12 @@ struct Quality {
   std::size_t inside = 0, through = 0, self = 0;
 };
 
-Quality measure(const ClothMesh& mesh, const std::vector<Vec3>& x, const collision::BodyCollider* body) {
+Quality measure(const ClothMesh& mesh, const std::vector<Vec3>& x,
+                const collision::BodyCollider* body) {
   Quality q;
   std::vector<double> strain;
-  for (const EdgeSpring& s : mesh.springs) strain.push_back((x[s.i] - x[s.j]).norm() / s.rest_length - 1);
+  for (const EdgeSpring& s : mesh.springs)
+    strain.push_back((x[s.i] - x[s.j]).norm() / s.rest_length - 1);
   std::sort(strain.begin(), strain.end());
   q.strain_p99 = strain[static_cast<std::size_t>(0.99 * static_cast<double>(strain.size() - 1))];
   q.strain_max = strain.back();
@@ -79,8 +84,9 @@ Quality measure(const ClothMesh& mesh, const std::vector<Vec3>& x, const collisi
   return q;
 }
 
-/// Where the cloth starts: each number but 0 moves each coordinate by up to half a micrometre, otherwise. How many steps lead to rest is up to
-/// chance by a factor of two: a figure is a mean over several.
+/// Where the cloth starts: each number but 0 moves each coordinate by up to half a micrometre,
+/// otherwise. How many steps lead to rest is up to chance by a factor of two: a figure is a mean
+/// over several.
 std::vector<Vec3> start_of(std::vector<Vec3> x, int seed) {
   Random random(static_cast<std::uint64_t>(seed));
   for (Vec3& p : x)
@@ -89,7 +95,8 @@ std::vector<Vec3> start_of(std::vector<Vec3> x, int seed) {
 }
 
 /// Prints its line. @returns CPU seconds
-double run(const std::string& folder, const std::string& name, bool self, bool to_rest, const io::Json& scene, int seed) {
+double run(const std::string& folder, const std::string& name, bool self, bool to_rest,
+           const io::Json& scene, int seed) {
   const auto load = [&](const std::string& file) {
     const io::ObjMesh obj = io::read_obj(folder + "/" + file);
     return TriangleMesh{obj.positions, obj.triangles};
@@ -120,12 +127,15 @@ double run(const std::string& folder, const std::string& name, bool self, bool t
     self_contact = &solver.emplace<SelfContactEffect>(mesh, options);
   }
 
-  const int frames = std::min(scene.at("frames").get<int>(), std::atoi(environment("SLOPER_BENCH_FRAMES", "1000000")));
+  const int frames = std::min(scene.at("frames").get<int>(),
+                              std::atoi(environment("SLOPER_BENCH_FRAMES", "1000000")));
   const int substeps = std::atoi(environment("SLOPER_BENCH_SUBSTEPS", "1"));
   StepOptions options;
-  // In motion as loose as the step itself: skirt_3k after 20 frames is 16 mm RMS from a solve to 0.001, and that 23 mm from one with half the step.
+  // In motion as loose as the step itself: skirt_3k after 20 frames is 16 mm RMS from a solve to
+  // 0.001, and that 23 mm from one with half the step.
   options.cg_tolerance = to_rest ? 1e-3 : std::atof(environment("SLOPER_BENCH_TOLERANCE", "0.5"));
-  options.cg_energy_tolerance = to_rest ? std::atof(environment("SLOPER_BENCH_ENERGY_TOLERANCE", "0.1")) : 0;
+  options.cg_energy_tolerance =
+      to_rest ? std::atof(environment("SLOPER_BENCH_ENERGY_TOLERANCE", "0.1")) : 0;
   options.largest_move_m = 0.5;
   std::vector<double> frame_ms;
   long iterations = 0, steps = 0;
@@ -148,16 +158,19 @@ double run(const std::string& folder, const std::string& name, bool self, bool t
     options.least_residual_ratio = target;
     options.h = 1.0 / 30;
     options.line_search = options.momentum = true;
-    options.whole_near_rest = true;
+    options.full_hessian_near_rest = true;
     options.largest_move_m = 0.05;
     for (; steps < 3000; ++steps) {
       last = solver.step(options);
       iterations += last.cg.iterations;
       if (std::getenv("SLOPER_BENCH_TRACE")) // one line a step
-        std::printf("%5ld h %8.4f CG %3d halvings %d move %9.3g mm, residual %9.4f %9.4f held %zu\n", steps, options.h, last.cg.iterations, last.halvings,
-                    1e3 * last.largest_move_m, last.residual_force_ratio, last.residual_force_ratio_max, last.held);
+        std::printf(
+            "%5ld h %8.4f CG %3d halvings %d move %9.3g mm, residual %9.4f %9.4f held %zu\n", steps,
+            options.h, last.cg.iterations, last.halvings, 1e3 * last.largest_move_m,
+            last.residual_force_ratio, last.residual_force_ratio_max, last.held);
       if (last.residual_force_ratio_max < target) break;
-      options.h = last.halvings > 0 ? std::max(0.7 * options.h, 0.01) : std::min(1.3 * options.h, 1e3);
+      options.h =
+          last.halvings > 0 ? std::max(0.7 * options.h, 0.01) : std::min(1.3 * options.h, 1e3);
     }
     frame_ms.assign(1, 0);
   }
@@ -165,19 +178,25 @@ double run(const std::string& folder, const std::string& name, bool self, bool t
   std::sort(frame_ms.begin(), frame_ms.end());
   const Quality q = measure(mesh, solver.x(), body ? &*body : nullptr);
   const std::string label = name + (self ? "+self" : "") + (to_rest ? "+rest" : "");
-  std::printf("%-20s %8.3f %-12s %7.2f %7.2f %6ld %6.1f %8.2f %8.2f %6zu %6zu %7.2f %6zu %9.4f %9.4f\n", label.c_str(),
-              to_rest ? seconds : seconds / frames * scene.at("fps").get<double>(), to_rest ? "s to rest" : "CPU s/s", frame_ms[frame_ms.size() / 2],
-              frame_ms.back(), steps, steps ? static_cast<double>(iterations) / static_cast<double>(steps) : 0, 100 * q.strain_p99, 100 * q.strain_max,
-              q.inside, q.through, 1e3 * q.deepest_m, q.self, last.residual_force_ratio, last.residual_force_ratio_max);
+  std::printf(
+      "%-20s %8.3f %-12s %7.2f %7.2f %6ld %6.1f %8.2f %8.2f %6zu %6zu %7.2f %6zu %9.4f %9.4f\n",
+      label.c_str(), to_rest ? seconds : seconds / frames * scene.at("fps").get<double>(),
+      to_rest ? "s to rest" : "CPU s/s", frame_ms[frame_ms.size() / 2], frame_ms.back(), steps,
+      steps ? static_cast<double>(iterations) / static_cast<double>(steps) : 0, 100 * q.strain_p99,
+      100 * q.strain_max, q.inside, q.through, 1e3 * q.deepest_m, q.self, last.residual_force_ratio,
+      last.residual_force_ratio_max);
   if (std::getenv("SLOPER_BENCH_SPLIT")) {
-    std::printf("    assembly %.3f solve %.3f limits %.3f search %.3f s;", solver.assembly_s, solver.solve_s, solver.contact_s, solver.search_s);
+    std::printf("    assembly %.3f solve %.3f limits %.3f search %.3f s;", solver.assembly_s,
+                solver.solve_s, solver.contact_s, solver.search_s);
     for (const auto& e : solver.effects()) std::printf(" %s %.3f", e->name(), e->wall_s);
-    std::printf("; searches body %ld self %ld\n", body_contact ? body_contact->searches : 0, self_contact ? self_contact->searches : 0);
+    std::printf("; searches body %ld self %ld\n", body_contact ? body_contact->searches : 0,
+                self_contact ? self_contact->searches : 0);
   }
   if (const char* out = std::getenv("SLOPER_BENCH_OUT")) {
     FILE* file = std::fopen((std::string(out) + "/" + label + ".obj").c_str(), "w");
     for (const Vec3& p : solver.x()) std::fprintf(file, "v %.6f %.6f %.6f\n", p.x(), p.y(), p.z());
-    for (const Triangle& t : start.triangles) std::fprintf(file, "f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    for (const Triangle& t : start.triangles)
+      std::fprintf(file, "f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
     std::fclose(file);
   }
   std::fflush(stdout);
@@ -198,15 +217,21 @@ int main(int argc, char** argv) {
     wanted = {"hang_3k",      "skirt_3k+self",      "skirt_10k+self",      "sheet_30k+self",
               "hang_3k+rest", "skirt_3k+self+rest", "skirt_10k+self+rest", "sheet_30k+self+rest"};
   const io::Json scenes = io::read_json(folder + "/scenes.json");
-  std::printf("%-20s %8s %-12s %7s %7s %6s %6s %8s %8s %6s %6s %7s %6s %9s %9s\n", "scene", "time", "", "ms/f", "worst", "steps", "CG", "p99 %", "max %",
-              "inside", "thru", "deep mm", "self", "res p95", "res max");
+  std::printf("%-20s %8s %-12s %7s %7s %6s %6s %8s %8s %6s %6s %7s %6s %9s %9s\n", "scene", "time",
+              "", "ms/f", "worst", "steps", "CG", "p99 %", "max %", "inside", "thru", "deep mm",
+              "self", "res p95", "res max");
   for (const std::string& w : wanted) {
     const std::string name = w.substr(0, w.find('+'));
     const bool to_rest = w.find("+rest") != std::string::npos;
-    const int first = std::atoi(environment("SLOPER_BENCH_START", "0")), starts = to_rest ? std::atoi(environment("SLOPER_BENCH_STARTS", "1")) : 1;
+    const int first = std::atoi(environment("SLOPER_BENCH_START", "0")),
+              starts = to_rest ? std::atoi(environment("SLOPER_BENCH_STARTS", "1")) : 1;
     double seconds = 0;
-    for (int seed = first; seed < first + starts; ++seed) seconds += run(folder, name, w.find("+self") != std::string::npos, to_rest, scenes.at(name), seed);
-    if (starts > 1) std::printf("%-20s %8.3f s to rest, mean of %d starts\n", w.c_str(), seconds / starts, starts);
+    for (int seed = first; seed < first + starts; ++seed)
+      seconds +=
+          run(folder, name, w.find("+self") != std::string::npos, to_rest, scenes.at(name), seed);
+    if (starts > 1)
+      std::printf("%-20s %8.3f s to rest, mean of %d starts\n", w.c_str(), seconds / starts,
+                  starts);
   }
   return 0;
 }

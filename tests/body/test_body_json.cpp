@@ -16,7 +16,8 @@ using namespace sloper::body;
 namespace {
 
 struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / ("sloper-body-" + std::to_string(::getpid()));
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("sloper-body-" + std::to_string(::getpid()));
   Folder() { std::filesystem::create_directories(path); }
   ~Folder() { std::filesystem::remove_all(path); }
   std::string file(const std::string& name) const { return (path / name).string(); }
@@ -51,8 +52,10 @@ TEST(BodyDocument, comes_back_as_it_was_written) {
 
 TEST(BodyDocument, writing_twice_gives_the_same_bytes) {
   const Folder folder;
-  write_body(folder.file("a.json"), test::measure(test::mannequin("f-165-a").mesh).body, "scan-landmarks");
-  write_body(folder.file("b.json"), test::measure(test::mannequin("f-165-a").mesh).body, "scan-landmarks");
+  write_body(folder.file("a.json"), test::measure(test::mannequin("f-165-a").mesh).body,
+             "scan-landmarks");
+  write_body(folder.file("b.json"), test::measure(test::mannequin("f-165-a").mesh).body,
+             "scan-landmarks");
   EXPECT_EQ(io::read_file(folder.file("a.obj")), io::read_file(folder.file("b.obj")));
 }
 
@@ -71,7 +74,8 @@ TEST(BodyDocument, without_its_skin_is_read_too_and_names_nobody) {
 TEST(Exports, the_table_has_a_row_for_every_girth_and_two_for_every_level) {
   const Body body = test::measure(test::mannequin("f-165-a").mesh).body;
   const std::string csv = measurements_csv(body);
-  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), 2 + body.girths.size() + 2 * body.levels.size());
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
+            2 + body.girths.size() + 2 * body.levels.size());
   EXPECT_NE(csv.find("level_girth,bust,"), std::string::npos);
   EXPECT_NE(csv.find("bust girth"), std::string::npos);
 }
@@ -80,14 +84,16 @@ TEST(Exports, the_skeleton_has_a_line_for_every_bone) {
   const Body body = test::measure(test::mannequin("f-165-a").mesh).body;
   const std::string obj = skeleton_obj(body);
   std::size_t lines = 0;
-  for (std::size_t at = obj.find("\nl "); at != std::string::npos; at = obj.find("\nl ", at + 1)) ++lines;
+  for (std::size_t at = obj.find("\nl "); at != std::string::npos; at = obj.find("\nl ", at + 1))
+    ++lines;
   EXPECT_EQ(lines, body.bones.size());
   EXPECT_GE(lines, 15u);
 }
 
 TEST(BodyDocument, of_a_newer_version_is_refused) {
   const Folder folder;
-  io::write_file(folder.file("a.json"), R"({"format": "body", "version": 99, "generator": "x", "length_unit": "m"})");
+  io::write_file(folder.file("a.json"),
+                 R"({"format": "body", "version": 99, "generator": "x", "length_unit": "m"})");
   EXPECT_THROW(read_body(folder.file("a.json")), Error);
 }
 

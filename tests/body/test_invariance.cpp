@@ -25,11 +25,13 @@ struct Figure {
 const std::vector<Figure>& figures() {
   static const std::vector<Figure> all = [] {
     std::vector<Figure> list;
-    for (const char* name : {"f-165-a", "m-185-t"}) list.push_back({name, test::subdivided(test::mannequin(name).mesh)});
+    for (const char* name : {"f-165-a", "m-185-t"})
+      list.push_back({name, test::subdivided(test::mannequin(name).mesh)});
     if (const char* shared = std::getenv("SLOPER_SHARED"))
       for (const char* name : {"body_002.obj", "body_009.obj"}) {
         const auto path = std::filesystem::path(shared) / "data" / "bodies" / "plain" / name;
-        if (std::filesystem::exists(path)) list.push_back({name, test::subdivided(io::read_scan(path.string()).mesh)});
+        if (std::filesystem::exists(path))
+          list.push_back({name, test::subdivided(io::read_scan(path.string()).mesh)});
       }
     return list;
   }();
@@ -43,13 +45,17 @@ const Body& as_it_is(const Figure& figure) {
   return it->second;
 }
 
-/// No landmark may move by more than MOST or be lost; `linear` and `shift` lead from the scan to the other one.
-void expect_unmoved(const Figure& figure, const TriangleMesh& after_mesh, const Eigen::Matrix3d& linear, const Vec3& shift, double scale) {
+/// No landmark may move by more than MOST or be lost; `linear` and `shift` lead from the scan to
+/// the other one.
+void expect_unmoved(const Figure& figure, const TriangleMesh& after_mesh,
+                    const Eigen::Matrix3d& linear, const Vec3& shift, double scale) {
   const Body &before = as_it_is(figure), after = measure(after_mesh).body;
   for (const auto& [name, landmark] : before.landmarks) {
     ASSERT_TRUE(after.has_landmark(name)) << figure.name << " lost " << name;
-    const double moved = (linear * test::in_scan(before, name) + shift - test::in_scan(after, name)).norm() / scale;
-    EXPECT_LE(moved, MOST) << figure.name << ": " << name << " (" << landmark.rule << ", then " << after.landmarks.at(name).rule << ")";
+    const double moved =
+        (linear * test::in_scan(before, name) + shift - test::in_scan(after, name)).norm() / scale;
+    EXPECT_LE(moved, MOST) << figure.name << ": " << name << " (" << landmark.rule << ", then "
+                           << after.landmarks.at(name).rule << ")";
   }
 }
 
@@ -64,11 +70,17 @@ TEST(Invariance, turning_moves_no_landmark_by_more_than_5_mm) {
 }
 
 TEST(Invariance, lying_and_leaning_about_any_axis_move_no_landmark_by_more_than_5_mm) {
-  const Eigen::Matrix3d lying = (Eigen::AngleAxisd(1.1, Vec3::UnitZ()) * Eigen::AngleAxisd(-0.6, Vec3::UnitX())).toRotationMatrix() * test::turn_about_y(20);
-  const Eigen::Matrix3d leaning = Eigen::AngleAxisd(0.014, Vec3(1, 0, 1).normalized()).toRotationMatrix(); // 0.8 degrees, of which the file says nothing
+  const Eigen::Matrix3d lying =
+      (Eigen::AngleAxisd(1.1, Vec3::UnitZ()) * Eigen::AngleAxisd(-0.6, Vec3::UnitX()))
+          .toRotationMatrix() *
+      test::turn_about_y(20);
+  const Eigen::Matrix3d leaning =
+      Eigen::AngleAxisd(0.014, Vec3(1, 0, 1).normalized())
+          .toRotationMatrix(); // 0.8 degrees, of which the file says nothing
   const Vec3 shift(3, 1, -2);
   for (const Figure& figure : figures())
-    for (const Eigen::Matrix3d& turn : {lying, leaning}) expect_unmoved(figure, test::moved(figure.mesh, turn, shift), turn, shift, 1);
+    for (const Eigen::Matrix3d& turn : {lying, leaning})
+      expect_unmoved(figure, test::moved(figure.mesh, turn, shift), turn, shift, 1);
 }
 
 TEST(Invariance, shifting_scaling_and_another_up_axis_move_no_landmark_by_more_than_5_mm) {
@@ -92,7 +104,8 @@ TEST(Invariance, a_quarter_of_the_vertices_give_the_same_landmarks_within_5_mm) 
 TEST(Invariance, scaling_by_a_tenth_moves_no_landmark_by_more_than_5_mm) {
   for (const Figure& figure : figures()) {
     const Eigen::Matrix3d larger = 1.1 * Eigen::Matrix3d::Identity();
-    expect_unmoved(figure, test::moved(figure.mesh, larger, Vec3::Zero()), larger, Vec3::Zero(), 1.1);
+    expect_unmoved(figure, test::moved(figure.mesh, larger, Vec3::Zero()), larger, Vec3::Zero(),
+                   1.1);
   }
 }
 
@@ -110,8 +123,10 @@ TEST(Invariance, a_coarse_clean_mesh_keeps_its_own_faces) {
   // between vertices that far apart a smooth body bends by more than what is noise on a fine mesh
   for (const Figure* f : {&figures().front(), &figures().back()}) {
     const Figure& figure = *f;
-    const TriangleMesh coarse = test::decimated(figure.mesh, 5000.0 / static_cast<double>(figure.mesh.positions.size()));
+    const TriangleMesh coarse =
+        test::decimated(figure.mesh, 5000.0 / static_cast<double>(figure.mesh.positions.size()));
     ASSERT_LT(coarse.positions.size(), 5001u);
-    for (const Finding& finding : measure(coarse).body.scan.findings) EXPECT_EQ(finding.what.find("rebuilt"), std::string::npos) << finding.what;
+    for (const Finding& finding : measure(coarse).body.scan.findings)
+      EXPECT_EQ(finding.what.find("rebuilt"), std::string::npos) << finding.what;
   }
 }

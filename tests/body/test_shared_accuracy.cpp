@@ -1,4 +1,5 @@
-/// Accuracy on scans with known truth that are not part of the repository: SLOPER_SHARED names their folder.
+/// Accuracy on scans with known truth that are not part of the repository: SLOPER_SHARED names
+/// their folder.
 #include <support/figures.hpp>
 
 #include <gtest/gtest.h>
@@ -19,17 +20,21 @@ struct Errors {
   int missing = 0;
 };
 
-/// Whether the findings say that an arm which touches the trunk hides the pit that a landmark belongs to: what cannot be seen is not found.
+/// Whether the findings say that an arm which touches the trunk hides the pit that a landmark
+/// belongs to: what cannot be seen is not found.
 bool told_hidden(const Body& body, const std::string& name) {
   const bool of_pit = name.rfind("axilla", 0) == 0;
-  return of_pit && std::any_of(body.scan.findings.begin(), body.scan.findings.end(), [&](const Finding& f) {
-           return f.place == std::string("axilla_") + name.back() && f.what.find("not found") != std::string::npos;
+  return of_pit &&
+         std::any_of(body.scan.findings.begin(), body.scan.findings.end(), [&](const Finding& f) {
+           return f.place == std::string("axilla_") + name.back() &&
+                  f.what.find("not found") != std::string::npos;
          });
 }
 
 Errors errors_of(const std::filesystem::path& truth_file) {
   const io::Json truth = io::read_json(truth_file.string());
-  const io::Scan scan = io::read_scan((truth_file.parent_path() / truth["mesh"]["file"].get<std::string>()).string());
+  const io::Scan scan =
+      io::read_scan((truth_file.parent_path() / truth["mesh"]["file"].get<std::string>()).string());
   const MeasuredScan measured = test::measure(scan.mesh);
   Mat4 body_to_file = Mat4::Identity();
   if (truth.contains("corruption") && truth["corruption"].contains("matrix_body_m_to_file"))
@@ -46,7 +51,8 @@ Errors errors_of(const std::filesystem::path& truth_file) {
       errors.missing += !told_hidden(measured.body, name);
       continue;
     }
-    const Vec3 off = to_body * (test::in_scan(measured.body, name) - Vec3(entry["p"][0], entry["p"][1], entry["p"][2]));
+    const Vec3 off = to_body * (test::in_scan(measured.body, name) -
+                                Vec3(entry["p"][0], entry["p"][1], entry["p"][2]));
     double sum = 0;
     for (const char axis : entry.value("compare", "xyz")) sum += off[axis - 'x'] * off[axis - 'x'];
     errors.found.push_back(std::sqrt(sum));
@@ -54,12 +60,14 @@ Errors errors_of(const std::filesystem::path& truth_file) {
   return errors;
 }
 
-void expect_accuracy(const std::string& folder, double median_bound, double p95_bound, int missing_bound) {
+void expect_accuracy(const std::string& folder, double median_bound, double p95_bound,
+                     int missing_bound) {
   const char* shared = std::getenv("SLOPER_SHARED");
   if (!shared) GTEST_SKIP() << "SLOPER_SHARED is not set";
   Errors all;
   std::set<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(shared) / "data" / "bodies" / folder))
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(shared) /
+                                                               "data" / "bodies" / folder))
     if (entry.path().string().ends_with(".truth.json")) files.insert(entry.path());
   if (files.empty()) GTEST_SKIP() << "no truth in " << folder;
   for (const auto& file : files) {
@@ -78,14 +86,19 @@ void expect_accuracy(const std::string& folder, double median_bound, double p95_
 TEST(SharedAccuracy, of_plain_bodies) { expect_accuracy("plain", 0.005, 0.018, 2); }
 TEST(SharedAccuracy, of_corrupted_scans) { expect_accuracy("corrupted", 0.0065, 0.024, 5); }
 
-/// Skin between these legs hangs lower than where they join, so that no trunk is in the first levels above the crotch.
+/// Skin between these legs hangs lower than where they join, so that no trunk is in the first
+/// levels above the crotch.
 TEST(SharedAccuracy, tells_the_average_figures_of_another_source_apart) {
   const char* shared = std::getenv("SLOPER_SHARED");
-  const std::filesystem::path folder = std::filesystem::path(shared ? shared : "") / "data/bodies/smpl";
-  if (!shared || !std::filesystem::exists(folder)) GTEST_SKIP() << "SLOPER_SHARED names no folder with data/bodies/smpl";
+  const std::filesystem::path folder =
+      std::filesystem::path(shared ? shared : "") / "data/bodies/smpl";
+  if (!shared || !std::filesystem::exists(folder))
+    GTEST_SKIP() << "SLOPER_SHARED names no folder with data/bodies/smpl";
   for (const char* sex : {"f", "m"}) {
-    const io::Scan scan = io::read_scan((folder / (std::string(sex) + "_smpl_average_A40.obj")).string());
+    const io::Scan scan =
+        io::read_scan((folder / (std::string(sex) + "_smpl_average_A40.obj")).string());
     const Body body = test::measure(scan.mesh).body;
-    EXPECT_EQ(body.body_class.rfind(*sex == 'f' ? "female figure" : "male figure", 0), 0u) << body.body_class;
+    EXPECT_EQ(body.body_class.rfind(*sex == 'f' ? "female figure" : "male figure", 0), 0u)
+        << body.body_class;
   }
 }

@@ -1,4 +1,5 @@
-/// A program with every kind of option, to test lib/cli without the real tools: it does what --do says.
+/// A program with every kind of option, to test lib/cli without the real tools: it does what --do
+/// says.
 #include <cli/run_tool.hpp>
 #include <io/files.hpp>
 
@@ -19,8 +20,11 @@ int main(int argc, char** argv) {
   tool.option("INPUT", operands, "files to read").check(cli::input_file());
   tool.option("--body", input, "a file to read").check(cli::input_file());
   tool.option("--do", deed, "what to do");
-  tool.option("--accuracy", accuracy, "how exact").check(cli::one_of({"draft", "standard", "fine"}));
-  tool.option("--edge-length", length, "length of an edge").type_name("M").check(cli::finite_in(0.001, 1, "m"));
+  tool.option("--accuracy", accuracy, "how exact")
+      .check(cli::one_of({"draft", "standard", "fine"}));
+  tool.option("--edge-length", length, "length of an edge")
+      .type_name("M")
+      .check(cli::finite_in(0.001, 1, "m"));
   tool.option("--bare", bare, "a number whose author forgot the range check");
   tool.option("--count", count, "a whole number");
   tool.option("--set", set, "KNOB=VALUE");
@@ -43,7 +47,8 @@ int main(int argc, char** argv) {
     }
     tool.reporter().warning("a warning");
     tool.reporter().info("an info");
-    std::string text = "length " + std::to_string(length) + "\ncount " + std::to_string(count) + "\n";
+    std::string text =
+        "length " + std::to_string(length) + "\ncount " + std::to_string(count) + "\n";
     for (const std::string& s : set) text += "set " + s + "\n";
     for (const std::string& s : operands) text += "operand " + s + "\n";
     io::write_file(output, text);

@@ -28,10 +28,13 @@ TEST(AgainstCgal, OrientationHasOneConventionAndTheSameSigns) {
   Random random(31);
   for (int i = 0; i < 20000; ++i) {
     Vec3 p[4];
-    for (Vec3& v : p) v = i % 3 ? Vec3(shapes::grid_point(random, 5) * 0.1) : shapes::random_point(random);
+    for (Vec3& v : p)
+      v = i % 3 ? Vec3(shapes::grid_point(random, 5) * 0.1) : shapes::random_point(random);
     if (i % 3 == 0 && i % 2) p[3] = p[0] + 0.3 * (p[1] - p[0]) + 0.4 * (p[2] - p[0]);
     const auto q = [&](int k) { return Kernel::Point_3(p[k].x(), p[k].y(), p[k].z()); };
-    ASSERT_EQ(orientation(p[0], p[1], p[2], p[3]), -static_cast<int>(CGAL::orientation(q(0), q(1), q(2), q(3)))) << i;
+    ASSERT_EQ(orientation(p[0], p[1], p[2], p[3]),
+              -static_cast<int>(CGAL::orientation(q(0), q(1), q(2), q(3))))
+        << i;
   }
 }
 
@@ -62,11 +65,16 @@ TEST(AgainstCgal, RandomAndNearlyTouchingTrianglesAgree) {
     Corners t[2];
     for (Corners& c : t)
       for (Vec3& v : c) v = shapes::random_point(random);
-    if (i % 4 == 1) t[1][0] = 0.2 * t[0][0] + 0.3 * t[0][1] + 0.5 * t[0][2];                       // corner on the face, up to rounding
-    if (i % 4 == 2) t[1][0] = t[0][0] + random.uniform() * (t[0][1] - t[0][0]);                    // corner on an edge
-    if (i % 4 == 3) t[1][0] = t[0][0] + random.uniform() * (t[0][1] - t[0][0]), t[1][1] = t[0][2]; // and on a corner
+    if (i % 4 == 1)
+      t[1][0] = 0.2 * t[0][0] + 0.3 * t[0][1] + 0.5 * t[0][2]; // corner on the face, up to rounding
+    if (i % 4 == 2) t[1][0] = t[0][0] + random.uniform() * (t[0][1] - t[0][0]); // corner on an edge
+    if (i % 4 == 3)
+      t[1][0] = t[0][0] + random.uniform() * (t[0][1] - t[0][0]),
+      t[1][1] = t[0][2]; // and on a corner
     if (i % 8 >= 4)
-      for (int k = 1; k < 3; ++k) t[1][k] = t[0][0] + random.uniform(-1, 1) * (t[0][1] - t[0][0]) + random.uniform(-1, 1) * (t[0][2] - t[0][0]);
+      for (int k = 1; k < 3; ++k)
+        t[1][k] = t[0][0] + random.uniform(-1, 1) * (t[0][1] - t[0][0]) +
+                  random.uniform(-1, 1) * (t[0][2] - t[0][0]);
     const bool expected = cgal_intersect(t[0], t[1]);
     meeting += expected;
     ASSERT_EQ(triangles_intersect(t[0], t[1]), expected) << i;
@@ -77,7 +85,8 @@ TEST(AgainstCgal, RandomAndNearlyTouchingTrianglesAgree) {
 TEST(AgainstCgal, SelfIntersectionsOfACrumpledSheetAgree) {
   TriangleMesh mesh = shapes::sheet(25, 25, 1, 1);
   shapes::jitter(mesh, 0.05, 34);
-  const auto pairs = self_intersections(mesh.positions, mesh.triangles, TriangleTree(mesh.positions, mesh.triangles));
+  const auto pairs = self_intersections(mesh.positions, mesh.triangles,
+                                        TriangleTree(mesh.positions, mesh.triangles));
   std::vector<std::array<int, 2>> expected;
   const auto n = static_cast<int>(mesh.triangles.size());
   const auto corners = [&](int f) -> Corners {
@@ -104,8 +113,9 @@ TEST(AgainstCgal, FacesThroughABodyAgree) {
     bool hit = false;
     for (const Triangle& t : body.triangles) {
       const Triangle& c = cloth.triangles[f];
-      hit = hit || cgal_intersect({cloth.positions[c[0]], cloth.positions[c[1]], cloth.positions[c[2]]},
-                                  {body.positions[t[0]], body.positions[t[1]], body.positions[t[2]]});
+      hit = hit ||
+            cgal_intersect({cloth.positions[c[0]], cloth.positions[c[1]], cloth.positions[c[2]]},
+                           {body.positions[t[0]], body.positions[t[1]], body.positions[t[2]]});
     }
     if (hit) expected.push_back(static_cast<int>(f));
   }

@@ -13,14 +13,16 @@ constexpr double FAR = std::numeric_limits<double>::infinity();
 
 double exact_winding(const TriangleMesh& mesh, const Vec3& p) {
   double w = 0;
-  for (const Triangle& t : mesh.triangles) w += solid_angle_fraction(p, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+  for (const Triangle& t : mesh.triangles)
+    w += solid_angle_fraction(p, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
   return w;
 }
 
 void expect_sphere_distances(const BodyCollider& body, double tolerance, std::uint64_t seed) {
   Random random(seed);
   for (int i = 0; i < 2000; ++i) {
-    const Vec3 p = i % 2 ? random_point(random, 1.5) : Vec3(random_point(random).normalized() * random.uniform(0.97, 1.03));
+    const Vec3 p = i % 2 ? random_point(random, 1.5)
+                         : Vec3(random_point(random).normalized() * random.uniform(0.97, 1.03));
     const SignedDistance d = body.signed_distance(p, FAR);
     ASSERT_NEAR(d.distance, p.norm() - 1, tolerance) << p.transpose();
     ASSERT_NEAR(d.normal.norm(), 1, 1e-9);
@@ -48,7 +50,8 @@ TEST(BodyCollider, SignAtSharpEdgesAndCornersIsThatOfTheSolid) {
   Random random(42);
   int inside = 0;
   for (int i = 0; i < 5000; ++i) {
-    const Vec3 p{random.uniform(-0.15, 0.15), random.uniform(-0.15, 0.15), random.uniform(-0.2, 3.2)};
+    const Vec3 p{random.uniform(-0.15, 0.15), random.uniform(-0.15, 0.15),
+                 random.uniform(-0.2, 3.2)};
     const bool truth = exact_winding(spike, p) > 0.5;
     inside += truth;
     ASSERT_EQ(body.signed_distance(p, FAR).distance < 0, truth) << p.transpose();
@@ -58,7 +61,8 @@ TEST(BodyCollider, SignAtSharpEdgesAndCornersIsThatOfTheSolid) {
 
 TEST(BodyCollider, TurnsFlippedFacesAndInsideOutBodies) {
   TriangleMesh mesh = shapes::sphere(4);
-  for (std::size_t f = 0; f < mesh.triangles.size(); f += 3) std::swap(mesh.triangles[f][0], mesh.triangles[f][1]);
+  for (std::size_t f = 0; f < mesh.triangles.size(); f += 3)
+    std::swap(mesh.triangles[f][0], mesh.triangles[f][1]);
   const BodyCollider patched(mesh);
   EXPECT_GT(patched.findings().flipped_triangles, 0);
   expect_sphere_distances(patched, 0.01, 43);
@@ -71,16 +75,20 @@ TEST(BodyCollider, TurnsFlippedFacesAndInsideOutBodies) {
 
 TEST(BodyCollider, KnowsInsideBesideHoles) {
   TriangleMesh mesh = shapes::sphere(4);
-  std::erase_if(mesh.triangles, [&](const Triangle& t) { return mesh.positions[t[0]].y() > 0.9; }); // a hole at the top
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    return mesh.positions[t[0]].y() > 0.9;
+  }); // a hole at the top
   const BodyCollider body(mesh);
   EXPECT_GT(body.findings().boundary_edges, 10);
   Random random(45);
   for (int i = 0; i < 2000; ++i) {
     const Vec3 p = random_point(random, 1.3);
-    if (std::abs(p.norm() - 1) < 0.02 || (p.y() > 0.75 && p.norm() < 1.1)) continue; // in the hole itself either is right
+    if (std::abs(p.norm() - 1) < 0.02 || (p.y() > 0.75 && p.norm() < 1.1))
+      continue; // in the hole itself either is right
     ASSERT_EQ(body.signed_distance(p, FAR).distance < 0, p.norm() < 1) << p.transpose();
   }
-  // above the rim of the hole, the nearest feature is a boundary edge; the winding number still says outside
+  // above the rim of the hole, the nearest feature is a boundary edge; the winding number still
+  // says outside
   EXPECT_GT(body.signed_distance({0, 1.2, 0}, FAR).distance, 0);
   EXPECT_LT(body.signed_distance({0, 0.6, 0}, FAR).distance, 0);
 }
@@ -88,7 +96,8 @@ TEST(BodyCollider, KnowsInsideBesideHoles) {
 TEST(BodyCollider, SurvivesDuplicateNonManifoldAndZeroAreaFaces) {
   TriangleMesh mesh = shapes::sphere(4);
   const std::size_t n = mesh.triangles.size();
-  for (std::size_t f = 0; f < n; f += 97) mesh.triangles.push_back(mesh.triangles[f]); // duplicates: non-manifold edges
+  for (std::size_t f = 0; f < n; f += 97)
+    mesh.triangles.push_back(mesh.triangles[f]); // duplicates: non-manifold edges
   mesh.triangles.push_back({0, 0, 1});
   mesh.triangles.push_back({5, 5, 5});
   const int fin = static_cast<int>(mesh.positions.size());
@@ -146,7 +155,9 @@ TEST(BodyCollider, HintChangesNothing) {
   Random random(49);
   for (int i = 0; i < 500; ++i) {
     const Vec3 p = random_point(random, 1.2);
-    const SignedDistance without = body.signed_distance(p, FAR), with = body.signed_distance(p, FAR, static_cast<int>(random.next() % 1000));
+    const SignedDistance without = body.signed_distance(p, FAR),
+                         with =
+                             body.signed_distance(p, FAR, static_cast<int>(random.next() % 1000));
     ASSERT_EQ(without.distance, with.distance);
     ASSERT_EQ(without.triangle, with.triangle);
     ASSERT_EQ(without.point, with.point);
@@ -203,13 +214,15 @@ TEST(BodyCollider, FaceContactSeesACornerOfTheBodyUnderAClothFace) {
 TEST(BodyCollider, EdgeContactSeesARidgeAcrossAClothEdge) {
   TriangleMesh roof; // a prism with its ridge along x at y = 1
   roof.positions = {{-1, 1, 0}, {1, 1, 0}, {-1, 0, 0.5}, {1, 0, 0.5}, {-1, 0, -0.5}, {1, 0, -0.5}};
-  roof.triangles = {{0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4}, {0, 4, 2}, {1, 3, 5}, {2, 4, 5}, {2, 5, 3}};
+  roof.triangles = {{0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4},
+                    {0, 4, 2}, {1, 3, 5}, {2, 4, 5}, {2, 5, 3}};
   const BodyCollider body(roof);
   for (double gap : {0.01, -0.01}) {
     const std::vector<Vec3> cloth = {{0.1, 1 + gap, -1}, {0.12, 1 + gap, 1}, {0.11, 3, 0}};
     bool found = false;
     for (const FaceContact& c : body.face_contacts(cloth, {{0, 1, 2}}, 0.05))
-      if (c.kind == ContactKind::EDGE && std::abs(c.distance - gap) < 1e-9 && c.normal.y() > 0.999) found = true;
+      if (c.kind == ContactKind::EDGE && std::abs(c.distance - gap) < 1e-9 && c.normal.y() > 0.999)
+        found = true;
     EXPECT_TRUE(found) << gap;
   }
 }

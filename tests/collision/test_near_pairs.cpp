@@ -1,4 +1,5 @@
-/// The contact set of a cloth and a body against brute force, at every level: vertices against faces, faces against vertices, edges against edges.
+/// The contact set of a cloth and a body against brute force, at every level: vertices against
+/// faces, faces against vertices, edges against edges.
 #include <support/shapes.hpp>
 
 #include <base/parallel.hpp>
@@ -18,10 +19,14 @@ struct Sets {
   Set vertex_face, face_vertex, edge_edge; // the body's edge as its two vertices, ascending
 };
 
-std::array<int, 3> with_edge(int cloth, int a, int b) { return {cloth, std::min(a, b), std::max(a, b)}; }
+std::array<int, 3> with_edge(int cloth, int a, int b) {
+  return {cloth, std::min(a, b), std::max(a, b)};
+}
 
-/// All pairs, one by one. Edges of the body count where they bulge outward, or are no edge between two faces.
-Sets brute_force(const TriangleMesh& cloth, const Topology& topology, const TriangleMesh& body, double vertex_radius, double edge_radius) {
+/// All pairs, one by one. Edges of the body count where they bulge outward, or are no edge between
+/// two faces.
+Sets brute_force(const TriangleMesh& cloth, const Topology& topology, const TriangleMesh& body,
+                 double vertex_radius, double edge_radius) {
   Sets s;
   const auto& x = cloth.positions;
   const auto& y = body.positions;
@@ -29,17 +34,22 @@ Sets brute_force(const TriangleMesh& cloth, const Topology& topology, const Tria
   for (int v = 0; v < static_cast<int>(x.size()); ++v)
     for (int g = 0; g < static_cast<int>(body.triangles.size()); ++g) {
       const Triangle& t = body.triangles[g];
-      if (point_triangle(x[v], y[t[0]], y[t[1]], y[t[2]]).squared_distance <= vertex_radius * vertex_radius) s.vertex_face.insert({v, g, 0});
+      if (point_triangle(x[v], y[t[0]], y[t[1]], y[t[2]]).squared_distance <=
+          vertex_radius * vertex_radius)
+        s.vertex_face.insert({v, g, 0});
     }
   for (int f = 0; f < static_cast<int>(cloth.triangles.size()); ++f)
     for (int b = 0; b < static_cast<int>(y.size()); ++b) {
       const Triangle& t = cloth.triangles[f];
-      if (point_triangle(y[b], x[t[0]], x[t[1]], x[t[2]]).squared_distance <= edge_radius * edge_radius) s.face_vertex.insert({f, b, 0});
+      if (point_triangle(y[b], x[t[0]], x[t[1]], x[t[2]]).squared_distance <=
+          edge_radius * edge_radius)
+        s.face_vertex.insert({f, b, 0});
     }
   for (int k = 0; k < static_cast<int>(skin.edges.size()); ++k) {
     const auto [b0, b1] = skin.edges[k];
     const auto around = skin.triangles_of_edge(k);
-    if (around.size() == 2) { // convex where the far corner of one face lies below the plane of the other
+    if (around.size() ==
+        2) { // convex where the far corner of one face lies below the plane of the other
       const Triangle& t = body.triangles[around[0]];
       const Vec3 n = area_normal(y[t[0]], y[t[1]], y[t[2]]).normalized();
       int far = -1;
@@ -52,21 +62,27 @@ Sets brute_force(const TriangleMesh& cloth, const Topology& topology, const Tria
     }
     for (int e = 0; e < static_cast<int>(topology.edges.size()); ++e) {
       const auto [a0, a1] = topology.edges[e];
-      if (edge_edge(x[a0], x[a1], y[b0], y[b1]).squared_distance <= edge_radius * edge_radius) s.edge_edge.insert(with_edge(e, b0, b1));
+      if (edge_edge(x[a0], x[a1], y[b0], y[b1]).squared_distance <= edge_radius * edge_radius)
+        s.edge_edge.insert(with_edge(e, b0, b1));
     }
   }
   return s;
 }
 
-Sets found(const TriangleMesh& cloth, const Topology& topology, const BodyCollider& body, double vertex_radius, double edge_radius) {
+Sets found(const TriangleMesh& cloth, const Topology& topology, const BodyCollider& body,
+           double vertex_radius, double edge_radius) {
   BodyPairs pairs;
-  body.near_pairs(cloth.positions, cloth.triangles, topology, std::vector<char>(cloth.triangles.size(), 1), vertex_radius, edge_radius, pairs);
+  body.near_pairs(cloth.positions, cloth.triangles, topology,
+                  std::vector<char>(cloth.triangles.size(), 1), vertex_radius, edge_radius, pairs);
   Sets s;
-  for (const auto& p : pairs.vertex_face) EXPECT_TRUE(s.vertex_face.insert({p.vertex, p.body_triangle, 0}).second) << "twice";
-  for (const auto& p : pairs.face_vertex) EXPECT_TRUE(s.face_vertex.insert({p.triangle, p.body_vertex, 0}).second) << "twice";
+  for (const auto& p : pairs.vertex_face)
+    EXPECT_TRUE(s.vertex_face.insert({p.vertex, p.body_triangle, 0}).second) << "twice";
+  for (const auto& p : pairs.face_vertex)
+    EXPECT_TRUE(s.face_vertex.insert({p.triangle, p.body_vertex, 0}).second) << "twice";
   for (const auto& p : pairs.edge_edge) {
     const Triangle& t = body.mesh().triangles[p.body_triangle];
-    EXPECT_TRUE(s.edge_edge.insert(with_edge(p.edge, t[p.side], t[(p.side + 1) % 3])).second) << "twice";
+    EXPECT_TRUE(s.edge_edge.insert(with_edge(p.edge, t[p.side], t[(p.side + 1) % 3])).second)
+        << "twice";
   }
   return s;
 }
@@ -84,7 +100,8 @@ void expect_brute_force(std::uint64_t seed, int k, bool holes) {
   const Topology topology = make_topology(cloth.positions.size(), cloth.triangles);
   const BodyCollider collider(body, k);
   ASSERT_EQ(collider.findings().buried_triangles, 0);
-  for (const auto& [vertex_radius, edge_radius] : {std::pair(0.05, 0.03), std::pair(0.02, 0.04), std::pair(0.2, 0.1)}) {
+  for (const auto& [vertex_radius, edge_radius] :
+       {std::pair(0.05, 0.03), std::pair(0.02, 0.04), std::pair(0.2, 0.1)}) {
     const Sets right = brute_force(cloth, topology, collider.mesh(), vertex_radius, edge_radius);
     const Sets now = found(cloth, topology, collider, vertex_radius, edge_radius);
     EXPECT_GT(right.vertex_face.size(), 5U);
@@ -115,7 +132,8 @@ TEST(NearPairs, come_in_one_order_for_any_number_of_threads) {
   for (int threads : {1, 2, 4}) {
     set_thread_count(threads);
     BodyPairs pairs;
-    collider.near_pairs(cloth.positions, cloth.triangles, topology, std::vector<char>(cloth.triangles.size(), 1), 0.1, 0.1, pairs);
+    collider.near_pairs(cloth.positions, cloth.triangles, topology,
+                        std::vector<char>(cloth.triangles.size(), 1), 0.1, 0.1, pairs);
     std::vector<std::array<int, 3>> list;
     for (const auto& p : pairs.edge_edge) list.push_back({p.edge, p.body_triangle, p.side});
     for (const auto& p : pairs.vertex_face) list.push_back({p.vertex, p.body_triangle, -1});

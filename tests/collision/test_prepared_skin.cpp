@@ -10,14 +10,16 @@ namespace {
 using shapes::random_point;
 constexpr double ANY_DISTANCE = std::numeric_limits<double>::infinity();
 
-/// Two balls that overlap, with flipped faces, a hole, a fin, a triangle of no width and a loose vertex: something of all that is found.
+/// Two balls that overlap, with flipped faces, a hole, a fin, a triangle of no width and a loose
+/// vertex: something of all that is found.
 TriangleMesh troubled() {
   TriangleMesh mesh = shapes::sphere(4);
   shapes::append(mesh, shapes::sphere(3, 0.6, {0.9, 0.013, 0.007}));
   for (int f = 100; f < 140; ++f) std::swap(mesh.triangles[f][0], mesh.triangles[f][1]);
   std::erase_if(mesh.triangles, [&](const Triangle& t) { return mesh.positions[t[0]].y() > 0.97; });
   mesh.positions.push_back({0.1, -1.4, 0});
-  mesh.triangles.push_back({mesh.triangles[7][0], mesh.triangles[7][1], static_cast<int>(mesh.positions.size()) - 1});
+  mesh.triangles.push_back(
+      {mesh.triangles[7][0], mesh.triangles[7][1], static_cast<int>(mesh.positions.size()) - 1});
   mesh.triangles.push_back({mesh.triangles[9][0], mesh.triangles[9][0], mesh.triangles[9][1]});
   mesh.positions.push_back({3, 3, 3});
   return mesh;
@@ -31,15 +33,18 @@ void expect_same(const BodyCollider& a, const BodyCollider& b) {
   Random random(7);
   for (int i = 0; i < 3000; ++i) {
     const Vec3 p = random_point(random, 1.6);
-    const SignedDistance here = a.signed_distance(p, ANY_DISTANCE), there = b.signed_distance(p, ANY_DISTANCE);
+    const SignedDistance here = a.signed_distance(p, ANY_DISTANCE),
+                         there = b.signed_distance(p, ANY_DISTANCE);
     ASSERT_EQ(here.distance, there.distance);
     ASSERT_EQ(here.triangle, there.triangle);
     ASSERT_EQ(here.normal, there.normal);
     ASSERT_EQ(a.winding_number(p), b.winding_number(p));
   }
   const TriangleMesh cloth = shapes::sphere(4, 1.02);
-  EXPECT_EQ(a.faces_through(cloth.positions, cloth.triangles), b.faces_through(cloth.positions, cloth.triangles));
-  const auto here = a.face_contacts(cloth.positions, cloth.triangles, 0.05), there = b.face_contacts(cloth.positions, cloth.triangles, 0.05);
+  EXPECT_EQ(a.faces_through(cloth.positions, cloth.triangles),
+            b.faces_through(cloth.positions, cloth.triangles));
+  const auto here = a.face_contacts(cloth.positions, cloth.triangles, 0.05),
+             there = b.face_contacts(cloth.positions, cloth.triangles, 0.05);
   ASSERT_EQ(here.size(), there.size());
   for (std::size_t i = 0; i < here.size(); ++i) ASSERT_EQ(here[i].distance, there[i].distance);
 }
@@ -86,7 +91,8 @@ TEST(PreparedSkin, OtherBytesAreNoPreparedSkin) {
   const TriangleMesh mesh = shapes::sphere(2);
   const std::size_t n_v = mesh.positions.size(), n_f = mesh.triangles.size();
   const std::string key = skin_key(mesh), bytes = to_bytes(BodyCollider(mesh).prepared(), key);
-  for (std::size_t n = 0; n < bytes.size(); ++n) ASSERT_FALSE(prepared_from_bytes(bytes.substr(0, n), key, n_v, n_f)) << "cut to " << n;
+  for (std::size_t n = 0; n < bytes.size(); ++n)
+    ASSERT_FALSE(prepared_from_bytes(bytes.substr(0, n), key, n_v, n_f)) << "cut to " << n;
   EXPECT_FALSE(prepared_from_bytes(bytes + "x", key, n_v, n_f));
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     std::string damaged = bytes;
@@ -124,12 +130,13 @@ TEST(PreparedSkin, WhatDoesNotFitTheMeshIsNotTaken) {
   is_refused([](PreparedSkin& s) { s.untrusted_faces.push_back(s.untrusted_faces.back()); });
 }
 
-/// What a collider finds out has changed: raise PREPARED_SKIN_VERSION, so that what older programs kept is no longer taken, and put the new
-/// digest here.
+/// What a collider finds out has changed: raise PREPARED_SKIN_VERSION, so that what older programs
+/// kept is no longer taken, and put the new digest here.
 TEST(PreparedSkin, ChangesOnlyWithItsVersion) {
   const TriangleMesh mesh = troubled();
   EXPECT_EQ(PREPARED_SKIN_VERSION, 1);
-  EXPECT_EQ(io::sha256(to_bytes(BodyCollider(mesh).prepared(), std::string(64, '0'))), "2ddc99c0483bdf17754e5096e72d758df7536302ff0817233bbd75b95330fd10");
+  EXPECT_EQ(io::sha256(to_bytes(BodyCollider(mesh).prepared(), std::string(64, '0'))),
+            "2ddc99c0483bdf17754e5096e72d758df7536302ff0817233bbd75b95330fd10");
 }
 
 } // namespace

@@ -14,10 +14,12 @@ struct Pairs {
   std::set<std::array<int, 2>> vertex_face, edge_edge;
 };
 
-Pairs brute_force(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, double radius, const std::vector<std::vector<int>>& never = {}) {
+Pairs brute_force(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, double radius,
+                  const std::vector<std::vector<int>>& never = {}) {
   const auto apart = [&](int a, int b) {
     if (never.empty()) return false;
-    return std::count(never[a].begin(), never[a].end(), b) > 0 || std::count(never[b].begin(), never[b].end(), a) > 0;
+    return std::count(never[a].begin(), never[a].end(), b) > 0 ||
+           std::count(never[b].begin(), never[b].end(), a) > 0;
   };
   Pairs pairs;
   std::set<int> used;
@@ -25,40 +27,55 @@ Pairs brute_force(const std::vector<Vec3>& x, const std::vector<Triangle>& trian
   for (int v : used)
     for (int f = 0; f < static_cast<int>(triangles.size()); ++f) {
       const Triangle& t = triangles[f];
-      if (t[0] == v || t[1] == v || t[2] == v || apart(v, t[0]) || apart(v, t[1]) || apart(v, t[2])) continue;
-      if (std::sqrt(point_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).squared_distance) <= radius) pairs.vertex_face.insert({v, f});
+      if (t[0] == v || t[1] == v || t[2] == v || apart(v, t[0]) || apart(v, t[1]) || apart(v, t[2]))
+        continue;
+      if (std::sqrt(point_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).squared_distance) <= radius)
+        pairs.vertex_face.insert({v, f});
     }
   const auto edges = edges_of(triangles);
   for (int a = 0; a < static_cast<int>(edges.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(edges.size()); ++b) {
       const auto [a0, a1] = edges[a];
       const auto [b0, b1] = edges[b];
-      if (a0 == b0 || a0 == b1 || a1 == b0 || a1 == b1 || apart(a0, b0) || apart(a0, b1) || apart(a1, b0) || apart(a1, b1)) continue;
-      if (std::sqrt(edge_edge(x[a0], x[a1], x[b0], x[b1]).squared_distance) <= radius) pairs.edge_edge.insert({a, b});
+      if (a0 == b0 || a0 == b1 || a1 == b0 || a1 == b1 || apart(a0, b0) || apart(a0, b1) ||
+          apart(a1, b0) || apart(a1, b1))
+        continue;
+      if (std::sqrt(edge_edge(x[a0], x[a1], x[b0], x[b1]).squared_distance) <= radius)
+        pairs.edge_edge.insert({a, b});
     }
   return pairs;
 }
 
 Pairs found(const SelfProximity& proximity) {
   Pairs pairs;
-  for (const auto& p : proximity.vertex_face()) EXPECT_TRUE(pairs.vertex_face.insert({p.vertex, p.triangle}).second) << "twice";
-  for (const auto& p : proximity.edge_edge()) EXPECT_TRUE(pairs.edge_edge.insert({p.edge_a, p.edge_b}).second) << "twice";
+  for (const auto& p : proximity.vertex_face())
+    EXPECT_TRUE(pairs.vertex_face.insert({p.vertex, p.triangle}).second) << "twice";
+  for (const auto& p : proximity.edge_edge())
+    EXPECT_TRUE(pairs.edge_edge.insert({p.edge_a, p.edge_b}).second) << "twice";
   EXPECT_TRUE(std::is_sorted(proximity.vertex_face().begin(), proximity.vertex_face().end(),
-                             [](const auto& a, const auto& b) { return std::tie(a.vertex, a.triangle) < std::tie(b.vertex, b.triangle); }));
+                             [](const auto& a, const auto& b) {
+                               return std::tie(a.vertex, a.triangle) <
+                                      std::tie(b.vertex, b.triangle);
+                             }));
   EXPECT_TRUE(std::is_sorted(proximity.edge_edge().begin(), proximity.edge_edge().end(),
-                             [](const auto& a, const auto& b) { return std::tie(a.edge_a, a.edge_b) < std::tie(b.edge_a, b.edge_b); }));
+                             [](const auto& a, const auto& b) {
+                               return std::tie(a.edge_a, a.edge_b) < std::tie(b.edge_a, b.edge_b);
+                             }));
   return pairs;
 }
 
-void expect_like_brute_force(SelfProximity& proximity, const std::vector<Vec3>& x, double radius, const std::vector<std::vector<int>>& never = {}) {
+void expect_like_brute_force(SelfProximity& proximity, const std::vector<Vec3>& x, double radius,
+                             const std::vector<std::vector<int>>& never = {}) {
   proximity.update(x, radius);
-  const Pairs expected = brute_force(x, proximity.triangles(), radius, never), got = found(proximity);
+  const Pairs expected = brute_force(x, proximity.triangles(), radius, never),
+              got = found(proximity);
   ASSERT_EQ(got.vertex_face, expected.vertex_face);
   ASSERT_EQ(got.edge_edge, expected.edge_edge);
   for (const auto& p : proximity.edge_edge()) {
     const auto [a0, a1] = proximity.topology().edges[p.edge_a];
     const auto [b0, b1] = proximity.topology().edges[p.edge_b];
-    ASSERT_NEAR((x[a0] + p.s * (x[a1] - x[a0]) - x[b0] - p.t * (x[b1] - x[b0])).norm(), p.distance, 1e-9);
+    ASSERT_NEAR((x[a0] + p.s * (x[a1] - x[a0]) - x[b0] - p.t * (x[b1] - x[b0])).norm(), p.distance,
+                1e-9);
   }
 }
 
@@ -67,7 +84,11 @@ TEST(SelfProximity, FindsThePairsOfBruteForceOnAMovingCrumpledSheet) {
   SelfProximity proximity(mesh.positions.size(), mesh.triangles);
   const double edge = 1.0 / 14;
   for (int step = 0; step < 12; ++step) {
-    shapes::jitter(mesh, step == 6 ? 0.1 : step % 2 ? 0.0008 : 0.002, 60 + step); // small moves use remembered pairs, a large one must not
+    shapes::jitter(mesh,
+                   step == 6  ? 0.1
+                   : step % 2 ? 0.0008
+                              : 0.002,
+                   60 + step); // small moves use remembered pairs, a large one must not
     expect_like_brute_force(proximity, mesh.positions, (step % 3 == 2 ? 0.45 : 0.6) * edge);
   }
   EXPECT_LT(proximity.n_rebuilds(), 12);
@@ -109,7 +130,8 @@ TEST(SelfProximity, LeavesOutListedNeighbours) {
   shapes::append(mesh, shapes::sheet(8, 8, 1, 1, 0.02));
   std::vector<std::vector<int>> never(mesh.positions.size());
   for (int v = 0; v < n; v += 2) never[v].push_back(v + n); // one way only: it counts both ways
-  SelfProximity all(mesh.positions.size(), mesh.triangles), some(mesh.positions.size(), mesh.triangles, never);
+  SelfProximity all(mesh.positions.size(), mesh.triangles),
+      some(mesh.positions.size(), mesh.triangles, never);
   expect_like_brute_force(all, mesh.positions, 0.05);
   expect_like_brute_force(some, mesh.positions, 0.05, never);
   EXPECT_LT(some.vertex_face().size(), all.vertex_face().size());
@@ -118,7 +140,8 @@ TEST(SelfProximity, LeavesOutListedNeighbours) {
 TEST(SelfProximity, IsTheSameForOneAndTwoThreadsAndWhateverCameBefore) {
   TriangleMesh mesh = shapes::sheet(40, 40, 1, 1);
   shapes::jitter(mesh, 0.02, 63);
-  SelfProximity one(mesh.positions.size(), mesh.triangles), two(mesh.positions.size(), mesh.triangles);
+  SelfProximity one(mesh.positions.size(), mesh.triangles),
+      two(mesh.positions.size(), mesh.triangles);
   one.update(mesh.positions, 0.01);
   for (int step = 0; step < 3; ++step) {
     shapes::jitter(mesh, 0.001, 64 + step);
@@ -134,12 +157,15 @@ TEST(SelfProximity, IsTheSameForOneAndTwoThreadsAndWhateverCameBefore) {
       ASSERT_EQ(one.vertex_face()[i].triangle, two.vertex_face()[i].triangle);
       ASSERT_EQ(one.vertex_face()[i].distance, two.vertex_face()[i].distance);
     }
-    for (std::size_t i = 0; i < one.edge_edge().size(); ++i) ASSERT_EQ(one.edge_edge()[i].distance, two.edge_edge()[i].distance);
+    for (std::size_t i = 0; i < one.edge_edge().size(); ++i)
+      ASSERT_EQ(one.edge_edge()[i].distance, two.edge_edge()[i].distance);
   }
 }
 
-/// A part of each particle's least distance over the pairs it takes part in, at most of the radius: below a half of it, no pair can cross.
-std::vector<double> safe_moves(const SelfProximity& proximity, std::size_t n_particles, double radius, double part) {
+/// A part of each particle's least distance over the pairs it takes part in, at most of the radius:
+/// below a half of it, no pair can cross.
+std::vector<double> safe_moves(const SelfProximity& proximity, std::size_t n_particles,
+                               double radius, double part) {
   std::vector<double> bound(n_particles, radius);
   for (const VertexFacePair& pair : proximity.vertex_face()) {
     bound[pair.vertex] = std::min(bound[pair.vertex], pair.distance);
@@ -162,17 +188,22 @@ TEST(SelfProximity, NothingCrossesWhileEveryParticleStaysWithinHalfItsLeastDista
     const auto bound = safe_moves(proximity, mesh.positions.size(), 0.05, 0.45);
     for (std::size_t v = 0; v < bound.size(); ++v) {
       ASSERT_LE(bound[v], 0.45 * 0.05 + 1e-15);
-      mesh.positions[v] += shapes::random_point(random).normalized() * bound[v] * random.uniform(0.5, 0.999);
+      mesh.positions[v] +=
+          shapes::random_point(random).normalized() * bound[v] * random.uniform(0.5, 0.999);
     }
     const TriangleTree tree(mesh.positions, mesh.triangles);
-    ASSERT_TRUE(self_intersections(mesh.positions, mesh.triangles, tree).empty()) << "step " << step;
-    ASSERT_TRUE(edge_face_intersections(mesh.positions, mesh.triangles, proximity.topology(), tree).empty()) << "step " << step;
+    ASSERT_TRUE(self_intersections(mesh.positions, mesh.triangles, tree).empty())
+        << "step " << step;
+    ASSERT_TRUE(
+        edge_face_intersections(mesh.positions, mesh.triangles, proximity.topology(), tree).empty())
+        << "step " << step;
   }
 }
 
 TEST(SelfProximity, PairsOfIntersectingTrianglesAreExempt) {
   TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, -0.01}, {0.3, 0.3, 1}, {0.4, 0.3, 1}};
+  mesh.positions = {{0, 0, 0},         {1, 0, 0},     {0, 1, 0},
+                    {0.3, 0.3, -0.01}, {0.3, 0.3, 1}, {0.4, 0.3, 1}};
   mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
   SelfProximity proximity(6, mesh.triangles);
   proximity.update(mesh.positions, 0.1);

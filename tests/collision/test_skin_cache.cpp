@@ -29,10 +29,13 @@ TriangleMesh skin() {
   return mesh;
 }
 
-std::string file_in(const ScratchFolder& folder, const TriangleMesh& mesh) { return folder / ("kept/" + skin_key(mesh) + ".skin"); }
+std::string file_in(const ScratchFolder& folder, const TriangleMesh& mesh) {
+  return folder / ("kept/" + skin_key(mesh) + ".skin");
+}
 
 /// A new cache on that folder makes the collider that there is without one.
-SkinCache::Counts run(const std::string& folder, const TriangleMesh& mesh, Reporter& reporter = silent_reporter()) {
+SkinCache::Counts run(const std::string& folder, const TriangleMesh& mesh,
+                      Reporter& reporter = silent_reporter()) {
   SkinCache cache(folder, reporter);
   EXPECT_EQ(cache.collider(mesh).prepared(), BodyCollider(mesh).prepared());
   return cache.counts();
@@ -68,7 +71,8 @@ TEST(SkinCache, WritesAnewWhatIsDamaged) {
   const TriangleMesh other = shapes::sphere(3);
   run(folder / "kept", other);
   of_another = get(file_in(folder, other));
-  for (const std::string& bytes : {turned, older, of_another, whole.substr(0, whole.size() - 1), whole.substr(0, 40), std::string(), std::string(500, 'x')}) {
+  for (const std::string& bytes : {turned, older, of_another, whole.substr(0, whole.size() - 1),
+                                   whole.substr(0, 40), std::string(), std::string(500, 'x')}) {
     put(file, bytes);
     Heard heard;
     const auto counts = run(folder / "kept", skin(), heard);
@@ -92,7 +96,8 @@ TEST(SkinCache, AFolderThatCannotBeWrittenIsAWarningOnce) {
   EXPECT_TRUE(has(heard.warnings, folder / "file")) << heard.warnings;
 }
 
-/// Processes that prepare the same bodies at the same moment: each gets its collider, and what is left is whole.
+/// Processes that prepare the same bodies at the same moment: each gets its collider, and what is
+/// left is whole.
 TEST(SkinCache, ProcessesShareAFolder) {
   const ScratchFolder folder;
   std::vector<pid_t> children;
@@ -105,7 +110,8 @@ TEST(SkinCache, ProcessesShareAFolder) {
         run(folder / "kept", skin(), heard);
         if (round % 3 == i % 3) unlink(file_in(folder, skin()).c_str());
       }
-      _exit(testing::Test::HasFailure() || heard.n_warnings > 0 || has(heard.infos, "damaged") ? 1 : 0);
+      _exit(testing::Test::HasFailure() || heard.n_warnings > 0 || has(heard.infos, "damaged") ? 1
+                                                                                               : 0);
     }
     children.push_back(child);
   }

@@ -15,20 +15,27 @@ ClosestPoint brute_closest(const TriangleMesh& mesh, const Vec3& p, double max_d
   ClosestPoint best;
   for (int f = 0; f < static_cast<int>(mesh.triangles.size()); ++f) {
     const Triangle& t = mesh.triangles[f];
-    const PointTriangle d = point_triangle(p, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
-    if (d.squared_distance <= max_distance * max_distance && d.squared_distance < best.squared_distance)
+    const PointTriangle d =
+        point_triangle(p, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+    if (d.squared_distance <= max_distance * max_distance &&
+        d.squared_distance < best.squared_distance)
       best = {f, d.point, d.barycentric, d.squared_distance, d.feature};
   }
   return best;
 }
 
-void expect_like_brute_force(const TriangleTree& tree, const TriangleMesh& mesh, std::uint64_t seed, int n_points) {
+void expect_like_brute_force(const TriangleTree& tree, const TriangleMesh& mesh, std::uint64_t seed,
+                             int n_points) {
   Random random(seed);
   int hint = -1;
   for (int i = 0; i < n_points; ++i) {
-    const Vec3 p = i % 5 == 0 ? mesh.positions[random.next() % mesh.positions.size()] : random_point(random, 1.5);
-    const double reach = i % 3 == 0 ? 0.2 : i % 3 == 1 ? 1e300 : std::numeric_limits<double>::infinity();
-    const ClosestPoint found = tree.closest_point(p, reach, hint), expected = brute_closest(mesh, p, reach);
+    const Vec3 p = i % 5 == 0 ? mesh.positions[random.next() % mesh.positions.size()]
+                              : random_point(random, 1.5);
+    const double reach = i % 3 == 0   ? 0.2
+                         : i % 3 == 1 ? 1e300
+                                      : std::numeric_limits<double>::infinity();
+    const ClosestPoint found = tree.closest_point(p, reach, hint),
+                       expected = brute_closest(mesh, p, reach);
     ASSERT_EQ(found.triangle, expected.triangle) << "point " << i;
     if (found.triangle >= 0) {
       ASSERT_EQ(found.squared_distance, expected.squared_distance);
@@ -85,7 +92,8 @@ TEST_P(TreeOfEachK, OverlapQueryMissesNoTriangleThatMeetsTheBox) {
       for (int s = 0; s < 20; ++s) {
         const double u = random.uniform(), v = random.uniform() * (1 - u);
         const Triangle& t = mesh.triangles[f];
-        const Vec3 q = (1 - u - v) * mesh.positions[t[0]] + u * mesh.positions[t[1]] + v * mesh.positions[t[2]];
+        const Vec3 q = (1 - u - v) * mesh.positions[t[0]] + u * mesh.positions[t[1]] +
+                       v * mesh.positions[t[2]];
         if ((q.array() >= box.low.array()).all() && (q.array() <= box.high.array()).all()) {
           ASSERT_TRUE(seen[f]);
         }
@@ -98,7 +106,10 @@ TEST_P(TreeOfEachK, VisitsEachUnorderedSlotPairWithinTheMarginOnce) {
   const TriangleMesh mesh = shapes::sphere(2);
   const TriangleTree tree(mesh.positions, mesh.triangles, GetParam());
   std::vector<std::array<int, 2>> pairs;
-  for (int s = 0; s < tree.n_slots(); ++s) tree.visit_slots(tree.dop_of_slot(s, 0.05), s + 1, [&](int other) { pairs.push_back({s, other}); });
+  for (int s = 0; s < tree.n_slots(); ++s)
+    tree.visit_slots(tree.dop_of_slot(s, 0.05), s + 1, [&](int other) {
+      pairs.push_back({s, other});
+    });
   auto sorted = pairs;
   std::sort(sorted.begin(), sorted.end());
   EXPECT_EQ(std::unique(sorted.begin(), sorted.end()), sorted.end());
@@ -107,7 +118,9 @@ TEST_P(TreeOfEachK, VisitsEachUnorderedSlotPairWithinTheMarginOnce) {
     for (int b = a + 1; b < tree.n_slots(); ++b) {
       double nearest = 1e300;
       for (const Vec3& p : tree.corners(a))
-        nearest = std::min(nearest, point_triangle(p, tree.corners(b)[0], tree.corners(b)[1], tree.corners(b)[2]).squared_distance);
+        nearest = std::min(
+            nearest, point_triangle(p, tree.corners(b)[0], tree.corners(b)[1], tree.corners(b)[2])
+                         .squared_distance);
       if (nearest <= 0.05 * 0.05) {
         ASSERT_TRUE(std::binary_search(pairs.begin(), pairs.end(), std::array<int, 2>{a, b}) ||
                     std::find(pairs.begin(), pairs.end(), std::array<int, 2>{a, b}) != pairs.end());
@@ -142,7 +155,8 @@ TEST(TriangleTree, MoreDirectionsVisitFewerPairs) {
   for (int k : {6, 14, 18, 26}) {
     const TriangleTree tree(mesh.positions, mesh.triangles, k);
     long n = 0;
-    for (int s = 0; s < tree.n_slots(); ++s) tree.visit_slots(tree.dop_of_slot(s, 0), s + 1, [&](int) { ++n; });
+    for (int s = 0; s < tree.n_slots(); ++s)
+      tree.visit_slots(tree.dop_of_slot(s, 0), s + 1, [&](int) { ++n; });
     visits.push_back(n);
   }
   EXPECT_LT(visits[1], visits[0]);
@@ -166,7 +180,8 @@ TEST(TriangleTree, a_way_meets_the_first_triangle_on_it) {
   for (int i = 0; i < 200; ++i) {
     const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
     const Vec3 out = Vec3(x, y, z).normalized();
-    const double hit = tree.first_hit(2 * out, -2 * out); // from both sides the chords lie a little below the unit sphere
+    const double hit = tree.first_hit(
+        2 * out, -2 * out); // from both sides the chords lie a little below the unit sphere
     EXPECT_GT(hit, 0.25 - 1e-9);
     EXPECT_LT(hit, 0.26);
     EXPECT_FALSE(tree.first_hit(2 * out, 1.01 * out) <= 1) << "it ends before";

@@ -12,8 +12,8 @@ struct Untangled {
   int rounds;
 };
 
-/// Moves along the untangling displacements until nothing intersects or `rounds` are over; a little smoothing of the motion
-/// stands in for the cloth that would carry its neighbours along.
+/// Moves along the untangling displacements until nothing intersects or `rounds` are over; a little
+/// smoothing of the motion stands in for the cloth that would carry its neighbours along.
 Untangled untangle(TriangleMesh& mesh, double step, int rounds) {
   const Topology topology = make_topology(mesh.positions.size(), mesh.triangles);
   TriangleTree tree(mesh.positions, mesh.triangles);
@@ -41,19 +41,27 @@ Untangled untangle(TriangleMesh& mesh, double step, int rounds) {
 }
 
 /// An upright sheet with a rounded lower rim that reaches through z = 0.
-Vec3 flap(const Vec3& p) { return {0.21 + p.x(), 0.503 + 0.3 * p.y(), p.y() - 0.05 + 0.9 * (p.x() - 0.3) * (p.x() - 0.3)}; }
+Vec3 flap(const Vec3& p) {
+  return {0.21 + p.x(), 0.503 + 0.3 * p.y(), p.y() - 0.05 + 0.9 * (p.x() - 0.3) * (p.x() - 0.3)};
+}
 
 TEST(Untangle, FreeClothHasNothingToDo) {
   const TriangleMesh mesh = shapes::sheet(10, 10, 1, 1);
   const Topology topology = make_topology(mesh.positions.size(), mesh.triangles);
-  EXPECT_TRUE(untangle_directions(mesh.positions, mesh.triangles, topology, TriangleTree(mesh.positions, mesh.triangles)).empty());
-  for (const Vec3& d : untangle_displacements({}, mesh.triangles, topology, mesh.positions.size(), 1)) ASSERT_EQ(d, Vec3::Zero());
+  EXPECT_TRUE(untangle_directions(mesh.positions, mesh.triangles, topology,
+                                  TriangleTree(mesh.positions, mesh.triangles))
+                  .empty());
+  for (const Vec3& d :
+       untangle_displacements({}, mesh.triangles, topology, mesh.positions.size(), 1))
+    ASSERT_EQ(d, Vec3::Zero());
 }
 
 TEST(Untangle, ABumpThatHasGoneThroughASheetIsDrawnBack) {
   TriangleMesh mesh = shapes::sheet(20, 20, 1, 1);
   TriangleMesh upper = shapes::sheet(23, 23, 1, 1, 0.02);
-  for (Vec3& p : upper.positions) p.z() -= 0.06 * std::exp(-40 * ((p.x() - 0.52) * (p.x() - 0.52) + (p.y() - 0.47) * (p.y() - 0.47)));
+  for (Vec3& p : upper.positions)
+    p.z() -=
+        0.06 * std::exp(-40 * ((p.x() - 0.52) * (p.x() - 0.52) + (p.y() - 0.47) * (p.y() - 0.47)));
   shapes::append(mesh, upper);
   const Untangled result = untangle(mesh, 0.004, 100);
   EXPECT_GT(result.at_first, 20u);
@@ -65,10 +73,13 @@ TEST(Untangle, OneContourMovesEdgeAndFaceApartInOneDirection) {
   TriangleMesh mesh = shapes::sheet(20, 20, 1, 1);
   TriangleMesh upper = shapes::sheet(23, 23, 1, 1, 0.02);
   const auto base = static_cast<int>(mesh.positions.size());
-  for (Vec3& p : upper.positions) p.z() -= 0.06 * std::exp(-40 * ((p.x() - 0.52) * (p.x() - 0.52) + (p.y() - 0.47) * (p.y() - 0.47)));
+  for (Vec3& p : upper.positions)
+    p.z() -=
+        0.06 * std::exp(-40 * ((p.x() - 0.52) * (p.x() - 0.52) + (p.y() - 0.47) * (p.y() - 0.47)));
   shapes::append(mesh, upper);
   const Topology topology = make_topology(mesh.positions.size(), mesh.triangles);
-  const auto pairs = untangle_directions(mesh.positions, mesh.triangles, topology, TriangleTree(mesh.positions, mesh.triangles));
+  const auto pairs = untangle_directions(mesh.positions, mesh.triangles, topology,
+                                         TriangleTree(mesh.positions, mesh.triangles));
   ASSERT_FALSE(pairs.empty());
   for (const UntanglePair& pair : pairs) {
     EXPECT_EQ(pair.contour, 0);
@@ -97,8 +108,10 @@ TEST(Untangle, PinnedVerticesStay) {
   std::vector<double> inverse_mass(mesh.positions.size(), 1);
   std::fill(inverse_mass.begin(), inverse_mass.begin() + static_cast<long>(base), 0.0);
   const Topology topology = make_topology(mesh.positions.size(), mesh.triangles);
-  const auto pairs = untangle_directions(mesh.positions, mesh.triangles, topology, TriangleTree(mesh.positions, mesh.triangles));
-  const auto d = untangle_displacements(pairs, mesh.triangles, topology, mesh.positions.size(), 0.01, inverse_mass);
+  const auto pairs = untangle_directions(mesh.positions, mesh.triangles, topology,
+                                         TriangleTree(mesh.positions, mesh.triangles));
+  const auto d = untangle_displacements(pairs, mesh.triangles, topology, mesh.positions.size(),
+                                        0.01, inverse_mass);
   double most = 0;
   for (std::size_t v = 0; v < d.size(); ++v) {
     if (v < base) EXPECT_EQ(d[v], Vec3::Zero());

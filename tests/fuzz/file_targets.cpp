@@ -43,7 +43,8 @@ void read_json_bytes(std::string_view bytes) {
   try {
     const io::Json document = io::parse_json(std::string(bytes), "fuzz.json");
     const std::string text = io::to_text(document);
-    if (io::to_text(io::parse_json(text, "again.json")) != text) std::abort(); // what we write, we read
+    if (io::to_text(io::parse_json(text, "again.json")) != text)
+      std::abort(); // what we write, we read
   } catch (const Error& e) {
     if (e.kind() != ErrorKind::INPUT) std::abort();
   }

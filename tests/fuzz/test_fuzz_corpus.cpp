@@ -17,7 +17,8 @@ using Reader = std::function<void(std::string_view)>;
 /// Every file of a folder, each as it is, cut short at many places, and with bytes changed.
 void read_all(const char* folder, const Reader& reader) {
   std::set<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SLOPER_SOURCE_DIR) / "tests" / "fuzz" / "corpus" / folder))
+  for (const auto& entry : std::filesystem::directory_iterator(
+           std::filesystem::path(SLOPER_SOURCE_DIR) / "tests" / "fuzz" / "corpus" / folder))
     files.insert(entry.path());
   ASSERT_FALSE(files.empty()) << folder;
   sloper::Random random(17);
@@ -26,10 +27,12 @@ void read_all(const char* folder, const Reader& reader) {
     text << std::ifstream(file, std::ios::binary).rdbuf();
     const std::string bytes = text.str();
     reader(bytes);
-    for (int k = 1; k < 40; ++k) reader(std::string_view(bytes).substr(0, bytes.size() * static_cast<std::size_t>(k) / 40));
+    for (int k = 1; k < 40; ++k)
+      reader(std::string_view(bytes).substr(0, bytes.size() * static_cast<std::size_t>(k) / 40));
     for (int k = 0; k < 200 && !bytes.empty(); ++k) {
       std::string changed = bytes;
-      for (int n = 0; n < 3; ++n) changed[random.next() % changed.size()] = static_cast<char>(random.next());
+      for (int n = 0; n < 3; ++n)
+        changed[random.next() % changed.size()] = static_cast<char>(random.next());
       reader(changed);
     }
   }
@@ -47,5 +50,7 @@ TEST(FuzzCorpus, documents_are_read_or_refused) {
   });
   std::filesystem::remove(path);
 }
-TEST(FuzzCorpus, prepared_skins_are_read_or_made_anew) { read_all("prepared_skin", sloper::fuzz::read_prepared_skin_bytes); }
+TEST(FuzzCorpus, prepared_skins_are_read_or_made_anew) {
+  read_all("prepared_skin", sloper::fuzz::read_prepared_skin_bytes);
+}
 TEST(FuzzCorpus, motions_are_read_or_refused) { read_all("bvh", sloper::fuzz::read_bvh_bytes); }

@@ -40,7 +40,8 @@ Garment two_squares() {
   g.panels.seams.push_back({"side", "seam", {1, 2}, {4, 7}, 0.1, 0.1});
   g.panels.findings = {"nothing to say"};
   g.particle_of = {0, 1, 2, 3, 1, 4, 5, 2};
-  g.position = {{0, 1, 0}, {0.1, 1, 0}, {0.1, 1.1, 1.0 / 3}, {0, 1.1, 0}, {0.2, 1, 0}, {0.2, 1.1, 0}};
+  g.position = {{0, 1, 0},   {0.1, 1, 0}, {0.1, 1.1, 1.0 / 3},
+                {0, 1.1, 0}, {0.2, 1, 0}, {0.2, 1.1, 0}};
   for (const int p : g.particle_of) g.panels.placed.push_back(g.position[p]);
   g.materials["lining"].density_kg_m2 = 0.07;
   g.materials["lining"].source = "measured";
@@ -49,7 +50,8 @@ Garment two_squares() {
   g.bind.frames = {"torso", "arm_l"};
   g.bind.lengths_m = {0.5, 0.7};
   g.bind.marks = {{{"hip", 0.1}, {"bust", 0.7}}, {}};
-  for (int p = 0; p < 6; ++p) g.bind.particles.push_back({{0, 0.75, 0.1 * p, 0.5, 0.01}, {1, 0.25, -0.1 * p, 1.5, 0.02}});
+  for (int p = 0; p < 6; ++p)
+    g.bind.particles.push_back({{0, 0.75, 0.1 * p, 0.5, 0.01}, {1, 0.25, -0.1 * p, 1.5, 0.02}});
   g.converged = true;
   g.offset_m = 0.003;
   g.body_sha256 = "abc";
@@ -63,7 +65,8 @@ class GarmentJson : public ::testing::Test {
 protected:
   void SetUp() override {
     m_folder = std::filesystem::temp_directory_path() /
-               ("sloper-garment-json-" + std::to_string(::getpid()) + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+               ("sloper-garment-json-" + std::to_string(::getpid()) +
+                ::testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::create_directories(m_folder);
   }
   void TearDown() override { std::filesystem::remove_all(m_folder); }
@@ -135,15 +138,20 @@ TEST_F(GarmentJson, AnUnsewnGarmentKeepsItsPlacedPanels) {
 
 TEST_F(GarmentJson, DamagedDocumentsAreRefusedWithTheirPlace) {
   EXPECT_NE(refusal("a.json", "\"version\": 1", "\"version\": 9").find("newer"), std::string::npos);
-  EXPECT_NE(refusal("a.json", "\"format\": \"garment\"", "\"format\": \"body\"").find("/format"), std::string::npos);
-  EXPECT_NE(refusal("a.json", "\"vertices\": 4", "\"vertices\": 3").find("/panels"), std::string::npos);
-  EXPECT_NE(refusal("a.json", "\"a\": [1, 2]", "\"a\": [1, 99]").find("/seams/0/a/1"), std::string::npos);
+  EXPECT_NE(refusal("a.json", "\"format\": \"garment\"", "\"format\": \"body\"").find("/format"),
+            std::string::npos);
+  EXPECT_NE(refusal("a.json", "\"vertices\": 4", "\"vertices\": 3").find("/panels"),
+            std::string::npos);
+  EXPECT_NE(refusal("a.json", "\"a\": [1, 2]", "\"a\": [1, 99]").find("/seams/0/a/1"),
+            std::string::npos);
   EXPECT_NE(refusal("a.json", "\"a\": [1, 2]", "\"a\": [1]").find("pair up"), std::string::npos);
-  EXPECT_NE(refusal("a.json", "\"grain\": [0, 1]", "\"grain\": [0, 0]").find("grain"), std::string::npos);
+  EXPECT_NE(refusal("a.json", "\"grain\": [0, 1]", "\"grain\": [0, 0]").find("grain"),
+            std::string::npos);
   EXPECT_NE(refusal("a.json", "[0, 0.75", "[0, 0.5").find("sum to one"), std::string::npos);
   EXPECT_NE(refusal("a.json", "[0, 0.75", "[7, 0.75").find("/bind/particles/0"), std::string::npos);
   EXPECT_NE(refusal("a.json", "[2, 0.9", "[2, -0.9").find("/rest_scale/0"), std::string::npos);
-  EXPECT_NE(refusal("a.json", "\"density_kg_m2\": 0.07", "\"density_kg_m2\": 0").find("density"), std::string::npos);
+  EXPECT_NE(refusal("a.json", "\"density_kg_m2\": 0.07", "\"density_kg_m2\": 0").find("density"),
+            std::string::npos);
   EXPECT_NE(refusal("a.obj", "f 1/1", "f 9/1").find("a.obj"), std::string::npos);
   EXPECT_NE(refusal("a.obj", "f 1/1", "f 1/3").find("two particles"), std::string::npos);
   EXPECT_NE(refusal("a.obj", "f 1/1", "f 1").find("pattern coordinates"), std::string::npos);

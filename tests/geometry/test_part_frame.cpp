@@ -9,7 +9,8 @@
 using namespace sloper;
 
 static Vec3 random_point(Random& random, double size) {
-  const double x = random.uniform(-size, size), y = random.uniform(-size, size), z = random.uniform(-size, size);
+  const double x = random.uniform(-size, size), y = random.uniform(-size, size),
+               z = random.uniform(-size, size);
   return {x, y, z};
 }
 
@@ -24,7 +25,8 @@ TEST(PartFrame, measures_z_as_a_fraction_from_lower_to_upper_centre) {
 TEST(PartFrame, measures_theta_from_the_front_towards_the_left_of_the_body) {
   const PartFrame torso = make_part_frame({0, 1, 0}, {0, 1.5, 0}, {0, 0, 1}, false);
   EXPECT_NEAR(torso.coordinates({0, 1.2, 0.2}).theta, 0, 1e-15);
-  EXPECT_NEAR(torso.coordinates({0.2, 1.2, 0}).theta, units::PI / 2, 1e-15); // +x is the body's left; right-handed about +y
+  EXPECT_NEAR(torso.coordinates({0.2, 1.2, 0}).theta, units::PI / 2,
+              1e-15); // +x is the body's left; right-handed about +y
   EXPECT_NEAR(std::abs(torso.coordinates({0, 1.2, -0.2}).theta), units::PI, 1e-15);
 }
 

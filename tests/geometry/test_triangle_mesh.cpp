@@ -10,7 +10,8 @@ using namespace sloper;
 static TriangleMesh cube() {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1, i >> 1 & 1, i >> 2 & 1);
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   return mesh;
 }
 
@@ -62,4 +63,6 @@ TEST(Box3, is_empty_until_a_point_is_added) {
   EXPECT_EQ(box.center(), Vec3(0, 3.5, 3));
 }
 
-TEST(AreaNormal, follows_the_right_hand_rule_with_twice_the_area) { EXPECT_EQ(area_normal({0, 0, 0}, {2, 0, 0}, {0, 3, 0}), Vec3(0, 0, 6)); }
+TEST(AreaNormal, follows_the_right_hand_rule_with_twice_the_area) {
+  EXPECT_EQ(area_normal({0, 0, 0}, {2, 0, 0}, {0, 3, 0}), Vec3(0, 0, 6));
+}

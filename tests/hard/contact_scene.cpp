@@ -23,7 +23,10 @@ struct Motion {
     if (kind == "through") { // along +z
       for (Vec3& p : x) p.z() += std::min(speed * t, way);
     } else if (kind == "close") { // two halves towards each other and, after a rest of 2 s, back
-      const double there = way / speed, d = t < there ? speed * t : t < there + 2 ? way : std::max(way - speed * (t - there - 2), 0.0);
+      const double there = way / speed, d = t < there ? speed * t
+                                            : t < there + 2
+                                                ? way
+                                                : std::max(way - speed * (t - there - 2), 0.0);
       for (Vec3& p : x) p.z() += p.z() > 0 ? -d : d;
     } else if (kind == "shake") {
       for (Vec3& p : x) p.x() += way * std::sin(speed / way * t);
@@ -37,7 +40,8 @@ struct BodyState {
   double through = 0, inside = 0, deepest = 0;
 };
 
-BodyState look(const collision::BodyCollider& body, const std::vector<Vec3>& x, const std::vector<Triangle>& triangles) {
+BodyState look(const collision::BodyCollider& body, const std::vector<Vec3>& x,
+               const std::vector<Triangle>& triangles) {
   BodyState s;
   s.through = static_cast<double>(body.faces_through(x, triangles).size());
   for (const Vec3& p : x)
@@ -48,8 +52,10 @@ BodyState look(const collision::BodyCollider& body, const std::vector<Vec3>& x, 
   return s;
 }
 
-/// How far along the unit vector `direction` from `start` a triangle lies; negative when it is not there.
-double way_to(const Vec3& start, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c) {
+/// How far along the unit vector `direction` from `start` a triangle lies; negative when it is not
+/// there.
+double way_to(const Vec3& start, const Vec3& direction, const Vec3& a, const Vec3& b,
+              const Vec3& c) {
   const Vec3 u = b - a, v = c - a, across = direction.cross(v);
   const double det = u.dot(across);
   if (std::abs(det) < 1e-18) return -1;
@@ -58,16 +64,19 @@ double way_to(const Vec3& start, const Vec3& direction, const Vec3& a, const Vec
   return s < 0 || t < 0 || s + t > 1 ? -1 : v.dot(q) / det;
 }
 
-/// Particles of a layer that, seen from the body's middle, lie more than a millimetre below a place of a layer that started below theirs.
-/// Layers may slide over each other, so it is that place and not the like particle that counts.
-double order_violations(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, std::size_t layers, const Vec3& middle) {
+/// Particles of a layer that, seen from the body's middle, lie more than a millimetre below a place
+/// of a layer that started below theirs. Layers may slide over each other, so it is that place and
+/// not the like particle that counts.
+double order_violations(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles,
+                        std::size_t layers, const Vec3& middle) {
   const std::size_t per_layer = x.size() / layers;
   double violations = 0;
   for (std::size_t i = per_layer; i < x.size(); ++i) {
     const double out = (x[i] - middle).norm();
     const Vec3 direction = (x[i] - middle) / out;
     violations += std::any_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
-      return static_cast<std::size_t>(t[0]) / per_layer < i / per_layer && way_to(middle, direction, x[t[0]], x[t[1]], x[t[2]]) > out + 1e-3;
+      return static_cast<std::size_t>(t[0]) / per_layer < i / per_layer &&
+             way_to(middle, direction, x[t[0]], x[t[1]], x[t[2]]) > out + 1e-3;
     });
   }
   return violations;
@@ -80,11 +89,15 @@ Outcome contact_scene(const Parameters& p, std::uint64_t seed) {
   damage(skin, p.text("damage", "none"), seed);
   const bool hanging = p.text("plane", "flat") == "hanging";
   const int cells = p.whole("cells", 10), layers = p.whole("layers", 1);
-  const double size = p.number("size_m", 0.2), height = p.number("height_m", 0.11), spacing = p.number("layer_spacing_m", 0.004);
+  const double size = p.number("size_m", 0.2), height = p.number("height_m", 0.11),
+               spacing = p.number("layer_spacing_m", 0.004);
   std::vector<double> offsets;
   for (int k = 0; k < layers; ++k) offsets.push_back(k * spacing);
-  const Vec3 corner = hanging ? Vec3(-0.5 * size, 0.5 * size + p.number("lift_m", 0), height) : Vec3(-0.5 * size, height, 0.5 * size);
-  Sheet s = make_sheet(std::vector<double>(cells, size / cells), std::vector<double>(cells, size / cells), fabric_of(p), hanging, corner, offsets);
+  const Vec3 corner = hanging ? Vec3(-0.5 * size, 0.5 * size + p.number("lift_m", 0), height)
+                              : Vec3(-0.5 * size, height, 0.5 * size);
+  Sheet s =
+      make_sheet(std::vector<double>(cells, size / cells), std::vector<double>(cells, size / cells),
+                 fabric_of(p), hanging, corner, offsets);
   if (const double turn = p.number("turn_deg", 0); turn != 0)
     for (Vec3& q : s.x) q = Eigen::AngleAxisd(turn * M_PI / 180, Vec3::UnitY()) * q;
   jitter(s.x, p.number("jitter_m", 1e-4), seed);
@@ -106,11 +119,13 @@ Outcome contact_scene(const Parameters& p, std::uint64_t seed) {
   solver.emplace<cloth::GravityEffect>(s.mesh, Vec3(0, -p.number("gravity_m_s2", 9.80665), 0));
   if (p.text("pins", "none") == "top") {
     std::vector<cloth::Pin> pins;
-    for (int c = 0; c < s.columns; ++c) pins.push_back({s.at(c, 0), s.x[s.at(c, 0)], 1e4, Vec3::Zero()});
+    for (int c = 0; c < s.columns; ++c)
+      pins.push_back({s.at(c, 0), s.x[s.at(c, 0)], 1e4, Vec3::Zero()});
     solver.emplace<cloth::PinsEffect>(pins);
   }
 
-  const Motion motion{p.text("motion", "none"), p.number("body_speed_m_s", 1), p.number("body_way_m", 0.5)};
+  const Motion motion{p.text("motion", "none"), p.number("body_speed_m_s", 1),
+                      p.number("body_way_m", 0.5)};
   const int substeps = p.whole("substeps", 1);
   cloth::StepOptions o;
   o.h = p.number("h", 1.0 / 30) / substeps;
@@ -133,13 +148,17 @@ Outcome contact_scene(const Parameters& p, std::uint64_t seed) {
       r.finite = watch.step(part);
       return r;
     };
-    if (!(motion.moves() ? swept.advance(motion.at(skin.positions, t), o, watched).finite : watch.step(o))) break;
+    if (!(motion.moves() ? swept.advance(motion.at(skin.positions, t), o, watched).finite
+                         : watch.step(o)))
+      break;
     const BodyState now = look(body, solver.x(), triangles);
     largest_inside = std::max(largest_inside, now.inside);
     if (now.through + now.inside > 0) clean_since = -1;
     else if (clean_since < 0) clean_since = t;
     double sum = 0;
-    for (std::size_t i = 0; i < before.size(); ++i) sum += (solver.x()[i] - before[i]).squaredNorm() / (o.h * o.h * static_cast<double>(before.size()));
+    for (std::size_t i = 0; i < before.size(); ++i)
+      sum += (solver.x()[i] - before[i]).squaredNorm() /
+             (o.h * o.h * static_cast<double>(before.size()));
     still_speed = std::sqrt(sum);
     if (motion.kind == "close" && t < there + 2) rms_when_pinched = still_speed;
   }
@@ -156,10 +175,12 @@ Outcome contact_scene(const Parameters& p, std::uint64_t seed) {
     out.value["rms_pinched"] = rms_when_pinched;
     // Layers, and which side of a moving or deep body the cloth is on: seen from the body's middle.
     Vec3 middle = Vec3::Zero();
-    for (const Vec3& q : body.mesh().positions) middle += q / static_cast<double>(body.mesh().positions.size());
+    for (const Vec3& q : body.mesh().positions)
+      middle += q / static_cast<double>(body.mesh().positions.size());
     const Vec3 at = solver.x()[s.at(s.columns / 2, s.rows / 2)];
     out.value["middle_ahead_m"] = hanging ? at.z() - middle.z() : at.y() - middle.y();
-    out.value["order_violations"] = order_violations(solver.x(), triangles, static_cast<std::size_t>(layers), middle);
+    out.value["order_violations"] =
+        order_violations(solver.x(), triangles, static_cast<std::size_t>(layers), middle);
   }
   fingerprint(out, solver.x());
   return out;

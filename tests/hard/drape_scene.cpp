@@ -18,9 +18,16 @@ namespace {
 using garment::Garment;
 
 /// One panel nx by ny cells about the origin, `place` gives the start of pattern point (u, v).
-template<class Place> int add_panel(Garment& g, const std::string& name, double width, double height, int nx, int ny, Place place) {
+template<class Place>
+int add_panel(Garment& g, const std::string& name, double width, double height, int nx, int ny,
+              Place place) {
   return garment::add_panel(
-      g, name, nx, ny, [&](int c, int r) { return Vec2(width * (static_cast<double>(c) / nx - 0.5), height * (static_cast<double>(r) / ny - 0.5)); }, place);
+      g, name, nx, ny,
+      [&](int c, int r) {
+        return Vec2(width * (static_cast<double>(c) / nx - 0.5),
+                    height * (static_cast<double>(r) / ny - 0.5));
+      },
+      place);
 }
 
 void sew(Garment& g, const std::string& name, std::vector<int> a, std::vector<int> b) {
@@ -38,7 +45,8 @@ void sew(Garment& g, const std::string& name, std::vector<int> a, std::vector<in
 
 Garment make_garment(const Parameters& p) {
   const std::string kind = p.text("garment", "skirt");
-  const double edge = p.number("edge_m", 0.03), girth = p.number("girth_m", 0.75), length = p.number("length_m", 0.3);
+  const double edge = p.number("edge_m", 0.03), girth = p.number("girth_m", 0.75),
+               length = p.number("length_m", 0.3);
   const double top = p.number("top_m", 1.02), away = p.number("away_m", 0.25);
   if (kind == "skirt") return garment::make_skirt(girth, length, edge, top, away);
   Garment g;
@@ -47,9 +55,11 @@ Garment make_garment(const Parameters& p) {
   const int n = std::max(1, static_cast<int>(std::lround(length / edge)));
   const Vec3 at(p.number("x_m", 0), top, p.number("z_m", 0));
   if (kind == "patch") { // one flat panel
-    add_panel(g, "patch", length, length, n, n, [&](const Vec2& uv) { return Vec3(at + Vec3(uv.x(), 0, -uv.y())); });
+    add_panel(g, "patch", length, length, n, n,
+              [&](const Vec2& uv) { return Vec3(at + Vec3(uv.x(), 0, -uv.y())); });
   } else if (kind == "triangle") {
-    add_panel(g, "triangle", length, length, 1, 1, [&](const Vec2& uv) { return Vec3(at + Vec3(uv.x(), 0, -uv.y())); });
+    add_panel(g, "triangle", length, length, 1, 1,
+              [&](const Vec2& uv) { return Vec3(at + Vec3(uv.x(), 0, -uv.y())); });
     g.panels.triangles.resize(1);
     g.panels.panels[0].n_triangles = 1;
     g.panels.panels[0].n_vertices = 3;
@@ -60,15 +70,20 @@ Garment make_garment(const Parameters& p) {
     m.ids = {m.ids[t[0]], m.ids[t[1]], m.ids[t[2]]};
     m.triangles = {{0, 1, 2}};
   } else if (kind == "crossed") { // two sheets through each other
-    add_panel(g, "one", length, length, n, n, [&](const Vec2& uv) { return Vec3(at + Vec3(uv.x(), 0, -uv.y())); });
+    add_panel(g, "one", length, length, n, n,
+              [&](const Vec2& uv) { return Vec3(at + Vec3(uv.x(), 0, -uv.y())); });
     const double tilt = p.number("tilt_deg", 15) * M_PI / 180;
     add_panel(g, "two", length, length, n, n, [&](const Vec2& uv) {
-      return Vec3(at + Vec3(0.013 + uv.x() * std::cos(tilt), uv.x() * std::sin(tilt) + p.number("second_up_m", 0.001), -uv.y() + 0.007));
+      return Vec3(at + Vec3(0.013 + uv.x() * std::cos(tilt),
+                            uv.x() * std::sin(tilt) + p.number("second_up_m", 0.001),
+                            -uv.y() + 0.007));
     });
   } else if (kind == "gather") { // a long edge sewn to a short one
     const double ease = p.number("ease", 1.5);
-    add_panel(g, "short", length, 0.5 * length, n, std::max(1, n / 2), [&](const Vec2& uv) { return Vec3(at + Vec3(uv.x(), uv.y() + 0.5 * length, 0)); });
-    add_panel(g, "long", ease * length, 0.5 * length, n, std::max(1, n / 2), [&](const Vec2& uv) { return Vec3(at + Vec3(uv.x(), uv.y() - 0.1 * length, 0)); });
+    add_panel(g, "short", length, 0.5 * length, n, std::max(1, n / 2),
+              [&](const Vec2& uv) { return Vec3(at + Vec3(uv.x(), uv.y() + 0.5 * length, 0)); });
+    add_panel(g, "long", ease * length, 0.5 * length, n, std::max(1, n / 2),
+              [&](const Vec2& uv) { return Vec3(at + Vec3(uv.x(), uv.y() - 0.1 * length, 0)); });
     const int second = g.panels.panels[1].first_vertex, top_row = std::max(1, n / 2) * (n + 1);
     std::vector<int> a, b;
     for (int c = 0; c <= n; ++c) {
@@ -79,8 +94,9 @@ Garment make_garment(const Parameters& p) {
     g.scene.pins.push_back({{"short", Vec2(0, 1), Vec2(1, 1)}, false, Vec3::Zero(), 1e4});
   } else if (kind == "pillow") { // two squares sewn all around
     for (int side = 0; side < 2; ++side)
-      add_panel(g, side ? "back" : "front", length, length, n, n,
-                [&](const Vec2& uv) { return Vec3(at + Vec3(side ? -uv.x() : uv.x(), uv.y(), side ? -0.02 : 0.02)); });
+      add_panel(g, side ? "back" : "front", length, length, n, n, [&](const Vec2& uv) {
+        return Vec3(at + Vec3(side ? -uv.x() : uv.x(), uv.y(), side ? -0.02 : 0.02));
+      });
     const int back = g.panels.panels[1].first_vertex;
     auto id = [&](int r, int c) { return r * (n + 1) + c; };
     std::vector<int> a, b;
@@ -129,7 +145,8 @@ void spoil(Garment& g, const std::string& what) {
   else throw input_error("", "spoil", what + " is no fault of these scenes");
 }
 
-void measure(Outcome& out, const Garment& g, const garment::DrapeReport& report, const collision::BodyCollider* body) {
+void measure(Outcome& out, const Garment& g, const garment::DrapeReport& report,
+             const collision::BodyCollider* body) {
   out.said = stop_text(report);
   for (const std::string& r : report.repairs) out.said += "; " + r;
   out.exit = report.converged ? 0 : 4;
@@ -146,7 +163,10 @@ void measure(Outcome& out, const Garment& g, const garment::DrapeReport& report,
   out.value["steps"] = report.steps;
   double top = -1e9, turned = 0;
   for (const Vec3& q : g.position) top = std::max(top, q.y());
-  for (const Triangle& t : g.particle_triangles()) turned += (g.position[t[1]] - g.position[t[0]]).cross(g.position[t[2]] - g.position[t[0]]).norm() < 1e-9;
+  for (const Triangle& t : g.particle_triangles())
+    turned +=
+        (g.position[t[1]] - g.position[t[0]]).cross(g.position[t[2]] - g.position[t[0]]).norm() <
+        1e-9;
   out.value["top_m"] = top;
   out.value["collapsed_faces"] = turned;
 }
@@ -186,10 +206,14 @@ Outcome drape_scene(const Parameters& p, std::uint64_t seed) {
   }
   g.scene.pressure_pa = p.number("pressure_pa", 0);
   if (const double ratio = p.number("band_ratio", 0); ratio > 0)
-    for (const pattern::PanelInfo& panel : g.panels.panels) g.scene.bands.push_back({{panel.name, Vec2(0, 1), Vec2(1, 1)}, ratio, p.number("band_n", 30)});
-  if (const double shrink = p.number("shrink", 1); shrink != 1) g.scene.shrink.push_back({"", shrink, shrink, Vec2(0, 0.3), Vec2(1, 0.6)});
+    for (const pattern::PanelInfo& panel : g.panels.panels)
+      g.scene.bands.push_back(
+          {{panel.name, Vec2(0, 1), Vec2(1, 1)}, ratio, p.number("band_n", 30)});
+  if (const double shrink = p.number("shrink", 1); shrink != 1)
+    g.scene.shrink.push_back({"", shrink, shrink, Vec2(0, 0.3), Vec2(1, 0.6)});
   if (const double crease = p.number("crease_deg", 0); crease != 0)
-    g.scene.creases.push_back({{g.panels.panels[0].name, Vec2(0, 0.5), Vec2(1, 0.5)}, crease * M_PI / 180});
+    g.scene.creases.push_back(
+        {{g.panels.panels[0].name, Vec2(0, 0.5), Vec2(1, 0.5)}, crease * M_PI / 180});
 
   garment::DrapeSettings settings = garment::preset_settings(p.text("accuracy", "draft"));
   settings.time_step_s = p.number("h", settings.time_step_s);
@@ -220,7 +244,9 @@ Outcome drape_scene(const Parameters& p, std::uint64_t seed) {
   if (on) truth = collision::BodyCollider(whole);
   measure(out, g, report, on ? &truth : nullptr);
   const std::string damage_kind = p.text("damage", "none");
-  if (on && (damage_kind == "noise" || damage_kind == "holes")) { // of skin that is off by noise or gone the drape can claim nothing but what it was given
+  if (on && (damage_kind == "noise" ||
+             damage_kind == "holes")) { // of skin that is off by noise or gone the drape can claim
+                                        // nothing but what it was given
     const collision::BodyCollider given(skin);
     out.value["honest"] = !report.converged || garment::audit(g, &given).clean();
   }

@@ -1,4 +1,5 @@
-/// Documents and scans with something wrong in them: refused with file, place and fact, or repaired; never half understood.
+/// Documents and scans with something wrong in them: refused with file, place and fact, or
+/// repaired; never half understood.
 #include <support/drape_scene.hpp>
 
 #include "scene_tools.hpp"
@@ -34,8 +35,10 @@ struct Folder {
   Folder& operator=(const Folder&) = delete;
 };
 
-/// Puts `word` in the place of a number in the text, which one is random. @return false when there is none
-bool replace_number(std::string& text, const std::string& word, std::uint64_t seed, std::size_t from) {
+/// Puts `word` in the place of a number in the text, which one is random. @return false when there
+/// is none
+bool replace_number(std::string& text, const std::string& word, std::uint64_t seed,
+                    std::size_t from) {
   std::vector<std::pair<std::size_t, std::size_t>> numbers;
   bool quoted = false;
   for (std::size_t i = from; i < text.size();) {
@@ -46,7 +49,9 @@ bool replace_number(std::string& text, const std::string& word, std::uint64_t se
       continue;
     }
     std::size_t end = i;
-    while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '.')) ++end;
+    while (end < text.size() &&
+           (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '.'))
+      ++end;
     numbers.emplace_back(i, end - i);
     i = end;
   }
@@ -64,7 +69,8 @@ const char* PATTERN = R"({"format": "pattern", "version": 1, "name": "square", "
 
 /// A small OBJ with one thing wrong in it.
 std::string broken_obj(const std::string& what) {
-  const std::string good = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 3 4\n";
+  const std::string good =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 3 4\n";
   if (what == "nan") return "v nan 0 0\n" + good;
   if (what == "infinity") return "v 1e999 0 0\n" + good;
   if (what == "text") return "v one two three\n" + good;
@@ -86,7 +92,8 @@ std::string broken_obj(const std::string& what) {
 
 Outcome file_scene(const Parameters& p, std::uint64_t seed) {
   const Folder folder;
-  const std::string kind = p.text("document", "panels"), word = p.text("word", "NaN"), into = p.text("into", "json");
+  const std::string kind = p.text("document", "panels"), word = p.text("word", "NaN"),
+                    into = p.text("into", "json");
   Outcome out;
   if (kind == "scan") {
     const std::string path = (folder.path / "scan.obj").string();
@@ -107,7 +114,8 @@ Outcome file_scene(const Parameters& p, std::uint64_t seed) {
     b.stance_class = "A";
     body::write_body(path, b, "test");
   } else if (kind == "scene") {
-    std::ofstream(path) << R"({"format": "scene", "version": 1, "settings": {"time_step_s": 0.03, "cg_tolerance": 0.01}, "wind_m_s": [0, 0, 1]})";
+    std::ofstream(path)
+        << R"({"format": "scene", "version": 1, "settings": {"time_step_s": 0.03, "cg_tolerance": 0.01}, "wind_m_s": [0, 0, 1]})";
   } else if (kind == "pattern") {
     std::ofstream(path) << PATTERN;
   }
@@ -115,7 +123,8 @@ Outcome file_scene(const Parameters& p, std::uint64_t seed) {
   std::string text = io::read_file(target);
   const std::size_t from = into == "obj" ? text.find("\nv ") : text.find("version") + 12;
   if (word == "cut") text.resize(text.size() / 2 + seed % 7);
-  else if (!replace_number(text, word, seed, from)) throw std::runtime_error("no number in " + target);
+  else if (!replace_number(text, word, seed, from))
+    throw std::runtime_error("no number in " + target);
   std::ofstream(target, std::ios::binary | std::ios::trunc) << text;
   if (kind == "panels") pattern::read_panel_mesh(path);
   else if (kind == "garment") garment::read_garment(path);
@@ -136,7 +145,8 @@ Outcome scan_scene(const Parameters& p, std::uint64_t seed) {
   body::ScanOptions options;
   options.jitter = 0;
   options.unit = p.text("say_unit", "auto");
-  const body::MeasuredScan found = body::measure_scan(mesh, "scan.obj", "", options, silent_reporter());
+  const body::MeasuredScan found =
+      body::measure_scan(mesh, "scan.obj", "", options, silent_reporter());
   Outcome out;
   out.value["stature_m"] = found.body.scan.stature_m;
   bool finite = true;

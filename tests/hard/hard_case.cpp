@@ -69,13 +69,19 @@ io::Json merged(io::Json base, const io::Json& overrides) {
 
 io::Json to_json(const Outcome& o) {
   io::Json values = io::Json::object();
-  for (const auto& [name, v] : o.value) values[name] = std::isfinite(v) ? io::Json(v) : io::Json("not finite");
-  return {{"values", values}, {"said", o.said}, {"exit", o.exit}, {"hash", o.hash}, {"quantised", o.quantised}};
+  for (const auto& [name, v] : o.value)
+    values[name] = std::isfinite(v) ? io::Json(v) : io::Json("not finite");
+  return {{"values", values},
+          {"said", o.said},
+          {"exit", o.exit},
+          {"hash", o.hash},
+          {"quantised", o.quantised}};
 }
 
 Outcome from_json(const io::Json& json) {
   Outcome o;
-  for (const auto& [name, v] : json["values"].items()) o.value[name] = v.is_number() ? v.get<double>() : std::nan("");
+  for (const auto& [name, v] : json["values"].items())
+    o.value[name] = v.is_number() ? v.get<double>() : std::nan("");
   o.said = json["said"];
   o.exit = json["exit"];
   o.hash = json["hash"];
@@ -93,12 +99,14 @@ Outcome run_scene(const Case& c, const io::Json& parameters, std::uint64_t seed)
     o.exit = e.exit_code();
     return o;
   }
-  for (const std::string& key : p.unused()) throw std::runtime_error(c.file + ": the scene " + c.scene + " knows no parameter " + key);
+  for (const std::string& key : p.unused())
+    throw std::runtime_error(c.file + ": the scene " + c.scene + " knows no parameter " + key);
   return o;
 }
 
 /// In the child: the outcome as text, to the pipe.
-[[noreturn]] void work_in_child(const Case& c, const io::Json& parameters, std::uint64_t seed, int threads, int pipe) {
+[[noreturn]] void work_in_child(const Case& c, const io::Json& parameters, std::uint64_t seed,
+                                int threads, int pipe) {
   const auto seconds = static_cast<rlim_t>(std::ceil(SLOWER * c.cpu_s * threads));
   const rlimit limit{seconds, seconds + 2};
   setrlimit(RLIMIT_CPU, &limit);
@@ -110,10 +118,13 @@ Outcome run_scene(const Case& c, const io::Json& parameters, std::uint64_t seed)
     Outcome o = run_scene(c, parameters, seed);
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    o.value["cpu_s"] = (static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec)) / SLOWER;
+    o.value["cpu_s"] = (static_cast<double>(usage.ru_utime.tv_sec) +
+                        1e-6 * static_cast<double>(usage.ru_utime.tv_usec)) /
+                       SLOWER;
     text = to_json(o).dump(-1, ' ', true, io::Json::error_handler_t::replace);
   } catch (const std::exception& e) {
-    text = to_json({{}, std::string("exception: ") + e.what(), 70, "", ""}).dump(-1, ' ', true, io::Json::error_handler_t::replace);
+    text = to_json({{}, std::string("exception: ") + e.what(), 70, "", ""})
+               .dump(-1, ' ', true, io::Json::error_handler_t::replace);
   }
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t n = write(pipe, text.data() + done, text.size() - done);
@@ -123,7 +134,8 @@ Outcome run_scene(const Case& c, const io::Json& parameters, std::uint64_t seed)
   _exit(0);
 }
 
-Outcome run_apart(const Case& c, const io::Json& parameters, std::uint64_t seed, int threads, std::string& died) {
+Outcome run_apart(const Case& c, const io::Json& parameters, std::uint64_t seed, int threads,
+                  std::string& died) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
   const pid_t child = fork();
@@ -135,13 +147,16 @@ Outcome run_apart(const Case& c, const io::Json& parameters, std::uint64_t seed,
   close(ends[1]);
   std::string text;
   char buffer[4096];
-  for (ssize_t n; (n = read(ends[0], buffer, sizeof buffer)) > 0;) text.append(buffer, static_cast<std::size_t>(n));
+  for (ssize_t n; (n = read(ends[0], buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<std::size_t>(n));
   close(ends[0]);
   int status = 0;
   waitpid(child, &status, 0);
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
-    died = signal == SIGXCPU || signal == SIGKILL ? "did not end within " + short_text(c.cpu_s) + " CPU s" : std::string("crashed: ") + strsignal(signal);
+    died = signal == SIGXCPU || signal == SIGKILL
+               ? "did not end within " + short_text(c.cpu_s) + " CPU s"
+               : std::string("crashed: ") + strsignal(signal);
   } else if (WEXITSTATUS(status) != 0 || text.empty()) {
     died = "ended without a result, exit " + std::to_string(WEXITSTATUS(status));
   }
@@ -153,7 +168,8 @@ std::string check_bounds(const Case& c, const Outcome& o, const Outcome& referen
   auto add = [&](const std::string& text) { broken += (broken.empty() ? "" : "; ") + text; };
   auto value_of = [&](const std::string& name, double& v) {
     const std::string suffix = "/reference";
-    const bool relative = name.size() > suffix.size() && name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0;
+    const bool relative = name.size() > suffix.size() &&
+                          name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0;
     const std::string plain = relative ? name.substr(0, name.size() - suffix.size()) : name;
     const auto found = o.value.find(plain);
     if (found == o.value.end()) return false;
@@ -162,7 +178,8 @@ std::string check_bounds(const Case& c, const Outcome& o, const Outcome& referen
     return true;
   };
   if (o.exit == 70) add("our own mistake: " + o.said);
-  if (const auto found = o.value.find("finite"); found != o.value.end() && found->second != 1) add("not finite");
+  if (const auto found = o.value.find("finite"); found != o.value.end() && found->second != 1)
+    add("not finite");
   bool exit_named = false;
   for (const auto& [name, bound] : c.pass.items()) {
     if (name == "exit") {
@@ -172,7 +189,8 @@ std::string check_bounds(const Case& c, const Outcome& o, const Outcome& referen
       continue;
     }
     if (name == "says") {
-      if (o.exit != 0 && !std::regex_search(o.said, std::regex(bound.get<std::string>()))) add("says \"" + o.said + "\"");
+      if (o.exit != 0 && !std::regex_search(o.said, std::regex(bound.get<std::string>())))
+        add("says \"" + o.said + "\"");
       continue;
     }
     double v = 0;
@@ -193,8 +211,8 @@ std::string check_bounds(const Case& c, const Outcome& o, const Outcome& referen
 Case read_case(const std::string& path) {
   const io::Json json = io::read_document(path, "hard-case", 1);
   const io::Node node(json, path);
-  node.allow_only(
-      {"format", "version", "name", "elsewhere", "invariant", "scene", "parameters", "sweep", "pass", "reference", "seeds", "ci", "cpu_s", "failing"});
+  node.allow_only({"format", "version", "name", "elsewhere", "invariant", "scene", "parameters",
+                   "sweep", "pass", "reference", "seeds", "ci", "cpu_s", "failing"});
   Case c;
   c.file = std::filesystem::path(path).stem().string();
   c.name = node.at("name").string();
@@ -218,8 +236,9 @@ Case read_case(const std::string& path) {
     bool met = false;
     for (Point& p : c.points) {
       const io::Json at = f.value("at", io::Json::object());
-      const bool same =
-          std::all_of(at.items().begin(), at.items().end(), [&](const auto& item) { return p.overrides.value(item.key(), io::Json()) == item.value(); });
+      const bool same = std::all_of(at.items().begin(), at.items().end(), [&](const auto& item) {
+        return p.overrides.value(item.key(), io::Json()) == item.value();
+      });
       if (same) p.failing = f.at("why").get<std::string>();
       met |= same;
     }
@@ -243,7 +262,8 @@ Verdict run_point(const Case& c, const Point& point, std::uint64_t seed, int thr
   const io::Json parameters = merged(c.parameters, point.overrides);
   v.outcome = run_apart(c, parameters, seed, threads, v.broken);
   Outcome reference;
-  if (v.broken.empty() && !c.reference.is_null()) reference = run_apart(c, merged(parameters, c.reference), seed, threads, v.broken);
+  if (v.broken.empty() && !c.reference.is_null())
+    reference = run_apart(c, merged(parameters, c.reference), seed, threads, v.broken);
   if (v.broken.empty()) v.broken = check_bounds(c, v.outcome, reference);
   return v;
 }

@@ -1,6 +1,7 @@
-/// run-hard: every case over its sweep and seeds; prints the table, writes it as Markdown; exit 1 when something breaks that is not
-/// listed as failing, or something listed holds. --hashes keeps each point's final state as two hashes, to compare builds. --kept
-/// keeps each run as it ends and does not do it again.
+/// run-hard: every case over its sweep and seeds; prints the table, writes it as Markdown; exit 1
+/// when something breaks that is not listed as failing, or something listed holds. --hashes keeps
+/// each point's final state as two hashes, to compare builds. --kept keeps each run as it ends and
+/// does not do it again.
 #include "hard_case.hpp"
 
 #include <base/error.hpp>
@@ -31,20 +32,25 @@ struct Result {
   std::string hashes; ///< of the first seed: strict, quantised
 };
 
-/// Runs that were done before, by case, point and seed; new ones are added to the file as they end, so that a run can be broken off.
+/// Runs that were done before, by case, point and seed; new ones are added to the file as they end,
+/// so that a run can be broken off.
 class Kept {
 public:
   explicit Kept(const std::string& path) : m_path(path) {
     std::ifstream in(path);
     for (std::string line; std::getline(in, line);)
-      if (const io::Json j = io::Json::parse(line, nullptr, false); !j.is_discarded()) m_runs[j["run"].get<std::string>()] = j;
+      if (const io::Json j = io::Json::parse(line, nullptr, false); !j.is_discarded())
+        m_runs[j["run"].get<std::string>()] = j;
   }
   const io::Json* find(const std::string& key) const {
     const auto found = m_runs.find(key);
     return found == m_runs.end() ? nullptr : &found->second;
   }
   void add(const io::Json& run) const {
-    if (!m_path.empty()) std::ofstream(m_path, std::ios::app) << run.dump(-1, ' ', true, io::Json::error_handler_t::replace) + "\n" << std::flush;
+    if (!m_path.empty())
+      std::ofstream(m_path, std::ios::app)
+          << run.dump(-1, ' ', true, io::Json::error_handler_t::replace) + "\n"
+          << std::flush;
   }
 
 private:
@@ -53,13 +59,16 @@ private:
 };
 
 /// One run, and for the first seed the same again with two threads.
-io::Json run_once(const Case& c, const Point& point, int seed, const std::string& key, bool verbose) {
+io::Json run_once(const Case& c, const Point& point, int seed, const std::string& key,
+                  bool verbose) {
   const Verdict v = run_point(c, point, static_cast<std::uint64_t>(seed));
   if (verbose) {
     std::string text;
-    for (const auto& [name, value] : v.outcome.value) text += " " + name + "=" + std::to_string(value);
-    std::fprintf(stderr, "  %s [%s] seed %d: %s exit %d%s said \"%s\" %s\n", c.file.c_str(), point.name.c_str(), seed, v.broken.empty() ? "holds" : "BREAKS",
-                 v.outcome.exit, text.c_str(), v.outcome.said.c_str(), v.broken.c_str());
+    for (const auto& [name, value] : v.outcome.value)
+      text += " " + name + "=" + std::to_string(value);
+    std::fprintf(stderr, "  %s [%s] seed %d: %s exit %d%s said \"%s\" %s\n", c.file.c_str(),
+                 point.name.c_str(), seed, v.broken.empty() ? "holds" : "BREAKS", v.outcome.exit,
+                 text.c_str(), v.outcome.said.c_str(), v.broken.c_str());
   }
   const auto cpu = v.outcome.value.find("cpu_s");
   io::Json out = {{"run", key},
@@ -67,7 +76,8 @@ io::Json run_once(const Case& c, const Point& point, int seed, const std::string
                   {"cpu", cpu == v.outcome.value.end() ? 0.0 : cpu->second},
                   {"hash", v.outcome.hash},
                   {"quantised", v.outcome.quantised}};
-  if (seed == 0 && !v.outcome.hash.empty()) out["same"] = run_point(c, point, 0, 2).outcome.hash == v.outcome.hash;
+  if (seed == 0 && !v.outcome.hash.empty())
+    out["same"] = run_point(c, point, 0, 2).outcome.hash == v.outcome.hash;
   return out;
 }
 
@@ -85,7 +95,8 @@ Result run(const Case& c, const Point& point, int seeds, bool verbose, const Kep
     const std::string broken = one["broken"];
     ++r.runs;
     r.held += broken.empty();
-    if (!broken.empty() && r.broken.empty()) r.broken = "seed " + std::to_string(seed) + ": " + broken;
+    if (!broken.empty() && r.broken.empty())
+      r.broken = "seed " + std::to_string(seed) + ": " + broken;
     r.cpu_s = std::max(r.cpu_s, one["cpu"].get<double>());
     if (one.contains("same")) { // the same bytes again, with two threads
       r.has_bytes = true;
@@ -114,13 +125,15 @@ Options parse(int argc, char** argv) {
     else if (a == "-v") o.verbose = true;
     else
       throw Error(ErrorKind::USAGE, "", a, "is not known",
-                  "run-hard [--cases DIR] [--only NAME] [--seeds N] [--jobs N] [--table FILE] [--hashes FILE] [--kept FILE] [-v]");
+                  "run-hard [--cases DIR] [--only NAME] [--seeds N] [--jobs N] [--table FILE] "
+                  "[--hashes FILE] [--kept FILE] [-v]");
   }
   return o;
 }
 
 std::string cell(std::string text) {
-  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.replace(at, 1, "\\|");
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+    text.replace(at, 1, "\\|");
   for (char& ch : text)
     if (ch == '\n') ch = ' ';
   return text;
@@ -142,13 +155,23 @@ int main_of(const Options& o) {
     files.push_back(std::tmpfile());
     const pid_t pid = fork();
     if (pid == 0) {
-      for (std::size_t i = static_cast<std::size_t>(w); i < points.size(); i += static_cast<std::size_t>(o.jobs)) {
+      for (std::size_t i = static_cast<std::size_t>(w); i < points.size();
+           i += static_cast<std::size_t>(o.jobs)) {
         const auto& [c, p] = points[i];
-        const Result r = run(*c, *p, o.seeds > 0 ? std::min(o.seeds, c->seeds) : c->seeds, o.verbose, kept);
-        const io::Json line = {{"i", i},         {"runs", r.runs},    {"held", r.held}, {"same", r.same_bytes}, {"bytes", r.has_bytes}, {"broken", r.broken},
-                               {"cpu", r.cpu_s}, {"hashes", r.hashes}};
-        std::fprintf(files[static_cast<std::size_t>(w)], "%s\n", line.dump(-1, ' ', true, io::Json::error_handler_t::replace).c_str());
-        std::fprintf(stderr, "%zu/%zu %s [%s]: %d of %d%s\n", i + 1, points.size(), c->file.c_str(), p->name.c_str(), r.held, r.runs,
+        const Result r =
+            run(*c, *p, o.seeds > 0 ? std::min(o.seeds, c->seeds) : c->seeds, o.verbose, kept);
+        const io::Json line = {{"i", i},
+                               {"runs", r.runs},
+                               {"held", r.held},
+                               {"same", r.same_bytes},
+                               {"bytes", r.has_bytes},
+                               {"broken", r.broken},
+                               {"cpu", r.cpu_s},
+                               {"hashes", r.hashes}};
+        std::fprintf(files[static_cast<std::size_t>(w)], "%s\n",
+                     line.dump(-1, ' ', true, io::Json::error_handler_t::replace).c_str());
+        std::fprintf(stderr, "%zu/%zu %s [%s]: %d of %d%s\n", i + 1, points.size(), c->file.c_str(),
+                     p->name.c_str(), r.held, r.runs,
                      r.broken.empty() ? "" : (", " + r.broken).c_str());
       }
       std::fflush(files[static_cast<std::size_t>(w)]);
@@ -162,7 +185,8 @@ int main_of(const Options& o) {
     std::rewind(files[w]);
     std::string text;
     char buffer[4096];
-    for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, files[w])) > 0;) text.append(buffer, n);
+    for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, files[w])) > 0;)
+      text.append(buffer, n);
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
       const io::Json j = io::Json::parse(line);
@@ -172,7 +196,8 @@ int main_of(const Options& o) {
   }
 
   std::ostringstream table, failing;
-  table << "| case | goes wrong elsewhere | what must hold | held | same bytes, 1 and 2 threads | most CPU s |\n|---|---|---|---|---|---|\n";
+  table << "| case | goes wrong elsewhere | what must hold | held | same bytes, 1 and 2 threads | "
+           "most CPU s |\n|---|---|---|---|---|---|\n";
   int wrong = 0, whole = 0, runs = 0, held = 0;
   for (std::size_t i = 0; i < points.size();) {
     const Case& c = *points[i].first;
@@ -189,11 +214,13 @@ int main_of(const Options& o) {
       cpu = std::max(cpu, r.cpu_s);
       const bool breaks = r.held < r.runs || r.runs == 0;
       if (breaks) {
-        failing << "- **" << c.name << "**" << (p.name.empty() ? "" : " at " + p.name) << ": " << r.held << " of " << r.runs << " hold; " << cell(r.broken)
+        failing << "- **" << c.name << "**" << (p.name.empty() ? "" : " at " + p.name) << ": "
+                << r.held << " of " << r.runs << " hold; " << cell(r.broken)
                 << (p.failing.empty() ? " **(not listed)**" : ". " + p.failing) << "\n";
         if (p.failing.empty()) ++wrong;
       } else if (!p.failing.empty()) {
-        std::printf("%s [%s] is listed as failing and holds: take it off the list\n", c.file.c_str(), p.name.c_str());
+        std::printf("%s [%s] is listed as failing and holds: take it off the list\n",
+                    c.file.c_str(), p.name.c_str());
         if (o.seeds == 0) ++wrong;
       }
       if (!r.same_bytes) {
@@ -206,26 +233,34 @@ int main_of(const Options& o) {
     whole += good == n;
     char seconds[16];
     std::snprintf(seconds, sizeof seconds, "%.1f", cpu);
-    table << "| " << cell(c.name) << " | " << cell(c.elsewhere) << " | " << cell(c.invariant) << " | " << good << " of " << n << " | "
+    table << "| " << cell(c.name) << " | " << cell(c.elsewhere) << " | " << cell(c.invariant)
+          << " | " << good << " of " << n << " | "
           << (!bytes ? "-"
               : same ? "yes"
                      : "**no**")
           << " | " << seconds << " |\n";
   }
   std::ostringstream head;
-  head << cases.size() << " cases, " << points.size() << " points, " << runs << " runs: " << held << " hold; " << whole << " cases hold throughout.";
-  const std::string tail = failing.str().empty() ? "" : "\n## What does not hold yet\n\n" + failing.str();
+  head << cases.size() << " cases, " << points.size() << " points, " << runs << " runs: " << held
+       << " hold; " << whole << " cases hold throughout.";
+  const std::string tail =
+      failing.str().empty() ? "" : "\n## What does not hold yet\n\n" + failing.str();
   std::printf("%s\n\n%s%s", head.str().c_str(), table.str().c_str(), tail.c_str());
   if (!o.hashes.empty()) {
     std::ofstream out(o.hashes);
-    for (std::size_t i = 0; i < points.size(); ++i) out << points[i].first->file << " [" << points[i].second->name << "] " << results[i].hashes << "\n";
+    for (std::size_t i = 0; i < points.size(); ++i)
+      out << points[i].first->file << " [" << points[i].second->name << "] " << results[i].hashes
+          << "\n";
   }
   if (!o.table.empty()) {
     std::ofstream out(o.table);
-    out << "# Hard cases\n\nMade by `make hard` from `tests/hard/cases`: every case over its sweep, each point from 20 jittered starts (fewer where said by "
+    out << "# Hard cases\n\nMade by `make hard` from `tests/hard/cases`: every case over its "
+           "sweep, each point from 20 jittered starts (fewer where said by "
            "the\n"
-           "count), each run in a process of its own with a limit of CPU time. A case holds when the state is finite, the exit code is right, the\n"
-           "report says what happened, and what stands under \"must hold\" is within its bounds.\n\n**"
+           "count), each run in a process of its own with a limit of CPU time. A case holds when "
+           "the state is finite, the exit code is right, the\n"
+           "report says what happened, and what stands under \"must hold\" is within its "
+           "bounds.\n\n**"
         << head.str() << "**\n\n"
         << table.str() << tail;
   }

@@ -1,5 +1,6 @@
-/// run-soak: random scenes, bodies, garments, materials, settings and edits, each from its number; what fails is made as small as it can be
-/// and kept as a case file. Scene k is the same on every machine, so slices of any size cover 10,000 together.
+/// run-soak: random scenes, bodies, garments, materials, settings and edits, each from its number;
+/// what fails is made as small as it can be and kept as a case file. Scene k is the same on every
+/// machine, so slices of any size cover 10,000 together.
 #include "hard_case.hpp"
 
 #include <base/error.hpp>
@@ -18,7 +19,8 @@ struct Choice {
   std::vector<io::Json> values;
 };
 
-/// What a scene of each kind may differ by. Ranges are wide but physical; what is refused on purpose has hard cases of its own.
+/// What a scene of each kind may differ by. Ranges are wide but physical; what is refused on
+/// purpose has hard cases of its own.
 const std::vector<Choice>& choices(const std::string& scene) {
   static const std::vector<Choice> sheet = {
       {"cells_x", {1, 3, 6, 12}},
@@ -52,7 +54,8 @@ const std::vector<Choice>& choices(const std::string& scene) {
   static const std::vector<Choice> contact = {
       {"body", {"sphere", "spheres", "ridge", "spike", "plate", "triangle"}},
       {"fineness", {5, 10, 30}},
-      {"damage", {"holes", "noise", "flipped", "inside_out", "duplicates", "fins", "cracks", "zero_area"}},
+      {"damage",
+       {"holes", "noise", "flipped", "inside_out", "duplicates", "fins", "cracks", "zero_area"}},
       {"cells", {2, 6, 12}},
       {"layers", {2, 3}},
       {"height_m", {0.05, 0.09, 0.101, 0.15}},
@@ -111,7 +114,8 @@ Case make_scene(std::uint64_t number) {
   c.name = "Random scene " + std::to_string(number);
   c.parameters = io::Json::object();
   for (const Choice& choice : choices(c.scene))
-    if (random.uniform() < 0.25) c.parameters[choice.parameter] = choice.values[random.next() % choice.values.size()];
+    if (random.uniform() < 0.25)
+      c.parameters[choice.parameter] = choice.values[random.next() % choice.values.size()];
   if (c.scene == "sheet") c.parameters["steps"] = 25;
   if (c.scene == "contact") c.parameters["duration_s"] = 0.5;
   if (c.scene == "drape") {
@@ -127,7 +131,9 @@ Case make_scene(std::uint64_t number) {
   return c;
 }
 
-std::string fails(const Case& c, std::uint64_t seed) { return run_point(c, c.points[0], seed).broken; }
+std::string fails(const Case& c, std::uint64_t seed) {
+  return run_point(c, c.points[0], seed).broken;
+}
 
 /// Parameters are left out one by one while the scene still fails.
 Case minimise(Case c, std::uint64_t seed) {
@@ -137,7 +143,8 @@ Case minimise(Case c, std::uint64_t seed) {
     for (const auto& [key, value] : all.items()) {
       Case less = c;
       less.parameters.erase(key);
-      if (key == "steps" || key == "max_steps" || key == "duration_s" || fails(less, seed).empty()) continue;
+      if (key == "steps" || key == "max_steps" || key == "duration_s" || fails(less, seed).empty())
+        continue;
       c = less;
       smaller = true;
     }
@@ -147,9 +154,15 @@ Case minimise(Case c, std::uint64_t seed) {
 
 void keep(const Case& c, const std::string& broken, const std::string& folder) {
   std::filesystem::create_directories(folder);
-  const io::Json document = {
-      {"format", "hard-case"},      {"version", 1},   {"name", c.name},  {"elsewhere", "found by run-soak"}, {"invariant", broken}, {"scene", c.scene},
-      {"parameters", c.parameters}, {"pass", c.pass}, {"cpu_s", c.cpu_s}};
+  const io::Json document = {{"format", "hard-case"},
+                             {"version", 1},
+                             {"name", c.name},
+                             {"elsewhere", "found by run-soak"},
+                             {"invariant", broken},
+                             {"scene", c.scene},
+                             {"parameters", c.parameters},
+                             {"pass", c.pass},
+                             {"cpu_s", c.cpu_s}};
   io::write_json((std::filesystem::path(folder) / (c.file + ".json")).string(), document);
 }
 
@@ -161,7 +174,9 @@ int main_of(int argc, char** argv) {
     if (a == "--from") from = std::stoull(argv[i + 1]);
     else if (a == "--count") count = std::stoull(argv[i + 1]);
     else if (a == "--out") out = argv[i + 1];
-    else throw Error(ErrorKind::USAGE, "", a, "is not known", "run-soak [--from K] [--count N] [--out DIR]");
+    else
+      throw Error(ErrorKind::USAGE, "", a, "is not known",
+                  "run-soak [--from K] [--count N] [--out DIR]");
   }
   std::uint64_t failed = 0, refused = 0, unfinished = 0, other_bytes = 0;
   double longest = 0;
@@ -170,26 +185,33 @@ int main_of(int argc, char** argv) {
     const Verdict v = run_point(c, c.points[0], k);
     refused += v.outcome.exit == 3;
     unfinished += v.outcome.exit == 4;
-    if (const auto cpu = v.outcome.value.find("cpu_s"); cpu != v.outcome.value.end()) longest = std::max(longest, cpu->second);
-    if (v.broken.empty() && k % 10 == 0 && run_point(c, c.points[0], k, 2).outcome.hash != v.outcome.hash) {
+    if (const auto cpu = v.outcome.value.find("cpu_s"); cpu != v.outcome.value.end())
+      longest = std::max(longest, cpu->second);
+    if (v.broken.empty() && k % 10 == 0 &&
+        run_point(c, c.points[0], k, 2).outcome.hash != v.outcome.hash) {
       ++other_bytes;
       std::printf("scene %llu: other bytes with two threads\n", static_cast<unsigned long long>(k));
     }
     if ((k + 1 - from) % 100 == 0) {
-      std::printf("%llu scenes done: %llu fail\n", static_cast<unsigned long long>(k + 1 - from), static_cast<unsigned long long>(failed));
+      std::printf("%llu scenes done: %llu fail\n", static_cast<unsigned long long>(k + 1 - from),
+                  static_cast<unsigned long long>(failed));
       std::fflush(stdout);
     }
     if (v.broken.empty()) continue;
     ++failed;
     const Case small = minimise(c, k);
-    std::printf("scene %llu fails: %s\n  %s %s\n", static_cast<unsigned long long>(k), v.broken.c_str(), small.scene.c_str(), small.parameters.dump().c_str());
+    std::printf("scene %llu fails: %s\n  %s %s\n", static_cast<unsigned long long>(k),
+                v.broken.c_str(), small.scene.c_str(), small.parameters.dump().c_str());
     std::fflush(stdout);
     if (!out.empty()) keep(small, v.broken, out);
   }
-  std::printf("%llu scenes from %llu: %llu fail, %llu differ with two threads; %llu refused (exit 3), %llu not at rest within their steps (exit 4); longest "
+  std::printf("%llu scenes from %llu: %llu fail, %llu differ with two threads; %llu refused (exit "
+              "3), %llu not at rest within their steps (exit 4); longest "
               "%.1f CPU s\n",
-              static_cast<unsigned long long>(count), static_cast<unsigned long long>(from), static_cast<unsigned long long>(failed),
-              static_cast<unsigned long long>(other_bytes), static_cast<unsigned long long>(refused), static_cast<unsigned long long>(unfinished), longest);
+              static_cast<unsigned long long>(count), static_cast<unsigned long long>(from),
+              static_cast<unsigned long long>(failed), static_cast<unsigned long long>(other_bytes),
+              static_cast<unsigned long long>(refused), static_cast<unsigned long long>(unfinished),
+              longest);
   return failed + other_bytes > 0 ? 1 : 0;
 }
 

@@ -12,8 +12,10 @@ namespace {
 
 using shapes::append;
 
-/// Closed surface about the vertical through `center`: radius(t) at height(t), t in (0, 1); a point at each end.
-TriangleMesh revolve(int around, int up, const std::function<double(double)>& radius, const std::function<double(double)>& height, const Vec3& center) {
+/// Closed surface about the vertical through `center`: radius(t) at height(t), t in (0, 1); a point
+/// at each end.
+TriangleMesh revolve(int around, int up, const std::function<double(double)>& radius,
+                     const std::function<double(double)>& height, const Vec3& center) {
   std::vector<shapes::Ring> rings;
   for (int r = 0; r <= up; ++r) {
     const double t = (r + 0.5) / (up + 1);
@@ -26,12 +28,14 @@ TriangleMesh revolve(int around, int up, const std::function<double(double)>& ra
 
 TriangleMesh sphere(double radius, int fineness, const Vec3& center) {
   return revolve(
-      2 * fineness, fineness, [=](double t) { return radius * std::sin(M_PI * t); }, [=](double t) { return -radius * std::cos(M_PI * t); }, center);
+      2 * fineness, fineness, [=](double t) { return radius * std::sin(M_PI * t); },
+      [=](double t) { return -radius * std::cos(M_PI * t); }, center);
 }
 
 TriangleMesh column(double radius, double low, double high, int fineness, const Vec3& center) {
   return revolve(
-      2 * fineness, 2 * fineness, [=](double) { return radius; }, [=](double t) { return low + t * (high - low); }, center);
+      2 * fineness, 2 * fineness, [=](double) { return radius; },
+      [=](double t) { return low + t * (high - low); }, center);
 }
 
 /// Prism along z with a convex section in x, y, counter-clockwise.
@@ -39,7 +43,8 @@ TriangleMesh prism(const std::vector<Vec2>& section, double length, int cells) {
   TriangleMesh m;
   const int n = static_cast<int>(section.size());
   for (int k = 0; k <= cells; ++k)
-    for (const Vec2& q : section) m.positions.emplace_back(q.x(), q.y(), length * (static_cast<double>(k) / cells - 0.5));
+    for (const Vec2& q : section)
+      m.positions.emplace_back(q.x(), q.y(), length * (static_cast<double>(k) / cells - 0.5));
   for (int k = 0; k < cells; ++k)
     for (int i = 0; i < n; ++i) {
       const int a = k * n + i, b = k * n + (i + 1) % n, c = a + n, d = b + n;
@@ -68,7 +73,8 @@ TriangleMesh make_body_mesh(const Parameters& p) {
   if (shape == "pillar" || shape == "arm" || shape == "groove") {
     auto figure = [&](double t) { // waist at y = 1, hips at 0.8
       const double y = 0.2 + t;
-      return y > 1 ? 0.12 + 0.3 * (y - 1) * (y - 1) : 0.12 + 0.008 * (1 - std::cos(M_PI * std::min((1 - y) / 0.2, 1.0)));
+      return y > 1 ? 0.12 + 0.3 * (y - 1) * (y - 1)
+                   : 0.12 + 0.008 * (1 - std::cos(M_PI * std::min((1 - y) / 0.2, 1.0)));
     };
     if (shape == "groove") {
       TriangleMesh m = column(radius, 0.2, 1.2, fineness, Vec3(radius + 0.5 * gap, 0, 0));
@@ -77,20 +83,25 @@ TriangleMesh make_body_mesh(const Parameters& p) {
     }
     TriangleMesh m = revolve(
         2 * fineness, 2 * fineness, figure, [](double t) { return 0.2 + t; }, Vec3::Zero());
-    if (shape == "arm") append(m, column(0.04, 0.45, 1.1, fineness / 2 + 4, Vec3(0.136 + 0.04 + gap, 0, 0)));
+    if (shape == "arm")
+      append(m, column(0.04, 0.45, 1.1, fineness / 2 + 4, Vec3(0.136 + 0.04 + gap, 0, 0)));
     return m;
   }
-  if (shape == "ridge") return prism({{-radius, -radius}, {radius, -radius}, {0, 0}}, 4 * radius, fineness);
+  if (shape == "ridge")
+    return prism({{-radius, -radius}, {radius, -radius}, {0, 0}}, 4 * radius, fineness);
   if (shape == "spike") {
     return revolve(
-        2 * fineness, fineness, [=](double t) { return radius * (1 - t) * (1 - t); }, [=](double t) { return 4 * radius * (t - 1); }, Vec3::Zero());
+        2 * fineness, fineness, [=](double t) { return radius * (1 - t) * (1 - t); },
+        [=](double t) { return 4 * radius * (t - 1); }, Vec3::Zero());
   }
-  if (shape == "triangle") return {{{-radius, 0, radius}, {radius, 0, radius}, {0, 0, -radius}}, {{0, 1, 2}}};
+  if (shape == "triangle")
+    return {{{-radius, 0, radius}, {radius, 0, radius}, {0, 0, -radius}}, {{0, 1, 2}}};
   if (shape == "plate") {
     TriangleMesh m;
     const int n = fineness;
     for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= n; ++j) m.positions.emplace_back(radius * (2.0 * i / n - 1), 0, radius * (2.0 * j / n - 1));
+      for (int j = 0; j <= n; ++j)
+        m.positions.emplace_back(radius * (2.0 * i / n - 1), 0, radius * (2.0 * j / n - 1));
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
         const int a = i * (n + 1) + j, b = a + n + 1;
@@ -124,7 +135,10 @@ void damage(TriangleMesh& mesh, const std::string& kind, std::uint64_t seed) {
   if (kind == "holes") {
     for (int k = 0; k < 12 && !f.empty(); ++k) {
       const Vec3 middle = mesh.positions[f[random.next() % f.size()][0]];
-      f.erase(std::remove_if(f.begin(), f.end(), [&](const Triangle& t) { return (mesh.positions[t[0]] - middle).norm() < 0.02; }), f.end());
+      f.erase(std::remove_if(
+                  f.begin(), f.end(),
+                  [&](const Triangle& t) { return (mesh.positions[t[0]] - middle).norm() < 0.02; }),
+              f.end());
     }
   } else if (kind == "noise") {
     jitter(mesh.positions, 0.002, seed + 1);
@@ -137,7 +151,8 @@ void damage(TriangleMesh& mesh, const std::string& kind, std::uint64_t seed) {
     for (int k = 0; k < 30; ++k) {
       const Vec3 at = random_point(random, {-0.6, 0, 0.4}, {0.6, 1.3, 0.6});
       const int base = static_cast<int>(mesh.positions.size());
-      for (int c = 0; c < 3; ++c) mesh.positions.push_back(at + 0.01 * random_point(random, Vec3::Zero(), Vec3::Ones()));
+      for (int c = 0; c < 3; ++c)
+        mesh.positions.push_back(at + 0.01 * random_point(random, Vec3::Zero(), Vec3::Ones()));
       f.push_back({base, base + 1, base + 2});
     }
   } else if (kind == "duplicates") {

@@ -16,12 +16,15 @@
 namespace sloper::hard {
 
 const std::map<std::string, Scene>& scenes() {
-  static const std::map<std::string, Scene> all = {{"sheet", sheet_scene}, {"contact", contact_scene}, {"drape", drape_scene}, {"file", file_scene},
-                                                   {"scan", scan_scene},   {"bending", bending_scene}, {"fault", fault_scene}};
+  static const std::map<std::string, Scene> all = {
+      {"sheet", sheet_scene}, {"contact", contact_scene}, {"drape", drape_scene},
+      {"file", file_scene},   {"scan", scan_scene},       {"bending", bending_scene},
+      {"fault", fault_scene}};
   return all;
 }
 
-Sheet make_sheet(const std::vector<double>& widths, const std::vector<double>& heights, const cloth::Fabric& fabric, bool hanging, const Vec3& first,
+Sheet make_sheet(const std::vector<double>& widths, const std::vector<double>& heights,
+                 const cloth::Fabric& fabric, bool hanging, const Vec3& first,
                  const std::vector<double>& layers) {
   Sheet s;
   s.columns = static_cast<int>(widths.size()) + 1;
@@ -38,7 +41,9 @@ Sheet make_sheet(const std::vector<double>& widths, const std::vector<double>& h
         flat.emplace_back(a, b);
         s.x.push_back(first + (hanging ? Vec3(a, -b, layers[layer]) : Vec3(a, layers[layer], -b)));
       }
-    auto add = [&](int a, int b, int c) { triangles.push_back({{base + a, base + b, base + c}, {flat[a], flat[b], flat[c]}, 0}); };
+    auto add = [&](int a, int b, int c) {
+      triangles.push_back({{base + a, base + b, base + c}, {flat[a], flat[b], flat[c]}, 0});
+    };
     for (int r = 0; r + 1 < s.rows; ++r)
       for (int c = 0; c + 1 < s.columns; ++c) {
         const int a = s.at(c, r), b = s.at(c + 1, r), d = s.at(c, r + 1), e = s.at(c + 1, r + 1);
@@ -63,7 +68,8 @@ cloth::Fabric fabric_of(const Parameters& p) {
 }
 
 void add_models(cloth::ClothSolver& solver, const cloth::ClothMesh& mesh, const Parameters& p) {
-  const std::string membrane = p.text("membrane", "springs"), bending = p.text("bending", "isometric");
+  const std::string membrane = p.text("membrane", "springs"),
+                    bending = p.text("bending", "isometric");
   if (membrane == "fem") solver.emplace<cloth::MembraneEffect>(mesh);
   else if (membrane == "triangles") solver.emplace<cloth::TriangleStretchEffect>(mesh);
   else solver.emplace<cloth::EdgeSpringEffect>(mesh);
@@ -104,7 +110,8 @@ void measure_cloth(Outcome& o, const cloth::ClothMesh& mesh, const std::vector<V
   for (const Vec3& q : x) extent = std::max(extent, q.cwiseAbs().maxCoeff());
   o.value["extent_m"] = extent;
   const std::vector<Triangle> triangles = mesh.particle_triangles();
-  o.value["crossings"] = static_cast<double>(collision::self_intersections(x, triangles, collision::TriangleTree(x, triangles)).size());
+  o.value["crossings"] = static_cast<double>(
+      collision::self_intersections(x, triangles, collision::TriangleTree(x, triangles)).size());
 }
 
 void fingerprint(Outcome& o, const std::vector<Vec3>& x) {
@@ -112,7 +119,8 @@ void fingerprint(Outcome& o, const std::vector<Vec3>& x) {
   std::vector<long> cells;
   for (const Vec3& p : x)
     for (int k = 0; k < 3; ++k) cells.push_back(std::isfinite(p[k]) ? std::lround(p[k] * 1e5) : 0);
-  o.quantised = io::sha256({reinterpret_cast<const char*>(cells.data()), cells.size() * sizeof(long)});
+  o.quantised =
+      io::sha256({reinterpret_cast<const char*>(cells.data()), cells.size() * sizeof(long)});
 }
 
 double potential(const cloth::ClothSolver& solver, const std::vector<Vec3>& x) {
@@ -123,13 +131,18 @@ double potential(const cloth::ClothSolver& solver, const std::vector<Vec3>& x) {
 
 double kinetic(const cloth::ClothSolver& solver) {
   double sum = 0;
-  for (std::size_t i = 0; i < solver.v().size(); ++i) sum += 0.5 * solver.mesh().mass[i] * solver.v()[i].squaredNorm();
+  for (std::size_t i = 0; i < solver.v().size(); ++i)
+    sum += 0.5 * solver.mesh().mass[i] * solver.v()[i].squaredNorm();
   return sum;
 }
 
-Watch::Watch(cloth::ClothSolver& solver, double inertia) : m_solver(solver), m_inertia(inertia) { m_start = m_largest = m_least = energy(); }
+Watch::Watch(cloth::ClothSolver& solver, double inertia) : m_solver(solver), m_inertia(inertia) {
+  m_start = m_largest = m_least = energy();
+}
 
-double Watch::energy() const { return potential(m_solver, m_solver.x()) + (m_inertia > 0 ? kinetic(m_solver) : 0); }
+double Watch::energy() const {
+  return potential(m_solver, m_solver.x()) + (m_inertia > 0 ? kinetic(m_solver) : 0);
+}
 
 bool Watch::step(const cloth::StepOptions& options) {
   const cloth::StepResult r = m_solver.step(options);

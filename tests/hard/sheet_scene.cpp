@@ -78,10 +78,13 @@ Outcome sheet_scene(const Parameters& p, std::uint64_t seed) {
   const bool hanging = p.text("plane", "hanging") == "hanging";
   const int nx = p.whole("cells_x", 10), ny = p.whole("cells_y", 10);
   const double thin = p.number("thin_cell_m", 0);
-  Sheet s = make_sheet(cells(nx, p.number("width_m", 0.3), thin), cells(ny, p.number("height_m", 0.3), 0), fabric_of(p), hanging, Vec3(0, 1, 0));
+  Sheet s =
+      make_sheet(cells(nx, p.number("width_m", 0.3), thin), cells(ny, p.number("height_m", 0.3), 0),
+                 fabric_of(p), hanging, Vec3(0, 1, 0));
   const std::vector<Vec3> flat = s.x;
   const std::vector<cloth::Pin> pins = make_pins(s, p);
-  const double ratio = p.number("mass_ratio", 1), load = p.number("load_n", 0), width = p.number("width_m", 0.3);
+  const double ratio = p.number("mass_ratio", 1), load = p.number("load_n", 0),
+               width = p.number("width_m", 0.3);
   s.mesh.mass[s.at(s.columns / 2, s.rows - 1)] *= ratio;
   for (int c = 0; c < s.columns; ++c) { // on a bar: the cells next to the edges carry half
     const double share = c == 0 || c == s.columns - 1 ? 0.5 : 1;
@@ -100,7 +103,8 @@ Outcome sheet_scene(const Parameters& p, std::uint64_t seed) {
     options.velocity = Vec3(0.3 * wind, 0, wind);
     solver.emplace<cloth::WindEffect>(s.mesh.particle_triangles(), options);
   }
-  if (const double pressure = p.number("pressure_pa", 0); pressure != 0) solver.emplace<cloth::PressureEffect>(s.mesh.particle_triangles(), pressure);
+  if (const double pressure = p.number("pressure_pa", 0); pressure != 0)
+    solver.emplace<cloth::PressureEffect>(s.mesh.particle_triangles(), pressure);
   if (p.flag("self_contact", false)) {
     cloth::SelfContactOptions options;
     options.thickness_m = p.number("thickness_m", 0.002);
@@ -126,13 +130,15 @@ Outcome sheet_scene(const Parameters& p, std::uint64_t seed) {
     if (k == bad_step) solver.emplace<BadForce>(s.at(s.columns / 2, s.rows / 2));
     if (held && swing != 0) {
       swung += (k / 15 % 2 ? -1 : 1) * swing * o.h;
-      for (std::size_t i = 0; i < pins.size(); ++i) held->set_target(i, pins[i].target + Vec3(0, 0, swung));
+      for (std::size_t i = 0; i < pins.size(); ++i)
+        held->set_target(i, pins[i].target + Vec3(0, 0, swung));
     }
     const std::vector<Vec3> before = solver.x();
     if (!watch.step(o)) break;
     if (!adapt) continue;
     double move = 0;
-    for (std::size_t i = 0; i < before.size(); ++i) move = std::max(move, (solver.x()[i] - before[i]).norm());
+    for (std::size_t i = 0; i < before.size(); ++i)
+      move = std::max(move, (solver.x()[i] - before[i]).norm());
     if (o.h > 0.2 && move / o.h < 1e-5) break;
     o.h = move < 0.005 ? std::min(1.3 * o.h, 0.5) : std::max(0.8 * o.h, 0.005);
   }
@@ -140,9 +146,12 @@ Outcome sheet_scene(const Parameters& p, std::uint64_t seed) {
   watch.fill(out);
   measure_cloth(out, s.mesh, solver.x());
   double drop = 0;
-  for (int r = 0; r < s.rows; ++r) drop += (flat[s.at(s.columns - 1, r)].y() - solver.x()[s.at(s.columns - 1, r)].y()) / s.rows;
+  for (int r = 0; r < s.rows; ++r)
+    drop += (flat[s.at(s.columns - 1, r)].y() - solver.x()[s.at(s.columns - 1, r)].y()) / s.rows;
   out.value["tip_drop_m"] = drop;
-  if (load > 0) out.value["stretch/load"] = out.value["stretch_p99"] / (load / (width * p.number("stretch_n_m", 1000)));
+  if (load > 0)
+    out.value["stretch/load"] =
+        out.value["stretch_p99"] / (load / (width * p.number("stretch_n_m", 1000)));
   fingerprint(out, solver.x());
   return out;
 }

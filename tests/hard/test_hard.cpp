@@ -1,4 +1,5 @@
-/// The hard cases in short: some points and seeds of each; `make hard` runs all of them over 20 seeds.
+/// The hard cases in short: some points and seeds of each; `make hard` runs all of them over 20
+/// seeds.
 #include "hard_case.hpp"
 
 #include <algorithm>
@@ -44,17 +45,20 @@ TEST_P(Hard, holds) {
         EXPECT_EQ(broken, "") << where;
         continue;
       }
-      listed += where + (broken.empty() ? " holds here though it is listed as failing; " : " is listed as failing: " + broken + "; ");
+      listed += where + (broken.empty() ? " holds here though it is listed as failing; "
+                                        : " is listed as failing: " + broken + "; ");
     }
   if (!listed.empty() && !HasFailure()) GTEST_SKIP() << listed;
 }
 
-INSTANTIATE_TEST_SUITE_P(cases, Hard, testing::Range<std::size_t>(0, all_cases().size()), [](const auto& at) {
-  std::string name = all_cases()[at.param].file;
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char ch) { return !std::isalnum(ch); }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(cases, Hard, testing::Range<std::size_t>(0, all_cases().size()),
+                         [](const auto& at) {
+                           std::string name = all_cases()[at.param].file;
+                           std::replace_if(
+                               name.begin(), name.end(),
+                               [](unsigned char ch) { return !std::isalnum(ch); }, '_');
+                           return name;
+                         });
 
 TEST(HardCases, are_forty_or_more_and_each_says_what_goes_wrong_elsewhere_and_what_must_hold) {
   EXPECT_GE(all_cases().size(), 40u);
@@ -78,7 +82,8 @@ TEST(HardRunner, tells_crashes_endless_loops_exceptions_and_broken_bounds) {
   Case mistaken = fault("none");
   mistaken.parameters["speling"] = 1;
   EXPECT_NE(run_point(mistaken, here, 0).broken.find("speling"), std::string::npos);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which tell of a crash in their own way
+#if !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__) // which tell of a crash in their own way
   EXPECT_NE(run_point(fault("crash"), here, 0).broken.find("crashed"), std::string::npos);
 #endif
 }

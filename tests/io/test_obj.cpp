@@ -32,25 +32,32 @@ TEST(Obj, keeps_the_order_and_count_of_vertices_also_of_those_that_no_face_names
 }
 
 TEST(Obj, keeps_positions_and_pattern_coordinates_apart) {
-  const io::ObjMesh mesh = io::parse_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.25\nvt 0 1\nvt 1 1 0\nf 1/3 2/1/1 3/2\nf 1 2 3\nf 1//1 2//1 3//1\n", "a.obj");
+  const io::ObjMesh mesh = io::parse_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.25\nvt 0 1\nvt 1 1 "
+                                         "0\nf 1/3 2/1/1 3/2\nf 1 2 3\nf 1//1 2//1 3//1\n",
+                                         "a.obj");
   ASSERT_EQ(mesh.texture.size(), 3u);
   EXPECT_EQ(mesh.texture[0], Vec2(0.5, 0.25));
   EXPECT_EQ(mesh.texture_triangles, (std::vector<Triangle>{{2, 0, 1}, {-1, -1, -1}, {-1, -1, -1}}));
 }
 
 TEST(Obj, counts_negative_indices_back_from_the_line_they_stand_on) {
-  const io::ObjMesh mesh = io::parse_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nf -1 -2 1\n", "a.obj");
+  const io::ObjMesh mesh =
+      io::parse_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nf -1 -2 1\n", "a.obj");
   EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {3, 2, 0}}));
 }
 
 TEST(Obj, names_the_line_of_a_bad_index) {
   EXPECT_TRUE(has(obj_complaint("v 0 0 0\nv 1 0 0\nv 0 1 0\n# remark\nf 1 2 4\n"), "line 5"));
-  for (const char* face : {"f 1 2 0", "f 1 2 -4", "f 1 2 99999999999999999999", "f 1 2 x", "f 1 2 3.5", "f 1 2", "f", "f 1/1 2/1 3/1", "f 1/ 2 /3"})
-    EXPECT_TRUE(has(obj_complaint(std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\n") + face + "\n"), "line 4")) << face;
+  for (const char* face : {"f 1 2 0", "f 1 2 -4", "f 1 2 99999999999999999999", "f 1 2 x",
+                           "f 1 2 3.5", "f 1 2", "f", "f 1/1 2/1 3/1", "f 1/ 2 /3"})
+    EXPECT_TRUE(
+        has(obj_complaint(std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\n") + face + "\n"), "line 4"))
+        << face;
 }
 
 TEST(Obj, refuses_coordinates_that_are_no_finite_numbers) {
-  for (const char* line : {"v nan 0 0", "v 0 inf 0", "v 0 0 -inf", "v 1e400 0 0", "v 0 0", "v", "v 1,5 0 0", "v 0x10 0 0", "v a b c", "vt nan 0"})
+  for (const char* line : {"v nan 0 0", "v 0 inf 0", "v 0 0 -inf", "v 1e400 0 0", "v 0 0", "v",
+                           "v 1,5 0 0", "v 0x10 0 0", "v a b c", "vt nan 0"})
     EXPECT_TRUE(has(obj_complaint(std::string("# first\n") + line + "\n"), "line 2")) << line;
 }
 
@@ -62,13 +69,15 @@ TEST(Obj, refuses_binary_bytes) {
 }
 
 TEST(Obj, reads_windows_line_ends_tabs_byte_order_mark_and_a_last_line_without_end) {
-  const io::ObjMesh mesh = io::parse_obj("\xEF\xBB\xBFv 0 0 0\r\nv\t1  0 +0\r\nv 0 1 0 \r\n\r\nf 1 2 3", "a.obj");
+  const io::ObjMesh mesh =
+      io::parse_obj("\xEF\xBB\xBFv 0 0 0\r\nv\t1  0 +0\r\nv 0 1 0 \r\n\r\nf 1 2 3", "a.obj");
   EXPECT_EQ(mesh.positions.size(), 3u);
   EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
 }
 
 TEST(Obj, cuts_polygons_into_fans_and_keeps_groups_as_runs) {
-  const io::ObjMesh mesh = io::parse_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng a\ng b\nf 1 2 3 4\no c\nf 1 2 3\n", "a.obj");
+  const io::ObjMesh mesh = io::parse_obj(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng a\ng b\nf 1 2 3 4\no c\nf 1 2 3\n", "a.obj");
   EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
   ASSERT_EQ(mesh.groups.size(), 2u);
   EXPECT_EQ(mesh.groups[0].name, "b");
@@ -78,7 +87,9 @@ TEST(Obj, cuts_polygons_into_fans_and_keeps_groups_as_runs) {
 }
 
 TEST(Obj, reads_colours_and_unknown_keywords_past) {
-  EXPECT_EQ(io::parse_obj("mtllib a.mtl\nv 0 0 0 0.1 0.2 0.3\nvn 0 0 1\ns off\nusemtl m\n", "a.obj").positions.size(), 1u);
+  EXPECT_EQ(io::parse_obj("mtllib a.mtl\nv 0 0 0 0.1 0.2 0.3\nvn 0 0 1\ns off\nusemtl m\n", "a.obj")
+                .positions.size(),
+            1u);
 }
 
 TEST(Obj, comes_back_bit_for_bit_and_writes_the_same_bytes) {

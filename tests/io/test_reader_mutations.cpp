@@ -1,4 +1,5 @@
-/// Readers under seeded damage: a file is read or refused with a message that names it, never a crash, never another exception.
+/// Readers under seeded damage: a file is read or refused with a message that names it, never a
+/// crash, never another exception.
 #include <base/error.hpp>
 #include <base/random.hpp>
 #include <io/json.hpp>
@@ -13,12 +14,16 @@ using namespace sloper;
 
 namespace {
 
-/// One to four damages: a byte changed, a run cut out, doubled or swapped for a word that breaks readers, the end cut off.
+/// One to four damages: a byte changed, a run cut out, doubled or swapped for a word that breaks
+/// readers, the end cut off.
 std::string damaged(std::string text, Random& random, const std::vector<std::string>& words) {
-  auto below = [&](std::size_t n) { return n == 0 ? 0 : static_cast<std::size_t>(random.next() % n); };
+  auto below = [&](std::size_t n) {
+    return n == 0 ? 0 : static_cast<std::size_t>(random.next() % n);
+  };
   const std::size_t n_damages = 1 + below(4);
   for (std::size_t i = 0; i < n_damages && !text.empty(); ++i) {
-    const std::size_t at = below(text.size()), length = 1 + below(std::min<std::size_t>(40, text.size() - at));
+    const std::size_t at = below(text.size()),
+                      length = 1 + below(std::min<std::size_t>(40, text.size() - at));
     switch (below(6)) {
     case 0: text[at] = static_cast<char>(random.next()); break;
     case 1: text.erase(at, length); break;
@@ -31,11 +36,16 @@ std::string damaged(std::string text, Random& random, const std::vector<std::str
   return text;
 }
 
-/// Reads `n` damaged copies; anything but success or an input error fails the test. @return how many were refused
-int refused(const std::string& text, std::uint64_t seed, int n, const std::function<void(const std::string&)>& read) {
-  const std::vector<std::string> words = {"nan",      "inf",    "1e999",     "-1",  "0",  "99999999999", "4294967295", "-9223372036854775808",
-                                          "{",        "}",      "[",         "]",   "\"", ",",           "\n",         std::string(1, '\0'),
-                                          "\xff\xfe", "1e-999", "f 1 2 3\n", "null"};
+/// Reads `n` damaged copies; anything but success or an input error fails the test. @return how
+/// many were refused
+int refused(const std::string& text, std::uint64_t seed, int n,
+            const std::function<void(const std::string&)>& read) {
+  const std::vector<std::string> words = {
+      "nan",      "inf",         "1e999",      "-1",
+      "0",        "99999999999", "4294967295", "-9223372036854775808",
+      "{",        "}",           "[",          "]",
+      "\"",       ",",           "\n",         std::string(1, '\0'),
+      "\xff\xfe", "1e-999",      "f 1 2 3\n",  "null"};
   Random random(seed);
   int count = 0;
   for (int i = 0; i < n; ++i) {
@@ -56,10 +66,13 @@ int refused(const std::string& text, std::uint64_t seed, int n, const std::funct
 
 std::string sample_obj() {
   std::string text = "# sample\n";
-  for (int i = 0; i < 20; ++i) text += "v " + std::to_string(0.1 * i) + " " + std::to_string(i * i) + " -0.5\nvt 0." + std::to_string(i) + " 0.25\n";
+  for (int i = 0; i < 20; ++i)
+    text += "v " + std::to_string(0.1 * i) + " " + std::to_string(i * i) + " -0.5\nvt 0." +
+            std::to_string(i) + " 0.25\n";
   text += "g front\n";
   for (int i = 1; i < 18; ++i)
-    text += "f " + std::to_string(i) + "/" + std::to_string(i + 1) + " " + std::to_string(i + 1) + "/1 " + std::to_string(i - 21) + "\n";
+    text += "f " + std::to_string(i) + "/" + std::to_string(i + 1) + " " + std::to_string(i + 1) +
+            "/1 " + std::to_string(i - 21) + "\n";
   return text;
 }
 
@@ -69,17 +82,23 @@ std::string sample_json() {
 }
 
 std::string sample_ply() {
-  std::string text = "ply\nformat ascii 1.0\nelement vertex 12\nproperty float x\nproperty float y\nproperty float z\nelement face 5\nproperty list uchar int "
+  std::string text = "ply\nformat ascii 1.0\nelement vertex 12\nproperty float x\nproperty float "
+                     "y\nproperty float z\nelement face 5\nproperty list uchar int "
                      "vertex_indices\nend_header\n";
   for (int i = 0; i < 12; ++i) text += std::to_string(i) + " " + std::to_string(i % 3) + " 0.5\n";
-  for (int i = 0; i < 5; ++i) text += "3 " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
+  for (int i = 0; i < 5; ++i)
+    text +=
+        "3 " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
   return text;
 }
 
 std::string sample_binary_ply() {
-  std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\nelement face 4\nproperty "
+  std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex 8\nproperty float "
+                     "x\nproperty float y\nproperty float z\nelement face 4\nproperty "
                      "list uchar int vertex_indices\nend_header\n";
-  auto append = [&](auto value) { text.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  auto append = [&](auto value) {
+    text.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
   for (int i = 0; i < 24; ++i) append(static_cast<float>(i) * 0.1f);
   for (int i = 0; i < 4; ++i) {
     append(static_cast<unsigned char>(3));
@@ -90,7 +109,9 @@ std::string sample_binary_ply() {
 
 std::string sample_binary_stl() {
   std::string text(80, ' ');
-  auto append = [&](auto value) { text.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  auto append = [&](auto value) {
+    text.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
   append(std::uint32_t{6});
   for (int i = 0; i < 6; ++i) {
     for (int k = 0; k < 12; ++k) append(static_cast<float>(i * 12 + k) * 0.01f);
@@ -102,7 +123,8 @@ std::string sample_binary_stl() {
 std::string sample_ascii_stl() {
   std::string text = "solid s\n";
   for (int i = 0; i < 5; ++i)
-    text += "facet normal 0 0 1\n outer loop\n  vertex 0 0 " + std::to_string(i) + "\n  vertex 1 0 0\n  vertex 0 1 0\n endloop\nendfacet\n";
+    text += "facet normal 0 0 1\n outer loop\n  vertex 0 0 " + std::to_string(i) +
+            "\n  vertex 1 0 0\n  vertex 0 1 0\n endloop\nendfacet\n";
   return text + "endsolid s\n";
 }
 
@@ -137,22 +159,31 @@ TEST(Mutations, json_is_read_and_writes_itself_back_or_is_refused) {
 }
 
 TEST(Mutations, ascii_ply_is_read_with_sound_indices_or_refused) {
-  EXPECT_GT(refused(sample_ply(), 3, N, [](const std::string& text) { check_mesh(io::parse_ply(text, "sample")); }), N / 10);
+  EXPECT_GT(refused(sample_ply(), 3, N,
+                    [](const std::string& text) { check_mesh(io::parse_ply(text, "sample")); }),
+            N / 10);
 }
 
 TEST(Mutations, binary_ply_is_read_with_sound_indices_or_refused) {
-  EXPECT_GT(refused(sample_binary_ply(), 4, N, [](const std::string& text) { check_mesh(io::parse_ply(text, "sample")); }), N / 10);
+  EXPECT_GT(refused(sample_binary_ply(), 4, N,
+                    [](const std::string& text) { check_mesh(io::parse_ply(text, "sample")); }),
+            N / 10);
 }
 
 TEST(Mutations, binary_stl_is_read_or_refused) {
-  EXPECT_GT(refused(sample_binary_stl(), 5, N, [](const std::string& text) { check_mesh(io::parse_stl(text, "sample")); }), N / 10);
+  EXPECT_GT(refused(sample_binary_stl(), 5, N,
+                    [](const std::string& text) { check_mesh(io::parse_stl(text, "sample")); }),
+            N / 10);
 }
 
 TEST(Mutations, ascii_stl_is_read_or_refused) {
-  EXPECT_GT(refused(sample_ascii_stl(), 6, N, [](const std::string& text) { check_mesh(io::parse_stl(text, "sample")); }), N / 10);
+  EXPECT_GT(refused(sample_ascii_stl(), 6, N,
+                    [](const std::string& text) { check_mesh(io::parse_stl(text, "sample")); }),
+            N / 10);
 }
 
 TEST(Mutations, xyz_is_read_or_refused) {
-  EXPECT_GT(
-      refused("0 0 0\n1 2 3 255 0 0\n# remark\n-1.5e-3 2 0.25\n0 1 0\n", 7, N, [](const std::string& text) { check_mesh(io::parse_xyz(text, "sample")); }), 0);
+  EXPECT_GT(refused("0 0 0\n1 2 3 255 0 0\n# remark\n-1.5e-3 2 0.25\n0 1 0\n", 7, N,
+                    [](const std::string& text) { check_mesh(io::parse_xyz(text, "sample")); }),
+            0);
 }

@@ -17,7 +17,8 @@ using namespace sloper::render;
 
 namespace {
 
-/// One rectangular panel of n x n squares, 0.3 m wide, warp along y; `place` says where a pattern point is.
+/// One rectangular panel of n x n squares, 0.3 m wide, warp along y; `place` says where a pattern
+/// point is.
 template<class F> garment::Garment make_sheet(int n, F&& place) {
   garment::Garment g;
   pattern::PanelInfo panel;
@@ -60,7 +61,10 @@ Scene scene_of(std::vector<garment::Garment> garments) {
 TEST(Maps, strain_along_warp_weft_and_bias_is_that_of_a_homogeneous_stretch) {
   const auto stretched = [](const Vec2& p) { return Vec3(1.10 * p.x(), 1.04 * p.y(), 0); };
   const double bias = std::sqrt(0.5 * (1.10 * 1.10 + 1.04 * 1.04)) - 1;
-  for (const auto& [map, expected] : {std::pair{Map::WARP, 4.0}, {Map::WEFT, 10.0}, {Map::BIAS, 100 * bias}, {Map::STRAIN, 10.0}}) {
+  for (const auto& [map, expected] : {std::pair{Map::WARP, 4.0},
+                                      {Map::WEFT, 10.0},
+                                      {Map::BIAS, 100 * bias},
+                                      {Map::STRAIN, 10.0}}) {
     Scene scene = scene_of({make_sheet(4, stretched)});
     const Legend legend = apply_map(scene, map);
     EXPECT_TRUE(legend.diverging);
@@ -93,18 +97,23 @@ TEST(Maps, edited_rest_lengths_count_in_strain) {
 
 TEST(Maps, two_drapes_of_different_meshes_differ_by_how_far_one_was_moved) {
   const auto moved = [](const Vec2& p) { return Vec3(flat(p) + Vec3(0, 0, 0.007)); };
-  for (double d : drape_difference(make_sheet(5, flat), make_sheet(5, moved))) EXPECT_NEAR(d, 0.007, 1e-12);
-  for (double d : drape_difference(make_sheet(7, flat), make_sheet(4, moved))) EXPECT_NEAR(d, 0.007, 1e-12);
+  for (double d : drape_difference(make_sheet(5, flat), make_sheet(5, moved)))
+    EXPECT_NEAR(d, 0.007, 1e-12);
+  for (double d : drape_difference(make_sheet(7, flat), make_sheet(4, moved)))
+    EXPECT_NEAR(d, 0.007, 1e-12);
   garment::Garment other = make_sheet(4, flat);
   other.panels.panels[0].name = "sleeve";
   EXPECT_THROW(drape_difference(make_sheet(4, flat), other), Error);
 }
 
 TEST(Maps, gap_and_penetration_are_signed_distances_to_the_skin) {
-  Scene scene = scene_of({make_sheet(4, [](const Vec2& p) { return Vec3(p.x() - 0.15, p.y() - 0.15, 0.02); })});
+  Scene scene = scene_of(
+      {make_sheet(4, [](const Vec2& p) { return Vec3(p.x() - 0.15, p.y() - 0.15, 0.02); })});
   body::Body body; // a large box whose front face is z = 0
-  for (int k = 0; k < 8; ++k) body.skin.positions.emplace_back(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 0 : -1);
-  body.skin.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  for (int k = 0; k < 8; ++k)
+    body.skin.positions.emplace_back(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 0 : -1);
+  body.skin.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                         {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   body.face_part.assign(12, body::Part::TORSO);
   scene.body = body;
   apply_map(scene, Map::GAP);
@@ -116,14 +125,18 @@ TEST(Maps, gap_and_penetration_are_signed_distances_to_the_skin) {
 }
 
 TEST(Maps, what_lies_beyond_the_scale_or_has_no_value_is_counted) {
-  Scene scene = scene_of({make_sheet(4, [](const Vec2& p) { return Vec3(p.x() * (p.x() < 0.16 ? 1.02 : 1.06), p.y(), 0); })});
+  Scene scene = scene_of({make_sheet(
+      4, [](const Vec2& p) { return Vec3(p.x() * (p.x() < 0.16 ? 1.02 : 1.06), p.y(), 0); })});
   Legend legend = apply_map(scene, Map::WEFT, 4);
   EXPECT_GT(legend.beyond, 0.2);
   EXPECT_LT(legend.beyond, 0.8);
   EXPECT_EQ(legend.below, 0);
   EXPECT_FALSE(legend.has_gaps);
-  // One triangle in a corner, whose vertices' means stay within the scale: the bar says what the quantiles say.
-  scene = scene_of({make_sheet(12, [](const Vec2& p) { return Vec3(p.x() + (p.x() + p.y() < 0.001 ? -0.0012 : 0), p.y(), 0); })});
+  // One triangle in a corner, whose vertices' means stay within the scale: the bar says what the
+  // quantiles say.
+  scene = scene_of({make_sheet(12, [](const Vec2& p) {
+    return Vec3(p.x() + (p.x() + p.y() < 0.001 ? -0.0012 : 0), p.y(), 0);
+  })});
   legend = apply_map(scene, Map::WEFT, 4);
   const std::vector<double>& drawn = scene.meshes[0].values;
   ASSERT_LE(*std::max_element(drawn.begin(), drawn.end()), 4);
@@ -138,12 +151,14 @@ TEST(Maps, what_lies_beyond_the_scale_or_has_no_value_is_counted) {
   EXPECT_EQ(legend.beyond, 0);
 }
 
-// Between a vertex with a high value and one without any, the colours of all lower values had been drawn.
+// Between a vertex with a high value and one without any, the colours of all lower values had been
+// drawn.
 TEST(Maps, cloth_without_a_value_has_a_border_of_two_colours) {
   Scene scene = scene_of({make_sheet(8, flat)});
   Legend legend = apply_map(scene, Map::STRAIN, 1);
   std::vector<double>& values = scene.meshes[0].values;
-  for (std::size_t v = 0; v < values.size(); ++v) values[v] = scene.garments[0].panels.pattern[v].x() < 0.15 ? 0.9 : NO_VALUE;
+  for (std::size_t v = 0; v < values.size(); ++v)
+    values[v] = scene.garments[0].panels.pattern[v].x() < 0.15 ? 0.9 : NO_VALUE;
   DrawOptions options;
   options.width = options.height = 200;
   options.map_colors = legend.steps, options.map_low = legend.low, options.map_high = legend.high;
@@ -156,7 +171,8 @@ TEST(Maps, cloth_without_a_value_has_a_border_of_two_colours) {
     for (int x = 30; x < 140; ++x) {
       const std::uint8_t* p = image.at(x, y);
       const Vec3 c(p[0], p[1], p[2]);
-      const double t = std::clamp((c - none).dot(high - none) / (high - none).squaredNorm(), 0.0, 1.0); // mixed where the two meet in a pixel
+      const double t = std::clamp((c - none).dot(high - none) / (high - none).squaredNorm(), 0.0,
+                                  1.0); // mixed where the two meet in a pixel
       highs += (c - high).norm() < 6, nones += (c - none).norm() < 6;
       strange += (c - none - t * (high - none)).norm() > 30 && c.minCoeff() < 235;
     }
@@ -170,12 +186,15 @@ TEST(PatternView, a_seam_that_goes_over_two_panels_is_drawn_on_each_and_not_betw
   for (int k = 0; k < 3; ++k) {
     const garment::Garment one = make_sheet(6, flat);
     pattern::PanelInfo info = one.panels.panels[0];
-    info.first_vertex = static_cast<int>(three.position.size()), info.first_triangle = static_cast<int>(three.panels.triangles.size());
+    info.first_vertex = static_cast<int>(three.position.size()),
+    info.first_triangle = static_cast<int>(three.panels.triangles.size());
     for (const Triangle& t : one.panels.triangles)
-      three.panels.triangles.push_back({t[0] + info.first_vertex, t[1] + info.first_vertex, t[2] + info.first_vertex});
+      three.panels.triangles.push_back(
+          {t[0] + info.first_vertex, t[1] + info.first_vertex, t[2] + info.first_vertex});
     for (int i : one.particle_of) three.particle_of.push_back(i + info.first_vertex);
     three.panels.panels.push_back(info);
-    three.panels.pattern.insert(three.panels.pattern.end(), one.panels.pattern.begin(), one.panels.pattern.end());
+    three.panels.pattern.insert(three.panels.pattern.end(), one.panels.pattern.begin(),
+                                one.panels.pattern.end());
     three.panels.ids.insert(three.panels.ids.end(), one.panels.ids.begin(), one.panels.ids.end());
     three.position.insert(three.position.end(), one.position.begin(), one.position.end());
   }
@@ -183,11 +202,15 @@ TEST(PatternView, a_seam_that_goes_over_two_panels_is_drawn_on_each_and_not_betw
   DrawOptions options;
   options.width = 900, options.height = 300;
   const io::Image without = draw_pattern(scene_of({three}), options);
-  pattern::MeshSeam seam; // all of the first panel's left edge, and halves of the others', which lie beside each other on the sheet
-  for (int r = 0; r <= 6; ++r) seam.a.push_back(7 * r), seam.b.push_back(7 * r + (r <= 3 ? 49 : 98));
+  pattern::MeshSeam seam; // all of the first panel's left edge, and halves of the others', which
+                          // lie beside each other on the sheet
+  for (int r = 0; r <= 6; ++r)
+    seam.a.push_back(7 * r), seam.b.push_back(7 * r + (r <= 3 ? 49 : 98));
   three.panels.seams = {seam};
   const io::Image with = draw_pattern(scene_of({three}), options);
-  const auto same = [](const std::uint8_t* a, const std::uint8_t* b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; };
+  const auto same = [](const std::uint8_t* a, const std::uint8_t* b) {
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+  };
   int gaps = 0, drawn = 0, crossed = 0;
   for (int x = 0; x < with.width; ++x) {
     bool empty = true, changed = false;
@@ -212,7 +235,8 @@ TEST(Maps, what_a_map_needs_is_named) {
 }
 
 TEST(Maps, the_values_table_has_a_row_for_each_vertex_and_no_number_is_lost) {
-  Scene scene = scene_of({make_sheet(2, [](const Vec2& p) { return Vec3(1.05 * p.x(), p.y(), 0); })});
+  Scene scene =
+      scene_of({make_sheet(2, [](const Vec2& p) { return Vec3(1.05 * p.x(), p.y(), 0); })});
   scene.garments[0].panels.panels[0].name = "a,b";
   const Legend legend = apply_map(scene, Map::WEFT);
   std::istringstream text(values_csv(scene, legend));
@@ -229,7 +253,8 @@ TEST(Maps, the_values_table_has_a_row_for_each_vertex_and_no_number_is_lost) {
 }
 
 TEST(Maps, the_values_ply_holds_the_value_of_each_vertex) {
-  Scene scene = scene_of({make_sheet(2, [](const Vec2& p) { return Vec3(1.05 * p.x(), p.y(), 0); })});
+  Scene scene =
+      scene_of({make_sheet(2, [](const Vec2& p) { return Vec3(1.05 * p.x(), p.y(), 0); })});
   const Legend legend = apply_map(scene, Map::WEFT);
   const std::string bytes = values_ply(scene, legend);
   const std::size_t data = bytes.find("end_header\n") + 11;
@@ -258,12 +283,16 @@ TEST(Cloth, smoothing_keeps_flat_cloth_flat_and_hems_at_its_border) {
 }
 
 TEST(Cloth, smoothing_brings_a_coarse_cylinder_nearer_to_round) {
-  garment::Garment g = make_sheet(8, [](const Vec2& p) { return Vec3(0.1 * std::sin(p.x() / 0.1), p.y(), 0.1 * std::cos(p.x() / 0.1)); });
+  garment::Garment g = make_sheet(8, [](const Vec2& p) {
+    return Vec3(0.1 * std::sin(p.x() / 0.1), p.y(), 0.1 * std::cos(p.x() / 0.1));
+  });
   DrawMesh mesh = cloth_mesh(g);
   smooth_cloth(mesh);
   double worst = 0;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-    if (mesh.hem[v] > 0.015) worst = std::max(worst, std::abs(std::hypot(mesh.positions[v].x(), mesh.positions[v].z()) - 0.1));
+    if (mesh.hem[v] > 0.015)
+      worst =
+          std::max(worst, std::abs(std::hypot(mesh.positions[v].x(), mesh.positions[v].z()) - 0.1));
   EXPECT_LT(worst, 0.0009); // chords alone miss by 1.8 mm
 }
 
@@ -272,13 +301,15 @@ TEST(PatternView, panels_do_not_overlap_and_none_is_turned) {
   const auto corners = pack_panels(sizes, 0.03, 0.8);
   for (std::size_t a = 0; a < sizes.size(); ++a)
     for (std::size_t b = a + 1; b < sizes.size(); ++b) {
-      const Vec2 apart = (corners[a] - corners[b] - sizes[b]).cwiseMax(corners[b] - corners[a] - sizes[a]);
+      const Vec2 apart =
+          (corners[a] - corners[b] - sizes[b]).cwiseMax(corners[b] - corners[a] - sizes[a]);
       EXPECT_GE(apart.maxCoeff(), 0.03 - 1e-12) << a << " and " << b;
     }
 }
 
 TEST(Scene, fabrics_have_colours_of_their_own_once_each_unless_told_otherwise) {
-  const auto color_of = [](const std::vector<std::string>& materials, const std::vector<int>& given, std::size_t garment) {
+  const auto color_of = [](const std::vector<std::string>& materials, const std::vector<int>& given,
+                           std::size_t garment) {
     std::vector<garment::Garment> garments;
     for (const std::string& name : materials) {
       garments.push_back(make_sheet(1, flat));
@@ -316,8 +347,10 @@ TEST(Export, a_glb_is_whole_and_describes_what_it_holds) {
 
 TEST(Show, a_level_cut_of_a_box_is_as_long_as_its_girth) {
   TriangleMesh box;
-  for (int k = 0; k < 8; ++k) box.positions.emplace_back(k & 1 ? 0.2 : 0, k & 2 ? 1 : 0, k & 4 ? 0.1 : 0);
-  box.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  for (int k = 0; k < 8; ++k)
+    box.positions.emplace_back(k & 1 ? 0.2 : 0, k & 2 ? 1 : 0, k & 4 ? 0.1 : 0);
+  box.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                   {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   double length = 0;
   for (const auto& [a, b] : cut_level(box, 0.37, {})) length += (b - a).norm();
   EXPECT_NEAR(length, 0.6, 1e-12);

@@ -25,7 +25,8 @@ DrawMesh make_ball() {
   for (int r = 0; r <= n; ++r)
     for (int c = 0; c < 2 * n; ++c) {
       const double polar = M_PI * r / n, around = M_PI * c / n;
-      const Vec3 direction(std::sin(polar) * std::sin(around), std::cos(polar), std::sin(polar) * std::cos(around));
+      const Vec3 direction(std::sin(polar) * std::sin(around), std::cos(polar),
+                           std::sin(polar) * std::cos(around));
       mesh.positions.push_back(Vec3(0, 1, 0) + 0.5 * direction);
       mesh.normals.push_back(direction);
       mesh.colors.emplace_back(0.5, 0.2, 0.1);
@@ -39,7 +40,8 @@ DrawMesh make_ball() {
   return mesh;
 }
 
-io::Image draw_ball(std::optional<int> background, ContextKind context = built_contexts().front(), const CameraOptions& view = {}) {
+io::Image draw_ball(std::optional<int> background, ContextKind context = built_contexts().front(),
+                    const CameraOptions& view = {}) {
   const std::vector<DrawMesh> meshes{make_ball()};
   DrawOptions options;
   options.width = 120;
@@ -104,7 +106,8 @@ TEST(Camera, a_point_goes_where_the_picture_shows_it) {
     const Camera camera = frame_scene({make_ball()}, options, 0.75);
     EXPECT_LT((camera.pixel(Vec3(0, 1, 0), 300, 400).head<2>() - Vec2(150, 200)).norm(), 1e-9);
     EXPECT_LT((camera.pixel(Vec3(0.5, 1.5, 0), 300, 400).head<2>() - Vec2(250, 100)).norm(), 1e-9);
-    const double near = camera.pixel(Vec3(0, 1, 0.5), 300, 400).z(), far = camera.pixel(Vec3(0, 1, -0.5), 300, 400).z();
+    const double near = camera.pixel(Vec3(0, 1, 0.5), 300, 400).z(),
+                 far = camera.pixel(Vec3(0, 1, -0.5), 300, 400).z();
     EXPECT_GT(near, 0);
     EXPECT_LT(near, far);
     EXPECT_LT(far, 1);
@@ -114,7 +117,8 @@ TEST(Camera, a_point_goes_where_the_picture_shows_it) {
 TEST(Camera, views_that_share_a_scale_show_all_from_all_sides) {
   std::vector<DrawMesh> meshes{make_ball()};
   for (Vec3& p : meshes[0].positions) p.x() *= 4; // arms out
-  std::vector<std::optional<CameraOptions>> views = {named_view("front"), named_view("left"), std::nullopt, named_view("iso")};
+  std::vector<std::optional<CameraOptions>> views = {named_view("front"), named_view("left"),
+                                                     std::nullopt, named_view("iso")};
   share_scale(meshes, views, 0.75, 0, 0);
   EXPECT_FALSE(views[2]);
   double widest = 0;
@@ -137,16 +141,19 @@ TEST(Camera, a_document_with_an_unknown_key_or_an_absurd_angle_is_refused) {
   EXPECT_NEAR(read_camera(path).azimuth, M_PI / 2, 1e-12);
   EXPECT_EQ(read_camera(path).field_of_view, 0);
   io::write_file(path, R"({"format": "camera", "version": 1, "azimuth_deg": 90})");
-  EXPECT_NEAR(read_camera(path).azimuth, M_PI / 2, 1e-12) << "a head as other documents have one is no mistake";
-  for (const char* bad : {R"({"azimut_deg": 90})", R"({"elevation_deg": 90})", R"({"field_of_view_deg": 0})", "[]", R"({"format": "scene", "version": 1})",
-                          R"({"format": "camera", "version": 2})"}) {
+  EXPECT_NEAR(read_camera(path).azimuth, M_PI / 2, 1e-12)
+      << "a head as other documents have one is no mistake";
+  for (const char* bad :
+       {R"({"azimut_deg": 90})", R"({"elevation_deg": 90})", R"({"field_of_view_deg": 0})", "[]",
+        R"({"format": "scene", "version": 1})", R"({"format": "camera", "version": 2})"}) {
     io::write_file(path, bad);
     EXPECT_THROW(read_camera(path), Error) << bad;
   }
 }
 
 TEST(Render, the_far_side_of_a_closed_body_is_left_out_and_never_missed) {
-  TriangleMesh pyramid{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  TriangleMesh pyramid{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                       {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
   EXPECT_TRUE(is_closed(pyramid));
   const std::vector<Triangle> outwards = pyramid.triangles;
   for (Triangle& t : pyramid.triangles) std::swap(t[0], t[1]);
@@ -168,7 +175,8 @@ TEST(Render, the_far_side_of_a_closed_body_is_left_out_and_never_missed) {
   EXPECT_GT(c.ssim, 0.9999);
 }
 
-TEST(Render, a_seam_shows_on_its_cloth_and_not_through_cloth_that_lies_half_a_millimetre_in_front_of_it) {
+TEST(Render,
+     a_seam_shows_on_its_cloth_and_not_through_cloth_that_lies_half_a_millimetre_in_front_of_it) {
   const auto sheet = [](double half, double z, bool has_seam) {
     DrawMesh mesh;
     for (const auto& [x, y] : {std::pair{-1, -1}, {0, -1}, {1, -1}, {-1, 1}, {0, 1}, {1, 1}}) {
@@ -188,7 +196,8 @@ TEST(Render, a_seam_shows_on_its_cloth_and_not_through_cloth_that_lies_half_a_mi
     return Renderer(meshes, options).draw(frame_scene(meshes, {}, 1)).rgba;
   };
   EXPECT_NE(drawn({sheet(0.5, 0, true)}), drawn({sheet(0.5, 0, false)}));
-  EXPECT_EQ(drawn({sheet(0.5, 0, true), sheet(0.6, 0.0005, false)}), drawn({sheet(0.5, 0, false), sheet(0.6, 0.0005, false)}));
+  EXPECT_EQ(drawn({sheet(0.5, 0, true), sheet(0.6, 0.0005, false)}),
+            drawn({sheet(0.5, 0, false), sheet(0.6, 0.0005, false)}));
 }
 
 TEST(Render, a_ball_throws_its_shadow_on_the_floor) {
@@ -268,7 +277,8 @@ TEST(Overlay, equal_pictures_compare_equal_and_a_defect_is_seen) {
   EXPECT_EQ(c.far, 100);
   EXPECT_EQ(c.counted, a.width * a.height);
   io::Image dark = a, bright = a;
-  for (std::size_t k = 0; k < dark.rgba.size(); ++k) dark.rgba[k] = k % 4 == 3 ? 255 : 0, bright.rgba[k] = 255;
+  for (std::size_t k = 0; k < dark.rgba.size(); ++k)
+    dark.rgba[k] = k % 4 == 3 ? 255 : 0, bright.rgba[k] = 255;
   for (int y = 60; y < 70; ++y)
     for (int x = 50; x < 60; ++x) bright.at(x, y)[0] = 0;
   EXPECT_THROW(compare(a, b, &dark), Error) << "nothing would be compared";
@@ -293,7 +303,8 @@ TEST(Maps, scales_run_from_dark_to_light_and_from_blue_over_white_to_red) {
 // In a picture of 200 x 250 the last line of a long legend had run off the lower edge.
 TEST(Overlay, a_legend_has_room_for_all_its_lines_in_a_small_picture) {
   Legend legend;
-  legend.title = "strain", legend.unit = "%", legend.low = -4, legend.high = 4, legend.diverging = legend.has_gaps = true;
+  legend.title = "strain", legend.unit = "%", legend.low = -4, legend.high = 4,
+  legend.diverging = legend.has_gaps = true;
   legend.below = legend.beyond = 0.1;
   legend.steps.assign(8, Vec3(0.9, 0.1, 0.1));
   io::Image image;
@@ -306,7 +317,8 @@ TEST(Overlay, a_legend_has_room_for_all_its_lines_in_a_small_picture) {
       const std::uint8_t* p = image.at(x, y);
       if (p[0] == 255) continue;
       last = y;
-      swatch += x < 140 && y > 200 && p[0] == p[1] && p[0] > 120 && p[0] < 150; // of "no value", left of its words
+      swatch += x < 140 && y > 200 && p[0] == p[1] && p[0] > 120 &&
+                p[0] < 150; // of "no value", left of its words
     }
   EXPECT_GT(swatch, 60) << "of 100, less the halo of words";
   EXPECT_LT(last, 248);

@@ -1,4 +1,5 @@
-/// The samples as input of the chain: drafts are read and meshed, figures are recognised by the landmark finder.
+/// The samples as input of the chain: drafts are read and meshed, figures are recognised by the
+/// landmark finder.
 #include <base/progress.hpp>
 #include <body/measure_scan.hpp>
 #include <gtest/gtest.h>
@@ -19,7 +20,8 @@ TEST_P(EveryDraft, is_read_and_meshed_with_equal_vertex_counts_on_both_sides_of_
   ASSERT_EQ(pattern.panels.size(), draft.panels.size());
   ASSERT_EQ(pattern.seams.size(), draft.seams.size());
   for (std::size_t k = 0; k < draft.seams.size(); ++k) {
-    const double a = pattern::side_length(pattern, pattern.seams[k].a), b = pattern::side_length(pattern, pattern.seams[k].b);
+    const double a = pattern::side_length(pattern, pattern.seams[k].a),
+                 b = pattern::side_length(pattern, pattern.seams[k].b);
     EXPECT_NEAR(a / b, 1 + draft.seams[k].ease, 0.01) << draft.seams[k].name;
   }
   const pattern::PanelMesh mesh = pattern::mesh_pattern(pattern, 0.02, draft.name);
@@ -28,19 +30,23 @@ TEST_P(EveryDraft, is_read_and_meshed_with_equal_vertex_counts_on_both_sides_of_
   EXPECT_GT(mesh.triangles.size(), 1000u);
 }
 
-INSTANTIATE_TEST_SUITE_P(drafts, EveryDraft, testing::Values(draft_shirt, draft_tshirt, draft_skirt, draft_trousers));
+INSTANTIATE_TEST_SUITE_P(drafts, EveryDraft,
+                         testing::Values(draft_shirt, draft_tshirt, draft_skirt, draft_trousers));
 
 TEST_P(EveryScan, has_its_main_landmarks_found_within_15_mm) {
   const MadeMannequin made = make_mannequin(preset(GetParam()));
-  const body::MeasuredScan found = body::measure_scan(made.mesh, GetParam(), "", {}, silent_reporter());
+  const body::MeasuredScan found =
+      body::measure_scan(made.mesh, GetParam(), "", {}, silent_reporter());
   const Mat4 back = found.body.scan_to_body.inverse();
-  for (const char* name : {"head_tip", "heel_l", "heel_r", "crotch", "neck_center", "neck_front", "hip_center", "buttock_back", "knee_l", "knee_r",
-                           "bust_prominent_l", "ankle_l"}) {
+  for (const char* name :
+       {"head_tip", "heel_l", "heel_r", "crotch", "neck_center", "neck_front", "hip_center",
+        "buttock_back", "knee_l", "knee_r", "bust_prominent_l", "ankle_l"}) {
     const io::Json& truth = made.truth["landmarks"][name];
     if (truth["trust"] == "low") continue;
     ASSERT_TRUE(found.body.has_landmark(name)) << name;
     const Vec3 p = (back * found.body.landmark(name).homogeneous()).head<3>();
-    const std::string axes = truth.contains("compare") ? truth["compare"].get<std::string>() : "xyz";
+    const std::string axes =
+        truth.contains("compare") ? truth["compare"].get<std::string>() : "xyz";
     double squared = 0;
     for (char axis : axes) {
       const int a = axis - 'x';
@@ -50,8 +56,10 @@ TEST_P(EveryScan, has_its_main_landmarks_found_within_15_mm) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(figures, EveryScan, testing::Values("f-165-a", "f-172-t", "f-165-plus", "m-178-a"), [](const auto& figure) {
-  std::string name = figure.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(figures, EveryScan,
+                         testing::Values("f-165-a", "f-172-t", "f-165-plus", "m-178-a"),
+                         [](const auto& figure) {
+                           std::string name = figure.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });

@@ -19,8 +19,9 @@ Draft draft_band_shirt(const Measures& m) {
   return d;
 }
 Draft draft_wide_skirt(const Measures& m) { return draft_flared_skirt(m, 0.1); }
-const DraftedGarment GARMENTS[] = {{"shirt", draft_shirt}, {"band_shirt", draft_band_shirt}, {"tshirt", draft_tshirt},
-                                   {"skirt", draft_skirt}, {"wide_skirt", draft_wide_skirt}, {"trousers", draft_trousers}};
+const DraftedGarment GARMENTS[] = {
+    {"shirt", draft_shirt}, {"band_shirt", draft_band_shirt}, {"tshirt", draft_tshirt},
+    {"skirt", draft_skirt}, {"wide_skirt", draft_wide_skirt}, {"trousers", draft_trousers}};
 
 } // namespace
 
@@ -66,11 +67,14 @@ TEST_P(EveryGarment, is_the_same_left_and_right) {
   for (const DraftPanel& p : d.panels)
     if (p.name.size() > 2 && p.name.substr(p.name.size() - 2) == "_l") {
       const DraftPanel& other = d.panel(p.name.substr(0, p.name.size() - 2) + "_r");
-      for (const DraftEdge& e : p.edges) EXPECT_NEAR(edge_length(p, e.name), edge_length(other, e.name), 1e-9) << p.name << "." << e.name;
+      for (const DraftEdge& e : p.edges)
+        EXPECT_NEAR(edge_length(p, e.name), edge_length(other, e.name), 1e-9)
+            << p.name << "." << e.name;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(garments, EveryGarment, testing::ValuesIn(GARMENTS), [](const auto& garment) { return std::string(garment.param.name); });
+INSTANTIATE_TEST_SUITE_P(garments, EveryGarment, testing::ValuesIn(GARMENTS),
+                         [](const auto& garment) { return std::string(garment.param.name); });
 
 TEST(draft, the_shirt_has_its_ease_at_the_bust_and_its_neckline) {
   Measures m;
@@ -86,12 +90,17 @@ TEST(draft, the_shirt_has_its_ease_at_the_bust_and_its_neckline) {
 TEST(draft, the_skirt_band_goes_round_the_waist_and_the_skirt_over_the_hip) {
   Measures m;
   const Draft d = draft_skirt(m);
-  EXPECT_NEAR(edge_length(d.panel("band_front"), "top") + edge_length(d.panel("band_back"), "top"), m.waist, 0.02);
+  EXPECT_NEAR(edge_length(d.panel("band_front"), "top") + edge_length(d.panel("band_back"), "top"),
+              m.waist, 0.02);
   EXPECT_GT(4 * (d.panel("front_l").points[2] - d.panel("front_l").points[5]).norm(), m.hip);
 }
 
 TEST(draft, a_split_edge_keeps_its_shape_and_parts_its_length) {
-  DraftPanel p{"p", {{0, 0}, {1, 0}, {0, 1}}, {{"a", {}}, {"b", {Vec2(1, 0.5), Vec2(0.5, 1)}}, {"c", {}}}, Vec2(0, 1), {}};
+  DraftPanel p{"p",
+               {{0, 0}, {1, 0}, {0, 1}},
+               {{"a", {}}, {"b", {Vec2(1, 0.5), Vec2(0.5, 1)}}, {"c", {}}},
+               Vec2(0, 1),
+               {}};
   const double whole = edge_length(p, "b");
   split_edge(p, "b", 0.3, "b1", "b2");
   EXPECT_NEAR(edge_length(p, "b1"), 0.3 * whole, 1e-4);
@@ -100,8 +109,16 @@ TEST(draft, a_split_edge_keeps_its_shape_and_parts_its_length) {
 
 TEST(draft, faults_are_found) {
   Draft d{"bad", {}, {}};
-  d.add({"bow", {{0, 0}, {1, 1}, {1, 0}, {0, 1}}, {{"a", {}}, {"b", {}}, {"c", {}}, {"d", {}}}, Vec2(0, 1), {}});
-  d.add({"square", {{0, 0}, {2, 0}, {2, 2}, {0, 2}}, {{"a", {}}, {"b", {}}, {"c", {}}, {"d", {}}}, Vec2(0, 1), {}});
+  d.add({"bow",
+         {{0, 0}, {1, 1}, {1, 0}, {0, 1}},
+         {{"a", {}}, {"b", {}}, {"c", {}}, {"d", {}}},
+         Vec2(0, 1),
+         {}});
+  d.add({"square",
+         {{0, 0}, {2, 0}, {2, 2}, {0, 2}},
+         {{"a", {}}, {"b", {}}, {"c", {}}, {"d", {}}},
+         Vec2(0, 1),
+         {}});
   d.sew("bow", "b", "square", "b");
   EXPECT_GE(draft_faults(d).size(), 2u);
 }

@@ -1,4 +1,5 @@
-/// The mannequin family: every figure is a sound mesh of the right size, and its truth lies where its names say.
+/// The mannequin family: every figure is a sound mesh of the right size, and its truth lies where
+/// its names say.
 #include <base/error.hpp>
 #include <gtest/gtest.h>
 #include <io/json.hpp>
@@ -23,7 +24,8 @@ Vec3 landmark(const MadeMannequin& m, const std::string& name) {
   return {p[0].get<double>(), p[1].get<double>(), p[2].get<double>()};
 }
 
-double distance_to_mesh(const TriangleMesh& mesh, const Vec3& p) { // to the nearest vertex; edges are about 12 mm
+double distance_to_mesh(const TriangleMesh& mesh,
+                        const Vec3& p) { // to the nearest vertex; edges are about 12 mm
   double best = 1e9;
   for (const Vec3& q : mesh.positions) best = std::min(best, (q - p).norm());
   return best;
@@ -31,7 +33,8 @@ double distance_to_mesh(const TriangleMesh& mesh, const Vec3& p) { // to the nea
 
 double volume(const TriangleMesh& mesh) {
   double v = 0;
-  for (const Triangle& t : mesh.triangles) v += mesh.positions[t[0]].dot(mesh.positions[t[1]].cross(mesh.positions[t[2]])) / 6;
+  for (const Triangle& t : mesh.triangles)
+    v += mesh.positions[t[0]].dot(mesh.positions[t[1]].cross(mesh.positions[t[2]])) / 6;
   return v;
 }
 
@@ -42,14 +45,16 @@ class EveryFigure : public testing::TestWithParam<std::string> {};
 TEST_P(EveryFigure, is_one_closed_outward_manifold_of_its_stature) {
   const MadeMannequin& m = made(GetParam());
   EXPECT_TRUE(is_closed_manifold(m.mesh));
-  const std::vector<int> component = connected_components(m.mesh.positions.size(), m.mesh.triangles);
+  const std::vector<int> component =
+      connected_components(m.mesh.positions.size(), m.mesh.triangles);
   EXPECT_EQ(*std::max_element(component.begin(), component.end()), 0);
   const Box3 box = bounding_box(m.mesh.positions);
   EXPECT_NEAR(box.low.y(), 0, 1e-5);
   EXPECT_NEAR(box.high.y(), preset(GetParam()).stature_m, 1e-5);
   EXPECT_GT(m.mesh.triangles.size(), 10000u);
   EXPECT_LT(m.mesh.triangles.size(), 45000u);
-  // A body's mass is about its volume times water's density; the index asked for and the one had agree within a quarter.
+  // A body's mass is about its volume times water's density; the index asked for and the one had
+  // agree within a quarter.
   const double mass = 985 * volume(m.mesh), index = mass / std::pow(box.high.y(), 2);
   EXPECT_NEAR(index / preset(GetParam()).bmi, 1, 0.25) << index;
 }
@@ -57,10 +62,13 @@ TEST_P(EveryFigure, is_one_closed_outward_manifold_of_its_stature) {
 TEST_P(EveryFigure, has_the_girths_that_it_was_asked_for) {
   const MadeMannequin& m = made(GetParam());
   const std::map<std::string, double> want = default_girths(preset(GetParam()));
-  const auto check = [](const char* name, double got, double asked, double off = 0.03) { EXPECT_NEAR(got / asked, 1, off) << name; };
+  const auto check = [](const char* name, double got, double asked, double off = 0.03) {
+    EXPECT_NEAR(got / asked, 1, off) << name;
+  };
   check("waist", m.truth["levels"]["waist_semantic"]["girth_m"], want.at("waist"));
   check("hip", m.truth["levels"]["hip"]["girth_m"], want.at("hip"));
-  check("bust", m.truth["levels"]["bust"]["girth_m"], want.at("bust"), 0.05); // the root of the arm takes part in it
+  check("bust", m.truth["levels"]["bust"]["girth_m"], want.at("bust"),
+        0.05); // the root of the arm takes part in it
   check("upper_arm", m.truth["girths_m"]["upper_arm_l"], want.at("upper_arm"));
   check("wrist", m.truth["girths_m"]["wrist_l"], want.at("wrist"));
   check("neck", m.truth["girths_m"]["neck"], want.at("neck"));
@@ -70,17 +78,21 @@ TEST_P(EveryFigure, has_the_girths_that_it_was_asked_for) {
 
 TEST_P(EveryFigure, has_skin_landmarks_on_the_skin_and_joints_inside) {
   const MadeMannequin& m = made(GetParam());
-  for (const char* name : {"head_tip", "hand_tip_l", "hand_tip_r", "foot_tip_l", "heel_l", "crotch", "axilla_l", "neck_back", "neck_front", "neck_side_l",
-                           "acromion_l", "acromion_r", "olecranon_l", "bust_point_l", "bust_point_r", "omphalion", "waist_side_l", "patella_l"})
+  for (const char* name :
+       {"head_tip", "hand_tip_l", "hand_tip_r", "foot_tip_l", "heel_l", "crotch", "axilla_l",
+        "neck_back", "neck_front", "neck_side_l", "acromion_l", "acromion_r", "olecranon_l",
+        "bust_point_l", "bust_point_r", "omphalion", "waist_side_l", "patella_l"})
     EXPECT_LT(distance_to_mesh(m.mesh, landmark(m, name)), 0.013) << name;
-  for (const char* name : {"shoulder_joint_l", "elbow_l", "wrist_l", "hip_joint_l", "knee_l", "ankle_l", "neck_center"})
+  for (const char* name : {"shoulder_joint_l", "elbow_l", "wrist_l", "hip_joint_l", "knee_l",
+                           "ankle_l", "neck_center"})
     EXPECT_GT(distance_to_mesh(m.mesh, landmark(m, name)), 0.010) << name;
 }
 
 TEST_P(EveryFigure, has_its_landmarks_in_anatomical_order) {
   const MadeMannequin& m = made(GetParam());
   const auto y = [&](const char* name) { return landmark(m, name).y(); };
-  const char* down[] = {"head_tip", "neck_back", "neck_front", "axilla_l", "omphalion", "hip_center", "crotch", "knee_l", "ankle_l"};
+  const char* down[] = {"head_tip",   "neck_back", "neck_front", "axilla_l", "omphalion",
+                        "hip_center", "crotch",    "knee_l",     "ankle_l"};
   for (int i = 0; i + 1 < 9; ++i) EXPECT_GT(y(down[i]), y(down[i + 1])) << down[i];
   EXPECT_GT(landmark(m, "foot_tip_l").z(), landmark(m, "heel_l").z() + 0.1);
   EXPECT_GT(landmark(m, "acromion_l").x(), landmark(m, "neck_side_l").x());
@@ -108,11 +120,12 @@ TEST_P(EveryFigure, labels_every_vertex_with_a_part_and_both_sides_alike) {
   EXPECT_NEAR(static_cast<double>(count[4]) / count[5], 1, 0.05);
 }
 
-INSTANTIATE_TEST_SUITE_P(figures, EveryFigure, testing::ValuesIn(preset_names()), [](const auto& figure) {
-  std::string name = figure.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(figures, EveryFigure, testing::ValuesIn(preset_names()),
+                         [](const auto& figure) {
+                           std::string name = figure.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST(mannequin, the_same_parameters_give_the_same_bytes) {
   const auto text = [] {

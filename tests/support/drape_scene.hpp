@@ -1,5 +1,6 @@
 #pragma once
-/// A scene made for tests: a round pillar that widens below its waist, a motion of it, and a two-panel skirt around it.
+/// A scene made for tests: a round pillar that widens below its waist, a motion of it, and a
+/// two-panel skirt around it.
 #include <body/body.hpp>
 #include <cmath>
 #include <garment/drape/motion.hpp>
@@ -8,12 +9,15 @@
 
 namespace sloper::garment {
 
-/// Closed surface of revolution about y: radius 0.12 m at the waist (y = 1), 0.136 m at the hip (y = 0.8), 0.13 m below.
+/// Closed surface of revolution about y: radius 0.12 m at the waist (y = 1), 0.136 m at the hip (y
+/// = 0.8), 0.13 m below.
 inline body::Body make_pillar(int n_around = 64, int n_up = 60) {
   auto radius = [](double y) {
     if (y > 1.0) return 0.12 + 0.3 * (y - 1.0) * (y - 1.0);
     const double t = (1.0 - y) / 0.2;
-    return t < 2 ? 0.12 + 0.008 * (1 - std::cos(M_PI * std::min(t, 1.0))) - (t > 1 ? 0.003 * (1 - std::cos(M_PI * (t - 1))) : 0) : 0.13;
+    return t < 2 ? 0.12 + 0.008 * (1 - std::cos(M_PI * std::min(t, 1.0))) -
+                       (t > 1 ? 0.003 * (1 - std::cos(M_PI * (t - 1))) : 0)
+                 : 0.13;
   };
   std::vector<shapes::Ring> rings;
   for (int r = 0; r <= n_up; ++r) {
@@ -27,9 +31,11 @@ inline body::Body make_pillar(int n_around = 64, int n_up = 60) {
   return body;
 }
 
-/// One panel of nx by ny cells on the torso. `flat(c, r)` gives the pattern point of column c and row r, `place` where a pattern point starts.
+/// One panel of nx by ny cells on the torso. `flat(c, r)` gives the pattern point of column c and
+/// row r, `place` where a pattern point starts.
 /// @return the panel's index
-template<class Flat, class Place> int add_panel(Garment& garment, const std::string& name, int nx, int ny, Flat flat, Place place) {
+template<class Flat, class Place>
+int add_panel(Garment& garment, const std::string& name, int nx, int ny, Flat flat, Place place) {
   pattern::PanelMesh& p = garment.panels;
   pattern::PanelInfo info;
   info.name = name;
@@ -67,17 +73,21 @@ inline Bind bind_as_sleeve(const Garment& garment, double wrist_y) {
   bind.frames = {"forearm_l"};
   bind.lengths_m = {0.3};
   bind.marks.resize(1);
-  for (const Vec3& p : garment.position) bind.particles.push_back({{0, 1, 0, (p.y() - wrist_y) / 0.3, 0.003}});
+  for (const Vec3& p : garment.position)
+    bind.particles.push_back({{0, 1, 0, (p.y() - wrist_y) / 0.3, 0.003}});
   return bind;
 }
 
-/// Front and back rectangle, each half the girth wide, side seams open; `girth` at rest, m. @param flare  width of the hem over that of the top
-inline Garment make_skirt(double girth, double length, double edge, double top_y = 1.02, double distance = 0.25, double flare = 1) {
+/// Front and back rectangle, each half the girth wide, side seams open; `girth` at rest, m. @param
+/// flare  width of the hem over that of the top
+inline Garment make_skirt(double girth, double length, double edge, double top_y = 1.02,
+                          double distance = 0.25, double flare = 1) {
   Garment garment;
   pattern::PanelMesh& p = garment.panels;
   p.name = "test skirt";
   p.edge_length = edge;
-  const int nx = std::max(2, static_cast<int>(std::lround(0.5 * girth / edge))), ny = std::max(2, static_cast<int>(std::lround(length / edge)));
+  const int nx = std::max(2, static_cast<int>(std::lround(0.5 * girth / edge))),
+            ny = std::max(2, static_cast<int>(std::lround(length / edge)));
   for (int side = 0; side < 2; ++side)
     add_panel(
         garment, side ? "back" : "front", nx, ny,
@@ -85,7 +95,10 @@ inline Garment make_skirt(double girth, double length, double edge, double top_y
           const double width = 0.5 * girth * (flare + (1 - flare) * r / ny);
           return Vec2(width * (static_cast<double>(c) / nx - 0.5), length * r / ny);
         },
-        [&](const Vec2& uv) { return Vec3(side ? -uv.x() : uv.x(), top_y - length + uv.y(), side ? -distance : distance); });
+        [&](const Vec2& uv) {
+          return Vec3(side ? -uv.x() : uv.x(), top_y - length + uv.y(),
+                      side ? -distance : distance);
+        });
   const int back = p.panels[1].first_vertex;
   for (int end = 0; end < 2; ++end) {
     pattern::MeshSeam seam;
@@ -101,14 +114,17 @@ inline Garment make_skirt(double girth, double length, double edge, double top_y
   return garment;
 }
 
-/// The pillar swings to its side, by `way` m at most, and turns, as hips do; 30 frames a second. `body` outlives it.
+/// The pillar swings to its side, by `way` m at most, and turns, as hips do; 30 frames a second.
+/// `body` outlives it.
 inline BodyMoves swinging(const body::Body& body, std::size_t frames, double way) {
   BodyMoves moves;
   moves.n_frames = frames;
   moves.skin = [&body, way](std::size_t k) {
     const double t = (static_cast<double>(k) + 1) / 30;
     std::vector<Vec3> x = body.skin.positions;
-    for (Vec3& p : x) p = Eigen::AngleAxisd(0.3 * std::sin(6 * t), Vec3::UnitY()) * p + Vec3(way * std::sin(2 * M_PI * t), 0, 0);
+    for (Vec3& p : x)
+      p = Eigen::AngleAxisd(0.3 * std::sin(6 * t), Vec3::UnitY()) * p +
+          Vec3(way * std::sin(2 * M_PI * t), 0, 0);
     return x;
   };
   return moves;

@@ -14,7 +14,8 @@ namespace sloper::test {
 inline const samples::MadeMannequin& mannequin(const std::string& name) {
   static std::map<std::string, samples::MadeMannequin> made;
   auto it = made.find(name);
-  if (it == made.end()) it = made.emplace(name, samples::make_mannequin(samples::preset(name))).first;
+  if (it == made.end())
+    it = made.emplace(name, samples::make_mannequin(samples::preset(name))).first;
   return it->second;
 }
 
@@ -35,7 +36,9 @@ inline TriangleMesh moved(TriangleMesh mesh, const Eigen::Matrix3d& linear, cons
   return mesh;
 }
 
-inline Eigen::Matrix3d turn_about_y(double degrees) { return Eigen::AngleAxisd(degrees * 3.14159265358979 / 180, Vec3::UnitY()).toRotationMatrix(); }
+inline Eigen::Matrix3d turn_about_y(double degrees) {
+  return Eigen::AngleAxisd(degrees * 3.14159265358979 / 180, Vec3::UnitY()).toRotationMatrix();
+}
 
 /// Noise of `sigma` along the normals, roughly Gaussian.
 inline TriangleMesh with_noise(TriangleMesh mesh, double sigma, std::uint64_t seed) {
@@ -64,7 +67,8 @@ inline bool is_closed_and_oriented(const TriangleMesh& mesh) {
 
 inline double volume(const TriangleMesh& mesh) {
   double sum = 0;
-  for (const Triangle& t : mesh.triangles) sum += mesh.positions[t[0]].dot(mesh.positions[t[1]].cross(mesh.positions[t[2]])) / 6;
+  for (const Triangle& t : mesh.triangles)
+    sum += mesh.positions[t[0]].dot(mesh.positions[t[1]].cross(mesh.positions[t[2]])) / 6;
   return sum;
 }
 

@@ -16,7 +16,9 @@ inline Grid make_grid(int n, double size, const Fabric& fabric = {}) {
       flat.emplace_back(c * step, r * step);
       x.emplace_back(c * step, 0, -r * step);
     }
-  auto add = [&](int a, int b, int c) { triangles.push_back({{a, b, c}, {flat[a], flat[b], flat[c]}, 0}); };
+  auto add = [&](int a, int b, int c) {
+    triangles.push_back({{a, b, c}, {flat[a], flat[b], flat[c]}, 0});
+  };
   for (int r = 0; r + 1 < n; ++r)
     for (int c = 0; c + 1 < n; ++c) {
       const int a = r * n + c, b = a + 1, d = a + n, e = d + 1;

@@ -20,10 +20,11 @@ inline Pattern own(const std::string& text) {
 
 /// A front and a back of 40 x 60 cm, sewn at both sides.
 inline std::string tube_text(const std::string& extra_seams = "") {
-  const std::string panel = R"("outline": [{"edge": "hem", "path": [["M", -20, 0], ["L", 20, 0]]}, {"edge": "side_l", "path": [["L", 20, 60]]},
+  const std::string panel =
+      R"("outline": [{"edge": "hem", "path": [["M", -20, 0], ["L", 20, 0]]}, {"edge": "side_l", "path": [["L", 20, 60]]},
       {"edge": "top", "path": [["L", -20, 60]]}, {"edge": "side_r", "path": [["L", -20, 0]]}])";
-  return R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "tube", "panels": [{"name": "front", )" + panel + R"(}, {"name": "back", )" +
-         panel +
+  return R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "tube", "panels": [{"name": "front", )" +
+         panel + R"(}, {"name": "back", )" + panel +
          R"(}], "seams": [{"name": "left", "a": [{"panel": "front", "edge": "side_l"}], "b": [{"panel": "back", "edge": "side_r"}]},
       {"name": "right", "a": [{"panel": "back", "edge": "side_l"}], "b": [{"panel": "front", "edge": "side_r"}]})" +
          extra_seams + "]}";
@@ -34,8 +35,9 @@ struct Sewn {
   std::vector<int> weld;   ///< class of each vertex
   int degenerate = 0;      ///< triangles with two corners in one class
   int duplicate_faces = 0; ///< triangles with the same three classes
-  int wrong_direction = 0; ///< directed edges used twice: neighbours that do not agree on the outside
-  int non_manifold = 0;    ///< edges of more than two triangles
+  int wrong_direction =
+      0;                ///< directed edges used twice: neighbours that do not agree on the outside
+  int non_manifold = 0; ///< edges of more than two triangles
   int boundary_loops = 0;
 };
 
@@ -56,7 +58,8 @@ inline Sewn sew(const PanelMesh& mesh) {
   std::map<std::pair<int, int>, int> directed, undirected;
   std::map<Triangle, int> faces;
   for (const Triangle& t : mesh.triangles) {
-    Triangle w{out.weld[static_cast<std::size_t>(t[0])], out.weld[static_cast<std::size_t>(t[1])], out.weld[static_cast<std::size_t>(t[2])]};
+    Triangle w{out.weld[static_cast<std::size_t>(t[0])], out.weld[static_cast<std::size_t>(t[1])],
+               out.weld[static_cast<std::size_t>(t[2])]};
     if (w[0] == w[1] || w[1] == w[2] || w[2] == w[0]) ++out.degenerate;
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = w[k], b = w[(k + 1) % 3];
@@ -89,7 +92,8 @@ inline double mesh_area(const PanelMesh& mesh, const PanelInfo& panel) {
   double sum = 0;
   for (int t = panel.first_triangle; t < panel.first_triangle + panel.n_triangles; ++t) {
     const Triangle& tri = mesh.triangles[static_cast<std::size_t>(t)];
-    const Vec2 &a = mesh.pattern[static_cast<std::size_t>(tri[0])], &b = mesh.pattern[static_cast<std::size_t>(tri[1])],
+    const Vec2 &a = mesh.pattern[static_cast<std::size_t>(tri[0])],
+               &b = mesh.pattern[static_cast<std::size_t>(tri[1])],
                &c = mesh.pattern[static_cast<std::size_t>(tri[2])];
     sum += 0.5 * ((b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()));
   }

@@ -10,16 +10,18 @@ namespace sloper::pattern::test {
 
 /// A panel of the own format, cm: edges hem, l, top, r.
 inline std::string rectangle(const std::string& name, double w, double h) {
-  return R"({"name": ")" + name + R"(", "outline": [{"edge": "hem", "path": [["M", 0, 0], ["L", )" + std::to_string(w) +
-         R"(, 0]]}, {"edge": "l", "path": [["L", )" + std::to_string(w) + ", " + std::to_string(h) + R"(]]}, {"edge": "top", "path": [["L", 0, )" +
-         std::to_string(h) + R"(]]}, {"edge": "r", "path": [["L", 0, 0]]}]})";
+  return R"({"name": ")" + name + R"(", "outline": [{"edge": "hem", "path": [["M", 0, 0], ["L", )" +
+         std::to_string(w) + R"(, 0]]}, {"edge": "l", "path": [["L", )" + std::to_string(w) + ", " +
+         std::to_string(h) + R"(]]}, {"edge": "top", "path": [["L", 0, )" + std::to_string(h) +
+         R"(]]}, {"edge": "r", "path": [["L", 0, 0]]}]})";
 }
 
 /// A skirt of two rectangles, each this wide, cm.
 inline Pattern box_skirt(double width) {
-  return own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "skirt", "panels": [)" + rectangle("skirt_front", width, 12) + "," +
-             rectangle("skirt_back", width, 12) +
-             R"(], "seams": [{"name": "a", "a": [{"panel": "skirt_front", "edge": "l"}], "b": [{"panel": "skirt_back", "edge": "r"}]},
+  return own(
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "skirt", "panels": [)" +
+      rectangle("skirt_front", width, 12) + "," + rectangle("skirt_back", width, 12) +
+      R"(], "seams": [{"name": "a", "a": [{"panel": "skirt_front", "edge": "l"}], "b": [{"panel": "skirt_back", "edge": "r"}]},
                              {"name": "b", "a": [{"panel": "skirt_back", "edge": "l"}], "b": [{"panel": "skirt_front", "edge": "r"}]}]})");
 }
 
@@ -43,7 +45,8 @@ inline body::Body waisted_body() {
 inline Vec3 middle(const PanelMesh& mesh, int panel) {
   Vec3 sum = Vec3::Zero();
   const PanelInfo& p = mesh.panels[static_cast<std::size_t>(panel)];
-  for (int v = p.first_vertex; v < p.first_vertex + p.n_vertices; ++v) sum += mesh.placed[static_cast<std::size_t>(v)];
+  for (int v = p.first_vertex; v < p.first_vertex + p.n_vertices; ++v)
+    sum += mesh.placed[static_cast<std::size_t>(v)];
   return sum / p.n_vertices;
 }
 

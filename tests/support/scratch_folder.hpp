@@ -25,14 +25,17 @@ public:
   std::string operator/(const std::string& name) const { return m_path + "/" + name; }
   const std::string& path() const { return m_path; }
   std::size_t n_files() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(m_path), std::filesystem::directory_iterator()));
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(m_path),
+                                                  std::filesystem::directory_iterator()));
   }
 
 private:
   std::string m_path;
 };
 
-inline void put(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+inline void put(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
 inline std::string get(const std::string& path) {
   std::stringstream out;
   out << std::ifstream(path, std::ios::binary).rdbuf();

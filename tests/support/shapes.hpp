@@ -11,7 +11,8 @@
 namespace sloper::shapes {
 
 inline Vec3 random_point(Random& random, double size = 1) {
-  const double x = random.uniform(-size, size), y = random.uniform(-size, size), z = random.uniform(-size, size);
+  const double x = random.uniform(-size, size), y = random.uniform(-size, size),
+               z = random.uniform(-size, size);
   return {x, y, z};
 }
 
@@ -28,8 +29,10 @@ inline TriangleMesh sphere(int levels, double radius = 1, const Vec3& center = V
   TriangleMesh mesh;
   mesh.positions = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                     {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-  mesh.triangles = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                    {3, 9, 4},  {3, 4, 2}, {3, 2, 6}, {3, 6, 8},  {3, 8, 9},   {4, 9, 5}, {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+  mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                    {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                    {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                    {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
   for (int level = 0; level < levels; ++level) {
     std::map<std::array<int, 2>, int> middle;
     std::vector<Triangle> finer;
@@ -37,11 +40,14 @@ inline TriangleMesh sphere(int levels, double radius = 1, const Vec3& center = V
       Triangle m;
       for (int k = 0; k < 3; ++k) {
         const int a = t[k], b = t[(k + 1) % 3];
-        const auto [at, fresh] = middle.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<int>(mesh.positions.size()));
+        const auto [at, fresh] = middle.try_emplace({std::min(a, b), std::max(a, b)},
+                                                    static_cast<int>(mesh.positions.size()));
         if (fresh) mesh.positions.push_back(mesh.positions[a] + mesh.positions[b]);
         m[k] = at->second;
       }
-      finer.insert(finer.end(), {{t[0], m[0], m[2]}, {t[1], m[1], m[0]}, {t[2], m[2], m[1]}, {m[0], m[1], m[2]}});
+      finer.insert(
+          finer.end(),
+          {{t[0], m[0], m[2]}, {t[1], m[1], m[0]}, {t[2], m[2], m[1]}, {m[0], m[1], m[2]}});
     }
     mesh.triangles = finer;
     for (Vec3& p : mesh.positions) p.normalize();
@@ -55,9 +61,11 @@ struct Ring {
   double y, x, z;
 };
 
-/// The rings' surface about the vertical through `center`, `around` vertices a ring, outward where rings go upwards. Ring by ring: vertices,
-/// then the triangles between. @param turned  angle of each ring's first vertex from +z towards +x, in steps of a ring
-inline TriangleMesh revolve(int around, const std::vector<Ring>& rings, const Vec3& center = Vec3::Zero(), double turned = 0) {
+/// The rings' surface about the vertical through `center`, `around` vertices a ring, outward where
+/// rings go upwards. Ring by ring: vertices, then the triangles between. @param turned  angle of
+/// each ring's first vertex from +z towards +x, in steps of a ring
+inline TriangleMesh revolve(int around, const std::vector<Ring>& rings,
+                            const Vec3& center = Vec3::Zero(), double turned = 0) {
   TriangleMesh mesh;
   for (const Ring& ring : rings)
     for (int c = 0; c < around; ++c) {
@@ -73,18 +81,21 @@ inline TriangleMesh revolve(int around, const std::vector<Ring>& rings, const Ve
   return mesh;
 }
 
-/// Closes what revolve() made: a fan from a point below the first ring and one from a point above the last.
+/// Closes what revolve() made: a fan from a point below the first ring and one from a point above
+/// the last.
 inline void close_ends(TriangleMesh& mesh, int around, const Vec3& low, const Vec3& high) {
   const int top = static_cast<int>(mesh.positions.size()) - around;
   const int below = static_cast<int>(mesh.positions.size()), above = below + 1;
   mesh.positions.push_back(low);
   mesh.positions.push_back(high);
   for (int c = 0; c < around; ++c) mesh.triangles.push_back({below, (c + 1) % around, c});
-  for (int c = 0; c < around; ++c) mesh.triangles.push_back({above, top + c, top + (c + 1) % around});
+  for (int c = 0; c < around; ++c)
+    mesh.triangles.push_back({above, top + c, top + (c + 1) % around});
 }
 
 /// A closed cylinder about the vertical through `center`, from y = low to high, in `up` rows.
-inline TriangleMesh cylinder(double radius, double low, double high, int around, int up = 1, const Vec3& center = Vec3::Zero(), double turned = 0) {
+inline TriangleMesh cylinder(double radius, double low, double high, int around, int up = 1,
+                             const Vec3& center = Vec3::Zero(), double turned = 0) {
   std::vector<Ring> rings;
   for (int r = 0; r <= up; ++r) rings.push_back({low + (high - low) * r / up, radius, radius});
   TriangleMesh mesh = revolve(around, rings, center, turned);
@@ -114,10 +125,12 @@ inline void jitter(TriangleMesh& mesh, double amount, std::uint64_t seed) {
 inline void append(TriangleMesh& mesh, const TriangleMesh& other) {
   const auto base = static_cast<int>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
-  for (const Triangle& t : other.triangles) mesh.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
+  for (const Triangle& t : other.triangles)
+    mesh.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
 }
 
-/// Unconnected triangles of all sizes, with some repeated points, slivers and zero areas among them.
+/// Unconnected triangles of all sizes, with some repeated points, slivers and zero areas among
+/// them.
 inline TriangleMesh soup(int n, double size, std::uint64_t seed) {
   Random random(seed);
   TriangleMesh mesh;

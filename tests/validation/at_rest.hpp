@@ -12,8 +12,10 @@ struct Sheet {
   int at(int c, int r) const { return r * (nx + 1) + c; }
 };
 
-/// Flat rectangle in the x-z plane, weft along +x, warp along -z; `first` is the corner at column 0, row 0.
-inline Sheet make_sheet(int nx, int ny, double dx, double dy, const Fabric& fabric, const Vec3& first = Vec3::Zero()) {
+/// Flat rectangle in the x-z plane, weft along +x, warp along -z; `first` is the corner at column
+/// 0, row 0.
+inline Sheet make_sheet(int nx, int ny, double dx, double dy, const Fabric& fabric,
+                        const Vec3& first = Vec3::Zero()) {
   Sheet s;
   s.nx = nx;
   s.ny = ny;
@@ -24,7 +26,9 @@ inline Sheet make_sheet(int nx, int ny, double dx, double dy, const Fabric& fabr
       flat.emplace_back(c * dx, r * dy);
       s.x.push_back(first + Vec3(c * dx, 0, -r * dy));
     }
-  auto add = [&](int a, int b, int c) { triangles.push_back({{a, b, c}, {flat[a], flat[b], flat[c]}, 0}); };
+  auto add = [&](int a, int b, int c) {
+    triangles.push_back({{a, b, c}, {flat[a], flat[b], flat[c]}, 0});
+  };
   for (int r = 0; r < ny; ++r)
     for (int c = 0; c < nx; ++c) {
       const int a = s.at(c, r), b = s.at(c + 1, r), d = s.at(c, r + 1), e = s.at(c + 1, r + 1);
@@ -35,8 +39,9 @@ inline Sheet make_sheet(int nx, int ny, double dx, double dy, const Fabric& fabr
   return s;
 }
 
-/// Rectangle of equilateral triangles (as the pattern's mesher makes inside a panel) in the x-z plane: rows[c] are the particles of
-/// column c at x = c dx, straight across from z = 0 to z = -m l, l = dx / sqrt(3/4); halved triangles at both sides.
+/// Rectangle of equilateral triangles (as the pattern's mesher makes inside a panel) in the x-z
+/// plane: rows[c] are the particles of column c at x = c dx, straight across from z = 0 to z = -m
+/// l, l = dx / sqrt(3/4); halved triangles at both sides.
 struct HexSheet {
   ClothMesh mesh;
   std::vector<Vec3> x;
@@ -58,11 +63,14 @@ inline HexSheet make_hex_sheet(int n, double dx, int m, const Fabric& fabric) {
       s.x.emplace_back(c * dx, 0, -z);
     }
   }
-  auto add = [&](int a, int b, int c) { triangles.push_back({{a, b, c}, {flat[a], flat[b], flat[c]}, 0}); };
+  auto add = [&](int a, int b, int c) {
+    triangles.push_back({{a, b, c}, {flat[a], flat[b], flat[c]}, 0});
+  };
   for (int c = 0; c < n; ++c) { // zip two columns
     const auto &p = s.columns[c], &q = s.columns[c + 1];
     for (std::size_t i = 0, j = 0; i + 1 < p.size() || j + 1 < q.size();) {
-      const double next_p = i + 1 < p.size() ? flat[p[i + 1]].y() : 1e300, next_q = j + 1 < q.size() ? flat[q[j + 1]].y() : 1e300;
+      const double next_p = i + 1 < p.size() ? flat[p[i + 1]].y() : 1e300,
+                   next_q = j + 1 < q.size() ? flat[q[j + 1]].y() : 1e300;
       if (next_p < next_q || (next_p == next_q && p.size() > q.size())) {
         add(p[i], q[j], p[i + 1]);
         ++i;
@@ -76,9 +84,11 @@ inline HexSheet make_hex_sheet(int n, double dx, int m, const Fabric& fabric) {
   return s;
 }
 
-/// Steps without inertia until no particle moves more than `still` (m/s of pseudo time) and the residual force is small.
+/// Steps without inertia until no particle moves more than `still` (m/s of pseudo time) and the
+/// residual force is small.
 /// @return steps taken, or -1 when that did not do
-inline int go_to_rest(ClothSolver& solver, double still = 1e-5, int most = 3000, double largest_h = 0.5) {
+inline int go_to_rest(ClothSolver& solver, double still = 1e-5, int most = 3000,
+                      double largest_h = 0.5) {
   StepOptions o;
   o.h = 0.02;
   o.cg_tolerance = 1e-4;

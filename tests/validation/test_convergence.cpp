@@ -1,5 +1,6 @@
-/// Orders of convergence, fitted: error against time step, mesh size and CG tolerance. An order that leaves its range is a mistake in
-/// the step, the mesh or the solver that no single comparison shows.
+/// Orders of convergence, fitted: error against time step, mesh size and CG tolerance. An order
+/// that leaves its range is a mistake in the step, the mesh or the solver that no single comparison
+/// shows.
 #include "at_rest.hpp"
 #include "figures.hpp"
 
@@ -36,7 +37,8 @@ Fabric soft() {
   return f;
 }
 
-/// Height of the lower edge of a strip let go at t = 0, hung by its upper edge, after 0.05 s: about half a swing of its own stretch.
+/// Height of the lower edge of a strip let go at t = 0, hung by its upper edge, after 0.05 s: about
+/// half a swing of its own stretch.
 template<class Model> double dropped(double h) {
   Sheet s = make_sheet(2, 12, 0.02, 0.025, soft());
   for (Vec3& p : s.x) p = Vec3(p.x(), p.z(), 0);
@@ -55,12 +57,15 @@ template<class Model> double dropped(double h) {
   return solver.x()[s.at(1, s.ny)].y();
 }
 
-/// A cloth let go level, held by one edge, after three quarters of a second: it has swung through and far up again on the other side.
+/// A cloth let go level, held by one edge, after three quarters of a second: it has swung through
+/// and far up again on the other side.
 struct Swung {
   double lower_z = 0, lower_y = 0; ///< m, of the middle of the free edge
-  double gained = 0;               ///< J, the largest growth of energy in a step, over what the fall sets free
-  double cpu_ms = 0;               ///< a step
-  double distance(const Swung& o) const { return std::hypot(lower_z - o.lower_z, lower_y - o.lower_y); }
+  double gained = 0; ///< J, the largest growth of energy in a step, over what the fall sets free
+  double cpu_ms = 0; ///< a step
+  double distance(const Swung& o) const {
+    return std::hypot(lower_z - o.lower_z, lower_y - o.lower_y);
+  }
 };
 Swung swung(double h, int newton_iterations) {
   Fabric f;
@@ -76,7 +81,8 @@ Swung swung(double h, int newton_iterations) {
   const auto energy = [&] {
     double sum = 0;
     for (const auto& e : solver.effects()) sum += e->energy(solver.x());
-    for (std::size_t i = 0; i < s.x.size(); ++i) sum += 0.5 * s.mesh.mass[i] * solver.v()[i].squaredNorm();
+    for (std::size_t i = 0; i < s.x.size(); ++i)
+      sum += 0.5 * s.mesh.mass[i] * solver.v()[i].squaredNorm();
     return sum;
   };
   StepOptions o;
@@ -127,7 +133,8 @@ double sag(int n) {
 } // namespace
 
 TEST(Convergence, in_the_time_step_is_of_first_order) {
-  const double exact = dropped<EdgeSpringEffect>(0.05 / 1024), exact_fem = dropped<MembraneEffect>(0.05 / 1024);
+  const double exact = dropped<EdgeSpringEffect>(0.05 / 1024),
+               exact_fem = dropped<MembraneEffect>(0.05 / 1024);
   std::vector<double> size, error, error_fem;
   for (int n : {16, 32, 64, 128}) {
     size.push_back(0.05 / n);
@@ -144,21 +151,24 @@ TEST(Convergence, in_the_time_step_is_of_first_order) {
   EXPECT_NEAR(order(size, error_fem), 1, 0.25);
 }
 
-/// Steps of several solves gain no energy, at any length; how far they are off is what backward Euler's damping takes, of first order.
+/// Steps of several solves gain no energy, at any length; how far they are off is what backward
+/// Euler's damping takes, of first order.
 TEST(Convergence, of_a_swing_in_the_time_step_and_its_solves) {
   const Swung exact = swung(0.75 / 6000, 4);
   std::vector<double> size, error;
   for (int per_second : {8, 16, 32, 60, 120, 240, 480, 960})
     for (int solves : {1, 0, 2, 8}) { // 0: one, guarded
       const Swung s = swung(1.0 / per_second, solves);
-      const std::string what = "swing, 1/" + std::to_string(per_second) + " s, solves " + std::to_string(solves);
+      const std::string what =
+          "swing, 1/" + std::to_string(per_second) + " s, solves " + std::to_string(solves);
       print_figure(what + ": off, mm", 1e3 * s.distance(exact), 1);
       print_figure(what + ": energy gained in a step, of the fall's", s.gained, 1);
       print_figure(what + ": CPU ms a step", s.cpu_ms, 1);
       if (solves != 1) {
         EXPECT_LT(s.gained, solves == 0 ? 0.5 : 2e-3) << what; // a single solve gains up to 3900
       }
-      if (solves == 8 && per_second >= 120) size.push_back(1.0 / per_second), error.push_back(s.distance(exact));
+      if (solves == 8 && per_second >= 120)
+        size.push_back(1.0 / per_second), error.push_back(s.distance(exact));
     }
   print_figure("order in the time step, a swing", order(size, error), 1);
   EXPECT_NEAR(order(size, error), 1, 0.35);
@@ -171,7 +181,8 @@ TEST(Convergence, in_the_mesh_is_of_second_order) {
     size.push_back(1.0 / n);
     error.push_back(std::abs(sag(n) - finest));
   }
-  for (std::size_t i = 0; i < size.size(); ++i) plot_point("order-mesh", "springs", size[i], error[i]);
+  for (std::size_t i = 0; i < size.size(); ++i)
+    plot_point("order-mesh", "springs", size[i], error[i]);
   print_figure("order in the mesh, sag of a hanging strip", order(size, error), 2);
   EXPECT_NEAR(order(size, error), 2, 0.35);
 }
@@ -179,7 +190,9 @@ TEST(Convergence, in_the_mesh_is_of_second_order) {
 TEST(Convergence, in_the_tolerance_of_conjugate_gradients_is_of_first_order) {
   Sheet s = make_sheet(16, 16, 0.02, 0.02, Fabric{});
   Random random(3);
-  for (Vec3& p : s.x) p += Vec3{random.uniform(-1e-3, 1e-3), random.uniform(-1e-3, 1e-3), random.uniform(-1e-3, 1e-3)};
+  for (Vec3& p : s.x)
+    p +=
+        Vec3{random.uniform(-1e-3, 1e-3), random.uniform(-1e-3, 1e-3), random.uniform(-1e-3, 1e-3)};
   const auto stepped = [&](double tolerance) {
     ClothSolver solver(s.mesh, s.x);
     solver.emplace<MembraneEffect>(s.mesh);
@@ -200,7 +213,8 @@ TEST(Convergence, in_the_tolerance_of_conjugate_gradients_is_of_first_order) {
     size.push_back(tolerance);
     error.push_back(std::sqrt(sum));
   }
-  for (std::size_t i = 0; i < size.size(); ++i) plot_point("order-cg", "finite elements", size[i], error[i]);
+  for (std::size_t i = 0; i < size.size(); ++i)
+    plot_point("order-cg", "finite elements", size[i], error[i]);
   print_figure("order in the CG tolerance", order(size, error), 1);
   EXPECT_NEAR(order(size, error), 1, 0.3);
 }

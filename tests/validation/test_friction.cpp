@@ -1,4 +1,5 @@
-/// A patch of cloth on a slope: it stays where the slope is less than the friction angle, tan(alpha) = mu, and slides where it is more.
+/// A patch of cloth on a slope: it stays where the slope is less than the friction angle,
+/// tan(alpha) = mu, and slides where it is more.
 #include "figures.hpp"
 
 #include <body/body.hpp>
@@ -19,10 +20,12 @@ body::Body make_slope(double angle) {
   const double half = 0.6, depth = 0.2;
   const Mat3 turn = Eigen::AngleAxisd(-angle, Vec3::UnitZ()).toRotationMatrix();
   auto& m = body.skin;
-  auto add_side = [&](const Vec3& corner, const Vec3& a, const Vec3& b, int na, int nb) { // outward is a x b
+  auto add_side = [&](const Vec3& corner, const Vec3& a, const Vec3& b, int na,
+                      int nb) { // outward is a x b
     const int first = static_cast<int>(m.positions.size());
     for (int i = 0; i <= na; ++i)
-      for (int j = 0; j <= nb; ++j) m.positions.push_back(turn * (corner + a * i / na + b * j / nb));
+      for (int j = 0; j <= nb; ++j)
+        m.positions.push_back(turn * (corner + a * i / na + b * j / nb));
     for (int i = 0; i < na; ++i)
       for (int j = 0; j < nb; ++j) {
         const int p = first + i * (nb + 1) + j, q = p + nb + 1;
@@ -30,7 +33,8 @@ body::Body make_slope(double angle) {
         m.triangles.push_back({p, q + 1, p + 1});
       }
   };
-  const Vec3 x(2 * half, 0, 0), y(0, depth, 0), z(0, 0, 2 * half), low(-half, -depth, -half), high(half, 0, half);
+  const Vec3 x(2 * half, 0, 0), y(0, depth, 0), z(0, 0, 2 * half), low(-half, -depth, -half),
+      high(half, 0, half);
   add_side(low + y, z, x, n, n); // top
   add_side(low, x, z, n, n);     // bottom
   add_side(low, z, y, n, 4);
@@ -41,7 +45,8 @@ body::Body make_slope(double angle) {
   return body;
 }
 
-/// Whether a patch of 10 cm comes to rest on a slope of `angle`; `moved`: how far it slid until then or until the step limit, m.
+/// Whether a patch of 10 cm comes to rest on a slope of `angle`; `moved`: how far it slid until
+/// then or until the step limit, m.
 bool comes_to_rest(double angle, double mu, double& moved) {
   const body::Body slope = make_slope(angle);
   Garment garment;
@@ -76,7 +81,8 @@ bool comes_to_rest(double angle, double mu, double& moved) {
   settings.effects = "auto,-self_contact";
   const DrapeReport report = drape(garment, &slope, settings, silent_reporter());
   moved = 0;
-  for (std::size_t i = 0; i < garment.position.size(); ++i) moved += (garment.position[i] - p.placed[i]).norm() / static_cast<double>(p.placed.size());
+  for (std::size_t i = 0; i < garment.position.size(); ++i)
+    moved += (garment.position[i] - p.placed[i]).norm() / static_cast<double>(p.placed.size());
   return report.converged;
 }
 
@@ -96,7 +102,9 @@ TEST(Friction, the_angle_at_which_cloth_starts_to_slide_is_atan_mu_within_5_perc
       (comes_to_rest(angle, mu, held) ? holds : slips) = mu;
     }
     plot_point("friction", "cloth holds", degrees, holds);
-    print_figure("friction at which cloth holds on " + std::to_string(static_cast<int>(degrees)) + " degrees", holds, exact);
+    print_figure("friction at which cloth holds on " + std::to_string(static_cast<int>(degrees)) +
+                     " degrees",
+                 holds, exact);
     EXPECT_NEAR(holds / exact, 1, 0.05) << degrees << " degrees";
   }
 }

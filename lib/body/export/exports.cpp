@@ -26,15 +26,18 @@ constexpr std::pair<const char*, const char*> ISO_NAMES[] = {
 };
 
 std::string iso_name(std::string name) {
-  if (name.size() > 2 && (name.ends_with("_l") || name.ends_with("_r"))) name.resize(name.size() - 2);
+  if (name.size() > 2 && (name.ends_with("_l") || name.ends_with("_r")))
+    name.resize(name.size() - 2);
   for (const auto& [ours, iso] : ISO_NAMES)
     if (name == ours) return iso;
   return "";
 }
 
-void row(std::string& out, const std::string& kind, const std::string& name, double value, double spread, const std::string& iso) {
+void row(std::string& out, const std::string& kind, const std::string& name, double value,
+         double spread, const std::string& iso) {
   char text[200];
-  std::snprintf(text, sizeof text, "%s,%s,%.4f,%.4f,%s\n", kind.c_str(), name.c_str(), value, spread, iso.c_str());
+  std::snprintf(text, sizeof text, "%s,%s,%.4f,%.4f,%s\n", kind.c_str(), name.c_str(), value,
+                spread, iso.c_str());
   out += text;
 }
 
@@ -42,11 +45,15 @@ void row(std::string& out, const std::string& kind, const std::string& name, dou
 
 std::string measurements_csv(const Body& body) {
   std::string out = "kind,name,value_m,spread_m,iso_8559_1\n";
-  row(out, "height", "stature", body.scan.stature_m, body.has_landmark("head_tip") ? body.landmarks.at("head_tip").spread_m : 0, "stature");
-  for (const auto& [name, girth] : body.girths) row(out, "girth", name, girth.value_m, girth.spread_m, iso_name(name));
+  row(out, "height", "stature", body.scan.stature_m,
+      body.has_landmark("head_tip") ? body.landmarks.at("head_tip").spread_m : 0, "stature");
+  for (const auto& [name, girth] : body.girths)
+    row(out, "girth", name, girth.value_m, girth.spread_m, iso_name(name));
   for (const auto& [name, level] : body.levels) {
-    row(out, "level_height", name, level.y, level.y_spread_m, name == "crotch" ? iso_name(name) : std::string());
-    row(out, "level_girth", name, level.girth_m, level.girth_spread_m, name == "crotch" ? std::string() : iso_name(name));
+    row(out, "level_height", name, level.y, level.y_spread_m,
+        name == "crotch" ? iso_name(name) : std::string());
+    row(out, "level_girth", name, level.girth_m, level.girth_spread_m,
+        name == "crotch" ? std::string() : iso_name(name));
   }
   return out;
 }
@@ -56,8 +63,9 @@ std::string skeleton_obj(const Body& body) {
   char text[200];
   int vertex = 0;
   for (const Bone& bone : body.bones) {
-    std::snprintf(text, sizeof text, "o %s\nv %.6f %.6f %.6f\nv %.6f %.6f %.6f\nl %d %d\n", bone.name.c_str(), bone.head.x(), bone.head.y(), bone.head.z(),
-                  bone.tail.x(), bone.tail.y(), bone.tail.z(), vertex + 1, vertex + 2);
+    std::snprintf(text, sizeof text, "o %s\nv %.6f %.6f %.6f\nv %.6f %.6f %.6f\nl %d %d\n",
+                  bone.name.c_str(), bone.head.x(), bone.head.y(), bone.head.z(), bone.tail.x(),
+                  bone.tail.y(), bone.tail.z(), vertex + 1, vertex + 2);
     out += text;
     vertex += 2;
   }

@@ -36,7 +36,8 @@ std::optional<double> girth(const Body& b, const std::string& name) {
   double sum = 0;
   int n = 0;
   for (const char* side : {"", "_l", "_r"})
-    if (const auto it = b.girths.find(name + side); it != b.girths.end()) sum += it->second.value_m, ++n;
+    if (const auto it = b.girths.find(name + side); it != b.girths.end())
+      sum += it->second.value_m, ++n;
   return n ? std::optional(sum / n) : std::nullopt;
 }
 
@@ -54,7 +55,9 @@ std::optional<double> between(const Body& b, const std::string& from, const std:
   return (b.landmark(from) - b.landmark(to)).norm();
 }
 
-std::optional<double> minus(std::optional<double> a, std::optional<double> c) { return a && c ? std::optional(*a - *c) : std::nullopt; }
+std::optional<double> minus(std::optional<double> a, std::optional<double> c) {
+  return a && c ? std::optional(*a - *c) : std::nullopt;
+}
 
 /// Mean over both sides of the polyline through these landmarks.
 std::optional<double> along(const Body& b, const std::vector<std::string>& names) {
@@ -73,7 +76,8 @@ std::optional<double> along(const Body& b, const std::vector<std::string>& names
   return n ? std::optional(sum / n) : std::nullopt;
 }
 
-/// Loop of the trunk at a height: the largest one near the middle, its arms cut off at `reach` from the middle.
+/// Loop of the trunk at a height: the largest one near the middle, its arms cut off at `reach` from
+/// the middle.
 std::vector<Vec2> trunk_hull(const Body& b, double y, double reach) {
   for (const Loop& loop : cut(b.skin, level_plane(y))) {
     if (loop.area <= 0 || std::abs(loop.centroid.x()) > 0.1) continue;
@@ -92,7 +96,8 @@ std::optional<double> back_width(const Body& b, const std::string& level) {
   const std::vector<Vec2> hull = trunk_hull(b, it->second.y, 0.5 * it->second.width_m + 0.002);
   if (hull.size() < 3) return std::nullopt;
   const auto by_x = [](const Vec2& p, const Vec2& q) { return p.x() < q.x(); };
-  const Vec2 right = *std::min_element(hull.begin(), hull.end(), by_x), left = *std::max_element(hull.begin(), hull.end(), by_x);
+  const Vec2 right = *std::min_element(hull.begin(), hull.end(), by_x),
+             left = *std::max_element(hull.begin(), hull.end(), by_x);
   double length = 0;
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Vec2 &p = hull[i], &q = hull[(i + 1) % hull.size()], middle = 0.5 * (p + q);
@@ -103,7 +108,8 @@ std::optional<double> back_width(const Body& b, const std::string& level) {
 }
 
 /// Taut length over the back in the middle plane, from one height down to another.
-std::optional<double> over_the_back(const Body& b, std::optional<double> top, std::optional<double> bottom) {
+std::optional<double> over_the_back(const Body& b, std::optional<double> top,
+                                    std::optional<double> bottom) {
   if (!top || !bottom || *top <= *bottom || b.skin.triangles.empty()) return std::nullopt;
   const Plane middle{Vec3::Zero(), Vec3::UnitZ(), Vec3::UnitY()};
   constexpr double STEP = 0.005; // m
@@ -112,7 +118,8 @@ std::optional<double> over_the_back(const Body& b, std::optional<double> top, st
   for (const Loop& loop : cut(b.skin, middle))
     for (const auto& s : loop.segments) {
       const auto [low, high] = std::minmax(s[0].y(), s[1].y());
-      const int first = std::max(0, static_cast<int>(std::ceil((*top - high) / STEP))), last = std::min(n - 1, static_cast<int>((*top - low) / STEP));
+      const int first = std::max(0, static_cast<int>(std::ceil((*top - high) / STEP))),
+                last = std::min(n - 1, static_cast<int>((*top - low) / STEP));
       for (int k = first; k <= last && high > low; ++k) {
         const double w = (*top - k * STEP - s[0].y()) / (s[1].y() - s[0].y());
         rear[k] = std::min(rear[k], s[0].x() + w * (s[1].x() - s[0].x()));
@@ -161,8 +168,11 @@ std::string valentina_measurements(const Body& b) {
   t.add("height_knee", height(b, "knee"));
   t.add("height_ankle", height(b, "ankle"));
   t.add("width_shoulder", both_sides(b, "acromion"));
-  for (const auto& [ours, theirs] : {std::pair("bust", "width_bust"), std::pair("waist_semantic", "width_waist"), std::pair("hip", "width_hip")})
-    if (const auto it = b.levels.find(ours); it != b.levels.end()) t.add(theirs, it->second.width_m);
+  for (const auto& [ours, theirs] :
+       {std::pair("bust", "width_bust"), std::pair("waist_semantic", "width_waist"),
+        std::pair("hip", "width_hip")})
+    if (const auto it = b.levels.find(ours); it != b.levels.end())
+      t.add(theirs, it->second.width_m);
   t.add("foot_length", along(b, {"heel", "foot_tip"}));
   t.add("neck_mid_circ", girth(b, "neck"));
   t.add("neck_circ", girth(b, "neck_base"));
@@ -171,7 +181,8 @@ std::string valentina_measurements(const Body& b) {
   t.add("lowbust_circ", level_girth(b, "underbust"));
   t.add("waist_circ", level_girth(b, "waist_semantic"));
   t.add("hip_circ", level_girth(b, "hip"));
-  t.add("neck_back_to_waist_b", over_the_back(b, height(b, "neck_back"), level_y(b, "waist_semantic")));
+  t.add("neck_back_to_waist_b",
+        over_the_back(b, height(b, "neck_back"), level_y(b, "waist_semantic")));
   t.add("shoulder_length", along(b, {"neck_side", "acromion"}));
   t.add("bustpoint_to_bustpoint", between(b, "bust_point_l", "bust_point_r"));
   t.add("arm_shoulder_tip_to_wrist", along(b, {"acromion", "elbow", "wrist"}));
@@ -183,17 +194,22 @@ std::string valentina_measurements(const Body& b) {
   t.add("leg_knee_circ", girth(b, "knee"));
   t.add("leg_calf_circ", girth(b, "calf"));
   t.add("leg_ankle_circ", girth(b, "ankle_min"));
-  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<vit>\n    <version>0.3.3</version>\n    <read-only>false</read-only>\n    <notes/>\n"
-                    "    <unit>cm</unit>\n    <pm_system>998</pm_system>\n    <personal>\n        <family-name/>\n        <given-name/>\n"
-                    "        <birth-date>1800-01-01</birth-date>\n        <gender>unknown</gender>\n        <email/>\n    </personal>\n"
+  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<vit>\n    "
+                    "<version>0.3.3</version>\n    <read-only>false</read-only>\n    <notes/>\n"
+                    "    <unit>cm</unit>\n    <pm_system>998</pm_system>\n    <personal>\n        "
+                    "<family-name/>\n        <given-name/>\n"
+                    "        <birth-date>1800-01-01</birth-date>\n        "
+                    "<gender>unknown</gender>\n        <email/>\n    </personal>\n"
                     "    <body-measurements>\n";
-  for (const auto& [name, metres] : t.rows()) out += "        <m name=\"" + name + "\" value=\"" + number(100 * metres) + "\"/>\n";
+  for (const auto& [name, metres] : t.rows())
+    out += "        <m name=\"" + name + "\" value=\"" + number(100 * metres) + "\"/>\n";
   return out + "    </body-measurements>\n</vit>\n";
 }
 
 std::string garmentcode_body(const Body& b) {
   Table t; // cm, but for angles: metres until they are written
-  const auto neck = height(b, "neck_back"), waist = level_y(b, "waist_semantic"), hip = level_y(b, "hip"), bust = level_y(b, "bust");
+  const auto neck = height(b, "neck_back"), waist = level_y(b, "waist_semantic"),
+             hip = level_y(b, "hip"), bust = level_y(b, "bust");
   t.add("height", b.scan.stature_m);
   t.add("head_l", minus(b.scan.stature_m, neck));
   t.add("neck_w", both_sides(b, "neck_side"));
@@ -204,7 +220,8 @@ std::string garmentcode_body(const Body& b) {
   t.add("waist", level_girth(b, "waist_semantic"));
   t.add("waist_line", over_the_back(b, neck, waist));
   // from the neck's side over the bust point down to the waist
-  if (const auto over = along(b, {"neck_side", "bust_point"}); over && bust && waist) t.add("waist_over_bust_line", *over + (*bust - *waist));
+  if (const auto over = along(b, {"neck_side", "bust_point"}); over && bust && waist)
+    t.add("waist_over_bust_line", *over + (*bust - *waist));
   t.add("waist_back_width", back_width(b, "waist_semantic"));
   t.add("bust_line", over_the_back(b, neck, bust));
   t.add("bust", level_girth(b, "bust"));
@@ -214,19 +231,26 @@ std::string garmentcode_body(const Body& b) {
   t.add("hips", level_girth(b, "hip"));
   t.add("hip_back_width", back_width(b, "hip"));
   t.add("hips_line", minus(waist, hip));
-  if (b.has_landmark("buttock_back")) t.add("bum_points", 2 * std::abs(b.landmark("buttock_back").x()));
+  if (b.has_landmark("buttock_back"))
+    t.add("bum_points", 2 * std::abs(b.landmark("buttock_back").x()));
   t.add("crotch_hip_diff", minus(hip, height(b, "crotch")));
   t.add("leg_circ", girth(b, "thigh"));
   std::string out = "# measures of a scanned body, cm and degrees\nbody:\n";
-  for (const auto& [name, metres] : t.rows()) out += "  " + name + ": " + number(100 * metres) + "\n";
+  for (const auto& [name, metres] : t.rows())
+    out += "  " + name + ": " + number(100 * metres) + "\n";
   auto angle = [&](const char* name, double rise, double run) {
     out += std::string("  ") + name + ": " + number(units::degrees(std::atan2(rise, run))) + "\n";
   };
-  if (const auto side = height(b, "neck_side"), tip = height(b, "acromion"); side && tip && both_sides(b, "acromion") && both_sides(b, "neck_side"))
-    angle("shoulder_incl", *side - *tip, 0.5 * (*both_sides(b, "acromion") - *both_sides(b, "neck_side")));
+  if (const auto side = height(b, "neck_side"), tip = height(b, "acromion");
+      side && tip && both_sides(b, "acromion") && both_sides(b, "neck_side"))
+    angle("shoulder_incl", *side - *tip,
+          0.5 * (*both_sides(b, "acromion") - *both_sides(b, "neck_side")));
   if (hip && waist && b.levels.count("hip") && b.levels.count("waist_semantic"))
-    angle("hip_inclination", 0.5 * (b.levels.at("hip").width_m - b.levels.at("waist_semantic").width_m), *waist - *hip);
-  out += "  arm_pose_angle: " + number(90 - 0.5 * (b.arm_l_deg + b.arm_r_deg)) + "\n"; // below level
+    angle("hip_inclination",
+          0.5 * (b.levels.at("hip").width_m - b.levels.at("waist_semantic").width_m),
+          *waist - *hip);
+  out +=
+      "  arm_pose_angle: " + number(90 - 0.5 * (b.arm_l_deg + b.arm_r_deg)) + "\n"; // below level
   return out;
 }
 

@@ -26,13 +26,17 @@ std::string number_text(const char* format, double x) {
 }
 
 Unit guess_unit(double height, const std::string& wanted, const std::string& file) {
-  const auto named = std::find_if(std::begin(UNITS), std::end(UNITS), [&](const Unit& u) { return wanted == u.name; });
-  if (wanted != "auto" && named == std::end(UNITS)) throw Error(ErrorKind::USAGE, "", "unit", "'" + wanted + "' is none", "give auto, m, cm, mm or inch");
+  const auto named = std::find_if(std::begin(UNITS), std::end(UNITS),
+                                  [&](const Unit& u) { return wanted == u.name; });
+  if (wanted != "auto" && named == std::end(UNITS))
+    throw Error(ErrorKind::USAGE, "", "unit", "'" + wanted + "' is none",
+                "give auto, m, cm, mm or inch");
   for (const Unit& unit : UNITS) {
     if (wanted != "auto" && wanted != unit.name) continue;
     const double stature = height * unit.metres;
     if (stature >= MIN_STATURE && stature <= MAX_STATURE) {
-      if (wanted == "auto" && std::string(unit.name) == "cm" && stature < 1.0) { // 26 to 98 inches would be 26 to 98 cm
+      if (wanted == "auto" && std::string(unit.name) == "cm" &&
+          stature < 1.0) { // 26 to 98 inches would be 26 to 98 cm
         const double in_inches = height * UNITS[3].metres;
         if (in_inches > 1.3 && in_inches < 2.2) return UNITS[3];
       }
@@ -41,17 +45,25 @@ Unit guess_unit(double height, const std::string& wanted, const std::string& fil
   }
   if (wanted != "auto") {
     const double stature = height * named->metres;
-    throw input_error(file, "", "the body would be " + number_text("%.3g", stature) + " m tall in " + wanted, "a person is 0.5 to 2.5 m; give another --unit");
+    throw input_error(file, "",
+                      "the body would be " + number_text("%.3g", stature) + " m tall in " + wanted,
+                      "a person is 0.5 to 2.5 m; give another --unit");
   }
-  throw input_error(file, "", "the body is " + number_text("%.4g", height) + " units tall, which is no person in m, cm, mm or inch",
+  throw input_error(file, "",
+                    "the body is " + number_text("%.4g", height) +
+                        " units tall, which is no person in m, cm, mm or inch",
                     "scale the scan to a known unit");
 }
 
-/// Angle of the longer axis of a trunk layer, doubled so that opposite directions add up; length is how clear it is.
-Vec2 doubled_axis(const Moments& m) { return Vec2(m.xx - m.zz, 2 * m.xz) / std::max(m.xx + m.zz, 1e-12); }
+/// Angle of the longer axis of a trunk layer, doubled so that opposite directions add up; length is
+/// how clear it is.
+Vec2 doubled_axis(const Moments& m) {
+  return Vec2(m.xx - m.zz, 2 * m.xz) / std::max(m.xx + m.zz, 1e-12);
+}
 
 /// Unit vector, sign open, from one leg to the other, from the layers of the calves.
-Vec2 leg_line(const std::vector<std::vector<Vec2>>& layers, int first, int last, const Vec2& rough_axis) {
+Vec2 leg_line(const std::vector<std::vector<Vec2>>& layers, int first, int last,
+              const Vec2& rough_axis) {
   Vec2 sum = Vec2::Zero();
   for (int k = first; k < last; ++k) {
     Vec2 middle = Vec2::Zero();
@@ -88,28 +100,37 @@ Mat4 turn_and_shift(double angle, const Vec3& shift) {
   return m;
 }
 
-Vec3 transform(const Mat4& m, const Vec3& p) { return m.block<3, 3>(0, 0) * p + m.block<3, 1>(0, 3); }
+Vec3 transform(const Mat4& m, const Vec3& p) {
+  return m.block<3, 3>(0, 0) * p + m.block<3, 1>(0, 3);
+}
 
 void refine_heading(std::vector<Vec3> points, CanonicalFrame& frame) {
   for (Vec3& p : points) p = transform(frame.scan_to_body, p);
   // the mirror plane's normal (cos, -sin) becomes +x
   if (const auto mirror = mirror_plane(points, frame.stature_m))
-    frame.scan_to_body = turn_and_shift(-mirror->angle, Vec3(-mirror->offset, 0, 0)) * frame.scan_to_body;
+    frame.scan_to_body =
+        turn_and_shift(-mirror->angle, Vec3(-mirror->offset, 0, 0)) * frame.scan_to_body;
   const Vec3 facing = frame.scan_to_body.block<1, 3>(2, 0).transpose().normalized();
-  frame.front = number_text("%.4f", facing.x()) + number_text(" %.4f", facing.y()) + number_text(" %.4f", facing.z());
+  frame.front = number_text("%.4f", facing.x()) + number_text(" %.4f", facing.y()) +
+                number_text(" %.4f", facing.z());
 }
 
-CanonicalFrame guess_frame(const TriangleMesh& scan, const SegmentedScan& sorted, const std::vector<Vec3>& shape, const std::string& unit,
+CanonicalFrame guess_frame(const TriangleMesh& scan, const SegmentedScan& sorted,
+                           const std::vector<Vec3>& shape, const std::string& unit,
                            const std::string& file) {
   CanonicalFrame frame;
   const double height = sorted.high - sorted.low;
   if (!shows_a_person(sorted))
     throw input_error(file, "",
-                      sorted.head_share >= sorted.leg_share ? "no standing person: no two legs in any axis direction"
-                                                            : "no standing person: no head above the shoulders",
-                      "a scan must show a whole standing body with its legs apart; check --up, cut away what is not the body, or, for a torso without "
+                      sorted.head_share >= sorted.leg_share
+                          ? "no standing person: no two legs in any axis direction"
+                          : "no standing person: no head above the shoulders",
+                      "a scan must show a whole standing body with its legs apart; check --up, cut "
+                      "away what is not the body, or, for a torso without "
                       "legs, give --torso-only");
-  if (sorted.second_share > 0.5) throw input_error(file, "", "two bodies stand in this scan", "cut the scan so that one person is left");
+  if (sorted.second_share > 0.5)
+    throw input_error(file, "", "two bodies stand in this scan",
+                      "cut the scan so that one person is left");
   const Unit chosen = guess_unit(height, unit, file);
   frame.unit = chosen.name;
   const double stature = height * chosen.metres;
@@ -132,12 +153,15 @@ CanonicalFrame guess_frame(const TriangleMesh& scan, const SegmentedScan& sorted
   }
   auto collect = [&](int first, int last) {
     std::vector<Vec2> points;
-    for (int k = first; k < last; ++k) points.insert(points.end(), layers[k].begin(), layers[k].end());
+    for (int k = first; k < last; ++k)
+      points.insert(points.end(), layers[k].begin(), layers[k].end());
     return points;
   };
   const double cell = stature / 150;
   const Moments calves = moments_of(collect(10, 30), cell);
-  if (calves.n == 0) throw input_error(file, "", "no legs below the trunk", "a scan must show a whole standing body");
+  if (calves.n == 0)
+    throw input_error(file, "", "no legs below the trunk",
+                      "a scan must show a whole standing body");
   // left-right axis: trunk layers are wider than deep, legs stand side by side
   Vec2 doubled = Vec2::Zero();
   for (int k = 50; k < 72; ++k) {
@@ -164,7 +188,8 @@ CanonicalFrame guess_frame(const TriangleMesh& scan, const SegmentedScan& sorted
   }
   const double margin = std::abs(front - back) / std::max(front + back, 1e-9);
   if (back > front) forward = -forward;
-  if (margin < 0.15) frame.findings.push_back({"warning", "the feet hardly show which way the body faces", "feet"});
+  if (margin < 0.15)
+    frame.findings.push_back({"warning", "the feet hardly show which way the body faces", "feet"});
   // +x is the body's left: x = y cross z
   const Vec3 z(forward.x(), 0, forward.y()), y = Vec3::UnitY(), x = y.cross(z);
   Eigen::Matrix3d heading;

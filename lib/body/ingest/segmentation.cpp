@@ -10,16 +10,20 @@ namespace sloper::body {
 
 namespace {
 
-constexpr int N_CELLS = 200;                                   ///< along the longest side of the scan
-constexpr double LEG_LOW = 0.05, LEG_HIGH = 0.36;              ///< where two legs are looked for, share of the height
-constexpr double MIN_LEG_SHARE = 0.15, MIN_HEAD_SHARE = 0.4;   ///< below these there is no person
-constexpr double DOUBTFUL_SCORE = 0.6, DOUBTFUL_MARGIN = 0.15; ///< a lower score that another direction comes near is no person
-constexpr double CLEAR_SCORE = 0.8;                            ///< of a reading that leaves no doubt
-constexpr double MAX_LOST_SHARE = 0.04;                        ///< more cells than this in pieces over or under the body: it fell apart
-constexpr double TOP_LOW = 0.92;                               ///< above it there is only the head
-constexpr double TOP_WIDTH = 0.22;                             ///< a head is narrower than this share of the height
-constexpr double FLOOR_BAND = 0.08;                            ///< a floor lies in this share of the height from below
-constexpr double FLOOR_FACTOR = 4;                             ///< ... and fills this many times the cells of an ordinary layer
+constexpr int N_CELLS = 200; ///< along the longest side of the scan
+constexpr double LEG_LOW = 0.05,
+                 LEG_HIGH = 0.36; ///< where two legs are looked for, share of the height
+constexpr double MIN_LEG_SHARE = 0.15, MIN_HEAD_SHARE = 0.4; ///< below these there is no person
+constexpr double DOUBTFUL_SCORE = 0.6,
+                 DOUBTFUL_MARGIN =
+                     0.15; ///< a lower score that another direction comes near is no person
+constexpr double CLEAR_SCORE = 0.8; ///< of a reading that leaves no doubt
+constexpr double MAX_LOST_SHARE =
+    0.04; ///< more cells than this in pieces over or under the body: it fell apart
+constexpr double TOP_LOW = 0.92;    ///< above it there is only the head
+constexpr double TOP_WIDTH = 0.22;  ///< a head is narrower than this share of the height
+constexpr double FLOOR_BAND = 0.08; ///< a floor lies in this share of the height from below
+constexpr double FLOOR_FACTOR = 4; ///< ... and fills this many times the cells of an ordinary layer
 
 /// Occupied cells of a grid over the scan.
 class Voxels {
@@ -50,7 +54,9 @@ private:
       values.clear();
       for (std::size_t i = 0; i < points.size(); i += step) values.push_back(points[i][a]);
       const std::size_t rank = values.size() / 500;
-      const double low = *place_rank(values, rank), high = *place_rank(values, values.size() - 1 - rank), margin = 0.3 * (high - low);
+      const double low = *place_rank(values, rank),
+                   high = *place_rank(values, values.size() - 1 - rank),
+                   margin = 0.3 * (high - low);
       box.low[a] = std::max(all.low[a], low - margin);
       box.high[a] = std::min(all.high[a], high + margin);
     }
@@ -63,11 +69,13 @@ private:
     m_number.assign(static_cast<std::size_t>(m_n[0]) * m_n[1] * m_n[2], -1);
     m_of_vertex.resize(scan.positions.size());
     for (std::size_t v = 0; v < scan.positions.size(); ++v) m_of_vertex[v] = add(scan.positions[v]);
-    for (const Triangle& t : scan.triangles) fill(scan.positions[t[0]], scan.positions[t[1]], scan.positions[t[2]]);
+    for (const Triangle& t : scan.triangles)
+      fill(scan.positions[t[0]], scan.positions[t[1]], scan.positions[t[2]]);
   }
   int add(const Vec3& p) {
     std::array<int, 3> c;
-    for (int a = 0; a < 3; ++a) c[a] = static_cast<int>(std::clamp((p[a] - m_box.low[a]) / m_cell, 0.0, m_n[a] - 1.0));
+    for (int a = 0; a < 3; ++a)
+      c[a] = static_cast<int>(std::clamp((p[a] - m_box.low[a]) / m_cell, 0.0, m_n[a] - 1.0));
     int& number = m_number[(static_cast<std::size_t>(c[0]) * m_n[1] + c[1]) * m_n[2] + c[2]];
     if (number < 0) {
       number = count();
@@ -77,8 +85,10 @@ private:
   }
   /// Samples a triangle that is larger than a cell.
   void fill(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const double longest = std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
-    if (longest <= m_cell || longest > 0.4 * m_box.size().maxCoeff()) return; // a spike to an outlier is no surface
+    const double longest =
+        std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+    if (longest <= m_cell || longest > 0.4 * m_box.size().maxCoeff())
+      return; // a spike to an outlier is no surface
     const int n = std::min(64, static_cast<int>(std::ceil(longest / (0.7 * m_cell))));
     for (int i = 0; i <= n; ++i)
       for (int j = 0; j <= n - i; ++j) add(a + (b - a) * i / n + (c - a) * j / n);
@@ -108,7 +118,8 @@ int layer_of(const Voxels& voxels, int cell, const Reading& r) {
   return r.flipped ? voxels.extent(r.axis) - 1 - k : k;
 }
 
-/// Components of the cells that are not floor; neighbours up to two cells away, so that a scanner's stripes hold together.
+/// Components of the cells that are not floor; neighbours up to two cells away, so that a scanner's
+/// stripes hold together.
 std::vector<int> label_pieces(const Voxels& voxels, const Reading& r, std::vector<int>& sizes) {
   std::vector<int> label(static_cast<std::size_t>(voxels.count()), -1), stack;
   for (int seed = 0; seed < voxels.count(); ++seed) {
@@ -135,7 +146,8 @@ std::vector<int> label_pieces(const Voxels& voxels, const Reading& r, std::vecto
   return label;
 }
 
-/// Sizes of the separate pieces of one layer (cells up to two apart), largest first, with the largest extent of all.
+/// Sizes of the separate pieces of one layer (cells up to two apart), largest first, with the
+/// largest extent of all.
 struct LayerShape {
   std::vector<int> pieces;
   double width = 0; ///< cells
@@ -150,7 +162,8 @@ LayerShape shape_of_layer(const Voxels& voxels, const Reading& r, const std::vec
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto& c = voxels.cell(cells[i]);
     flat[i] = {c[a], c[b], static_cast<int>(i)};
-    for (int k = 0; k < 2; ++k) low[k] = std::min(low[k], flat[i][k]), high[k] = std::max(high[k], flat[i][k]);
+    for (int k = 0; k < 2; ++k)
+      low[k] = std::min(low[k], flat[i][k]), high[k] = std::max(high[k], flat[i][k]);
   }
   std::sort(flat.begin(), flat.end());
   for (std::size_t i = 0; i < flat.size(); ++i)
@@ -171,7 +184,8 @@ void find_floor(const std::vector<int>& layer_count, Reading& r) {
     if (n > 0) filled.push_back(n);
   if (filled.size() < 20) return;
   const int usual = upper_median(filled);
-  const int band = static_cast<int>(std::ceil(FLOOR_BAND * static_cast<double>(layer_count.size())));
+  const int band =
+      static_cast<int>(std::ceil(FLOOR_BAND * static_cast<double>(layer_count.size())));
   for (int k = 0; k < band; ++k)
     if (layer_count[k] > FLOOR_FACTOR * usual) {
       r.has_floor = true;
@@ -181,8 +195,10 @@ void find_floor(const std::vector<int>& layer_count, Reading& r) {
   if (r.has_floor && layer_count[r.floor_top + 1] > 2 * usual) ++r.floor_top;
 }
 
-/// @param without_floor pieces and their sizes as they are where there is no floor: the same in every direction, filled when first needed
-Reading read_direction(const Voxels& voxels, int axis, bool flipped, int reach, std::pair<std::vector<int>, std::vector<int>>& without_floor) {
+/// @param without_floor pieces and their sizes as they are where there is no floor: the same in
+/// every direction, filled when first needed
+Reading read_direction(const Voxels& voxels, int axis, bool flipped, int reach,
+                       std::pair<std::vector<int>, std::vector<int>>& without_floor) {
   Reading r;
   r.reach = reach;
   r.axis = axis;
@@ -196,7 +212,8 @@ Reading read_direction(const Voxels& voxels, int axis, bool flipped, int reach, 
   r.is_body.assign(static_cast<std::size_t>(voxels.count()), 0);
   if (sizes.empty()) return r;
   const int body = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-  // pieces of one body (holes, a scanner's blind spots) overlap its column and are not small; loose debris is small
+  // pieces of one body (holes, a scanner's blind spots) overlap its column and are not small; loose
+  // debris is small
   std::vector<int> low(sizes.size(), 1 << 30), high(sizes.size(), -1);
   for (int c = 0; c < voxels.count(); ++c)
     if (label[c] >= 0) {
@@ -222,7 +239,8 @@ Reading read_direction(const Voxels& voxels, int axis, bool flipped, int reach, 
     if (static_cast<int>(p) == body) continue;
     ++r.n_debris;
     if (is_above_or_below(p)) r.lost_share += static_cast<double>(sizes[p]) / sizes[body];
-    if (high[p] - low[p] > 0.5 * (r.high - r.low)) r.second_share = std::max(r.second_share, static_cast<double>(sizes[p]) / sizes[body]);
+    if (high[p] - low[p] > 0.5 * (r.high - r.low))
+      r.second_share = std::max(r.second_share, static_cast<double>(sizes[p]) / sizes[body]);
   }
   for (int c = 0; c < voxels.count(); ++c) r.is_body[c] = label[c] == body;
   std::vector<std::vector<int>> layers(layer_count.size());
@@ -237,12 +255,14 @@ Reading read_direction(const Voxels& voxels, int axis, bool flipped, int reach, 
     if (!leg && !top) continue;
     const LayerShape shape = shape_of_layer(voxels, r, layers[k]);
     if (shape.pieces.empty()) continue;
-    if (top) ++n_top, n_narrow += shape.width < TOP_WIDTH * height && (shape.pieces.size() < 2 || shape.pieces[1] < 0.5 * shape.pieces[0]);
+    if (top)
+      ++n_top, n_narrow += shape.width < TOP_WIDTH * height &&
+                           (shape.pieces.size() < 2 || shape.pieces[1] < 0.5 * shape.pieces[0]);
     if (leg) {
       ++n_leg;
       const double all = std::accumulate(shape.pieces.begin(), shape.pieces.end(), 0);
-      n_two +=
-          shape.pieces.size() > 1 && shape.pieces[0] + shape.pieces[1] > 0.9 * all && shape.pieces[1] > 0.4 * shape.pieces[0] && shape.width < 0.7 * height;
+      n_two += shape.pieces.size() > 1 && shape.pieces[0] + shape.pieces[1] > 0.9 * all &&
+               shape.pieces[1] > 0.4 * shape.pieces[0] && shape.width < 0.7 * height;
     }
   }
   r.leg_share = n_leg ? static_cast<double>(n_two) / n_leg : 0;
@@ -251,11 +271,14 @@ Reading read_direction(const Voxels& voxels, int axis, bool flipped, int reach, 
   return r;
 }
 
-/// Vertices in the floor's layers that stand under the body's lowest cells and above the floor's own plane are feet.
-void rescue_soles(const TriangleMesh& scan, const Voxels& voxels, const Reading& r, SegmentedScan& sorted) {
+/// Vertices in the floor's layers that stand under the body's lowest cells and above the floor's
+/// own plane are feet.
+void recover_feet(const TriangleMesh& scan, const Voxels& voxels, const Reading& r,
+                  SegmentedScan& sorted) {
   std::vector<double> heights;
   for (std::size_t v = 0; v < scan.positions.size(); ++v)
-    if (layer_of(voxels, voxels.of_vertex(v), r) <= r.floor_top) heights.push_back(scan.positions[v].dot(sorted.up));
+    if (layer_of(voxels, voxels.of_vertex(v), r) <= r.floor_top)
+      heights.push_back(scan.positions[v].dot(sorted.up));
   if (heights.empty()) return;
   sorted.floor_height = upper_median(heights);
   const int a = (r.axis + 1) % 3, b = (r.axis + 2) % 3;
@@ -267,10 +290,12 @@ void rescue_soles(const TriangleMesh& scan, const Voxels& voxels, const Reading&
     for (int da = -1; da <= 1; ++da)
       for (int db = -1; db <= 1; ++db) {
         const int x = at[a] + da, z = at[b] + db;
-        if (x >= 0 && z >= 0 && x < voxels.extent(a) && z < voxels.extent(b)) above[static_cast<std::size_t>(x) * voxels.extent(b) + z] = 1;
+        if (x >= 0 && z >= 0 && x < voxels.extent(a) && z < voxels.extent(b))
+          above[static_cast<std::size_t>(x) * voxels.extent(b) + z] = 1;
       }
   }
-  // of a mesh, the pieces that reach up into the body are feet whatever their height; a floor that is joined to them is not told apart
+  // of a mesh, the pieces that reach up into the body are feet whatever their height; a floor that
+  // is joined to them is not told apart
   std::vector<char> foot_piece;
   std::vector<int> piece;
   if (!scan.triangles.empty()) {
@@ -292,12 +317,14 @@ void rescue_soles(const TriangleMesh& scan, const Voxels& voxels, const Reading&
       sorted.is_body[v] = 1;
       continue;
     }
-    if (above[static_cast<std::size_t>(at[a]) * voxels.extent(b) + at[b]] && scan.positions[v].dot(sorted.up) > sorted.floor_height + tolerance)
+    if (above[static_cast<std::size_t>(at[a]) * voxels.extent(b) + at[b]] &&
+        scan.positions[v].dot(sorted.up) > sorted.floor_height + tolerance)
       sorted.is_body[v] = 1;
   }
 }
 
-SegmentedScan sort_in_cells(const TriangleMesh& scan, const std::string& up_axis, int n_cells, int reach) {
+SegmentedScan sort_in_cells(const TriangleMesh& scan, const std::string& up_axis, int n_cells,
+                            int reach) {
   const Voxels voxels(scan, n_cells);
   Reading best;
   std::pair<std::vector<int>, std::vector<int>> without_floor;
@@ -327,8 +354,9 @@ SegmentedScan sort_in_cells(const TriangleMesh& scan, const std::string& up_axis
   sorted.n_debris = best.n_debris;
   sorted.is_body.assign(scan.positions.size(), 0);
   if (best.is_body.empty()) return sorted;
-  for (std::size_t v = 0; v < scan.positions.size(); ++v) sorted.is_body[v] = best.is_body[voxels.of_vertex(v)];
-  if (best.has_floor) rescue_soles(scan, voxels, best, sorted);
+  for (std::size_t v = 0; v < scan.positions.size(); ++v)
+    sorted.is_body[v] = best.is_body[voxels.of_vertex(v)];
+  if (best.has_floor) recover_feet(scan, voxels, best, sorted);
   sorted.low = 1e300, sorted.high = -1e300;
   for (std::size_t v = 0; v < scan.positions.size(); ++v)
     if (sorted.is_body[v]) {
@@ -342,7 +370,8 @@ SegmentedScan sort_in_cells(const TriangleMesh& scan, const std::string& up_axis
 } // namespace
 
 SegmentedScan segment_scan(const TriangleMesh& scan, const std::string& up_axis) {
-  // a thin cloud of points falls apart in small cells: larger ones are tried when the small ones show no person clearly
+  // a thin cloud of points falls apart in small cells: larger ones are tried when the small ones
+  // show no person clearly
   SegmentedScan best;
   double most = -1e300;
   for (const int n_cells : {N_CELLS, N_CELLS * 5 / 8, N_CELLS * 2 / 5}) {
@@ -350,31 +379,42 @@ SegmentedScan segment_scan(const TriangleMesh& scan, const std::string& up_axis)
     const bool whole = shows_a_person(sorted) && !sorted.falls_apart;
     if (whole && sorted.up_score > CLEAR_SCORE) return sorted;
     const double worth = sorted.up_score + (whole ? 2 : shows_a_person(sorted) ? 1 : 0);
-    if (worth > most + 0.1) most = worth, best = std::move(sorted); // the finer cells unless the larger ones are clearly better
+    if (worth > most + 0.1)
+      most = worth,
+      best = std::move(sorted); // the finer cells unless the larger ones are clearly better
   }
   return best;
 }
 
-SegmentedScan sort_coarsely(const TriangleMesh& scan, const std::string& up_axis, int n_cells) { return sort_in_cells(scan, up_axis, n_cells, 1); }
+SegmentedScan sort_coarsely(const TriangleMesh& scan, const std::string& up_axis, int n_cells) {
+  return sort_in_cells(scan, up_axis, n_cells, 1);
+}
 
-std::vector<Vec3> points_of_body(const TriangleMesh& scan, const std::vector<char>& is_body, std::size_t wanted) {
+std::vector<Vec3> points_of_body(const TriangleMesh& scan, const std::vector<char>& is_body,
+                                 std::size_t wanted) {
   std::vector<Vec3> points;
   const std::size_t stride = 1 + scan.positions.size() / wanted;
   for (std::size_t v = 0; v < scan.positions.size(); v += stride)
     if (is_body[v]) points.push_back(scan.positions[v]);
-  auto is_of_body = [&](const Triangle& t) { return is_body[t[0]] && is_body[t[1]] && is_body[t[2]]; };
-  auto area_of = [&](const Triangle& t) { return area_normal(scan.positions[t[0]], scan.positions[t[1]], scan.positions[t[2]]).norm(); };
+  auto is_of_body = [&](const Triangle& t) {
+    return is_body[t[0]] && is_body[t[1]] && is_body[t[2]];
+  };
+  auto area_of = [&](const Triangle& t) {
+    return area_normal(scan.positions[t[0]], scan.positions[t[1]], scan.positions[t[2]]).norm();
+  };
   std::vector<double> areas;
   areas.reserve(scan.triangles.size());
   for (const Triangle& t : scan.triangles) areas.push_back(is_of_body(t) ? area_of(t) : 0);
   const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
   for (std::size_t f = 0; f < scan.triangles.size(); ++f) {
     const Triangle& t = scan.triangles[f];
-    const int n = static_cast<int>(std::min(30.0, std::sqrt(static_cast<double>(wanted) * areas[f] / std::max(area, 1e-300))));
+    const int n = static_cast<int>(
+        std::min(30.0, std::sqrt(static_cast<double>(wanted) * areas[f] / std::max(area, 1e-300))));
     for (int i = 0; i < n; ++i)
       for (int j = 0; i + j < n; ++j) {
         const double u = (i + 1.0 / 3) / n, v = (j + 1.0 / 3) / n;
-        points.push_back((1 - u - v) * scan.positions[t[0]] + u * scan.positions[t[1]] + v * scan.positions[t[2]]);
+        points.push_back((1 - u - v) * scan.positions[t[0]] + u * scan.positions[t[1]] +
+                         v * scan.positions[t[2]]);
       }
   }
   return points;
@@ -382,8 +422,10 @@ std::vector<Vec3> points_of_body(const TriangleMesh& scan, const std::vector<cha
 
 bool shows_a_person(const SegmentedScan& sorted) {
   // of a torso alone its arms are a little like legs, in one direction as in another
-  const bool is_guess = sorted.up_score < DOUBTFUL_SCORE && sorted.up_score - sorted.next_score < DOUBTFUL_MARGIN;
-  return sorted.high > sorted.low && sorted.leg_share >= MIN_LEG_SHARE && sorted.head_share >= MIN_HEAD_SHARE && !is_guess;
+  const bool is_guess =
+      sorted.up_score < DOUBTFUL_SCORE && sorted.up_score - sorted.next_score < DOUBTFUL_MARGIN;
+  return sorted.high > sorted.low && sorted.leg_share >= MIN_LEG_SHARE &&
+         sorted.head_share >= MIN_HEAD_SHARE && !is_guess;
 }
 
 } // namespace sloper::body

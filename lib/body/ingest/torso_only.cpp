@@ -42,11 +42,13 @@ struct Neck {
   Vec2 center = Vec2::Zero();
 };
 
-/// A head that narrows to a neck and widens to shoulders, from the top down; empty where there is none.
+/// A head that narrows to a neck and widens to shoulders, from the top down; empty where there is
+/// none.
 std::optional<Neck> find_neck(const TriangleMesh& scan, const Upright& upright) {
   std::vector<double> heights;
   for (const Vec3& p : scan.positions) heights.push_back(upright.height(p));
-  const double low = lower_quantile(heights, 0.0005), high = lower_quantile(heights, 0.9995), step = (high - low) / N_LAYERS;
+  const double low = lower_quantile(heights, 0.0005), high = lower_quantile(heights, 0.9995),
+               step = (high - low) / N_LAYERS;
   if (!(step > 0)) return std::nullopt;
   std::vector<std::vector<Vec2>> layers(N_LAYERS);
   for (const Vec3& p : scan.positions) {
@@ -55,7 +57,8 @@ std::optional<Neck> find_neck(const TriangleMesh& scan, const Upright& upright) 
   }
   std::array<double, N_LAYERS> radius{};
   std::array<Vec2, N_LAYERS> middle;
-  for (int k = 0; k < N_LAYERS; ++k) { // half the diagonal of the box: dense faces do not count more
+  for (int k = 0; k < N_LAYERS;
+       ++k) { // half the diagonal of the box: dense faces do not count more
     Vec2 least = Vec2::Constant(1e300), most = Vec2::Constant(-1e300);
     for (const Vec2& q : layers[k]) least = least.cwiseMin(q), most = most.cwiseMax(q);
     radius[k] = layers[k].size() < 4 ? -1 : 0.5 * (most - least).norm();
@@ -69,11 +72,13 @@ std::optional<Neck> find_neck(const TriangleMesh& scan, const Upright& upright) 
     if (radius[k] <= 0) continue;
     const auto head = std::max_element(radius.begin() + k, radius.end());
     const int centre = static_cast<int>(head - radius.begin());
-    const auto below = std::max_element(radius.begin() + std::max(0, k - (N_LAYERS - k)), radius.begin() + k);
+    const auto below =
+        std::max_element(radius.begin() + std::max(0, k - (N_LAYERS - k)), radius.begin() + k);
     if (*head < 1.15 * radius[k] || *below < 1.3 * *head || dome > 0.85 * *head) continue;
     // a head is about as high as it is broad, and nothing of the body is higher
     const double height = (N_LAYERS - k) * step;
-    if (height < 1.0 * *head || height > 2.4 * *head || *head > 0.32 * (high - low)) continue; // two hands that hang are farther apart
+    if (height < 1.0 * *head || height > 2.4 * *head || *head > 0.32 * (high - low))
+      continue; // two hands that hang are farther apart
     const double clear = (*head / radius[k]) * std::min(2.0, *below / *head);
     if (clear > clearest) {
       clearest = clear;
@@ -83,12 +88,14 @@ std::optional<Neck> find_neck(const TriangleMesh& scan, const Upright& upright) 
   return best;
 }
 
-/// The left-right axis of the trunk (first), and forward (second): the trunk is wider than deep, the head lies before the shoulders.
+/// The left-right axis of the trunk (first), and forward (second): the trunk is wider than deep,
+/// the head lies before the shoulders.
 struct Heading {
   Vec2 left, forward;
 };
 
-Heading find_heading(const std::vector<Vec3>& p, const Neck& neck, double s) { // p: across, height above the floor, across
+Heading find_heading(const std::vector<Vec3>& p, const Neck& neck,
+                     double s) { // p: across, height above the floor, across
   Vec2 mean = Vec2::Zero();
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
   std::vector<Vec2> chest, shoulder, head;
@@ -106,10 +113,12 @@ Heading find_heading(const std::vector<Vec3>& p, const Neck& neck, double s) { /
   Heading heading{Vec2(std::cos(angle), std::sin(angle)), Vec2(-std::sin(angle), std::cos(angle))};
   auto middle = [&](const std::vector<Vec2>& points) {
     double low = 1e300, high = -1e300;
-    for (const Vec2& a : points) low = std::min(low, heading.forward.dot(a)), high = std::max(high, heading.forward.dot(a));
+    for (const Vec2& a : points)
+      low = std::min(low, heading.forward.dot(a)), high = std::max(high, heading.forward.dot(a));
     return 0.5 * (low + high);
   };
-  if (!head.empty() && !shoulder.empty() && middle(head) < middle(shoulder)) heading.forward = -heading.forward;
+  if (!head.empty() && !shoulder.empty() && middle(head) < middle(shoulder))
+    heading.forward = -heading.forward;
   return heading; // which side is left does not matter here: legs are alike
 }
 
@@ -137,8 +146,10 @@ Stand stand_up(const TriangleMesh& scan, const Upright& upright, const Neck& nec
   for (double y = 0.89 * s; y < 0.97 * s; y += 0.008 * s) {
     double low = 1e300, high = -1e300;
     for (const Vec3& q : p)
-      if (const Vec2 a = Vec2(q.x(), q.z()) - neck.center; std::abs(q.y() - y) < 0.006 * s && a.norm() < 0.1 * s)
-        low = std::min(low, stand.heading.left.dot(a)), high = std::max(high, stand.heading.left.dot(a));
+      if (const Vec2 a = Vec2(q.x(), q.z()) - neck.center;
+          std::abs(q.y() - y) < 0.006 * s && a.norm() < 0.1 * s)
+        low = std::min(low, stand.heading.left.dot(a)),
+        high = std::max(high, stand.heading.left.dot(a));
     breadth = std::max(breadth, high - low);
   }
   s = BREADTH_WEIGHT * breadth / HEAD_BREADTH + (1 - BREADTH_WEIGHT) * s;
@@ -153,20 +164,24 @@ Stand stand_up(const TriangleMesh& scan, const Upright& upright, const Neck& nec
   return stand;
 }
 
-/// Points of plain legs in a frame of left, up, forward, m-like units of stature s; `outline` is the trunk's, as radius over angle.
+/// Points of plain legs in a frame of left, up, forward, m-like units of stature s; `outline` is
+/// the trunk's, as radius over angle.
 class Legs {
 public:
   Legs(double s) : m_s(s), m_step(s / 230) {}
   std::vector<Vec3> points;
 
-  void tube(const Vec3& top, const Vec3& bottom, const std::array<double, N_OUTLINE_ANGLES>& above, double below) {
+  void tube(const Vec3& top, const Vec3& bottom, const std::array<double, N_OUTLINE_ANGLES>& above,
+            double below) {
     const int rows = std::max(1, static_cast<int>((top.y() - bottom.y()) / m_step));
     for (int k = 0; k <= rows; ++k) {
       const double t = static_cast<double>(k) / rows;
       const Vec3 c = top + t * (bottom - top);
       for (int a = 0; a < 2 * N_OUTLINE_ANGLES; ++a) {
-        const double r0 = a % 2 ? 0.5 * (above[a / 2] + above[(a / 2 + 1) % N_OUTLINE_ANGLES]) : above[a / 2];
-        const double r = below < 0 ? r0 : r0 + t * (below - r0), theta = units::PI * a / N_OUTLINE_ANGLES;
+        const double r0 =
+            a % 2 ? 0.5 * (above[a / 2] + above[(a / 2 + 1) % N_OUTLINE_ANGLES]) : above[a / 2];
+        const double r = below < 0 ? r0 : r0 + t * (below - r0),
+                     theta = units::PI * a / N_OUTLINE_ANGLES;
         points.emplace_back(c.x() + r * std::cos(theta), c.y(), c.z() + r * std::sin(theta));
       }
     }
@@ -175,12 +190,16 @@ public:
     const double high = ankle.y();
     for (double z = -0.035 * m_s; z <= 0.112 * m_s; z += m_step)
       for (double t = 0; t <= 1.0001; t += 0.04) {
-        const double half = 0.021 * m_s, top = z < 0.03 * m_s ? high : high * (1 - 0.75 * (z - 0.03 * m_s) / (0.082 * m_s));
+        const double half = 0.021 * m_s,
+                     top = z < 0.03 * m_s ? high
+                                          : high * (1 - 0.75 * (z - 0.03 * m_s) / (0.082 * m_s));
         const double x = half * (2 * t - 1);
         points.emplace_back(ankle.x() + x, top, ankle.z() + z);
         points.emplace_back(ankle.x() + x, 0, ankle.z() + z);
-        for (const double side : {-half, half}) points.emplace_back(ankle.x() + side, t * top, ankle.z() + z);
-        if (z < -0.03 * m_s || z > 0.107 * m_s) points.emplace_back(ankle.x() + x, 0.5 * top, ankle.z() + z);
+        for (const double side : {-half, half})
+          points.emplace_back(ankle.x() + side, t * top, ankle.z() + z);
+        if (z < -0.03 * m_s || z > 0.107 * m_s)
+          points.emplace_back(ankle.x() + x, 0.5 * top, ankle.z() + z);
       }
   }
   static std::array<double, N_OUTLINE_ANGLES> circle(double r) {
@@ -194,17 +213,22 @@ private:
 };
 
 /// Radius over angle of points around a centre, gaps filled by their neighbours.
-std::array<double, N_OUTLINE_ANGLES> outline_of(const std::vector<Vec2>& points, const Vec2& center) {
+std::array<double, N_OUTLINE_ANGLES> outline_of(const std::vector<Vec2>& points,
+                                                const Vec2& center) {
   std::array<double, N_OUTLINE_ANGLES> radius;
   radius.fill(-1);
   for (const Vec2& p : points) {
     const Vec2 d = p - center;
-    const int k = static_cast<int>(std::lround(std::atan2(d.y(), d.x()) / (2 * units::PI) * N_OUTLINE_ANGLES) + N_OUTLINE_ANGLES) % N_OUTLINE_ANGLES;
+    const int k = static_cast<int>(
+                      std::lround(std::atan2(d.y(), d.x()) / (2 * units::PI) * N_OUTLINE_ANGLES) +
+                      N_OUTLINE_ANGLES) %
+                  N_OUTLINE_ANGLES;
     radius[k] = std::max(radius[k], d.norm());
   }
   for (int k = 0; k < N_OUTLINE_ANGLES; ++k)
     for (int j = 1; j < N_OUTLINE_ANGLES && radius[k] < 0; ++j)
-      radius[k] = std::max(radius[(k + j) % N_OUTLINE_ANGLES], radius[(k + N_OUTLINE_ANGLES - j) % N_OUTLINE_ANGLES]);
+      radius[k] = std::max(radius[(k + j) % N_OUTLINE_ANGLES],
+                           radius[(k + N_OUTLINE_ANGLES - j) % N_OUTLINE_ANGLES]);
   return radius;
 }
 
@@ -224,7 +248,9 @@ std::vector<Vec3> plain_legs(const std::vector<Vec2>& rim, double cut, double s)
     side[p.x() > middle.x() ? 0 : 1].push_back(p);
     apart &= std::abs(p.x() - middle.x()) > 0.004 * s;
   }
-  if (!apart && cut > CROTCH * s) legs.tube({middle.x(), cut, middle.y()}, {middle.x(), CROTCH * s, middle.y()}, outline_of(rim, middle), -1);
+  if (!apart && cut > CROTCH * s)
+    legs.tube({middle.x(), cut, middle.y()}, {middle.x(), CROTCH * s, middle.y()},
+              outline_of(rim, middle), -1);
   for (int k = 0; k < 2; ++k) {
     const double sign = k == 0 ? 1 : -1, ankle_y = 0.045 * s;
     Vec3 top(middle.x() + sign * 0.053 * s, std::min(cut, CROTCH * s), middle.y());
@@ -235,7 +261,8 @@ std::vector<Vec3> plain_legs(const std::vector<Vec2>& rim, double cut, double s)
       above = outline_of(side[k], c);
     }
     const Vec3 ankle(middle.x() + sign * 0.06 * s, ankle_y, middle.y() - 0.005 * s),
-        knee = top + (0.285 * s < top.y() ? (top.y() - 0.285 * s) / (top.y() - ankle_y) : 0.0) * (ankle - top);
+        knee = top + (0.285 * s < top.y() ? (top.y() - 0.285 * s) / (top.y() - ankle_y) : 0.0) *
+                         (ankle - top);
     if (knee.y() < top.y()) legs.tube(top, knee, above, 0.033 * s);
     legs.tube(knee, ankle, knee.y() < top.y() ? Legs::circle(0.033 * s) : above, 0.020 * s);
     legs.foot(ankle);
@@ -245,7 +272,8 @@ std::vector<Vec3> plain_legs(const std::vector<Vec2>& rim, double cut, double s)
 
 } // namespace
 
-CompletedTorso complete_torso(const TriangleMesh& scan, const std::string& up_axis, const std::string& file) {
+CompletedTorso complete_torso(const TriangleMesh& scan, const std::string& up_axis,
+                              const std::string& file) {
   struct Candidate {
     Upright upright;
     Neck neck;
@@ -257,34 +285,43 @@ CompletedTorso complete_torso(const TriangleMesh& scan, const std::string& up_ax
     for (const double sign : {1.0, -1.0}) {
       auto found = sign > 0 ? up : down;
       if (!found) continue;
-      if (up && down) found->clear *= 0.4; // a hand on its wrist looks like a head, but there are two of them
+      if (up && down)
+        found->clear *= 0.4; // a hand on its wrist looks like a head, but there are two of them
       candidates.push_back({{axis, sign}, *found});
     }
   }
   if (candidates.empty())
-    throw input_error(file, "", "no torso: no head on a neck above shoulders in any axis direction", "a torso scan must show the head; check --up");
-  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.neck.clear > b.neck.clear; });
+    throw input_error(file, "", "no torso: no head on a neck above shoulders in any axis direction",
+                      "a torso scan must show the head; check --up");
+  std::stable_sort(
+      candidates.begin(), candidates.end(),
+      [](const Candidate& a, const Candidate& b) { return a.neck.clear > b.neck.clear; });
   for (const auto& [upright, neck] : candidates) {
     const Stand stand = stand_up(scan, upright, neck);
     const double s = stand.s;
     std::vector<Vec2> rim;
     for (const Vec3& p : stand.points)
-      if (std::hypot(p.x(), p.z()) < 1.3 * COLUMN * s && p.y() > stand.cut + RIM * s && p.y() < stand.cut + 3 * RIM * s) rim.emplace_back(p.x(), p.z());
+      if (std::hypot(p.x(), p.z()) < 1.3 * COLUMN * s && p.y() > stand.cut + RIM * s &&
+          p.y() < stand.cut + 3 * RIM * s)
+        rim.emplace_back(p.x(), p.z());
     if (stand.cut > LEAST_TRUNK * s || rim.size() < 12) continue;
     CompletedTorso made;
     made.is_cut.assign(stand.points.size(), 0);
     for (std::size_t v = 0; v < stand.points.size(); ++v)
-      made.is_cut[v] = std::hypot(stand.points[v].x(), stand.points[v].z()) < 1.3 * COLUMN * s && stand.points[v].y() < stand.cut + RIM * s;
+      made.is_cut[v] = std::hypot(stand.points[v].x(), stand.points[v].z()) < 1.3 * COLUMN * s &&
+                       stand.points[v].y() < stand.cut + RIM * s;
     const double floor = neck.crown - s;
     made.scan = scan;
     for (const Vec3& q : plain_legs(rim, stand.cut + RIM * s, s))
-      made.scan.positions.push_back(upright.point(neck.center + q.x() * stand.heading.left + q.z() * stand.heading.forward, floor + q.y()));
+      made.scan.positions.push_back(upright.point(
+          neck.center + q.x() * stand.heading.left + q.z() * stand.heading.forward, floor + q.y()));
     made.up = upright.point(Vec2::Zero(), 1);
     made.seen_from = floor + stand.cut + RIM * s;
     made.stature = s;
     return made;
   }
-  throw input_error(file, "", "less of a trunk than the chest is in this scan", "a torso scan must reach down to the waist");
+  throw input_error(file, "", "less of a trunk than the chest is in this scan",
+                    "a torso scan must reach down to the waist");
 }
 
 void forget_unseen(Body& body, double seen_from) {
@@ -293,36 +330,48 @@ void forget_unseen(Body& body, double seen_from) {
   auto forget = [&](const std::string& name) {
     if (body.landmarks.erase(name)) lost.push_back(name);
   };
-  const bool has_crotch = body.has_landmark("crotch") && body.landmark("crotch").y() > sure + 0.005 * s && body.landmarks.at("crotch").confidence > 0.4;
+  const bool has_crotch = body.has_landmark("crotch") &&
+                          body.landmark("crotch").y() > sure + 0.005 * s &&
+                          body.landmarks.at("crotch").confidence > 0.4;
   std::vector<std::string> names;
   for (const auto& [name, landmark] : body.landmarks) names.push_back(name);
   bool hand_is_cut[2] = {false, false}; // a stump that ends where the trunk ends is no hand
   for (int side = 0; side < 2; ++side)
-    if (const auto tip = body.landmarks.find(side == 0 ? "hand_tip_l" : "hand_tip_r"); tip != body.landmarks.end())
+    if (const auto tip = body.landmarks.find(side == 0 ? "hand_tip_l" : "hand_tip_r");
+        tip != body.landmarks.end())
       hand_is_cut[side] = std::abs(tip->second.p.y() - seen_from) < 0.03 * s;
   for (const std::string& name : names) {
-    const bool of_arm = name.starts_with("hand") || name.starts_with("wrist") || name.starts_with("elbow") || name.starts_with("olecranon");
+    const bool of_arm = name.starts_with("hand") || name.starts_with("wrist") ||
+                        name.starts_with("elbow") || name.starts_with("olecranon");
     if (of_arm) {
       if (hand_is_cut[name.ends_with("_l") ? 0 : 1]) forget(name);
       continue;
     }
-    const bool of_crotch = name.starts_with("hip_joint") || name == "hip_center" || name == "crotch" || name.starts_with("leg_top");
-    const bool of_leg = name.starts_with("knee") || name.starts_with("patella") || name.starts_with("ankle") || name.starts_with("malleolus") ||
+    const bool of_crotch = name.starts_with("hip_joint") || name == "hip_center" ||
+                           name == "crotch" || name.starts_with("leg_top");
+    const bool of_leg = name.starts_with("knee") || name.starts_with("patella") ||
+                        name.starts_with("ankle") || name.starts_with("malleolus") ||
                         name.starts_with("foot") || name.starts_with("heel");
-    const bool is_extreme = name == "buttock_back" || name == "abdomen_front" || name == "hip_section_center"; // at the rim it is the rim
+    const bool is_extreme = name == "buttock_back" || name == "abdomen_front" ||
+                            name == "hip_section_center"; // at the rim it is the rim
     Landmark& landmark = body.landmarks.at(name);
-    if (of_leg || (of_crotch && !has_crotch) || landmark.p.y() < sure || (is_extreme && landmark.p.y() < sure + 0.02 * s)) forget(name);
-    else if (landmark.rule.find("ratio") != std::string::npos || landmark.rule == "proportion") landmark.confidence *= has_crotch ? 0.8 : 0.5;
+    if (of_leg || (of_crotch && !has_crotch) || landmark.p.y() < sure ||
+        (is_extreme && landmark.p.y() < sure + 0.02 * s))
+      forget(name);
+    else if (landmark.rule.find("ratio") != std::string::npos || landmark.rule == "proportion")
+      landmark.confidence *= has_crotch ? 0.8 : 0.5;
   }
   std::erase_if(body.levels, [&](const auto& level) {
-    return level.second.y < sure || (level.first == "crotch" && !has_crotch) || (level.first == "hip" && !body.has_landmark("buttock_back")) ||
+    return level.second.y < sure || (level.first == "crotch" && !has_crotch) ||
+           (level.first == "hip" && !body.has_landmark("buttock_back")) ||
            (level.first == "hip_girth_max" && level.second.y < sure + 0.02 * s);
   });
   for (int side = 0; side < 2; ++side)
     if (hand_is_cut[side]) body.girths.erase(side == 0 ? "wrist_l" : "wrist_r");
   std::erase_if(body.girths, [&](const auto& girth) {
     const std::string& name = girth.first;
-    return name.starts_with("knee") || name.starts_with("calf") || name.starts_with("ankle") || (name.starts_with("thigh") && !has_crotch);
+    return name.starts_with("knee") || name.starts_with("calf") || name.starts_with("ankle") ||
+           (name.starts_with("thigh") && !has_crotch);
   });
   // the legs' skin goes; the rest is open below
   TriangleMesh kept;
@@ -331,9 +380,13 @@ void forget_unseen(Body& body, double seen_from) {
   for (std::size_t f = 0; f < body.skin.triangles.size(); ++f) {
     Triangle t = body.skin.triangles[f];
     const bool of_arm = body.face_part[f] == Part::ARM_L || body.face_part[f] == Part::ARM_R;
-    if (!of_arm && std::min({body.skin.positions[t[0]].y(), body.skin.positions[t[1]].y(), body.skin.positions[t[2]].y()}) < seen_from) continue;
+    if (!of_arm && std::min({body.skin.positions[t[0]].y(), body.skin.positions[t[1]].y(),
+                             body.skin.positions[t[2]].y()}) < seen_from)
+      continue;
     for (int& v : t) {
-      if (number[v] < 0) number[v] = static_cast<int>(kept.positions.size()), kept.positions.push_back(body.skin.positions[v]);
+      if (number[v] < 0)
+        number[v] = static_cast<int>(kept.positions.size()),
+        kept.positions.push_back(body.skin.positions[v]);
       v = number[v];
     }
     kept.triangles.push_back(t);
@@ -342,7 +395,9 @@ void forget_unseen(Body& body, double seen_from) {
   body.skin = std::move(kept);
   body.face_part = std::move(part);
   char text[200];
-  std::snprintf(text, sizeof text, "torso only: stature %.2f m and floor are estimated from the head, to about 4 in 100", s);
+  std::snprintf(
+      text, sizeof text,
+      "torso only: stature %.2f m and floor are estimated from the head, to about 4 in 100", s);
   body.scan.findings.push_back({"warning", text, "scan"});
   std::string all;
   for (const std::string& name : lost) all += (all.empty() ? "" : ", ") + name;

@@ -10,8 +10,10 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double OWN_LEAN = 5;   ///< degrees by which the line from calves to head leans in upright people, at most
-constexpr double FOOT_LEAN = 12; ///< degrees between that line and the normal of the plane below the feet: more, and the feet do not rest on it
+constexpr double OWN_LEAN =
+    5; ///< degrees by which the line from calves to head leans in upright people, at most
+constexpr double FOOT_LEAN = 12; ///< degrees between that line and the normal of the plane below
+                                 ///< the feet: more, and the feet do not rest on it
 constexpr double NEAR_AXIS = 3;  ///< degrees: so near to the axis that was read, the axis is meant
 constexpr int STANDING_ROUNDS = 6;
 constexpr double CLEAR = 0.9, CLEARLY_BETTER = 0.1; ///< scores of readings
@@ -34,7 +36,9 @@ std::optional<Vec3> body_line(const std::vector<Vec3>& positions, const Segmente
   return head.center() - calves.center();
 }
 
-Eigen::Matrix3d turn_to_y(const Vec3& up) { return rotation_between(up, Vec3::UnitY()).toRotationMatrix(); }
+Eigen::Matrix3d turn_to_y(const Vec3& up) {
+  return rotation_between(up, Vec3::UnitY()).toRotationMatrix();
+}
 
 std::vector<Vec3> turned(const Eigen::Matrix3d& turn, const std::vector<Vec3>& points) {
   std::vector<Vec3> out;
@@ -43,11 +47,14 @@ std::vector<Vec3> turned(const Eigen::Matrix3d& turn, const std::vector<Vec3>& p
   return out;
 }
 
-/// Directions of a coarse grid over the sphere along which a person stands most clearly and with the least lean, the best first.
+/// Directions of a coarse grid over the sphere along which a person stands most clearly and with
+/// the least lean, the best first.
 std::vector<Vec3> search(const std::vector<Vec3>& points) {
   std::vector<std::pair<double, Vec3>> all;
-  for (int k = 0; k < DIRECTIONS; ++k) { // a spiral of equal areas over half the sphere; a reading looks both ways
-    const double y = (k + 0.5) / DIRECTIONS, angle = 2.399963229728653 * k, r = std::sqrt(1 - y * y);
+  for (int k = 0; k < DIRECTIONS;
+       ++k) { // a spiral of equal areas over half the sphere; a reading looks both ways
+    const double y = (k + 0.5) / DIRECTIONS, angle = 2.399963229728653 * k,
+                 r = std::sqrt(1 - y * y);
     const Eigen::Matrix3d turn = turn_to_y(Vec3(r * std::cos(angle), y, r * std::sin(angle)));
     TriangleMesh cloud;
     cloud.positions = turned(turn, points);
@@ -58,12 +65,15 @@ std::vector<Vec3> search(const std::vector<Vec3>& points) {
     const double worth = sorted.up_score - degrees_between(*line, sorted.up) / 200;
     if (worth > 0) all.emplace_back(worth, (turn.transpose() * *line).normalized());
   }
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Vec3> best;
   for (const auto& candidate : all) {
     const Vec3& up = candidate.second; // clang 14 captures no structured binding
     if (best.size() == CANDIDATES) break;
-    if (std::none_of(best.begin(), best.end(), [&](const Vec3& other) { return degrees_between(up, other) < SAME; })) best.push_back(up);
+    if (std::none_of(best.begin(), best.end(),
+                     [&](const Vec3& other) { return degrees_between(up, other) < SAME; }))
+      best.push_back(up);
   }
   return best;
 }
@@ -73,7 +83,8 @@ struct Standing {
   double score; ///< of the reading along it
 };
 
-/// From a rough direction to that of the body's line, then of the normal of the plane below the feet.
+/// From a rough direction to that of the body's line, then of the normal of the plane below the
+/// feet.
 std::optional<Standing> stand_up(const std::vector<Vec3>& points, Vec3 up) {
   double score = 0;
   for (int round = 0; round < STANDING_ROUNDS; ++round) {
@@ -83,11 +94,13 @@ std::optional<Standing> stand_up(const std::vector<Vec3>& points, Vec3 up) {
     const SegmentedScan stands = segment_scan(cloud, "y");
     if (!shows_a_person(stands)) return std::nullopt;
     score = stands.up_score;
-    const auto line = body_line(cloud.positions, stands); // along what is up now: it may be upside down to what it was
+    const auto line = body_line(
+        cloud.positions, stands); // along what is up now: it may be upside down to what it was
     if (!line) return std::nullopt;
     Vec3 next = line->normalized();
     if (round > 0) {
-      const Eigen::Matrix3d along = turn_to_y(next); // heights along the body's line, as long as the plane is not known
+      const Eigen::Matrix3d along =
+          turn_to_y(next); // heights along the body's line, as long as the plane is not known
       std::vector<Vec3> feet;
       double lowest = 1e300;
       for (std::size_t v = 0; v < points.size(); ++v)
@@ -95,7 +108,9 @@ std::optional<Standing> stand_up(const std::vector<Vec3>& points, Vec3 up) {
       Box3 box;
       for (std::size_t v = 0; v < points.size(); ++v)
         if (stands.is_body[v])
-          if (const Vec3 p = along * cloud.positions[v]; p.y() < lowest + SOLE_HEIGHT * (stands.high - stands.low)) feet.push_back(p), box.add(p);
+          if (const Vec3 p = along * cloud.positions[v];
+              p.y() < lowest + SOLE_HEIGHT * (stands.high - stands.low))
+            feet.push_back(p), box.add(p);
       if (const auto plane = resting_plane(feet, Vec2(box.center().x(), box.center().z()))) {
         const Vec3 normal = Vec3(-plane->x(), 1, -plane->y()).normalized();
         if (degrees_between(normal, Vec3::UnitY()) < FOOT_LEAN) next = along.transpose() * normal;
@@ -113,7 +128,9 @@ std::optional<Vec3> resting_plane(const std::vector<Vec3>& points, const Vec2& a
   const Box3 box = bounding_box(points);
   const double reach = 4 * box.size().maxCoeff() + 1e-9, above = box.high.y() + reach;
   // three points high above hold the plane until points of the body do
-  std::vector<Vec3> holding{Vec3(at.x() + reach, above, at.y() + reach), Vec3(at.x() - reach, above, at.y() + reach), Vec3(at.x(), above, at.y() - reach)};
+  std::vector<Vec3> holding{Vec3(at.x() + reach, above, at.y() + reach),
+                            Vec3(at.x() - reach, above, at.y() + reach),
+                            Vec3(at.x(), above, at.y() - reach)};
   Vec3 plane = Vec3::Zero();
   for (int round = 0; round < 40; ++round) {
     double highest = -1e300;
@@ -132,30 +149,43 @@ std::optional<Vec3> resting_plane(const std::vector<Vec3>& points, const Vec2& a
           const Vec3 trial = rows.inverse() * heights;
           const double y = trial.x() * at.x() + trial.y() * at.y() + trial.z();
           if (y <= highest) continue;
-          const bool below = std::all_of(holding.begin(), holding.end(),
-                                         [&](const Vec3& p) { return trial.x() * p.x() + trial.y() * p.z() + trial.z() <= p.y() + 1e-9 * reach; });
+          const bool below = std::all_of(holding.begin(), holding.end(), [&](const Vec3& p) {
+            return trial.x() * p.x() + trial.y() * p.z() + trial.z() <= p.y() + 1e-9 * reach;
+          });
           if (below) highest = y, plane = trial;
         }
-    auto gap = [&](const Vec3& p) { return p.y() - plane.x() * p.x() - plane.y() * p.z() - plane.z(); };
-    const auto deepest = std::min_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) { return gap(a) < gap(b); });
+    auto gap = [&](const Vec3& p) {
+      return p.y() - plane.x() * p.x() - plane.y() * p.z() - plane.z();
+    };
+    const auto deepest =
+        std::min_element(points.begin(), points.end(),
+                         [&](const Vec3& a, const Vec3& b) { return gap(a) < gap(b); });
     if (gap(*deepest) > -1e-7 * reach) return plane;
-    std::erase_if(holding, [&](const Vec3& p) { return gap(p) > 1e-7 * reach; }); // the plane's own three stay
+    std::erase_if(holding, [&](const Vec3& p) {
+      return gap(p) > 1e-7 * reach;
+    }); // the plane's own three stay
     holding.push_back(*deepest);
   }
   return plane;
 }
 
 std::optional<Eigen::Matrix3d> upright_turn(const TriangleMesh& scan, const SegmentedScan& sorted) {
-  double most = 0; // of the axis that was read: a raised hand may pass for a head, so another direction must be clearly better
+  double most = 0; // of the axis that was read: a raised hand may pass for a head, so another
+                   // direction must be clearly better
   if (sorted.high > sorted.low && shows_a_person(sorted))
-    if (const auto line = body_line(scan.positions, sorted); line && degrees_between(*line, sorted.up) < OWN_LEAN) {
+    if (const auto line = body_line(scan.positions, sorted);
+        line && degrees_between(*line, sorted.up) < OWN_LEAN) {
       if (sorted.up_score > CLEAR) return std::nullopt;
       most = CLEARLY_BETTER;
     }
   std::vector<Vec3> points;
-  for (std::size_t v = 0, step = 1 + scan.positions.size() / THINNED; v < scan.positions.size(); v += step) points.push_back(scan.positions[v]);
-  const std::vector<Vec3> spread = points_of_body(scan, std::vector<char>(scan.positions.size(), 1), 2 * THINNED); // a coarse mesh's vertices fall apart
-  if (most > 0) {                                                                                                  // compared as thinned as the others
+  for (std::size_t v = 0, step = 1 + scan.positions.size() / THINNED; v < scan.positions.size();
+       v += step)
+    points.push_back(scan.positions[v]);
+  const std::vector<Vec3> spread =
+      points_of_body(scan, std::vector<char>(scan.positions.size(), 1),
+                     2 * THINNED); // a coarse mesh's vertices fall apart
+  if (most > 0) {                  // compared as thinned as the others
     TriangleMesh cloud;
     cloud.positions = spread;
     most += segment_scan(cloud, "auto").up_score;

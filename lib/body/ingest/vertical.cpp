@@ -12,9 +12,12 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double HEAD_BEFORE_CALVES = 2.0; ///< degrees by which the line from the calves to the head leans forward in upright people
-constexpr double FAR_APART = 4;            ///< degrees between posture and soles: so far, the soles are not believed at all
-constexpr double NEAR_FILE = 1.5;          ///< degrees from the file's vertical to the body's: so near, the body's is taken
+constexpr double HEAD_BEFORE_CALVES =
+    2.0; ///< degrees by which the line from the calves to the head leans forward in upright people
+constexpr double FAR_APART =
+    4; ///< degrees between posture and soles: so far, the soles are not believed at all
+constexpr double NEAR_FILE =
+    1.5; ///< degrees from the file's vertical to the body's: so near, the body's is taken
 constexpr int SHAPE_ROUNDS = 2, HEADINGS = 2;
 constexpr double SETTLED = 1e-4; ///< rad
 
@@ -24,8 +27,8 @@ struct Lean {
   Vec3 direction() const { return Vec3(std::tan(left), 1, std::tan(forward)).normalized(); }
 };
 
-/// From the middle of the calves to the middle of the head, forwards; nothing where either is missing. Boxes, for one side may be scanned more
-/// densely than the other.
+/// From the middle of the calves to the middle of the head, forwards; nothing where either is
+/// missing. Boxes, for one side may be scanned more densely than the other.
 std::optional<double> lean_of_posture(const std::vector<Vec3>& points, double stature) {
   Box3 calves, head;
   for (const Vec3& p : points) {
@@ -56,7 +59,8 @@ double drawn(double own, double other) {
 
 } // namespace
 
-std::optional<ShapeVertical> vertical_of_shape(std::vector<Vec3> points, const CanonicalFrame& frame) {
+std::optional<ShapeVertical> vertical_of_shape(std::vector<Vec3> points,
+                                               const CanonicalFrame& frame) {
   std::vector<Vec3> turned;
   for (Vec3& p : points) p = transform(frame.scan_to_body, p);
   if (points.empty()) return std::nullopt;
@@ -71,13 +75,15 @@ std::optional<ShapeVertical> vertical_of_shape(std::vector<Vec3> points, const C
       low = std::min(low, turned[k].y()), high = std::max(high, turned[k].y());
     }
     for (Vec3& p : turned) p.y() -= low;
-    const auto forward = lean_of_posture(turned, high - low), left = mirror_roll(turned, high - low);
+    const auto forward = lean_of_posture(turned, high - low),
+               left = mirror_roll(turned, high - low);
     if (!forward || !left) return std::nullopt;
     Lean lean{*forward, *left};
     const auto soles = lean_of_soles(turned, high - low);
     vertical.by_posture = lean.direction();
     if (soles) lean = {drawn(lean.forward, soles->forward), drawn(lean.left, soles->left)};
-    const Eigen::Matrix3d back = frame.scan_to_body.block<3, 3>(0, 0).transpose() / std::cbrt(frame.scan_to_body.block<3, 3>(0, 0).determinant());
+    const Eigen::Matrix3d back = frame.scan_to_body.block<3, 3>(0, 0).transpose() /
+                                 std::cbrt(frame.scan_to_body.block<3, 3>(0, 0).determinant());
     auto in_scan = [&](const Vec3& direction) { return Vec3(back * turn.transpose() * direction); };
     vertical.by_posture = in_scan(vertical.by_posture);
     vertical.by_soles = soles ? std::optional(in_scan(soles->direction())) : std::nullopt;
@@ -88,19 +94,23 @@ std::optional<ShapeVertical> vertical_of_shape(std::vector<Vec3> points, const C
   return vertical;
 }
 
-void settle_vertical(const TriangleMesh& scan, const std::vector<Vec3>& points, SegmentedScan& sorted, CanonicalFrame& frame, bool upright_file) {
+void settle_vertical(const TriangleMesh& scan, const std::vector<Vec3>& points,
+                     SegmentedScan& sorted, CanonicalFrame& frame, bool upright_file) {
   CanonicalFrame settled = frame;
   SegmentedScan by_body = sorted;
   for (int round = 0; round < HEADINGS; ++round) { // the heading depends a little on the vertical
     const auto vertical = vertical_of_shape(points, settled);
     if (!vertical) return;
     auto near_file = [&](const Vec3& up) { return degrees_between(up, sorted.up) < NEAR_FILE; };
-    if (upright_file && !near_file(vertical->up) && (near_file(vertical->by_posture) || (vertical->by_soles && near_file(*vertical->by_soles)))) return;
+    if (upright_file && !near_file(vertical->up) &&
+        (near_file(vertical->by_posture) || (vertical->by_soles && near_file(*vertical->by_soles))))
+      return;
     by_body.up = vertical->up;
     const Vec3 up = (settled.scan_to_body.block<3, 3>(0, 0) * vertical->up).normalized();
     Mat4 turn = Mat4::Identity();
     turn.block<3, 3>(0, 0) = rotation_between(up, Vec3::UnitY()).toRotationMatrix();
-    const Vec3 middle(0, 0.65 * settled.stature_m, 0); // of the trunk, which the mirror plane goes through
+    const Vec3 middle(0, 0.65 * settled.stature_m,
+                      0); // of the trunk, which the mirror plane goes through
     turn.block<3, 1>(0, 3) = middle - turn.block<3, 3>(0, 0) * middle;
     settled.scan_to_body = turn * settled.scan_to_body;
     const Eigen::RowVector4d row = settled.scan_to_body.row(1);
@@ -118,7 +128,9 @@ void settle_vertical(const TriangleMesh& scan, const std::vector<Vec3>& points, 
   }
   if (const double far = degrees_between(by_body.up, sorted.up); upright_file) {
     char text[120];
-    std::snprintf(text, sizeof text, "the vertical is the body's own, %.1f degrees from the file's%s", far, far > NEAR_FILE ? ", in which it leans" : "");
+    std::snprintf(text, sizeof text,
+                  "the vertical is the body's own, %.1f degrees from the file's%s", far,
+                  far > NEAR_FILE ? ", in which it leans" : "");
     settled.findings.push_back({far > NEAR_FILE ? "warning" : "info", text, "scan"});
   }
   sorted = std::move(by_body);

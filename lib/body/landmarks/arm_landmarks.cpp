@@ -16,8 +16,8 @@ std::optional<Vec3> top_of_shoulder(const TriangleMesh& skin, double stature, do
   std::optional<Vec3> top;
   for (const Triangle& t : skin.triangles) {
     const Vec3 &a = skin.positions[t[0]], &b = skin.positions[t[1]], &c = skin.positions[t[2]];
-    if (std::min({a.x(), b.x(), c.x()}) > x || std::max({a.x(), b.x(), c.x()}) < x || std::min({a.z(), b.z(), c.z()}) > z ||
-        std::max({a.z(), b.z(), c.z()}) < z)
+    if (std::min({a.x(), b.x(), c.x()}) > x || std::max({a.x(), b.x(), c.x()}) < x ||
+        std::min({a.z(), b.z(), c.z()}) > z || std::max({a.z(), b.z(), c.z()}) < z)
       continue;
     if (a.y() > 0.9 * stature) continue;
     const double area = (b.x() - a.x()) * (c.z() - a.z()) - (c.x() - a.x()) * (b.z() - a.z());
@@ -31,28 +31,34 @@ std::optional<Vec3> top_of_shoulder(const TriangleMesh& skin, double stature, do
   return top;
 }
 
-/// Where the wrist is: behind the widest of the hand the girth falls to its least. Empty when it does not. The search
-/// starts at the palm, so that a fist, whose hand is short, has a wrist too.
+/// Where the wrist is: behind the widest of the hand the girth falls to its least. Empty when it
+/// does not. The search starts at the palm, so that a fist, whose hand is short, has a wrist too.
 std::optional<double> wrist_by_girth(const ArmTrace& arm, const Finder& f) {
   const double s = f.s;
   const auto& sections = arm.sections;
   std::size_t palm = 0;
   for (std::size_t k = 0; k < sections.size() && sections[k].along < 0.11 * s; ++k)
     if (sections[k].girth > sections[palm].girth) palm = k;
-  if (sections.empty() || sections[palm].along > 0.105 * s) return std::nullopt; // still rising: no palm
+  if (sections.empty() || sections[palm].along > 0.105 * s)
+    return std::nullopt; // still rising: no palm
   std::size_t least = palm;
-  for (std::size_t k = palm + 1; k + 1 < sections.size() && sections[k].along < sections[palm].along + 0.085 * s; ++k)
+  for (std::size_t k = palm + 1;
+       k + 1 < sections.size() && sections[k].along < sections[palm].along + 0.085 * s; ++k)
     if (sections[k].girth < 0.995 * sections[least].girth) least = k;
-  if (sections[least].girth > f.number("wrist.least_to_palm") * sections[palm].girth) return std::nullopt;
+  if (sections[least].girth > f.number("wrist.least_to_palm") * sections[palm].girth)
+    return std::nullopt;
   double sum = 0, weight = 0; // the middle of where it is as thin as makes no difference
-  for (std::size_t k = palm + 1; k + 1 < sections.size() && sections[k].along < sections[palm].along + 0.085 * s; ++k) {
+  for (std::size_t k = palm + 1;
+       k + 1 < sections.size() && sections[k].along < sections[palm].along + 0.085 * s; ++k) {
     const double w = std::max(0.0, 1.015 * sections[least].girth - sections[k].girth);
-    if (std::abs(sections[k].along - sections[least].along) < 0.02 * s) sum += w * sections[k].along, weight += w;
+    if (std::abs(sections[k].along - sections[least].along) < 0.02 * s)
+      sum += w * sections[k].along, weight += w;
   }
   return sum / weight;
 }
 
-/// Where the upper arm starts to swell above the elbow: the steepest rise of girth past the forearm's belly.
+/// Where the upper arm starts to swell above the elbow: the steepest rise of girth past the
+/// forearm's belly.
 std::optional<double> elbow_by_girth(const ArmTrace& arm, double s, double wrist) {
   const auto& sections = arm.sections;
   std::vector<Vec2> falls; // along, girth lost per length
@@ -60,42 +66,58 @@ std::optional<double> elbow_by_girth(const ArmTrace& arm, double s, double wrist
     const double along = sections[k].along;
     if (along < wrist + 0.10 * s || along > wrist + 0.185 * s) continue;
     double rise = 0;
-    for (std::size_t j = 1; j <= 3; ++j) rise += (sections[k + j].girth - sections[k - j].girth) / (sections[k + j].along - sections[k - j].along) / 3;
+    for (std::size_t j = 1; j <= 3; ++j)
+      rise += (sections[k + j].girth - sections[k - j].girth) /
+              (sections[k + j].along - sections[k - j].along) / 3;
     falls.emplace_back(along, -rise);
   }
   double steepest = 0;
   for (const Vec2& fall : falls) steepest = std::max(steepest, -fall.y());
   if (steepest <= 0) return std::nullopt;
-  return lowest_of(falls, 0.25 * steepest).middle; // of what is about as steep: sections lie centimetres apart
+  return lowest_of(falls, 0.25 * steepest)
+      .middle; // of what is about as steep: sections lie centimetres apart
 }
 
-/// Axilla and its folds, shoulder joint and acromion. @return the joint, which the rest of the arm is measured from
+/// Axilla and its folds, shoulder joint and acromion. @return the joint, which the rest of the arm
+/// is measured from
 Vec3 find_shoulder(const Finder& f, int side) {
   const double s = f.s;
   const TriangleMesh& skin = f.levels.skin();
   const ArmTrace& arm = f.arms[side];
   const std::string suffix = side_suffix(side);
   const double outward = arm.left ? 1 : -1;
-  const double raised = units::degrees(std::acos(std::clamp(-arm.out.y(), -1.0, 1.0))); // 0 hanging, 90 level
+  const double raised =
+      units::degrees(std::acos(std::clamp(-arm.out.y(), -1.0, 1.0))); // 0 hanging, 90 level
   auto pit_if = [&](bool hidden) -> std::optional<Vec3> {
     if (!arm.axilla || hidden != arm.pit_hidden) return std::nullopt;
     if (hidden) return arm.axilla;
     const auto& belly = f.levels.trunk_at(0.60 * s);
     const double stout = belly ? std::clamp(belly->size().y() / s - 0.165, 0.0, 0.1) : 0;
-    return Vec3(*arm.axilla + s * Vec3(0, f.number("axilla.above_roof"), f.number("axilla.before_stout") * stout));
+    return Vec3(*arm.axilla + s * Vec3(0, f.number("axilla.above_roof"),
+                                       f.number("axilla.before_stout") * stout));
   };
-  if (f.find("axilla", suffix, 1, {{"gap_closes", [&] { return pit_if(false); }}, {"proportion", [&] { return pit_if(true); }}})) {
+  if (f.find("axilla", suffix, 1,
+             {{"gap_closes", [&] { return pit_if(false); }},
+              {"proportion", [&] { return pit_if(true); }}})) {
     f.find("axilla_merge", suffix, 1, {{"level_sections_merge", [&] { return arm.merge; }}});
-    if (arm.pit_hidden) f.body.scan.findings.push_back({"warning", "the arm pit is hidden, its place is estimated", "axilla" + suffix});
+    if (arm.pit_hidden)
+      f.body.scan.findings.push_back(
+          {"warning", "the arm pit is hidden, its place is estimated", "axilla" + suffix});
     f.find("axilla_front", suffix, 2, {{"beside_arm_pit", [&] { return arm.axilla_front; }}});
     f.find("axilla_back", suffix, 2, {{"beside_arm_pit", [&] { return arm.axilla_back; }}});
-  } else f.body.scan.findings.push_back({"warning", "the arm touches the trunk or the scan has a hole there: the arm pit is not found", "axilla" + suffix});
+  } else
+    f.body.scan.findings.push_back(
+        {"warning",
+         "the arm touches the trunk or the scan has a hole there: the arm pit is not found",
+         "axilla" + suffix});
   Vec3 by_axis = arm.at(arm.length() + 0.02 * s);
   by_axis.z() += f.number("shoulder_joint.before_axis") * s;
   auto by_pit = [&]() -> std::optional<Vec3> {
     if (!arm.axilla) return std::nullopt;
     // a raised arm draws the pit outward from under the joint
-    const double slide = f.number("shoulder_joint.pit_slide") * std::clamp((raised - 45) / 45, 0.0, 1.0) - f.number("shoulder_joint.pit_inside");
+    const double slide =
+        f.number("shoulder_joint.pit_slide") * std::clamp((raised - 45) / 45, 0.0, 1.0) -
+        f.number("shoulder_joint.pit_inside");
     Vec3 joint(arm.axilla->x() - outward * slide * s, 0, by_axis.z());
     const auto top = top_of_shoulder(skin, s, joint.x(), joint.z() - 0.01 * s);
     if (!top) return std::nullopt;
@@ -103,18 +125,25 @@ Vec3 find_shoulder(const Finder& f, int side) {
     joint.y() = (1 - w) * arm.axilla->y() + w * top->y();
     return joint;
   };
-  const bool found = f.find("shoulder_joint", suffix, 2, {{"between_arm_pit_and_shoulder", by_pit}});
-  if (found && arm.pit_hidden) f.body.landmarks["shoulder_joint" + suffix].confidence *= 0.5; // it rests on where pits usually are
+  const bool found =
+      f.find("shoulder_joint", suffix, 2, {{"between_arm_pit_and_shoulder", by_pit}});
+  if (found && arm.pit_hidden)
+    f.body.landmarks["shoulder_joint" + suffix].confidence *=
+        0.5; // it rests on where pits usually are
   f.also("shoulder_joint" + suffix, by_axis);
   const Vec3 joint = found ? f.at("shoulder_joint" + suffix) : by_axis;
-  const double lateral = f.number("acromion.outward") - f.number("acromion.outward_per_degree") * raised;
-  f.find("acromion", suffix, 2, {{"above_shoulder_joint", [&] {
-                                    return top_of_shoulder(skin, s, joint.x() + outward * lateral * s, joint.z() - f.number("acromion.behind_joint") * s);
-                                  }}});
+  const double lateral =
+      f.number("acromion.outward") - f.number("acromion.outward_per_degree") * raised;
+  f.find("acromion", suffix, 2,
+         {{"above_shoulder_joint", [&] {
+             return top_of_shoulder(skin, s, joint.x() + outward * lateral * s,
+                                    joint.z() - f.number("acromion.behind_joint") * s);
+           }}});
   return joint;
 }
 
-/// The elbow's point: the middle of what is as far back as makes no difference, in the arm's section at `along`.
+/// The elbow's point: the middle of what is as far back as makes no difference, in the arm's
+/// section at `along`.
 Vec3 rear_of_section(const ArmTrace& arm, const TriangleMesh& skin, double along) {
   const LimbSection* near = &arm.sections.front();
   for (const LimbSection& candidate : arm.sections)
@@ -123,7 +152,8 @@ Vec3 rear_of_section(const ArmTrace& arm, const TriangleMesh& skin, double along
   const std::vector<Loop> loops = cut(skin, plane, &arm.triangles);
   const Loop* loop = nullptr;
   for (const Loop& candidate : loops)
-    if (candidate.area > 0 && candidate.centroid.norm() < (loop ? loop->centroid.norm() : 0.05)) loop = &candidate;
+    if (candidate.area > 0 && candidate.centroid.norm() < (loop ? loop->centroid.norm() : 0.05))
+      loop = &candidate;
   if (!loop) return arm.at(along);
   double rear = 1e300, weight = 0;
   for (const auto& seg : loop->segments) rear = std::min(rear, plane.point(seg[0]).z());
@@ -145,23 +175,30 @@ void find_elbow(const Finder& f, int side, double hand, double to_elbow) {
   const std::string suffix = side_suffix(side);
   const double by_ratio = hand + to_elbow;
   std::optional<double> by_swell;
-  if (const auto rise = elbow_by_girth(arm, f.s, hand)) by_swell = *rise - f.number("elbow.before_swell") * f.s;
-  const auto along = f.choose<double>("elbow", "elbow" + suffix,
-                                      {{"upper_arm_swells",
-                                        [&]() -> std::optional<double> {
-                                          const double most = f.number("elbow.swell_near_ratio") * f.s;
-                                          if (!by_swell || std::abs(*by_swell - by_ratio) >= most) return std::nullopt;
-                                          const double off = *by_swell - by_ratio; // fades towards the limit, so that nothing jumps there
-                                          return by_ratio + f.number("elbow.girth_weight") * std::min(1.0, 3 * (1 - std::abs(off) / most)) * off;
-                                        }},
-                                       {"arm_ratio", [&] { return std::optional(by_ratio); }}});
+  if (const auto rise = elbow_by_girth(arm, f.s, hand))
+    by_swell = *rise - f.number("elbow.before_swell") * f.s;
+  const auto along = f.choose<double>(
+      "elbow", "elbow" + suffix,
+      {{"upper_arm_swells",
+        [&]() -> std::optional<double> {
+          const double most = f.number("elbow.swell_near_ratio") * f.s;
+          if (!by_swell || std::abs(*by_swell - by_ratio) >= most) return std::nullopt;
+          const double off =
+              *by_swell - by_ratio; // fades towards the limit, so that nothing jumps there
+          return by_ratio + f.number("elbow.girth_weight") *
+                                std::min(1.0, 3 * (1 - std::abs(off) / most)) * off;
+        }},
+       {"arm_ratio", [&] { return std::optional(by_ratio); }}});
   if (!along) return;
   const Vec3 behind(0, 0, f.number("elbow.behind_axis") * f.s);
   f.put("elbow" + suffix, arm.at(along->value) - behind, 2, *along->rule);
   f.also("elbow" + suffix, arm.at(by_ratio) - behind);
   if (by_swell) f.also("elbow" + suffix, arm.at(*by_swell) - behind);
   f.find("olecranon", suffix, 2,
-         {{"rearmost_at_elbow", [&] { return std::optional(rear_of_section(arm, f.levels.skin(), along->value + f.number("olecranon.above_joint") * f.s)); }}});
+         {{"rearmost_at_elbow", [&] {
+             return std::optional(rear_of_section(
+                 arm, f.levels.skin(), along->value + f.number("olecranon.above_joint") * f.s));
+           }}});
 }
 
 } // namespace
@@ -173,17 +210,21 @@ void find_arm_landmarks(const Finder& f) {
     const ArmTrace& arm = f.arms[side];
     const std::string suffix = side_suffix(side);
     if (arm.sections.empty()) continue;
-    f.find("hand_tip", suffix, 1, {{"farthest_over_the_skin", [&] { return std::optional(arm.tip); }}});
+    f.find("hand_tip", suffix, 1,
+           {{"farthest_over_the_skin", [&] { return std::optional(arm.tip); }}});
     const Vec3 joint = find_shoulder(f, side);
     // a fist's farthest point is not the finger tip
-    f.find("hand_extreme", suffix, 1, {{"farthest_from_shoulder", [&] {
-                                          Vec3 extreme = arm.tip;
-                                          for (const int t : arm.triangles)
-                                            for (const int v : skin.triangles[t])
-                                              if ((skin.positions[v] - joint).squaredNorm() > (extreme - joint).squaredNorm()) extreme = skin.positions[v];
-                                          return std::optional(extreme);
-                                        }}});
-    const double by_ratio = 0.5 * (f.number("hand.of_stature") * s + f.number("hand.of_arm") * (joint - arm.tip).norm());
+    f.find("hand_extreme", suffix, 1,
+           {{"farthest_from_shoulder", [&] {
+               Vec3 extreme = arm.tip;
+               for (const int t : arm.triangles)
+                 for (const int v : skin.triangles[t])
+                   if ((skin.positions[v] - joint).squaredNorm() > (extreme - joint).squaredNorm())
+                     extreme = skin.positions[v];
+               return std::optional(extreme);
+             }}});
+    const double by_ratio = 0.5 * (f.number("hand.of_stature") * s +
+                                   f.number("hand.of_arm") * (joint - arm.tip).norm());
     const auto hand = f.choose<double>("wrist", "wrist" + suffix,
                                        {{"least_girth_after_hand",
                                          [&]() -> std::optional<double> {
@@ -201,16 +242,22 @@ void find_arm_landmarks(const Finder& f) {
       find_elbow(f, side, hand->value, (joint - wrist).norm() * (1 - f.number("elbow.of_arm")));
       continue;
     }
-    // no hand: the wrist is where the arm ends, or as far from the shoulder as people's is if that is nearer
+    // no hand: the wrist is where the arm ends, or as far from the shoulder as people's is if that
+    // is nearer
     const double arm_length = std::min(reach, f.number("hand.arm_of_stature") * s);
-    f.body.scan.findings.push_back({"warning", "the hand is missing or hidden: hand and wrist are put where the arm ends", "hand_tip" + suffix});
+    f.body.scan.findings.push_back(
+        {"warning", "the hand is missing or hidden: hand and wrist are put where the arm ends",
+         "hand_tip" + suffix});
     f.explain("hand_tip" + suffix + ": the arm is too short for a hand and has no wrist");
-    f.put("wrist" + suffix, arm_length < reach ? arm.at(reach - arm_length) : arm.tip, 2, *hand->rule);
+    f.put("wrist" + suffix, arm_length < reach ? arm.at(reach - arm_length) : arm.tip, 2,
+          *hand->rule);
     for (const char* name : {"hand_tip", "hand_extreme", "wrist"})
-      if (const auto it = f.body.landmarks.find(name + suffix); it != f.body.landmarks.end()) it->second.confidence = 0.1;
+      if (const auto it = f.body.landmarks.find(name + suffix); it != f.body.landmarks.end())
+        it->second.confidence = 0.1;
     find_elbow(f, side, reach - arm_length, arm_length * (1 - f.number("elbow.of_arm")));
     for (const char* name : {"elbow", "olecranon"})
-      if (const auto it = f.body.landmarks.find(name + suffix); it != f.body.landmarks.end()) it->second.confidence *= 0.5;
+      if (const auto it = f.body.landmarks.find(name + suffix); it != f.body.landmarks.end())
+        it->second.confidence *= 0.5;
   }
 }
 

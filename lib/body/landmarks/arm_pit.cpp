@@ -9,12 +9,15 @@ namespace sloper::body {
 namespace {
 
 // shares of stature, unless said otherwise
-constexpr double POCKET = 0.001;   ///< what is thinner is no limb: where faces were dropped and closed again, skin has pockets
+constexpr double POCKET = 0.001;   ///< what is thinner is no limb: where faces were dropped and
+                                   ///< closed again, skin has pockets
 constexpr double AS_NEAR = 0.0003; ///< m
 constexpr double TRUNK_LEAN = 0.5; ///< of the bisector between arm and trunk
-constexpr double LEAP = 0.008;     ///< the skin bends away from the arm by more than this between two lines
-constexpr double FROM_PIT = 0.06;  ///< aside: a level arm's underside meets the trunk's level anywhere along it, and what lies farther off is no arm pit
-constexpr double ROOF = 0.005;     ///< half breadth of the pit's roof at most
+constexpr double LEAP =
+    0.008; ///< the skin bends away from the arm by more than this between two lines
+constexpr double FROM_PIT = 0.06; ///< aside: a level arm's underside meets the trunk's level
+                                  ///< anywhere along it, and what lies farther off is no arm pit
+constexpr double ROOF = 0.005;    ///< half breadth of the pit's roof at most
 
 /// Crossings of the line q + t e with the outline, sorted.
 std::vector<double> crossings(const std::vector<Loop>& loops, const Vec2& q, const Vec2& e) {
@@ -31,16 +34,21 @@ std::vector<double> crossings(const std::vector<Loop>& loops, const Vec2& q, con
   return at;
 }
 
-/// Apex of the gap between arm and trunk in the plane z = depth: walks along the arm towards the shoulder and watches the
-/// gap close. Lines are square to the bisector of arm and hanging direction. Where the skin between arm and trunk runs along the lines,
-/// or bends away to a fold of the trunk's side, the pit is at most as far below the arm's axis as pits usually are.
+/// Apex of the gap between arm and trunk in the plane z = depth: walks along the arm towards the
+/// shoulder and watches the gap close. Lines are square to the bisector of arm and hanging
+/// direction. Where the skin between arm and trunk runs along the lines, or bends away to a fold of
+/// the trunk's side, the pit is at most as far below the arm's axis as pits usually are.
 /// @param usual distance of the pit from the arm's axis, m
-std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm, double s, double usual) {
+std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm, double s,
+                             double usual) {
   Vec2 out(arm.out.x(), arm.out.y());
   if (out.norm() < 0.2) return std::nullopt;
   out.normalize();
-  // leaning to the trunk: in a level arm the fold is a wide fillet, and the pit is on its trunk side
-  const Vec2 bisector = ((out + Vec2(0, -1)).normalized() + Vec2(arm.left ? TRUNK_LEAN : -TRUNK_LEAN, 0)).normalized();
+  // leaning to the trunk: in a level arm the fold is a wide fillet, and the pit is on its trunk
+  // side
+  const Vec2 bisector =
+      ((out + Vec2(0, -1)).normalized() + Vec2(arm.left ? TRUNK_LEAN : -TRUNK_LEAN, 0))
+          .normalized();
   Vec2 e(-bisector.y(), bisector.x()); // square to the bisector, from the arm to the trunk
   if (e.dot(Vec2(arm.left ? -1 : 1, -1)) < 0) e = -e;
   const double leave_usual = usual / std::abs(e.x() * out.y() - e.y() * out.x());
@@ -52,10 +60,13 @@ std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm
     const Vec2 q(c.x(), c.y());
     std::vector<double> t = crossings(loops, q, e);
     for (std::size_t k = 0; k + 1 < t.size();) // body between an odd and the next crossing
-      if (t[k + 1] - t[k] < POCKET * s) t.erase(t.begin() + static_cast<std::ptrdiff_t>(k), t.begin() + static_cast<std::ptrdiff_t>(k) + 2);
+      if (t[k + 1] - t[k] < POCKET * s)
+        t.erase(t.begin() + static_cast<std::ptrdiff_t>(k),
+                t.begin() + static_cast<std::ptrdiff_t>(k) + 2);
       else k += 2;
     const auto first = std::upper_bound(t.begin(), t.end(), 0.0);
-    if (first == t.end() || (first - t.begin()) % 2 == 0) continue; // not inside the arm in this plane
+    if (first == t.end() || (first - t.begin()) % 2 == 0)
+      continue; // not inside the arm in this plane
     const double leave = *first;
     if (first + 1 == t.end() || leave > (apex ? 0.2 : 0.12) * s) {
       if (apex) break;
@@ -64,10 +75,12 @@ std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm
     const double enter = *(first + 1);
     // another gap than that of the last line, or a fold of the trunk's side below the pit
     if (apex && (leave > last_enter || enter < last_leave)) break;
-    // a gap that ends while it is wide has its roof on the arm's side: below it the trunk falls away
+    // a gap that ends while it is wide has its roof on the arm's side: below it the trunk falls
+    // away
     const Vec2 next = q + (leave + std::min(0.5 * (enter - leave), ROOF * s)) * e;
     if (apex && leave > last_leave + LEAP * s && leave > leave_usual) {
-      *apex += std::clamp((leave_usual - last_leave) / (leave - last_leave), 0.0, 1.0) * (next - *apex);
+      *apex +=
+          std::clamp((leave_usual - last_leave) / (leave - last_leave), 0.0, 1.0) * (next - *apex);
       break;
     }
     last_leave = leave, last_enter = enter, apex = next;
@@ -86,14 +99,18 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules) {
   const double sign = arm.left ? 1 : -1;
   for (std::size_t f = 0; f < skin.triangles.size(); ++f) {
     const Vec3& p = skin.positions[skin.triangles[f][0]];
-    if (sign * p.x() > 0.02 * s && p.y() > 0.5 * s && p.y() < 0.9 * s) near.push_back(static_cast<int>(f));
+    if (sign * p.x() > 0.02 * s && p.y() > 0.5 * s && p.y() < 0.9 * s)
+      near.push_back(static_cast<int>(f));
   }
-  // around the arm the fold between arm and trunk rises to both sides: its roof lies under the joint, its ends in front
-  // of and behind the arm, at distances that go with the arm's radius
+  // around the arm the fold between arm and trunk rises to both sides: its roof lies under the
+  // joint, its ends in front of and behind the arm, at distances that go with the arm's radius
   const double radius = arm.sections[arm.sections.size() * 3 / 4].girth / (2 * 3.14159265358979);
   const double depth = arm.at(arm.length() + 0.01 * s).z() + 0.009 * s;
-  const double raised = units::degrees(std::acos(std::clamp(-arm.out.y(), -1.0, 1.0))); // 0 hanging, 90 level
-  const double usual = (rules.number("axilla.below_level_arm") - rules.number("axilla.below_arm_per_degree") * (90 - raised)) * s +
+  const double raised =
+      units::degrees(std::acos(std::clamp(-arm.out.y(), -1.0, 1.0))); // 0 hanging, 90 level
+  const double usual = (rules.number("axilla.below_level_arm") -
+                        rules.number("axilla.below_arm_per_degree") * (90 - raised)) *
+                           s +
                        rules.number("axilla.below_arm_of_radius") * radius;
   auto apex_at = [&](double z) {
     const std::vector<Loop> loops = cut(skin, {Vec3(0, 0, z), Vec3::UnitX(), Vec3::UnitY()}, &near);
@@ -103,25 +120,33 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules) {
   std::vector<double> xs, ys; // the middle of three planes, for a single one may run along a fold
   for (const double offset : {0.0, -0.15, 0.15, -0.4, 0.4}) {
     if (xs.size() == 3 || (!xs.empty() && std::abs(offset) > 0.3)) break;
-    if (const auto apex = apex_at(depth + offset * radius)) xs.push_back(apex->x()), ys.push_back(apex->y());
+    if (const auto apex = apex_at(depth + offset * radius))
+      xs.push_back(apex->x()), ys.push_back(apex->y());
   }
   if (!xs.empty()) {
     std::sort(xs.begin(), xs.end());
     std::sort(ys.begin(), ys.end());
     const std::size_t n = xs.size();
-    auto middle = [&](const std::vector<double>& v) { // the mean, without what is far off, and nothing jumps where it is a little nearer
+    auto middle = [&](const std::vector<double>& v) { // the mean, without what is far off, and
+                                                      // nothing jumps where it is a little nearer
       if (n < 3) return v[n / 2];
-      const auto share = [&](double x) { return std::clamp(1.5 - std::abs(x - v[1]) / (0.01 * s), 0.0, 1.0); };
+      const auto share = [&](double x) {
+        return std::clamp(1.5 - std::abs(x - v[1]) / (0.01 * s), 0.0, 1.0);
+      };
       return (v[1] + share(v[0]) * v[0] + share(v[2]) * v[2]) / (1 + share(v[0]) + share(v[2]));
     };
     arm.axilla = Vec3(middle(xs), middle(ys), depth);
   }
   // arm and trunk touch, a hole was closed there, or a sleeve spans the pit
   const double aside = rules.number("axilla.aside") * s, height = rules.number("axilla.height") * s;
-  arm.pit_hidden = !arm.axilla || arm.axilla->y() < rules.number("axilla.lowest") * s || std::abs(arm.axilla->x()) > rules.number("axilla.widest") * s;
+  arm.pit_hidden = !arm.axilla || arm.axilla->y() < rules.number("axilla.lowest") * s ||
+                   std::abs(arm.axilla->x()) > rules.number("axilla.widest") * s;
   if (arm.pit_hidden) {
-    const bool is_near = arm.axilla && std::abs(arm.axilla->x()) <= rules.number("axilla.widest") * s;
-    arm.axilla = Vec3(sign * (is_near ? 0.5 * (std::abs(arm.axilla->x()) + aside) : aside), height, depth);
+    const bool estimates_energy_error =
+        arm.axilla && std::abs(arm.axilla->x()) <= rules.number("axilla.widest") * s;
+    arm.axilla =
+        Vec3(sign * (estimates_energy_error ? 0.5 * (std::abs(arm.axilla->x()) + aside) : aside),
+             height, depth);
   }
   arm.axilla_front = *arm.axilla + Vec3(-sign * 0.0021 * s, 0.22 * radius, 0.75 * radius);
   arm.axilla_back = *arm.axilla + Vec3(-sign * 0.0035 * s, 0.16 * radius, -1.2 * radius);
@@ -137,9 +162,12 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
     double nearest = 0.03 * s;
     for (std::size_t i = 0; i < loops.size(); ++i) {
       if (loops[i].area <= 0) continue;
-      const bool is_trunk = trunk < 0 && std::abs(loops[i].centroid.x()) < 0.06 * s; // the largest near the middle
+      const bool is_trunk =
+          trunk < 0 && std::abs(loops[i].centroid.x()) < 0.06 * s; // the largest near the middle
       if (is_trunk) trunk = static_cast<int>(i);
-      if (is_trunk && is_level) continue; // it reaches below the arm's middle even while the arm's underside is a loop of its own
+      if (is_trunk && is_level)
+        continue; // it reaches below the arm's middle even while the arm's underside is a loop of
+                  // its own
       double d = 1e300;
       for (const LimbSection& section : arm.sections) {
         if (std::abs(section.center.y() - y) > reach || section.along < from) continue;
@@ -161,7 +189,8 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
     for (double y = top; y > bottom && low == 0; y -= step) (apart(y) ? low : high) = y;
   };
   if (arm.out.y() < -0.12) search(0.80 * s, 0.62 * s, 0.005 * s);
-  if (low == 0 || high == 0) { // a level through a level arm's underside is further from its middle, and the hand may hang
+  if (low == 0 || high == 0) { // a level through a level arm's underside is further from its
+                               // middle, and the hand may hang
     reach = 0.035 * s, from = 0.6 * arm.length(), is_level = true;
     const double middle = arm.at(0.85 * arm.length()).y();
     search(middle, middle - 0.05 * s, 0.0006 * s);
@@ -187,8 +216,12 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
       Near near{p, 1e300, (a[1] - a[0]).norm()};
       for (const auto& b : loops[limb].segments) {
         const Vec2 along = b[1] - b[0];
-        const Vec2 q = b[0] + std::clamp((p - b[0]).dot(along) / std::max(along.squaredNorm(), 1e-20), 0.0, 1.0) * along;
-        if (const double gap = (p - q).norm(); gap < near.gap) near.gap = gap, near.middle = 0.5 * (p + q);
+        const Vec2 q =
+            b[0] +
+            std::clamp((p - b[0]).dot(along) / std::max(along.squaredNorm(), 1e-20), 0.0, 1.0) *
+                along;
+        if (const double gap = (p - q).norm(); gap < near.gap)
+          near.gap = gap, near.middle = 0.5 * (p + q);
       }
       least = std::min(least, near.gap);
       all.push_back(near);
@@ -196,7 +229,8 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
   Vec2 sum = Vec2::Zero();
   double weight = 0;
   for (const Near& near : all)
-    if (const double w = (least + AS_NEAR - near.gap) * near.length; w > 0) sum += w * near.middle, weight += w;
+    if (const double w = (least + AS_NEAR - near.gap) * near.length; w > 0)
+      sum += w * near.middle, weight += w;
   if (weight <= 0) return;
   const Vec3 merge(sum.x() / weight, low, sum.y() / weight);
   if (std::abs(merge.x() - arm.axilla->x()) < FROM_PIT * s) arm.merge = merge;

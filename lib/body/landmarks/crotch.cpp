@@ -10,11 +10,13 @@ namespace sloper::body {
 namespace {
 
 constexpr double CROTCH_FLAT = 0.003; ///< m: as far back as makes no difference
-constexpr double SAG = 0.015;         ///< a closed hole hangs this much lower than the skin that was there
-/// Half sizes of the box in which points of the scan show the crotch: thin, for the thighs beside a hole are near.
+constexpr double SAG = 0.015; ///< a closed hole hangs this much lower than the skin that was there
+/// Half sizes of the box in which points of the scan show the crotch: thin, for the thighs beside a
+/// hole are near.
 const Vec3 SEEN(0.004, 0.012, 0.025);
 
-/// Height of the rearmost part of the trunk below the waist; none where it only runs out upwards, as of a back that leans.
+/// Height of the rearmost part of the trunk below the waist; none where it only runs out upwards,
+/// as of a back that leans.
 std::optional<double> buttock_level(const LevelStack& levels) {
   const double s = levels.stature(), top = 0.60 * s;
   std::vector<Vec2> backs; // height, depth
@@ -30,7 +32,8 @@ std::optional<double> buttock_level(const LevelStack& levels) {
 
 } // namespace
 
-bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, const Rules& rules, bool rebuilt, bool whole, std::vector<Finding>& findings,
+bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, const Rules& rules,
+                  bool rebuilt, bool whole, std::vector<Finding>& findings,
                   std::vector<std::string>& trail) {
   if (!levels.crotch()) return false;
   // figure and stance are not known yet: of the tree's conditions only the skin's counts here
@@ -46,22 +49,30 @@ bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, cons
   const auto buttock = buttock_level(levels);
   const double by_stature = rules.number("crotch.of_stature") * s;
   const double expected =
-      buttock ? by_stature + rules.number("crotch.buttock_weight") * (*buttock - rules.number("crotch.below_buttocks") * s - by_stature) : by_stature;
+      buttock ? by_stature + rules.number("crotch.buttock_weight") *
+                                 (*buttock - rules.number("crotch.below_buttocks") * s - by_stature)
+              : by_stature;
   // from one to the other over half of that depth: a coarser mesh must not make it jump
-  const double too_low = (expected - found) / (rules.number("crotch.too_low") * s), doubt = always ? 1 : std::clamp(2 * (too_low - 0.75), 0.0, 1.0);
+  const double too_low = (expected - found) / (rules.number("crotch.too_low") * s),
+               doubt = always ? 1 : std::clamp(2 * (too_low - 0.75), 0.0, 1.0);
   const bool fused = doubt > 0;
   if ((whole || seen >= 3) && !fused) return false;
-  const double y = fused ? found + doubt * (expected - found) : 0.5 * (expected + found + SAG * s), moved = fused ? doubt : 1;
+  const double y = fused ? found + doubt * (expected - found) : 0.5 * (expected + found + SAG * s),
+               moved = fused ? doubt : 1;
   levels.move_crotch(y, place.z());
   if (const auto l = levels.leg_at(y - 0.01, 0))
     if (const auto r = levels.leg_at(y - 0.01, 1))
-      levels.move_crotch(y, (1 - moved) * place.z() + moved * (0.5 * (l->centroid.y() + r->centroid.y()) + CROTCH_BEFORE_LEGS * s));
+      levels.move_crotch(
+          y, (1 - moved) * place.z() +
+                 moved * (0.5 * (l->centroid.y() + r->centroid.y()) + CROTCH_BEFORE_LEGS * s));
   char text[200];
-  std::snprintf(text, sizeof text, "crotch: the slices join at %.3f m, %s; put at %.3f m by the level of the buttocks", found,
-                fused ? "too low: the thighs touch" : "in a hole", y);
+  std::snprintf(text, sizeof text,
+                "crotch: the slices join at %.3f m, %s; put at %.3f m by the level of the buttocks",
+                found, fused ? "too low: the thighs touch" : "in a hole", y);
   trail.push_back(text);
   findings.push_back({"warning",
-                      fused ? "the thighs touch: the crotch is hidden, its height is estimated" : "the crotch is not in the scan, its height is estimated",
+                      fused ? "the thighs touch: the crotch is hidden, its height is estimated"
+                            : "the crotch is not in the scan, its height is estimated",
                       "crotch"});
   return true;
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// Whether the crotch that the slices show is the body's: thighs that touch, and holes, put it too low.
+/// Whether the crotch that the slices show is the body's: thighs that touch, and holes, put it too
+/// low.
 #include <body/body.hpp>
 #include <body/landmarks/rules.hpp>
 #include <body/measure/level_stack.hpp>
@@ -7,10 +8,13 @@ namespace sloper::body {
 
 /// Moves the crotch of `levels` where the scan does not show it, by the level of the buttocks.
 /// @param scan_points the scan's own points, body frame, m
-/// @param rules where the tree has "below_buttocks" off it is never moved, where it has it first always
-/// @param whole the skin is the scan's own and had no holes: only touching thighs can hide the crotch
+/// @param rules where the tree has "below_buttocks" off it is never moved, where it has it first
+/// always
+/// @param whole the skin is the scan's own and had no holes: only touching thighs can hide the
+/// crotch
 /// @return true when it was moved; then a finding and a line of the trail say why
-bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, const Rules& rules, bool rebuilt, bool whole, std::vector<Finding>& findings,
+bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, const Rules& rules,
+                  bool rebuilt, bool whole, std::vector<Finding>& findings,
                   std::vector<std::string>& trail);
 
 } // namespace sloper::body

@@ -18,14 +18,16 @@ double ring_length(const std::array<Vec3, 4>& corner) {
   for (int k = 0; k < 4; ++k)
     for (int i = 1; i <= STEPS; ++i) {
       const double a = 0.5 * units::PI * i / STEPS;
-      const Vec3 p = middle + std::cos(a) * (corner[k] - middle) + std::sin(a) * (corner[(k + 1) % 4] - middle);
+      const Vec3 p = middle + std::cos(a) * (corner[k] - middle) +
+                     std::sin(a) * (corner[(k + 1) % 4] - middle);
       length += (p - last).norm();
       last = p;
     }
   return length;
 }
 
-/// Length of the circle that fits the points best (Kasa 1976: least squares of |p|^2 - 2 c.p - k); 0 for too few of them.
+/// Length of the circle that fits the points best (Kasa 1976: least squares of |p|^2 - 2 c.p - k);
+/// 0 for too few of them.
 double circle_through(const std::vector<Vec2>& points) {
   if (points.size() < 10) return 0;
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
@@ -42,31 +44,37 @@ double circle_through(const std::vector<Vec2>& points) {
 
 constexpr double TOO_WIDE = 1.35; ///< of the usual girth: the section has run into the trunk
 
-/// Girth of an arm in a plane through `center`; 0 where there is no section. Where the arm hangs on the trunk there, `outward` is not zero
-/// and `usual` is exceeded, the circle through the outline of the free side stands for it.
+/// Girth of an arm in a plane through `center`; 0 where there is no section. Where the arm hangs on
+/// the trunk there, `outward` is not zero and `usual` is exceeded, the circle through the outline
+/// of the free side stands for it.
 struct ArmGirth {
   double value = 0;
   bool touches = false;
 };
 
-ArmGirth arm_girth(const Finder& f, const ArmTrace& arm, const Vec3& center, const Vec3& axis, double usual) {
+ArmGirth arm_girth(const Finder& f, const ArmTrace& arm, const Vec3& center, const Vec3& axis,
+                   double usual) {
   const double reach = 0.09 * f.s;
   const Plane plane = cross_plane(center, axis);
   const std::vector<Loop> loops = cut(f.levels.skin(), plane, &arm.triangles);
   const Loop* nearest = nullptr;
   for (const Loop& loop : loops)
-    if (loop.area > 0 && loop.centroid.norm() < (nearest ? nearest->centroid.norm() : 0.05 * f.s)) nearest = &loop;
+    if (loop.area > 0 && loop.centroid.norm() < (nearest ? nearest->centroid.norm() : 0.05 * f.s))
+      nearest = &loop;
   ArmGirth girth;
   if (nearest) girth.value = taut_girth(*nearest);
   if (nearest && girth.value < TOO_WIDE * usual) return girth;
   // the free side faces away from the body's middle plane, square to the arm
-  const Vec3 out = (arm.left ? Vec3::UnitX() : Vec3(-Vec3::UnitX())) - (arm.left ? axis.x() : -axis.x()) / axis.squaredNorm() * axis;
+  const Vec3 out = (arm.left ? Vec3::UnitX() : Vec3(-Vec3::UnitX())) -
+                   (arm.left ? axis.x() : -axis.x()) / axis.squaredNorm() * axis;
   std::vector<Vec2> points;
   for (const Loop& loop : loops)
     for (const auto& segment : loop.segments)
-      if (const Vec3 d = plane.point(segment[0]) - center; d.dot(out) >= 0 && d.norm() < reach) points.push_back(segment[0]);
+      if (const Vec3 d = plane.point(segment[0]) - center; d.dot(out) >= 0 && d.norm() < reach)
+        points.push_back(segment[0]);
   girth.value = circle_through(points), girth.touches = true;
-  if (girth.value > TOO_WIDE * usual || girth.value < 0.6 * usual) girth.value = 0; // that side is not free either
+  if (girth.value > TOO_WIDE * usual || girth.value < 0.6 * usual)
+    girth.value = 0; // that side is not free either
   return girth;
 }
 
@@ -89,29 +97,38 @@ void find_girths(const Finder& f) {
       put("knee", leg_girth(knee));
       double calf = 0, calf_y = 0, least = 1e300;
       for (double y = ankle; y < knee; y += 0.004)
-        if (const double g = leg_girth(y); g > calf && y > ankle + 0.3 * (knee - ankle)) calf = g, calf_y = y;
+        if (const double g = leg_girth(y); g > calf && y > ankle + 0.3 * (knee - ankle))
+          calf = g, calf_y = y;
       for (double y = ankle; y < calf_y; y += 0.004)
         if (const double g = leg_girth(y); g > 0) least = std::min(least, g);
       put("calf", calf);
       if (least < 1e299) put("ankle_min", least);
     }
     const ArmTrace& arm = f.arms[side];
-    if (arm.sections.empty() || !f.has("elbow" + suffix) || !f.has("shoulder_joint" + suffix) || !f.has("wrist" + suffix)) continue;
-    const Vec3 &shoulder = f.at("shoulder_joint" + suffix), &elbow = f.at("elbow" + suffix), &wrist = f.at("wrist" + suffix);
-    const ArmGirth upper = arm_girth(f, arm, 0.5 * (shoulder + elbow), shoulder - elbow, arm.sections.back().girth);
+    if (arm.sections.empty() || !f.has("elbow" + suffix) || !f.has("shoulder_joint" + suffix) ||
+        !f.has("wrist" + suffix))
+      continue;
+    const Vec3 &shoulder = f.at("shoulder_joint" + suffix), &elbow = f.at("elbow" + suffix),
+               &wrist = f.at("wrist" + suffix);
+    const ArmGirth upper =
+        arm_girth(f, arm, 0.5 * (shoulder + elbow), shoulder - elbow, arm.sections.back().girth);
     put("upper_arm", upper.value);
     if (upper.touches)
-      f.body.scan.findings.push_back({"warning",
-                                      upper.value > 0 ? "the upper arm touches the trunk: its girth is estimated from its free side"
-                                                      : "the upper arm touches the trunk: its girth cannot be measured",
-                                      "upper_arm" + suffix});
+      f.body.scan.findings.push_back(
+          {"warning",
+           upper.value > 0
+               ? "the upper arm touches the trunk: its girth is estimated from its free side"
+               : "the upper arm touches the trunk: its girth cannot be measured",
+           "upper_arm" + suffix});
     put("wrist", arm_girth(f, arm, wrist, elbow - wrist, 1e300).value);
   }
-  // neck rings run higher at the sides than in front: quarter ellipses through four points of the skin
+  // neck rings run higher at the sides than in front: quarter ellipses through four points of the
+  // skin
   if (!f.has("neck_back") || !f.has("neck_front") || !f.has("neck_center")) return;
   const Vec3 back = f.at("neck_back"), front = f.at("neck_front"), center = f.at("neck_center");
   const double rise = f.number("neck.girth_up") * s, side_rise = f.number("neck.girth_up_side") * s;
-  const auto fore = midline(f.levels, front.y() + rise, center.x(), 0.006 * s), rear = midline(f.levels, back.y() + rise, center.x(), 0.008 * s);
+  const auto fore = midline(f.levels, front.y() + rise, center.x(), 0.006 * s),
+             rear = midline(f.levels, back.y() + rise, center.x(), 0.008 * s);
   const auto& sides = f.levels.trunk_at(center.y() + side_rise);
   if (fore && rear && sides) {
     double left = -1e300, right = 1e300;
@@ -119,21 +136,28 @@ void find_girths(const Finder& f) {
       if (const auto piece = clipped(seg, 1, center.z() - 0.009 * s, center.z() + 0.015 * s))
         for (const Vec2& q : *piece) left = std::max(left, q.x()), right = std::min(right, q.x());
     if (left > right) {
-      // the slope of the shoulders makes this breadth uncertain; the narrowest breadth of the neck is not
+      // the slope of the shoulders makes this breadth uncertain; the narrowest breadth of the neck
+      // is not
       double narrowest = 1e300;
       for (double y = 0.84 * s; y < 0.90 * s; y += 0.004 * s)
-        if (const auto& loop = f.levels.trunk_at(y)) narrowest = std::min(narrowest, loop->size().x());
-      const double middle = 0.5 * (left + right), half = 0.5 * f.number("neck.breadth_to_narrowest") * narrowest;
+        if (const auto& loop = f.levels.trunk_at(y))
+          narrowest = std::min(narrowest, loop->size().x());
+      const double middle = 0.5 * (left + right),
+                   half = 0.5 * f.number("neck.breadth_to_narrowest") * narrowest;
       const double measured = std::min(0.5 * (left - right), 1.12 * half);
       left = middle + 0.5 * (measured + half), right = middle - 0.5 * (measured + half);
       const double y = center.y() + side_rise, z = center.z() + 0.003 * s;
       const double ring =
-          ring_length({Vec3(center.x(), front.y() + rise, fore->front), Vec3(left, y, z), Vec3(center.x(), back.y() + rise, rear->back), Vec3(right, y, z)});
+          ring_length({Vec3(center.x(), front.y() + rise, fore->front), Vec3(left, y, z),
+                       Vec3(center.x(), back.y() + rise, rear->back), Vec3(right, y, z)});
       f.body.girths["neck"] = {f.number("neck.ring_factor") * ring, 0.008};
     }
   }
   if (f.has("neck_side_l") && f.has("neck_side_r"))
-    f.body.girths["neck_base"] = {f.number("neck_base.ring_factor") * ring_length({front, f.at("neck_side_l"), back, f.at("neck_side_r")}), 0.012};
+    f.body.girths["neck_base"] = {
+        f.number("neck_base.ring_factor") *
+            ring_length({front, f.at("neck_side_l"), back, f.at("neck_side_r")}),
+        0.012};
 }
 
 } // namespace sloper::body

@@ -26,7 +26,8 @@ namespace {
 /// The hollow of the throat: where the neck's front lies deepest between chin and chest.
 std::optional<double> hollow_of_throat(const Finder& f, double x) {
   constexpr double AS_DEEP = 0.0008; // m
-  const double low = f.number("neck_front.search_low") * f.s, high = f.number("neck_front.search_high") * f.s;
+  const double low = f.number("neck_front.search_low") * f.s,
+               high = f.number("neck_front.search_high") * f.s;
   std::vector<Vec2> fronts; // height, depth
   for (double y = low; y <= high; y += 0.001 * f.s)
     if (const auto m = midline(f.levels, y, x, 0.006 * f.s)) fronts.emplace_back(y, m->front);
@@ -40,7 +41,8 @@ std::optional<double> hollow_of_throat(const Finder& f, double x) {
 std::optional<double> shoulder_turn(const Finder& f) {
   const double s = f.s, step = 0.002 * s;
   for (double y = 0.885 * s; y > 0.80 * s; y -= step) {
-    const auto &above = f.levels.trunk_at(y + 1.5 * step), &below = f.levels.trunk_at(y - 1.5 * step);
+    const auto &above = f.levels.trunk_at(y + 1.5 * step),
+               &below = f.levels.trunk_at(y - 1.5 * step);
     if (!above || !below) continue;
     const double widening = 0.5 * (below->size().x() - above->size().x()) / (3 * step);
     if (widening > f.number("neck_side.widening") && below->size().x() > 0.07 * s) return y;
@@ -53,11 +55,13 @@ double neck_middle(const Finder& f) {
   double sum = 0;
   int n = 0;
   for (double y = 0.855 * f.s; y < 0.875 * f.s; y += 0.005 * f.s)
-    if (const auto& loop = f.levels.trunk_at(y); loop && loop->size().x() < 0.12 * f.s) sum += loop->center().x(), ++n;
+    if (const auto& loop = f.levels.trunk_at(y); loop && loop->size().x() < 0.12 * f.s)
+      sum += loop->center().x(), ++n;
   return n ? sum / n : 0.0;
 }
 
-/// The highest skin: of a flat crown the middle of what is as high as makes no difference, at the height of the highest point.
+/// The highest skin: of a flat crown the middle of what is as high as makes no difference, at the
+/// height of the highest point.
 std::optional<Vec3> top_of_head(const TriangleMesh& skin) {
   constexpr double AS_HIGH = 0.0015; // m
   constexpr int PIECES = 6;          // a face of a coarse mesh is larger than the flat part
@@ -77,20 +81,24 @@ std::optional<Vec3> top_of_head(const TriangleMesh& skin) {
         if (const double w = (p.y() - top + AS_HIGH) * area; w > 0) sum += w * p, weight += w;
       }
   }
-  if (weight <= 0) return *std::max_element(skin.positions.begin(), skin.positions.end(), [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); });
+  if (weight <= 0)
+    return *std::max_element(skin.positions.begin(), skin.positions.end(),
+                             [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); });
   return Vec3(sum.x() / weight, top, sum.z() / weight);
 }
 
 /// Both side neck points: skin at that depth, at the height where neck and shoulder meet.
-void find_neck_sides(const Finder& f, double x, double back_y, const std::optional<double>& turn, double depth) {
+void find_neck_sides(const Finder& f, double x, double back_y, const std::optional<double>& turn,
+                     double depth) {
   const double s = f.s, above_back = back_y + f.number("neck_side.above_back") * s;
-  const auto height = f.choose<double>("neck_side", "neck_side",
-                                       {{"neck_meets_shoulders",
-                                         [&]() -> std::optional<double> {
-                                           if (!turn) return std::nullopt;
-                                           return 0.5 * (above_back + *turn);
-                                         }},
-                                        {"above_neck_back", [&] { return std::optional(above_back); }}});
+  const auto height =
+      f.choose<double>("neck_side", "neck_side",
+                       {{"neck_meets_shoulders",
+                         [&]() -> std::optional<double> {
+                           if (!turn) return std::nullopt;
+                           return 0.5 * (above_back + *turn);
+                         }},
+                        {"above_neck_back", [&] { return std::optional(above_back); }}});
   if (!height) return;
   double side_y = height->value;
   auto outer_at = [&](double y, int side, double near) {
@@ -103,15 +111,19 @@ void find_neck_sides(const Finder& f, double x, double back_y, const std::option
             if (sign * (q.x() - x) > 0 && (!outer || sign * q.x() > sign * outer->x())) outer = q;
     return outer;
   };
-  // where the shoulders are nearly level a millimetre of height is a centimetre of breadth: too broad is too low
+  // where the shoulders are nearly level a millimetre of height is a centimetre of breadth: too
+  // broad is too low
   const double broadest = f.number("neck_side.broadest") * s, limit = side_y + 0.012 * s;
   for (; side_y < limit; side_y += 0.001 * s) {
     const auto l = outer_at(side_y, 0, 0.01), r = outer_at(side_y, 1, 0.01);
     if (l && r && 0.5 * (l->x() - r->x()) < broadest) break;
   }
   for (int side = 0; side < 2; ++side)
-    if (const auto close = outer_at(side_y, side, 0.01), outer = close ? close : outer_at(side_y, side, 0.03); outer)
-      f.put(std::string("neck_side") + side_suffix(side), Vec3(outer->x(), side_y, depth), 2, *height->rule);
+    if (const auto close = outer_at(side_y, side, 0.01),
+        outer = close ? close : outer_at(side_y, side, 0.03);
+        outer)
+      f.put(std::string("neck_side") + side_suffix(side), Vec3(outer->x(), side_y, depth), 2,
+            *height->rule);
 }
 
 } // namespace
@@ -119,28 +131,34 @@ void find_neck_sides(const Finder& f, double x, double back_y, const std::option
 void find_head_landmarks(const Finder& f) {
   const double s = f.s;
   const TriangleMesh& skin = f.levels.skin();
-  f.find("head_tip", "", 1, {{"highest_point", [&]() -> std::optional<Vec3> { return top_of_head(skin); }}});
+  f.find("head_tip", "", 1,
+         {{"highest_point", [&]() -> std::optional<Vec3> { return top_of_head(skin); }}});
   // heights: the population's ratio, drawn towards what this neck shows
   using Height = std::optional<double>;
   const double x = neck_middle(f);
   const auto hollow = hollow_of_throat(f, x), turn = shoulder_turn(f);
-  const double front_ratio = f.number("neck_front.height") * s, back_ratio = f.number("neck_back.height") * s;
-  const auto front_y = f.choose<double>("neck_front", "neck_front",
-                                        {{"hollow_of_throat",
-                                          [&]() -> Height {
-                                            if (!hollow) return std::nullopt;
-                                            const double w = f.number("neck_front.hollow_weight");
-                                            return (1 - w) * front_ratio + w * (*hollow - f.number("neck_front.below_hollow") * s);
-                                          }},
-                                         {"height_ratio", [&] { return Height(front_ratio); }}});
+  const double front_ratio = f.number("neck_front.height") * s,
+               back_ratio = f.number("neck_back.height") * s;
+  const auto front_y = f.choose<double>(
+      "neck_front", "neck_front",
+      {{"hollow_of_throat",
+        [&]() -> Height {
+          if (!hollow) return std::nullopt;
+          const double w = f.number("neck_front.hollow_weight");
+          return (1 - w) * front_ratio + w * (*hollow - f.number("neck_front.below_hollow") * s);
+        }},
+       {"height_ratio", [&] { return Height(front_ratio); }}});
   if (!front_y) return;
-  const Height by_throat = hollow ? Height(front_y->value + f.number("neck_back.above_front") * s) : std::nullopt;
+  const Height by_throat =
+      hollow ? Height(front_y->value + f.number("neck_back.above_front") * s) : std::nullopt;
   const Height by_turn = turn ? Height(*turn - f.number("neck_side.above_back") * s) : std::nullopt;
   const auto back_y = f.choose<double>("neck_back", "neck_back",
                                        {{"neck_meets_shoulders",
                                          [&]() -> Height {
                                            if (!by_turn) return std::nullopt;
-                                           return by_throat ? (back_ratio + *by_throat + *by_turn) / 3 : 0.5 * (back_ratio + *by_turn);
+                                           return by_throat
+                                                      ? (back_ratio + *by_throat + *by_turn) / 3
+                                                      : 0.5 * (back_ratio + *by_turn);
                                          }},
                                         {"above_throat",
                                          [&]() -> Height {
@@ -149,7 +167,8 @@ void find_head_landmarks(const Finder& f) {
                                          }},
                                         {"height_ratio", [&] { return Height(back_ratio); }}});
   if (!back_y) return;
-  const auto back = midline(f.levels, back_y->value, x, 0.008 * s), front = midline(f.levels, front_y->value, x, 0.006 * s);
+  const auto back = midline(f.levels, back_y->value, x, 0.008 * s),
+             front = midline(f.levels, front_y->value, x, 0.006 * s);
   if (!back || !front) {
     f.explain("neck: no section at the neck's height");
     return;
@@ -157,14 +176,16 @@ void find_head_landmarks(const Finder& f) {
   f.put("neck_back", Vec3(x, back_y->value, back->back), 2, *back_y->rule);
   f.put("neck_front", Vec3(x, front_y->value, front->front), 2, *front_y->rule);
   auto also = [&](const char* name, double y, bool in_front) {
-    if (const auto m = midline(f.levels, y, x, 0.008 * s)) f.also(name, Vec3(x, y, in_front ? m->front : m->back));
+    if (const auto m = midline(f.levels, y, x, 0.008 * s))
+      f.also(name, Vec3(x, y, in_front ? m->front : m->back));
   };
   also("neck_front", front_ratio, true);
   if (hollow) also("neck_front", *hollow - f.number("neck_front.below_hollow") * s, true);
   also("neck_back", back_ratio, false);
   if (by_throat) also("neck_back", *by_throat, false);
   if (by_turn) also("neck_back", *by_turn, false);
-  find_neck_sides(f, x, back_y->value, turn, back->back + f.number("neck_side.from_back") * (front->front - back->back));
+  find_neck_sides(f, x, back_y->value, turn,
+                  back->back + f.number("neck_side.from_back") * (front->front - back->back));
   const Vec3 center(x, 0.5 * (back_y->value + front_y->value), 0.5 * (back->back + front->front));
   f.find("neck_center", "", 2, {{"middle_of_neck_ring", [&] { return std::optional(center); }}});
 }

@@ -2,7 +2,8 @@
 #include <body/landmarks/landmark_finder.hpp>
 namespace sloper::body {
 
-bool Finder::find(const std::string& place, const std::string& suffix, int step, std::initializer_list<Way<Vec3>> ways) const {
+bool Finder::find(const std::string& place, const std::string& suffix, int step,
+                  std::initializer_list<Way<Vec3>> ways) const {
   const auto chosen = choose<Vec3>(place, place + suffix, ways);
   if (chosen) put(place + suffix, chosen->value, step, *chosen->rule);
   return chosen && has(place + suffix);
@@ -14,17 +15,20 @@ void Finder::put(const std::string& name, const Vec3& p, int step, const RuleCho
 }
 
 void Finder::no_such_rule(const std::string& place, const std::string& rule) {
-  throw Error(ErrorKind::INTERNAL, "", "", "the tree names \"" + rule + "\" for " + place + ", which is no rule of the program");
+  throw Error(ErrorKind::INTERNAL, "", "",
+              "the tree names \"" + rule + "\" for " + place + ", which is no rule of the program");
 }
 
 void Finder::also(const std::string& name, const Vec3& p) const {
   const auto it = body.landmarks.find(name);
-  if (it != body.landmarks.end() && p.allFinite() && (p - it->second.p).norm() > 0.001) it->second.alternatives.push_back(p);
+  if (it != body.landmarks.end() && p.allFinite() && (p - it->second.p).norm() > 0.001)
+    it->second.alternatives.push_back(p);
 }
 
 double Finder::number(const std::string& name) const {
   if (!rules.has(name + ".female")) return rules.number(name);
-  return figure.female * rules.number(name + ".female") + (1 - figure.female) * rules.number(name + ".male");
+  return figure.female * rules.number(name + ".female") +
+         (1 - figure.female) * rules.number(name + ".male");
 }
 
 } // namespace sloper::body

@@ -1,6 +1,7 @@
 #pragma once
-/// The landmark rules: step 1 terminal points, step 2 curvature points, each in the file of its region. All work on a
-/// closed skin in the body frame and fill body.landmarks, body.levels and body.girths; nothing is guessed silently.
+/// The landmark rules: step 1 terminal points, step 2 curvature points, each in the file of its
+/// region. All work on a closed skin in the body frame and fill body.landmarks, body.levels and
+/// body.girths; nothing is guessed silently.
 #include <body/body.hpp>
 #include <body/landmarks/rules.hpp>
 #include <body/measure/arm_trace.hpp>
@@ -9,13 +10,15 @@
 #include <initializer_list>
 namespace sloper::body {
 
-/// What the decision tree's first questions find: which proportions to expect. Not a statement about a person.
+/// What the decision tree's first questions find: which proportions to expect. Not a statement
+/// about a person.
 struct FigureClass {
   double female = 0.5; ///< 0 male proportions .. 1 female proportions, from shape alone
   std::optional<ReliefPoint> nipple[2], navel;
 };
 
-FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace, 2>& arms, const std::vector<Vec3>& normals, const Rules& rules,
+FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace, 2>& arms,
+                            const std::vector<Vec3>& normals, const Rules& rules,
                             std::vector<std::string>& trail);
 
 /// A way of the program to find something, under the name that the tree calls it by.
@@ -34,8 +37,8 @@ struct Finder {
   const std::array<ArmTrace, 2>& arms;
   const std::vector<Vec3>& normals;     ///< of the skin's vertices
   const std::vector<Vec3>& scan_points; ///< the scan's own points of the body
-  bool rebuilt;                         ///< the skin is not the scan's own and has lost its finest ends
-  bool crotch_moved;                    ///< the crotch is an estimate
+  bool rebuilt;      ///< the skin is not the scan's own and has lost its finest ends
+  bool crotch_moved; ///< the crotch is an estimate
   const Rules& rules;
   const Situation situation;
   const FigureClass& figure;
@@ -43,9 +46,12 @@ struct Finder {
   std::vector<std::string>& trail; ///< the decision path, for --explain
   double s;                        ///< stature, m
 
-  /// Tries the ways in the tree's order for `place`; the path goes to the trail under `label`, as "LABEL: RULE" for what was taken.
+  /// Tries the ways in the tree's order for `place`; the path goes to the trail under `label`, as
+  /// "LABEL: RULE" for what was taken.
   /// @throws Error INTERNAL where the tree names a rule that is no way of the program
-  template<class T> std::optional<Chosen<T>> choose(const std::string& place, const std::string& label, std::initializer_list<Way<T>> ways) const {
+  template<class T>
+  std::optional<Chosen<T>> choose(const std::string& place, const std::string& label,
+                                  std::initializer_list<Way<T>> ways) const {
     for (const RuleChoice& rule : rules.order(place)) {
       if (!rule.applies(situation)) continue;
       const Way<T>* way = nullptr;
@@ -61,10 +67,13 @@ struct Finder {
     explain(label + ": not found");
     return std::nullopt;
   }
-  /// The landmark `place` + `suffix`, put where the first rule of the tree finds it. @return whether one did
-  bool find(const std::string& place, const std::string& suffix, int step, std::initializer_list<Way<Vec3>> ways) const;
+  /// The landmark `place` + `suffix`, put where the first rule of the tree finds it. @return
+  /// whether one did
+  bool find(const std::string& place, const std::string& suffix, int step,
+            std::initializer_list<Way<Vec3>> ways) const;
   void put(const std::string& name, const Vec3& p, int step, const RuleChoice& rule) const;
-  /// What another rule gives for a landmark that was put: kept as an alternative when it is more than a millimetre away.
+  /// What another rule gives for a landmark that was put: kept as an alternative when it is more
+  /// than a millimetre away.
   void also(const std::string& name, const Vec3& p) const;
   bool has(const std::string& name) const { return body.landmarks.count(name) != 0; }
   const Vec3& at(const std::string& name) const { return body.landmarks.at(name).p; }
@@ -76,15 +85,18 @@ struct Finder {
 
 inline const char* side_suffix(int side) { return side == 0 ? "_l" : "_r"; }
 
-/// The trunk outline at a height as front and back depth near x = 0, m; empty where there is no trunk.
+/// The trunk outline at a height as front and back depth near x = 0, m; empty where there is no
+/// trunk.
 struct Profile {
   double front, back;
 };
 std::optional<Profile> midline(const LevelStack& levels, double y, double x, double half_width);
 
-void find_leg_landmarks(const Finder& finder);   ///< foot tips, heels, crotch, hip joints, knees, ankles
-void find_head_landmarks(const Finder& finder);  ///< head tip, neck
-void find_arm_landmarks(const Finder& finder);   ///< hand tips, axillae, acromia, shoulders, elbows, wrists
+void find_leg_landmarks(
+    const Finder& finder); ///< foot tips, heels, crotch, hip joints, knees, ankles
+void find_head_landmarks(const Finder& finder); ///< head tip, neck
+void find_arm_landmarks(
+    const Finder& finder); ///< hand tips, axillae, acromia, shoulders, elbows, wrists
 void find_trunk_landmarks(const Finder& finder); ///< bust, waist, abdomen, hip and all levels
 void find_girths(const Finder& finder);
 void name_body_class(const Finder& finder); ///< body.body_class and its reasons

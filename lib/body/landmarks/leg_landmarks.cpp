@@ -18,40 +18,49 @@ std::optional<double> hollow_of_knee(const Finder& f, int side, double around) {
     if (const auto loop = f.levels.leg_at(y, side)) backs.emplace_back(y, -loop->low.y());
   if (backs.empty()) return std::nullopt;
   const Lowest deepest = lowest_of(backs, LEG_FLAT);
-  if (deepest.least < around - 0.027 * f.s || deepest.least > around + 0.057 * f.s) return std::nullopt; // at the end of the search there is no hollow
+  if (deepest.least < around - 0.027 * f.s || deepest.least > around + 0.057 * f.s)
+    return std::nullopt; // at the end of the search there is no hollow
   return deepest.middle;
 }
 
-/// The end of the foot in front (direction 1) or behind (-1): the mean of its `n` outermost points. Of toes as long as makes no
-/// difference it is the great toe's; a heel is flat, and the middle of its end is taken, at the depth of the outermost point.
-std::optional<Vec3> foot_end(const Finder& f, int side, double ankle_y, double direction, std::size_t n) {
+/// The end of the foot in front (direction 1) or behind (-1): the mean of its `n` outermost points.
+/// Of toes as long as makes no difference it is the great toe's; a heel is flat, and the middle of
+/// its end is taken, at the depth of the outermost point.
+std::optional<Vec3> foot_end(const Finder& f, int side, double ankle_y, double direction,
+                             std::size_t n) {
   constexpr double AS_LONG = 0.0015, TOE = 0.006, FLAT_HEEL = 0.0015; // of stature
   const double sign = side == 0 ? 1 : -1;
   const std::vector<Vec3>& points = f.rebuilt ? f.scan_points : f.levels.skin().positions;
   std::vector<int> foot;
   for (std::size_t v = 0; v < points.size(); ++v)
-    if (points[v].y() <= ankle_y && points[v].y() > -0.01 * f.s && sign * points[v].x() > 0) foot.push_back(static_cast<int>(v));
+    if (points[v].y() <= ankle_y && points[v].y() > -0.01 * f.s && sign * points[v].x() > 0)
+      foot.push_back(static_cast<int>(v));
   if (foot.size() < 10) return std::nullopt;
   auto farther = [&](int a, int b) {
     const double za = direction * points[a].z(), zb = direction * points[b].z();
     return za != zb ? za > zb : a < b;
   };
   if (direction > 0) {
-    const double end = points[*std::min_element(foot.begin(), foot.end(), farther)].z() - AS_LONG * f.s;
+    const double end =
+        points[*std::min_element(foot.begin(), foot.end(), farther)].z() - AS_LONG * f.s;
     double inner = 1e300;
     for (const int v : foot)
       if (points[v].z() > end) inner = std::min(inner, sign * points[v].x());
-    std::erase_if(foot, [&](int v) { return points[v].z() > end && sign * points[v].x() > inner + TOE * f.s; });
+    std::erase_if(foot, [&](int v) {
+      return points[v].z() > end && sign * points[v].x() > inner + TOE * f.s;
+    });
   }
   n = std::min(n, foot.size());
-  std::partial_sort(foot.begin(), foot.begin() + static_cast<std::ptrdiff_t>(n), foot.end(), farther);
+  std::partial_sort(foot.begin(), foot.begin() + static_cast<std::ptrdiff_t>(n), foot.end(),
+                    farther);
   Vec3 mean = Vec3::Zero();
   for (std::size_t k = 0; k < n; ++k) mean += points[foot[k]] / static_cast<double>(n);
   if (direction > 0) return mean;
   Vec3 sum = Vec3::Zero();
   double weight = 0;
   for (const int v : foot)
-    if (const double w = FLAT_HEEL * f.s - (points[v].z() - mean.z()); w > 0) sum += w * points[v], weight += w;
+    if (const double w = FLAT_HEEL * f.s - (points[v].z() - mean.z()); w > 0)
+      sum += w * points[v], weight += w;
   return weight > 0 ? Vec3(sum.x() / weight, sum.y() / weight, mean.z()) : mean;
 }
 
@@ -59,7 +68,8 @@ void find_knee(const Finder& f, int side, double ankle_y, double hip_y) {
   const std::string suffix = side_suffix(side);
   const double by_ratio = ankle_y + f.number("knee.of_leg") * (hip_y - ankle_y);
   std::optional<double> by_hollow;
-  if (const auto hollow = hollow_of_knee(f, side, by_ratio)) by_hollow = *hollow - f.number("knee.below_hollow") * f.s;
+  if (const auto hollow = hollow_of_knee(f, side, by_ratio))
+    by_hollow = *hollow - f.number("knee.below_hollow") * f.s;
   const auto height = f.choose<double>("knee", "knee" + suffix,
                                        {{"leg_ratio_and_hollow",
                                          [&]() -> std::optional<double> {
@@ -71,8 +81,11 @@ void find_knee(const Finder& f, int side, double ankle_y, double hip_y) {
   const auto section = f.levels.leg_at(height->value, side);
   if (!section) return;
   const Vec2 cap = outermost(*section, Vec2::UnitY(), LEG_FLAT);
-  f.find("patella", suffix, 2, {{"foremost_at_knee", [&] { return std::optional(Vec3(cap.x(), height->value, cap.y())); }}});
-  const Vec3 joint(section->center().x(), height->value, cap.y() - f.number("knee.behind_patella") * f.s);
+  f.find("patella", suffix, 2, {{"foremost_at_knee", [&] {
+                                   return std::optional(Vec3(cap.x(), height->value, cap.y()));
+                                 }}});
+  const Vec3 joint(section->center().x(), height->value,
+                   cap.y() - f.number("knee.behind_patella") * f.s);
   f.put("knee" + suffix, joint, 2, *height->rule);
   f.also("knee" + suffix, Vec3(joint.x(), by_ratio, joint.z()));
   if (by_hollow) f.also("knee" + suffix, Vec3(joint.x(), *by_hollow, joint.z()));
@@ -84,28 +97,41 @@ void find_leg(const Finder& f, int side) {
   const std::string suffix = side_suffix(side);
   const double ankle_y = f.number("ankle.height") * s;
   auto find_end = [&](const char* place, const char* rule, double direction) {
-    f.find(place, suffix, 1, {{rule, [&] { return foot_end(f, side, ankle_y, direction, 1); }}, {"middle_of_three_outermost", [&] {
-                                                                                                   return foot_end(f, side, ankle_y, direction, 3);
-                                                                                                 }}});
+    f.find(
+        place, suffix, 1,
+        {{rule, [&] { return foot_end(f, side, ankle_y, direction, 1); }},
+         {"middle_of_three_outermost", [&] { return foot_end(f, side, ankle_y, direction, 3); }}});
   };
   find_end("foot_tip", "foremost_of_foot", 1);
   find_end("heel", "rearmost_of_foot", -1);
   const auto top = f.levels.leg_at(crotch_y - 0.010, side);
   if (!top) return;
-  f.find("leg_top", suffix, 2, {{"section_under_crotch", [&] { return std::optional(Vec3(top->centroid.x(), crotch_y - 0.010, top->centroid.y())); }}});
-  // the leg's middle leans out with fat and in with muscle: half of it, half the usual breadth between the joints
-  const double hip_x = 0.5 * (top->centroid.x() + sign * (f.number("hip_joint.from_leg_top") + f.number("hip_joint.aside")) * s);
-  const Vec3 hip(hip_x, crotch_y + f.number("hip_joint.above_crotch") * s, top->centroid.y() - f.number("hip_joint.behind_leg_top") * s);
+  f.find("leg_top", suffix, 2,
+         {{"section_under_crotch", [&] {
+             return std::optional(Vec3(top->centroid.x(), crotch_y - 0.010, top->centroid.y()));
+           }}});
+  // the leg's middle leans out with fat and in with muscle: half of it, half the usual breadth
+  // between the joints
+  const double hip_x =
+      0.5 * (top->centroid.x() +
+             sign * (f.number("hip_joint.from_leg_top") + f.number("hip_joint.aside")) * s);
+  const Vec3 hip(hip_x, crotch_y + f.number("hip_joint.above_crotch") * s,
+                 top->centroid.y() - f.number("hip_joint.behind_leg_top") * s);
   f.find("hip_joint", suffix, 2, {{"above_leg_top", [&] { return std::optional(hip); }}});
-  f.also("hip_joint" + suffix, Vec3(top->centroid.x() + sign * f.number("hip_joint.from_leg_top") * s, hip.y(), hip.z()));
+  f.also("hip_joint" + suffix,
+         Vec3(top->centroid.x() + sign * f.number("hip_joint.from_leg_top") * s, hip.y(), hip.z()));
   f.also("hip_joint" + suffix, Vec3(sign * f.number("hip_joint.aside") * s, hip.y(), hip.z()));
   const auto ankle = f.levels.leg_at(ankle_y, side);
   if (!ankle) return;
-  // the section at this height holds the heel's upper rim: its middle in x, the joint lies nearer to the heel
-  const Vec3 joint(ankle->center().x() - sign * 0.0015 * s, ankle_y, ankle->low.y() + f.number("ankle.from_behind") * ankle->size().y());
+  // the section at this height holds the heel's upper rim: its middle in x, the joint lies nearer
+  // to the heel
+  const Vec3 joint(ankle->center().x() - sign * 0.0015 * s, ankle_y,
+                   ankle->low.y() + f.number("ankle.from_behind") * ankle->size().y());
   f.find("ankle", suffix, 2, {{"height_ratio", [&] { return std::optional(joint); }}});
   const Vec2 outer = outermost(*ankle, Vec2(sign, 0), LEG_FLAT);
-  f.find("malleolus", suffix, 2, {{"outermost_at_ankle", [&] { return std::optional(Vec3(outer.x(), ankle_y, outer.y())); }}});
+  f.find("malleolus", suffix, 2, {{"outermost_at_ankle", [&] {
+                                     return std::optional(Vec3(outer.x(), ankle_y, outer.y()));
+                                   }}});
   find_knee(f, side, ankle_y, hip.y());
 }
 
@@ -114,11 +140,19 @@ void find_leg(const Finder& f, int side) {
 void find_leg_landmarks(const Finder& f) {
   if (!f.levels.crotch()) return;
   const Vec3 crotch(f.levels.crotch_point().x(), *f.levels.crotch(), f.levels.crotch_point().y());
-  auto when = [&](bool moved) { return moved == f.crotch_moved ? std::optional(crotch) : std::nullopt; };
-  if (!f.find("crotch", "", 1, {{"leg_sections_merge", [&] { return when(false); }}, {"below_buttocks", [&] { return when(true); }}})) return;
+  auto when = [&](bool moved) {
+    return moved == f.crotch_moved ? std::optional(crotch) : std::nullopt;
+  };
+  if (!f.find("crotch", "", 1,
+              {{"leg_sections_merge", [&] { return when(false); }},
+               {"below_buttocks", [&] { return when(true); }}}))
+    return;
   for (int side = 0; side < 2; ++side) find_leg(f, side);
   if (f.has("hip_joint_l") && f.has("hip_joint_r"))
-    f.find("hip_center", "", 2, {{"middle_of_hip_joints", [&] { return std::optional(Vec3(0.5 * (f.at("hip_joint_l") + f.at("hip_joint_r")))); }}});
+    f.find("hip_center", "", 2,
+           {{"middle_of_hip_joints", [&] {
+               return std::optional(Vec3(0.5 * (f.at("hip_joint_l") + f.at("hip_joint_r"))));
+             }}});
 }
 
 } // namespace sloper::body

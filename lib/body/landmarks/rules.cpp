@@ -14,7 +14,8 @@ namespace {
 using Numbers = std::map<std::string, double>;
 using Tree = std::map<std::string, std::vector<RuleChoice>>;
 
-[[noreturn]] void unknown(const io::Node& at, const char* what, const std::string& name, const std::vector<std::string>& known) {
+[[noreturn]] void unknown(const io::Node& at, const char* what, const std::string& name,
+                          const std::vector<std::string>& known) {
   at.fail(std::string(what) + " \"" + name + "\"" + did_you_mean(name, known, "\""));
 }
 
@@ -33,7 +34,8 @@ void merge_numbers(Numbers& numbers, const io::Node& table, bool may_add) {
   }
 }
 
-std::string one_of(const io::Node& when, const char* key, std::initializer_list<const char*> values) {
+std::string one_of(const io::Node& when, const char* key,
+                   std::initializer_list<const char*> values) {
   const std::string value = when.string(key, "");
   if (value.empty() || std::find(values.begin(), values.end(), value) != values.end()) return value;
   std::string list;
@@ -50,17 +52,21 @@ void read_conditions(const io::Node& when, RuleChoice& rule) {
   const io::Node list = when.at("stance");
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string letter = list.at(i).string();
-    if (letter != "T" && letter != "A" && letter != "I") list.at(i).fail("is \"" + letter + "\"", "a stance is \"T\", \"A\" or \"I\"");
+    if (letter != "T" && letter != "A" && letter != "I")
+      list.at(i).fail("is \"" + letter + "\"", "a stance is \"T\", \"A\" or \"I\"");
     rule.stance += letter;
   }
-  if (rule.stance.empty()) list.fail("holds for no stance", "leave it out for any stance, or leave the rule out");
+  if (rule.stance.empty())
+    list.fail("holds for no stance", "leave it out for any stance, or leave the rule out");
 }
 
-RuleChoice read_choice(const io::Node& entry, const std::string& place, const std::vector<RuleChoice>* known) {
+RuleChoice read_choice(const io::Node& entry, const std::string& place,
+                       const std::vector<RuleChoice>* known) {
   RuleChoice rule;
   rule.name = entry.is_object() ? entry.at("rule").string() : entry.string();
   if (known) {
-    const auto it = std::find_if(known->begin(), known->end(), [&](const RuleChoice& k) { return k.name == rule.name; });
+    const auto it = std::find_if(known->begin(), known->end(),
+                                 [&](const RuleChoice& k) { return k.name == rule.name; });
     if (it == known->end()) {
       std::vector<std::string> names;
       for (const RuleChoice& k : *known) names.push_back(k.name);
@@ -96,7 +102,8 @@ void merge_tree(Tree& tree, const io::Node& table, bool may_add) {
     std::vector<RuleChoice> rules;
     for (std::size_t i = 0; i < list.size(); ++i) {
       const RuleChoice rule = read_choice(list.at(i), place, may_add ? nullptr : &known->second);
-      if (std::any_of(rules.begin(), rules.end(), [&](const RuleChoice& other) { return other.name == rule.name; }))
+      if (std::any_of(rules.begin(), rules.end(),
+                      [&](const RuleChoice& other) { return other.name == rule.name; }))
         list.at(i).fail("names \"" + rule.name + "\" again");
       rules.push_back(rule);
     }
@@ -104,14 +111,18 @@ void merge_tree(Tree& tree, const io::Node& table, bool may_add) {
   }
 }
 
-void merge(Numbers& numbers, Tree& tree, const std::string& text, const std::string& name, bool may_add) {
+void merge(Numbers& numbers, Tree& tree, const std::string& text, const std::string& name,
+           bool may_add) {
   const io::Json document = io::parse_json(text, name);
   const io::Node root(document, name);
   if (const std::string format = root.string("format", ""); format != "landmark-rules")
-    root.fail(format.empty() ? "is not a landmark-rules document" : "is a \"" + format + "\" document",
-              "give rules as lib/body/landmarks/rules/standard.json has them, with \"format\": \"landmark-rules\"");
+    root.fail(format.empty() ? "is not a landmark-rules document"
+                             : "is a \"" + format + "\" document",
+              "give rules as lib/body/landmarks/rules/standard.json has them, with \"format\": "
+              "\"landmark-rules\"");
   root.allow_only({"format", "version", "numbers", "tree"});
-  if (root.integer("version", 1) > 1) root.fail("is of a newer version than this program reads (1)");
+  if (root.integer("version", 1) > 1)
+    root.fail("is of a newer version than this program reads (1)");
   if (!root.has("numbers") && !root.has("tree")) root.fail("has neither \"numbers\" nor \"tree\"");
   if (root.has("numbers")) merge_numbers(numbers, root.at("numbers"), may_add);
   if (root.has("tree")) merge_tree(tree, root.at("tree"), may_add);
@@ -120,7 +131,8 @@ void merge(Numbers& numbers, Tree& tree, const std::string& text, const std::str
 } // namespace
 
 bool RuleChoice::applies(const Situation& situation) const {
-  return (figure.empty() || (figure == "female") == situation.female) && (stance.empty() || stance.find(situation.stance) != std::string::npos) &&
+  return (figure.empty() || (figure == "female") == situation.female) &&
+         (stance.empty() || stance.find(situation.stance) != std::string::npos) &&
          (skin.empty() || (skin == "rebuilt") == situation.rebuilt);
 }
 
@@ -138,13 +150,15 @@ Rules Rules::read(const std::string& path) {
 
 double Rules::number(const std::string& name) const {
   const auto it = m_numbers.find(name);
-  if (it == m_numbers.end()) throw Error(ErrorKind::INTERNAL, "", "", "no rule number \"" + name + "\"");
+  if (it == m_numbers.end())
+    throw Error(ErrorKind::INTERNAL, "", "", "no rule number \"" + name + "\"");
   return it->second;
 }
 
 const std::vector<RuleChoice>& Rules::order(const std::string& place) const {
   const auto it = m_tree.find(place);
-  if (it == m_tree.end()) throw Error(ErrorKind::INTERNAL, "", "", "the tree has no place \"" + place + "\"");
+  if (it == m_tree.end())
+    throw Error(ErrorKind::INTERNAL, "", "", "the tree has no place \"" + place + "\"");
   return it->second;
 }
 

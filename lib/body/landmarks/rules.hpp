@@ -1,8 +1,10 @@
 #pragma once
-/// The decision tree of the landmark rules and its numbers, as data: built in, or from --rules FILE.
+/// The decision tree of the landmark rules and its numbers, as data: built in, or from --rules
+/// FILE.
 ///
-/// For every place (a landmark without its side, or a level) the tree lists rules in the order in which they are tried. A rule is tried
-/// when its conditions hold for the body at hand; the first that finds the place has it. What no rule finds is not found.
+/// For every place (a landmark without its side, or a level) the tree lists rules in the order in
+/// which they are tried. A rule is tried when its conditions hold for the body at hand; the first
+/// that finds the place has it. What no rule finds is not found.
 #include <map>
 #include <string>
 #include <vector>
@@ -29,14 +31,17 @@ class Rules {
 public:
   /// The rules embedded at build time (lib/body/landmarks/rules/standard.json).
   static Rules standard();
-  /// The built-in rules with the numbers and the places of `path` in place of theirs. A place's list replaces the built-in one: its
-  /// order is the new order, what it leaves out is off; an entry is a rule's name, or an object that changes its conditions too.
+  /// The built-in rules with the numbers and the places of `path` in place of theirs. A place's
+  /// list replaces the built-in one: its order is the new order, what it leaves out is off; an
+  /// entry is a rule's name, or an object that changes its conditions too.
   /// @throws Error INPUT; an unknown number, place or rule is an error with a suggestion.
   static Rules read(const std::string& path);
   bool has(const std::string& name) const { return m_numbers.count(name) != 0; }
-  double number(const std::string& name) const; ///< @throws Error INTERNAL when there is no such number
+  double
+  number(const std::string& name) const; ///< @throws Error INTERNAL when there is no such number
   const std::map<std::string, double>& numbers() const { return m_numbers; }
-  const std::vector<RuleChoice>& order(const std::string& place) const; ///< @throws Error INTERNAL when there is no such place
+  const std::vector<RuleChoice>&
+  order(const std::string& place) const; ///< @throws Error INTERNAL when there is no such place
   const std::map<std::string, std::vector<RuleChoice>>& tree() const { return m_tree; }
 
 private:

@@ -17,7 +17,10 @@ std::optional<Level> measure_level(const Finder& f, double y) {
   double limit[2] = {1e300, 1e300}; // x of the left and (negated) of the right arm pit
   for (int side = 0; side < 2; ++side)
     if (f.arms[side].axilla &&
-        y > (f.arms[side].pit_hidden ? 0.62 * f.s : f.arms[side].axilla->y() - 0.002)) // an arm that touches hangs on it below the pit too
+        y > (f.arms[side].pit_hidden
+                 ? 0.62 * f.s
+                 : f.arms[side].axilla->y() -
+                       0.002)) // an arm that touches hangs on it below the pit too
       limit[side] = std::abs(f.arms[side].axilla->x());
   std::vector<Vec2> points;
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
@@ -37,14 +40,18 @@ std::optional<Level> measure_level(const Finder& f, double y) {
   return level;
 }
 
-/// An arm that touches the trunk below the pit is part of this level's outline, which tells no breadth of the trunk then.
+/// An arm that touches the trunk below the pit is part of this level's outline, which tells no
+/// breadth of the trunk then.
 bool arm_hangs_on(const Finder& f, double y) {
   const auto& loop = f.levels.trunk_at(y);
   if (!loop) return false;
   for (const ArmTrace& arm : f.arms) {
-    if (arm.sections.empty() || (!arm.pit_hidden && arm.axilla && y > arm.axilla->y() - 0.02 * f.s)) continue;
+    if (arm.sections.empty() || (!arm.pit_hidden && arm.axilla && y > arm.axilla->y() - 0.02 * f.s))
+      continue;
     for (const LimbSection& section : arm.sections)
-      if (std::abs(section.center.y() - y) < 0.004 * f.s && encloses(*loop, Vec2(section.center.x(), section.center.z()))) return true;
+      if (std::abs(section.center.y() - y) < 0.004 * f.s &&
+          encloses(*loop, Vec2(section.center.x(), section.center.z())))
+        return true;
   }
   return false;
 }
@@ -65,10 +72,14 @@ void find_level(const Finder& f, const std::string& name, std::initializer_list<
 
 constexpr double PEAKED = 0.00018; // of stature: as far out as the top of what has one
 
-std::optional<Vec3> place_of(const std::optional<Foremost>& foremost) { return foremost ? std::optional(foremost->p) : std::nullopt; }
+std::optional<Vec3> place_of(const std::optional<Foremost>& foremost) {
+  return foremost ? std::optional(foremost->p) : std::nullopt;
+}
 
 /// From `inner` to `outer` beside the mid-plane on one side.
-Span half_front(int side, double inner, double outer) { return side == 0 ? Span{inner, outer} : Span{-outer, -inner}; }
+Span half_front(int side, double inner, double outer) {
+  return side == 0 ? Span{inner, outer} : Span{-outer, -inner};
+}
 
 /// Foremost skin of the trunk at (x, y).
 std::optional<Vec3> front_at(const Finder& f, double x, double y, double half_width) {
@@ -77,14 +88,17 @@ std::optional<Vec3> front_at(const Finder& f, double x, double y, double half_wi
   return Vec3(x, y, m->front);
 }
 
-/// A bump of the chest is a nipple when it is high, both sides agree and it lies where one can be: near the foremost skin of its side.
+/// A bump of the chest is a nipple when it is high, both sides agree and it lies where one can be:
+/// near the foremost skin of its side.
 bool is_nipple_pair(const Finder& f) {
   const auto &l = f.figure.nipple[0], &r = f.figure.nipple[1];
   if (!l || !r || std::min(l->height, r->height) <= f.number("bust.bump")) return false;
-  if (std::abs(l->p.y() - r->p.y()) >= 0.015 * f.s || std::abs(l->p.x() + r->p.x()) >= 0.03 * f.s) return false;
+  if (std::abs(l->p.y() - r->p.y()) >= 0.015 * f.s || std::abs(l->p.x() + r->p.x()) >= 0.03 * f.s)
+    return false;
   for (int side = 0; side < 2; ++side) {
     const Vec3& p = f.figure.nipple[side]->p;
-    const auto foremost = foremost_place(f, {p.y() - 0.03 * f.s, p.y() + 0.03 * f.s}, half_front(side, 0.002, 0.14 * f.s), 1, PEAKED);
+    const auto foremost = foremost_place(f, {p.y() - 0.03 * f.s, p.y() + 0.03 * f.s},
+                                         half_front(side, 0.002, 0.14 * f.s), 1, PEAKED);
     if (foremost && p.z() < foremost->p.z() - f.number("bust.bump_behind") * f.s) return false;
   }
   return true;
@@ -92,8 +106,9 @@ bool is_nipple_pair(const Finder& f) {
 
 using BothSides = std::array<std::optional<Vec3>, 2>;
 
-/// Bust points beside the mid-plane at the given height. On a bust the foremost skin near the expected height draws them half way, sideways
-/// as far as it stands out clearly from the skin between both sides.
+/// Bust points beside the mid-plane at the given height. On a bust the foremost skin near the
+/// expected height draws them half way, sideways as far as it stands out clearly from the skin
+/// between both sides.
 /// @return whether it did on either side
 bool bust_at(const Finder& f, double expected, double y, BothSides& points) {
   const double s = f.s, a = 0.02 * s, b = 0.10 * s;
@@ -101,11 +116,16 @@ bool bust_at(const Finder& f, double expected, double y, BothSides& points) {
   for (int side = 0; side < 2; ++side) {
     double height = y, x = (side == 0 ? 1 : -1) * f.number("bust.beside") * s;
     if (f.situation.female)
-      if (const auto place = foremost_place(f, {expected - 0.035 * s, expected + 0.035 * s}, half_front(side, a, b), 1, PEAKED))
-        if (const Vec3* p = &place->p; p->y() > expected - 0.033 * s && p->y() < expected + 0.033 * s) {
+      if (const auto place = foremost_place(f, {expected - 0.035 * s, expected + 0.035 * s},
+                                            half_front(side, a, b), 1, PEAKED))
+        if (const Vec3* p = &place->p;
+            p->y() > expected - 0.033 * s && p->y() < expected + 0.033 * s) {
           height = 0.5 * (y + p->y()), drawn = true;
           if (const auto between = front_at(f, 0, p->y(), 0.006 * s))
-            x += 0.5 * std::clamp((p->z() - between->z()) / (f.number("bust.clear_of_middle") * s), 0.0, 1.0) * (p->x() - x);
+            x += 0.5 *
+                 std::clamp((p->z() - between->z()) / (f.number("bust.clear_of_middle") * s), 0.0,
+                            1.0) *
+                 (p->x() - x);
         }
     points[side] = front_at(f, x, height, 0.006 * s);
   }
@@ -114,46 +134,52 @@ bool bust_at(const Finder& f, double expected, double y, BothSides& points) {
 
 void find_bust(const Finder& f, double pit) {
   const double s = f.s, crotch = f.at("crotch").y(), trunk = f.at("neck_back").y() - crotch;
-  const double by_trunk = crotch + f.number("bust.of_trunk") * trunk, by_pit = pit - f.number("bust.below_pit") * s;
+  const double by_trunk = crotch + f.number("bust.of_trunk") * trunk,
+               by_pit = pit - f.number("bust.below_pit") * s;
   const double expected = pit > 0 ? 0.5 * (by_trunk + by_pit) : by_trunk;
   using Found = std::optional<BothSides>;
-  const auto points = f.choose<BothSides>("bust_point", "bust_point",
-                                          {{"bump_of_chest",
-                                            [&]() -> Found {
-                                              if (!is_nipple_pair(f)) return std::nullopt;
-                                              BothSides both;
-                                              for (int side = 0; side < 2; ++side) {
-                                                const Vec3& p = f.figure.nipple[side]->p;
-                                                both[side] = front_at(f, p.x(), p.y() + 0.002 * s, 0.004 * s);
-                                              }
-                                              return both;
-                                            }},
-                                           {"above_chest_muscle",
-                                            [&]() -> Found { // the chest muscles' lower corners
-                                              const auto &l = f.figure.nipple[0], &r = f.figure.nipple[1];
-                                              if (!l || !r) return std::nullopt;
-                                              const double y = 0.5 * (l->p.y() + r->p.y()) + f.number("bust.above_muscle") * s;
-                                              const double off = std::abs(y - expected) / (f.number("bust.muscle_near_ratio") * s);
-                                              const double aslant = std::abs(l->p.y() - r->p.y()) / (0.012 * s);
-                                              if (off >= 1 || aslant >= 1)
-                                                return std::nullopt; // it fades towards both, and where it is low, so that nothing jumps
-                                              const double clear = std::clamp(std::min(l->height, r->height) / f.number("bust.bump") - 0.5, 0.0, 1.0);
-                                              const double share = 0.5 * clear * std::min(1.0, 2 * (1 - off)) * std::min(1.0, 2 * (1 - aslant));
-                                              BothSides both;
-                                              bust_at(f, expected, expected + share * (y - expected), both);
-                                              return both;
-                                            }},
-                                           {"foremost_near_ratio",
-                                            [&]() -> Found {
-                                              BothSides both;
-                                              return bust_at(f, expected, expected, both) ? Found(both) : std::nullopt;
-                                            }},
-                                           {"trunk_ratio", [&]() -> Found {
-                                              BothSides both;
-                                              for (int side = 0; side < 2; ++side)
-                                                both[side] = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected, 0.006 * s);
-                                              return both;
-                                            }}});
+  const auto points = f.choose<BothSides>(
+      "bust_point", "bust_point",
+      {{"bump_of_chest",
+        [&]() -> Found {
+          if (!is_nipple_pair(f)) return std::nullopt;
+          BothSides both;
+          for (int side = 0; side < 2; ++side) {
+            const Vec3& p = f.figure.nipple[side]->p;
+            both[side] = front_at(f, p.x(), p.y() + 0.002 * s, 0.004 * s);
+          }
+          return both;
+        }},
+       {"above_chest_muscle",
+        [&]() -> Found { // the chest muscles' lower corners
+          const auto &l = f.figure.nipple[0], &r = f.figure.nipple[1];
+          if (!l || !r) return std::nullopt;
+          const double y = 0.5 * (l->p.y() + r->p.y()) + f.number("bust.above_muscle") * s;
+          const double off = std::abs(y - expected) / (f.number("bust.muscle_near_ratio") * s);
+          const double aslant = std::abs(l->p.y() - r->p.y()) / (0.012 * s);
+          if (off >= 1 || aslant >= 1)
+            return std::nullopt; // it fades towards both, and where it is low, so that nothing
+                                 // jumps
+          const double clear =
+              std::clamp(std::min(l->height, r->height) / f.number("bust.bump") - 0.5, 0.0, 1.0);
+          const double share =
+              0.5 * clear * std::min(1.0, 2 * (1 - off)) * std::min(1.0, 2 * (1 - aslant));
+          BothSides both;
+          bust_at(f, expected, expected + share * (y - expected), both);
+          return both;
+        }},
+       {"foremost_near_ratio",
+        [&]() -> Found {
+          BothSides both;
+          return bust_at(f, expected, expected, both) ? Found(both) : std::nullopt;
+        }},
+       {"trunk_ratio", [&]() -> Found {
+          BothSides both;
+          for (int side = 0; side < 2; ++side)
+            both[side] = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected,
+                                  0.006 * s);
+          return both;
+        }}});
   if (!points) return;
   double sum = 0;
   int n = 0;
@@ -164,15 +190,19 @@ void find_bust(const Finder& f, double pit) {
     f.put("bust_point" + suffix, *point, 2, *points->rule);
     f.find("bust_prominent", suffix, 2,
            {{"foremost_of_chest", [&] {
-               return place_of(foremost_place(f, {point->y() - 0.024 * s, point->y() + 0.06 * s}, half_front(side, 0.002, 0.14 * s), 1, PEAKED, 0.006));
+               return place_of(foremost_place(f, {point->y() - 0.024 * s, point->y() + 0.06 * s},
+                                              half_front(side, 0.002, 0.14 * s), 1, PEAKED, 0.006));
              }}});
-    if (const auto p = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected, 0.006 * s)) f.also("bust_point" + suffix, *p);
+    if (const auto p =
+            front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected, 0.006 * s))
+      f.also("bust_point" + suffix, *p);
     sum += point->y(), ++n;
   }
   if (n == 2) put_level(f, "bust", sum / 2, points->rule->name);
 }
 
-/// Height of the fold under the breast: below the bust point, where the front turns from falling back to falling straight.
+/// Height of the fold under the breast: below the bust point, where the front turns from falling
+/// back to falling straight.
 std::optional<double> breast_fold(const Finder& f, double bust_y, double expected) {
   const double s = f.s, step = 0.003 * s;
   if (!f.has("bust_point_l") || !f.has("bust_point_r")) return std::nullopt;
@@ -182,7 +212,8 @@ std::optional<double> breast_fold(const Finder& f, double bust_y, double expecte
     const double x = f.at(name).x();
     double sharpest = f.number("underbust.fold_turn"), at = 0;
     for (double y = bust_y - 0.012 * s; y > bust_y - 0.065 * s; y -= 0.0015 * s) {
-      const auto a = front_at(f, x, y + 2 * step, 0.005 * s), b = front_at(f, x, y, 0.005 * s), c = front_at(f, x, y - 2 * step, 0.005 * s);
+      const auto a = front_at(f, x, y + 2 * step, 0.005 * s), b = front_at(f, x, y, 0.005 * s),
+                 c = front_at(f, x, y - 2 * step, 0.005 * s);
       if (!a || !b || !c) continue;
       const double turn = (c->z() - b->z()) / (2 * step) - (b->z() - a->z()) / (2 * step);
       if (turn > sharpest) sharpest = turn, at = y;
@@ -193,11 +224,13 @@ std::optional<double> breast_fold(const Finder& f, double bust_y, double expecte
   return (sum + (2 - n) * expected) / 2;
 }
 
-/// One side of a curve is higher than `least` by so much before it falls below it again: the smaller of both sides.
+/// One side of a curve is higher than `least` by so much before it falls below it again: the
+/// smaller of both sides.
 double prominence(const std::vector<double>& curve, std::size_t least) {
   double before = 0, after = 0;
   for (std::size_t i = 0; i < least; ++i) before = std::max(before, curve[i] - curve[least]);
-  for (std::size_t i = least + 1; i < curve.size(); ++i) after = std::max(after, curve[i] - curve[least]);
+  for (std::size_t i = least + 1; i < curve.size(); ++i)
+    after = std::max(after, curve[i] - curve[least]);
   return std::min(before, after);
 }
 
@@ -205,7 +238,9 @@ void find_waist_minima(const Finder& f, double top, double bottom) {
   std::vector<Level> curve;
   for (double y = top; y > bottom; y -= 0.002) {
     if (arm_hangs_on(f, y)) {
-      f.body.scan.findings.push_back({"warning", "an arm touches the trunk: its least girth and breadth are not found", "waist"});
+      f.body.scan.findings.push_back(
+          {"warning", "an arm touches the trunk: its least girth and breadth are not found",
+           "waist"});
       return;
     }
     if (const auto level = measure_level(f, y)) curve.push_back(*level);
@@ -214,16 +249,20 @@ void find_waist_minima(const Finder& f, double top, double bottom) {
   auto least_of = [&](const char* name, double Level::*measure) -> std::optional<Level> {
     std::vector<double> values;
     for (const Level& level : curve) values.push_back(level.*measure);
-    const std::size_t least = static_cast<std::size_t>(std::min_element(values.begin(), values.end()) - values.begin());
+    const std::size_t least =
+        static_cast<std::size_t>(std::min_element(values.begin(), values.end()) - values.begin());
     const double rise = prominence(values, least);
     char text[160];
-    std::snprintf(text, sizeof text, "%s: least %.3f m at y %.3f, %.1f mm below its surroundings", name, values[least], curve[least].y, 1000 * rise);
+    std::snprintf(text, sizeof text, "%s: least %.3f m at y %.3f, %.1f mm below its surroundings",
+                  name, values[least], curve[least].y, 1000 * rise);
     f.explain(text);
     if (rise < f.number("waist.prominence")) return std::nullopt;
     return curve[least];
   };
-  find_level(f, "waist_girth_min", {{"smallest_girth", [&] { return least_of("waist_girth_min", &Level::girth_m); }}});
-  find_level(f, "waist_width_min", {{"smallest_width", [&] { return least_of("waist_width_min", &Level::width_m); }}});
+  find_level(f, "waist_girth_min",
+             {{"smallest_girth", [&] { return least_of("waist_girth_min", &Level::girth_m); }}});
+  find_level(f, "waist_width_min",
+             {{"smallest_width", [&] { return least_of("waist_width_min", &Level::width_m); }}});
 }
 
 /// Navel: a dimple near the middle, or the proportion. @return its height
@@ -231,23 +270,26 @@ std::optional<double> find_navel(const Finder& f) {
   const double s = f.s, crotch = f.at("crotch").y(), trunk = f.at("neck_back").y() - crotch;
   const double expected = crotch + f.number("omphalion.of_trunk") * trunk;
   const auto& dimple = f.figure.navel;
-  const auto place = f.choose<Vec2>("omphalion", "omphalion",
-                                    {{"dimple",
-                                      [&]() -> std::optional<Vec2> {
-                                        if (!dimple) return std::nullopt;
-                                        // by how deep it is and how near to the proportion it counts, so that nothing jumps: half for the
-                                        // depth that the rule names
-                                        const double deep = -dimple->height / f.number("omphalion.dimple"),
-                                                     off = std::abs(dimple->p.y() - expected) / (0.06 * s);
-                                        const double share = std::clamp((deep - 0.6) / 0.9, 0.0, 1.0) * std::clamp(3 * (1 - off), 0.0, 1.0);
-                                        if (share <= 0) return std::nullopt;
-                                        const Vec2 seen(dimple->p.x(), dimple->p.y() + f.number("omphalion.above_dimple") * s);
-                                        return Vec2(share * seen + (1 - share) * Vec2(0, expected));
-                                      }},
-                                     {"trunk_ratio", [&] { return std::optional(Vec2(0, expected)); }}});
+  const auto place = f.choose<Vec2>(
+      "omphalion", "omphalion",
+      {{"dimple",
+        [&]() -> std::optional<Vec2> {
+          if (!dimple) return std::nullopt;
+          // by how deep it is and how near to the proportion it counts, so that nothing jumps: half
+          // for the depth that the rule names
+          const double deep = -dimple->height / f.number("omphalion.dimple"),
+                       off = std::abs(dimple->p.y() - expected) / (0.06 * s);
+          const double share =
+              std::clamp((deep - 0.6) / 0.9, 0.0, 1.0) * std::clamp(3 * (1 - off), 0.0, 1.0);
+          if (share <= 0) return std::nullopt;
+          const Vec2 seen(dimple->p.x(), dimple->p.y() + f.number("omphalion.above_dimple") * s);
+          return Vec2(share * seen + (1 - share) * Vec2(0, expected));
+        }},
+       {"trunk_ratio", [&] { return std::optional(Vec2(0, expected)); }}});
   if (!place) return std::nullopt;
   // the tape and the truth lie on the belly's surface beside the dimple, not at its bottom
-  if (const auto p = front_at(f, place->value.x(), place->value.y(), 0.006 * s)) f.put("omphalion", *p, 2, *place->rule);
+  if (const auto p = front_at(f, place->value.x(), place->value.y(), 0.006 * s))
+    f.put("omphalion", *p, 2, *place->rule);
   if (const auto p = front_at(f, 0, expected, 0.006 * s)) f.also("omphalion", *p);
   put_level(f, "omphalion", place->value.y(), place->rule->name);
   return place->value.y();
@@ -257,32 +299,37 @@ double find_waist(const Finder& f, const std::optional<double>& navel, double pi
   const double s = f.s, crotch = f.at("crotch").y();
   const double top = pit > 0 ? pit : 0.757 * s;
   const double by_ratio = crotch + f.number("waist.of_trunk") * (top - crotch);
-  const auto height = f.choose<double>("waist_semantic", "waist_semantic",
-                                       {{"trunk_ratio_and_navel",
-                                         [&]() -> std::optional<double> {
-                                           if (!navel || !f.has("omphalion") || f.body.landmarks["omphalion"].rule != "dimple") return std::nullopt;
-                                           const double above =
-                                               std::clamp(*navel + f.number("waist.above_navel") * s, by_ratio - 0.02 * s, by_ratio + 0.02 * s);
-                                           return by_ratio + (0.25 + 0.25 * f.figure.female) * (above - by_ratio);
-                                         }},
-                                        {"trunk_ratio", [&] { return std::optional(by_ratio); }}});
+  const auto height = f.choose<double>(
+      "waist_semantic", "waist_semantic",
+      {{"trunk_ratio_and_navel",
+        [&]() -> std::optional<double> {
+          if (!navel || !f.has("omphalion") || f.body.landmarks["omphalion"].rule != "dimple")
+            return std::nullopt;
+          const double above = std::clamp(*navel + f.number("waist.above_navel") * s,
+                                          by_ratio - 0.02 * s, by_ratio + 0.02 * s);
+          return by_ratio + (0.25 + 0.25 * f.figure.female) * (above - by_ratio);
+        }},
+       {"trunk_ratio", [&] { return std::optional(by_ratio); }}});
   if (!height) return by_ratio;
   const double waist = height->value;
   put_level(f, "waist_semantic", waist, height->rule->name);
   const auto& loop = f.levels.trunk_at(waist);
   if (!loop) return waist;
-  const double depth = f.has("hip_center") ? f.at("hip_center").z() + f.number("waist.side_depth") * s : loop->centroid.y();
+  const double depth = f.has("hip_center")
+                           ? f.at("hip_center").z() + f.number("waist.side_depth") * s
+                           : loop->centroid.y();
   for (int side = 0; side < 2; ++side)
-    f.find("waist_side", side_suffix(side), 2, {{"outermost_at_waist", [&]() -> std::optional<Vec3> {
-                                                   const double sign = side == 0 ? 1 : -1;
-                                                   std::optional<Vec2> outer;
-                                                   for (const auto& seg : loop->segments)
-                                                     if (const auto piece = clipped(seg, 1, depth - 0.01 * s, depth + 0.01 * s))
-                                                       for (const Vec2& q : *piece)
-                                                         if (!outer || sign * q.x() > sign * outer->x()) outer = q;
-                                                   if (!outer) return std::nullopt;
-                                                   return Vec3(outer->x(), waist, depth);
-                                                 }}});
+    f.find("waist_side", side_suffix(side), 2,
+           {{"outermost_at_waist", [&]() -> std::optional<Vec3> {
+               const double sign = side == 0 ? 1 : -1;
+               std::optional<Vec2> outer;
+               for (const auto& seg : loop->segments)
+                 if (const auto piece = clipped(seg, 1, depth - 0.01 * s, depth + 0.01 * s))
+                   for (const Vec2& q : *piece)
+                     if (!outer || sign * q.x() > sign * outer->x()) outer = q;
+               if (!outer) return std::nullopt;
+               return Vec3(outer->x(), waist, depth);
+             }}});
   return waist;
 }
 
@@ -290,7 +337,8 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
   const double s = f.s;
   std::optional<Foremost> belly;
   auto foremost = [&]() -> std::optional<Vec3> {
-    belly = foremost_place(f, {crotch + 0.004, waist}, {-0.1 * s, 0.1 * s}, 1, f.number("abdomen.flat"));
+    belly = foremost_place(f, {crotch + 0.004, waist}, {-0.1 * s, 0.1 * s}, 1,
+                           f.number("abdomen.flat"));
     return place_of(belly);
   };
   if (f.find("abdomen_front", "", 2, {{"foremost_below_waist", foremost}})) {
@@ -300,14 +348,19 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
     if (belly->spread_m > f.number("abdomen.unsure") * s) {
       landmark.confidence *= 0.5;
       char text[160];
-      std::snprintf(text, sizeof text, "the belly is flat: its foremost place is anywhere between %.3f and %.3f m", belly->low, belly->high);
+      std::snprintf(text, sizeof text,
+                    "the belly is flat: its foremost place is anywhere between %.3f and %.3f m",
+                    belly->low, belly->high);
       f.body.scan.findings.push_back({"info", text, "abdomen"});
     }
   }
-  auto rearmost = [&] { // both sides of the seat are nearly level: the left one is taken unless the right one stands out more than people's do
+  auto rearmost = [&] { // both sides of the seat are nearly level: the left one is taken unless the
+                        // right one stands out more than people's do
     const Span heights{crotch + 0.004, waist};
     auto rear = foremost_place(f, heights, {0, 0.12 * s}, -1, PEAKED);
-    if (const auto right = foremost_place(f, heights, {-0.12 * s, 0}, -1, PEAKED); right && (!rear || right->p.z() < rear->p.z() - 0.005)) rear = right;
+    if (const auto right = foremost_place(f, heights, {-0.12 * s, 0}, -1, PEAKED);
+        right && (!rear || right->p.z() < rear->p.z() - 0.005))
+      rear = right;
     return place_of(rear);
   };
   if (f.find("buttock_back", "", 2, {{"rearmost_below_waist", rearmost}})) {
@@ -316,16 +369,18 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
     f.find("hip_section_center", "", 2, {{"section_at_hip", [&]() -> std::optional<Vec3> {
                                             const auto& loop = f.levels.trunk_at(hip);
                                             if (!loop) return std::nullopt;
-                                            return Vec3(loop->centroid.x(), hip, loop->centroid.y());
+                                            return Vec3(loop->centroid.x(), hip,
+                                                        loop->centroid.y());
                                           }}});
   }
-  find_level(f, "hip_girth_max", {{"largest_girth", [&] {
-                                     std::optional<Level> most;
-                                     for (double y = crotch + 0.004; y < waist; y += 0.002)
-                                       if (const auto level = arm_hangs_on(f, y) ? std::nullopt : measure_level(f, y))
-                                         if (!most || level->girth_m > most->girth_m) most = level;
-                                     return most;
-                                   }}});
+  find_level(f, "hip_girth_max",
+             {{"largest_girth", [&] {
+                 std::optional<Level> most;
+                 for (double y = crotch + 0.004; y < waist; y += 0.002)
+                   if (const auto level = arm_hangs_on(f, y) ? std::nullopt : measure_level(f, y))
+                     if (!most || level->girth_m > most->girth_m) most = level;
+                 return most;
+               }}});
 }
 
 } // namespace
@@ -343,29 +398,39 @@ void find_trunk_landmarks(const Finder& f) {
       if (f.has(name + suffix)) fold += f.at(name + suffix).y(), ++n_fold;
   }
   if (n_pit) pit /= n_pit;
-  find_level(f, "chest_axilla", {{"axilla_folds", [&] { return n_fold ? measure_level(f, fold / n_fold) : std::nullopt; }}});
+  find_level(f, "chest_axilla", {{"axilla_folds", [&] {
+                                    return n_fold ? measure_level(f, fold / n_fold) : std::nullopt;
+                                  }}});
   find_bust(f, pit);
   const auto navel = find_navel(f);
   const double waist = find_waist(f, navel, pit);
   find_seat_and_belly(f, crotch, waist);
-  // the first level above the crotch whose outline goes around both legs: skin that hangs between them is lower than where they join
+  // the first level above the crotch whose outline goes around both legs: skin that hangs between
+  // them is lower than where they join
   const auto left = f.levels.leg_at(crotch - 0.010, 0), right = f.levels.leg_at(crotch - 0.010, 1);
   for (double y = crotch + 0.004; y < crotch + 0.02 && !f.body.levels.count("crotch"); y += 0.002) {
     const auto& loop = f.levels.trunk_at(y);
-    if (loop && left && right && (loop->high.x() < left->centroid.x() || loop->low.x() > right->centroid.x())) continue;
+    if (loop && left && right &&
+        (loop->high.x() < left->centroid.x() || loop->low.x() > right->centroid.x()))
+      continue;
     put_level(f, "crotch", y, "crotch");
   }
   if (f.body.levels.count("crotch")) f.body.levels["crotch"].y = crotch;
   double under = waist + 0.055 * s;
   if (f.body.levels.count("bust")) {
-    const double bust = f.body.levels["bust"].y, expected = bust - f.number("underbust.below_bust") * s;
+    const double bust = f.body.levels["bust"].y,
+                 expected = bust - f.number("underbust.below_bust") * s;
     const auto chosen =
         f.choose<double>("underbust", "underbust",
-                         {{"fold_under_bust", [&] { return breast_fold(f, bust, expected); }}, {"below_bust", [&] { return std::optional(expected); }}});
+                         {{"fold_under_bust", [&] { return breast_fold(f, bust, expected); }},
+                          {"below_bust", [&] { return std::optional(expected); }}});
     under = chosen ? chosen->value : expected;
     if (chosen) put_level(f, "underbust", under, chosen->rule->name);
   }
-  find_waist_minima(f, under - 0.005, 0.5 * (navel.value_or(crotch + f.number("omphalion.of_trunk") * (f.at("neck_back").y() - crotch)) + crotch));
+  find_waist_minima(f, under - 0.005,
+                    0.5 * (navel.value_or(crotch + f.number("omphalion.of_trunk") *
+                                                       (f.at("neck_back").y() - crotch)) +
+                           crotch));
 }
 
 } // namespace sloper::body

@@ -22,7 +22,7 @@ struct ArmTrace {
   std::vector<int> triangles;        ///< of the arm and the shoulder's surroundings
   Vec3 out = Vec3::UnitX();          ///< unit, from shoulder to hand, over the upper arm
   std::optional<Vec3> axilla;        ///< roof of the arm pit
-  bool pit_hidden = false;           ///< no gap closes where an arm pit can be: it is placed by proportion
+  bool pit_hidden = false; ///< no gap closes where an arm pit can be: it is placed by proportion
   std::optional<Vec3> axilla_front, axilla_back;
   std::optional<Vec3> merge; ///< where, going up, the level sections of arm and trunk become one
   /// Point of the centre line at `along` m from the tip, carried on straight beyond its ends.
@@ -30,15 +30,19 @@ struct ArmTrace {
   double length() const { return sections.empty() ? 0 : sections.back().along; }
 };
 
-/// Fills the arm pit's roof and the folds beside it: where, along the arm, the gap between arm and trunk closes; else by proportion, `pit_hidden`.
+/// Fills the arm pit's roof and the folds beside it: where, along the arm, the gap between arm and
+/// trunk closes; else by proportion, `pit_hidden`.
 void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules);
 
-/// Fills `merge`: going up, the level at which the loops of a hanging arm and of the trunk become one, by bisection to 0.02 mm: front and back fold
-/// often meet within a tenth of a millimetre of each other.
+/// Fills `merge`: going up, the level at which the loops of a hanging arm and of the trunk become
+/// one, by bisection to 0.02 mm: front and back fold often meet within a tenth of a millimetre of
+/// each other.
 void find_merge(ArmTrace& arm, const LevelStack& levels);
 
 /// Both arms (left first); an arm that cannot be told from the trunk has no sections.
-/// @param scan_points the scan's own points where the skin was rebuilt and has lost the fingers' ends; else empty
-std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& graph, const std::vector<Vec3>& scan_points, const Rules& rules);
+/// @param scan_points the scan's own points where the skin was rebuilt and has lost the fingers'
+/// ends; else empty
+std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& graph,
+                                   const std::vector<Vec3>& scan_points, const Rules& rules);
 
 } // namespace sloper::body

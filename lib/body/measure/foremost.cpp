@@ -10,7 +10,8 @@ namespace {
 constexpr double LEVEL_STEP = 0.0012, ACROSS_FLAT = 0.0036; // of stature
 constexpr std::ptrdiff_t MARGIN = 4;                        // levels at an end of the heights
 
-/// The farthest skin of each level; on a flat front the middle of what is as far out as its vertices can tell.
+/// The farthest skin of each level; on a flat front the middle of what is as far out as its
+/// vertices can tell.
 std::vector<Vec3> outline_of(const Finder& f, Span heights, Span across, double sign) {
   std::vector<Vec3> outline;
   const double across_flat = ACROSS_FLAT * f.s;
@@ -26,7 +27,8 @@ std::vector<Vec3> outline_of(const Finder& f, Span heights, Span across, double 
     if (!outer) continue;
     double sum = 0, weight = 0;
     for (const auto& segment : loop->segments)
-      for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) { // a segment is longer than the flat part may be
+      for (const double t :
+           {0.1, 0.3, 0.5, 0.7, 0.9}) { // a segment is longer than the flat part may be
         const Vec2 q = (1 - t) * segment[0] + t * segment[1];
         const double less = sign * (outer->z() - q.y());
         if (q.x() < across.low || q.x() > across.high || less > across_flat) continue;
@@ -41,7 +43,8 @@ std::vector<Vec3> outline_of(const Finder& f, Span heights, Span across, double 
 
 class Outline {
 public:
-  Outline(const std::vector<Vec3>& points, double sign, double flat) : m_points(points), m_sign(sign), m_flat(flat) {}
+  Outline(const std::vector<Vec3>& points, double sign, double flat)
+      : m_points(points), m_sign(sign), m_flat(flat) {}
 
   /// The middle of all levels from `first` to `last` that are as far out as `top`.
   Foremost middle(std::ptrdiff_t top, std::ptrdiff_t first, std::ptrdiff_t last) const {
@@ -57,40 +60,52 @@ public:
     }
     const Vec2 mean = sum / weight;
     place.spread_m = std::sqrt(std::max(0.0, squares / weight - mean.y() * mean.y()));
-    const auto above = std::lower_bound(m_points.begin(), m_points.end(), mean.y(), [](const Vec3& p, double y) { return p.y() < y; });
-    const Vec3 &b = above == m_points.end() ? m_points.back() : *above, &a = above == m_points.begin() ? b : *(above - 1);
+    const auto above = std::lower_bound(m_points.begin(), m_points.end(), mean.y(),
+                                        [](const Vec3& p, double y) { return p.y() < y; });
+    const Vec3 &b = above == m_points.end() ? m_points.back() : *above,
+               &a = above == m_points.begin() ? b : *(above - 1);
     const double t = b.y() > a.y() ? (mean.y() - a.y()) / (b.y() - a.y()) : 0;
     place.p = Vec3(mean.x(), mean.y(), (1 - t) * a.z() + t * b.z());
     return place;
   }
 
-  /// A level that is the farthest within 8 levels to both sides: the farthest of them; -1 where there is none.
+  /// A level that is the farthest within 8 levels to both sides: the farthest of them; -1 where
+  /// there is none.
   std::ptrdiff_t inner_top() const {
     const std::ptrdiff_t n = size();
     std::ptrdiff_t best = -1;
     for (std::ptrdiff_t k = MARGIN; k < n - MARGIN; ++k)
-      if (farthest(std::max<std::ptrdiff_t>(0, k - 2 * MARGIN), std::min(n, k + 2 * MARGIN + 1)) == k && (best < 0 || out_less(k, best) > 0)) best = k;
+      if (farthest(std::max<std::ptrdiff_t>(0, k - 2 * MARGIN), std::min(n, k + 2 * MARGIN + 1)) ==
+              k &&
+          (best < 0 || out_less(k, best) > 0))
+        best = k;
     return best;
   }
 
-  /// Where the outline stands out most before the straight line from its one end to its other; -1 where it hangs back.
+  /// Where the outline stands out most before the straight line from its one end to its other; -1
+  /// where it hangs back.
   std::ptrdiff_t bulge_top() const {
     const Vec3 &a = m_points.front(), &b = m_points.back();
     std::ptrdiff_t best = -1;
     double most = m_flat;
     for (std::ptrdiff_t k = MARGIN; k < size() - MARGIN; ++k) {
-      const double line = a.z() + (at(k).y() - a.y()) / (b.y() - a.y()) * (b.z() - a.z()), out = m_sign * (at(k).z() - line);
+      const double line = a.z() + (at(k).y() - a.y()) / (b.y() - a.y()) * (b.z() - a.z()),
+                   out = m_sign * (at(k).z() - line);
       if (out > most) most = out, best = k;
     }
     return best;
   }
 
   std::ptrdiff_t farthest(std::ptrdiff_t first, std::ptrdiff_t end) const {
-    return std::max_element(m_points.begin() + first, m_points.begin() + end, [&](const Vec3& a, const Vec3& b) { return m_sign * a.z() < m_sign * b.z(); }) -
+    return std::max_element(
+               m_points.begin() + first, m_points.begin() + end,
+               [&](const Vec3& a, const Vec3& b) { return m_sign * a.z() < m_sign * b.z(); }) -
            m_points.begin();
   }
   /// How much less far out level k is than `top`, m.
-  double out_less(std::ptrdiff_t top, std::ptrdiff_t k) const { return m_sign * (at(top).z() - at(k).z()); }
+  double out_less(std::ptrdiff_t top, std::ptrdiff_t k) const {
+    return m_sign * (at(top).z() - at(k).z());
+  }
   std::ptrdiff_t size() const { return static_cast<std::ptrdiff_t>(m_points.size()); }
   const Vec3& at(std::ptrdiff_t k) const { return m_points[static_cast<std::size_t>(k)]; }
 
@@ -101,7 +116,8 @@ private:
 
 } // namespace
 
-std::optional<Foremost> foremost_place(const Finder& finder, Span heights, Span across, double sign, double flat, double inside) {
+std::optional<Foremost> foremost_place(const Finder& finder, Span heights, Span across, double sign,
+                                       double flat, double inside) {
   const std::vector<Vec3> points = outline_of(finder, heights, across, sign);
   if (points.empty()) return std::nullopt;
   const double as_far = flat * finder.s;
@@ -111,13 +127,19 @@ std::optional<Foremost> foremost_place(const Finder& finder, Span heights, Span 
   const Foremost at_the_end{outline.at(most), 0, outline.at(most).y(), outline.at(most).y()};
   if (n < 4 * MARGIN) return at_the_end;
   std::ptrdiff_t inner = outline.inner_top();
-  const bool is_bulge = inner < 0; // of a bulge on a slope no level need be farther out than both its neighbours
+  const bool is_bulge =
+      inner < 0; // of a bulge on a slope no level need be farther out than both its neighbours
   if (is_bulge) inner = outline.bulge_top();
   if (inner < 0 || outline.out_less(most, inner) >= inside * finder.s) return at_the_end;
   if (is_bulge) return outline.middle(inner, inner, inner);
-  std::ptrdiff_t first = inner, last = inner; // where the skin runs out again, the place's own surroundings end
-  while (first > 0 && outline.out_less(inner, first - 1) >= 0 && outline.out_less(inner, first - 1) < as_far) --first;
-  while (last < n - 1 && outline.out_less(inner, last + 1) >= 0 && outline.out_less(inner, last + 1) < as_far) ++last;
+  std::ptrdiff_t first = inner,
+                 last = inner; // where the skin runs out again, the place's own surroundings end
+  while (first > 0 && outline.out_less(inner, first - 1) >= 0 &&
+         outline.out_less(inner, first - 1) < as_far)
+    --first;
+  while (last < n - 1 && outline.out_less(inner, last + 1) >= 0 &&
+         outline.out_less(inner, last + 1) < as_far)
+    ++last;
   return outline.middle(inner, first, last);
 }
 

@@ -5,8 +5,10 @@
 
 namespace sloper::body {
 
-EdgeGraph::EdgeGraph(const TriangleMesh& mesh) : m_mesh(&mesh), m_first(mesh.positions.size() + 1, 0) {
-  // every triangle gives each corner its other two: a neighbour over an inner edge stands twice, which costs less than to look for it
+EdgeGraph::EdgeGraph(const TriangleMesh& mesh)
+    : m_mesh(&mesh), m_first(mesh.positions.size() + 1, 0) {
+  // every triangle gives each corner its other two: a neighbour over an inner edge stands twice,
+  // which costs less than to look for it
   for (const Triangle& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) ++m_first[t[k] + 1], ++m_first[t[(k + 1) % 3] + 1];
   for (std::size_t v = 1; v < m_first.size(); ++v) m_first[v] += m_first[v - 1];
@@ -20,7 +22,8 @@ EdgeGraph::EdgeGraph(const TriangleMesh& mesh) : m_mesh(&mesh), m_first(mesh.pos
     }
 }
 
-std::vector<double> EdgeGraph::distances(const std::vector<int>& sources, double limit, const std::vector<char>& blocked) const {
+std::vector<double> EdgeGraph::distances(const std::vector<int>& sources, double limit,
+                                         const std::vector<char>& blocked) const {
   std::vector<double> distance(m_mesh->positions.size(), 1e300);
   using Item = std::pair<double, int>;
   std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;

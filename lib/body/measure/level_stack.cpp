@@ -8,10 +8,11 @@ namespace sloper::body {
 
 namespace {
 
-constexpr double CALF = 0.08;         ///< of stature: from here up two legs are looked for
-constexpr double LEVEL = 0.0003;      ///< m: as low as makes no difference
-constexpr double FAVOUR = 0.0004;     ///< m: a crotch that is lowest in front and behind has its place in front, unless it is lower behind by more
-constexpr double NECK = 0.08;         ///< of stature beside the middle plane: the neck is in it
+constexpr double CALF = 0.08;     ///< of stature: from here up two legs are looked for
+constexpr double LEVEL = 0.0003;  ///< m: as low as makes no difference
+constexpr double FAVOUR = 0.0004; ///< m: a crotch that is lowest in front and behind has its place
+                                  ///< in front, unless it is lower behind by more
+constexpr double NECK = 0.08;     ///< of stature beside the middle plane: the neck is in it
 constexpr double MIN_LEG_AREA = 6e-4; ///< of stature squared, below it a loop at the calf is no leg
 
 double overlap(const Loop& a, const Loop& b) {
@@ -48,7 +49,8 @@ Loop half_of(const Loop& loop, double middle, double sign) {
     half.segments.push_back(kept);
   }
   std::sort(crossings.begin(), crossings.end());
-  for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) { // the body is on the left: the cut runs along the line
+  for (std::size_t k = 0; k + 1 < crossings.size();
+       k += 2) { // the body is on the left: the cut runs along the line
     const Vec2 p(middle, crossings[k]), q(middle, crossings[k + 1]);
     if (sign > 0) half.segments.push_back({q, p});
     else half.segments.push_back({p, q});
@@ -59,7 +61,8 @@ Loop half_of(const Loop& loop, double middle, double sign) {
 
 } // namespace
 
-/// Where raised arms leave the trunk's loop, they are larger than the neck: what goes on near the middle plane is the trunk.
+/// Where raised arms leave the trunk's loop, they are larger than the neck: what goes on near the
+/// middle plane is the trunk.
 int LevelStack::trunk_of(const std::vector<Loop>& loops, const Loop& from) const {
   Loop middle;
   middle.low = Vec2(std::max(from.low.x(), m_crotch_point.x() - NECK * m_stature), from.low.y());
@@ -74,7 +77,8 @@ void LevelStack::move_crotch(double y, double z) {
 }
 
 LevelStack::LevelStack(const TriangleMesh& skin, double stature, double spacing, double roughness)
-    : m_skin(&skin), m_stature(stature), m_spacing(spacing), m_roughness(roughness), m_slices(static_cast<std::size_t>(stature * 1.02 / spacing) + 2),
+    : m_skin(&skin), m_stature(stature), m_spacing(spacing), m_roughness(roughness),
+      m_slices(static_cast<std::size_t>(stature * 1.02 / spacing) + 2),
       m_levelled(skin, 0.5 * spacing, spacing, static_cast<int>(m_slices.size())) {
   for (int k = 0; k < static_cast<int>(m_slices.size()); ++k) {
     m_slices[k].y = (k + 0.5) * spacing;
@@ -84,7 +88,10 @@ LevelStack::LevelStack(const TriangleMesh& skin, double stature, double spacing,
   follow_trunk();
 }
 
-int LevelStack::index(double y) const { return std::clamp(static_cast<int>(std::floor(y / m_spacing)), 0, static_cast<int>(m_slices.size()) - 1); }
+int LevelStack::index(double y) const {
+  return std::clamp(static_cast<int>(std::floor(y / m_spacing)), 0,
+                    static_cast<int>(m_slices.size()) - 1);
+}
 const Slice& LevelStack::at(double y) const { return m_slices[static_cast<std::size_t>(index(y))]; }
 
 std::vector<Loop> LevelStack::exact(double y) const { return m_levelled.cut(index(y), y); }
@@ -124,7 +131,9 @@ void LevelStack::follow_legs() {
     int pick[2] = {-1, -1};
     for (std::size_t i = 0; i < slice.loops.size(); ++i) {
       const Loop& loop = slice.loops[i];
-      if (loop.area < MIN_LEG_AREA * m_stature * m_stature || std::abs(loop.centroid.x()) > 0.25 * m_stature) continue;
+      if (loop.area < MIN_LEG_AREA * m_stature * m_stature ||
+          std::abs(loop.centroid.x()) > 0.25 * m_stature)
+        continue;
       const int side = loop.centroid.x() > 0 ? 0 : 1;
       if (pick[side] < 0) pick[side] = static_cast<int>(i); // loops come largest first
     }
@@ -136,12 +145,15 @@ void LevelStack::follow_legs() {
   for (int k = start - 1; k >= 0; --k)
     for (int side = 0; side < 2; ++side) {
       const int from = m_slices[k + 1].leg[side];
-      if (from >= 0) m_slices[k].leg[side] = best_overlap(m_slices[k].loops, m_slices[k + 1].loops[from]);
+      if (from >= 0)
+        m_slices[k].leg[side] = best_overlap(m_slices[k].loops, m_slices[k + 1].loops[from]);
     }
   int k = start + 1;
   const int last = index(0.62 * m_stature);
   for (; k <= last; ++k) {
-    for (int side = 0; side < 2; ++side) m_slices[k].leg[side] = best_overlap(m_slices[k].loops, m_slices[k - 1].loops[m_slices[k - 1].leg[side]]);
+    for (int side = 0; side < 2; ++side)
+      m_slices[k].leg[side] =
+          best_overlap(m_slices[k].loops, m_slices[k - 1].loops[m_slices[k - 1].leg[side]]);
     const bool merged = m_slices[k].leg[0] == m_slices[k].leg[1];
     if (m_slices[k].leg[0] < 0 || m_slices[k].leg[1] < 0) return;
     if (!merged) continue;
@@ -152,7 +164,8 @@ void LevelStack::follow_legs() {
   if (k > last) return;
   // bisect between the last level with two legs and the first with one
   double low = m_slices[k - 1].y, high = m_slices[k].y;
-  Loop left = m_slices[k - 1].loops[m_slices[k - 1].leg[0]], right = m_slices[k - 1].loops[m_slices[k - 1].leg[1]];
+  Loop left = m_slices[k - 1].loops[m_slices[k - 1].leg[0]],
+       right = m_slices[k - 1].loops[m_slices[k - 1].leg[1]];
   while (high - low > 2e-4) {
     const double y = 0.5 * (low + high);
     std::vector<Loop> loops = exact(y);
@@ -162,7 +175,9 @@ void LevelStack::follow_legs() {
   }
   m_crotch = low;
   // just above, the two legs are one loop that is thinnest between them: there lies the saddle
-  const double middle = 0.5 * (left.low.x() > right.high.x() ? left.low.x() + right.high.x() : left.centroid.x() + right.centroid.x());
+  const double middle =
+      0.5 * (left.low.x() > right.high.x() ? left.low.x() + right.high.x()
+                                           : left.centroid.x() + right.centroid.x());
   std::vector<Loop> merged = exact(high);
   const int i = best_overlap(merged, left);
   m_crotch_point = Vec2(middle, 0.5 * (left.centroid.y() + right.centroid.y()));
@@ -176,21 +191,28 @@ void LevelStack::follow_legs() {
     high_z = std::max(high_z, z);
   }
   if (low_z <= high_z) m_crotch_point.y() = 0.5 * (low_z + high_z);
-  // the skin between the legs may hang a little below the saddle: its lowest point in the middle plane is the crotch
+  // the skin between the legs may hang a little below the saddle: its lowest point in the middle
+  // plane is the crotch
   std::vector<int> near;
   for (std::size_t f = 0; f < m_skin->triangles.size(); ++f) {
     const double y = m_skin->positions[m_skin->triangles[f][0]].y();
-    if (y > low - 0.04 * m_stature && y < low + 0.04 * m_stature) near.push_back(static_cast<int>(f));
+    if (y > low - 0.04 * m_stature && y < low + 0.04 * m_stature)
+      near.push_back(static_cast<int>(f));
   }
-  const double between = 0.5 * (left.centroid.y() + right.centroid.y()), favour = FAVOUR + 2 * m_roughness;
-  auto favoured = [&](const Vec2& q) { // its height, less towards where crotches usually are: half a degree or roughness makes either end the lower one
-    return q.y() - favour * std::clamp((q.x() - between) / (CROTCH_BEFORE_LEGS * m_stature), 0.0, 1.0);
+  const double between = 0.5 * (left.centroid.y() + right.centroid.y()),
+               favour = FAVOUR + 2 * m_roughness;
+  auto favoured = [&](const Vec2& q) { // its height, less towards where crotches usually are: half
+                                       // a degree or roughness makes either end the lower one
+    return q.y() -
+           favour * std::clamp((q.x() - between) / (CROTCH_BEFORE_LEGS * m_stature), 0.0, 1.0);
   };
   double lowest = high, best = 1e300;
   std::vector<std::array<Vec2, 2>> bottom;
   for (const Loop& loop : cut(*m_skin, {Vec3(middle, 0, 0), Vec3::UnitZ(), Vec3::UnitY()}, &near)) {
-    // the trunk's outline, however deep it hangs; what does not reach up into the trunk is a thigh that crosses the middle
-    const double deepest = low - (loop.high.y() > high + 0.02 * m_stature ? 0.02 : 0.006) * m_stature;
+    // the trunk's outline, however deep it hangs; what does not reach up into the trunk is a thigh
+    // that crosses the middle
+    const double deepest =
+        low - (loop.high.y() > high + 0.02 * m_stature ? 0.02 : 0.006) * m_stature;
     for (const auto& segment : loop.segments)
       if (const auto piece = clipped(segment, 1, deepest, high + LEVEL + m_roughness + favour)) {
         bottom.push_back(*piece);
@@ -202,12 +224,14 @@ void LevelStack::follow_legs() {
       }
   }
   m_crotch = std::min(low, lowest);
-  // the skin there is nearly level from front to back: on a rough scan the lowest point is anywhere on it, its middle is not
+  // the skin there is nearly level from front to back: on a rough scan the lowest point is anywhere
+  // on it, its middle is not
   double sum = 0, weight = 0;
   for (const auto& segment : bottom)
     for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
       const Vec2 q = (1 - t) * segment[0] + t * segment[1];
-      const double w = std::max(0.0, best + LEVEL + m_roughness - favoured(q)) * std::abs(segment[1].x() - segment[0].x());
+      const double w = std::max(0.0, best + LEVEL + m_roughness - favoured(q)) *
+                       std::abs(segment[1].x() - segment[0].x());
       sum += w * q.x(), weight += w;
     }
   if (weight > 0) m_crotch_point.y() = sum / weight;
@@ -216,7 +240,9 @@ void LevelStack::follow_legs() {
 void LevelStack::follow_trunk() {
   if (!m_crotch) return;
   int k = index(*m_crotch);
-  while (k < static_cast<int>(m_slices.size()) && m_slices[k].trunk < 0 && m_slices[k].y < *m_crotch + 0.05 * m_stature) ++k;
+  while (k < static_cast<int>(m_slices.size()) && m_slices[k].trunk < 0 &&
+         m_slices[k].y < *m_crotch + 0.05 * m_stature)
+    ++k;
   for (++k; k < static_cast<int>(m_slices.size()); ++k) {
     const int from = m_slices[k - 1].trunk;
     if (from < 0) return;

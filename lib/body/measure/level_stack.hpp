@@ -1,11 +1,13 @@
 #pragma once
-/// The skin in level slices: the legs followed up to the crotch, the trunk from there to the neck, the head above it.
+/// The skin in level slices: the legs followed up to the crotch, the trunk from there to the neck,
+/// the head above it.
 #include <body/measure/section.hpp>
 #include <map>
 #include <optional>
 namespace sloper::body {
 
-constexpr double CROTCH_BEFORE_LEGS = 0.0235; ///< crotch in front of the middles of the legs just below it, share of stature (sd 0.0075)
+constexpr double CROTCH_BEFORE_LEGS = 0.0235; ///< crotch in front of the middles of the legs just
+                                              ///< below it, share of stature (sd 0.0075)
 
 /// What stands in one level.
 struct Slice {
@@ -15,7 +17,8 @@ struct Slice {
   int trunk = -1;        ///< loop of the trunk, neck or head; arms may hang on it
 };
 
-/// All level slices of a closed skin that stands in (about) the body frame. For one thread: it remembers cuts.
+/// All level slices of a closed skin that stands in (about) the body frame. For one thread: it
+/// remembers cuts.
 class LevelStack {
 public:
   /// @param spacing m between levels
@@ -29,14 +32,17 @@ public:
   const TriangleMesh& skin() const { return *m_skin; }
   /// Loops of an exact cut at any height (only the triangles of that level are visited).
   std::vector<Loop> exact(double y) const;
-  /// The trunk (neck, head) loop of an exact cut; empty when there is none. Stays as long as the stack.
+  /// The trunk (neck, head) loop of an exact cut; empty when there is none. Stays as long as the
+  /// stack.
   const std::optional<Loop>& trunk_at(double y) const;
   std::optional<Loop> leg_at(double y, int side) const;
-  /// Height at which the two leg loops become one, m, by bisection to 0.2 mm; empty when the legs are never apart.
+  /// Height at which the two leg loops become one, m, by bisection to 0.2 mm; empty when the legs
+  /// are never apart.
   std::optional<double> crotch() const { return m_crotch; }
   Vec2 crotch_point() const { return m_crotch_point; } ///< (x, z) where they meet
 
-  /// Puts the crotch elsewhere, where the scan does not show it: legs are cut apart in the middle plane up to there.
+  /// Puts the crotch elsewhere, where the scan does not show it: legs are cut apart in the middle
+  /// plane up to there.
   void move_crotch(double y, double z);
 
 private:
@@ -47,7 +53,8 @@ private:
   double m_stature, m_spacing, m_roughness;
   std::vector<Slice> m_slices;
   LevelledMesh m_levelled;
-  mutable std::map<double, std::optional<Loop>> m_trunk_at; ///< cuts made before: several rules ask for the same heights
+  mutable std::map<double, std::optional<Loop>>
+      m_trunk_at; ///< cuts made before: several rules ask for the same heights
   std::optional<double> m_crotch;
   Vec2 m_crotch_point = Vec2::Zero();
 };

@@ -1,15 +1,18 @@
 #pragma once
-/// Where a curve is lowest, told by the middle of what is as low as makes no difference: the single lowest sample of a flat curve is anywhere on it.
+/// Where a curve is lowest, told by the middle of what is as low as makes no difference: the single
+/// lowest sample of a flat curve is anywhere on it.
 #include <geometry/types.hpp>
 #include <vector>
 namespace sloper::body {
 
 struct Lowest {
-  double middle; ///< weighted mean of the places around `least` whose value is less than `flat` above its own, the lower the heavier
+  double middle; ///< weighted mean of the places around `least` whose value is less than `flat`
+                 ///< above its own, the lower the heavier
   double least;  ///< the place of the lowest sample: at an end of the search there is no valley
 };
 
-/// @param curve (place, value) in the order of their places, not empty; @param flat how much higher still counts, > 0
+/// @param curve (place, value) in the order of their places, not empty; @param flat how much higher
+/// still counts, > 0
 inline Lowest lowest_of(const std::vector<Vec2>& curve, double flat) {
   std::size_t least = 0;
   for (std::size_t k = 1; k < curve.size(); ++k)

@@ -3,12 +3,16 @@
 
 namespace sloper::body {
 
-std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin, const std::vector<Vec3>& normals, const Box3& box, double radius, double sign) {
+std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin,
+                                            const std::vector<Vec3>& normals, const Box3& box,
+                                            double radius, double sign) {
   const Vec3 margin = Vec3::Constant(radius);
-  std::vector<double> of_vertex(skin.positions.size(), 0); // areas, so that it does not matter how finely the skin is meshed
+  std::vector<double> of_vertex(
+      skin.positions.size(), 0); // areas, so that it does not matter how finely the skin is meshed
   for (const Triangle& t : skin.triangles) {
     const Vec3& p = skin.positions[t[0]];
-    if ((p - box.low + 4 * margin).minCoeff() < 0 || (box.high + 4 * margin - p).minCoeff() < 0) continue;
+    if ((p - box.low + 4 * margin).minCoeff() < 0 || (box.high + 4 * margin - p).minCoeff() < 0)
+      continue;
     const double third = area_normal(p, skin.positions[t[1]], skin.positions[t[2]]).norm();
     for (const int v : t) of_vertex[v] += third;
   }
@@ -16,7 +20,9 @@ std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin, const std:
   std::vector<double> area;
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
     const Vec3& p = skin.positions[v];
-    if (normals[v].z() < 0.2 || (p - box.low + margin).minCoeff() < 0 || (box.high + margin - p).minCoeff() < 0) continue;
+    if (normals[v].z() < 0.2 || (p - box.low + margin).minCoeff() < 0 ||
+        (box.high + margin - p).minCoeff() < 0)
+      continue;
     points.push_back(p);
     normal.push_back(normals[v]);
     area.push_back(of_vertex[v]);
@@ -47,7 +53,9 @@ std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin, const std:
   Vec3 sum = Vec3::Zero();
   double weight = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (const double w = area[i] * (height[i] - 0.7 * most); w > 0 && (points[i] - points[best]).norm() < radius) sum += w * points[i], weight += w;
+    if (const double w = area[i] * (height[i] - 0.7 * most);
+        w > 0 && (points[i] - points[best]).norm() < radius)
+      sum += w * points[i], weight += w;
   return ReliefPoint{weight > 0 && most > 0 ? Vec3(sum / weight) : points[best], sign * most};
 }
 

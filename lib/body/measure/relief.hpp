@@ -1,5 +1,6 @@
 #pragma once
-/// Small relief of the skin: bumps and dimples of about a centimetre, such as nipples and the navel.
+/// Small relief of the skin: bumps and dimples of about a centimetre, such as nipples and the
+/// navel.
 #include <geometry/triangle_mesh.hpp>
 #include <optional>
 namespace sloper::body {
@@ -9,9 +10,11 @@ struct ReliefPoint {
   double height = 0; ///< m, above (below when negative) the ring around it
 };
 
-/// Where the skin inside `box` with normals facing +z stands out most (sign +1) or lies deepest (sign -1) against the ring
-/// of skin between 0.55 and 1 `radius` around it. The place is the middle of what reaches 0.7 of the
-/// most, weighted by what it has beyond that.
-std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin, const std::vector<Vec3>& normals, const Box3& box, double radius, double sign);
+/// Where the skin inside `box` with normals facing +z stands out most (sign +1) or lies deepest
+/// (sign -1) against the ring of skin between 0.55 and 1 `radius` around it. The place is the
+/// middle of what reaches 0.7 of the most, weighted by what it has beyond that.
+std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin,
+                                            const std::vector<Vec3>& normals, const Box3& box,
+                                            double radius, double sign);
 
 } // namespace sloper::body

@@ -16,7 +16,8 @@ struct Cut {
 };
 
 std::uint64_t edge_key(int a, int b) {
-  const auto low = static_cast<std::uint64_t>(std::min(a, b)), high = static_cast<std::uint64_t>(std::max(a, b));
+  const auto low = static_cast<std::uint64_t>(std::min(a, b)),
+             high = static_cast<std::uint64_t>(std::max(a, b));
   return low << 32 | high;
 }
 
@@ -30,7 +31,8 @@ std::vector<int> loop_numbers(const std::vector<Cut>& cuts, std::vector<char>& i
   };
   std::size_t size = 16;
   while (size < 3 * cuts.size()) size *= 2;
-  std::vector<End> table(size, {0, -1, false}); // at most two thirds full; nothing depends on its order
+  std::vector<End> table(size,
+                         {0, -1, false}); // at most two thirds full; nothing depends on its order
   auto join = [&](std::uint64_t key, int i) {
     std::size_t at = (key * 0x9E3779B97F4A7C15u >> 32) & (size - 1);
     while (table[at].first >= 0 && table[at].key != key) at = (at + 1) & (size - 1);
@@ -55,9 +57,11 @@ std::vector<int> loop_numbers(const std::vector<Cut>& cuts, std::vector<char>& i
 }
 
 /// The triangle (corners at `p`, numbered `t`) in the plane, where it crosses it.
-void cut_triangle(const Triangle& t, const std::array<const Vec3*, 3>& p, const Plane& plane, const Vec3& n, double offset, std::vector<Cut>& cuts) {
+void cut_triangle(const Triangle& t, const std::array<const Vec3*, 3>& p, const Plane& plane,
+                  const Vec3& n, double offset, std::vector<Cut>& cuts) {
   // Which corners lie above is random to the processor: numbers instead of branches.
-  constexpr int LONE[8] = {0, 0, 1, 2, 2, 1, 0, 0}; // the corner alone on its side, by the bits of those above
+  constexpr int LONE[8] = {0, 0, 1, 2,
+                           2, 1, 0, 0}; // the corner alone on its side, by the bits of those above
   const double d[3] = {n.dot(*p[0]) - offset, n.dot(*p[1]) - offset, n.dot(*p[2]) - offset};
   const int above = (d[0] >= 0) | (d[1] >= 0) << 1 | (d[2] >= 0) << 2;
   if (above == 0 || above == 7) return;
@@ -69,7 +73,8 @@ void cut_triangle(const Triangle& t, const std::array<const Vec3*, 3>& p, const 
     return plane.flat(*p[a] + w * (*p[b] - *p[a]));
   };
   const int from = (lone + 1 + two_above) % 3, to = (lone + 2 - two_above) % 3;
-  cuts.push_back({edge_key(t[lone], t[from]), edge_key(t[lone], t[to]), crossing(from), crossing(to)});
+  cuts.push_back(
+      {edge_key(t[lone], t[from]), edge_key(t[lone], t[to]), crossing(from), crossing(to)});
 }
 
 /// The segments as loops, the one with the largest |area| first.
@@ -82,10 +87,13 @@ std::vector<Loop> joined(const std::vector<Cut>& cuts) {
   std::vector<std::size_t> sizes(loops.size(), 0);
   for (const int loop : number) ++sizes[loop];
   for (std::size_t k = 0; k < loops.size(); ++k) loops[k].segments.reserve(sizes[k]);
-  for (std::size_t i = 0; i < cuts.size(); ++i) loops[number[i]].segments.push_back({cuts[i].a, cuts[i].b});
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    loops[number[i]].segments.push_back({cuts[i].a, cuts[i].b});
   for (Loop& loop : loops) measure_loop(loop);
   std::erase_if(loops, [](const Loop& loop) { return std::abs(loop.area) < 1e-6; });
-  std::stable_sort(loops.begin(), loops.end(), [](const Loop& a, const Loop& b) { return std::abs(a.area) > std::abs(b.area); });
+  std::stable_sort(loops.begin(), loops.end(), [](const Loop& a, const Loop& b) {
+    return std::abs(a.area) > std::abs(b.area);
+  });
   return loops;
 }
 
@@ -106,7 +114,8 @@ void measure_loop(Loop& loop) {
   }
   loop.area = 0.5 * twice;
   loop.centroid = std::abs(twice) > 1e-12 ? Vec2(o + moment / (3 * twice)) : loop.center();
-  loop.centroid = loop.centroid.cwiseMax(loop.low).cwiseMin(loop.high); // an open outline can throw it far off
+  loop.centroid =
+      loop.centroid.cwiseMax(loop.low).cwiseMin(loop.high); // an open outline can throw it far off
 }
 
 Plane level_plane(double height) {
@@ -122,7 +131,8 @@ Plane cross_plane(const Vec3& origin, const Vec3& axis) {
   return {origin, u, n.cross(u)};
 }
 
-std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane, const std::vector<int>* subset) {
+std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane,
+                      const std::vector<int>* subset) {
   const Vec3 n = plane.normal();
   const double offset = n.dot(plane.origin);
   std::vector<Cut> cuts;
@@ -130,7 +140,8 @@ std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane, const std::v
   const std::size_t total = subset ? subset->size() : mesh.triangles.size();
   for (std::size_t i = 0; i < total; ++i) {
     const Triangle& t = mesh.triangles[subset ? (*subset)[i] : i];
-    cut_triangle(t, {&mesh.positions[t[0]], &mesh.positions[t[1]], &mesh.positions[t[2]]}, plane, n, offset, cuts);
+    cut_triangle(t, {&mesh.positions[t[0]], &mesh.positions[t[1]], &mesh.positions[t[2]]}, plane, n,
+                 offset, cuts);
   }
   return joined(cuts);
 }
@@ -138,9 +149,11 @@ std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane, const std::v
 TriangleSpheres::TriangleSpheres(const TriangleMesh& mesh, const std::vector<int>& subset) {
   m_spheres.reserve(subset.size());
   for (const int t : subset) {
-    const Vec3 &a = mesh.positions[mesh.triangles[t][0]], &b = mesh.positions[mesh.triangles[t][1]], &c = mesh.positions[mesh.triangles[t][2]];
+    const Vec3 &a = mesh.positions[mesh.triangles[t][0]], &b = mesh.positions[mesh.triangles[t][1]],
+               &c = mesh.positions[mesh.triangles[t][2]];
     const Vec3 center = (a + b + c) / 3;
-    const double squared = std::max({(a - center).squaredNorm(), (b - center).squaredNorm(), (c - center).squaredNorm()});
+    const double squared = std::max(
+        {(a - center).squaredNorm(), (b - center).squaredNorm(), (c - center).squaredNorm()});
     m_spheres.push_back({center, 1.000001 * std::sqrt(squared) + 1e-9, t});
   }
 }
@@ -154,9 +167,12 @@ const std::vector<int>& TriangleSpheres::near(const Plane& plane) {
   return m_near;
 }
 
-LevelledMesh::LevelledMesh(const TriangleMesh& mesh, double y0, double dy, int count) : m_bands(static_cast<std::size_t>(count)) {
+LevelledMesh::LevelledMesh(const TriangleMesh& mesh, double y0, double dy, int count)
+    : m_bands(static_cast<std::size_t>(count)) {
   constexpr float OUTWARDS = 1e-6f; // m: more than what a float rounds at the height of a person
-  auto band_of = [&](double y) { return std::clamp(static_cast<int>(std::floor((y - y0) / dy)), 0, count - 1); };
+  auto band_of = [&](double y) {
+    return std::clamp(static_cast<int>(std::floor((y - y0) / dy)), 0, count - 1);
+  };
   std::vector<std::size_t> first(static_cast<std::size_t>(count) + 1, 0);
   for (const Vec3& p : mesh.positions) ++first[static_cast<std::size_t>(band_of(p.y())) + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
@@ -168,11 +184,14 @@ LevelledMesh::LevelledMesh(const TriangleMesh& mesh, double y0, double dy, int c
     place[v] = static_cast<int>(at);
   }
   for (const Triangle& t : mesh.triangles) {
-    const double a = mesh.positions[t[0]].y(), b = mesh.positions[t[1]].y(), c = mesh.positions[t[2]].y();
+    const double a = mesh.positions[t[0]].y(), b = mesh.positions[t[1]].y(),
+                 c = mesh.positions[t[2]].y();
     const double low = std::min({a, b, c}), high = std::max({a, b, c});
     const int from = std::max(0, static_cast<int>(std::floor((low - y0) / dy)));
     const int to = std::min(count - 1, static_cast<int>(std::ceil((high - y0) / dy)));
-    const Reach reach{static_cast<float>(low) - OUTWARDS, static_cast<float>(high) + OUTWARDS, {place[t[0]], place[t[1]], place[t[2]]}};
+    const Reach reach{static_cast<float>(low) - OUTWARDS,
+                      static_cast<float>(high) + OUTWARDS,
+                      {place[t[0]], place[t[1]], place[t[2]]}};
     for (int k = from; k <= to; ++k) m_bands[static_cast<std::size_t>(k)].push_back(reach);
   }
 }
@@ -186,18 +205,24 @@ std::vector<Loop> LevelledMesh::cut(int band, double y) const {
   cuts.reserve(512);
   for (const Reach& r : m_bands[static_cast<std::size_t>(band)]) {
     if (r.low > level || r.high < level) continue;
-    const Vertex &a = m_vertices[r.vertices[0]], &b = m_vertices[r.vertices[1]], &c = m_vertices[r.vertices[2]];
-    cut_triangle({a.number, b.number, c.number}, {&a.position, &b.position, &c.position}, plane, n, offset, cuts);
+    const Vertex &a = m_vertices[r.vertices[0]], &b = m_vertices[r.vertices[1]],
+                 &c = m_vertices[r.vertices[2]];
+    cut_triangle({a.number, b.number, c.number}, {&a.position, &b.position, &c.position}, plane, n,
+                 offset, cuts);
   }
   return joined(cuts);
 }
 
 std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
+  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
+    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+  });
   if (points.size() < 3) return points;
   std::vector<Vec2> hull(2 * points.size());
   std::size_t k = 0;
-  auto turn = [](const Vec2& o, const Vec2& a, const Vec2& b) { return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x()); };
+  auto turn = [](const Vec2& o, const Vec2& a, const Vec2& b) {
+    return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
+  };
   for (const Vec2& p : points) {
     while (k >= 2 && turn(hull[k - 2], hull[k - 1], p) <= 0) --k;
     hull[k++] = p;
@@ -213,7 +238,8 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
 
 double closed_length(const std::vector<Vec2>& polygon) {
   double length = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) length += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    length += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
   return length;
 }
 
@@ -224,7 +250,8 @@ double taut_girth(const Loop& loop) {
   return closed_length(convex_hull(std::move(points)));
 }
 
-std::optional<std::array<Vec2, 2>> clipped(const std::array<Vec2, 2>& segment, int axis, double low, double high) {
+std::optional<std::array<Vec2, 2>> clipped(const std::array<Vec2, 2>& segment, int axis, double low,
+                                           double high) {
   const double a = segment[0][axis], b = segment[1][axis];
   if (std::max(a, b) < low || std::min(a, b) > high) return std::nullopt;
   auto at = [&](double end, const Vec2& q) {
@@ -240,7 +267,8 @@ Vec2 outermost(const Loop& loop, const Vec2& direction, double flat) {
   Vec2 sum = Vec2::Zero();
   double weight = 0;
   for (const auto& segment : loop.segments) {
-    const double a = direction.dot(segment[0]) - most + flat, b = direction.dot(segment[1]) - most + flat;
+    const double a = direction.dot(segment[0]) - most + flat,
+                 b = direction.dot(segment[1]) - most + flat;
     if (a <= 0 && b <= 0) continue;
     const double length = (segment[1] - segment[0]).norm();
     constexpr int PIECES = 8; // a segment of a coarse mesh may be longer than the flat part

@@ -1,6 +1,7 @@
 #pragma once
-/// Plane cuts of a closed skin. A section is a set of loops; a loop keeps its oriented segments, which suffice for area,
-/// centroid, extent and taut girth, so that nothing has to be chained and a small gap harms nothing.
+/// Plane cuts of a closed skin. A section is a set of loops; a loop keeps its oriented segments,
+/// which suffice for area, centroid, extent and taut girth, so that nothing has to be chained and a
+/// small gap harms nothing.
 #include <geometry/triangle_mesh.hpp>
 #include <optional>
 #include <string>
@@ -22,10 +23,11 @@ Plane cross_plane(const Vec3& origin, const Vec3& axis);
 
 /// One loop of a section.
 struct Loop {
-  std::vector<std::array<Vec2, 2>> segments; ///< m, in the plane; walking along one has the body on the left
-  bool closed = true;                        ///< false where the skin, or the subset that was cut, ends
-  double area = 0;                           ///< m2, positive for an outer loop
-  Vec2 centroid = Vec2::Zero();              ///< of the area
+  std::vector<std::array<Vec2, 2>>
+      segments;                 ///< m, in the plane; walking along one has the body on the left
+  bool closed = true;           ///< false where the skin, or the subset that was cut, ends
+  double area = 0;              ///< m2, positive for an outer loop
+  Vec2 centroid = Vec2::Zero(); ///< of the area
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
   Vec2 center() const { return 0.5 * (low + high); }
   Vec2 size() const { return high - low; }
@@ -34,11 +36,14 @@ struct Loop {
 /// Fills area, centroid and extent from the segments.
 void measure_loop(Loop& loop);
 
-/// Loops of the cut, the one with the largest |area| first; ties keep mesh order. Loops of less than 1e-6 m2 are left out.
+/// Loops of the cut, the one with the largest |area| first; ties keep mesh order. Loops of less
+/// than 1e-6 m2 are left out.
 /// @param subset triangle numbers to look at; all when null
-std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane, const std::vector<int>* subset = nullptr);
+std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane,
+                      const std::vector<int>* subset = nullptr);
 
-/// Spheres around triangles: many planes through the same few of them are cut without looking at each corner.
+/// Spheres around triangles: many planes through the same few of them are cut without looking at
+/// each corner.
 class TriangleSpheres {
 public:
   TriangleSpheres(const TriangleMesh& mesh, const std::vector<int>& subset);
@@ -60,7 +65,8 @@ class LevelledMesh {
 public:
   /// @param y0 height of the middle of the lowest of `count` bands that are `dy` apart, m
   LevelledMesh(const TriangleMesh& mesh, double y0, double dy, int count);
-  /// The loops of sloper::body::cut() at the level `y`, m, which is within `dy` of the middle of `band`.
+  /// The loops of sloper::body::cut() at the level `y`, m, which is within `dy` of the middle of
+  /// `band`.
   std::vector<Loop> cut(int band, double y) const;
 
 private:
@@ -82,10 +88,13 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points);
 double closed_length(const std::vector<Vec2>& polygon);
 /// Taut (convex) girth of a loop.
 double taut_girth(const Loop& loop);
-/// The piece of a segment whose x (axis 0) or y (axis 1) lies within low .. high; nothing where there is none. What is asked of a band
-/// of the outline then does not depend on where the mesh has its vertices.
-std::optional<std::array<Vec2, 2>> clipped(const std::array<Vec2, 2>& segment, int axis, double low, double high);
-/// The outermost place of a loop along the unit `direction`: of an outline that is nearly square to it, the middle of what is within `flat`, m.
+/// The piece of a segment whose x (axis 0) or y (axis 1) lies within low .. high; nothing where
+/// there is none. What is asked of a band of the outline then does not depend on where the mesh has
+/// its vertices.
+std::optional<std::array<Vec2, 2>> clipped(const std::array<Vec2, 2>& segment, int axis, double low,
+                                           double high);
+/// The outermost place of a loop along the unit `direction`: of an outline that is nearly square to
+/// it, the middle of what is within `flat`, m.
 Vec2 outermost(const Loop& loop, const Vec2& direction, double flat);
 /// True when the loop's outline winds around q.
 bool encloses(const Loop& loop, const Vec2& q);

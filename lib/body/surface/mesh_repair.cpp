@@ -11,16 +11,19 @@ namespace sloper::body {
 
 namespace {
 
-constexpr std::size_t FEW_EDGES = 20; ///< around some faces of a mesh that were dropped, however coarse it is
+constexpr std::size_t FEW_EDGES =
+    20; ///< around some faces of a mesh that were dropped, however coarse it is
 
 /// Border edges against their face's direction, so that a new face agrees with the old one. Sorted.
-std::vector<std::array<int, 2>> border_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
+std::vector<std::array<int, 2>> border_of(const TriangleMesh& mesh,
+                                          const std::vector<HalfEdge>& list) {
   std::vector<std::array<int, 2>> border;
   for (std::size_t i = 0; i < list.size();) {
     std::size_t j = i;
     while (j < list.size() && list[j].key == list[i].key) ++j;
     if (j - i == 1) {
-      const int low = static_cast<int>(list[i].key >> 32), high = static_cast<int>(list[i].key & 0xffffffffu);
+      const int low = static_cast<int>(list[i].key >> 32),
+                high = static_cast<int>(list[i].key & 0xffffffffu);
       const Triangle& t = mesh.triangles[list[i].face];
       bool forward = false; // the face may have been turned since: look again
       for (int k = 0; k < 3; ++k) forward |= t[k] == low && t[(k + 1) % 3] == high;
@@ -32,13 +35,16 @@ std::vector<std::array<int, 2>> border_of(const TriangleMesh& mesh, const std::v
   return border;
 }
 
-/// The border as simple loops. Where holes meet in a vertex a walk comes back to it: what it went around is a loop of its own.
+/// The border as simple loops. Where holes meet in a vertex a walk comes back to it: what it went
+/// around is a loop of its own.
 /// @return empty where the border does not close
 std::vector<std::vector<int>> border_loops(const std::vector<std::array<int, 2>>& border) {
   std::vector<char> used(border.size(), 0);
   auto next_of = [&](int v) {
-    for (auto it = std::lower_bound(border.begin(), border.end(), std::array<int, 2>{v, -1}); it != border.end() && (*it)[0] == v; ++it)
-      if (!used[static_cast<std::size_t>(it - border.begin())]) return static_cast<int>(it - border.begin());
+    for (auto it = std::lower_bound(border.begin(), border.end(), std::array<int, 2>{v, -1});
+         it != border.end() && (*it)[0] == v; ++it)
+      if (!used[static_cast<std::size_t>(it - border.begin())])
+        return static_cast<int>(it - border.begin());
     return -1;
   };
   std::vector<std::vector<int>> loops;
@@ -65,24 +71,30 @@ std::vector<std::vector<int>> border_loops(const std::vector<std::array<int, 2>>
 
 } // namespace
 
-TriangleMesh own_faces(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, std::vector<int>& number) {
+TriangleMesh own_faces(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
+                       const std::vector<char>& is_body, std::vector<int>& number) {
   TriangleMesh skin;
   number.assign(positions.size(), -1);
   std::vector<int> first(positions.size() + 1, 0);
   for (const Triangle& t : triangles) {
-    if (!is_body[t[0]] || !is_body[t[1]] || !is_body[t[2]] || t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-    if (area_normal(positions[t[0]], positions[t[1]], positions[t[2]]).squaredNorm() < 1e-24) continue;
+    if (!is_body[t[0]] || !is_body[t[1]] || !is_body[t[2]] || t[0] == t[1] || t[1] == t[2] ||
+        t[2] == t[0])
+      continue;
+    if (area_normal(positions[t[0]], positions[t[1]], positions[t[2]]).squaredNorm() < 1e-24)
+      continue;
     ++first[std::min({t[0], t[1], t[2]}) + 1];
     skin.triangles.push_back(t);
   }
-  // faces by their lowest vertex, and those of one vertex by the other two: what is equal is the same face again
+  // faces by their lowest vertex, and those of one vertex by the other two: what is equal is the
+  // same face again
   std::partial_sum(first.begin(), first.end(), first.begin());
   std::vector<std::array<int, 3>> seen(skin.triangles.size()); // middle and highest vertex, face
   std::vector<int> at(first.begin(), first.end() - 1);
   for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
     const auto& [a, b, c] = skin.triangles[i];
     const int low = std::min({a, b, c}), high = std::max({a, b, c});
-    seen[at[low]++] = {static_cast<int>(static_cast<long>(a) + b + c - low - high), high, static_cast<int>(i)};
+    seen[at[low]++] = {static_cast<int>(static_cast<long>(a) + b + c - low - high), high,
+                       static_cast<int>(i)};
   }
   std::vector<char> keep(skin.triangles.size(), 1);
   for (std::size_t v = 0; v < positions.size(); ++v) {
@@ -168,19 +180,26 @@ int drop_small_pieces(TriangleMesh& mesh, std::vector<int>& of_scan) {
 
 std::vector<HalfEdge> half_edges(const TriangleMesh& mesh) {
   std::vector<HalfEdge> list(mesh.triangles.size() * 3);
-  std::vector<std::size_t> first(mesh.positions.size() + 1, 0); // by the lower vertex, then those of one vertex among themselves
+  std::vector<std::size_t> first(
+      mesh.positions.size() + 1,
+      0); // by the lower vertex, then those of one vertex among themselves
   for (const Triangle& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) ++first[std::min(t[k], t[(k + 1) % 3]) + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
   std::vector<std::size_t> at(first.begin(), first.end() - 1);
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
     for (int k = 0; k < 3; ++k) {
-      const auto a = static_cast<std::uint64_t>(mesh.triangles[f][k]), b = static_cast<std::uint64_t>(mesh.triangles[f][(k + 1) % 3]);
-      list[at[std::min(a, b)]++] = {std::min(a, b) << 32 | std::max(a, b), static_cast<int>(f), a < b};
+      const auto a = static_cast<std::uint64_t>(mesh.triangles[f][k]),
+                 b = static_cast<std::uint64_t>(mesh.triangles[f][(k + 1) % 3]);
+      list[at[std::min(a, b)]++] = {std::min(a, b) << 32 | std::max(a, b), static_cast<int>(f),
+                                    a < b};
     }
   for (std::size_t v = 0; v + 1 < first.size(); ++v)
-    std::sort(list.begin() + static_cast<std::ptrdiff_t>(first[v]), list.begin() + static_cast<std::ptrdiff_t>(first[v + 1]),
-              [](const HalfEdge& a, const HalfEdge& b) { return a.key != b.key ? a.key < b.key : a.face < b.face; });
+    std::sort(list.begin() + static_cast<std::ptrdiff_t>(first[v]),
+              list.begin() + static_cast<std::ptrdiff_t>(first[v + 1]),
+              [](const HalfEdge& a, const HalfEdge& b) {
+                return a.key != b.key ? a.key < b.key : a.face < b.face;
+              });
   return list;
 }
 
@@ -199,7 +218,8 @@ EdgeCounts count_edges(const std::vector<HalfEdge>& list) {
 
 void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
   const std::size_t n = mesh.triangles.size();
-  // pieces of faces that neighbour over an edge of two, each face turned or not against the piece's lowest: a disjoint-set forest with parity
+  // pieces of faces that neighbour over an edge of two, each face turned or not against the piece's
+  // lowest: a disjoint-set forest with parity
   std::vector<int> parent(n);
   std::vector<char> against(n, 0); // the parent
   std::iota(parent.begin(), parent.end(), 0);
@@ -216,10 +236,13 @@ void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
   };
   for (std::size_t i = 0; i + 1 < list.size(); ++i) {
     if (list[i].key != list[i + 1].key) continue;
-    if ((i > 0 && list[i - 1].key == list[i].key) || (i + 2 < list.size() && list[i + 2].key == list[i].key)) continue; // crowded
+    if ((i > 0 && list[i - 1].key == list[i].key) ||
+        (i + 2 < list.size() && list[i + 2].key == list[i].key))
+      continue; // crowded
     const int a = root(list[i].face), b = root(list[i + 1].face);
     if (a == b) continue;
-    const char turned_a = a == list[i].face ? 0 : against[list[i].face], turned_b = b == list[i + 1].face ? 0 : against[list[i + 1].face];
+    const char turned_a = a == list[i].face ? 0 : against[list[i].face],
+               turned_b = b == list[i + 1].face ? 0 : against[list[i + 1].face];
     parent[std::max(a, b)] = std::min(a, b);
     against[std::max(a, b)] = turned_a ^ turned_b ^ (list[i].forward == list[i + 1].forward);
   }
@@ -228,7 +251,8 @@ void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
   std::vector<double> volume(n, 0);
   for (std::size_t f = 0; f < n; ++f) {
     const int piece = root(static_cast<int>(f));
-    if (piece != static_cast<int>(f) && against[f]) std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
+    if (piece != static_cast<int>(f) && against[f])
+      std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
     middle[piece] += mesh.positions[mesh.triangles[f][0]];
     ++count[piece];
   }
@@ -236,13 +260,15 @@ void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
     const int piece = parent[f];
     const Vec3 o = middle[piece] / count[piece];
     const Triangle& t = mesh.triangles[f];
-    volume[piece] += (mesh.positions[t[0]] - o).dot((mesh.positions[t[1]] - o).cross(mesh.positions[t[2]] - o));
+    volume[piece] +=
+        (mesh.positions[t[0]] - o).dot((mesh.positions[t[1]] - o).cross(mesh.positions[t[2]] - o));
   }
   for (std::size_t f = 0; f < n; ++f)
     if (volume[parent[f]] < 0) std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
 }
 
-std::vector<Hole> holes_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& list, double least, std::size_t most) {
+std::vector<Hole> holes_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& list,
+                           double least, std::size_t most) {
   const std::vector<std::array<int, 2>> border = border_of(mesh, list);
   DisjointSets joined(mesh.positions.size());
   for (const auto& [a, b] : border) joined.unite(a, b);
@@ -260,7 +286,8 @@ std::vector<Hole> holes_of(const TriangleMesh& mesh, const std::vector<HalfEdge>
     hole.center /= hole.edges;
     if (hole.width >= least) holes.push_back(hole);
   }
-  std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) { return a.width > b.width; });
+  std::stable_sort(holes.begin(), holes.end(),
+                   [](const Hole& a, const Hole& b) { return a.width > b.width; });
   if (holes.size() > most) holes.resize(most);
   return holes;
 }
@@ -275,7 +302,8 @@ bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double wi
   }
   std::vector<Vec3> normal(mesh.positions.size(), Vec3::Zero());
   for (const Triangle& t : mesh.triangles) {
-    const Vec3 facing = area_normal(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+    const Vec3 facing =
+        area_normal(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
     for (const int v : t) normal[v] += facing;
   }
   for (const std::vector<int>& loop : loops) {
@@ -285,7 +313,8 @@ bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double wi
     }
     Vec3 middle = Vec3::Zero();
     for (const int v : loop) middle += mesh.positions[v] / static_cast<double>(loop.size());
-    if (loop.size() <= FEW_EDGES) { // over a sphere the hub stands half as far out as its rim's normals lean, which without the faces inside lean too far
+    if (loop.size() <= FEW_EDGES) { // over a sphere the hub stands half as far out as its rim's
+                                    // normals lean, which without the faces inside lean too far
       Vec3 out = Vec3::Zero();
       double lean = 0, reach = 0;
       for (const int v : loop) {
@@ -295,11 +324,13 @@ bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double wi
         out += normal[v] / length;
         lean += share * arm.dot(normal[v]) / length, reach += share * arm.norm();
       }
-      if (const double length = out.norm(); length > 0) middle += std::clamp(0.3 * lean, -0.2 * reach, 0.2 * reach) / length * out;
+      if (const double length = out.norm(); length > 0)
+        middle += std::clamp(0.3 * lean, -0.2 * reach, 0.2 * reach) / length * out;
     }
     const int hub = static_cast<int>(mesh.positions.size());
     mesh.positions.push_back(middle);
-    for (std::size_t k = 0; k < loop.size(); ++k) mesh.triangles.push_back({loop[k], loop[(k + 1) % loop.size()], hub});
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      mesh.triangles.push_back({loop[k], loop[(k + 1) % loop.size()], hub});
   }
   return true;
 }

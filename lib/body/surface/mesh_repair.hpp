@@ -17,17 +17,22 @@ struct EdgeCounts {
   int flipped = 0; ///< with two that disagree about outside
 };
 
-/// The scan's faces whose corners are all body; degenerate and duplicate ones and unused vertices are left out.
+/// The scan's faces whose corners are all body; degenerate and duplicate ones and unused vertices
+/// are left out.
 /// @param number filled with the skin vertex of every scan vertex, -1 where there is none
-TriangleMesh own_faces(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& is_body, std::vector<int>& number);
-/// STL and some exporters give every face its own corners: joins vertices at the same place. @return whether there were any
+TriangleMesh own_faces(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
+                       const std::vector<char>& is_body, std::vector<int>& number);
+/// STL and some exporters give every face its own corners: joins vertices at the same place.
+/// @return whether there were any
 bool weld(TriangleMesh& mesh, std::vector<int>& of_scan);
-/// Leaves out pieces of less than a hundredth of all faces: eyes, inner shells, crumbs. @return how many pieces
+/// Leaves out pieces of less than a hundredth of all faces: eyes, inner shells, crumbs. @return how
+/// many pieces
 int drop_small_pieces(TriangleMesh& mesh, std::vector<int>& of_scan);
 /// All half edges, those of one edge together, in order of vertices, then faces.
 std::vector<HalfEdge> half_edges(const TriangleMesh& mesh);
 EdgeCounts count_edges(const std::vector<HalfEdge>& list);
-/// Turns faces so that neighbours agree, piece by piece, and each piece so that its volume is positive.
+/// Turns faces so that neighbours agree, piece by piece, and each piece so that its volume is
+/// positive.
 void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list);
 /// A place where the border of the faces goes around.
 struct Hole {
@@ -35,10 +40,13 @@ struct Hole {
   double width = 0; ///< diagonal of the box around its border, m
   int edges = 0;
 };
-/// Every connected piece of the border of at least `least` width, m; the widest first, at most `most` of them.
-std::vector<Hole> holes_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& list, double least, std::size_t most);
-/// Closes every hole with a fan around its middle. @return false, with the mesh untouched, where one is wider than `widest`, m, and
-/// more than a few edges long, or where the border does not close
+/// Every connected piece of the border of at least `least` width, m; the widest first, at most
+/// `most` of them.
+std::vector<Hole> holes_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& list,
+                           double least, std::size_t most);
+/// Closes every hole with a fan around its middle. @return false, with the mesh untouched, where
+/// one is wider than `widest`, m, and more than a few edges long, or where the border does not
+/// close
 bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double widest);
 
 } // namespace sloper::body

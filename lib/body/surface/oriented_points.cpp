@@ -18,8 +18,10 @@ struct CellKey {
 };
 
 /// Points on a triangle that is longer than the spacing, so that coarse meshes are covered too.
-void add_face_samples(const Vec3& a, const Vec3& b, const Vec3& c, double spacing, std::vector<Vec3>& points) {
-  const double longest = std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+void add_face_samples(const Vec3& a, const Vec3& b, const Vec3& c, double spacing,
+                      std::vector<Vec3>& points) {
+  const double longest =
+      std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
   if (longest <= spacing) return;
   const int n = std::min(200, static_cast<int>(std::ceil(longest / (0.6 * spacing))));
   for (int i = 0; i <= n; ++i)
@@ -33,13 +35,17 @@ void add_face_samples(const Vec3& a, const Vec3& b, const Vec3& c, double spacin
 std::vector<Vec3> average_by_cell(const std::vector<Vec3>& points, double cell) {
   std::vector<CellKey> keys(points.size());
   auto key = [&](double x) { return static_cast<long>(std::floor(x / cell)); };
-  for (std::size_t i = 0; i < points.size(); ++i) keys[i] = {key(points[i].x()), key(points[i].y()), key(points[i].z()), static_cast<int>(i)};
-  std::sort(keys.begin(), keys.end(), [](const CellKey& a, const CellKey& b) { return std::tie(a.x, a.y, a.z, a.index) < std::tie(b.x, b.y, b.z, b.index); });
+  for (std::size_t i = 0; i < points.size(); ++i)
+    keys[i] = {key(points[i].x()), key(points[i].y()), key(points[i].z()), static_cast<int>(i)};
+  std::sort(keys.begin(), keys.end(), [](const CellKey& a, const CellKey& b) {
+    return std::tie(a.x, a.y, a.z, a.index) < std::tie(b.x, b.y, b.z, b.index);
+  });
   std::vector<Vec3> means;
   for (std::size_t i = 0; i < keys.size();) {
     std::size_t j = i;
     Vec3 sum = Vec3::Zero();
-    for (; j < keys.size() && keys[j].same_cell(keys[i]); ++j) sum += points[static_cast<std::size_t>(keys[j].index)];
+    for (; j < keys.size() && keys[j].same_cell(keys[i]); ++j)
+      sum += points[static_cast<std::size_t>(keys[j].index)];
     means.push_back(sum / static_cast<double>(j - i));
     i = j;
   }
@@ -55,7 +61,8 @@ public:
     m_full.assign(static_cast<std::size_t>(m_n[0]) * m_n[1] * m_n[2], 0);
     for (const Vec3& p : points) {
       int c[3];
-      for (int a = 0; a < 3; ++a) c[a] = std::min(m_n[a] - 1, static_cast<int>((p[a] - m_box.low[a]) / cell));
+      for (int a = 0; a < 3; ++a)
+        c[a] = std::min(m_n[a] - 1, static_cast<int>((p[a] - m_box.low[a]) / cell));
       m_full[(static_cast<std::size_t>(c[0]) * m_n[1] + c[1]) * m_n[2] + c[2]] = 1;
     }
   }
@@ -122,14 +129,16 @@ void orient_outward(OrientedPoints& samples, const PointGrid& grid) {
 
 } // namespace
 
-OrientedPoints sample_surface(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<char>& use, double spacing,
-                              double max_lonely_share) {
+OrientedPoints sample_surface(const std::vector<Vec3>& positions,
+                              const std::vector<Triangle>& triangles, const std::vector<char>& use,
+                              double spacing, double max_lonely_share) {
   std::vector<Vec3> points;
   for (std::size_t v = 0; v < positions.size(); ++v)
     if (use[v]) points.push_back(positions[v]);
   const std::size_t n_scan = points.size();
   for (const Triangle& t : triangles)
-    if (use[t[0]] && use[t[1]] && use[t[2]]) add_face_samples(positions[t[0]], positions[t[1]], positions[t[2]], spacing, points);
+    if (use[t[0]] && use[t[1]] && use[t[2]])
+      add_face_samples(positions[t[0]], positions[t[1]], positions[t[2]], spacing, points);
   OrientedPoints samples;
   samples.spacing = spacing;
   samples.position = average_by_cell(points, spacing);

@@ -17,13 +17,15 @@ public:
     m_first.assign(size + 1, 0);
     std::vector<std::uint32_t> bucket(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-      bucket[i] = static_cast<std::uint32_t>(hash(key(points[i].x()), key(points[i].y()), key(points[i].z())));
+      bucket[i] = static_cast<std::uint32_t>(
+          hash(key(points[i].x()), key(points[i].y()), key(points[i].z())));
       ++m_first[bucket[i] + 1];
     }
     for (std::size_t b = 1; b < m_first.size(); ++b) m_first[b] += m_first[b - 1];
     m_items.resize(points.size());
     std::vector<int> at(m_first.begin(), m_first.end() - 1);
-    for (std::size_t i = 0; i < points.size(); ++i) m_items[static_cast<std::size_t>(at[bucket[i]]++)] = static_cast<int>(i);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      m_items[static_cast<std::size_t>(at[bucket[i]]++)] = static_cast<int>(i);
   }
   double cell() const { return m_cell; }
   /// Calls visit(index, squared distance) for every point within `radius` <= cell of q.
@@ -35,7 +37,8 @@ public:
       for (long dy = -1; dy <= 1; ++dy)
         for (long dz = -1; dz <= 1; ++dz) {
           const std::size_t b = hash(x + dx, y + dy, z + dz);
-          if (std::find(seen, seen + n_seen, b) != seen + n_seen) continue; // two cells may share a bucket
+          if (std::find(seen, seen + n_seen, b) != seen + n_seen)
+            continue; // two cells may share a bucket
           seen[n_seen++] = b;
           for (int i = m_first[b]; i < m_first[b + 1]; ++i) {
             const double d = ((*m_points)[static_cast<std::size_t>(m_items[i])] - q).squaredNorm();
@@ -56,7 +59,9 @@ public:
 private:
   long key(double x) const { return static_cast<long>(std::floor(x / m_cell)); }
   std::size_t hash(long x, long y, long z) const {
-    return (static_cast<std::size_t>(x) * 73856093u ^ static_cast<std::size_t>(y) * 19349663u ^ static_cast<std::size_t>(z) * 83492791u) & m_mask;
+    return (static_cast<std::size_t>(x) * 73856093u ^ static_cast<std::size_t>(y) * 19349663u ^
+            static_cast<std::size_t>(z) * 83492791u) &
+           m_mask;
   }
   const std::vector<Vec3>* m_points;
   double m_cell;

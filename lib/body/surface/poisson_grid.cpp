@@ -12,9 +12,12 @@ struct GridLevel {
   std::array<int, 3> n;
   double h;
   std::vector<float> u, f;
-  GridLevel(const std::array<int, 3>& size, double spacing) : n(size), h(spacing), u(count(), 0.0f), f(count(), 0.0f) {}
+  GridLevel(const std::array<int, 3>& size, double spacing)
+      : n(size), h(spacing), u(count(), 0.0f), f(count(), 0.0f) {}
   std::size_t count() const { return static_cast<std::size_t>(n[0]) * n[1] * n[2]; }
-  std::size_t at(int x, int y, int z) const { return (static_cast<std::size_t>(z) * n[1] + y) * n[0] + x; }
+  std::size_t at(int x, int y, int z) const {
+    return (static_cast<std::size_t>(z) * n[1] + y) * n[0] + x;
+  }
 };
 
 /// Red-black Gauss-Seidel.
@@ -26,7 +29,9 @@ void relax(GridLevel& g, int sweeps) {
       for (int y = 1; y < g.n[1] - 1; ++y)
         for (int x = 1 + ((y + z + sweep) & 1); x < g.n[0] - 1; x += 2) {
           const std::size_t i = g.at(x, y, z);
-          g.u[i] = (g.u[i - sx] + g.u[i + sx] + g.u[i - sy] + g.u[i + sy] + g.u[i - sz] + g.u[i + sz] - h2 * g.f[i]) * (1.0f / 6.0f);
+          g.u[i] = (g.u[i - sx] + g.u[i + sx] + g.u[i - sy] + g.u[i + sy] + g.u[i - sz] +
+                    g.u[i + sz] - h2 * g.f[i]) *
+                   (1.0f / 6.0f);
         }
 }
 
@@ -40,7 +45,9 @@ void restrict_residual(const GridLevel& fine, GridLevel& coarse) {
       for (int x = 1; x < fine.n[0] - 1; ++x) {
         const std::size_t i = fine.at(x, y, z);
         residual[i] =
-            fine.f[i] - (fine.u[i - sx] + fine.u[i + sx] + fine.u[i - sy] + fine.u[i + sy] + fine.u[i - sz] + fine.u[i + sz] - 6 * fine.u[i]) * inverse;
+            fine.f[i] - (fine.u[i - sx] + fine.u[i + sx] + fine.u[i - sy] + fine.u[i + sy] +
+                         fine.u[i - sz] + fine.u[i + sz] - 6 * fine.u[i]) *
+                            inverse;
       }
   std::fill(coarse.u.begin(), coarse.u.end(), 0.0f);
   for (int z = 1; z < coarse.n[2] - 1; ++z)
@@ -64,11 +71,13 @@ void prolong(const GridLevel& coarse, GridLevel& fine) {
     for (int y = 1; y < fine.n[1] - 1; ++y)
       for (int x = 1; x < fine.n[0] - 1; ++x) {
         float sum = 0;
-        const int x0 = x / 2, x1 = (x + 1) / 2, y0 = y / 2, y1 = (y + 1) / 2, z0 = z / 2, z1 = (z + 1) / 2;
+        const int x0 = x / 2, x1 = (x + 1) / 2, y0 = y / 2, y1 = (y + 1) / 2, z0 = z / 2,
+                  z1 = (z + 1) / 2;
         for (const int cz : {z0, z1})
           for (const int cy : {y0, y1})
             for (const int cx : {x0, x1})
-              if (cx < coarse.n[0] && cy < coarse.n[1] && cz < coarse.n[2]) sum += coarse.u[coarse.at(cx, cy, cz)];
+              if (cx < coarse.n[0] && cy < coarse.n[1] && cz < coarse.n[2])
+                sum += coarse.u[coarse.at(cx, cy, cz)];
         fine.u[fine.at(x, y, z)] += sum * 0.125f;
       }
 }
@@ -86,19 +95,24 @@ void v_cycle(std::vector<GridLevel>& levels, std::size_t k) {
 }
 
 /// Quadratic B-spline weights of the three nodes around the nearest one; t in [-0.5, 0.5].
-std::array<double, 3> spline(double t) { return {0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)}; }
+std::array<double, 3> spline(double t) {
+  return {0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)};
+}
 
 } // namespace
 
 double NodeGrid::sample(const Vec3& p) const {
   const Vec3 q = (p - origin) / h;
-  const int x = std::clamp(static_cast<int>(q.x()), 0, n[0] - 2), y = std::clamp(static_cast<int>(q.y()), 0, n[1] - 2),
+  const int x = std::clamp(static_cast<int>(q.x()), 0, n[0] - 2),
+            y = std::clamp(static_cast<int>(q.y()), 0, n[1] - 2),
             z = std::clamp(static_cast<int>(q.z()), 0, n[2] - 2);
   const double a = q.x() - x, b = q.y() - y, c = q.z() - z;
   double sum = 0;
   for (int dz = 0; dz < 2; ++dz)
     for (int dy = 0; dy < 2; ++dy)
-      for (int dx = 0; dx < 2; ++dx) sum += (dx ? a : 1 - a) * (dy ? b : 1 - b) * (dz ? c : 1 - c) * value[at(x + dx, y + dy, z + dz)];
+      for (int dx = 0; dx < 2; ++dx)
+        sum += (dx ? a : 1 - a) * (dy ? b : 1 - b) * (dz ? c : 1 - c) *
+               value[at(x + dx, y + dy, z + dz)];
   return sum;
 }
 
@@ -115,7 +129,8 @@ NodeGrid indicator(const OrientedPoints& samples, double h) {
   std::vector<GridLevel> levels;
   levels.emplace_back(grid.n, h);
   for (int k = 0; k < 4; ++k) {
-    const std::array<int, 3> half = {(levels.back().n[0] + 1) / 2, (levels.back().n[1] + 1) / 2, (levels.back().n[2] + 1) / 2};
+    const std::array<int, 3> half = {(levels.back().n[0] + 1) / 2, (levels.back().n[1] + 1) / 2,
+                                     (levels.back().n[2] + 1) / 2};
     levels.emplace_back(half, levels.back().h * 2);
   }
   // V at the nodes, then its divergence by central differences
@@ -125,7 +140,8 @@ NodeGrid indicator(const OrientedPoints& samples, double h) {
   const double density = 1 / (h * h * h);
   for (std::size_t i = 0; i < samples.position.size(); ++i) {
     const Vec3 q = (samples.position[i] - grid.origin) / h;
-    const int x = static_cast<int>(std::lround(q.x())), y = static_cast<int>(std::lround(q.y())), z = static_cast<int>(std::lround(q.z()));
+    const int x = static_cast<int>(std::lround(q.x())), y = static_cast<int>(std::lround(q.y())),
+              z = static_cast<int>(std::lround(q.z()));
     const auto wx = spline(q.x() - x), wy = spline(q.y() - y), wz = spline(q.z() - z);
     for (int dz = 0; dz < 3; ++dz)
       for (int dy = 0; dy < 3; ++dy)
@@ -135,7 +151,8 @@ NodeGrid indicator(const OrientedPoints& samples, double h) {
           for (int a = 0; a < 3; ++a) field[a][at] += static_cast<float>(w * samples.normal[i][a]);
         }
   }
-  const std::size_t step[3] = {1, static_cast<std::size_t>(fine.n[0]), static_cast<std::size_t>(fine.n[0]) * fine.n[1]};
+  const std::size_t step[3] = {1, static_cast<std::size_t>(fine.n[0]),
+                               static_cast<std::size_t>(fine.n[0]) * fine.n[1]};
   for (int z = 1; z < fine.n[2] - 1; ++z)
     for (int y = 1; y < fine.n[1] - 1; ++y)
       for (int x = 1; x < fine.n[0] - 1; ++x) {

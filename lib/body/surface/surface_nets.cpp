@@ -8,7 +8,8 @@ namespace sloper::body {
 namespace {
 
 /// Numbers the regions of nodes with inside[i] == wanted (face neighbours); returns sizes.
-std::vector<std::size_t> label_regions(const NodeGrid& grid, const std::vector<char>& inside, char wanted, std::vector<int>& label) {
+std::vector<std::size_t> label_regions(const NodeGrid& grid, const std::vector<char>& inside,
+                                       char wanted, std::vector<int>& label) {
   std::vector<std::size_t> sizes;
   label.assign(inside.size(), -1);
   std::vector<std::size_t> stack;
@@ -24,7 +25,8 @@ std::vector<std::size_t> label_regions(const NodeGrid& grid, const std::vector<c
       const std::size_t i = stack.back();
       stack.pop_back();
       ++sizes[region];
-      const int x = static_cast<int>(i % sy), y = static_cast<int>(i / sy % ny), z = static_cast<int>(i / sz);
+      const int x = static_cast<int>(i % sy), y = static_cast<int>(i / sy % ny),
+                z = static_cast<int>(i / sz);
       auto visit = [&](bool valid, std::size_t j) {
         if (!valid || inside[j] != wanted || label[j] >= 0) return;
         label[j] = region;
@@ -43,7 +45,8 @@ void keep_one_body(const NodeGrid& grid, std::vector<char>& inside) {
   std::vector<int> label;
   const std::vector<std::size_t> in_sizes = label_regions(grid, inside, 1, label);
   if (!in_sizes.empty()) {
-    const int body = static_cast<int>(std::max_element(in_sizes.begin(), in_sizes.end()) - in_sizes.begin());
+    const int body =
+        static_cast<int>(std::max_element(in_sizes.begin(), in_sizes.end()) - in_sizes.begin());
     for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = label[i] == body;
   }
   label_regions(grid, inside, 0, label);
@@ -51,7 +54,8 @@ void keep_one_body(const NodeGrid& grid, std::vector<char>& inside) {
     if (label[i] != label[0]) inside[i] = 1; // node 0 lies on the border, outside
 }
 
-/// Fills nodes until no cell has a diagonal contact: across a face, or across the cell's body diagonal.
+/// Fills nodes until no cell has a diagonal contact: across a face, or across the cell's body
+/// diagonal.
 void remove_pinches(const NodeGrid& grid, std::vector<char>& inside) {
   bool changed = true;
   while (changed) {
@@ -71,10 +75,13 @@ void remove_pinches(const NodeGrid& grid, std::vector<char>& inside) {
             inside[pick] = 1;
             changed = true;
           };
-          static constexpr int faces[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
+          static constexpr int faces[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                              {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
           for (const auto& face : faces) {
-            const bool a = inside[corner[face[0]]], b = inside[corner[face[1]]], c = inside[corner[face[2]]], d = inside[corner[face[3]]];
-            if (a == c && b == d && a != b) a ? fill(corner[face[1]], corner[face[3]]) : fill(corner[face[0]], corner[face[2]]);
+            const bool a = inside[corner[face[0]]], b = inside[corner[face[1]]],
+                       c = inside[corner[face[2]]], d = inside[corner[face[3]]];
+            if (a == c && b == d && a != b)
+              a ? fill(corner[face[1]], corner[face[3]]) : fill(corner[face[0]], corner[face[2]]);
           }
           count = 0;
           for (int k = 0; k < 8; ++k) count += inside[corner[k]];
@@ -103,7 +110,8 @@ TriangleMesh zero_surface(NodeGrid grid) {
   }
   TriangleMesh mesh;
   std::vector<int> vertex(inside.size(), -1); // of the cell whose lowest corner this is
-  static constexpr int edges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3}, {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  static constexpr int edges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
+                                       {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
   for (int z = 0; z + 1 < grid.n[2]; ++z)
     for (int y = 0; y + 1 < grid.n[1]; ++y)
       for (int x = 0; x + 1 < grid.n[0]; ++x) {
@@ -134,7 +142,9 @@ TriangleMesh zero_surface(NodeGrid grid) {
       for (int x = 1; x + 1 < grid.n[0]; ++x) {
         const std::size_t i = grid.at(x, y, z);
         for (int axis = 0; axis < 3; ++axis) {
-          const std::size_t j = axis == 0 ? grid.at(x + 1, y, z) : axis == 1 ? grid.at(x, y + 1, z) : grid.at(x, y, z + 1);
+          const std::size_t j = axis == 0   ? grid.at(x + 1, y, z)
+                                : axis == 1 ? grid.at(x, y + 1, z)
+                                            : grid.at(x, y, z + 1);
           if (inside[i] == inside[j]) continue;
           const int u = (axis + 1) % 3, v = (axis + 2) % 3;
           auto cell = [&](int du, int dv) {
@@ -142,7 +152,8 @@ TriangleMesh zero_surface(NodeGrid grid) {
             c[u] += du, c[v] += dv;
             return vertex[grid.at(c[0], c[1], c[2])];
           };
-          int q[4] = {cell(-1, -1), cell(0, -1), cell(0, 0), cell(-1, 0)}; // counter-clockwise about +axis
+          int q[4] = {cell(-1, -1), cell(0, -1), cell(0, 0),
+                      cell(-1, 0)}; // counter-clockwise about +axis
           if (!inside[i]) std::swap(q[1], q[3]);
           const auto& p = mesh.positions;
           if ((p[q[0]] - p[q[2]]).squaredNorm() <= (p[q[1]] - p[q[3]]).squaredNorm()) {

@@ -18,7 +18,8 @@ constexpr double DEEPEST = 0.006;     ///< m: skin that passes farther into othe
 constexpr double LARGEST_WAY = 0.003; ///< m
 constexpr double LEAST_TURN = 0.5;    ///< cosine of the angle by which a triangle may turn
 
-/// Unit normals of the vertices, weighted by area: all that is asked of them is which way the skin faces.
+/// Unit normals of the vertices, weighted by area: all that is asked of them is which way the skin
+/// faces.
 std::vector<Vec3> rough_normals(const TriangleMesh& skin, const std::vector<Triangle>& triangles) {
   std::vector<Vec3> normals(skin.positions.size(), Vec3::Zero());
   for (const Triangle& t : triangles) {
@@ -30,8 +31,10 @@ std::vector<Vec3> rough_normals(const TriangleMesh& skin, const std::vector<Tria
   return normals;
 }
 
-/// One round of spreading: the ways of the marked vertices go halfway to the mean of their neighbours'.
-void spread(const std::vector<std::array<int, 2>>& edges, const std::vector<char>& mark, std::vector<Vec3>& way) {
+/// One round of spreading: the ways of the marked vertices go halfway to the mean of their
+/// neighbours'.
+void spread(const std::vector<std::array<int, 2>>& edges, const std::vector<char>& mark,
+            std::vector<Vec3>& way) {
   std::vector<Vec3> sum(way.size(), Vec3::Zero());
   std::vector<int> count(way.size(), 0);
   for (const auto& [a, b] : edges) {
@@ -45,7 +48,8 @@ void spread(const std::vector<std::array<int, 2>>& edges, const std::vector<char
 }
 
 /// The triangles within so many rings of the marked vertices: `mark` grows with them.
-std::vector<Triangle> triangles_around(const TriangleMesh& skin, std::vector<char> mark, int rings) {
+std::vector<Triangle> triangles_around(const TriangleMesh& skin, std::vector<char> mark,
+                                       int rings) {
   std::vector<Triangle> around;
   for (int ring = 0; ring <= rings; ++ring) {
     around.clear();
@@ -60,11 +64,14 @@ std::vector<Triangle> triangles_around(const TriangleMesh& skin, std::vector<cha
   return around;
 }
 
-/// Vertices with skin that looks the other way somewhere within about a cell: by a grid of the directions that skin faces.
+/// Vertices with skin that looks the other way somewhere within about a cell: by a grid of the
+/// directions that skin faces.
 std::vector<char> facing_candidates(const TriangleMesh& skin, const std::vector<char>& may_move) {
   constexpr double POINT_CELL = 0.008; // m
   const std::vector<Vec3> normals = rough_normals(skin, skin.triangles);
-  const auto key = [](long x, long y, long z) { return ((x + 100000) << 40) + ((y + 100000) << 20) + (z + 100000); };
+  const auto key = [](long x, long y, long z) {
+    return ((x + 100000) << 40) + ((y + 100000) << 20) + (z + 100000);
+  };
   std::vector<std::pair<long, int>> faced; // cell, six bits: which way its skin faces
   std::unordered_map<long, int> number;    // of a cell in `faced`, while it is not yet sorted
   number.reserve(skin.positions.size() / 4);
@@ -72,38 +79,47 @@ std::vector<char> facing_candidates(const TriangleMesh& skin, const std::vector<
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
     if (!may_move[v]) continue;
     const Vec3 p = skin.positions[v] / POINT_CELL;
-    const auto [at, is_new] = number.try_emplace(key(std::lround(p.x()), std::lround(p.y()), std::lround(p.z())), static_cast<int>(faced.size()));
+    const auto [at, is_new] =
+        number.try_emplace(key(std::lround(p.x()), std::lround(p.y()), std::lround(p.z())),
+                           static_cast<int>(faced.size()));
     if (is_new) faced.emplace_back(at->first, 0);
     cell_of[v] = at->second;
-    for (int a = 0; a < 3; ++a) faced[at->second].second |= normals[v][a] > 0.5 ? 1 << a : normals[v][a] < -0.5 ? 8 << a : 0;
+    for (int a = 0; a < 3; ++a)
+      faced[at->second].second |= normals[v][a] > 0.5 ? 1 << a : normals[v][a] < -0.5 ? 8 << a : 0;
   }
   const std::size_t n = faced.size();
   std::vector<int> order(n), place(n);
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return faced[a].first < faced[b].first; });
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return faced[a].first < faced[b].first; });
   std::vector<std::pair<long, int>> sorted;
-  for (std::size_t i = 0; i < n; ++i) place[order[i]] = static_cast<int>(i), sorted.push_back(faced[order[i]]);
+  for (std::size_t i = 0; i < n; ++i)
+    place[order[i]] = static_cast<int>(i), sorted.push_back(faced[order[i]]);
   faced = std::move(sorted);
   std::vector<int> around(n, 0); // the same over the neighbour cells
   for (long x = -1; x <= 1; ++x)
     for (long y = -1; y <= 1; ++y)
-      for (std::size_t i = 0, from = 0; i < n; ++i) { // cells come in order, and so do their neighbours on this side
+      for (std::size_t i = 0, from = 0; i < n;
+           ++i) { // cells come in order, and so do their neighbours on this side
         const long low = faced[i].first + (x << 40) + (y << 20) - 1;
         while (from < n && faced[from].first < low) ++from;
-        for (std::size_t at = from; at < n && faced[at].first <= low + 2; ++at) around[i] |= faced[at].second;
+        for (std::size_t at = from; at < n && faced[at].first <= low + 2; ++at)
+          around[i] |= faced[at].second;
       }
   std::vector<char> candidate(skin.positions.size(), 0);
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
     if (!may_move[v]) continue;
     int against = 0;
-    for (int a = 0; a < 3; ++a) against |= normals[v][a] > 0.25 ? 8 << a : normals[v][a] < -0.25 ? 1 << a : 0;
+    for (int a = 0; a < 3; ++a)
+      against |= normals[v][a] > 0.25 ? 8 << a : normals[v][a] < -0.25 ? 1 << a : 0;
     candidate[v] = (around[place[cell_of[v]]] & against) != 0;
   }
   return candidate;
 }
 
 /// Ways that part the skin by what is missing; `wants` marks the vertices that have one.
-std::vector<Vec3> wanted_ways(const TriangleMesh& skin, const std::vector<char>& candidate, const std::vector<Triangle>& near, double gap_m,
+std::vector<Vec3> wanted_ways(const TriangleMesh& skin, const std::vector<char>& candidate,
+                              const std::vector<Triangle>& near, double gap_m,
                               std::vector<char>& wants) {
   const std::vector<Vec3> normals = rough_normals(skin, near);
   const collision::TriangleTree tree(skin.positions, near);
@@ -117,7 +133,9 @@ std::vector<Vec3> wanted_ways(const TriangleMesh& skin, const std::vector<char>&
     tree.visit_overlaps({p.array() - reach, p.array() + reach}, [&](int f) {
       const Triangle& t = near[f];
       const Vec3 &a = skin.positions[t[0]], &b = skin.positions[t[1]], &c = skin.positions[t[2]];
-      const Vec3 facing = (normals[t[0]] + normals[t[1]] + normals[t[2]]).normalized(); // of its vertices: one triangle of a rough skin looks anywhere
+      const Vec3 facing =
+          (normals[t[0]] + normals[t[1]] + normals[t[2]])
+              .normalized(); // of its vertices: one triangle of a rough skin looks anywhere
       if (!(facing.dot(normals[v]) < OPPOSED)) return;
       const Vec3 away = p - collision::point_triangle(p, a, b, c).point;
       const double gap = away.dot(facing);
@@ -130,10 +148,11 @@ std::vector<Vec3> wanted_ways(const TriangleMesh& skin, const std::vector<char>&
   return way;
 }
 
-/// Evens out the ways around triangles that they turn over or nearly so: where the walls of a slot meet, each vertex would go its own way,
-/// and fine skin would lie in folds across the slot.
-void unfold(const std::vector<Vec3>& before, const std::vector<Triangle>& triangles, const std::vector<std::array<int, 2>>& edges,
-            const std::vector<char>& may_move, std::vector<Vec3>& way) {
+/// Evens out the ways around triangles that they turn over or nearly so: where the walls of a slot
+/// meet, each vertex would go its own way, and fine skin would lie in folds across the slot.
+void unfold(const std::vector<Vec3>& before, const std::vector<Triangle>& triangles,
+            const std::vector<std::array<int, 2>>& edges, const std::vector<char>& may_move,
+            std::vector<Vec3>& way) {
   constexpr int MOST_ROUNDS = 100;
   std::vector<char> folded(way.size());
   for (int round = 0; round < MOST_ROUNDS; ++round) {

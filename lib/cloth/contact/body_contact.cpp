@@ -15,14 +15,16 @@ namespace {
 constexpr double APPROACH = 0.7;
 /// A crossed pair is pushed as if at most this deep, m: a deep start is pushed out, not shot out.
 constexpr double DEEPEST = 0.002;
-/// Each time that crossings are looked for and found, crossed pairs are pushed harder by this factor, up to a limit.
+/// Each time that crossings are looked for and found, crossed pairs are pushed harder by this
+/// factor, up to a limit.
 constexpr double HARDER = 1.3, HARDEST = 100;
-/// The way between a crossed pair is its normal only within 60 degrees of the skin's: beyond, its sign would be noise.
+/// The way between a crossed pair is its normal only within 60 degrees of the skin's: beyond, its
+/// sign would be noise.
 constexpr double CONE = 0.5;
 
 /// Of a crossed pair, d <= 0 below the skin: a spring of constant stiffness beyond the reach.
-Push push_out_of(double d, double reach, double k) {
-  Push p;
+ContactResponse push_out_of(double d, double reach, double k) {
+  ContactResponse p;
   if (d >= reach) return p;
   const double depth = std::min(reach - d, reach + DEEPEST);
   p.force = 0.5 * k * depth;
@@ -33,10 +35,13 @@ Push push_out_of(double d, double reach, double k) {
 
 } // namespace
 
-BodyContactEffect::BodyContactEffect(const ClothMesh& mesh, collision::BodyCollider& body, const BodyContactOptions& options)
+BodyContactEffect::BodyContactEffect(const ClothMesh& mesh, collision::BodyCollider& body,
+                                     const BodyContactOptions& options)
     : m_mesh(mesh), m_body(body), m_options(options), m_triangles(mesh.particle_triangles()),
-      m_topology(collision::make_topology(mesh.n_particles, m_triangles)), m_clearance(mesh.n_particles), m_load(mesh.n_particles, Vec3::Zero()),
-      m_load_stiffness(mesh.n_particles), m_tangent(mesh.n_particles), m_anchor(mesh.n_particles, Vec3::Zero()), m_carried(m_anchor),
+      m_topology(collision::make_topology(mesh.n_particles, m_triangles)),
+      m_clearance(mesh.n_particles), m_load(mesh.n_particles, Vec3::Zero()),
+      m_load_stiffness(mesh.n_particles), m_tangent(mesh.n_particles),
+      m_anchor(mesh.n_particles, Vec3::Zero()), m_carried(m_anchor),
       m_has_anchor(mesh.n_particles, 0) {
   m_edge_area.assign(m_topology.edges.size(), 0);
   for (std::size_t f = 0; f < m_triangles.size(); ++f) {
@@ -52,10 +57,12 @@ BodyContactEffect::BodyContactEffect(const ClothMesh& mesh, collision::BodyColli
 /// Which share of the reach each face and vertex of the skin covers.
 void BodyContactEffect::weigh_skin() {
   const TriangleMesh& skin = m_body.mesh();
-  const double disc = units::PI * m_options.gap_m * m_options.gap_m, edge_disc = disc * EDGE_REACH * EDGE_REACH;
+  const double disc = units::PI * m_options.gap_m * m_options.gap_m,
+               edge_disc = disc * EDGE_REACH * EDGE_REACH;
   m_body_vertex_weight.assign(skin.positions.size(), 0);
   for (const Triangle& t : skin.triangles) {
-    const Vec3 a = skin.positions[t[1]] - skin.positions[t[0]], b = skin.positions[t[2]] - skin.positions[t[0]];
+    const Vec3 a = skin.positions[t[1]] - skin.positions[t[0]],
+               b = skin.positions[t[2]] - skin.positions[t[0]];
     const double area = 0.5 * a.cross(b).norm();
     m_body_face_weight.push_back(area / (area + disc));
     for (int v : t) m_body_vertex_weight[v] += area / 3;
@@ -64,7 +71,8 @@ void BodyContactEffect::weigh_skin() {
 }
 
 void BodyContactEffect::declare(Couplings& couplings) const {
-  couplings.symmetric.insert(couplings.symmetric.end(), m_topology.edges.begin(), m_topology.edges.end());
+  couplings.symmetric.insert(couplings.symmetric.end(), m_topology.edges.begin(),
+                             m_topology.edges.end());
 }
 
 void BodyContactEffect::bind(const BlockMatrix& matrix) {
@@ -83,7 +91,8 @@ void BodyContactEffect::recall(const Memory& memory) {
 
 Vec3 BodyContactEffect::crossing_place() const {
   const auto first = std::find(m_crossing.begin(), m_crossing.end(), 1);
-  return first == m_crossing.end() ? Vec3(Vec3::Zero()) : m_searched_at[m_triangles[first - m_crossing.begin()][0]];
+  return first == m_crossing.end() ? Vec3(Vec3::Zero())
+                                   : m_searched_at[m_triangles[first - m_crossing.begin()][0]];
 }
 
 void BodyContactEffect::begin_step(const std::vector<Vec3>& x, double) {
@@ -91,7 +100,8 @@ void BodyContactEffect::begin_step(const std::vector<Vec3>& x, double) {
   m_stale = m_stale || m_n_crossing > 0;
   for (std::size_t i = 0; !m_stale && i < x.size(); ++i) {
     const double moved = (x[i] - m_searched_at[i]).norm() + m_skin_moved[i];
-    m_stale = moved > (m_reach_now[i] > edge_radius ? USED * m_reach_now[i] : USED * m_options.slack_m);
+    m_stale =
+        moved > (m_reach_now[i] > edge_radius ? USED * m_reach_now[i] : USED * m_options.slack_m);
   }
   if (m_stale) search(x);
 }
@@ -116,13 +126,15 @@ void BodyContactEffect::find_crossed(const std::vector<Vec3>& x) {
 
 /// Fills m_asked and m_reach_now from lower bounds of the distances to the skin.
 void BodyContactEffect::measure_clearance(const std::vector<Vec3>& x) {
-  const double near = m_options.gap_m + m_options.slack_m, edge_radius = EDGE_REACH * m_options.gap_m + m_options.slack_m;
+  const double near = m_options.gap_m + m_options.slack_m,
+               edge_radius = EDGE_REACH * m_options.gap_m + m_options.slack_m;
   std::vector<double> bound(x.size());
   parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Clearance& c = m_clearance[i];
       const double moved = (x[i] - c.at).norm();
-      // What was near is taken for near for a while without asking; what is surely far is not asked either.
+      // What was near is taken for near for a while without asking; what is surely far is not asked
+      // either.
       const bool still_near = c.distance >= 0 && c.distance <= near && moved < near;
       const bool still_far = c.distance - moved > 0.5 * FAR;
       if (!still_near && !still_far) {
@@ -170,8 +182,14 @@ void BodyContactEffect::collect_pairs() {
     bool crossed = false;
     if (!clean)
       for (int f : m_topology.triangles_of_edge(found.edge)) crossed |= m_crossing[f];
-    m_pairs.push_back(
-        {{m_edge_slot[found.edge], 0, 0}, {e[0], e[1], 0}, {b0, b1, 0}, 2, 2, crossed, reach, k * m_edge_area[found.edge] * length / (length + 2 * reach)});
+    m_pairs.push_back({{m_edge_slot[found.edge], 0, 0},
+                       {e[0], e[1], 0},
+                       {b0, b1, 0},
+                       2,
+                       2,
+                       crossed,
+                       reach,
+                       k * m_edge_area[found.edge] * length / (length + 2 * reach)});
     m_pairs.back().clear = found.distance;
   }
   for (const auto& found : m_found.face_vertex) {
@@ -191,7 +209,8 @@ void BodyContactEffect::collect_pairs() {
 void BodyContactEffect::search(const std::vector<Vec3>& x) {
   if (m_look_for_crossings || m_n_crossing > 0 || !guarded()) find_crossed(x);
   measure_clearance(x);
-  m_body.near_pairs(x, m_triangles, m_topology, m_asked, m_options.gap_m + m_options.slack_m, EDGE_REACH * m_options.gap_m + m_options.slack_m, m_found);
+  m_body.near_pairs(x, m_triangles, m_topology, m_asked, m_options.gap_m + m_options.slack_m,
+                    EDGE_REACH * m_options.gap_m + m_options.slack_m, m_found);
   if (m_options.level < ContactLevel::EDGE) m_found.edge_edge.clear();
   if (m_options.level < ContactLevel::FACE) m_found.face_vertex.clear();
   collect_pairs();
@@ -201,24 +220,28 @@ void BodyContactEffect::search(const std::vector<Vec3>& x) {
   ++searches;
 }
 
-BodyContactEffect::Closest BodyContactEffect::closest(const Pair& pair, const std::vector<Vec3>& x) const {
+BodyContactEffect::Closest BodyContactEffect::closest(const Pair& pair,
+                                                      const std::vector<Vec3>& x) const {
   const std::vector<Vec3>& skin = m_body.mesh().positions;
   Closest c;
   Vec3 away;
   if (pair.n == 1) {
-    const auto d = collision::point_triangle(x[pair.particle[0]], skin[pair.body[0]], skin[pair.body[1]], skin[pair.body[2]]);
+    const auto d = collision::point_triangle(x[pair.particle[0]], skin[pair.body[0]],
+                                             skin[pair.body[1]], skin[pair.body[2]]);
     c.weight = {1, 0, 0};
     c.body_weight = {d.barycentric[0], d.barycentric[1], d.barycentric[2]};
     away = x[pair.particle[0]] - d.point;
   } else if (pair.n == 2) {
-    const Vec3 &a0 = x[pair.particle[0]], &a1 = x[pair.particle[1]], &b0 = skin[pair.body[0]], &b1 = skin[pair.body[1]];
+    const Vec3 &a0 = x[pair.particle[0]], &a1 = x[pair.particle[1]], &b0 = skin[pair.body[0]],
+               &b1 = skin[pair.body[1]];
     const auto d = collision::edge_edge(a0, a1, b0, b1);
     c.weight = {1 - d.s, d.s, 0};
     c.body_weight = {1 - d.t, d.t, 0};
     away = a0 + d.s * (a1 - a0) - b0 - d.t * (b1 - b0);
   } else {
     const Vec3& b = skin[pair.body[0]];
-    const auto d = collision::point_triangle(b, x[pair.particle[0]], x[pair.particle[1]], x[pair.particle[2]]);
+    const auto d =
+        collision::point_triangle(b, x[pair.particle[0]], x[pair.particle[1]], x[pair.particle[2]]);
     c.weight = {d.barycentric[0], d.barycentric[1], d.barycentric[2]};
     c.body_weight = {1, 0, 0};
     away = d.point - b;
@@ -230,7 +253,8 @@ BodyContactEffect::Closest BodyContactEffect::closest(const Pair& pair, const st
     return c;
   }
   Vec3 skin_normal = Vec3::Zero();
-  for (int k = 0; k < pair.n_body; ++k) skin_normal += c.body_weight[k] * m_body.vertex_normals()[pair.body[k]];
+  for (int k = 0; k < pair.n_body; ++k)
+    skin_normal += c.body_weight[k] * m_body.vertex_normals()[pair.body[k]];
   skin_normal.normalize();
   const double height = away.dot(skin_normal);
   if (c.valid && std::abs(height) >= CONE * c.distance) {
@@ -247,7 +271,8 @@ BodyContactEffect::Closest BodyContactEffect::closest(const Pair& pair, const st
 double BodyContactEffect::share_of(const Pair& pair, const std::vector<Vec3>& x) const {
   if (pair.n != 2) return 1;
   const std::vector<Vec3>& skin = m_body.mesh().positions;
-  return crossing_share(x[pair.particle[1]] - x[pair.particle[0]], skin[pair.body[1]] - skin[pair.body[0]]);
+  return edge_edge_mollifier(x[pair.particle[1]] - x[pair.particle[0]],
+                             skin[pair.body[1]] - skin[pair.body[0]]);
 }
 
 void BodyContactEffect::measure_way(const std::vector<Vec3>& x) const {
@@ -265,18 +290,22 @@ double BodyContactEffect::farthest(const Pair& pair) const {
 
 void BodyContactEffect::guard(const Pair& pair, const Closest& c, MotionLimits& limits) const {
   double body = 0;
-  for (int b = 0; b < pair.n_body; ++b) body += c.body_weight[b] * c.normal.dot(m_body.mesh().positions[pair.body[b]]);
-  limits.guards.push_back({pair.n,
+  for (int b = 0; b < pair.n_body; ++b)
+    body += c.body_weight[b] * c.normal.dot(m_body.mesh().positions[pair.body[b]]);
+  limits.planes.push_back({pair.n,
                            pair.n,
                            {pair.particle[0], pair.particle[1], pair.particle[2], 0},
                            c.normal,
-                           body + std::max((1 - APPROACH) * c.distance, std::min(c.distance, LEAST_DISTANCE * pair.reach)),
+                           body + std::max((1 - APPROACH) * c.distance,
+                                           std::min(c.distance, LEAST_DISTANCE * pair.reach)),
                            0});
 }
 
 void BodyContactEffect::add_pair(const Pair& pair, const Closest& c, StepContext& context) {
   const double stiffness = pair.share * pair.stiffness;
-  const Push push = pair.crossed ? push_out_of(c.distance, pair.reach, m_push * stiffness) : push_of(c.distance, pair.reach, stiffness);
+  const ContactResponse push = pair.crossed
+                                   ? push_out_of(c.distance, pair.reach, m_push * stiffness)
+                                   : evaluate_contact_potential(c.distance, pair.reach, stiffness);
   if (push.force <= 0) return;
   const Mat3 block = push.stiffness * c.normal * c.normal.transpose();
   for (int k = 0; k < pair.n; ++k) {
@@ -287,14 +316,17 @@ void BodyContactEffect::add_pair(const Pair& pair, const Closest& c, StepContext
     m_load_stiffness[i] += w * push.stiffness;
     context.stiffness.add_diagonal(i, w * w * block);
     const int l = (k + 1) % pair.n;
-    if (pair.n > 1 && (pair.n > 2 || k == 0) && c.weight[l] > 0) context.stiffness.add_off_diagonal(pair.slot[k], w * c.weight[l] * block);
+    if (pair.n > 1 && (pair.n > 2 || k == 0) && c.weight[l] > 0)
+      context.stiffness.add_off_diagonal(pair.slot[k], w * c.weight[l] * block);
   }
 }
 
 void BodyContactEffect::push_out(int i, StepContext& context) {
-  const collision::SignedDistance d = m_body.signed_distance(context.x[i], FAR, m_clearance[i].triangle);
+  const collision::SignedDistance d =
+      m_body.signed_distance(context.x[i], FAR, m_clearance[i].triangle);
   if (d.triangle < 0) return;
-  const Push push = push_out_of(d.distance, m_options.gap_m, m_push * m_options.stiffness_n_m3 * m_mesh.area[i]);
+  const ContactResponse push =
+      push_out_of(d.distance, m_options.gap_m, m_push * m_options.stiffness_n_m3 * m_mesh.area[i]);
   m_load[i] += push.force * d.normal;
   m_load_stiffness[i] += push.stiffness;
   context.stiffness.add_diagonal(i, push.stiffness * d.normal * d.normal.transpose());
@@ -326,15 +358,19 @@ void BodyContactEffect::add(StepContext& context) {
   for (int i = 0; i < m_mesh.n_particles; ++i) context.force[i] += m_load[i];
   if (context.limits && guarded())
     for (std::size_t i = 0; i < x.size(); ++i) {
-      double& most = context.limits->most[i];
-      most = std::min(most, std::max(0.0, m_reach_now[i] - m_skin_moved[i] - (x[i] - m_searched_at[i]).norm()));
+      double& most = context.limits->max_displacement[i];
+      most = std::min(
+          most, std::max(0.0, m_reach_now[i] - m_skin_moved[i] - (x[i] - m_searched_at[i]).norm()));
     }
   if (m_options.friction > 0) add_friction(context);
   m_carried.assign(x.size(), Vec3::Zero());
 }
 
-/// Guards those near pairs that add() left out and that the displacement may bring nearer than a step may.
-bool BodyContactEffect::guard_motion(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits, bool) {
+/// Guards those near pairs that add() left out and that the displacement may bring nearer than a
+/// step may.
+bool BodyContactEffect::add_separating_planes(const std::vector<Vec3>& x,
+                                              const std::vector<Vec3>& dx, MotionLimits& limits,
+                                              bool) {
   if (!guarded()) return false;
   m_way.resize(dx.size());
   for (std::size_t i = 0; i < dx.size(); ++i) m_way[i] = dx[i].norm();
@@ -358,13 +394,18 @@ double BodyContactEffect::energy(const std::vector<Vec3>& x) const {
     const Closest c = closest(pair, x);
     if (!c.valid || (!pair.crossed && c.distance >= pair.reach)) continue;
     const double k = (pair.share >= 0 ? pair.share : share_of(pair, x)) * pair.stiffness;
-    sum += pair.crossed ? push_out_of(c.distance, pair.reach, m_push * k).energy : push_of(c.distance, pair.reach, k).energy;
+    sum += pair.crossed ? push_out_of(c.distance, pair.reach, m_push * k).energy
+                        : evaluate_contact_potential(c.distance, pair.reach, k).energy;
   }
   if (m_n_crossing > 0)
     for (int i = 0; i < m_mesh.n_particles; ++i) {
       if (!m_inside[i]) continue;
-      const collision::SignedDistance d = m_body.signed_distance(x[i], FAR, m_clearance[i].triangle);
-      if (d.triangle >= 0) sum += push_out_of(d.distance, m_options.gap_m, m_push * m_options.stiffness_n_m3 * m_mesh.area[i]).energy;
+      const collision::SignedDistance d =
+          m_body.signed_distance(x[i], FAR, m_clearance[i].triangle);
+      if (d.triangle >= 0)
+        sum += push_out_of(d.distance, m_options.gap_m,
+                           m_push * m_options.stiffness_n_m3 * m_mesh.area[i])
+                   .energy;
     }
   return sum + friction_energy(x);
 }

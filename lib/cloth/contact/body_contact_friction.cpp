@@ -1,6 +1,7 @@
 #include <cloth/contact/body_contact.hpp>
 
-/// Coulomb friction of cloth on skin: a tie from each loaded particle to the place where it stuck, which slides along when it pulls too hard.
+/// Coulomb friction of cloth on skin: a tie from each loaded particle to the place where it stuck,
+/// which slides along when it pulls too hard.
 namespace sloper::cloth {
 
 void BodyContactEffect::add_friction(StepContext& context) {
@@ -18,10 +19,12 @@ void BodyContactEffect::add_friction(StepContext& context) {
     Vec3 u = context.x[i] - m_anchor[i];
     u -= u.dot(normal) * normal;
     double tangent = m_tangent[i] = m_options.tangent_ratio * m_load_stiffness[i];
-    const double length = u.norm(), pull = tangent * length, most = m_options.friction * load, carried = m_carried[i].norm();
+    const double length = u.norm(), pull = tangent * length, most = m_options.friction * load,
+                 carried = m_carried[i].norm();
     if (pull > most && carried > 0) {
-      // On skin that moves the pull ends where the cloth has caught up, and what the skin has gone since the last step may yet be caught
-      // up with: else the cloth would be held to where the skin was.
+      // On skin that moves the pull ends where the cloth has caught up, and what the skin has gone
+      // since the last step may yet be caught up with: else the cloth would be held to where the
+      // skin was.
       context.force[i] -= most / length * u;
       const double kept = most / tangent + carried;
       if (length > kept) m_anchor[i] = context.x[i] - kept / length * u;

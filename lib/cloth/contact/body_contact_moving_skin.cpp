@@ -4,16 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
-/// Contact with skin that moves: how far it may go before it would pass cloth, and what it takes along.
+/// Contact with skin that moves: how far it may go before it would pass cloth, and what it takes
+/// along.
 namespace sloper::cloth {
 
 namespace {
 
-/// In one part of its way skin uses at most this share of its distance to cloth in front of it. One step of the cloth at most doubles a
-/// distance that is short (Newton's step into the barrier): with half, cloth would never be left the distance that it had.
+/// In one part of its way skin uses at most this share of its distance to cloth in front of it. One
+/// step of the cloth at most doubles a distance that is short (Newton's step into the barrier):
+/// with half, cloth would never be left the distance that it had.
 constexpr double SKIN_APPROACH = 1.0 / 3;
-/// Carried cloth that the skin would come too near to is pushed away by at most this much at a time, m, in so many rounds: a twist of the
-/// skin under taut cloth is met, a wall that comes is not.
+/// Carried cloth that the skin would come too near to is pushed away by at most this much at a
+/// time, m, in so many rounds: a twist of the skin under taut cloth is met, a wall that comes is
+/// not.
 constexpr double MOST_CLEARED = 0.002;
 constexpr int CLEAR_ROUNDS = 12;
 
@@ -25,10 +28,13 @@ const Vec3& carry_of(const std::vector<Vec3>& carry, std::size_t i) {
 
 } // namespace
 
-/// Of what is known since the last search, all is about skin and cloth that may come as near as the particles of an element may yet go, or as a
-/// particle's clearance tells. Skin farther off may go as it likes, if it stays as far: so each particle is asked about the skin within twice its
-/// element's reach (what was not asked about when the particle was elsewhere counts from there), the element's size and what the fastest goes.
-void BodyContactEffect::measure_against(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry) {
+/// Of what is known since the last search, all is about skin and cloth that may come as near as the
+/// particles of an element may yet go, or as a particle's clearance tells. Skin farther off may go
+/// as it likes, if it stays as far: so each particle is asked about the skin within twice its
+/// element's reach (what was not asked about when the particle was elsewhere counts from there),
+/// the element's size and what the fastest goes.
+void BodyContactEffect::measure_against(const std::vector<Vec3>& x, const std::vector<Vec3>& way,
+                                        const std::vector<Vec3>& carry) {
   m_against.assign(x.size(), 0);
   if (m_reach_now.size() != x.size()) return; // nothing is known
   std::vector<double> radius(x.size());
@@ -40,11 +46,13 @@ void BodyContactEffect::measure_against(const std::vector<Vec3>& x, const std::v
     }
     for (int i : t) radius[i] = std::max(radius[i], 2 * reach + size);
   }
-  for (std::size_t i = 0; i < x.size(); ++i) radius[i] = std::max(radius[i], m_clearance[i].distance + (x[i] - m_clearance[i].at).norm());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    radius[i] = std::max(radius[i], m_clearance[i].distance + (x[i] - m_clearance[i].at).norm());
 
   const auto fastest = [&](const Box3& ways) {
     double most = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) most = std::max(most, collision::SkinWays::farthest(ways, carry_of(carry, i)));
+    for (std::size_t i = 0; i < x.size(); ++i)
+      most = std::max(most, collision::DisplacementBounds::farthest(ways, carry_of(carry, i)));
     return most;
   };
   const double anywhere = fastest(bounding_box(way));
@@ -55,21 +63,26 @@ void BodyContactEffect::measure_against(const std::vector<Vec3>& x, const std::v
   const double most = fastest(m_ways.all());
   if (most <= 0) return;
   parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) m_against[i] = m_ways.longest_against(carry_of(carry, i), x[i], radius[i] + most);
+    for (std::size_t i = begin; i < end; ++i)
+      m_against[i] = m_ways.max_relative_displacement(carry_of(carry, i), x[i], radius[i] + most);
   });
 }
 
 /// How far a pair's ends go against each other at most, m.
-double BodyContactEffect::against(const Pair& pair, const std::vector<Vec3>& way, const std::vector<Vec3>& carry) {
+double BodyContactEffect::against(const Pair& pair, const std::vector<Vec3>& way,
+                                  const std::vector<Vec3>& carry) {
   double most2 = 0;
   for (int k = 0; k < pair.n; ++k)
-    for (int b = 0; b < pair.n_body; ++b) most2 = std::max(most2, (way[pair.body[b]] - carry_of(carry, pair.particle[k])).squaredNorm());
+    for (int b = 0; b < pair.n_body; ++b)
+      most2 =
+          std::max(most2, (way[pair.body[b]] - carry_of(carry, pair.particle[k])).squaredNorm());
   return std::sqrt(most2);
 }
 
-std::vector<double> BodyContactEffect::skin_room(const std::vector<Vec3>& x) {
+std::vector<double> BodyContactEffect::max_safe_skin_displacement(const std::vector<Vec3>& x) {
   search(x);
-  std::vector<double> room(m_body.mesh().positions.size(), 0.5 * (EDGE_REACH * m_options.gap_m + m_options.slack_m));
+  std::vector<double> room(m_body.mesh().positions.size(),
+                           0.5 * (EDGE_REACH * m_options.gap_m + m_options.slack_m));
   for (const Pair& pair : m_pairs) {
     if (pair.crossed) continue;
     const double half = 0.5 * closest(pair, x).distance;
@@ -78,14 +91,21 @@ std::vector<double> BodyContactEffect::skin_room(const std::vector<Vec3>& x) {
   return room;
 }
 
-double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vector<Vec3>& way, const std::vector<Vec3>& carry) {
+double BodyContactEffect::collision_free_step_fraction(const std::vector<Vec3>& x,
+                                                       const std::vector<Vec3>& way,
+                                                       const std::vector<Vec3>& carry) {
   if (m_edge_slot.empty()) return 0; // not bound yet: there was no step
-  const auto stays = [](const std::vector<Vec3>& ways) { return std::all_of(ways.begin(), ways.end(), [](const Vec3& w) { return w == Vec3::Zero(); }); };
+  const auto stays = [](const std::vector<Vec3>& ways) {
+    return std::all_of(ways.begin(), ways.end(), [](const Vec3& w) { return w == Vec3::Zero(); });
+  };
   if (stays(way) && stays(carry)) return 1;
   begin_step(x, 0);
-  const auto room = [&](std::size_t i) { return USED * m_reach_now[i] - m_skin_moved[i] - (x[i] - m_searched_at[i]).norm(); }; // m, to come nearer unseen
+  const auto room = [&](std::size_t i) {
+    return USED * m_reach_now[i] - m_skin_moved[i] - (x[i] - m_searched_at[i]).norm();
+  }; // m, to come nearer unseen
   bool enough = true;
-  for (std::size_t i = 0; enough && i < x.size(); ++i) enough = room(i) >= 0.5 * USED * m_reach_now[i];
+  for (std::size_t i = 0; enough && i < x.size(); ++i)
+    enough = room(i) >= 0.5 * USED * m_reach_now[i];
   if (!enough) search(x);
   measure_against(x, way, carry);
   double share = 1;
@@ -98,33 +118,43 @@ double BodyContactEffect::free_share(const std::vector<Vec3>& x, const std::vect
     if (share * nearer_at_most <= SKIN_APPROACH * (pair.clear - farthest(pair))) continue;
     const Closest c = closest(pair, x);
     if (!c.valid) continue;
-    // At the closest points: what turns with the skin, as carried cloth does, comes no nearer by turning.
+    // At the closest points: what turns with the skin, as carried cloth does, comes no nearer by
+    // turning.
     double skin_toward = 0, cloth_away = 0;
-    for (int k = 0; k < pair.n_body; ++k) skin_toward += c.body_weight[k] * c.normal.dot(way[pair.body[k]]);
-    for (int k = 0; k < pair.n; ++k) cloth_away += c.weight[k] * c.normal.dot(carry[pair.particle[k]]);
-    if (const double nearer = skin_toward - cloth_away; nearer > 0) share = std::min(share, SKIN_APPROACH * c.distance / nearer);
+    for (int k = 0; k < pair.n_body; ++k)
+      skin_toward += c.body_weight[k] * c.normal.dot(way[pair.body[k]]);
+    for (int k = 0; k < pair.n; ++k)
+      cloth_away += c.weight[k] * c.normal.dot(carry[pair.particle[k]]);
+    if (const double nearer = skin_toward - cloth_away; nearer > 0)
+      share = std::min(share, SKIN_APPROACH * c.distance / nearer);
   }
   return share;
 }
 
-void BodyContactEffect::clear_carry(const std::vector<Vec3>& x, const std::vector<Vec3>& way, std::vector<Vec3>& carry) {
+void BodyContactEffect::push_predictor_off_skin(const std::vector<Vec3>& x,
+                                                const std::vector<Vec3>& way,
+                                                std::vector<Vec3>& carry) {
   if (m_edge_slot.empty()) return;
   begin_step(x, 0);
   m_nearing.clear();
   m_measured.clear();
   measure_way(x);
   for (const Pair& pair : m_pairs)
-    if (!pair.crossed) m_nearing.push_back({&pair, 0.5 * SKIN_APPROACH * (pair.clear - farthest(pair))});
+    if (!pair.crossed)
+      m_nearing.push_back({&pair, 0.5 * SKIN_APPROACH * (pair.clear - farthest(pair))});
   const auto measure = [&](const Pair& pair) {
     Measured m = {closest(pair, x), 0};
-    for (int k = 0; m.closest.valid && k < pair.n_body; ++k) m.skin_toward += m.closest.body_weight[k] * m.closest.normal.dot(way[pair.body[k]]);
+    for (int k = 0; m.closest.valid && k < pair.n_body; ++k)
+      m.skin_toward += m.closest.body_weight[k] * m.closest.normal.dot(way[pair.body[k]]);
     m_measured.push_back(m);
     return static_cast<int>(m_measured.size()) - 1;
   };
   for (int round = 0; round < CLEAR_ROUNDS; ++round) {
     bool more = false;
     for (Nearing& n : m_nearing) {
-      if (const double nearer_at_most = against(*n.pair, way, carry); nearer_at_most <= n.room || nearer_at_most <= 0) continue;
+      if (const double nearer_at_most = against(*n.pair, way, carry);
+          nearer_at_most <= n.room || nearer_at_most <= 0)
+        continue;
       if (n.measured < 0) n.measured = measure(*n.pair);
       const auto& [c, skin_toward] = m_measured[n.measured];
       if (!c.valid) continue;
@@ -145,7 +175,8 @@ void BodyContactEffect::clear_carry(const std::vector<Vec3>& x, const std::vecto
   }
 }
 
-/// Anchors go with the nearest skin: it moves as its triangle does, in the barycentric coordinates of the anchor.
+/// Anchors go with the nearest skin: it moves as its triangle does, in the barycentric coordinates
+/// of the anchor.
 void BodyContactEffect::carry_anchors(const std::vector<Vec3>& positions) {
   const TriangleMesh& skin = m_body.mesh();
   for (std::size_t i = 0; i < m_anchor.size(); ++i) {
@@ -156,15 +187,18 @@ void BodyContactEffect::carry_anchors(const std::vector<Vec3>& positions) {
       continue;
     }
     const Triangle& t = skin.triangles[f];
-    const auto near = collision::point_triangle(m_anchor[i], skin.positions[t[0]], skin.positions[t[1]], skin.positions[t[2]]);
+    const auto near = collision::point_triangle(m_anchor[i], skin.positions[t[0]],
+                                                skin.positions[t[1]], skin.positions[t[2]]);
     Vec3 way = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) way += near.barycentric[k] * (positions[t[k]] - skin.positions[t[k]]);
+    for (int k = 0; k < 3; ++k)
+      way += near.barycentric[k] * (positions[t[k]] - skin.positions[t[k]]);
     m_anchor[i] += way;
     m_carried[i] += way;
   }
 }
 
-void BodyContactEffect::move_body(const std::vector<Vec3>& positions, const std::vector<Vec3>& x, const std::vector<Vec3>& carry) {
+void BodyContactEffect::move_body(const std::vector<Vec3>& positions, const std::vector<Vec3>& x,
+                                  const std::vector<Vec3>& carry) {
   carry_anchors(positions);
   std::vector<Vec3> way = m_body.mesh().positions;
   for (std::size_t v = 0; v < way.size(); ++v) way[v] = positions[v] - way[v];

@@ -1,27 +1,31 @@
 #pragma once
-/// The potential of a near pair of elements, of skin and cloth or of cloth and cloth, over their distance d:
+/// The potential of a near pair of elements, of skin and cloth or of cloth and cloth, over their
+/// distance d:
 ///   E = k (r - d)^3 / (6 r)                                 for d < r, the reach
-///     + BARRIER_STIFFNESS k / 2 (F(b) - F(d)), F(d) = b^2 ln d - 2 b d + d^2 / 2   for d < b = BARRIER_BEGINS r
-/// Force and stiffness grow from 0 at the reach, so that pairs that come and go do not kick; a Newton step from the deep side does
-/// not overshoot; and as d -> 0 the barrier grows without end, so that cloth in a pinch finds a place between both walls
-/// (a logarithmic barrier as in Li et al. 2020, "Incremental Potential Contact"). Test: tests/cloth/contact/test_contact.cpp
+///     + BARRIER_STIFFNESS k / 2 (F(b) - F(d)), F(d) = b^2 ln d - 2 b d + d^2 / 2   for d < b =
+///     BARRIER_BEGINS r
+/// Force and stiffness grow from 0 at the reach, so that pairs that come and go do not kick; a
+/// Newton step from the deep side does not overshoot; and as d -> 0 the barrier grows without end,
+/// so that cloth in a pinch finds a place between both walls (a logarithmic barrier as in Li et al.
+/// 2020, "Incremental Potential Contact"). Test: tests/cloth/contact/test_contact.cpp
 #include <algorithm>
 #include <cmath>
 
 namespace sloper::cloth {
 
 /// Force and stiffness are those along the way between the closest points, both >= 0; N, N/m, J.
-struct Push {
+struct ContactResponse {
   double force = 0, stiffness = 0, energy = 0;
 };
 
 inline constexpr double BARRIER_BEGINS = 0.3, BARRIER_STIFFNESS = 20;
-/// Below this share of the reach the barrier grows no more; no step brings elements nearer than that.
+/// Below this share of the reach the barrier grows no more; no step brings elements nearer than
+/// that.
 inline constexpr double LEAST_DISTANCE = 1e-4;
 
 /// @param d m, >= 0   @param reach m   @param k N/m
-inline Push push_of(double d, double reach, double k) {
-  Push p;
+inline ContactResponse evaluate_contact_potential(double d, double reach, double k) {
+  ContactResponse p;
   if (d >= reach) return p;
   const double depth = reach - d, begins = BARRIER_BEGINS * reach;
   p.energy = k * depth * depth * depth / (6 * reach);
@@ -29,7 +33,9 @@ inline Push push_of(double d, double reach, double k) {
   p.stiffness = k * depth / reach;
   if (d >= begins) return p;
   const double kb = BARRIER_STIFFNESS * k, e = std::max(d, LEAST_DISTANCE * reach);
-  p.energy += 0.5 * kb * (begins * begins * std::log(begins / e) - 2 * begins * (begins - e) + 0.5 * (begins * begins - e * e));
+  p.energy += 0.5 * kb *
+              (begins * begins * std::log(begins / e) - 2 * begins * (begins - e) +
+               0.5 * (begins * begins - e * e));
   p.force += 0.5 * kb * (begins - e) * (begins - e) / e;
   p.stiffness += 0.5 * kb * (begins * begins - e * e) / (e * e);
   return p;

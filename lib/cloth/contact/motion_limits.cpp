@@ -9,20 +9,22 @@ namespace sloper::cloth {
 static constexpr int ROUNDS = 2;
 
 void MotionLimits::reset(std::size_t n_particles) {
-  guards.clear();
-  most.assign(n_particles, std::numeric_limits<double>::infinity());
+  planes.clear();
+  max_displacement.assign(n_particles, std::numeric_limits<double>::infinity());
 }
 
-void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std::vector<char>& held) const {
+void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx,
+                         std::vector<char>& held) const {
   constexpr double ROUNDING = 1e-12; // m
   std::vector<double> share(dx.size()), length(dx.size());
   for (std::size_t i = 0; i < dx.size(); ++i) length[i] = dx[i].norm();
-  // by how much particle k of a guard may still come towards the plane where it is, and its motion that way
-  const auto room = [&](const PlaneGuard& g, int k) {
+  // by how much particle k of a guard may still come towards the plane where it is, and its motion
+  // that way
+  const auto room = [&](const SeparatingPlane& g, int k) {
     const double height = g.normal.dot(x[g.particle[k]]);
     return std::max(0.0, k < g.n_above ? height - g.above : g.below - height);
   };
-  const auto toward = [&](const PlaneGuard& g, int k) {
+  const auto toward = [&](const SeparatingPlane& g, int k) {
     const double along = g.normal.dot(dx[g.particle[k]]);
     return k < g.n_above ? -along : along;
   };
@@ -30,26 +32,31 @@ void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std:
     int guard;
     bool stays;
   };
-  std::vector<Active> active; // guards that some particle's motion could reach; lengths never grow below
-  for (std::size_t k = 0; k < guards.size(); ++k) {
-    const PlaneGuard& g = guards[k];
+  std::vector<Active>
+      active; // planes that some particle's motion could reach; lengths never grow below
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    const SeparatingPlane& g = planes[k];
     bool reach = false;
     for (int p = 0; p < g.n && !reach; ++p) reach = room(g, p) < length[g.particle[p]];
-    if (reach) active.push_back({static_cast<int>(k), !planes_follow || g.n_above == 0 || g.n_above == g.n});
+    if (reach)
+      active.push_back(
+          {static_cast<int>(k), !planes_translate || g.n_above == 0 || g.n_above == g.n});
   }
-  // How far a plane may go along its normal: at least `least` for what is below it, at most `most` for what is above.
+  // How far a plane may go along its normal: at least `least` for what is below it, at most `most`
+  // for what is above.
   struct Way {
     double least, most;
   };
-  const auto way_of = [&](const PlaneGuard& g) {
+  const auto way_of = [&](const SeparatingPlane& g) {
     Way way{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     for (int k = 0; k < g.n_above; ++k) way.most = std::min(way.most, room(g, k) - toward(g, k));
-    for (int k = g.n_above; k < g.n; ++k) way.least = std::max(way.least, toward(g, k) - room(g, k));
+    for (int k = g.n_above; k < g.n; ++k)
+      way.least = std::max(way.least, toward(g, k) - room(g, k));
     return way;
   };
   for (int round = 0; round < ROUNDS; ++round)
     for (const Active& at : active) {
-      const PlaneGuard& g = guards[at.guard];
+      const SeparatingPlane& g = planes[at.guard];
       double plane = 0; // where it goes
       if (!at.stays) {
         const Way way = way_of(g);
@@ -64,12 +71,13 @@ void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std:
         held[i] = 1;
       }
     }
-  // Towards planes that stay, less of a way is free too. So where the ways of a pair still cross, its plane stays.
+  // Towards planes that stay, less of a way is free too. So where the ways of a pair still cross,
+  // its plane stays.
   for (bool more = true; more;) {
     more = false;
     std::fill(share.begin(), share.end(), 1);
     for (Active& at : active) {
-      const PlaneGuard& g = guards[at.guard];
+      const SeparatingPlane& g = planes[at.guard];
       if (!at.stays) {
         const Way way = way_of(g);
         if (way.least <= way.most + ROUNDING) continue;
@@ -77,19 +85,20 @@ void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx, std:
       }
       for (int k = 0; k < g.n; ++k) {
         const double have = room(g, k), along = toward(g, k);
-        if (along > have + ROUNDING) share[g.particle[k]] = std::min(share[g.particle[k]], have / along);
+        if (along > have + ROUNDING)
+          share[g.particle[k]] = std::min(share[g.particle[k]], have / along);
       }
     }
     for (std::size_t i = 0; i < dx.size(); ++i) {
       more = more || share[i] < 1;
       dx[i] *= share[i];
       const double move = dx[i].norm();
-      if (move > most[i]) {
-        more = more || move > (1 + ROUNDING) * most[i];
-        dx[i] *= most[i] / move;
+      if (move > max_displacement[i]) {
+        more = more || move > (1 + ROUNDING) * max_displacement[i];
+        dx[i] *= max_displacement[i] / move;
       }
     }
-    more = more && planes_follow; // else all stayed
+    more = more && planes_translate; // else all stayed
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Elastic attachments: a particle on an elastic cord to a point in space (a shoulder, a suspender's clip).
-/// It pulls and never pushes: E = k/2 max(0, |x_i - p| - l0)^2.
+/// Elastic attachments: a particle on an elastic cord to a point in space (a shoulder, a
+/// suspender's clip). It pulls and never pushes: E = k/2 max(0, |x_i - p| - l0)^2.
 #include <cloth/effect.hpp>
 
 namespace sloper::cloth {
@@ -14,7 +14,8 @@ struct Attachment {
 
 class AttachmentsEffect : public Effect {
 public:
-  explicit AttachmentsEffect(std::vector<Attachment> attachments) : m_attachments(std::move(attachments)) {}
+  explicit AttachmentsEffect(std::vector<Attachment> attachments)
+      : m_attachments(std::move(attachments)) {}
   const char* name() const override { return "attachments"; }
   void add(StepContext& c) override;
   /// Potential at x, J.

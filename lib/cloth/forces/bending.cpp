@@ -23,11 +23,13 @@ static Vec3 curvature(const Hinge& hinge, const std::vector<Vec3>& x) {
 
 double bending_energy(const ClothMesh& mesh, const std::vector<Vec3>& x) {
   double sum = 0;
-  for (const Hinge& hinge : mesh.hinges) sum += 0.5 * hinge.stiffness * curvature(hinge, x).squaredNorm();
+  for (const Hinge& hinge : mesh.hinges)
+    sum += 0.5 * hinge.stiffness * curvature(hinge, x).squaredNorm();
   return sum;
 }
 
-void add_bending(const ClothMesh& mesh, const std::vector<Vec3>& x, double h, const std::vector<HingeSlots>& slots, std::vector<Vec3>& force,
+void add_bending(const ClothMesh& mesh, const std::vector<Vec3>& x, double h,
+                 const std::vector<HingeSlots>& slots, std::vector<Vec3>& force,
                  BlockMatrix& stiffness) {
   const double damping = mesh.fabrics.empty() ? 0 : mesh.fabrics[0].damping_s / h;
   for (std::size_t e = 0; e < mesh.hinges.size(); ++e) {
@@ -37,8 +39,10 @@ void add_bending(const ClothMesh& mesh, const std::vector<Vec3>& x, double h, co
     int at = 0;
     for (int a = 0; a < 4; ++a) {
       force[hinge.particle[a]] -= hinge.coefficient[a] * c;
-      stiffness.add_isotropic_diagonal(hinge.particle[a], k * hinge.coefficient[a] * hinge.coefficient[a]);
-      for (int b = a + 1; b < 4; ++b) stiffness.add_isotropic(slots[e][at++], k * hinge.coefficient[a] * hinge.coefficient[b]);
+      stiffness.add_isotropic_diagonal(hinge.particle[a],
+                                       k * hinge.coefficient[a] * hinge.coefficient[a]);
+      for (int b = a + 1; b < 4; ++b)
+        stiffness.add_isotropic(slots[e][at++], k * hinge.coefficient[a] * hinge.coefficient[b]);
     }
   }
 }
@@ -46,7 +50,8 @@ void add_bending(const ClothMesh& mesh, const std::vector<Vec3>& x, double h, co
 void BendingEffect::declare(Couplings& couplings) const {
   for (const Hinge& hinge : m_mesh.hinges)
     for (int a = 0; a < 4; ++a)
-      for (int b = a + 1; b < 4; ++b) couplings.isotropic.push_back({hinge.particle[a], hinge.particle[b]});
+      for (int b = a + 1; b < 4; ++b)
+        couplings.isotropic.push_back({hinge.particle[a], hinge.particle[b]});
 }
 
 } // namespace sloper::cloth

@@ -17,7 +17,8 @@ struct Angle {
 
 /// False where a triangle has collapsed.
 bool measure(const Hinge& hinge, const std::vector<Vec3>& x, Angle& angle, bool with_gradient) {
-  const Vec3 &x0 = x[hinge.particle[0]], &x1 = x[hinge.particle[1]], &x2 = x[hinge.particle[2]], &x3 = x[hinge.particle[3]];
+  const Vec3 &x0 = x[hinge.particle[0]], &x1 = x[hinge.particle[1]], &x2 = x[hinge.particle[2]],
+             &x3 = x[hinge.particle[3]];
   const Vec3 e = x1 - x0, a = e.cross(x2 - x0), b = (x3 - x0).cross(e);
   const double length = e.norm(), least = FLATTEST * length * length;
   if (!(a.norm() > least) || !(b.norm() > least)) return false;
@@ -39,20 +40,24 @@ double hinge_angle(const Hinge& hinge, const std::vector<Vec3>& x) {
   return angle.value;
 }
 
-DihedralBendingEffect::DihedralBendingEffect(const ClothMesh& mesh, std::vector<double> rest_angle) : m_mesh(mesh), m_rest_angle(std::move(rest_angle)) {
+DihedralBendingEffect::DihedralBendingEffect(const ClothMesh& mesh, std::vector<double> rest_angle)
+    : m_mesh(mesh), m_rest_angle(std::move(rest_angle)) {
   m_rest_angle.resize(mesh.hinges.size(), 0);
   for (const Hinge& h : mesh.hinges) {
-    const std::array<int, 2> edge{std::min(h.particle[0], h.particle[1]), std::max(h.particle[0], h.particle[1])};
+    const std::array<int, 2> edge{std::min(h.particle[0], h.particle[1]),
+                                  std::max(h.particle[0], h.particle[1])};
     const auto found = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), edge);
     const double length = mesh.springs[found - mesh.edges.begin()].rest_length;
-    m_stiffness.push_back(h.stiffness * length * length); // |sum c_k x_k| = |e| theta for small theta
+    m_stiffness.push_back(h.stiffness * length *
+                          length); // |sum c_k x_k| = |e| theta for small theta
   }
 }
 
 void DihedralBendingEffect::declare(Couplings& couplings) const {
   for (const Hinge& hinge : m_mesh.hinges)
     for (int a = 0; a < 4; ++a)
-      for (int b = a + 1; b < 4; ++b) couplings.full.push_back({hinge.particle[a], hinge.particle[b]});
+      for (int b = a + 1; b < 4; ++b)
+        couplings.full.push_back({hinge.particle[a], hinge.particle[b]});
 }
 
 double DihedralBendingEffect::energy(const std::vector<Vec3>& x) const {
@@ -72,11 +77,13 @@ void DihedralBendingEffect::add(StepContext& c) {
     const Hinge& hinge = m_mesh.hinges[h];
     Angle angle;
     if (!measure(hinge, c.x, angle, true)) continue;
-    const double moment = m_stiffness[h] * (angle.value - m_rest_angle[h]), k = m_stiffness[h] * (1 + damping);
+    const double moment = m_stiffness[h] * (angle.value - m_rest_angle[h]),
+                 k = m_stiffness[h] * (1 + damping);
     int at = 0;
     for (int a = 0; a < 4; ++a) {
       c.force[hinge.particle[a]] -= moment * angle.gradient[a];
-      c.stiffness.add_diagonal(hinge.particle[a], k * angle.gradient[a] * angle.gradient[a].transpose());
+      c.stiffness.add_diagonal(hinge.particle[a],
+                               k * angle.gradient[a] * angle.gradient[a].transpose());
       for (int b = a + 1; b < 4; ++b, ++at) {
         const bool upper = hinge.particle[a] < hinge.particle[b];
         const Vec3 &first = angle.gradient[upper ? a : b], &second = angle.gradient[upper ? b : a];

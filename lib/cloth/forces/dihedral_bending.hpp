@@ -1,14 +1,15 @@
 #pragma once
-/// Bending by the angle between two triangles, with a rest angle per hinge: pressed creases, and folds too sharp for the
-/// quadratic model. E = 1/2 B |e|^2 / (A0 + A1) (theta - theta0)^2, which agrees with the isometric model for small angles;
-/// gradient after Bridson et al. 2003, section 4.
+/// Bending by the angle between two triangles, with a rest angle per hinge: pressed creases, and
+/// folds too sharp for the quadratic model. E = 1/2 B |e|^2 / (A0 + A1) (theta - theta0)^2, which
+/// agrees with the isometric model for small angles; gradient after Bridson et al. 2003, section 4.
 ///
 /// The stiffness keeps k dtheta dtheta^T, the definite part, which is exact at the rest angle.
 #include <cloth/forces/bending.hpp>
 
 namespace sloper::cloth {
 
-/// Signed angle of a hinge at x, rad in (-pi, pi]; 0 flat. It turns sign with the order of the particles 0, 1.
+/// Signed angle of a hinge at x, rad in (-pi, pi]; 0 flat. It turns sign with the order of the
+/// particles 0, 1.
 double hinge_angle(const Hinge& hinge, const std::vector<Vec3>& x);
 
 class DihedralBendingEffect : public Effect {
@@ -16,7 +17,9 @@ public:
   /// @param rest_angle  #hinges or empty (all flat), rad, in the sign of hinge_angle()
   explicit DihedralBendingEffect(const ClothMesh& mesh, std::vector<double> rest_angle = {});
   const char* name() const override { return "dihedral_bending"; }
-  bool set_rest(const ClothMesh& /*mesh*/) override { return false; } ///< made with settings of the scene
+  bool set_rest(const ClothMesh& /*mesh*/) override {
+    return false;
+  } ///< made with settings of the scene
   void declare(Couplings& couplings) const override;
   void bind(const BlockMatrix& matrix) override { m_slots = find_hinge_slots(m_mesh, matrix); }
   void add(StepContext& c) override;

@@ -20,7 +20,8 @@ Vec3 edge_spring_force(const Vec3& xi, const Vec3& xj, double rest_length, doubl
   return stiffness * (length - rest_length) / length * d;
 }
 
-Mat3 edge_spring_stiffness(const Vec3& xi, const Vec3& xj, double rest_length, double stiffness, bool clamp) {
+Mat3 edge_spring_stiffness(const Vec3& xi, const Vec3& xj, double rest_length, double stiffness,
+                           bool clamp) {
   const Vec3 d = xj - xi;
   const double length = d.norm();
   if (length < SHORTEST) return stiffness * Mat3::Identity();
@@ -30,7 +31,8 @@ Mat3 edge_spring_stiffness(const Vec3& xi, const Vec3& xj, double rest_length, d
   return stiffness * (side * Mat3::Identity() + (1 - side) * u * u.transpose());
 }
 
-void add_edge_springs(const ClothMesh& mesh, const std::vector<Vec3>& x, double h, const std::vector<int>& slots, std::vector<Vec3>& force,
+void add_edge_springs(const ClothMesh& mesh, const std::vector<Vec3>& x, double h,
+                      const std::vector<int>& slots, std::vector<Vec3>& force,
                       BlockMatrix& stiffness) {
   for (std::size_t s = 0; s < mesh.springs.size(); ++s) {
     const EdgeSpring& spring = mesh.springs[s];
@@ -51,7 +53,8 @@ void add_edge_springs(const ClothMesh& mesh, const std::vector<Vec3>& x, double 
   }
 }
 
-void EdgeSpringEffect::add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
+void EdgeSpringEffect::add_indefinite_part(const std::vector<Vec3>& x,
+                                           BlockMatrix& stiffness) const {
   for (std::size_t s = 0; s < m_mesh.springs.size(); ++s) {
     const EdgeSpring& spring = m_mesh.springs[s];
     const Vec3 d = x[spring.j] - x[spring.i];
@@ -68,7 +71,8 @@ void EdgeSpringEffect::add_left_out(const std::vector<Vec3>& x, BlockMatrix& sti
 
 double edge_springs_energy(const ClothMesh& mesh, const std::vector<Vec3>& x) {
   double sum = 0;
-  for (const EdgeSpring& s : mesh.springs) sum += edge_spring_energy(x[s.i], x[s.j], s.rest_length, s.stiffness);
+  for (const EdgeSpring& s : mesh.springs)
+    sum += edge_spring_energy(x[s.i], x[s.j], s.rest_length, s.stiffness);
   return sum;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
-/// Elastic bands sewn along lines of the cloth (waistbands, cuffs): each runs through particles and wants to be shorter than
-/// the cloth that it is sewn to. It pulls and never pushes: tension T = EA max(0, l/l0 - 1), E = EA/(2 l0) max(0, l - l0)^2 per link.
+/// Elastic bands sewn along lines of the cloth (waistbands, cuffs): each runs through particles and
+/// wants to be shorter than the cloth that it is sewn to. It pulls and never pushes: tension T = EA
+/// max(0, l/l0 - 1), E = EA/(2 l0) max(0, l - l0)^2 per link.
 #include <cloth/effect.hpp>
 
 namespace sloper::cloth {

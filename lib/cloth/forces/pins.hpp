@@ -1,17 +1,18 @@
 #pragma once
 /// Pins: particles held at points in space by stiff springs, E = k/2 |x_i - p|^2.
 ///
-/// A spring and not a constraint, so that the force that a pin carries is known (force()), and a pin may be given way.
-/// Under a load F the particle stands F/k off its point.
+/// A spring and not a constraint, so that the force that a pin carries is known (force()), and a
+/// pin may be given way. Under a load F the particle stands F/k off its point.
 #include <cloth/effect.hpp>
 
 namespace sloper::cloth {
 
 struct Pin {
   int particle;
-  Vec3 target;                   ///< m
-  double stiffness_n_m = 1e4;    ///< N/m
-  Vec3 free_axis = Vec3::Zero(); ///< unit: the particle may slide along it; zero holds all directions
+  Vec3 target;                ///< m
+  double stiffness_n_m = 1e4; ///< N/m
+  Vec3 free_axis =
+      Vec3::Zero(); ///< unit: the particle may slide along it; zero holds all directions
 };
 
 class PinsEffect : public Effect {

@@ -28,7 +28,8 @@ double SewingSpringEffect::energy(const std::vector<Vec3>& x) const {
   double sum = 0;
   for (const auto& s : m_stitches) {
     const double gap = (x[s[1]] - x[s[0]]).norm();
-    sum += gap < m_reach ? 0.5 * m_stiffness * gap * gap : m_stiffness * m_reach * (gap - 0.5 * m_reach);
+    sum += gap < m_reach ? 0.5 * m_stiffness * gap * gap
+                         : m_stiffness * m_reach * (gap - 0.5 * m_reach);
   }
   return sum;
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// Springs of no rest length between the two sides of every open seam: they pull a seam shut, welding ends them.
+/// Springs of no rest length between the two sides of every open seam: they pull a seam shut,
+/// welding ends them.
 #include <cloth/effect.hpp>
 
 namespace sloper::cloth {
@@ -7,11 +8,14 @@ namespace sloper::cloth {
 class SewingSpringEffect : public Effect {
 public:
   /// @param stitches   #S by 2 particles
-  /// @param reach_m    the pull grows with the gap up to here and stays constant beyond, so that far panels come gently
+  /// @param reach_m    the pull grows with the gap up to here and stays constant beyond, so that
+  /// far panels come gently
   SewingSpringEffect(std::vector<std::array<int, 2>> stitches, double stiffness_n_m, double reach_m)
       : m_stitches(std::move(stitches)), m_stiffness(stiffness_n_m), m_reach(reach_m) {}
   const char* name() const override { return "sewing"; }
-  void declare(Couplings& couplings) const override { couplings.isotropic.insert(couplings.isotropic.end(), m_stitches.begin(), m_stitches.end()); }
+  void declare(Couplings& couplings) const override {
+    couplings.isotropic.insert(couplings.isotropic.end(), m_stitches.begin(), m_stitches.end());
+  }
   void bind(const BlockMatrix& matrix) override;
   /// Potential at x, J: k/2 gap^2 within reach, growing linearly beyond.
   double energy(const std::vector<Vec3>& x) const override;

@@ -43,7 +43,8 @@ double shear_energy(const std::vector<ShearTriangle>& shear, const std::vector<V
   return sum;
 }
 
-void add_shear(const std::vector<ShearTriangle>& shear, const std::vector<Vec3>& x, double h, std::vector<Vec3>& force, BlockMatrix& stiffness) {
+void add_shear(const std::vector<ShearTriangle>& shear, const std::vector<Vec3>& x, double h,
+               std::vector<Vec3>& force, BlockMatrix& stiffness) {
   for (const ShearTriangle& s : shear) {
     Vec3 wu, wv;
     images(s, x, wu, wv);
@@ -58,7 +59,9 @@ void add_shear(const std::vector<ShearTriangle>& shear, const std::vector<Vec3>&
       const int l = (k + 1) % 3;
       stiffness.add_diagonal(s.particle[k], k_damped * gradient[k] * gradient[k].transpose());
       const bool upper = s.particle[k] < s.particle[l];
-      stiffness.add_off_diagonal(s.slots[k], k_damped * (upper ? gradient[k] * gradient[l].transpose() : gradient[l] * gradient[k].transpose()));
+      stiffness.add_off_diagonal(s.slots[k],
+                                 k_damped * (upper ? gradient[k] * gradient[l].transpose()
+                                                   : gradient[l] * gradient[k].transpose()));
     }
   }
 }
@@ -68,7 +71,7 @@ void ShearEffect::declare(Couplings& couplings) const {
     for (int k = 0; k < 3; ++k) couplings.full.push_back({s.particle[k], s.particle[(k + 1) % 3]});
 }
 
-void ShearEffect::add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
+void ShearEffect::add_indefinite_part(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
   for (const ShearTriangle& s : m_shear) {
     Vec3 wu, wv;
     images(s, x, wu, wv);

@@ -1,8 +1,10 @@
 #pragma once
-/// Shear by the triangle condition of Baraff and Witkin 1998, section 4.3: C = sqrt(a) w_u . w_v, E = k/2 C^2.
+/// Shear by the triangle condition of Baraff and Witkin 1998, section 4.3: C = sqrt(a) w_u . w_v, E
+/// = k/2 C^2.
 ///
-/// w_u, w_v are the images of weft and warp; a the rest area. (The source writes C = a w_u . w_v, whose stiffness depends on
-/// the mesh; with sqrt(a) k is the shear force per width at unit angle, N/m.) The stiffness keeps k dC dC^T, the definite part.
+/// w_u, w_v are the images of weft and warp; a the rest area. (The source writes C = a w_u . w_v,
+/// whose stiffness depends on the mesh; with sqrt(a) k is the shear force per width at unit angle,
+/// N/m.) The stiffness keeps k dC dC^T, the definite part.
 #include <cloth/cloth_mesh.hpp>
 #include <cloth/effect.hpp>
 #include <cloth/linear/block_matrix.hpp>
@@ -21,7 +23,8 @@ struct ShearTriangle {
 std::vector<ShearTriangle> make_shear(const ClothMesh& mesh);
 void find_slots(std::vector<ShearTriangle>& shear, const BlockMatrix& matrix);
 double shear_energy(const std::vector<ShearTriangle>& shear, const std::vector<Vec3>& x);
-void add_shear(const std::vector<ShearTriangle>& shear, const std::vector<Vec3>& x, double h, std::vector<Vec3>& force, BlockMatrix& stiffness);
+void add_shear(const std::vector<ShearTriangle>& shear, const std::vector<Vec3>& x, double h,
+               std::vector<Vec3>& force, BlockMatrix& stiffness);
 
 class ShearEffect : public Effect {
 public:
@@ -38,7 +41,7 @@ public:
   void bind(const BlockMatrix& matrix) override { find_slots(m_shear, matrix); }
   /// Potential at x, J.
   double energy(const std::vector<Vec3>& x) const override { return shear_energy(m_shear, x); }
-  void add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const override;
+  void add_indefinite_part(const std::vector<Vec3>& x, BlockMatrix& stiffness) const override;
   void add(StepContext& c) override { add_shear(m_shear, c.x, c.h, c.force, c.stiffness); }
 
 private:

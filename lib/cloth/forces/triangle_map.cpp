@@ -11,7 +11,9 @@ namespace sloper::cloth {
 static double rest_length(const ClothMesh& mesh, int a, int b) {
   const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
   const auto found = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), edge);
-  return found != mesh.edges.end() && *found == edge ? mesh.springs[found - mesh.edges.begin()].rest_length : -1;
+  return found != mesh.edges.end() && *found == edge
+             ? mesh.springs[found - mesh.edges.begin()].rest_length
+             : -1;
 }
 
 /// The triangle's flat shape with the edge lengths of its springs.

@@ -27,8 +27,10 @@ double TriangleStretchEffect::energy(const std::vector<Vec3>& x) const {
 static void add_blocks(const TriangleMap& m, const Mat3 (&block)[2], BlockMatrix& stiffness) {
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
-    stiffness.add_diagonal(m.particle[i], m.du[i] * m.du[i] * block[0] + m.dv[i] * m.dv[i] * block[1]);
-    stiffness.add_off_diagonal(m.slots[i], m.du[i] * m.du[j] * block[0] + m.dv[i] * m.dv[j] * block[1]);
+    stiffness.add_diagonal(m.particle[i],
+                           m.du[i] * m.du[i] * block[0] + m.dv[i] * m.dv[i] * block[1]);
+    stiffness.add_off_diagonal(m.slots[i],
+                               m.du[i] * m.du[j] * block[0] + m.dv[i] * m.dv[j] * block[1]);
   }
 }
 
@@ -57,7 +59,8 @@ void TriangleStretchEffect::add(StepContext& c) {
   }
 }
 
-void TriangleStretchEffect::add_left_out(const std::vector<Vec3>& x, BlockMatrix& stiffness) const {
+void TriangleStretchEffect::add_indefinite_part(const std::vector<Vec3>& x,
+                                                BlockMatrix& stiffness) const {
   for (std::size_t f = 0; f < m_maps.size(); ++f) {
     const TriangleMap& m = m_maps[f];
     const Fabric& fabric = m_mesh.fabrics[m.fabric];
@@ -69,7 +72,8 @@ void TriangleStretchEffect::add_left_out(const std::vector<Vec3>& x, BlockMatrix
       const double length = w.norm();
       if (length < LEAST_STRETCH || length >= rest) continue;
       squeezed = true;
-      const double across = m.area * (side ? fabric.stretch_warp_n_m : fabric.stretch_weft_n_m) * (1 - rest / length);
+      const double across =
+          m.area * (side ? fabric.stretch_warp_n_m : fabric.stretch_weft_n_m) * (1 - rest / length);
       block[side] = -across / (length * length) * w * w.transpose();
       block[side].diagonal().array() += across;
     }

@@ -25,10 +25,13 @@ void WindEffect::add(StepContext& c) {
     const double twice = cross.norm();
     if (twice < 1e-14) continue;
     const Vec3 n = cross / twice;
-    const Vec3 q = m_options.velocity - (m_velocity[t[0]] + m_velocity[t[1]] + m_velocity[t[2]]) / 3;
+    const Vec3 q =
+        m_options.velocity - (m_velocity[t[0]] + m_velocity[t[1]] + m_velocity[t[2]]) / 3;
     const double qn = q.dot(n), scale = 0.5 * m_options.air_density * 0.5 * twice / 3;
-    const double along = scale * m_options.normal_drag * std::abs(qn), across = scale * m_options.tangent_drag * (q - qn * n).norm();
-    const Mat3 drag = across * Mat3::Identity() + (along - across) * n * n.transpose(); // N s/m on each corner
+    const double along = scale * m_options.normal_drag * std::abs(qn),
+                 across = scale * m_options.tangent_drag * (q - qn * n).norm();
+    const Mat3 drag =
+        across * Mat3::Identity() + (along - across) * n * n.transpose(); // N s/m on each corner
     const Vec3 force = drag * m_options.velocity;
     for (int k = 0; k < 3; ++k) {
       m_push[t[k]] += force;

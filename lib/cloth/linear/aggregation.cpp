@@ -8,19 +8,26 @@ namespace sloper::cloth {
 
 namespace {
 
-constexpr double STRONG = 0.08;      // |A_ij|^2 > STRONG^2 |A_ii| |A_jj|
-constexpr int COARSEST = 64;         // block rows that are factorised
-constexpr double LAMBDA_LIMIT = 4.0; // an element has at most four particles, which bounds the eigenvalues of D^-1 A
-constexpr int PATIENCE = 12;         // iterations beyond those of a fresh hierarchy that are borne: about what a new one costs
-constexpr int LONG = 5;              // iterations of a solve that went some way along what is soft: shorter ones mend what is stiff
+constexpr double STRONG = 0.08; // |A_ij|^2 > STRONG^2 |A_ii| |A_jj|
+constexpr int COARSEST = 64;    // block rows that are factorised
+constexpr double LAMBDA_LIMIT =
+    4.0; // an element has at most four particles, which bounds the eigenvalues of D^-1 A
+constexpr int PATIENCE =
+    12; // iterations beyond those of a fresh hierarchy that are borne: about what a new one costs
+constexpr int LONG = 5; // iterations of a solve that went some way along what is soft: shorter ones
+                        // mend what is stiff
 
-/// Aggregate of every row; greedy: whole free neighbourhoods first, then leftovers join their strongest neighbour. Rows without a strong
-/// neighbour, such as particles that a contact all but pins, get none (-1): smoothing solves them, and on coarser levels each of them
-/// would couple with all around.
+/// Aggregate of every row; greedy: whole free neighbourhoods first, then leftovers join their
+/// strongest neighbour. Rows without a strong neighbour, such as particles that a contact all but
+/// pins, get none (-1): smoothing solves them, and on coarser levels each of them would couple with
+/// all around.
 std::vector<int> aggregates(const BlockRows& a, const std::vector<Mat3>& diagonal, int& count) {
   std::vector<double> size(a.rows);
   for (int i = 0; i < a.rows; ++i) size[i] = diagonal[i].norm();
-  auto strong = [&](int i, int k) { return a.column[k] != i && a.value[k].squaredNorm() > STRONG * STRONG * size[i] * size[a.column[k]]; };
+  auto strong = [&](int i, int k) {
+    return a.column[k] != i &&
+           a.value[k].squaredNorm() > STRONG * STRONG * size[i] * size[a.column[k]];
+  };
   std::vector<int> of(a.rows, -1);
   std::vector<char> alone(a.rows, 1);
   count = 0;
@@ -53,8 +60,10 @@ std::vector<int> aggregates(const BlockRows& a, const std::vector<Mat3>& diagona
   return of;
 }
 
-/// P = (I - omega D^-1 A) P0 with P0 the indicator of the aggregates: what a row has in one aggregate is summed.
-void prolongator(const BlockRows& a, const std::vector<Mat3>& d_inverse, const std::vector<int>& of, int count, double omega, BlockRows& p) {
+/// P = (I - omega D^-1 A) P0 with P0 the indicator of the aggregates: what a row has in one
+/// aggregate is summed.
+void prolongator(const BlockRows& a, const std::vector<Mat3>& d_inverse, const std::vector<int>& of,
+                 int count, double omega, BlockRows& p) {
   p.rows = a.rows;
   p.columns = count;
   p.start.assign(1, 0);
@@ -90,19 +99,23 @@ void Aggregation::pull_contacts(const std::vector<Float4>& x) {
       for (int k = 0; k < 4; ++k) s = s + Float4::all(c.weight[k]) * x[c.particle[k]];
       const Float4 along = c.normal * s;
       const Float4 dot = lane<0>(along) + lane<1>(along) + lane<2>(along);
-      m_contact_pull[e] = Float4::all(c.tangent_stiffness) * s + Float4::all(c.normal_stiffness - c.tangent_stiffness) * dot * c.normal;
+      m_contact_pull[e] = Float4::all(c.tangent_stiffness) * s +
+                          Float4::all(c.normal_stiffness - c.tangent_stiffness) * dot * c.normal;
     }
   });
 }
 
 /// put(i, row i of the level's matrix times x) for all rows, contacts included, on all threads.
-template<class Put> void Aggregation::multiply(std::size_t l, const std::vector<Float4>& x, const Put& put) {
+template<class Put>
+void Aggregation::multiply(std::size_t l, const std::vector<Float4>& x, const Put& put) {
   if (l > 0) m_levels[l].a.multiply(x, put);
   else multiply_finest(m_levels[0].a, x, put);
 }
 
 /// Likewise with `rows` and the contacts.
-template<class Put> void Aggregation::multiply_finest(const FloatRows& rows, const std::vector<Float4>& x, const Put& put) {
+template<class Put>
+void Aggregation::multiply_finest(const FloatRows& rows, const std::vector<Float4>& x,
+                                  const Put& put) {
   pull_contacts(x);
   rows.multiply(x, [&](std::size_t i, Float4 row) {
     for (int k = m_index->start[i]; k < m_index->start[i + 1]; ++k) {
@@ -115,7 +128,8 @@ template<class Put> void Aggregation::multiply_finest(const FloatRows& rows, con
 
 /// y = A x, A what is to be solved.
 void Aggregation::multiply_system(const std::vector<Float4>& x, std::vector<Float4>& y) {
-  multiply_finest(m_has_whole ? m_whole : m_levels[0].a, x, [&](std::size_t i, Float4 row) { y[i] = row; });
+  multiply_finest(m_has_whole ? m_whole : m_levels[0].a, x,
+                  [&](std::size_t i, Float4 row) { y[i] = row; });
 }
 
 /// The finest level's matrix, contacts and smoother as they are now.
@@ -152,11 +166,14 @@ void Aggregation::estimate_lambda(std::size_t l, int iterations) {
   auto& e = level.eigenvector;
   if (e.empty()) {
     e.resize(level.d_inverse.size());
-    for (std::size_t i = 0; i < e.size(); ++i) e[i] = to_float(Vec3((i * 7919) % 13 - 6.0, (i * 104729) % 11 - 5.0, (i * 1299709) % 17 - 8.0));
+    for (std::size_t i = 0; i < e.size(); ++i)
+      e[i] =
+          to_float(Vec3((i * 7919) % 13 - 6.0, (i * 104729) % 11 - 5.0, (i * 1299709) % 17 - 8.0));
   }
   double lambda = 1;
   for (int it = 0; it < iterations; ++it) {
-    const Float4 scale = Float4::all(static_cast<float>(1 / std::sqrt(std::max(dot(e, e, m_part), 1e-30))));
+    const Float4 scale =
+        Float4::all(static_cast<float>(1 / std::sqrt(std::max(dot(e, e, m_part), 1e-30))));
     for (Float4& v : e) v = scale * v;
     multiply(l, e, [&](std::size_t i, Float4 row) { level.t[i] = level.d_inverse[i] * row; });
     std::swap(e, level.t);
@@ -171,7 +188,8 @@ void Aggregation::build(const LinearSystem& system) {
   m_levels.emplace_back();
   auto& [a, p, pt, ap] = m_build;
   expand(system.matrix, a);
-  for (const ContactElement& e : system.elements) { // contacts enter by their diagonal blocks: the pattern stays
+  for (const ContactElement& e :
+       system.elements) { // contacts enter by their diagonal blocks: the pattern stays
     const Mat3 k = e.stiffness();
     for (int c = 0; c < e.n; ++c)
       for (int s = a.start[e.particle[c]]; s < a.start[e.particle[c] + 1]; ++s)
@@ -207,7 +225,8 @@ void Aggregation::build(const LinearSystem& system) {
   if (m_coarsened) {
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(3 * n, 3 * n);
     for (int i = 0; i < n; ++i)
-      for (int k = a.start[i]; k < a.start[i + 1]; ++k) dense.block<3, 3>(3 * i, 3 * a.column[k]) += a.value[k];
+      for (int k = a.start[i]; k < a.start[i + 1]; ++k)
+        dense.block<3, 3>(3 * i, 3 * a.column[k]) += a.value[k];
     m_coarsest.compute(dense);
     m_coarsened = m_coarsest.info() == Eigen::Success;
   }
@@ -225,7 +244,9 @@ double Aggregation::complexity() const {
 void Aggregation::update(const LinearSystem& system) {
   m_jacobi.update(system);
   const bool tired = m_last_iterations > m_iterations_when_fresh + PATIENCE;
-  if (m_levels.empty() || !m_coarsened || static_cast<int>(m_levels[0].d_inverse.size()) != system.matrix.size() || tired) build(system);
+  if (m_levels.empty() || !m_coarsened ||
+      static_cast<int>(m_levels[0].d_inverse.size()) != system.matrix.size() || tired)
+    build(system);
   else copy_finest(system);
   if (m_age++ > 0) estimate_lambda(0, 2);
 }
@@ -247,7 +268,8 @@ void Aggregation::smooth(std::size_t l, bool zero_start) {
   Level& level = m_levels[l];
   const std::vector<Float4>& r = level.r;
   std::vector<Float4>&z = level.z, &t = level.t, &d = level.d;
-  const float high = level.lambda, low = high / 4, center = 0.5F * (high + low), half = 0.5F * (high - low);
+  const float high = level.lambda, low = high / 4, center = 0.5F * (high + low),
+              half = 0.5F * (high - low);
   const Float4 first = Float4::all(1 / center);
   if (zero_start) {
     parallel_for(r.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
@@ -262,16 +284,20 @@ void Aggregation::smooth(std::size_t l, bool zero_start) {
   }
   const float sigma = center / half, rho = 1 / sigma, rho_next = 1 / (2 * sigma - rho);
   const Float4 keep = Float4::all(rho_next * rho), add = Float4::all(2 * rho_next / half);
-  multiply(l, z, [&](std::size_t i, Float4 row) { t[i] = z[i] + keep * d[i] + add * (level.d_inverse[i] * (r[i] - row)); });
+  multiply(l, z, [&](std::size_t i, Float4 row) {
+    t[i] = z[i] + keep * d[i] + add * (level.d_inverse[i] * (r[i] - row));
+  });
   std::swap(z, t);
 }
 
 void Aggregation::cycle(std::size_t l) {
   Level& level = m_levels[l];
   if (l + 1 == m_levels.size()) {
-    for (std::size_t i = 0; i < level.r.size(); ++i) m_coarse_vector.segment<3>(3 * static_cast<long>(i)) = to_double(level.r[i]);
+    for (std::size_t i = 0; i < level.r.size(); ++i)
+      m_coarse_vector.segment<3>(3 * static_cast<long>(i)) = to_double(level.r[i]);
     m_coarsest.solveInPlace(m_coarse_vector);
-    for (std::size_t i = 0; i < level.r.size(); ++i) level.z[i] = to_float(Vec3(m_coarse_vector.segment<3>(3 * static_cast<long>(i))));
+    for (std::size_t i = 0; i < level.r.size(); ++i)
+      level.z[i] = to_float(Vec3(m_coarse_vector.segment<3>(3 * static_cast<long>(i))));
     return;
   }
   smooth(l, true);
@@ -283,7 +309,8 @@ void Aggregation::cycle(std::size_t l) {
   smooth(l, false);
 }
 
-/// r, scaled to unit size, as the finest level's: single precision has its range around 1. Returns what that size was.
+/// r, scaled to unit size, as the finest level's: single precision has its range around 1. Returns
+/// what that size was.
 double Aggregation::take_in(const std::vector<Vec3>& r) {
   double largest = 0;
   for (const Vec3& v : r) largest = std::max(largest, v.cwiseAbs().maxCoeff());
@@ -364,12 +391,14 @@ struct Aggregation::SingleSpace {
   }
 };
 
-/// Starts the solve for r, which the finest level has as its own, from the ways of the last ones, if the system recurs and they lead no farther
-/// than the radius.
+/// Starts the solve for r, which the finest level has as its own, from the ways of the last ones,
+/// if the system recurs and they lead no farther than the radius.
 void Aggregation::deflate(const LinearSystem& system, const std::vector<Vec3>& r, double radius) {
   m_deflation.leave_out();
   if (!system.recurs) return;
-  m_deflation.prepare(r.size(), [&](const std::vector<Float4>& x, std::vector<Float4>& y) { multiply_system(x, y); });
+  m_deflation.prepare(r.size(), [&](const std::vector<Float4>& x, std::vector<Float4>& y) {
+    multiply_system(x, y);
+  });
   if (m_deflation.n_ways() == 0) return;
   m_deflation.start(m_x, m_levels[0].r);
   if (longest(m_x) < radius) return;
@@ -378,7 +407,8 @@ void Aggregation::deflate(const LinearSystem& system, const std::vector<Vec3>& r
   take_in(r);
 }
 
-bool Aggregation::solve_in_single(const LinearSystem& system, const std::vector<Vec3>& r, CgTolerance tolerance, int max_iterations, double radius,
+bool Aggregation::solve_in_single(const LinearSystem& system, const std::vector<Vec3>& r,
+                                  CgTolerance tolerance, int max_iterations, double radius,
                                   std::vector<Vec3>& x, CgResult& result) {
   const double scale = take_in(r);
   for (auto* v : {&m_x, &m_p, &m_q}) v->assign(r.size(), Float4::all(0));
@@ -386,7 +416,8 @@ bool Aggregation::solve_in_single(const LinearSystem& system, const std::vector<
   const double target2 = tolerance.residual * tolerance.residual * dot(residual, residual, m_part);
   deflate(system, r, radius / scale);
   const int before = result.iterations;
-  conjugate_gradient_loop(SingleSpace{*this, system}, dot(residual, residual, m_part), target2, tolerance.energy, max_iterations, radius / scale, result);
+  conjugate_gradient_loop(SingleSpace{*this, system}, dot(residual, residual, m_part), target2,
+                          tolerance.energy, max_iterations, radius / scale, result);
   if (system.recurs && result.iterations >= before + LONG) m_deflation.keep(m_x);
   hand_out(m_x, scale, x);
   return true;

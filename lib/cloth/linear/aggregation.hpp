@@ -1,12 +1,14 @@
 #pragma once
 /// Smoothed aggregation as a CG preconditioner (Vanek, Mandel, Brezina 1996) for blocks of 3x3.
 ///
-/// Near-null space: the three translations. Greedy aggregation over strong couplings, prolongator smoothed by one step of
-/// block Jacobi, Chebyshev smoother of degree 2, coarsest level factorised. There is no geometric coarsening, so narrow
-/// straps are no special case. The hierarchy lags: it is rebuilt, within a solve too, only where the iterations that it costs have
-/// grown by what a new one costs; the finest level always sees the current matrix. It is built in double and applied in single
-/// precision, and the conjugate gradients run on the finest level in single precision too: refinement in double has the last word.
-/// Of systems that recur, solves begin with the ways of the last ones (Deflation).
+/// Near-null space: the three translations. Greedy aggregation over strong couplings, prolongator
+/// smoothed by one step of block Jacobi, Chebyshev smoother of degree 2, coarsest level factorised.
+/// There is no geometric coarsening, so narrow straps are no special case. The hierarchy lags: it
+/// is rebuilt, within a solve too, only where the iterations that it costs have grown by what a new
+/// one costs; the finest level always sees the current matrix. It is built in double and applied in
+/// single precision, and the conjugate gradients run on the finest level in single precision too:
+/// refinement in double has the last word. Of systems that recur, solves begin with the ways of the
+/// last ones (Deflation).
 #include <Eigen/Dense>
 #include <cloth/linear/conjugate_gradient.hpp>
 #include <cloth/linear/deflation.hpp>
@@ -19,9 +21,10 @@ public:
   void update(const LinearSystem& system) override;
   void apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) override;
   bool renew(const LinearSystem& system, int iterations) override;
-  bool is_near() const override { return true; }
-  bool solve_in_single(const LinearSystem& system, const std::vector<Vec3>& r, CgTolerance tolerance, int max_iterations, double radius, std::vector<Vec3>& x,
-                       CgResult& result) override;
+  bool estimates_energy_error() const override { return true; }
+  bool solve_in_single(const LinearSystem& system, const std::vector<Vec3>& r,
+                       CgTolerance tolerance, int max_iterations, double radius,
+                       std::vector<Vec3>& x, CgResult& result) override;
   void report_iterations(int iterations) override;
   void reset() override {
     m_levels.clear();
@@ -29,7 +32,8 @@ public:
     m_deflation.forget();
   }
   long rebuilds = 0;
-  /// Blocks of all levels' matrices over those of the finest: what a cycle costs in multiplications by the matrix. 1 without levels.
+  /// Blocks of all levels' matrices over those of the finest: what a cycle costs in multiplications
+  /// by the matrix. 1 without levels.
   double complexity() const;
 
 private:
@@ -51,8 +55,10 @@ private:
   void build(const LinearSystem& system);
   void copy_finest(const LinearSystem& system);
   void pull_contacts(const std::vector<Float4>& x);
-  template<class Put> void multiply(std::size_t level, const std::vector<Float4>& x, const Put& put);
-  template<class Put> void multiply_finest(const FloatRows& rows, const std::vector<Float4>& x, const Put& put);
+  template<class Put>
+  void multiply(std::size_t level, const std::vector<Float4>& x, const Put& put);
+  template<class Put>
+  void multiply_finest(const FloatRows& rows, const std::vector<Float4>& x, const Put& put);
   void multiply_system(const std::vector<Float4>& x, std::vector<Float4>& y);
   void deflate(const LinearSystem& system, const std::vector<Vec3>& r, double radius);
   void estimate_lambda(std::size_t level, int iterations);

@@ -12,11 +12,15 @@ static void tidy(std::vector<std::array<int, 2>>& pairs) {
     if (p[0] > p[1]) std::swap(p[0], p[1]);
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [](const auto& p) { return p[0] == p[1]; }), pairs.end());
+  pairs.erase(
+      std::remove_if(pairs.begin(), pairs.end(), [](const auto& p) { return p[0] == p[1]; }),
+      pairs.end());
 }
 
-BlockMatrix::BlockMatrix(int n, Couplings couplings) : m_n(n), m_all_symmetric(couplings.full.empty()) {
-  couplings.full.insert(couplings.full.end(), couplings.symmetric.begin(), couplings.symmetric.end());
+BlockMatrix::BlockMatrix(int n, Couplings couplings)
+    : m_n(n), m_all_symmetric(couplings.full.empty()) {
+  couplings.full.insert(couplings.full.end(), couplings.symmetric.begin(),
+                        couplings.symmetric.end());
   tidy(couplings.full);
   tidy(couplings.isotropic);
   m_row_start.assign(static_cast<std::size_t>(n) + 1, 0);
@@ -33,15 +37,18 @@ BlockMatrix::BlockMatrix(int n, Couplings couplings) : m_n(n), m_all_symmetric(c
   for (int i = 0; i < n; ++i)
     for (int k = m_row_start[i]; k < m_row_start[i + 1]; ++k) m_lower[at[m_column[k]]++] = {k, i};
   std::vector<std::array<int, 2>> isotropic;
-  std::set_difference(couplings.isotropic.begin(), couplings.isotropic.end(), couplings.full.begin(), couplings.full.end(), std::back_inserter(isotropic));
+  std::set_difference(couplings.isotropic.begin(), couplings.isotropic.end(),
+                      couplings.full.begin(), couplings.full.end(), std::back_inserter(isotropic));
   m_isotropic_start.assign(static_cast<std::size_t>(n) + 1, 0);
   for (const auto& p : isotropic)
     for (int i : p) ++m_isotropic_start[i + 1];
   for (int i = 0; i < n; ++i) m_isotropic_start[i + 1] += m_isotropic_start[i];
   m_isotropic.resize(2 * isotropic.size());
   at.assign(m_isotropic_start.begin(), m_isotropic_start.end() - 1);
-  for (int side : {1, 0}) // sorted by their first, pairs give each row its lower columns by rising order, and then its upper ones
-    for (std::size_t k = 0; k < isotropic.size(); ++k) m_isotropic[at[isotropic[k][side]]++] = {static_cast<int>(k), isotropic[k][1 - side]};
+  for (int side : {1, 0}) // sorted by their first, pairs give each row its lower columns by rising
+                          // order, and then its upper ones
+    for (std::size_t k = 0; k < isotropic.size(); ++k)
+      m_isotropic[at[isotropic[k][side]]++] = {static_cast<int>(k), isotropic[k][1 - side]};
   m_isotropic_value.assign(isotropic.size(), 0);
   m_value.assign(m_column.size(), Mat3::Zero());
   m_diagonal.assign(static_cast<std::size_t>(n), Mat3::Zero());
@@ -49,12 +56,16 @@ BlockMatrix::BlockMatrix(int n, Couplings couplings) : m_n(n), m_all_symmetric(c
 
 int BlockMatrix::slot(int i, int j) const {
   if (i > j) std::swap(i, j);
-  const auto first = m_column.begin() + m_row_start[i], last = m_column.begin() + m_row_start[i + 1];
+  const auto first = m_column.begin() + m_row_start[i],
+             last = m_column.begin() + m_row_start[i + 1];
   const auto found = std::lower_bound(first, last, j);
   if (found != last && *found == j) return static_cast<int>(found - m_column.begin());
-  const auto begin = m_isotropic.begin() + m_isotropic_start[i], end = m_isotropic.begin() + m_isotropic_start[i + 1];
-  const auto entry = std::lower_bound(begin, end, j, [](const Entry& e, int column) { return e.column < column; });
-  if (entry == end || entry->column != j) throw Error(ErrorKind::INTERNAL, "", "", "a block outside of the matrix's pattern");
+  const auto begin = m_isotropic.begin() + m_isotropic_start[i],
+             end = m_isotropic.begin() + m_isotropic_start[i + 1];
+  const auto entry =
+      std::lower_bound(begin, end, j, [](const Entry& e, int column) { return e.column < column; });
+  if (entry == end || entry->column != j)
+    throw Error(ErrorKind::INTERNAL, "", "", "a block outside of the matrix's pattern");
   return static_cast<int>(m_value.size()) + entry->slot;
 }
 

@@ -6,7 +6,8 @@
 
 namespace sloper::cloth {
 
-double LinearSystem::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y, std::vector<Vec3>& pull, std::vector<double>& part) const {
+double LinearSystem::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y,
+                              std::vector<Vec3>& pull, std::vector<double>& part) const {
   const BlockMatrix& a = whole ? *whole : matrix;
   pull.resize(elements.size());
   parallel_for(elements.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
@@ -16,7 +17,9 @@ double LinearSystem::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y, 
     double sum = 0;
     for (std::size_t i = begin; i < end; ++i) {
       Vec3 row = a.row_times(static_cast<int>(i), x);
-      for (int k = index.start[i]; k < index.start[i + 1]; ++k) row += elements[index.entry[k].element].weight[index.entry[k].k] * pull[index.entry[k].element];
+      for (int k = index.start[i]; k < index.start[i + 1]; ++k)
+        row += elements[index.entry[k].element].weight[index.entry[k].k] *
+               pull[index.entry[k].element];
       y[i] = row;
       sum += x[i].dot(row);
     }
@@ -41,7 +44,8 @@ void BlockJacobi::apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) {
   for (std::size_t i = 0; i < r.size(); ++i) z[i].noalias() = m_inverse[i] * r[i];
 }
 
-static double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b, std::vector<double>& part) {
+static double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b,
+                  std::vector<double>& part) {
   return parallel_sum(a.size(), ROW_GRAIN, part, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t i = begin; i < end; ++i) sum += a[i].dot(b[i]);
@@ -89,11 +93,14 @@ struct DoubleSpace {
   bool renew(int iterations) { return preconditioner.renew(system, iterations); }
 };
 
-constexpr double AIM = 0.95;          // of the tolerance, in single precision: the residual in double is to be within it too
-constexpr double FINEST_SHARE = 1e-4; // of the residual, that a round in single precision is asked for
+constexpr double AIM =
+    0.95; // of the tolerance, in single precision: the residual in double is to be within it too
+constexpr double FINEST_SHARE =
+    1e-4; // of the residual, that a round in single precision is asked for
 
 /// Whether the energy of the system, 1/2 x' A x - b' x, is less at x than at 0.
-bool falls(const std::vector<Vec3>& x, const std::vector<Vec3>& b, const std::vector<Vec3>& residual) {
+bool falls(const std::vector<Vec3>& x, const std::vector<Vec3>& b,
+           const std::vector<Vec3>& residual) {
   double twice = 0;
   for (std::size_t i = 0; i < x.size(); ++i) twice += x[i].dot(b[i] + residual[i]);
   return twice > 0;
@@ -101,13 +108,14 @@ bool falls(const std::vector<Vec3>& x, const std::vector<Vec3>& b, const std::ve
 
 } // namespace
 
-CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& preconditioner, const std::vector<Vec3>& b, CgTolerance tolerance, int max_iterations,
+CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& preconditioner,
+                            const std::vector<Vec3>& b, CgTolerance tolerance, int max_iterations,
                             std::vector<Vec3>& x, CgWork& work, double radius) {
   const std::size_t n = b.size();
   for (auto* v : {&work.r, &work.z, &work.p, &work.q}) v->resize(n);
   x.assign(n, Vec3::Zero());
   work.r = b;
-  if (!preconditioner.is_near()) tolerance.energy = 0;
+  if (!preconditioner.estimates_energy_error()) tolerance.energy = 0;
   CgResult result;
   const double b_norm2 = dot(b, b, work.part);
   if (b_norm2 == 0) return {0, 0, 0, true, false, false, false};
@@ -115,13 +123,17 @@ CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& precondi
   double r_norm2 = b_norm2;
   while (result.iterations < max_iterations && r_norm2 > target2) {
     const double share = std::max(AIM * std::sqrt(target2 / r_norm2), FINEST_SHARE);
-    if (!preconditioner.solve_in_single(system, work.r, {share, tolerance.energy}, max_iterations, radius - longest(x), work.z, result)) break;
+    if (!preconditioner.solve_in_single(system, work.r, {share, tolerance.energy}, max_iterations,
+                                        radius - longest(x), work.z, result))
+      break;
     for (std::size_t i = 0; i < n; ++i) work.p[i] = x[i] + work.z[i];
     system.multiply(work.p, work.q, work.pull, work.part);
     for (std::size_t i = 0; i < n; ++i) work.z[i] = b[i] - work.q[i];
     const double after2 = dot(work.z, work.z, work.part);
-    const bool ended = result.bounded || result.near || result.iterations >= max_iterations; // by what lets the residual grow
-    if (!(ended ? std::isfinite(after2) && (result.bounded || falls(work.p, b, work.z)) : after2 < r_norm2)) {
+    const bool ended = result.bounded || result.near ||
+                       result.iterations >= max_iterations; // by what lets the residual grow
+    if (!(ended ? std::isfinite(after2) && (result.bounded || falls(work.p, b, work.z))
+                : after2 < r_norm2)) {
       result.bounded = result.near = false;
       break;
     }
@@ -132,8 +144,10 @@ CgResult conjugate_gradient(const LinearSystem& system, Preconditioner& precondi
     if (ended || !halved) break;
   }
   if (!result.bounded && !result.near) {
-    work.p.assign(n, Vec3::Zero()); // it may hold what is no number, and 0 times that is none either
-    r_norm2 = conjugate_gradient_loop(DoubleSpace{system, preconditioner, x, work}, r_norm2, target2, tolerance.energy, max_iterations, radius, result);
+    work.p.assign(n,
+                  Vec3::Zero()); // it may hold what is no number, and 0 times that is none either
+    r_norm2 = conjugate_gradient_loop(DoubleSpace{system, preconditioner, x, work}, r_norm2,
+                                      target2, tolerance.energy, max_iterations, radius, result);
   }
   result.residual = std::sqrt(r_norm2 / b_norm2);
   result.converged = result.near || r_norm2 <= target2;

@@ -4,12 +4,14 @@
 
 namespace sloper::cloth {
 
-/// A way counts as new where at least this share of its energy is in what the ways before it do not have.
+/// A way counts as new where at least this share of its energy is in what the ways before it do not
+/// have.
 static constexpr double NEW = 1e-4;
 
 void Deflation::keep(const std::vector<Float4>& x) {
   if (m_n_kept < MOST) ++m_n_kept;
-  std::rotate(m_kept.begin(), m_kept.begin() + static_cast<long>(m_n_kept - 1), m_kept.begin() + static_cast<long>(m_n_kept));
+  std::rotate(m_kept.begin(), m_kept.begin() + static_cast<long>(m_n_kept - 1),
+              m_kept.begin() + static_cast<long>(m_n_kept));
   m_kept[0] = x;
 }
 
@@ -17,7 +19,8 @@ void Deflation::keep(const std::vector<Float4>& x) {
 Deflation::Shares Deflation::shares(const Vectors& of, const std::vector<Float4>& v) {
   m_part.assign((v.size() + ROW_GRAIN - 1) / ROW_GRAIN, {});
   parallel_for(v.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = 0; k < m_n_ways; ++k) m_part[begin / ROW_GRAIN][k] = dot(of[k], v, begin, end);
+    for (std::size_t k = 0; k < m_n_ways; ++k)
+      m_part[begin / ROW_GRAIN][k] = dot(of[k], v, begin, end);
   });
   Shares sum{};
   for (const Shares& part : m_part)
@@ -35,7 +38,8 @@ void Deflation::take(const Vectors& from, const Shares& shares, std::vector<Floa
   });
 }
 
-/// Makes the way after the last A-orthogonal to those before and of energy 1, by Gram and Schmidt. False: it is none.
+/// Makes the way after the last A-orthogonal to those before and of energy 1, by Gram and Schmidt.
+/// False: it is none.
 bool Deflation::orthonormalise() {
   std::vector<Float4>&way = m_way[m_n_ways], &image = m_image[m_n_ways];
   const double before = dot(way, image, m_sum);

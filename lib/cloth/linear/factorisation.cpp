@@ -17,7 +17,8 @@ public:
       return;
     }
     for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < (i == j ? r + 1 : 3); ++c) m_entries.emplace_back(3 * i + r, 3 * j + c, block(r, c));
+      for (int c = 0; c < (i == j ? r + 1 : 3); ++c)
+        m_entries.emplace_back(3 * i + r, 3 * j + c, block(r, c));
   }
   Eigen::SparseMatrix<double> matrix() const {
     Eigen::SparseMatrix<double> lower(m_size, m_size);
@@ -37,7 +38,8 @@ void Factorisation::update(const LinearSystem& system) {
   LowerTriangle lower(a.size());
   for (int i = 0; i < a.size(); ++i) {
     lower.add(i, i, a.diagonal(i));
-    for (int k = a.row_start()[i]; k < a.row_start()[i + 1]; ++k) lower.add(i, a.column()[k], a.value()[k]);
+    for (int k = a.row_start()[i]; k < a.row_start()[i + 1]; ++k)
+      lower.add(i, a.column()[k], a.value()[k]);
     for (int k = a.isotropic_start()[i]; k < a.isotropic_start()[i + 1]; ++k) {
       const auto [slot, column] = a.isotropic()[k];
       if (column < i) lower.add(i, column, a.isotropic_value()[slot] * Mat3::Identity());
@@ -48,7 +50,8 @@ void Factorisation::update(const LinearSystem& system) {
     for (int k = 0; k < e.n; ++k)
       for (int l = 0; l <= k; ++l) {
         const Mat3 block = e.weight[k] * e.weight[l] * stiffness;
-        if (k != l && e.particle[k] == e.particle[l]) lower.add(e.particle[k], e.particle[k], 2 * block);
+        if (k != l && e.particle[k] == e.particle[l])
+          lower.add(e.particle[k], e.particle[k], 2 * block);
         else lower.add(e.particle[k], e.particle[l], block);
       }
   }
@@ -58,7 +61,8 @@ void Factorisation::update(const LinearSystem& system) {
 void Factorisation::apply(const std::vector<Vec3>& r, std::vector<Vec3>& z) {
   const Eigen::Index n = 3 * static_cast<Eigen::Index>(r.size());
   z.resize(r.size());
-  Eigen::Map<Eigen::VectorXd>(z.data()->data(), n) = m_solver.solve(Eigen::Map<const Eigen::VectorXd>(r.data()->data(), n));
+  Eigen::Map<Eigen::VectorXd>(z.data()->data(), n) =
+      m_solver.solve(Eigen::Map<const Eigen::VectorXd>(r.data()->data(), n));
 }
 
 } // namespace sloper::cloth

@@ -1,7 +1,8 @@
 #pragma once
-/// The whole system factorised anew for every solve (Eigen's SimplicialLDLT): what an approximate preconditioner is measured against.
-/// Conjugate gradients then end after one or two iterations. Cost: that of a factorisation a step, O(#P^1.5) for cloth.
-/// Test: tests/cloth/linear/test_linear_solver.cpp
+/// The whole system factorised anew for every solve (Eigen's SimplicialLDLT): what an approximate
+/// preconditioner is measured against. Conjugate gradients then end after one or two iterations.
+/// Cost: that of a factorisation a step, O(#P^1.5) for cloth. Test:
+/// tests/cloth/linear/test_linear_solver.cpp
 #include <cloth/linear/conjugate_gradient.hpp>
 #include <geometry/sparse_solver.hpp>
 

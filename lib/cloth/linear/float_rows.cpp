@@ -6,22 +6,28 @@
 namespace sloper::cloth {
 
 /// Slots of each group of rows, and their columns; what pads them reads the first particle.
-static void group_rows(const std::vector<int>& start, const std::vector<int>& column, std::vector<int>& group_start, std::vector<FloatRows::Slot>& slot) {
+static void group_rows(const std::vector<int>& start, const std::vector<int>& column,
+                       std::vector<int>& group_start, std::vector<FloatRows::Slot>& slot) {
   const int n = static_cast<int>(start.size()) - 1;
   group_start.assign(1, 0);
   for (int first = 0; first < n; first += FloatRows::GROUP) {
     int longest = 0;
-    for (int i = first; i < std::min(first + FloatRows::GROUP, n); ++i) longest = std::max(longest, start[i + 1] - start[i]);
+    for (int i = first; i < std::min(first + FloatRows::GROUP, n); ++i)
+      longest = std::max(longest, start[i + 1] - start[i]);
     group_start.push_back(group_start.back() + longest);
   }
   slot.assign(group_start.back(), {});
   for (int i = 0; i < n; ++i)
-    for (int k = start[i]; k < start[i + 1]; ++k) slot[group_start[i / FloatRows::GROUP] + k - start[i]].column[i % FloatRows::GROUP] = column[k];
+    for (int k = start[i]; k < start[i + 1]; ++k)
+      slot[group_start[i / FloatRows::GROUP] + k - start[i]].column[i % FloatRows::GROUP] =
+          column[k];
 }
 
-FloatRows::FloatRows(const std::vector<int>& start, const std::vector<int>& column, const std::vector<int>& isotropic_start,
+FloatRows::FloatRows(const std::vector<int>& start, const std::vector<int>& column,
+                     const std::vector<int>& isotropic_start,
                      const std::vector<int>& isotropic_column, bool symmetric)
-    : m_rows(static_cast<int>(start.size()) - 1), m_blocks(column.size()), m_numbers(symmetric ? 6 : 9) {
+    : m_rows(static_cast<int>(start.size()) - 1), m_blocks(column.size()),
+      m_numbers(symmetric ? 6 : 9) {
   group_rows(start, column, m_start, m_column);
   if (isotropic_start.empty()) m_isotropic_start.assign(m_start.size(), 0);
   else group_rows(isotropic_start, isotropic_column, m_isotropic_start, m_isotropic_column);
@@ -43,7 +49,9 @@ struct Group {
 template<bool SYMMETRIC> struct Places {
   static constexpr int NUMBERS = 9, AT[3][3] = {{0, 3, 6}, {1, 4, 7}, {2, 5, 8}};
 };
-template<> struct Places<true> { static constexpr int NUMBERS = 6, AT[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}; };
+template<> struct Places<true> {
+  static constexpr int NUMBERS = 6, AT[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+};
 
 /// Four rows at a time.
 template<bool SYMMETRIC> void times_narrow(const Group& group, const Float4* x, Float4* row) {
@@ -57,13 +65,18 @@ template<bool SYMMETRIC> void times_narrow(const Group& group, const Float4* x, 
     };
     Float4 px, py, pz;
     const Float8* v = group.value;
-    for (const FloatRows::Slot* slot = group.slot; slot != group.slot_end; ++slot, v += Places<SYMMETRIC>::NUMBERS) {
+    for (const FloatRows::Slot* slot = group.slot; slot != group.slot_end;
+         ++slot, v += Places<SYMMETRIC>::NUMBERS) {
       gather(*slot, px, py, pz);
-      const auto number = [&](int r, int c) { return Float4::load(v[Places<SYMMETRIC>::AT[r][c]].lane + half); };
-      for (int r = 0; r < 3; ++r) sum[r] = sum[r] + (number(r, 0) * px + number(r, 1) * py + number(r, 2) * pz);
+      const auto number = [&](int r, int c) {
+        return Float4::load(v[Places<SYMMETRIC>::AT[r][c]].lane + half);
+      };
+      for (int r = 0; r < 3; ++r)
+        sum[r] = sum[r] + (number(r, 0) * px + number(r, 1) * py + number(r, 2) * pz);
     }
     v = group.isotropic_value;
-    for (const FloatRows::Slot* slot = group.isotropic_slot; slot != group.isotropic_slot_end; ++slot, ++v) {
+    for (const FloatRows::Slot* slot = group.isotropic_slot; slot != group.isotropic_slot_end;
+         ++slot, ++v) {
       gather(*slot, px, py, pz);
       const Float4 a = Float4::load(v->lane + half);
       sum[0] = sum[0] + a * px, sum[1] = sum[1] + a * py, sum[2] = sum[2] + a * pz;
@@ -77,37 +90,48 @@ template<bool SYMMETRIC> void times_narrow(const Group& group, const Float4* x, 
 #define SLOPER_WIDE [[gnu::target("avx")]] inline
 
 /// Two particles' vectors.
-SLOPER_WIDE __m256 pair(Float4 low, Float4 high) { return _mm256_insertf128_ps(_mm256_castps128_ps256(low.v), high.v, 1); }
+SLOPER_WIDE __m256 pair(Float4 low, Float4 high) {
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(low.v), high.v, 1);
+}
 
 /// x, y and z of eight particles: particle i's in lane i.
-SLOPER_WIDE void gather_wide(const FloatRows::Slot& slot, const Float4* x, __m256& px, __m256& py, __m256& pz) {
+SLOPER_WIDE void gather_wide(const FloatRows::Slot& slot, const Float4* x, __m256& px, __m256& py,
+                             __m256& pz) {
   const int* c = slot.column;
-  const __m256 p0 = pair(x[c[0]], x[c[4]]), p1 = pair(x[c[1]], x[c[5]]), p2 = pair(x[c[2]], x[c[6]]), p3 = pair(x[c[3]], x[c[7]]);
-  const __m256 xy01 = _mm256_unpacklo_ps(p0, p1), xy23 = _mm256_unpacklo_ps(p2, p3), z01 = _mm256_unpackhi_ps(p0, p1), z23 = _mm256_unpackhi_ps(p2, p3);
+  const __m256 p0 = pair(x[c[0]], x[c[4]]), p1 = pair(x[c[1]], x[c[5]]),
+               p2 = pair(x[c[2]], x[c[6]]), p3 = pair(x[c[3]], x[c[7]]);
+  const __m256 xy01 = _mm256_unpacklo_ps(p0, p1), xy23 = _mm256_unpacklo_ps(p2, p3),
+               z01 = _mm256_unpackhi_ps(p0, p1), z23 = _mm256_unpackhi_ps(p2, p3);
   px = _mm256_shuffle_ps(xy01, xy23, _MM_SHUFFLE(1, 0, 1, 0));
   py = _mm256_shuffle_ps(xy01, xy23, _MM_SHUFFLE(3, 2, 3, 2));
   pz = _mm256_shuffle_ps(z01, z23, _MM_SHUFFLE(1, 0, 1, 0));
 }
 
-/// Row r of eight blocks times their vectors. Product and sum apart, as elsewhere: fused ones would round otherwise.
-template<bool SYMMETRIC, int R> SLOPER_WIDE __m256 row_wide(const Float8* v, __m256 px, __m256 py, __m256 pz) {
+/// Row r of eight blocks times their vectors. Product and sum apart, as elsewhere: fused ones would
+/// round otherwise.
+template<bool SYMMETRIC, int R>
+SLOPER_WIDE __m256 row_wide(const Float8* v, __m256 px, __m256 py, __m256 pz) {
   constexpr const int* AT = Places<SYMMETRIC>::AT[R];
-  return _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(_mm256_load_ps(v[AT[0]].lane), px), _mm256_mul_ps(_mm256_load_ps(v[AT[1]].lane), py)),
+  return _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(_mm256_load_ps(v[AT[0]].lane), px),
+                                     _mm256_mul_ps(_mm256_load_ps(v[AT[1]].lane), py)),
                        _mm256_mul_ps(_mm256_load_ps(v[AT[2]].lane), pz));
 }
 
 /// Eight rows at a time.
-template<bool SYMMETRIC> SLOPER_WIDE void times_wide(const Group& group, const Float4* x, Float4* row) {
+template<bool SYMMETRIC>
+SLOPER_WIDE void times_wide(const Group& group, const Float4* x, Float4* row) {
   __m256 sx = _mm256_setzero_ps(), sy = sx, sz = sx, px, py, pz;
   const Float8* v = group.value;
-  for (const FloatRows::Slot* slot = group.slot; slot != group.slot_end; ++slot, v += Places<SYMMETRIC>::NUMBERS) {
+  for (const FloatRows::Slot* slot = group.slot; slot != group.slot_end;
+       ++slot, v += Places<SYMMETRIC>::NUMBERS) {
     gather_wide(*slot, x, px, py, pz);
     sx = _mm256_add_ps(sx, row_wide<SYMMETRIC, 0>(v, px, py, pz));
     sy = _mm256_add_ps(sy, row_wide<SYMMETRIC, 1>(v, px, py, pz));
     sz = _mm256_add_ps(sz, row_wide<SYMMETRIC, 2>(v, px, py, pz));
   }
   v = group.isotropic_value;
-  for (const FloatRows::Slot* slot = group.isotropic_slot; slot != group.isotropic_slot_end; ++slot, ++v) {
+  for (const FloatRows::Slot* slot = group.isotropic_slot; slot != group.isotropic_slot_end;
+       ++slot, ++v) {
     gather_wide(*slot, x, px, py, pz);
     const __m256 a = _mm256_load_ps(v->lane);
     sx = _mm256_add_ps(sx, _mm256_mul_ps(a, px));
@@ -115,10 +139,12 @@ template<bool SYMMETRIC> SLOPER_WIDE void times_wide(const Group& group, const F
     sz = _mm256_add_ps(sz, _mm256_mul_ps(a, pz));
   }
   const __m256 zero = _mm256_setzero_ps();
-  const __m256 xy_low = _mm256_unpacklo_ps(sx, sy), xy_high = _mm256_unpackhi_ps(sx, sy), z_low = _mm256_unpacklo_ps(sz, zero),
-               z_high = _mm256_unpackhi_ps(sz, zero);
-  const __m256 rows[4] = {_mm256_shuffle_ps(xy_low, z_low, _MM_SHUFFLE(1, 0, 1, 0)), _mm256_shuffle_ps(xy_low, z_low, _MM_SHUFFLE(3, 2, 3, 2)),
-                          _mm256_shuffle_ps(xy_high, z_high, _MM_SHUFFLE(1, 0, 1, 0)), _mm256_shuffle_ps(xy_high, z_high, _MM_SHUFFLE(3, 2, 3, 2))};
+  const __m256 xy_low = _mm256_unpacklo_ps(sx, sy), xy_high = _mm256_unpackhi_ps(sx, sy),
+               z_low = _mm256_unpacklo_ps(sz, zero), z_high = _mm256_unpackhi_ps(sz, zero);
+  const __m256 rows[4] = {_mm256_shuffle_ps(xy_low, z_low, _MM_SHUFFLE(1, 0, 1, 0)),
+                          _mm256_shuffle_ps(xy_low, z_low, _MM_SHUFFLE(3, 2, 3, 2)),
+                          _mm256_shuffle_ps(xy_high, z_high, _MM_SHUFFLE(1, 0, 1, 0)),
+                          _mm256_shuffle_ps(xy_high, z_high, _MM_SHUFFLE(3, 2, 3, 2))};
   for (int i = 0; i < 4; ++i) {
     row[i].v = _mm256_castps256_ps128(rows[i]);
     row[i + 4].v = _mm256_extractf128_ps(rows[i], 1);
@@ -141,7 +167,8 @@ void FloatRows::times(std::size_t g, const Float4* x, Float4* row) const {
                     m_isotropic_column.data() + m_isotropic_start[g + 1],
                     m_isotropic_value.data() + m_isotropic_start[g]};
 #if defined(__x86_64__)
-  if (wide) return m_numbers == 9 ? times_wide<false>(group, x, row) : times_wide<true>(group, x, row);
+  if (wide)
+    return m_numbers == 9 ? times_wide<false>(group, x, row) : times_wide<true>(group, x, row);
 #endif
   return m_numbers == 9 ? times_narrow<false>(group, x, row) : times_narrow<true>(group, x, row);
 }
@@ -153,11 +180,14 @@ void FloatRows::allow_wide([[maybe_unused]] bool allowed) {
 }
 
 Float4 to_float(const Vec3& v) {
-  alignas(16) const float lanes[4] = {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0};
+  alignas(16) const float lanes[4] = {static_cast<float>(v.x()), static_cast<float>(v.y()),
+                                      static_cast<float>(v.z()), 0};
   return Float4::load(lanes);
 }
 
-FloatBlock to_float(const Mat3& m) { return {{to_float(Vec3(m.col(0))), to_float(Vec3(m.col(1))), to_float(Vec3(m.col(2)))}}; }
+FloatBlock to_float(const Mat3& m) {
+  return {{to_float(Vec3(m.col(0))), to_float(Vec3(m.col(1))), to_float(Vec3(m.col(2)))}};
+}
 
 Vec3 to_double(Float4 v) {
   alignas(16) float lanes[4];
@@ -168,25 +198,32 @@ Vec3 to_double(Float4 v) {
 FloatRows to_float(const BlockRows& rows) {
   FloatRows out(rows.start, rows.column, {}, {}, false);
   for (int i = 0; i < rows.rows; ++i)
-    for (int k = rows.start[i]; k < rows.start[i + 1]; ++k) out.put(i, k - rows.start[i], rows.value[k]);
+    for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
+      out.put(i, k - rows.start[i], rows.value[k]);
   return out;
 }
 
 /// How many blocks of row i of the whole matrix are not isotropic.
-static int full_blocks(const BlockMatrix& m, int i) { return 1 + m.lower_start()[i + 1] - m.lower_start()[i] + m.row_start()[i + 1] - m.row_start()[i]; }
+static int full_blocks(const BlockMatrix& m, int i) {
+  return 1 + m.lower_start()[i + 1] - m.lower_start()[i] + m.row_start()[i + 1] - m.row_start()[i];
+}
 
 /// Calls put(k, column, block) for those, by rising column, k counting from 0.
 template<class Put> static void visit_row(const BlockMatrix& m, int i, const Put& put) {
   int at = 0;
-  for (int k = m.lower_start()[i]; k < m.lower_start()[i + 1]; ++k) put(at++, m.lower()[k].column, Mat3(m.value()[m.lower()[k].slot].transpose()));
+  for (int k = m.lower_start()[i]; k < m.lower_start()[i + 1]; ++k)
+    put(at++, m.lower()[k].column, Mat3(m.value()[m.lower()[k].slot].transpose()));
   put(at++, i, m.diagonal(i));
-  for (int k = m.row_start()[i]; k < m.row_start()[i + 1]; ++k) put(at++, m.column()[k], m.value()[k]);
+  for (int k = m.row_start()[i]; k < m.row_start()[i + 1]; ++k)
+    put(at++, m.column()[k], m.value()[k]);
 }
 
 void expand(const BlockMatrix& m, BlockRows& out) {
   out.rows = out.columns = m.size();
   out.start.assign(m.size() + 1, 0);
-  for (int i = 0; i < m.size(); ++i) out.start[i + 1] = out.start[i] + full_blocks(m, i) + m.isotropic_start()[i + 1] - m.isotropic_start()[i];
+  for (int i = 0; i < m.size(); ++i)
+    out.start[i + 1] =
+        out.start[i] + full_blocks(m, i) + m.isotropic_start()[i + 1] - m.isotropic_start()[i];
   out.column.resize(out.start.back());
   out.value.resize(out.start.back());
   for (int i = 0; i < m.size(); ++i) {
@@ -197,7 +234,8 @@ void expand(const BlockMatrix& m, BlockRows& out) {
     visit_row(m, i, put);
     int at = full_blocks(m, i);
     for (int k = m.isotropic_start()[i]; k < m.isotropic_start()[i + 1]; ++k)
-      put(at++, m.isotropic()[k].column, m.isotropic_value()[m.isotropic()[k].slot] * Mat3::Identity());
+      put(at++, m.isotropic()[k].column,
+          m.isotropic_value()[m.isotropic()[k].slot] * Mat3::Identity());
   }
 }
 
@@ -214,13 +252,15 @@ FloatRows to_float(const BlockMatrix& m) {
 }
 
 void refill(const BlockMatrix& m, FloatRows& rows) {
-  parallel_for(static_cast<std::size_t>(m.size()), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i) {
-      visit_row(m, i, [&](int k, int, const Mat3& value) { rows.put(i, k, value); });
-      const int first = m.isotropic_start()[i];
-      for (int k = first; k < m.isotropic_start()[i + 1]; ++k) rows.put_isotropic(i, k - first, m.isotropic_value()[m.isotropic()[k].slot]);
-    }
-  });
+  parallel_for(static_cast<std::size_t>(m.size()), ROW_GRAIN,
+               [&](std::size_t begin, std::size_t end) {
+                 for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i) {
+                   visit_row(m, i, [&](int k, int, const Mat3& value) { rows.put(i, k, value); });
+                   const int first = m.isotropic_start()[i];
+                   for (int k = first; k < m.isotropic_start()[i + 1]; ++k)
+                     rows.put_isotropic(i, k - first, m.isotropic_value()[m.isotropic()[k].slot]);
+                 }
+               });
 }
 
 void transpose(const BlockRows& a, BlockRows& t) {
@@ -244,11 +284,13 @@ void product(const BlockRows& a, const BlockRows& b, BlockRows& c) {
   c.rows = a.rows;
   c.columns = b.columns;
   c.start.assign(a.rows + 1, 0);
-  // For rows begin to end - 1: put(i, k, l, j) for each pair of blocks k of a and l of b that meet in column j of row i.
+  // For rows begin to end - 1: put(i, k, l, j) for each pair of blocks k of a and l of b that meet
+  // in column j of row i.
   const auto visit = [&](std::size_t begin, std::size_t end, const auto& put) {
     for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
       for (int k = a.start[i]; k < a.start[i + 1]; ++k)
-        for (int l = b.start[a.column[k]]; l < b.start[a.column[k] + 1]; ++l) put(i, k, l, b.column[l]);
+        for (int l = b.start[a.column[k]]; l < b.start[a.column[k] + 1]; ++l)
+          put(i, k, l, b.column[l]);
   };
   const auto rows = static_cast<std::size_t>(a.rows);
   parallel_for(rows, ROW_GRAIN, [&](std::size_t begin, std::size_t end) {

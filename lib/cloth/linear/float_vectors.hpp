@@ -8,8 +8,10 @@
 
 namespace sloper::cloth {
 
-/// a . b over [begin, end), a chunk of parallel_for. Eight products are summed in single precision at a time.
-inline double dot(const std::vector<Float4>& a, const std::vector<Float4>& b, std::size_t begin, std::size_t end) {
+/// a . b over [begin, end), a chunk of parallel_for. Eight products are summed in single precision
+/// at a time.
+inline double dot(const std::vector<Float4>& a, const std::vector<Float4>& b, std::size_t begin,
+                  std::size_t end) {
   double sum[3] = {};
   for (std::size_t first = begin; first < end; first += 8) {
     Float4 some = Float4::all(0);
@@ -22,8 +24,10 @@ inline double dot(const std::vector<Float4>& a, const std::vector<Float4>& b, st
 }
 
 /// a . b; the same bits for any number of threads. @param part  work
-inline double dot(const std::vector<Float4>& a, const std::vector<Float4>& b, std::vector<double>& part) {
-  return parallel_sum(a.size(), ROW_GRAIN, part, [&](std::size_t begin, std::size_t end) { return dot(a, b, begin, end); });
+inline double dot(const std::vector<Float4>& a, const std::vector<Float4>& b,
+                  std::vector<double>& part) {
+  return parallel_sum(a.size(), ROW_GRAIN, part,
+                      [&](std::size_t begin, std::size_t end) { return dot(a, b, begin, end); });
 }
 
 } // namespace sloper::cloth

@@ -10,20 +10,24 @@ namespace sloper::cloth {
 
 namespace {
 
-/// Of one advance: so many, and one more for so long a way, m; then what is left of the way is gone at once. Mean parts are 0.5 to 2 mm long.
+/// Of one advance: so many, and one more for so long a way, m; then what is left of the way is gone
+/// at once. Mean parts are 0.5 to 2 mm long.
 constexpr int MOST_PARTS = 100;
 constexpr double SHORTEST_PART = 2e-4;
-/// Time given to a part is at least this share of the advance's, however short its way. Without it cloth that must be as fast as the skin
-/// at once would never be: parts, and the time in which the contact speeds the cloth up, shrink with the distance.
+/// Time given to a part is at least this share of the advance's, however short its way. Without it
+/// cloth that must be as fast as the skin at once would never be: parts, and the time in which the
+/// contact speeds the cloth up, shrink with the distance.
 constexpr double LEAST_TIME = 0.02;
 /// Cloth this near is carried whole, then less and less, m.
 constexpr double CARRIED_WHOLE = 0.006, NOT_CARRIED = 0.03;
-constexpr double ASK_LESS = 4; ///< times: of the way, where cloth cannot be carried all that was asked for
+constexpr double ASK_LESS =
+    4; ///< times: of the way, where cloth cannot be carried all that was asked for
 
 /// Of the longest carry: where the mean one is shorter, most of the cloth stays.
 constexpr double MOST_STAYS = 0.25;
 
-/// The way that all cloth has in common when a body walks, where it is carried so; 0 where most of it stays. @param carry #P by 3, m
+/// The way that all cloth has in common when a body walks, where it is carried so; 0 where most of
+/// it stays. @param carry #P by 3, m
 Vec3 common_way(const std::vector<Vec3>& carry) {
   Vec3 mean = Vec3::Zero(), median = Vec3::Zero();
   double longest = 0;
@@ -50,58 +54,68 @@ double longest_of(const std::vector<Vec3>& way) {
 
 } // namespace
 
-BodyMotion::BodyMotion(ClothSolver& solver, BodyContactEffect& contact, collision::BodyCollider& body, SelfContactEffect* self_contact)
-    : m_solver(solver), m_contact(contact), m_body(body), m_self_contact(self_contact), m_nearest(solver.x().size(), -1) {}
+BodyMotion::BodyMotion(ClothSolver& solver, BodyContactEffect& contact,
+                       collision::BodyCollider& body, SelfContactEffect* self_contact)
+    : m_solver(solver), m_contact(contact), m_body(body), m_self_contact(self_contact),
+      m_nearest(solver.x().size(), -1) {}
 
-/// As the nearest skin goes: by the way of its triangle, in the barycentric coordinates of the nearest point. Cloth that is farther off goes on as it
-/// flies, the more the farther: left behind, it would be torn from what is carried, and no step tells well where from there.
+/// As the nearest skin goes: by the way of its triangle, in the barycentric coordinates of the
+/// nearest point. Cloth that is farther off goes on as it flies, the more the farther: left behind,
+/// it would be torn from what is carried, and no step tells well where from there.
 /// @param time s, that the way takes cloth that flies
-void BodyMotion::find_carry(const std::vector<Vec3>& way, double time) {
+void BodyMotion::predict_from_skin(const std::vector<Vec3>& way, double time) {
   const std::vector<Vec3>& x = m_solver.x();
-  m_carry.assign(x.size(), Vec3::Zero());
+  m_predictor.assign(x.size(), Vec3::Zero());
   parallel_for(x.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const collision::SignedDistance d = m_body.signed_distance(x[i], NOT_CARRIED, m_nearest[i]);
       m_nearest[i] = d.triangle;
-      m_carry[i] = time * m_solver.v()[i];
+      m_predictor[i] = time * m_solver.v()[i];
       if (d.triangle < 0) continue;
-      const double far = std::clamp((d.distance - CARRIED_WHOLE) / (NOT_CARRIED - CARRIED_WHOLE), 0.0, 1.0), share = (1 - far) * (1 - far);
+      const double far = std::clamp((d.distance - CARRIED_WHOLE) / (NOT_CARRIED - CARRIED_WHOLE),
+                                    0.0, 1.0),
+                   share = (1 - far) * (1 - far);
       const Triangle& t = m_body.mesh().triangles[d.triangle];
-      m_carry[i] *= 1 - share;
-      for (int k = 0; k < 3; ++k) m_carry[i] += share * d.barycentric[k] * way[t[k]];
+      m_predictor[i] *= 1 - share;
+      for (int k = 0; k < 3; ++k) m_predictor[i] += share * d.barycentric[k] * way[t[k]];
     }
   });
-  m_contact.clear_carry(x, way, m_carry);
+  m_contact.push_predictor_off_skin(x, way, m_predictor);
 }
 
-/// The carry, at the rate of the whole way, that brings no cloth through cloth when it goes this share of it. What all cloth has in common brings
-/// none together.
-/// @param limits  of the layers where they are: what they are kept apart by is added, since self contact names it once
-std::vector<Vec3> BodyMotion::uncrossing_carry(double share, MotionLimits& limits) const {
+/// The carry, at the rate of the whole way, that brings no cloth through cloth when it goes this
+/// share of it. What all cloth has in common brings none together.
+/// @param limits  of the layers where they are: what they are kept apart by is added, since self
+/// contact names it once
+std::vector<Vec3> BodyMotion::limit_predictor_by_self_ccd(double share,
+                                                          MotionLimits& limits) const {
   const std::vector<Vec3>& x = m_solver.x();
-  const Vec3 common = common_way(m_carry);
-  limits.most.assign(x.size(), std::numeric_limits<double>::infinity()); // those of a longer way
-  std::vector<Vec3> wanted = m_carry;
+  const Vec3 common = common_way(m_predictor);
+  limits.max_displacement.assign(x.size(),
+                                 std::numeric_limits<double>::infinity()); // those of a longer way
+  std::vector<Vec3> wanted = m_predictor;
   for (Vec3& c : wanted) c = share * (c - common);
   std::vector<Vec3> carry = wanted;
   std::vector<char> held(x.size(), 0);
   limits.apply(x, carry, held);
-  for (int round = 1; round <= GUARD_ROUNDS; ++round) {
-    if (!m_self_contact->guard_motion(x, carry, limits, round == GUARD_ROUNDS)) break;
+  for (int round = 1; round <= MAX_CCD_ROUNDS; ++round) {
+    if (!m_self_contact->add_separating_planes(x, carry, limits, round == MAX_CCD_ROUNDS)) break;
     limits.apply(x, carry, held);
   }
-  for (std::size_t i = 0; i < carry.size(); ++i) carry[i] = carry[i] == wanted[i] ? m_carry[i] : Vec3(carry[i] / share + common);
+  for (std::size_t i = 0; i < carry.size(); ++i)
+    carry[i] = carry[i] == wanted[i] ? m_predictor[i] : Vec3(carry[i] / share + common);
   return carry;
 }
 
-/// The share of its way that the skin can go now, with m_carry that of the whole way at this rate. Cloth between skin and cloth cannot be
-/// carried all the way at once, and would stop the skin within a hair: carried on less of it, it goes with what lies over it.
+/// The share of its way that the skin can go now, with m_predictor that of the whole way at this
+/// rate. Cloth between skin and cloth cannot be carried all the way at once, and would stop the
+/// skin within a hair: carried on less of it, it goes with what lies over it.
 double BodyMotion::free_part(const std::vector<Vec3>& way, double longest, double time) {
   const std::vector<Vec3>& x = m_solver.x();
-  find_carry(way, time);
-  if (!m_self_contact) return m_contact.free_share(x, way, m_carry);
+  predict_from_skin(way, time);
+  if (!m_self_contact) return m_contact.collision_free_step_fraction(x, way, m_predictor);
   MotionLimits limits;
-  limits.planes_follow = true;
+  limits.planes_translate = true;
   limits.reset(x.size());
   std::vector<Vec3> force(x.size(), Vec3::Zero());
   std::vector<ContactElement> elements;
@@ -113,17 +127,19 @@ double BodyMotion::free_part(const std::vector<Vec3>& way, double longest, doubl
   double best = 0;
   for (double asked = std::min(1.0, ASK_LESS * m_last_asked);; asked /= ASK_LESS) {
     m_last_asked = asked;
-    std::vector<Vec3> carry = uncrossing_carry(asked, limits);
-    const bool whole = carry == m_carry; // what else stops the skin does so on a shorter way too
-    const double share = std::min(asked, m_contact.free_share(x, way, carry));
+    std::vector<Vec3> carry = limit_predictor_by_self_ccd(asked, limits);
+    const bool whole =
+        carry == m_predictor; // what else stops the skin does so on a shorter way too
+    const double share = std::min(asked, m_contact.collision_free_step_fraction(x, way, carry));
     if (share > best) best = share, best_carry = std::move(carry);
     if (whole || best >= asked / ASK_LESS || asked * longest < SHORTEST_PART) break;
   }
-  m_carry = std::move(best_carry);
+  m_predictor = std::move(best_carry);
   return best;
 }
 
-StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOptions& options, const std::function<StepResult(const StepOptions&)>& step) {
+StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOptions& options,
+                               const std::function<StepResult(const StepOptions&)>& step) {
   ++calls;
   StepResult result;
   std::vector<Vec3> way(target.size()), skin, velocity(m_solver.x().size(), Vec3::Zero());
@@ -140,16 +156,17 @@ StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOption
       largest_way_m = std::max(largest_way_m, longest);
       most_parts = MOST_PARTS + static_cast<int>(std::min(longest / SHORTEST_PART, 1e6));
     }
-    m_carry = nothing;
+    m_predictor = nothing;
     double share = longest > 0 ? free_part(way, longest, options.inertia * left * options.h) : 1;
     const bool force = part >= most_parts && share < 1;
     if (force) {
       share = 1;
-      m_carry = nothing;
+      m_predictor = nothing;
     }
     if (share > 0 && longest > 0) {
-      for (std::size_t v = 0; v < way.size(); ++v) skin[v] = share < 1 ? Vec3(skin[v] + share * way[v]) : target[v];
-      std::vector<Vec3> carried = m_carry;
+      for (std::size_t v = 0; v < way.size(); ++v)
+        skin[v] = share < 1 ? Vec3(skin[v] + share * way[v]) : target[v];
+      std::vector<Vec3> carried = m_predictor;
       for (Vec3& c : carried) c *= share;
       m_contact.move_body(skin, m_solver.x(), carried);
       if (m_self_contact) m_self_contact->moved_by(common_way(carried));
@@ -162,18 +179,18 @@ StepResult BodyMotion::advance(const std::vector<Vec3>& target, const StepOption
     const double time = share * left;
     if (options.inertia > 0) o.h = std::max(LEAST_TIME, time) * options.h;
     left -= time;
-    for (std::size_t i = 0; i < m_carry.size(); ++i) {
-      m_carry[i] *= share;
-      velocity[i] = -m_carry[i] / o.h;
+    for (std::size_t i = 0; i < m_predictor.size(); ++i) {
+      m_predictor[i] *= share;
+      velocity[i] = -m_predictor[i] / o.h;
     }
     const bool carried = longest > 0;
-    if (carried) m_solver.shift(m_carry, velocity);
+    if (carried) m_solver.shift(m_predictor, velocity);
     wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     result = step ? step(o) : m_solver.step(o);
     for (Vec3& v : velocity) v = -v;
     if (carried && result.finite) m_solver.shift(nothing, velocity);
     ++parts;
-    moved += result.largest_move_m + longest_of(m_carry);
+    moved += result.largest_move_m + longest_of(m_predictor);
     result.largest_move_m = moved;
     if (!result.finite || share >= 1) return result;
   }

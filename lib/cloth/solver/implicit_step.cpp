@@ -14,24 +14,28 @@ namespace sloper::cloth {
 namespace {
 
 constexpr int MOST_HALVINGS = 10;
-constexpr double MOST_CUT = 0.5;       // of an edge
-constexpr int LONGEST_FREEZE = 16;     // steps
-constexpr double FROZEN = 1e4;         // times a particle's own stiffness
-constexpr double NEAR_REST = 1;        // weights, of the 95th percentile of the forces
-constexpr double OUTLIER = 10;         // times that percentile
-constexpr double TIGHTEST = 0.01;      // of the tolerance
-constexpr std::size_t REMEMBERED = 20; // energies of the steps before: a step may end as high as the highest of them
-constexpr double GAIN = 0.2;           // of how far they go up and down: with less, such steps lead round in a circle
-constexpr double MOST_CARRIED = 0.9;   // share of the last step's way
-constexpr double TRUSTED = 0.2;        // of an edge: how far a step with the whole stiffness goes
-constexpr double LOOSER = 3;           // the tolerance of such a step, whose matrix is all but singular
-constexpr double TURNED_BACK = 0.5;    // cosine of the angle between a step and the way back
+constexpr double MOST_CUT = 0.5;   // of an edge
+constexpr int LONGEST_FREEZE = 16; // steps
+constexpr double FROZEN = 1e4;     // times a particle's own stiffness
+constexpr double NEAR_REST = 1;    // weights, of the 95th percentile of the forces
+constexpr double OUTLIER = 10;     // times that percentile
+constexpr double TIGHTEST = 0.01;  // of the tolerance
+constexpr std::size_t REMEMBERED =
+    20; // energies of the steps before: a step may end as high as the highest of them
+constexpr double GAIN =
+    0.2; // of how far they go up and down: with less, such steps lead round in a circle
+constexpr double MOST_CARRIED = 0.9; // share of the last step's way
+constexpr double TRUSTED = 0.2;      // of an edge: how far a step with the whole stiffness goes
+constexpr double LOOSER = 3; // the tolerance of such a step, whose matrix is all but singular
+constexpr double TURNED_BACK = 0.5; // cosine of the angle between a step and the way back
 
 /// Adds the wall seconds of its own life to a counter.
 class Stopwatch {
 public:
   explicit Stopwatch(double& total) : m_total(total), m_start(std::chrono::steady_clock::now()) {}
-  ~Stopwatch() { m_total += std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
+  ~Stopwatch() {
+    m_total += std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count();
+  }
 
 private:
   double& m_total;
@@ -52,19 +56,21 @@ ClothSolver::ClothSolver(const ClothMesh& mesh, std::vector<Vec3>& x, std::vecto
 }
 
 ClothSolver::ClothSolver(const ClothMesh& mesh, std::vector<Vec3> x)
-    : m_mesh(mesh), m_own_x(std::move(x)), m_x(m_own_x), m_v(m_own_v), m_preconditioner(std::make_unique<Aggregation>()) {
+    : m_mesh(mesh), m_own_x(std::move(x)), m_x(m_own_x), m_v(m_own_v),
+      m_preconditioner(std::make_unique<Aggregation>()) {
   begin();
 }
 
 void ClothSolver::begin() {
   const ClothMesh& mesh = m_mesh;
-  if (static_cast<int>(m_x.size()) != mesh.n_particles) throw Error(ErrorKind::INTERNAL, "", "", "positions and particles differ in number");
+  if (static_cast<int>(m_x.size()) != mesh.n_particles)
+    throw Error(ErrorKind::INTERNAL, "", "", "positions and particles differ in number");
   if (!all_finite(m_x)) throw input_error("", "", "a particle's position is not a finite number");
   if (m_v.size() != m_x.size()) m_v.assign(m_x.size(), Vec3::Zero());
   m_force.assign(m_x.size(), Vec3::Zero());
   m_rhs = m_dx = m_force;
-  m_freeze.assign(m_x.size(), 0);
-  m_frozen_for = m_freeze;
+  m_block_for.assign(m_x.size(), 0);
+  m_blocked_for = m_block_for;
   for (double e : mesh.shortest_edge) m_mean_edge += e / mesh.n_particles;
   for (double m : mesh.mass) m_mean_weight += m * units::GRAVITY / mesh.n_particles;
 }
@@ -77,7 +83,8 @@ Effect& ClothSolver::add(std::unique_ptr<Effect> effect) {
 }
 
 std::unique_ptr<Effect> ClothSolver::remove(const Effect& effect) {
-  const auto found = std::find_if(m_effects.begin(), m_effects.end(), [&](const auto& e) { return e.get() == &effect; });
+  const auto found = std::find_if(m_effects.begin(), m_effects.end(),
+                                  [&](const auto& e) { return e.get() == &effect; });
   if (found == m_effects.end()) return nullptr;
   std::unique_ptr<Effect> taken = std::move(*found);
   m_effects.erase(found);
@@ -102,7 +109,8 @@ void ClothSolver::rebuild_pattern() {
 
 double ClothSolver::energy(const std::vector<Vec3>& x) const {
   std::vector<double> part;
-  return parallel_sum(m_effects.size(), 1, part, [&](std::size_t k, std::size_t) { return m_effects[k]->energy(x); });
+  return parallel_sum(m_effects.size(), 1, part,
+                      [&](std::size_t k, std::size_t) { return m_effects[k]->energy(x); });
 }
 
 double ClothSolver::energy_after(const std::vector<Vec3>& dx) {
@@ -114,9 +122,10 @@ double ClothSolver::energy_after(const std::vector<Vec3>& dx) {
 /// What one limit turns aside may run into what no limit knew of.
 void ClothSolver::limit(std::vector<Vec3>& dx, std::vector<char>& held) {
   m_limits.apply(m_x, dx, held);
-  for (int round = 1; round <= GUARD_ROUNDS; ++round) {
+  for (int round = 1; round <= MAX_CCD_ROUNDS; ++round) {
     bool more = false;
-    for (const auto& e : m_effects) more |= e->guard_motion(m_x, dx, m_limits, round == GUARD_ROUNDS);
+    for (const auto& e : m_effects)
+      more |= e->add_separating_planes(m_x, dx, m_limits, round == MAX_CCD_ROUNDS);
     if (!more) return;
     m_limits.apply(m_x, dx, held);
   }
@@ -129,17 +138,19 @@ void ClothSolver::forget() {
   m_carried_for = 0;
 }
 
-/// Cloth that hardly stretches comes to rest along narrow, winding valleys, of which a step sees the tangent: a part of the last step's
-/// way goes on top, more with each step that goes the same way, none after one that turns back or that the line search shortened
-/// (momentum with restarts, O'Donoghue and Candes 2015; turning is judged by ways, since forces are those of the stretch that leaving
-/// the valley's ground costs, whichever way).
+/// Cloth that hardly stretches comes to rest along narrow, winding valleys, of which a step sees
+/// the tangent: a part of the last step's way goes on top, more with each step that goes the same
+/// way, none after one that turns back or that the line search shortened (momentum with restarts,
+/// O'Donoghue and Candes 2015; turning is judged by ways, since forces are those of the stretch
+/// that leaving the valley's ground costs, whichever way).
 void ClothSolver::carry_on() {
   double same_way = 0, falls = 0;
   for (std::size_t i = 0; i < m_dx.size(); ++i) same_way += m_dx[i].dot(m_last_dx[i]);
   if (same_way < 0) m_carried_for = 0;
   if (m_carried_for == 0) return;
   const double share = std::min(MOST_CARRIED, m_carried_for / (m_carried_for + 3.0));
-  for (std::size_t i = 0; i < m_dx.size(); ++i) falls += m_force[i].dot(m_dx[i] + share * m_last_dx[i]);
+  for (std::size_t i = 0; i < m_dx.size(); ++i)
+    falls += m_force[i].dot(m_dx[i] + share * m_last_dx[i]);
   if (falls <= 0) {
     m_carried_for = 0;
     return;
@@ -159,8 +170,8 @@ bool ClothSolver::turns_back() const {
   return same_way < -TURNED_BACK * std::sqrt(now * last);
 }
 
-/// Whether steps that cost energy do not gain any: the lowest of the last half of those remembered is below the lowest of the first half by
-/// less than a fifth of how far energies went up and down.
+/// Whether steps that cost energy do not gain any: the lowest of the last half of those remembered
+/// is below the lowest of the first half by less than a fifth of how far energies went up and down.
 bool ClothSolver::goes_round() const {
   if (m_energies.size() < REMEMBERED) return false;
   const auto half = m_energies.begin() + REMEMBERED / 2;
@@ -168,10 +179,12 @@ bool ClothSolver::goes_round() const {
   return *std::min_element(m_energies.begin(), half) - *low < GAIN * (*high - *low);
 }
 
-/// Halves the step until the energy falls, or doubles it while it keeps falling: where cloth buckles the definite part is far stiffer
-/// than the cloth, and whole steps are much too short. With momentum one step may cost energy which the next ones regain (Grippo,
-/// Lampariello and Lucidi 1986); where they do not, each must fall for a while. A look ahead costs a fraction of a solve. Each length is
-/// limited anew: what limits cut from a long step bends it away from where the energy falls, and a short one they leave alone.
+/// Halves the step until the energy falls, or doubles it while it keeps falling: where cloth
+/// buckles the definite part is far stiffer than the cloth, and whole steps are much too short.
+/// With momentum one step may cost energy which the next ones regain (Grippo, Lampariello and
+/// Lucidi 1986); where they do not, each must fall for a while. A look ahead costs a fraction of a
+/// solve. Each length is limited anew: what limits cut from a long step bends it away from where
+/// the energy falls, and a short one they leave alone.
 int ClothSolver::search_along(const StepOptions& o) {
   const Stopwatch watch(search_s);
   double best = energy(m_x), allowed = best;
@@ -216,27 +229,31 @@ int ClothSolver::search_along(const StepOptions& o) {
 }
 
 /// The 95th percentile, which ends up in its place; not of nothing.
-static std::vector<double>::iterator percentile_95(std::vector<double>& values) { return place_rank(values, quantile_rank(values.size(), 0.95)); }
+static std::vector<double>::iterator percentile_95(std::vector<double>& values) {
+  return place_rank(values, quantile_rank(values.size(), 0.95));
+}
 
-/// A particle stuck in a pinch bends the step away from where the energy falls, or is pressed there harder than all others, and the line
-/// search then stops all the cloth for its sake. It is kept in place for a while, longer each time, while the rest goes on. With momentum,
-/// which lets energy rise, only what limits hold: there the rest comes no sooner for the others.
-void ClothSolver::freeze_held(bool search_failed, bool momentum) {
+/// A particle stuck in a pinch bends the step away from where the energy falls, or is pressed there
+/// harder than all others, and the line search then stops all the cloth for its sake. It is kept in
+/// place for a while, longer each time, while the rest goes on. With momentum, which lets energy
+/// rise, only what limits hold: there the rest comes no sooner for the others.
+void ClothSolver::block_held_particles(bool search_failed, bool momentum) {
   double wedged2 = std::numeric_limits<double>::infinity();
   if (search_failed && !momentum) {
     m_residual.clear();
     for (const Vec3& f : m_force) m_residual.push_back(f.squaredNorm());
-    wedged2 = OUTLIER * OUTLIER * std::max(*percentile_95(m_residual), m_mean_weight * m_mean_weight);
+    wedged2 =
+        OUTLIER * OUTLIER * std::max(*percentile_95(m_residual), m_mean_weight * m_mean_weight);
   }
   for (std::size_t i = 0; i < m_held.size(); ++i) {
-    if (m_frozen_for[i] > 0) {
-      --m_frozen_for[i];
+    if (m_blocked_for[i] > 0) {
+      --m_blocked_for[i];
       m_held[i] = 1;
     } else if (search_failed && (m_held[i] || m_force[i].squaredNorm() > wedged2)) {
-      m_freeze[i] = std::clamp(2 * m_freeze[i], 1, LONGEST_FREEZE);
-      m_frozen_for[i] = m_freeze[i];
+      m_block_for[i] = std::clamp(2 * m_block_for[i], 1, LONGEST_FREEZE);
+      m_blocked_for[i] = m_block_for[i];
     } else {
-      m_freeze[i] /= 2;
+      m_block_for[i] /= 2;
     }
   }
 }
@@ -251,27 +268,32 @@ std::array<double, 2> ClothSolver::measure_rhs() {
   return {*percentile_95(m_residual), all};
 }
 
-/// Near rest a few particles in a pinch can have forces a thousand times those of all others, and a residual relative to theirs would
-/// leave the others where they are, for hundreds of steps. There they count as outliers, and the tolerance is relative to the rest, but
-/// not so tight that it asks for more than rest does.
-double ClothSolver::near_tolerance(const StepOptions& o, const std::array<double, 2>& squares) const {
+/// Near rest a few particles in a pinch can have forces a thousand times those of all others, and a
+/// residual relative to theirs would leave the others where they are, for hundreds of steps. There
+/// they count as outliers, and the tolerance is relative to the rest, but not so tight that it asks
+/// for more than rest does.
+double ClothSolver::near_tolerance(const StepOptions& o,
+                                   const std::array<double, 2>& squares) const {
   const auto [p95, all] = squares;
   const double most = OUTLIER * OUTLIER * p95;
   double capped = 0;
   for (double r : m_residual) capped += std::min(r, most);
-  const double fine_enough = o.least_residual_ratio * m_mean_weight * std::sqrt(static_cast<double>(m_rhs.size()) / all);
-  return std::max(std::min(fine_enough, o.cg_tolerance), o.cg_tolerance * std::max(TIGHTEST, std::sqrt(capped / all)));
+  const double fine_enough =
+      o.least_residual_ratio * m_mean_weight * std::sqrt(static_cast<double>(m_rhs.size()) / all);
+  return std::max(std::min(fine_enough, o.cg_tolerance),
+                  o.cg_tolerance * std::max(TIGHTEST, std::sqrt(capped / all)));
 }
 
-void ClothSolver::look_ahead(double h) {
+void ClothSolver::prefetch_contacts(double h) {
   if (m_pattern_stale) return; // pairs hold places in the matrix
   for (const auto& e : m_effects) {
     const Stopwatch watch(e->wall_s);
-    e->look_ahead(m_x, h);
+    e->prefetch_contacts(m_x, h);
   }
 }
 
-/// False where a position, a force or a stiffness was no number: conjugate gradients would return no motion and hide it.
+/// False where a position, a force or a stiffness was no number: conjugate gradients would return
+/// no motion and hide it.
 bool ClothSolver::assembled_finite() const {
   for (std::size_t i = 0; i < m_rhs.size(); ++i)
     if (!std::isfinite(m_rhs[i].sum() + m_matrix.diagonal(static_cast<int>(i)).sum())) return false;
@@ -288,27 +310,29 @@ CgResult ClothSolver::solve(const StepOptions& o) {
     const double near = NEAR_REST * m_mean_weight;
     if (squares[1] > 0 && squares[0] <= near * near) {
       tolerance.residual = near_tolerance(o, squares);
-      whole = o.whole_near_rest;
+      whole = o.full_hessian_near_rest;
     }
   }
   if (whole) {
     const Stopwatch watch(assembly_s);
     m_whole = m_matrix;
-    for (const auto& e : m_effects) e->add_left_out(m_x, m_whole);
+    for (const auto& e : m_effects) e->add_indefinite_part(m_x, m_whole);
     radius = TRUSTED * m_mean_edge;
     tolerance.residual *= LOOSER;
   }
   const Stopwatch watch(solve_s);
   m_contacts.build(m_elements, m_x.size());
-  const LinearSystem system{m_matrix, m_elements, m_contacts, whole ? &m_whole : nullptr, o.line_search};
+  const LinearSystem system{m_matrix, m_elements, m_contacts, whole ? &m_whole : nullptr,
+                            o.line_search};
   m_preconditioner->update(system);
-  const CgResult result = conjugate_gradient(system, *m_preconditioner, m_rhs, tolerance, o.cg_max_iterations, m_dx, m_work, radius);
+  const CgResult result = conjugate_gradient(system, *m_preconditioner, m_rhs, tolerance,
+                                             o.cg_max_iterations, m_dx, m_work, radius);
   m_preconditioner->report_iterations(result.since_renewal);
   return result;
 }
 
-/// Forces, stiffness, elements and limits of all effects, in their order: the same sums for any number of threads. What the first effects add
-/// is added while those that search do so.
+/// Forces, stiffness, elements and limits of all effects, in their order: the same sums for any
+/// number of threads. What the first effects add is added while those that search do so.
 void ClothSolver::assemble(double h, bool again) {
   m_matrix.set_zero();
   m_elements.clear();
@@ -321,7 +345,8 @@ void ClothSolver::assemble(double h, bool again) {
     e.add(context);
     ++e.calls;
   };
-  const auto first_search = std::find_if(m_effects.begin(), m_effects.end(), [](const auto& e) { return e->is_search(); });
+  const auto first_search = std::find_if(m_effects.begin(), m_effects.end(),
+                                         [](const auto& e) { return e->is_search(); });
   parallel_for(2, 1, [&](std::size_t task, std::size_t) {
     if (task == 0) {
       std::for_each(m_effects.begin(), first_search, [&](const auto& e) { add(*e); });
@@ -330,7 +355,7 @@ void ClothSolver::assemble(double h, bool again) {
     for (const auto& e : m_effects) {
       if (!e->is_search()) continue;
       const Stopwatch watch(e->wall_s);
-      if (again) e->look_again(m_x, h);
+      if (again) e->update_contacts(m_x, h);
       else e->begin_step(m_x, h);
     }
   });
@@ -339,17 +364,18 @@ void ClothSolver::assemble(double h, bool again) {
 
 StepResult ClothSolver::step(const StepOptions& o) {
   if (m_pattern_stale) rebuild_pattern();
-  if (o.newton_iterations > 1 && o.inertia > 0 && !o.line_search) return newton_step(o, o.newton_iterations, false);
+  if (o.newton_iterations > 1 && o.inertia > 0 && !o.line_search)
+    return newton_step(o, o.newton_iterations, false);
   const std::size_t n = m_x.size();
   StepResult result;
-  m_limits.planes_follow = !o.line_search && o.inertia > 0;
+  m_limits.planes_translate = !o.line_search && o.inertia > 0;
   assemble(o.h);
   {
     const Stopwatch watch(assembly_s);
     add_forces(m_elements, m_force);
     for (std::size_t i = 0; i < n; ++i) {
       double inertia = m_mesh.mass[i] / (o.h * o.h);
-      if (m_frozen_for[i] > 0) inertia += FROZEN * m_matrix.diagonal(static_cast<int>(i)).trace();
+      if (m_blocked_for[i] > 0) inertia += FROZEN * m_matrix.diagonal(static_cast<int>(i)).trace();
       m_matrix.add_isotropic_diagonal(static_cast<int>(i), inertia);
       m_rhs[i] = m_force[i] + o.inertia * m_mesh.mass[i] / o.h * m_v[i];
     }
@@ -362,7 +388,8 @@ StepResult ClothSolver::step(const StepOptions& o) {
   if (o.line_search && o.momentum && m_carried_for > 0) carry_on();
   double largest2 = 0;
   for (const Vec3& d : m_dx) largest2 = std::max(largest2, d.squaredNorm());
-  if (largest2 > o.largest_move_m * o.largest_move_m) { // the whole step is shortened: cut one by one, neighbours would crumple
+  if (largest2 > o.largest_move_m * o.largest_move_m) { // the whole step is shortened: cut one by
+                                                        // one, neighbours would crumple
     const double scale = o.largest_move_m / std::sqrt(largest2);
     for (Vec3& d : m_dx) d *= scale;
   }
@@ -384,10 +411,11 @@ StepResult ClothSolver::step(const StepOptions& o) {
     result.finite = false;
     return result;
   }
-  if (o.guard_energy && o.inertia > 0 && !o.line_search && gains(o)) return newton_step(o, StepOptions::GUARD_SOLVES, true);
+  if (o.guard_energy && o.inertia > 0 && !o.line_search && gains(o))
+    return newton_step(o, StepOptions::GUARD_SOLVES, true);
   if (o.line_search) {
     result.halvings = search_along(o);
-    freeze_held(result.halvings > 0, o.momentum);
+    block_held_particles(result.halvings > 0, o.momentum);
     if (o.momentum) m_carried_for = result.halvings > 0 ? 0 : m_carried_for + 1;
     else forget();
     m_last_dx = m_dx;

@@ -1,4 +1,5 @@
-/// A step with inertia in several solves: to the minimum of the incremental potential, where one linearised solve stops short of it or beyond.
+/// A step with inertia in several solves: to the minimum of the incremental potential, where one
+/// linearised solve stops short of it or beyond.
 #include <cloth/solver/implicit_step.hpp>
 
 #include <algorithm>
@@ -27,8 +28,10 @@ double farthest_of(const std::vector<Vec3>& way) {
 
 } // namespace
 
-/// Damping and drag cost 1/(2h) way' D way, with D = -df/dv as it is where the step begins: quadratic, so that no way, however far cloth turns on
-/// it, gains by them. Effects say no more of D than what they add of it to their stiffness, so it is the difference to a step of endless time.
+/// Damping and drag cost 1/(2h) way' D way, with D = -df/dv as it is where the step begins:
+/// quadratic, so that no way, however far cloth turns on it, gains by them. Effects say no more of
+/// D than what they add of it to their stiffness, so it is the difference to a step of endless
+/// time.
 void ClothSolver::assemble_drag(double h) {
   std::vector<Vec3> unused(m_x.size(), Vec3::Zero());
   std::vector<ContactElement> none;
@@ -51,11 +54,13 @@ void ClothSolver::drag_of(const std::vector<Vec3>& way, std::vector<Vec3>& drag)
 }
 
 bool ClothSolver::gains(const StepOptions& o) {
-  if (std::any_of(m_effects.begin(), m_effects.end(), [](const auto& e) { return e->crosses(); })) return false;
+  if (std::any_of(m_effects.begin(), m_effects.end(), [](const auto& e) { return e->crosses(); }))
+    return false;
   double inertia = 0;
   for (std::size_t i = 0; i < m_x.size(); ++i) {
     const Vec3 flies = o.inertia * o.h * m_v[i];
-    inertia += m_mesh.mass[i] / (2 * o.h * o.h) * ((m_dx[i] - flies).squaredNorm() - flies.squaredNorm());
+    inertia +=
+        m_mesh.mass[i] / (2 * o.h * o.h) * ((m_dx[i] - flies).squaredNorm() - flies.squaredNorm());
   }
   return energy_after(m_dx) + inertia > energy(m_x);
 }
@@ -63,7 +68,8 @@ bool ClothSolver::gains(const StepOptions& o) {
 StepResult ClothSolver::newton_step(const StepOptions& o, int most_solves, bool begun) {
   const std::size_t n = m_x.size();
   const std::vector<Vec3> start = m_x;
-  std::vector<Vec3> aim = m_x, way(n, Vec3::Zero()), drag(n, Vec3::Zero()), trial_drag(n); // aim: where inertia alone would bring it
+  std::vector<Vec3> aim = m_x, way(n, Vec3::Zero()), drag(n, Vec3::Zero()),
+                    trial_drag(n); // aim: where inertia alone would bring it
   for (std::size_t i = 0; i < n; ++i) aim[i] += o.inertia * o.h * m_v[i];
   const auto mass_h2 = [&](std::size_t i) { return m_mesh.mass[i] / (o.h * o.h); };
   const auto potential = [&](const std::vector<Vec3>& x, std::vector<Vec3>& drag_there) {
@@ -75,7 +81,7 @@ StepResult ClothSolver::newton_step(const StepOptions& o, int most_solves, bool 
   };
   StepResult result;
   result.newton_iterations = 0;
-  m_limits.planes_follow = true;
+  m_limits.planes_translate = true;
   m_held.assign(n, 0);
   m_trial.resize(n), m_trial_dx.resize(n);
   const double done2 = static_cast<double>(n) * std::pow(GRADIENT_DONE * m_mean_weight, 2);

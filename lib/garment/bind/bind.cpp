@@ -10,7 +10,8 @@ namespace sloper::garment {
 
 namespace {
 
-/// The girths that the fit report compares: limb girths by their name, trunk levels as "level:NAME".
+/// The girths that the fit report compares: limb girths by their name, trunk levels as
+/// "level:NAME".
 std::map<std::string, double> girths_of(const body::Body& body) {
   std::map<std::string, double> girths;
   for (const auto& [name, girth] : body.girths)
@@ -23,7 +24,8 @@ std::map<std::string, double> girths_of(const body::Body& body) {
 } // namespace
 
 void bind_garment(Garment& garment, const body::Body& body) {
-  if (garment.particle_of.empty() || garment.position.empty()) throw input_error("", "", "the garment is not sewn, so it hangs on nothing", "drape it first");
+  if (garment.particle_of.empty() || garment.position.empty())
+    throw input_error("", "", "the garment is not sewn, so it hangs on nothing", "drape it first");
   const BindFrames frames = make_bind_frames(body);
   const auto weights = bind_weights(garment, body, frames);
   Bind bind;
@@ -45,7 +47,9 @@ void bind_garment(Garment& garment, const body::Body& body) {
 
 std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body, Waist waist) {
   const Bind& bind = garment.bind;
-  if (bind.empty()) throw input_error("", "/bind", "the garment is not bound to a body", "drape it on a body first");
+  if (bind.empty())
+    throw input_error("", "/bind", "the garment is not bound to a body",
+                      "drape it on a body first");
   const BindFrames frames = make_bind_frames(body);
   std::vector<int> target(bind.frames.size(), -1);
   std::vector<MarkMap> maps;
@@ -53,8 +57,10 @@ std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body, 
     target[k] = frames.index(bind.frames[k]);
     const BindFrame* to = target[k] < 0 ? nullptr : &frames.frames[target[k]];
     auto marks = std::pair(bind.marks[k], to ? to->marks : Marks());
-    if (waist == Waist::OF_ALL) marks = with_one_waist(std::move(marks.first), std::move(marks.second));
-    maps.emplace_back(marks.first, bind.lengths_m[k], marks.second, to ? to->frame.length() : bind.lengths_m[k]);
+    if (waist == Waist::OF_ALL)
+      marks = with_one_waist(std::move(marks.first), std::move(marks.second));
+    maps.emplace_back(marks.first, bind.lengths_m[k], marks.second,
+                      to ? to->frame.length() : bind.lengths_m[k]);
   }
   std::vector<Vec3> placed(bind.particles.size(), Vec3::Zero());
   for (std::size_t i = 0; i < placed.size(); ++i) {
@@ -64,8 +70,9 @@ std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body, 
     if (there < 0.5)
       for (const BindWeight& w : bind.particles[i])
         if (target[w.frame] < 0)
-          throw input_error("", "", "the garment hangs on " + bind.frames[w.frame] + ", which the body lacks",
-                            "give a body with that part, or another garment");
+          throw input_error(
+              "", "", "the garment hangs on " + bind.frames[w.frame] + ", which the body lacks",
+              "give a body with that part, or another garment");
     for (const BindWeight& w : bind.particles[i]) {
       if (target[w.frame] < 0) continue;
       const BindFrame& to = frames.frames[target[w.frame]];

@@ -5,7 +5,8 @@
 
 namespace sloper::garment {
 
-SurfaceOperators surface_operators(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles) {
+SurfaceOperators surface_operators(const std::vector<Vec3>& x,
+                                   const std::vector<Triangle>& triangles) {
   SurfaceOperators s;
   s.mass = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.size()));
   std::map<std::array<int, 2>, double> cotangent;
@@ -17,7 +18,9 @@ SurfaceOperators surface_operators(const std::vector<Vec3>& x, const std::vector
       s.mass[c] += cross / 6;
       cotangent[{std::min(a, b), std::max(a, b)}] += 0.5 * u.dot(v) / cross;
     }
-  const double floor_mass = 1e-3 * std::max(s.mass.sum() / static_cast<double>(std::max<Eigen::Index>(s.mass.size(), 1)), 1e-9);
+  const double floor_mass =
+      1e-3 *
+      std::max(s.mass.sum() / static_cast<double>(std::max<Eigen::Index>(s.mass.size(), 1)), 1e-9);
   s.mass = s.mass.cwiseMax(floor_mass);
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(4 * cotangent.size());

@@ -9,10 +9,12 @@
 namespace sloper::garment {
 
 struct SurfaceOperators {
-  Eigen::VectorXd mass;                  ///< m2, a third of the area around each particle, never zero
-  Eigen::SparseMatrix<double> stiffness; ///< cotangent weights, clamped to [0.05, 20] so that no field overshoots
+  Eigen::VectorXd mass; ///< m2, a third of the area around each particle, never zero
+  Eigen::SparseMatrix<double>
+      stiffness; ///< cotangent weights, clamped to [0.05, 20] so that no field overshoots
 };
 
-SurfaceOperators surface_operators(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles);
+SurfaceOperators surface_operators(const std::vector<Vec3>& positions,
+                                   const std::vector<Triangle>& triangles);
 
 } // namespace sloper::garment

@@ -15,11 +15,15 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double BLEND_LENGTH = 0.035;     // m along the cloth; weights go from 0.9 to 0.1 within about 3 of these
-constexpr double FACING_PENALTY = 0.03;    // m added to the distance of skin that faces away from the cloth's outside
-constexpr double SMALL_PATCH = 0.02;       // of its piece: a smaller patch of one frame is a stray, not a sleeve
-constexpr double NEGLIGIBLE_WEIGHT = 2e-3; // taken off before normalising, so that weights reach 0 without a jump
-constexpr int LEG_LINES = 24;              // heights at which cloth between the legs is looked for
+constexpr double BLEND_LENGTH =
+    0.035; // m along the cloth; weights go from 0.9 to 0.1 within about 3 of these
+constexpr double FACING_PENALTY =
+    0.03; // m added to the distance of skin that faces away from the cloth's outside
+constexpr double SMALL_PATCH =
+    0.02; // of its piece: a smaller patch of one frame is a stray, not a sleeve
+constexpr double NEGLIGIBLE_WEIGHT =
+    2e-3; // taken off before normalising, so that weights reach 0 without a jump
+constexpr int LEG_LINES = 24; // heights at which cloth between the legs is looked for
 
 struct Patches {
   std::vector<int> of_particle;
@@ -27,7 +31,8 @@ struct Patches {
 };
 
 /// Connected patches of equal label.
-Patches patches_of(const std::vector<int>& label, const std::vector<std::array<int, 2>>& edges, const std::vector<double>& mass) {
+Patches patches_of(const std::vector<int>& label, const std::vector<std::array<int, 2>>& edges,
+                   const std::vector<double>& mass) {
   DisjointSets joined(label.size());
   for (const auto& [a, b] : edges)
     if (label[a] == label[b]) joined.unite(a, b);
@@ -42,7 +47,8 @@ Patches patches_of(const std::vector<int>& label, const std::vector<std::array<i
 }
 
 /// Strays (small patches) take the label of the neighbour with which they share most edges.
-void remove_strays(std::vector<int>& label, const std::vector<int>& piece, const std::vector<std::array<int, 2>>& edges, const std::vector<double>& mass) {
+void remove_strays(std::vector<int>& label, const std::vector<int>& piece,
+                   const std::vector<std::array<int, 2>>& edges, const std::vector<double>& mass) {
   std::map<int, double> piece_area;
   for (std::size_t i = 0; i < label.size(); ++i) piece_area[piece[i]] += mass[i];
   for (int round = 0; round < 4; ++round) {
@@ -51,14 +57,19 @@ void remove_strays(std::vector<int>& label, const std::vector<int>& piece, const
     for (const auto& [a, b] : edges) {
       if (label[a] == label[b]) continue;
       for (const auto& [i, j] : {std::pair{a, b}, std::pair{b, a}})
-        if (patches.area[patches.of_particle[i]] < SMALL_PATCH * piece_area[piece[i]]) ++neighbours[patches.of_particle[i]][label[j]];
+        if (patches.area[patches.of_particle[i]] < SMALL_PATCH * piece_area[piece[i]])
+          ++neighbours[patches.of_particle[i]][label[j]];
     }
     if (neighbours.empty()) return;
     std::map<int, int> next;
     for (const auto& [patch, counts] : neighbours)
-      next[patch] = std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+      next[patch] =
+          std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
+            return a.second < b.second;
+          })->first;
     for (std::size_t i = 0; i < label.size(); ++i)
-      if (const auto found = next.find(patches.of_particle[i]); found != next.end()) label[i] = found->second;
+      if (const auto found = next.find(patches.of_particle[i]); found != next.end())
+        label[i] = found->second;
   }
 }
 
@@ -72,13 +83,17 @@ FrameTrees frame_trees(const body::Body& body, const BindFrames& frames) {
   FrameTrees trees;
   trees.triangles.resize(frames.frames.size());
   for (std::size_t f = 0; f < frames.frame_of_face.size(); ++f)
-    if (frames.frame_of_face[f] >= 0) trees.triangles[frames.frame_of_face[f]].push_back(body.skin.triangles[f]);
+    if (frames.frame_of_face[f] >= 0)
+      trees.triangles[frames.frame_of_face[f]].push_back(body.skin.triangles[f]);
   for (const auto& triangles : trees.triangles)
-    trees.tree.emplace_back(triangles.empty() ? collision::TriangleTree() : collision::TriangleTree(body.skin.positions, triangles));
+    trees.tree.emplace_back(triangles.empty()
+                                ? collision::TriangleTree()
+                                : collision::TriangleTree(body.skin.positions, triangles));
   return trees;
 }
 
-std::vector<int> nearest_frame(const std::vector<Vec3>& positions, const std::vector<Vec3>& normals, const body::Body& body, const BindFrames& frames) {
+std::vector<int> nearest_frame(const std::vector<Vec3>& positions, const std::vector<Vec3>& normals,
+                               const body::Body& body, const BindFrames& frames) {
   const FrameTrees trees = frame_trees(body, frames);
   std::vector<int> label(positions.size(), -1);
   parallel_for(positions.size(), 256, [&](std::size_t begin, std::size_t end) {
@@ -89,7 +104,9 @@ std::vector<int> nearest_frame(const std::vector<Vec3>& positions, const std::ve
         const collision::ClosestPoint c = trees.tree[k].closest_point(positions[i], best);
         if (c.triangle < 0) continue;
         const Triangle& t = trees.triangles[k][c.triangle];
-        const Vec3 n = area_normal(body.skin.positions[t[0]], body.skin.positions[t[1]], body.skin.positions[t[2]]).normalized();
+        const Vec3 n = area_normal(body.skin.positions[t[0]], body.skin.positions[t[1]],
+                                   body.skin.positions[t[2]])
+                           .normalized();
         const double agreement = std::isfinite(n.x()) ? n.dot(normals[i]) : 1;
         const double cost = std::sqrt(c.squared_distance) + FACING_PENALTY * 0.5 * (1 - agreement);
         if (cost < best) best = cost, label[i] = static_cast<int>(k);
@@ -101,8 +118,9 @@ std::vector<int> nearest_frame(const std::vector<Vec3>& positions, const std::ve
 
 } // namespace
 
-bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const std::vector<int>& piece, int which,
-                         const BindFrames& frames, double crotch_y) {
+bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
+                         const std::vector<int>& piece, int which, const BindFrames& frames,
+                         double crotch_y) {
   const int l = frames.index("leg_l"), r = frames.index("leg_r");
   if (l < 0 || r < 0) return false;
   const auto axis_at = [&](int k, double y) {
@@ -115,8 +133,9 @@ bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<T
       for (int i : t) lowest = std::min(lowest, positions[i].y());
   const double highest = crotch_y - 0.01;
   if (lowest >= highest) return false;
-  // A line from leg to leg at one height passes cloth of trousers, and none of a skirt, however far apart the feet stand. Most heights
-  // decide, so that a pleat that hangs in at the front does not make a pair of trousers out of a skirt.
+  // A line from leg to leg at one height passes cloth of trousers, and none of a skirt, however far
+  // apart the feet stand. Most heights decide, so that a pleat that hangs in at the front does not
+  // make a pair of trousers out of a skirt.
   int passed = 0;
   for (int k = 0; k < LEG_LINES; ++k) {
     const double y = lowest + (k + 0.5) / LEG_LINES * (highest - lowest);
@@ -142,24 +161,29 @@ bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<T
   return 2 * passed < LEG_LINES;
 }
 
-std::vector<std::vector<std::pair<int, double>>> bind_weights(const Garment& garment, const body::Body& body, const BindFrames& frames) {
+std::vector<std::vector<std::pair<int, double>>>
+bind_weights(const Garment& garment, const body::Body& body, const BindFrames& frames) {
   const std::vector<Vec3>& x = garment.position;
   const std::vector<Triangle> triangles = garment.particle_triangles();
   const std::vector<std::array<int, 2>> edges = edges_of(triangles);
   const std::vector<int> piece = connected_components(x.size(), triangles);
   std::vector<int> label = nearest_frame(x, vertex_normals({x, triangles}), body, frames);
   if (std::find(label.begin(), label.end(), -1) != label.end())
-    throw input_error("", "", "the body has no skin that a garment could hang on", "make the body document again with scan-landmarks");
+    throw input_error("", "", "the body has no skin that a garment could hang on",
+                      "make the body document again with scan-landmarks");
 
-  const int lower_body = frames.index("lower_body"), leg_l = frames.index("leg_l"), leg_r = frames.index("leg_r");
+  const int lower_body = frames.index("lower_body"), leg_l = frames.index("leg_l"),
+            leg_r = frames.index("leg_r");
   if (lower_body >= 0) {
     const int torso = frames.index("torso");
-    const double crotch_y = body.has_landmark("crotch") ? body.landmark("crotch").y() : frames.frames[torso].frame.lower.y();
+    const double crotch_y = body.has_landmark("crotch") ? body.landmark("crotch").y()
+                                                        : frames.frames[torso].frame.lower.y();
     std::map<int, bool> together;
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (label[i] != leg_l && label[i] != leg_r) continue;
       const auto [found, is_new] = together.try_emplace(piece[i], false);
-      if (is_new) found->second = wraps_legs_together(x, triangles, piece, piece[i], frames, crotch_y);
+      if (is_new)
+        found->second = wraps_legs_together(x, triangles, piece, piece[i], frames, crotch_y);
       if (found->second) label[i] = lower_body;
     }
   }

@@ -13,7 +13,8 @@ struct Measure {
 };
 
 /// Way along landmarks of one side.
-std::optional<Measure> way(const body::Body& body, const std::vector<std::string>& names, const std::string& side) {
+std::optional<Measure> way(const body::Body& body, const std::vector<std::string>& names,
+                           const std::string& side) {
   Measure m;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto here = body.landmarks.find(names[i] + side);
@@ -24,7 +25,8 @@ std::optional<Measure> way(const body::Body& body, const std::vector<std::string
   return m;
 }
 
-std::optional<Measure> girth(const body::Body& body, const std::string& name, const std::string& side) {
+std::optional<Measure> girth(const body::Body& body, const std::string& name,
+                             const std::string& side) {
   const auto found = body.girths.find(name + side);
   if (found == body.girths.end() || !(found->second.value_m > 0)) return std::nullopt;
   return Measure{found->second.value_m, found->second.spread_m};
@@ -34,16 +36,21 @@ std::optional<Measure> girth(const body::Body& body, const std::string& name, co
 
 std::vector<SideDifference> uneven_sides(const body::Body& body) {
   std::vector<SideDifference> uneven;
-  const auto compare = [&](const char* limb, const char* what, const char* more, const std::optional<Measure>& left, const std::optional<Measure>& right) {
+  const auto compare = [&](const char* limb, const char* what, const char* more,
+                           const std::optional<Measure>& left,
+                           const std::optional<Measure>& right) {
     if (!left || !right) return;
     const double difference = left->value - right->value;
-    if (std::abs(difference) <= GRADED_SIDES_M + 2 * std::hypot(left->spread, right->spread)) return;
+    if (std::abs(difference) <= GRADED_SIDES_M + 2 * std::hypot(left->spread, right->spread))
+      return;
     char text[128];
-    std::snprintf(text, sizeof text, "the %s %s is %.1f cm %s than the %s one", difference > 0 ? "left" : "right", what, 100 * std::abs(difference), more,
+    std::snprintf(text, sizeof text, "the %s %s is %.1f cm %s than the %s one",
+                  difference > 0 ? "left" : "right", what, 100 * std::abs(difference), more,
                   difference > 0 ? "right" : "left");
     uneven.push_back({limb, text});
   };
-  const auto lengths = [&](const char* limb, const char* what, const std::vector<std::string>& names) {
+  const auto lengths = [&](const char* limb, const char* what,
+                           const std::vector<std::string>& names) {
     compare(limb, what, "longer", way(body, names, "_l"), way(body, names, "_r"));
   };
   const auto girths = [&](const char* limb, const char* what, const char* name) {

@@ -4,15 +4,18 @@
 
 namespace sloper::garment {
 
-inline constexpr double GRADED_SIDES_M = 0.02; ///< left and right may differ by so much, beside their uncertainty, before each has a pattern of its own
+inline constexpr double GRADED_SIDES_M =
+    0.02; ///< left and right may differ by so much, beside their uncertainty, before each has a
+          ///< pattern of its own
 
 struct SideDifference {
   std::string limb; ///< "arm", "leg" or "torso": the panels on it
   std::string text; ///< "the left arm is 3.1 cm longer than the right one"
 };
 
-/// Lengths of arms, shoulders and legs, girths of arms and legs whose left and right differ by more than GRADED_SIDES_M and twice what their
-/// landmarks or girths are uncertain by. Nothing for what the body lacks.
+/// Lengths of arms, shoulders and legs, girths of arms and legs whose left and right differ by more
+/// than GRADED_SIDES_M and twice what their landmarks or girths are uncertain by. Nothing for what
+/// the body lacks.
 std::vector<SideDifference> uneven_sides(const body::Body& body);
 
 } // namespace sloper::garment

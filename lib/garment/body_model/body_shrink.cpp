@@ -20,7 +20,8 @@ Vec3 nearest_on(const Segment& s, const Vec3& p) {
 std::vector<Segment> bones_of(const body::Body& body, body::Part part) {
   std::vector<Segment> bones;
   auto add = [&](const std::string& from, const std::string& to) {
-    if (body.has_landmark(from) && body.has_landmark(to)) bones.push_back({body.landmarks.at(from).p, body.landmarks.at(to).p});
+    if (body.has_landmark(from) && body.has_landmark(to))
+      bones.push_back({body.landmarks.at(from).p, body.landmarks.at(to).p});
   };
   auto limb = [&](const std::string& side, bool arm) {
     if (arm) {
@@ -51,7 +52,8 @@ std::vector<Segment> bones_of(const body::Body& body, body::Part part) {
 
 } // namespace
 
-BodyShrink::BodyShrink(const body::Body& body) : m_skin(body.skin.positions), m_bone_point(body.skin.positions) {
+BodyShrink::BodyShrink(const body::Body& body)
+    : m_skin(body.skin.positions), m_bone_point(body.skin.positions) {
   std::vector<body::Part> part(m_skin.size(), body::Part::TORSO);
   for (std::size_t f = 0; f < body.skin.triangles.size(); ++f)
     for (int v : body.skin.triangles[f]) part[v] = body.face_part[f];
@@ -73,7 +75,8 @@ BodyShrink::BodyShrink(const body::Body& body) : m_skin(body.skin.positions), m_
 
 std::vector<Vec3> BodyShrink::positions(double s) const {
   std::vector<Vec3> out(m_skin.size());
-  for (std::size_t v = 0; v < out.size(); ++v) out[v] = m_bone_point[v] + s * (m_skin[v] - m_bone_point[v]);
+  for (std::size_t v = 0; v < out.size(); ++v)
+    out[v] = m_bone_point[v] + s * (m_skin[v] - m_bone_point[v]);
   return out;
 }
 

@@ -1,13 +1,14 @@
 #pragma once
-/// A body drawn in towards its bones, so that panels which start inside it come to lie outside; it is inflated again while
-/// the cloth gives way.
+/// A body drawn in towards its bones, so that panels which start inside it come to lie outside; it
+/// is inflated again while the cloth gives way.
 #include <body/body.hpp>
 
 namespace sloper::garment {
 
 class BodyShrink {
 public:
-  /// Finds for each skin vertex the nearest point on the bones of its own part. @throws Error INPUT when landmarks are missing
+  /// Finds for each skin vertex the nearest point on the bones of its own part. @throws Error INPUT
+  /// when landmarks are missing
   explicit BodyShrink(const body::Body& body);
   /// Skin at scale s: b + s (p - b); 1 is the body itself, 0 the bones.
   std::vector<Vec3> positions(double s) const;

@@ -14,8 +14,9 @@ CoarseSkin::CoarseSkin(const TriangleMesh& skin, double tolerance) : m_all(skin.
   std::vector<unsigned> left(all.size());
   constexpr std::size_t STRIDE = 3 * sizeof(float);
   const float scale = meshopt_simplifyScale(position.data(), skin.positions.size(), STRIDE);
-  left.resize(meshopt_simplify(left.data(), all.data(), all.size(), position.data(), skin.positions.size(), STRIDE, 0, static_cast<float>(tolerance) / scale, 0,
-                               nullptr));
+  left.resize(meshopt_simplify(left.data(), all.data(), all.size(), position.data(),
+                               skin.positions.size(), STRIDE, 0,
+                               static_cast<float>(tolerance) / scale, 0, nullptr));
   std::vector<int> index(skin.positions.size(), -1);
   for (const unsigned v : left) index[v] = 0;
   for (std::size_t v = 0; v < index.size(); ++v)
@@ -23,7 +24,8 @@ CoarseSkin::CoarseSkin(const TriangleMesh& skin, double tolerance) : m_all(skin.
       index[v] = static_cast<int>(m_source.size());
       m_source.push_back(static_cast<int>(v));
     }
-  for (std::size_t k = 0; k < left.size(); k += 3) m_mesh.triangles.push_back({index[left[k]], index[left[k + 1]], index[left[k + 2]]});
+  for (std::size_t k = 0; k < left.size(); k += 3)
+    m_mesh.triangles.push_back({index[left[k]], index[left[k + 1]], index[left[k + 2]]});
   m_mesh.positions = positions(skin.positions);
 }
 

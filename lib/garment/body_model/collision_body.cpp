@@ -7,9 +7,10 @@ namespace sloper::garment {
 namespace {
 
 constexpr std::size_t DENSE_SKIN = 60000; // triangles: with less, a coarser skin saves too little
-constexpr double ROUGHEST = 4;            // of the tolerance: what a noisy scan is given, which at less has no triangle to spare
+constexpr double ROUGHEST =
+    4; // of the tolerance: what a noisy scan is given, which at less has no triangle to spare
 
-constexpr unsigned ALL_ENDS = CoveredSkin::HANDS | CoveredSkin::FEET;
+constexpr unsigned ALL_ENDS = ExtremityHulls::HANDS | ExtremityHulls::FEET;
 
 } // namespace
 
@@ -25,8 +26,10 @@ CollisionBody::State CollisionBody::State::read(const io::Node& node) {
   State state;
   int covered = 0;
   if (node.has("covered")) covered = node.at("covered").integer();
-  else if (node.at("mitten").boolean()) covered = static_cast<int>(CoveredSkin::HANDS); // older ones: hands alone
-  if (covered < 0 || covered > static_cast<int>(ALL_ENDS)) node.at("covered").fail("has unknown bits");
+  else if (node.at("mitten").boolean())
+    covered = static_cast<int>(ExtremityHulls::HANDS); // older ones: hands alone
+  if (covered < 0 || covered > static_cast<int>(ALL_ENDS))
+    node.at("covered").fail("has unknown bits");
   state.covered = static_cast<unsigned>(covered);
   state.full_skin = node.has("whole_skin") && node.at("whole_skin").boolean();
   state.shrunk = node.at("shrunk").boolean();
@@ -38,24 +41,28 @@ CollisionBody::State CollisionBody::State::read(const io::Node& node) {
 CollisionBody::CollisionBody(const body::Body* body, double coarse_tolerance_m, Reporter& reporter)
     : m_body(body), m_coarse_tolerance(coarse_tolerance_m), m_reporter(reporter) {}
 
-void CollisionBody::collide_with(const TriangleMesh& skin) { m_collider.emplace(collision::make_collider(skin, m_body->skin_cache.get())); }
+void CollisionBody::collide_with(const TriangleMesh& skin) {
+  m_collider.emplace(collision::make_collider(skin, m_body->skin_cache.get()));
+}
 
 void CollisionBody::prepare(unsigned covered) {
   m_state.covered = covered;
-  m_covered.reset();
-  if (covered) m_covered.emplace(*m_body, covered);
-  const TriangleMesh& whole = m_covered ? m_covered->mesh() : m_body->skin;
+  m_extremity_hulls.reset();
+  if (covered) m_extremity_hulls.emplace(*m_body, covered);
+  const TriangleMesh& whole = m_extremity_hulls ? m_extremity_hulls->mesh() : m_body->skin;
   if (!m_state.full_skin && m_coarse_tolerance > 0 && whole.triangles.size() > DENSE_SKIN) {
-    for (double tolerance = m_coarse_tolerance; !m_coarse && tolerance <= ROUGHEST * m_coarse_tolerance; tolerance *= 2) {
+    for (double tolerance = m_coarse_tolerance;
+         !m_coarse && tolerance <= ROUGHEST * m_coarse_tolerance; tolerance *= 2) {
       m_coarse.emplace(whole, tolerance);
       if (!m_coarse->pays()) m_coarse.reset();
     }
   }
   collide_with(m_coarse ? m_coarse->mesh() : whole);
   if (m_coarse)
-    m_reporter.info("a coarser skin: " + std::to_string(m_coarse->mesh().triangles.size()) + " of " + std::to_string(whole.triangles.size()) + " triangles");
-  if (covered & CoveredSkin::HANDS) m_reporter.info("hands as mittens: cloth is near them");
-  if (covered & CoveredSkin::FEET) m_reporter.info("toes as in a sock: cloth is near them");
+    m_reporter.info("a coarser skin: " + std::to_string(m_coarse->mesh().triangles.size()) +
+                    " of " + std::to_string(whole.triangles.size()) + " triangles");
+  if (covered & ExtremityHulls::HANDS) m_reporter.info("hands as mittens: cloth is near them");
+  if (covered & ExtremityHulls::FEET) m_reporter.info("toes as in a sock: cloth is near them");
 }
 
 void CollisionBody::restore(const State& state, const Garment& garment) {
@@ -65,11 +72,13 @@ void CollisionBody::restore(const State& state, const Garment& garment) {
   if (m_state.arms_aside) make_forearms(garment);
 }
 
-unsigned CollisionBody::ends_near(const std::vector<Vec3>& points) const { return CoveredSkin(*m_body, ALL_ENDS).concerned(points); }
+unsigned CollisionBody::ends_near(const std::vector<Vec3>& points) const {
+  return ExtremityHulls(*m_body, ALL_ENDS).concerned(points);
+}
 
 void CollisionBody::use_full_skin() {
-  if (!has_skin() || (m_collider && !m_covered && !m_coarse)) return;
-  m_covered.reset();
+  if (!has_skin() || (m_collider && !m_extremity_hulls && !m_coarse)) return;
+  m_extremity_hulls.reset();
   m_coarse.reset();
   collide_with(m_body->skin);
 }
@@ -95,8 +104,8 @@ void CollisionBody::make_forearms(const Garment& garment) {
 
 void CollisionBody::find_arms_aside(const Garment& garment) {
   make_forearms(garment);
-  const bool covered =
-      m_forearms->is_covered(body::Part::ARM_L, placed_on(garment, "arm_l")) || m_forearms->is_covered(body::Part::ARM_R, placed_on(garment, "arm_r"));
+  const bool covered = m_forearms->is_covered(body::Part::ARM_L, placed_on(garment, "arm_l")) ||
+                       m_forearms->is_covered(body::Part::ARM_R, placed_on(garment, "arm_r"));
   m_state.arms_aside = !covered && m_forearms->are_near(placed_on(garment, "lower_body"));
 }
 
@@ -116,7 +125,7 @@ std::vector<Vec3> CollisionBody::skin_at(double scale) const {
 }
 
 std::vector<Vec3> CollisionBody::collision_surface(const std::vector<Vec3>& skin) const {
-  std::vector<Vec3> all = m_covered ? m_covered->positions(skin) : skin;
+  std::vector<Vec3> all = m_extremity_hulls ? m_extremity_hulls->positions(skin) : skin;
   return m_coarse ? m_coarse->positions(all) : all;
 }
 
@@ -130,7 +139,8 @@ std::vector<Vec3> placed_on(const Garment& garment, const std::string& part) {
   std::vector<Vec3> points;
   if (garment.panels.placed.empty()) return points;
   for (const pattern::PanelInfo& p : garment.panels.panels)
-    for (int v = p.first_vertex; p.part.starts_with(part) && v < p.first_vertex + p.n_vertices; ++v) points.push_back(garment.panels.placed[v]);
+    for (int v = p.first_vertex; p.part.starts_with(part) && v < p.first_vertex + p.n_vertices; ++v)
+      points.push_back(garment.panels.placed[v]);
   return points;
 }
 

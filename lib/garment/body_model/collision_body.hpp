@@ -1,13 +1,14 @@
 #pragma once
-/// The body as cloth meets it: its skin, or what stands for the skin for a while. Hands and feet may be convex hulls (covered_skin.hpp), a
-/// dense skin a coarser one (coarse_skin.hpp), the whole body may be drawn in towards its bones (body_shrink.hpp), and forearms may be out of
-/// the way (under_arms.hpp). All of it ends before a drape is audited: the audit is of the skin itself.
+/// The body as cloth meets it: its skin, or what stands for the skin for a while. Hands and feet
+/// may be convex hulls (covered_skin.hpp), a dense skin a coarser one (coarse_skin.hpp), the whole
+/// body may be drawn in towards its bones (body_shrink.hpp), and forearms may be out of the way
+/// (under_arms.hpp). All of it ends before a drape is audited: the audit is of the skin itself.
 #include <base/progress.hpp>
 #include <body/body.hpp>
 #include <collision/body_collider.hpp>
 #include <garment/body_model/body_shrink.hpp>
 #include <garment/body_model/coarse_skin.hpp>
-#include <garment/body_model/covered_skin.hpp>
+#include <garment/body_model/extremity_hulls.hpp>
 #include <garment/body_model/under_arms.hpp>
 #include <garment/garment.hpp>
 #include <io/json_fwd.hpp>
@@ -21,7 +22,7 @@ class CollisionBody {
 public:
   /// What a checkpoint keeps. All else follows from it and from the body.
   struct State {
-    unsigned covered = 0;    ///< of CoveredSkin::Ends: hulls stand for them, since cloth is near
+    unsigned covered = 0;    ///< of ExtremityHulls::Ends: hulls stand for them, since cloth is near
     bool full_skin = false;  ///< no coarser one from now on
     bool arms_aside = false; ///< forearms and hands are out of the way until the garment hangs
     bool shrunk = false;     ///< the body was drawn in at some time
@@ -31,7 +32,8 @@ public:
     static State read(const io::Node& state); ///< @throws Error INPUT
   };
 
-  /// @param body  null for none; outlives this   @param coarse_tolerance_m  DrapeSettings::skin_tolerance_m
+  /// @param body  null for none; outlives this   @param coarse_tolerance_m
+  /// DrapeSettings::skin_tolerance_m
   CollisionBody(const body::Body* body, double coarse_tolerance_m, Reporter& reporter);
 
   const body::Body* body() const { return m_body; }
@@ -41,11 +43,14 @@ public:
   const collision::BodyCollider* collider() const { return m_collider ? &*m_collider : nullptr; }
   const State& state() const { return m_state; }
 
-  /// Makes the collider of the body at its full size, with hulls for the ends and a coarser skin where that pays. @param covered of CoveredSkin::Ends
+  /// Makes the collider of the body at its full size, with hulls for the ends and a coarser skin
+  /// where that pays. @param covered of ExtremityHulls::Ends
   void prepare(unsigned covered);
-  /// Makes all as a checkpoint says, without the positions that only the phase knows. @param garment  whose sleeves leave forearms in the way
+  /// Makes all as a checkpoint says, without the positions that only the phase knows. @param
+  /// garment  whose sleeves leave forearms in the way
   void restore(const State& state, const Garment& garment);
-  /// Ends that have any of these points beside or beyond them, of CoveredSkin::Ends. @param points m
+  /// Ends that have any of these points beside or beyond them, of ExtremityHulls::Ends. @param
+  /// points m
   unsigned ends_near(const std::vector<Vec3>& points) const;
   /// The skin itself from now on: no hull, nothing coarse.
   void use_full_skin();
@@ -60,7 +65,8 @@ public:
   /// Largest distance of a skin vertex from its bone, m. Only after draw_in().
   double reach() const { return m_shrink->reach(); }
 
-  /// Decides whether forearms are in the way of what is sewn around the lower body, and in no sleeve. @param garment  unsewn, placed
+  /// Decides whether forearms are in the way of what is sewn around the lower body, and in no
+  /// sleeve. @param garment  unsewn, placed
   void find_arms_aside(const Garment& garment);
   /// Takes the forearms out of the way, where find_arms_aside() found them in it.
   void put_arms_aside();
@@ -83,14 +89,15 @@ private:
   Reporter& m_reporter;
   State m_state;
   std::optional<collision::BodyCollider> m_collider;
-  std::optional<CoveredSkin> m_covered;
+  std::optional<ExtremityHulls> m_extremity_hulls;
   std::optional<CoarseSkin> m_coarse;
   std::optional<BodyShrink> m_shrink;
   std::optional<Forearms> m_forearms;
   body::Body m_end_body; // where a motion left it
 };
 
-/// Placed vertices of the panels of the body parts whose names begin so, m. @param part  "arm_l", "leg", "lower_body"
+/// Placed vertices of the panels of the body parts whose names begin so, m. @param part  "arm_l",
+/// "leg", "lower_body"
 std::vector<Vec3> placed_on(const Garment& garment, const std::string& part);
 
 } // namespace sloper::garment

@@ -10,7 +10,8 @@ namespace sloper::garment {
 
 namespace {
 
-/// Wall time of a preset that goes on from the one before, in times of the whole until then; measured, rounded up.
+/// Wall time of a preset that goes on from the one before, in times of the whole until then;
+/// measured, rounded up.
 constexpr double NEXT_COSTS = 0.5;
 
 /// Sums what the presets took; the state, the quality and the settings are those of the last.
@@ -29,7 +30,8 @@ void add_to(DrapeReport& all, DrapeReport last) {
         }
       }
   for (const auto& [name, wall] : all.phases) {
-    const auto same = std::find_if(last.phases.begin(), last.phases.end(), [&, n = name](const auto& p) { return p.first == n; });
+    const auto same = std::find_if(last.phases.begin(), last.phases.end(),
+                                   [&, n = name](const auto& p) { return p.first == n; });
     if (same != last.phases.end()) same->second += wall;
     else last.phases.emplace_back(name, wall);
   }
@@ -39,10 +41,13 @@ void add_to(DrapeReport& all, DrapeReport last) {
 
 } // namespace
 
-AccuracyReport drape_to_goal(Garment& garment, const body::Body* body, const AccuracyGoal& goal, const std::function<void(DrapeSettings&)>& adjust,
+AccuracyReport drape_to_goal(Garment& garment, const body::Body* body, const AccuracyGoal& goal,
+                             const std::function<void(DrapeSettings&)>& adjust,
                              Reporter& reporter) {
   const auto start = std::chrono::steady_clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const auto elapsed = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
   AccuracyReport report;
   io::Json presets = io::Json::array();
   double estimate = -1;
@@ -83,9 +88,12 @@ AccuracyReport drape_to_goal(Garment& garment, const body::Body* body, const Acc
     presets.push_back(entry);
     before = garment.position;
     if (!converged) break; // a finer preset would not come to rest either
-    if (goal.max_error_m > 0 && estimate >= 0 && ACCURACY_MARGIN * estimate <= goal.max_error_m) break;
+    if (goal.max_error_m > 0 && estimate >= 0 && ACCURACY_MARGIN * estimate <= goal.max_error_m)
+      break;
   }
-  report.met = report.drape.converged && (goal.max_error_m <= 0 || (estimate >= 0 && ACCURACY_MARGIN * estimate <= goal.max_error_m));
+  report.met =
+      report.drape.converged &&
+      (goal.max_error_m <= 0 || (estimate >= 0 && ACCURACY_MARGIN * estimate <= goal.max_error_m));
   report.achieved = {{"max_error_m", goal.max_error_m},
                      {"max_seconds", goal.max_seconds},
                      {"margin", ACCURACY_MARGIN},

@@ -5,19 +5,27 @@
 
 namespace sloper::garment {
 
-DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter, const DrapeRequest& request) {
-  if (settings.levels > 1 && garment.particle_of.empty()) return drape_through_levels(garment, body, settings, reporter, request);
-  return DrapeSession({.garment = garment, .body = body, .request = request}, settings, reporter).run();
+DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings& settings,
+                  Reporter& reporter, const DrapeRequest& request) {
+  if (settings.levels > 1 && garment.particle_of.empty())
+    return drape_through_levels(garment, body, settings, reporter, request);
+  return DrapeSession({.garment = garment, .body = body, .request = request}, settings, reporter)
+      .run();
 }
 
-DrapeReport resume_drape(const DrapeCheckpoint& from, Garment& garment, const body::Body* body, Reporter& reporter, const Checkpoints& checkpoints) {
+DrapeReport resume_drape(const DrapeCheckpoint& from, Garment& garment, const body::Body* body,
+                         Reporter& reporter, const Checkpoints& checkpoints) {
   const DrapeRequest request{.checkpoints = checkpoints};
   return DrapeSession({.garment = garment, .body = body, .request = request}, from, reporter).run();
 }
 
-DrapeReport resume_drape(const std::string& file, Garment& garment, const body::Body* body, Reporter& reporter, const std::string& next_file) {
+DrapeReport resume_drape(const std::string& file, Garment& garment, const body::Body* body,
+                         Reporter& reporter, const std::string& next_file) {
   const DrapeCheckpoint from = read_checkpoint(file);
-  if (from.motion || from.layers) throw input_error(file, "", from.motion ? "is of a run in motion" : "is of a run with garments over each other");
+  if (from.motion || from.layers)
+    throw input_error(file, "",
+                      from.motion ? "is of a run in motion"
+                                  : "is of a run with garments over each other");
   from.check_body(body, garment.body_sha256);
   return resume_drape(from, garment, body, reporter, Checkpoints{.file = next_file});
 }

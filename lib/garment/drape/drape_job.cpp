@@ -24,28 +24,34 @@ void take_off(Garment& garment, std::vector<Garment>& under) {
 }
 
 /// @param moves  null for none
-DrapeReport drape_over(Garment& garment, std::vector<Garment>& under, const body::Body* body, const DrapeSettings& settings, Reporter& reporter,
-                       const Checkpoints& checkpoints, const BodyMoves* moves = nullptr, const OnMotionFrame& on_frame = {}) {
+DrapeReport drape_over(Garment& garment, std::vector<Garment>& under, const body::Body* body,
+                       const DrapeSettings& settings, Reporter& reporter,
+                       const Checkpoints& checkpoints, const BodyMoves* moves = nullptr,
+                       const OnMotionFrame& on_frame = {}) {
   under.push_back(std::move(garment));
   DrapeReport report = drape_layers(under, body, settings, reporter, checkpoints, moves, on_frame);
   take_off(garment, under);
   return report;
 }
 
-DrapeReport resume_over(const DrapeCheckpoint& c, Garment& garment, std::vector<Garment>& under, const body::Body* body, Reporter& reporter,
-                        const Checkpoints& checkpoints, const BodyMoves* moves = nullptr, const OnMotionFrame& on_frame = {}) {
+DrapeReport resume_over(const DrapeCheckpoint& c, Garment& garment, std::vector<Garment>& under,
+                        const body::Body* body, Reporter& reporter, const Checkpoints& checkpoints,
+                        const BodyMoves* moves = nullptr, const OnMotionFrame& on_frame = {}) {
   DrapeReport report = resume_layers(c, under, body, reporter, checkpoints, moves, on_frame);
   take_off(garment, under);
   return report;
 }
 
-/// @param fps   1/s   @param done  frames that are written already   @param drape  makes the drape with what it needs for it
+/// @param fps   1/s   @param done  frames that are written already   @param drape  makes the drape
+/// with what it needs for it
 template<class Drape>
-DrapeReport with_motion(const DrapeJob& job, double fps, std::size_t done, Garment& garment, std::vector<Garment>& under, const body::Body& body,
-                        std::ostream& stream, const Drape& drape) {
+DrapeReport with_motion(const DrapeJob& job, double fps, std::size_t done, Garment& garment,
+                        std::vector<Garment>& under, const body::Body& body, std::ostream& stream,
+                        const Drape& drape) {
   const BodyMoves moves = read_moves(body, job.motion, 1 / fps);
   FrameWriter write(job.frames, "frame of " + generator_stamp(job.tool), stream, done);
-  DrapeReport report = drape(moves, OnMotionFrame([&](const MotionFrame& f, const Garment& g) { write(f, g); }));
+  DrapeReport report =
+      drape(moves, OnMotionFrame([&](const MotionFrame& f, const Garment& g) { write(f, g); }));
   const auto leave = [&](Garment& g) {
     g.body_sha256.clear(); // it hangs on the last skin
     if (moves.end) bind_garment(g, *moves.end);
@@ -56,45 +62,61 @@ DrapeReport with_motion(const DrapeJob& job, double fps, std::size_t done, Garme
   return report;
 }
 
-DrapeReport drape_with_motion(const DrapeJob& job, Garment& garment, std::vector<Garment>& under, const body::Body& body, const DrapeSettings& settings,
+DrapeReport drape_with_motion(const DrapeJob& job, Garment& garment, std::vector<Garment>& under,
+                              const body::Body& body, const DrapeSettings& settings,
                               std::ostream& stream, Reporter& reporter) {
   Checkpoints checkpoints = job.checkpoints;
   if (!checkpoints.file.empty()) checkpoints.motion = {motion_sha256(job.motion), job.motion_fps};
-  return with_motion(job, job.motion_fps, 0, garment, under, body, stream, [&](const BodyMoves& moves, const OnMotionFrame& on_frame) {
-    if (!under.empty()) return drape_over(garment, under, &body, settings, reporter, checkpoints, &moves, on_frame);
-    return drape_in_motion(garment, body, moves, settings, on_frame, reporter, {.checkpoints = checkpoints});
-  });
+  return with_motion(job, job.motion_fps, 0, garment, under, body, stream,
+                     [&](const BodyMoves& moves, const OnMotionFrame& on_frame) {
+                       if (!under.empty())
+                         return drape_over(garment, under, &body, settings, reporter, checkpoints,
+                                           &moves, on_frame);
+                       return drape_in_motion(garment, body, moves, settings, on_frame, reporter,
+                                              {.checkpoints = checkpoints});
+                     });
 }
 
-DrapeReport resume_with_motion(const DrapeJob& job, const DrapeCheckpoint& c, Garment& garment, std::vector<Garment>& under, const body::Body& body,
+DrapeReport resume_with_motion(const DrapeJob& job, const DrapeCheckpoint& c, Garment& garment,
+                               std::vector<Garment>& under, const body::Body& body,
                                std::ostream& stream, Reporter& reporter) {
-  if (job.motion.empty()) throw input_error(c.file, "", "this drape began with a motion of the body", "give the same --motion as before");
+  if (job.motion.empty())
+    throw input_error(c.file, "", "this drape began with a motion of the body",
+                      "give the same --motion as before");
   if (!c.motion->sha256.empty() && motion_sha256(job.motion) != c.motion->sha256)
-    throw input_error(job.motion, "", "is not the motion with which this drape began", "give the same --motion as before");
-  return with_motion(job, c.motion->fps, c.state.move.frame, garment, under, body, stream, [&](const BodyMoves& moves, const OnMotionFrame& on_frame) {
-    if (c.layers) return resume_over(c, garment, under, &body, reporter, job.checkpoints, &moves, on_frame);
-    return resume_in_motion(c, garment, body, moves, on_frame, reporter, job.checkpoints);
-  });
+    throw input_error(job.motion, "", "is not the motion with which this drape began",
+                      "give the same --motion as before");
+  return with_motion(
+      job, c.motion->fps, c.state.move.frame, garment, under, body, stream,
+      [&](const BodyMoves& moves, const OnMotionFrame& on_frame) {
+        if (c.layers)
+          return resume_over(c, garment, under, &body, reporter, job.checkpoints, &moves, on_frame);
+        return resume_in_motion(c, garment, body, moves, on_frame, reporter, job.checkpoints);
+      });
 }
 
-/// A document of edits is whole, and nothing more comes after it: followed as lines, it would be waited on without end.
+/// A document of edits is whole, and nothing more comes after it: followed as lines, it would be
+/// waited on without end.
 void refuse_document(const std::string& path) {
-  if (path == "-" || !std::filesystem::is_regular_file(path)) return; // a stream must not be read twice
+  if (path == "-" || !std::filesystem::is_regular_file(path))
+    return; // a stream must not be read twice
   const std::string text = io::read_file(path);
   if (!io::Json::accept(text)) return; // lines, or none yet
   const io::Json json = io::Json::parse(text);
   if (json.is_object() && json.contains("edits") && !json["edits"].empty())
-    throw input_error(path, "/edits", "is a document of edits, where --follow wants lines as they come",
-                      R"(write {"format": "edits", "version": 1, "length_unit": "cm"} on the first line, then one edit a line, at last {"edit": "end"}; )"
-                      "or give the document to pattern-mesh --edits");
+    throw input_error(
+        path, "/edits", "is a document of edits, where --follow wants lines as they come",
+        R"(write {"format": "edits", "version": 1, "length_unit": "cm"} on the first line, then one edit a line, at last {"edit": "end"}; )"
+        "or give the document to pattern-mesh --edits");
 }
 
-DrapeOutcome follow_edits(const DrapeJob& job, Garment& garment, const body::Body* body, const DrapeSettings& settings, std::ostream& stream,
-                          Reporter& reporter) {
+DrapeOutcome follow_edits(const DrapeJob& job, Garment& garment, const body::Body* body,
+                          const DrapeSettings& settings, std::ostream& stream, Reporter& reporter) {
   refuse_document(job.follow);
   io::LineFollower lines(job.follow);
   FrameWriter write(job.frames, "frame of " + generator_stamp(job.tool), stream);
-  const FollowSession session{[&](int wait_ms) { return lines.next(wait_ms); }, [&] { return lines.ended(); },
+  const FollowSession session{[&](int wait_ms) { return lines.next(wait_ms); },
+                              [&] { return lines.ended(); },
                               [&](const FollowFrame& f, const Garment& g) { write(f, g); }};
   FollowReport report = follow(garment, body, settings, session, reporter);
   if (!job.edit_log.empty()) io::write_json(job.edit_log, report.log);
@@ -102,7 +124,8 @@ DrapeOutcome follow_edits(const DrapeJob& job, Garment& garment, const body::Bod
   return {std::move(report.drape), std::move(document), report.refused.size()};
 }
 
-DrapeOutcome drape_towards(const DrapeJob& job, Garment& garment, const body::Body* body, Reporter& reporter) {
+DrapeOutcome drape_towards(const DrapeJob& job, Garment& garment, const body::Body* body,
+                           Reporter& reporter) {
   AccuracyReport report = drape_to_goal(garment, body, *job.goal, job.adjust, reporter);
   io::Json document = report_json(report.drape, job.tool);
   document["accuracy"] = report.achieved;
@@ -111,23 +134,31 @@ DrapeOutcome drape_towards(const DrapeJob& job, Garment& garment, const body::Bo
 
 } // namespace
 
-DrapeOutcome do_drape(const DrapeJob& job, Garment& garment, std::vector<Garment>& under, const body::Body* body, const DrapeSettings& settings,
-                      std::ostream& stream, Reporter& reporter) {
+DrapeOutcome do_drape(const DrapeJob& job, Garment& garment, std::vector<Garment>& under,
+                      const body::Body* body, const DrapeSettings& settings, std::ostream& stream,
+                      Reporter& reporter) {
   if (under.empty() && job.goal) return drape_towards(job, garment, body, reporter);
-  if (under.empty() && !job.follow.empty()) return follow_edits(job, garment, body, settings, stream, reporter);
-  DrapeReport report = !job.motion.empty() ? drape_with_motion(job, garment, under, *body, settings, stream, reporter)
-                       : !under.empty()    ? drape_over(garment, under, body, settings, reporter, job.checkpoints)
-                       : job.untangle_only ? untangle_only(garment, body, settings, reporter)
-                                           : drape(garment, body, settings, reporter, {.checkpoints = job.checkpoints});
+  if (under.empty() && !job.follow.empty())
+    return follow_edits(job, garment, body, settings, stream, reporter);
+  DrapeReport report =
+      !job.motion.empty()
+          ? drape_with_motion(job, garment, under, *body, settings, stream, reporter)
+      : !under.empty() ? drape_over(garment, under, body, settings, reporter, job.checkpoints)
+      : job.untangle_only
+          ? untangle_only(garment, body, settings, reporter)
+          : drape(garment, body, settings, reporter, {.checkpoints = job.checkpoints});
   io::Json document = report_json(report, job.tool);
   return {std::move(report), std::move(document), 0};
 }
 
-DrapeOutcome resume_job(const DrapeJob& job, const DrapeCheckpoint& c, Garment& garment, std::vector<Garment>& under, const body::Body* body,
-                        std::ostream& stream, Reporter& reporter) {
+DrapeOutcome resume_job(const DrapeJob& job, const DrapeCheckpoint& c, Garment& garment,
+                        std::vector<Garment>& under, const body::Body* body, std::ostream& stream,
+                        Reporter& reporter) {
   c.check_body(body, garment.body_sha256);
-  if (!c.motion && !job.motion.empty()) throw input_error(c.file, "", "this drape began without a motion", "leave --motion out");
-  DrapeReport report = c.motion   ? resume_with_motion(job, c, garment, under, *body, stream, reporter)
+  if (!c.motion && !job.motion.empty())
+    throw input_error(c.file, "", "this drape began without a motion", "leave --motion out");
+  DrapeReport report = c.motion
+                           ? resume_with_motion(job, c, garment, under, *body, stream, reporter)
                        : c.layers ? resume_over(c, garment, under, body, reporter, job.checkpoints)
                                   : resume_drape(c, garment, body, reporter, job.checkpoints);
   io::Json document = report_json(report, job.tool);

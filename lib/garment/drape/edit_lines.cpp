@@ -11,8 +11,11 @@ void EditLines::take_end(const io::Node& node) {
     return;
   }
   const std::string finish = node.at("finish").string();
-  if (finish != "warm" && finish != "replay" && finish != "cold") node.fail("there is no finish '" + finish + "'", "known are warm, replay and cold");
-  if (finish == "cold" && !m_has_body) node.fail("without a body the panels cannot be placed for a cold finish", "give --body, or finish warm");
+  if (finish != "warm" && finish != "replay" && finish != "cold")
+    node.fail("there is no finish '" + finish + "'", "known are warm, replay and cold");
+  if (finish == "cold" && !m_has_body)
+    node.fail("without a body the panels cannot be placed for a cold finish",
+              "give --body, or finish warm");
   m_ended = true;
   if (finish == "cold") m_finish = Finish::COLD;
   else m_finish = finish == "replay" ? Finish::REPLAY : Finish::WARM;
@@ -22,7 +25,9 @@ EditLines::Taken EditLines::take(const std::string& line, const pattern::Pattern
   ++m_line;
   if (line.find_first_not_of(" \t") == std::string::npos) return {};
   const std::string place = "line " + std::to_string(m_line);
-  if (!line.starts_with('{')) throw input_error(place, "", "is no JSON object", R"(write an edit such as {"edit": "scale", ...} on one line)");
+  if (!line.starts_with('{'))
+    throw input_error(place, "", "is no JSON object",
+                      R"(write an edit such as {"edit": "scale", ...} on one line)");
   io::Json json = io::parse_json(line, place);
   const io::Node node(json, place);
   if (!node.is_object()) node.fail("a line is a head or an edit");
@@ -37,7 +42,9 @@ EditLines::Taken EditLines::take(const std::string& line, const pattern::Pattern
       take_end(node);
       return {};
     }
-    if (m_head.is_null()) node.fail("there is no head line before the first edit", R"(begin with {"format": "edits", "version": 1, "length_unit": "cm"})");
+    if (m_head.is_null())
+      node.fail("there is no head line before the first edit",
+                R"(begin with {"format": "edits", "version": 1, "length_unit": "cm"})");
     document["edits"].push_back(json);
   }
   const std::size_t count = document["edits"].size();

@@ -8,8 +8,8 @@
 
 namespace sloper::garment {
 
-/// How a session ends. WARM leaves the cloth in its own rest; REPLAY goes back to the start and makes all edits at once; COLD drapes the edited
-/// pattern anew.
+/// How a session ends. WARM leaves the cloth in its own rest; REPLAY goes back to the start and
+/// makes all edits at once; COLD drapes the edited pattern anew.
 enum class Finish {
   WARM,
   REPLAY,
@@ -27,7 +27,8 @@ public:
     std::optional<pattern::Pattern> next; ///< the edited pattern, where there are any
     io::Json document;                    ///< they, with their length unit
   };
-  /// Reads the next line. @param pattern  to be edited   @throws Error INPUT for what is no edit of it; then nothing changed
+  /// Reads the next line. @param pattern  to be edited   @throws Error INPUT for what is no edit of
+  /// it; then nothing changed
   Taken take(const std::string& line, const pattern::Pattern& pattern);
   bool ended() const { return m_ended; }
   std::optional<Finish> finish() const { return m_finish; } ///< as asked for

@@ -17,20 +17,26 @@ constexpr int IDLE_MS = 20;              // between looks for a line, while at r
 constexpr int CALM_STEPS = 3;            // within the tolerances of rest, one after the other
 constexpr double LARGEST_MOVE = 0.02;    // m, of a particle in one frame
 constexpr double ANSWER_TOLERANCE = 0.1; // relative residual; see FOLLOW_ANSWER_ITERATIONS
-constexpr double BUSY_S = 1;             // after an edit: the next one is likely to come, and waits for the step it comes into
-constexpr int BUSY_ITERATIONS = 6;       // at most, of those steps
+constexpr double BUSY_S =
+    1; // after an edit: the next one is likely to come, and waits for the step it comes into
+constexpr int BUSY_ITERATIONS = 6; // at most, of those steps
 
 using Clock = std::chrono::steady_clock;
 
-double milliseconds_since(Clock::time_point t) { return std::chrono::duration<double, std::milli>(Clock::now() - t).count(); }
+double milliseconds_since(Clock::time_point t) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - t).count();
+}
 
 /// A session that goes on for as long as edits come.
 class LiveEdit {
 public:
-  LiveEdit(Garment& garment, const body::Body* body, const DrapeSettings& settings, const FollowSession& source, Reporter& reporter)
-      : m_garment(garment), m_body(body), m_settings(settings), m_source(source), m_reporter(reporter), m_live(garment), m_lines(body != nullptr),
+  LiveEdit(Garment& garment, const body::Body* body, const DrapeSettings& settings,
+           const FollowSession& source, Reporter& reporter)
+      : m_garment(garment), m_body(body), m_settings(settings), m_source(source),
+        m_reporter(reporter), m_live(garment), m_lines(body != nullptr),
         m_session({.garment = garment, .body = body}, settings, reporter) {
-    m_log = {{"format", "edits"}, {"version", 1}, {"length_unit", "m"}, {"edits", io::Json::array()}};
+    m_log = {
+        {"format", "edits"}, {"version", 1}, {"length_unit", "m"}, {"edits", io::Json::array()}};
   }
 
   FollowReport run() {
@@ -49,21 +55,24 @@ public:
   }
 
 private:
-  /// The first step makes what all later ones go on with: the matrix and its hierarchy, near pairs, friction's anchors. It is made before
-  /// an edit waits for it, and taken back. So are the panels' triangles, for the first edit that asks for another mesh.
+  /// The first step makes what all later ones go on with: the matrix and its hierarchy, near pairs,
+  /// friction's anchors. It is made before an edit waits for it, and taken back. So are the panels'
+  /// triangles, for the first edit that asks for another mesh.
   void warm_up() {
     const std::vector<Vec3> hung = m_garment.position;
     answer(FOLLOW_ANSWER_ITERATIONS);
     m_session.set_positions(hung);
-    m_session.look_ahead(m_settings.time_step_s);
+    m_session.prefetch_contacts(m_settings.time_step_s);
     m_live.warm_up();
     m_session.forget_simulated_time();
   }
 
   /// One step, however long, on a budget. @return false when the session must end
   bool answer(int iterations) {
-    return m_session.advance(
-        {.h = m_settings.time_step_s, .largest_move_m = LARGEST_MOVE, .least_cg_tolerance = ANSWER_TOLERANCE, .cg_max_iterations = iterations});
+    return m_session.advance({.h = m_settings.time_step_s,
+                              .largest_move_m = LARGEST_MOVE,
+                              .least_cg_tolerance = ANSWER_TOLERANCE,
+                              .cg_max_iterations = iterations});
   }
 
   void finish() {
@@ -75,12 +84,14 @@ private:
     if (m_report.edits > 0) finish = m_body ? Finish::COLD : Finish::REPLAY;
     finish = m_lines.finish().value_or(finish);
     if (finish == Finish::COLD) {
-      // As if nothing had hung before: friction and folds remember the path that cloth came, so only the same path gives the same drape.
+      // As if nothing had hung before: friction and folds remember the path that cloth came, so
+      // only the same path gives the same drape.
       m_live.make_panels(m_live.go_to_start(), *m_body);
       m_report.drape = drape(m_garment, m_body, m_settings, m_reporter);
       return;
     }
-    // A replay is as if all edits had come at once: the rest is one of the first state and of the last pattern, whatever came between and when.
+    // A replay is as if all edits had come at once: the rest is one of the first state and of the
+    // last pattern, whatever came between and when.
     if (finish == Finish::REPLAY) m_live.adopt(m_live.go_to_start());
     m_session.rebuild_cloth(false);
     m_session.forget_steps(); // the limit is for the way to rest
@@ -110,10 +121,12 @@ private:
     else show_remeshed(arrived, cpu);
   }
 
-  /// The answer to an edit that asks for another mesh is that mesh, where the cloth hangs; the step is the frame after it.
+  /// The answer to an edit that asks for another mesh is that mesh, where the cloth hangs; the step
+  /// is the frame after it.
   void show_remeshed(Clock::time_point arrived, std::clock_t cpu) {
     ++m_report.remeshed;
-    m_reporter.info("the edit asks for another mesh: vertex ids are new, the draped state is carried across");
+    m_reporter.info(
+        "the edit asks for another mesh: vertex ids are new, the draped state is carried across");
     FollowFrame f = next_frame();
     f.remeshed = true;
     note_latency(f, arrived, cpu);
@@ -131,17 +144,19 @@ private:
     show(f);
   }
 
-  /// One step on the way to rest. @param busy  on a budget and without a line search, as an answer is: sooner done
+  /// One step on the way to rest. @param busy  on a budget and without a line search, as an answer
+  /// is: sooner done
   void go_on(bool busy) {
     m_session.forget_steps();
-    const StepRequest request{.h = m_settings.time_step_s, .kind = StepKind::DESCEND, .largest_move_m = LARGEST_MOVE};
+    const StepRequest request{
+        .h = m_settings.time_step_s, .kind = StepKind::DESCEND, .largest_move_m = LARGEST_MOVE};
     if (!(busy ? answer(BUSY_ITERATIONS) : m_session.advance(request))) return;
     show(frame_of_step());
   }
 
   void show(const FollowFrame& f) {
     if (m_source.on_frame) m_source.on_frame(f, m_garment);
-    m_session.look_ahead(m_settings.time_step_s); // while no edit waits
+    m_session.prefetch_contacts(m_settings.time_step_s); // while no edit waits
   }
 
   FollowFrame next_frame() {
@@ -156,7 +171,8 @@ private:
     FollowFrame f = next_frame();
     f.cg_iterations = last.cg.iterations;
     f.speed_m_s = last.largest_move_m / m_settings.time_step_s;
-    const bool still = f.speed_m_s < m_settings.settle_speed_m_s && last.residual_force_ratio < m_settings.settle_force_ratio;
+    const bool still = f.speed_m_s < m_settings.settle_speed_m_s &&
+                       last.residual_force_ratio < m_settings.settle_force_ratio;
     m_calm = still ? m_calm + 1 : 0;
     f.at_rest = m_at_rest = m_calm >= CALM_STEPS;
     return f;
@@ -186,7 +202,8 @@ private:
 
 } // namespace
 
-FollowReport follow(Garment& garment, const body::Body* body, const DrapeSettings& settings, const FollowSession& session, Reporter& reporter) {
+FollowReport follow(Garment& garment, const body::Body* body, const DrapeSettings& settings,
+                    const FollowSession& session, Reporter& reporter) {
   return LiveEdit(garment, body, settings, session, reporter).run();
 }
 

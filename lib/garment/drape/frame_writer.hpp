@@ -9,9 +9,11 @@ namespace sloper::garment {
 
 class FrameWriter {
 public:
-  /// @param where   a folder, made when it is not there, for an OBJ each and frames.jsonl; "-" for JSON lines with positions to `stream`; empty: nowhere
+  /// @param where   a folder, made when it is not there, for an OBJ each and frames.jsonl; "-" for
+  /// JSON lines with positions to `stream`; empty: nowhere
   /// @param stamp   first line of each OBJ
-  /// @param after   in a folder that has frames, so many lines of frames.jsonl stay: those of a run that goes on   @throws Error OUTPUT
+  /// @param after   in a folder that has frames, so many lines of frames.jsonl stay: those of a run
+  /// that goes on   @throws Error OUTPUT
   FrameWriter(std::string where, std::string stamp, std::ostream& stream, std::size_t after = 0);
   void operator()(const FollowFrame& frame, const Garment& garment);
   void operator()(const MotionFrame& frame, const Garment& garment);

@@ -13,11 +13,13 @@ namespace {
 
 constexpr double NEAR_SKIN = 0.5;  // m: cloth farther from the skin has no order
 constexpr double LEAST_GAP = 5e-4; // m: inner cloth is not tucked nearer to the skin
-constexpr double PUSH = 5e-4;      // m: apart, of an edge and the face that it crosses, in one round
+constexpr double PUSH = 5e-4; // m: apart, of an edge and the face that it crosses, in one round
 constexpr int ROUNDS = 200;
 
-/// Moves what of `inner` lies beyond `outer` to below it. The way from the skin is the order; it also shows cloth that is too near.
-void tuck(std::vector<Vec3>& inner, const std::vector<Vec3>& outer, const std::vector<Triangle>& triangles, const collision::BodyCollider& body,
+/// Moves what of `inner` lies beyond `outer` to below it. The way from the skin is the order; it
+/// also shows cloth that is too near.
+void tuck(std::vector<Vec3>& inner, const std::vector<Vec3>& outer,
+          const std::vector<Triangle>& triangles, const collision::BodyCollider& body,
           double thickness, LayerOrder& order) {
   const collision::TriangleTree tree(outer, triangles);
   std::vector<double> moved(inner.size(), 0);
@@ -25,9 +27,11 @@ void tuck(std::vector<Vec3>& inner, const std::vector<Vec3>& outer, const std::v
     for (std::size_t i = begin; i < end; ++i) {
       const collision::SignedDistance d = body.signed_distance(inner[i], NEAR_SKIN);
       if (d.triangle < 0 || d.distance <= 0) continue;
-      const double seen = d.distance + thickness, hit = tree.first_hit(d.point, d.point + seen * d.normal) * seen;
+      const double seen = d.distance + thickness,
+                   hit = tree.first_hit(d.point, d.point + seen * d.normal) * seen;
       if (!(hit < seen)) continue;
-      const double keep = std::min(d.distance, std::max(hit - thickness, std::min(LEAST_GAP, 0.5 * hit)));
+      const double keep =
+          std::min(d.distance, std::max(hit - thickness, std::min(LEAST_GAP, 0.5 * hit)));
       moved[i] = hit < d.distance ? d.distance - keep : 0;
       inner[i] = d.point + keep * d.normal;
     }
@@ -38,12 +42,15 @@ void tuck(std::vector<Vec3>& inner, const std::vector<Vec3>& outer, const std::v
   }
 }
 
-/// One round: edges and faces of different layers that cross go apart along the way from the skin. @return crossings found
-std::size_t part_layers(std::vector<Vec3>& x, const std::vector<int>& layer, const std::vector<Triangle>& triangles, const collision::Topology& topology,
+/// One round: edges and faces of different layers that cross go apart along the way from the skin.
+/// @return crossings found
+std::size_t part_layers(std::vector<Vec3>& x, const std::vector<int>& layer,
+                        const std::vector<Triangle>& triangles, const collision::Topology& topology,
                         const collision::TriangleTree& tree, const collision::BodyCollider& body) {
   std::vector<Vec3> move(x.size(), Vec3::Zero());
   std::size_t count = 0;
-  for (const collision::EdgeFaceIntersection& hit : collision::edge_face_intersections(x, triangles, topology, tree)) {
+  for (const collision::EdgeFaceIntersection& hit :
+       collision::edge_face_intersections(x, triangles, topology, tree)) {
     const auto& e = topology.edges[hit.edge];
     const Triangle& t = triangles[hit.triangle];
     const int of_edge = layer[e[0]], of_face = layer[t[0]];
@@ -78,7 +85,8 @@ Garment merge_layers(const std::vector<Garment>& garments) {
   for (std::size_t k = 0; k < garments.size(); ++k) {
     const Garment& g = garments[k];
     const std::string prefix = layer_prefix(k);
-    const int vertices = static_cast<int>(p.pattern.size()), triangles = static_cast<int>(p.triangles.size()),
+    const int vertices = static_cast<int>(p.pattern.size()),
+              triangles = static_cast<int>(p.triangles.size()),
               particles = static_cast<int>(all.position.size());
     const int panels = static_cast<int>(p.panels.size());
     for (pattern::PanelInfo info : g.panels.panels) {
@@ -102,8 +110,10 @@ Garment merge_layers(const std::vector<Garment>& garments) {
       p.ids.push_back(id);
     }
     for (int i : g.particle_of) all.particle_of.push_back(i + particles);
-    for (std::size_t v = 0; v < g.particle_of.size(); ++v) p.placed.push_back(g.position[g.particle_of[v]]);
-    for (const Triangle& t : g.panels.triangles) p.triangles.push_back({t[0] + vertices, t[1] + vertices, t[2] + vertices});
+    for (std::size_t v = 0; v < g.particle_of.size(); ++v)
+      p.placed.push_back(g.position[g.particle_of[v]]);
+    for (const Triangle& t : g.panels.triangles)
+      p.triangles.push_back({t[0] + vertices, t[1] + vertices, t[2] + vertices});
     all.position.insert(all.position.end(), g.position.begin(), g.position.end());
     if (scaled) {
       all.rest_scale.insert(all.rest_scale.end(), g.rest_scale.begin(), g.rest_scale.end());
@@ -121,7 +131,8 @@ Garment merge_layers(const std::vector<Garment>& garments) {
     add(g.scene.attachments, all.scene.attachments, of_run);
     add(g.scene.creases, all.scene.creases, of_run);
     add(g.scene.weights, all.scene.weights, of_run);
-    for (const pattern::PanelInfo& info : g.panels.panels) // a shrink without a panel is of all panels of its garment
+    for (const pattern::PanelInfo& info :
+         g.panels.panels) // a shrink without a panel is of all panels of its garment
       for (SceneShrink s : g.scene.shrink) {
         if (!s.panel.empty() && s.panel != info.name) continue;
         s.panel = prefix + info.name;
@@ -148,17 +159,21 @@ void split_layers(const Garment& merged, std::vector<Garment>& garments) {
   }
 }
 
-LayerOrder order_layers(std::vector<Garment>& garments, const collision::BodyCollider& body, double thickness_m) {
+LayerOrder order_layers(std::vector<Garment>& garments, const collision::BodyCollider& body,
+                        double thickness_m) {
   LayerOrder order;
-  for (std::size_t k = garments.size(); k-- > 1;) // from outside: what is tucked below one layer is tucked below the next with it
+  for (std::size_t k = garments.size();
+       k-- > 1;) // from outside: what is tucked below one layer is tucked below the next with it
     for (std::size_t i = 0; i < k; ++i)
-      tuck(garments[i].position, garments[k].position, garments[k].particle_triangles(), body, thickness_m * static_cast<double>(k - i), order);
+      tuck(garments[i].position, garments[k].position, garments[k].particle_triangles(), body,
+           thickness_m * static_cast<double>(k - i), order);
   std::vector<Vec3> x;
   std::vector<int> layer;
   std::vector<Triangle> triangles;
   for (std::size_t k = 0; k < garments.size(); ++k) {
     const int first = static_cast<int>(x.size());
-    for (const Triangle& t : garments[k].particle_triangles()) triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    for (const Triangle& t : garments[k].particle_triangles())
+      triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     x.insert(x.end(), garments[k].position.begin(), garments[k].position.end());
     layer.resize(x.size(), static_cast<int>(k));
   }
@@ -183,7 +198,8 @@ LayerOrder order_layers(std::vector<Garment>& garments, const collision::BodyCol
   return order;
 }
 
-std::vector<std::size_t> order_violations(const std::vector<Garment>& garments, const collision::BodyCollider& body) {
+std::vector<std::size_t> order_violations(const std::vector<Garment>& garments,
+                                          const collision::BodyCollider& body) {
   std::vector<std::size_t> count(garments.size(), 0);
   for (std::size_t k = 1; k < garments.size(); ++k) {
     const std::vector<Vec3>& outer = garments[k].position;

@@ -13,18 +13,24 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double MUCH_TUCKED = 0.01;    // of the particles: an outer garment is stretched by so much cloth below it
-constexpr double LAYER_SLACK_M = 0.001; // beyond thickness, by which an outer garment keeps off the skin while it is alone
-constexpr double LARGEST_GAP_M = 0.02;  // to the skin, of an outer garment while it is alone
+constexpr double MUCH_TUCKED =
+    0.01; // of the particles: an outer garment is stretched by so much cloth below it
+constexpr double LAYER_SLACK_M =
+    0.001; // beyond thickness, by which an outer garment keeps off the skin while it is alone
+constexpr double LARGEST_GAP_M = 0.02; // to the skin, of an outer garment while it is alone
 
 /// One run of garments over each other: each alone, then all together.
 class LayeredDrape {
 public:
-  /// @param at  where it stands   @param from  the checkpoint that its present drape goes on from, or null
-  LayeredDrape(LayersProgress& at, const DrapeCheckpoint* from, const body::Body* body, Reporter& reporter, const Checkpoints& checkpoints,
-               const BodyMoves* moves, const OnMotionFrame& on_frame)
-      : m_at(at), m_from(from), m_body(body), m_reporter(reporter), m_checkpoints(checkpoints), m_moves(moves), m_on_frame(on_frame) {
-    if (!body || body->skin.triangles.empty()) throw input_error("", "layers", "layer order needs a body", "give --body body.json");
+  /// @param at  where it stands   @param from  the checkpoint that its present drape goes on from,
+  /// or null
+  LayeredDrape(LayersProgress& at, const DrapeCheckpoint* from, const body::Body* body,
+               Reporter& reporter, const Checkpoints& checkpoints, const BodyMoves* moves,
+               const OnMotionFrame& on_frame)
+      : m_at(at), m_from(from), m_body(body), m_reporter(reporter), m_checkpoints(checkpoints),
+        m_moves(moves), m_on_frame(on_frame) {
+    if (!body || body->skin.triangles.empty())
+      throw input_error("", "layers", "layer order needs a body", "give --body body.json");
     m_checkpoints.layers = &at;
   }
 
@@ -38,9 +44,13 @@ public:
 
 private:
   /// One drape, or what a checkpoint left of it.
-  DrapeReport drape_one(Garment& garment, const DrapeSettings& settings, const BodyMoves* moves, const StartFacts& start) {
-    const SessionInputs inputs{
-        .garment = garment, .body = m_body, .moves = moves, .on_frame = m_on_frame, .request = {.checkpoints = m_checkpoints, .start = start}};
+  DrapeReport drape_one(Garment& garment, const DrapeSettings& settings, const BodyMoves* moves,
+                        const StartFacts& start) {
+    const SessionInputs inputs{.garment = garment,
+                               .body = m_body,
+                               .moves = moves,
+                               .on_frame = m_on_frame,
+                               .request = {.checkpoints = m_checkpoints, .start = start}};
     if (!m_from) return DrapeSession(inputs, settings, m_reporter).run();
     const DrapeCheckpoint& from = *m_from;
     m_from = nullptr;
@@ -51,24 +61,30 @@ private:
   std::optional<DrapeReport> drape_alone(std::size_t k) {
     if (!m_from && !m_at.garments[k].particle_of.empty()) return std::nullopt;
     DrapeSettings alone = m_at.settings;
-    const double gap = m_at.settings.contact_gap_m + static_cast<double>(k) * (m_at.settings.self_thickness_m + LAYER_SLACK_M);
+    const double gap = m_at.settings.contact_gap_m +
+                       static_cast<double>(k) * (m_at.settings.self_thickness_m + LAYER_SLACK_M);
     alone.contact_gap_m = std::min(LARGEST_GAP_M, gap);
     DrapeReport report = drape_one(m_at.garments[k], alone, nullptr, {});
     m_at.alone_s += report.wall_s;
-    for (const std::string& r : report.repairs) m_at.repairs.push_back(layer_prefix(k) + "alone: " + r);
-    const bool ended = report.stop_reason == StopReason::TIME_LIMIT || report.stop_reason == StopReason::INTERRUPTED;
+    for (const std::string& r : report.repairs)
+      m_at.repairs.push_back(layer_prefix(k) + "alone: " + r);
+    const bool ended = report.stop_reason == StopReason::TIME_LIMIT ||
+                       report.stop_reason == StopReason::INTERRUPTED;
     return ended ? std::optional(std::move(report)) : std::nullopt;
   }
 
   DrapeReport drape_together() {
-    collision::BodyCollider collider = collision::make_collider(m_body->skin, m_body->skin_cache.get());
+    collision::BodyCollider collider =
+        collision::make_collider(m_body->skin, m_body->skin_cache.get());
     Garment merged;
     StartFacts start;
     if (!m_from) {
-      const LayerOrder order = order_layers(m_at.garments, collider, m_at.settings.self_thickness_m);
+      const LayerOrder order =
+          order_layers(m_at.garments, collider, m_at.settings.self_thickness_m);
       note(order);
       merged = merge_layers(m_at.garments);
-      start.relax_first = static_cast<double>(order.tucked) > MUCH_TUCKED * static_cast<double>(merged.position.size());
+      start.relax_first = static_cast<double>(order.tucked) >
+                          MUCH_TUCKED * static_cast<double>(merged.position.size());
     }
     DrapeReport report = drape_one(merged, m_at.settings, m_moves, start);
     split_layers(merged, m_at.garments);
@@ -83,8 +99,10 @@ private:
 
   void note(const LayerOrder& order) {
     if (order.tucked == 0) return;
-    m_at.repairs.push_back("layers: " + std::to_string(order.tucked) + " inner particles lay beyond an outer garment and were tucked in, by " +
-                           std::to_string(std::lround(1000 * order.farthest_m)) + " mm at most; " + std::to_string(order.crossed) + " crossings of layers, " +
+    m_at.repairs.push_back("layers: " + std::to_string(order.tucked) +
+                           " inner particles lay beyond an outer garment and were tucked in, by " +
+                           std::to_string(std::lround(1000 * order.farthest_m)) + " mm at most; " +
+                           std::to_string(order.crossed) + " crossings of layers, " +
                            std::to_string(order.remain) + " remained");
   }
 
@@ -116,8 +134,10 @@ private:
 
 } // namespace
 
-DrapeReport drape_layers(std::vector<Garment>& garments, const body::Body* body, const DrapeSettings& settings, Reporter& reporter,
-                         const Checkpoints& checkpoints, const BodyMoves* moves, const OnMotionFrame& on_frame) {
+DrapeReport drape_layers(std::vector<Garment>& garments, const body::Body* body,
+                         const DrapeSettings& settings, Reporter& reporter,
+                         const Checkpoints& checkpoints, const BodyMoves* moves,
+                         const OnMotionFrame& on_frame) {
   LayersProgress at{settings, garments, 0, {}, 0};
   Checkpoints taken = checkpoints;
   if (moves && !taken.motion) taken.motion = moves->input(); // while one is alone too
@@ -126,9 +146,12 @@ DrapeReport drape_layers(std::vector<Garment>& garments, const body::Body* body,
   return report;
 }
 
-DrapeReport resume_layers(const DrapeCheckpoint& checkpoint, std::vector<Garment>& garments, const body::Body* body, Reporter& reporter,
-                          const Checkpoints& checkpoints, const BodyMoves* moves, const OnMotionFrame& on_frame) {
-  if (!checkpoint.layers) throw input_error(checkpoint.file, "", "is of a run without garments over each other");
+DrapeReport resume_layers(const DrapeCheckpoint& checkpoint, std::vector<Garment>& garments,
+                          const body::Body* body, Reporter& reporter,
+                          const Checkpoints& checkpoints, const BodyMoves* moves,
+                          const OnMotionFrame& on_frame) {
+  if (!checkpoint.layers)
+    throw input_error(checkpoint.file, "", "is of a run without garments over each other");
   checkpoint.check_moves(moves);
   LayersProgress at = *checkpoint.layers;
   Checkpoints taken = checkpoints;

@@ -1,6 +1,6 @@
 #include <base/error.hpp>
 #include <garment/drape/live_pattern.hpp>
-#include <garment/retarget/carry.hpp>
+#include <garment/retarget/state_transfer.hpp>
 #include <io/json.hpp>
 #include <pattern/mesh/folds.hpp>
 #include <pattern/place/place_panels.hpp>
@@ -15,14 +15,18 @@ constexpr double OFF_OUTLINE = 1e-4;   // m: vertices further off are not of thi
 } // namespace
 
 LivePattern::LivePattern(Garment& garment) : m_garment(garment) {
-  if (garment.particle_of.empty()) throw input_error("", "", "the garment is not sewn yet", "drape it first, then let it follow edits");
-  if (!garment.panels.source) throw input_error("", "", "the garment does not know the pattern it was made from", "mesh and drape the pattern again");
+  if (garment.particle_of.empty())
+    throw input_error("", "", "the garment is not sewn yet",
+                      "drape it first, then let it follow edits");
+  if (!garment.panels.source)
+    throw input_error("", "", "the garment does not know the pattern it was made from",
+                      "mesh and drape the pattern again");
   m_pattern = *garment.panels.source;
   ready_follower();
   if (m_follower->off_outline() > OFF_OUTLINE)
     throw input_error("", "",
-                      "the panels are no longer those of the garment's pattern: a vertex lies " + pattern::centimetres(m_follower->off_outline()) +
-                          " off its outline",
+                      "the panels are no longer those of the garment's pattern: a vertex lies " +
+                          pattern::centimetres(m_follower->off_outline()) + " off its outline",
                       "edits can follow a garment that drape made, not one that was regraded");
   note_untaped();
   m_start = m_garment;
@@ -53,12 +57,15 @@ void LivePattern::ready_follower() {
 }
 
 pattern::PanelMesh LivePattern::mesh_of(const pattern::Pattern& pattern) {
-  return pattern::mesh_pattern(pattern, m_garment.panels.edge_length, "edits", m_garment.panels.seam_length, &m_memory);
+  return pattern::mesh_pattern(pattern, m_garment.panels.edge_length, "edits",
+                               m_garment.panels.seam_length, &m_memory);
 }
 
 void LivePattern::warm_up() {
   pattern::Pattern on_grid = m_pattern; // as after any edit
-  pattern::apply_edits(on_grid, io::Json{{"format", "edits"}, {"length_unit", "m"}, {"edits", io::Json::array()}}, "");
+  pattern::apply_edits(
+      on_grid, io::Json{{"format", "edits"}, {"length_unit", "m"}, {"edits", io::Json::array()}},
+      "");
   mesh_of(on_grid);
 }
 
@@ -66,7 +73,7 @@ bool LivePattern::adopt(pattern::Pattern next) {
   ready_follower();
   const bool follows = m_follower->follow(next, m_garment.panels, LEAST_ANGLE_DEG);
   if (!follows) {
-    carry_to(m_garment, mesh_of(next));
+    transfer_state(m_garment, mesh_of(next));
     m_follower.reset(); // made when there is time
     m_untaped.clear();  // it counted old triangles
   }

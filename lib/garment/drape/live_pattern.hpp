@@ -1,5 +1,6 @@
 #pragma once
-/// The pattern of a draped garment while it is edited: the garment's panels keep their mesh as long as it can follow, and get another one else.
+/// The pattern of a draped garment while it is edited: the garment's panels keep their mesh as long
+/// as it can follow, and get another one else.
 #include <garment/garment.hpp>
 #include <pattern/edit/edits.hpp>
 #include <pattern/mesh/mesh_pattern.hpp>
@@ -14,17 +15,21 @@ namespace sloper::garment {
 class LivePattern {
 public:
   /// @param garment  sewn, with the pattern that it was meshed from; outlives this
-  /// @throws Error INPUT for a garment without its pattern, or whose panels are no longer its pattern's
+  /// @throws Error INPUT for a garment without its pattern, or whose panels are no longer its
+  /// pattern's
   explicit LivePattern(Garment& garment);
 
   const pattern::Pattern& pattern() const { return m_pattern; }
-  /// The garment has this pattern from now on. Positions stay, or are carried to the new mesh. @return whether particles are as before
+  /// The garment has this pattern from now on. Positions stay, or are carried to the new mesh.
+  /// @return whether particles are as before
   bool adopt(pattern::Pattern next);
   /// Gives the garment back as it came. @return the last pattern
   pattern::Pattern go_to_start();
-  /// The garment's panels, placed around the body and unsewn, for a pattern: those of the first mesh while it can follow, else meshed anew.
+  /// The garment's panels, placed around the body and unsewn, for a pattern: those of the first
+  /// mesh while it can follow, else meshed anew.
   void make_panels(const pattern::Pattern& pattern, const body::Body& body);
-  /// Does what the next edit would do first: meshes the pattern that stands, and makes what meshes follow by.
+  /// Does what the next edit would do first: meshes the pattern that stands, and makes what meshes
+  /// follow by.
   void warm_up();
   void ready_follower();
 

@@ -13,13 +13,19 @@ namespace {
 
 io::Json counts_json(const Garment& garment, const collision::BodyCollider* skin) {
   const Audit a = audit(garment, skin);
-  return {
-      {"faces_through_body", a.through.size()}, {"vertices_inside_body", a.inside.size()}, {"deepest_m", a.deepest_m}, {"self_intersections", a.self.size()}};
+  return {{"faces_through_body", a.through.size()},
+          {"vertices_inside_body", a.inside.size()},
+          {"deepest_m", a.deepest_m},
+          {"self_intersections", a.self.size()}};
 }
 
-bool is_clean(const io::Json& counts) { return counts["faces_through_body"] == 0 && counts["vertices_inside_body"] == 0 && counts["self_intersections"] == 0; }
+bool is_clean(const io::Json& counts) {
+  return counts["faces_through_body"] == 0 && counts["vertices_inside_body"] == 0 &&
+         counts["self_intersections"] == 0;
+}
 
-/// Short moves first; where cloth lies deep in the body, the body is drawn in and the cloth makes room as it comes back.
+/// Short moves first; where cloth lies deep in the body, the body is drawn in and the cloth makes
+/// room as it comes back.
 void resolve(DrapeSession& session, Garment& garment, Reporter& reporter) {
   int& rounds = session.telemetry().report.steps;
   const std::vector<Vec3> start = garment.position;
@@ -32,14 +38,17 @@ void resolve(DrapeSession& session, Garment& garment, Reporter& reporter) {
   const std::vector<Vec3> shallow = garment.position;
   garment.position = start;
   session.push_apart(MAX_PUSH_STEPS);
-  const std::size_t now = session.resolver().resolve_all(MAX_RESOLVE_ALL_ROUNDS, rounds); // what the push leaves is shallow
+  const std::size_t now = session.resolver().resolve_all(MAX_RESOLVE_ALL_ROUNDS,
+                                                         rounds); // what the push leaves is shallow
   if (now >= least) garment.position = shallow;
 }
 
 } // namespace
 
-DrapeReport untangle_only(Garment& garment, const body::Body* body, const DrapeSettings& settings, Reporter& reporter) {
-  if (garment.particle_of.empty()) throw input_error("", "", "the garment is not sewn yet", "drape it first");
+DrapeReport untangle_only(Garment& garment, const body::Body* body, const DrapeSettings& settings,
+                          Reporter& reporter) {
+  if (garment.particle_of.empty())
+    throw input_error("", "", "the garment is not sewn yet", "drape it first");
   DrapeSession session({.garment = garment, .body = body}, settings, reporter);
   session.choose_contact_alone();
   const io::Json before = counts_json(garment, session.full_skin());
@@ -59,13 +68,16 @@ DrapeReport untangle_only(Garment& garment, const body::Body* body, const DrapeS
   if (!report.converged) report.stop_reason = StopReason::CROSSINGS_REMAIN;
   else report.stop_reason = moved == 0 ? StopReason::NOTHING_CROSSED : StopReason::NOTHING_CROSSES;
   garment.converged = was_at_rest && moved == 0;
-  report.quality["untangled"] = {{"before", before}, {"after", after}, {"particles_moved", moved}, {"farthest_m", farthest}};
+  report.quality["untangled"] = {
+      {"before", before}, {"after", after}, {"particles_moved", moved}, {"farthest_m", farthest}};
   report.wall_s = session.elapsed();
 
   std::string text;
   for (const auto& [when, counts] : {std::pair{"before", before}, std::pair{"after", after}})
-    text += (text.empty() ? "" : "; ") + std::string(when) + ": " + counts["faces_through_body"].dump() + " faces through the body, " +
-            counts["vertices_inside_body"].dump() + " vertices inside it, " + counts["self_intersections"].dump() + " self intersections";
+    text += (text.empty() ? "" : "; ") + std::string(when) + ": " +
+            counts["faces_through_body"].dump() + " faces through the body, " +
+            counts["vertices_inside_body"].dump() + " vertices inside it, " +
+            counts["self_intersections"].dump() + " self intersections";
   if (is_clean(before) && is_clean(after)) reporter.info(text);
   else reporter.warning(text);
   return report;

@@ -13,10 +13,12 @@ std::vector<cloth::Attachment> attachments_of(const Garment& garment, const body
     Vec3 anchor = a.anchor;
     if (!a.landmark.empty()) {
       if (!body || !body->landmarks.count(a.landmark))
-        throw input_error("", "attachment to landmark \"" + a.landmark + "\"", body ? "the body has no such landmark" : "there is no body");
+        throw input_error("", "attachment to landmark \"" + a.landmark + "\"",
+                          body ? "the body has no such landmark" : "there is no body");
       anchor = body->landmarks.at(a.landmark).p;
     }
-    for (int p : run_particles(garment, a.run)) attachments.push_back({p, anchor, a.rest_length_m, a.stiffness_n_m});
+    for (int p : run_particles(garment, a.run))
+      attachments.push_back({p, anchor, a.rest_length_m, a.stiffness_n_m});
   }
   return attachments;
 }
@@ -33,6 +35,11 @@ void add_attachments(EffectBuild& build) {
 
 } // namespace
 
-EffectSpec attachments_effect() { return {.name = "attachments", .stage = EffectStage::SCENE, .choose = choose_attachments, .add = add_attachments}; }
+EffectSpec attachments_effect() {
+  return {.name = "attachments",
+          .stage = EffectStage::SCENE,
+          .choose = choose_attachments,
+          .add = add_attachments};
+}
 
 } // namespace sloper::garment

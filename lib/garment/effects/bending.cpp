@@ -16,7 +16,11 @@ void add_bending(EffectBuild& build) { build.solver.emplace<cloth::BendingEffect
 } // namespace
 
 EffectSpec bending_effect() {
-  return {.name = "bending", .stage = EffectStage::FABRIC, .model = EffectModel::BENDING, .choose = choose_bending, .add = add_bending};
+  return {.name = "bending",
+          .stage = EffectStage::FABRIC,
+          .model = EffectModel::BENDING,
+          .choose = choose_bending,
+          .add = add_bending};
 }
 
 } // namespace sloper::garment

@@ -14,11 +14,17 @@ void add_body_contact(EffectBuild& build) {
   cloth::BodyContactOptions options;
   options.gap_m = build.settings.contact_gap_m;
   options.level = static_cast<cloth::ContactLevel>(build.settings.contact_level);
-  build.handles.body_contact = &build.solver.emplace<cloth::BodyContactEffect>(build.mesh, *build.collider, options);
+  build.handles.body_contact =
+      &build.solver.emplace<cloth::BodyContactEffect>(build.mesh, *build.collider, options);
 }
 
 } // namespace
 
-EffectSpec body_contact_effect() { return {.name = "body_contact", .stage = EffectStage::CONTACT, .choose = choose_body_contact, .add = add_body_contact}; }
+EffectSpec body_contact_effect() {
+  return {.name = "body_contact",
+          .stage = EffectStage::CONTACT,
+          .choose = choose_body_contact,
+          .add = add_body_contact};
+}
 
 } // namespace sloper::garment

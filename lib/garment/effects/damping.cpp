@@ -18,6 +18,11 @@ void prepare_damping(cloth::ClothMesh& mesh, const Garment&, bool is_on) {
 
 } // namespace
 
-EffectSpec damping_effect() { return {.name = "damping", .stage = EffectStage::NONE, .choose = choose_damping, .prepare = prepare_damping}; }
+EffectSpec damping_effect() {
+  return {.name = "damping",
+          .stage = EffectStage::NONE,
+          .choose = choose_damping,
+          .prepare = prepare_damping};
+}
 
 } // namespace sloper::garment

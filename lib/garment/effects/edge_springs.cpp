@@ -10,12 +10,18 @@ EffectChoice choose_edge_springs(const EffectFacts& facts) {
   return {true, "cloth resists stretch"};
 }
 
-void add_edge_springs(EffectBuild& build) { build.solver.emplace<cloth::EdgeSpringEffect>(build.mesh); }
+void add_edge_springs(EffectBuild& build) {
+  build.solver.emplace<cloth::EdgeSpringEffect>(build.mesh);
+}
 
 } // namespace
 
 EffectSpec edge_springs_effect() {
-  return {.name = "edge_springs", .stage = EffectStage::FABRIC, .model = EffectModel::STRETCH, .choose = choose_edge_springs, .add = add_edge_springs};
+  return {.name = "edge_springs",
+          .stage = EffectStage::FABRIC,
+          .model = EffectModel::STRETCH,
+          .choose = choose_edge_springs,
+          .add = add_edge_springs};
 }
 
 } // namespace sloper::garment

@@ -12,7 +12,8 @@ std::vector<cloth::BandLink> bands_of(const Garment& garment) {
     const std::vector<int> run = run_vertices(garment, band.run);
     for (std::size_t k = 0; k + 1 < run.size(); ++k) {
       const int i = particle_at(garment, run[k]), j = particle_at(garment, run[k + 1]);
-      const double length = (garment.panels.pattern[run[k + 1]] - garment.panels.pattern[run[k]]).norm();
+      const double length =
+          (garment.panels.pattern[run[k + 1]] - garment.panels.pattern[run[k]]).norm();
       if (i != j && length > 0) links.push_back({i, j, band.ratio * length, band.strength_n});
     }
   }
@@ -31,6 +32,11 @@ void add_elastic_bands(EffectBuild& build) {
 
 } // namespace
 
-EffectSpec elastic_bands_effect() { return {.name = "elastic_bands", .stage = EffectStage::SCENE, .choose = choose_elastic_bands, .add = add_elastic_bands}; }
+EffectSpec elastic_bands_effect() {
+  return {.name = "elastic_bands",
+          .stage = EffectStage::SCENE,
+          .choose = choose_elastic_bands,
+          .add = add_elastic_bands};
+}
 
 } // namespace sloper::garment

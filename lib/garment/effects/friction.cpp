@@ -19,6 +19,11 @@ void add_friction(EffectBuild& build) {
 
 } // namespace
 
-EffectSpec friction_effect() { return {.name = "friction", .stage = EffectStage::LOAD, .choose = choose_friction, .add = add_friction}; }
+EffectSpec friction_effect() {
+  return {.name = "friction",
+          .stage = EffectStage::LOAD,
+          .choose = choose_friction,
+          .add = add_friction};
+}
 
 } // namespace sloper::garment

@@ -15,7 +15,11 @@ void add_membrane(EffectBuild& build) { build.solver.emplace<cloth::MembraneEffe
 } // namespace
 
 EffectSpec membrane_effect() {
-  return {.name = "membrane", .stage = EffectStage::MODEL, .model = EffectModel::STRETCH, .choose = choose_membrane, .add = add_membrane};
+  return {.name = "membrane",
+          .stage = EffectStage::MODEL,
+          .model = EffectModel::STRETCH,
+          .choose = choose_membrane,
+          .add = add_membrane};
 }
 
 } // namespace sloper::garment

@@ -18,6 +18,11 @@ void add_pressure(EffectBuild& build) {
 
 } // namespace
 
-EffectSpec pressure_effect() { return {.name = "pressure", .stage = EffectStage::SCENE, .choose = choose_pressure, .add = add_pressure}; }
+EffectSpec pressure_effect() {
+  return {.name = "pressure",
+          .stage = EffectStage::SCENE,
+          .choose = choose_pressure,
+          .add = add_pressure};
+}
 
 } // namespace sloper::garment

@@ -12,11 +12,15 @@ EffectChoice choose_sewing(const EffectFacts& facts) {
 
 void add_sewing(EffectBuild& build) {
   if (!build.open_seams) return;
-  build.handles.sewing = &build.solver.emplace<cloth::SewingSpringEffect>(open_stitches(build.garment), 1.0, SEW_REACH);
+  build.handles.sewing = &build.solver.emplace<cloth::SewingSpringEffect>(
+      open_stitches(build.garment), 1.0, SEW_REACH);
 }
 
 } // namespace
 
-EffectSpec sewing_effect() { return {.name = "sewing", .stage = EffectStage::CONTACT, .choose = choose_sewing, .add = add_sewing}; }
+EffectSpec sewing_effect() {
+  return {
+      .name = "sewing", .stage = EffectStage::CONTACT, .choose = choose_sewing, .add = add_sewing};
+}
 
 } // namespace sloper::garment

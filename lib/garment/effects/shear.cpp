@@ -15,6 +15,8 @@ void add_shear(EffectBuild& build) { build.solver.emplace<cloth::ShearEffect>(bu
 
 } // namespace
 
-EffectSpec shear_effect() { return {.name = "shear", .stage = EffectStage::FABRIC, .choose = choose_shear, .add = add_shear}; }
+EffectSpec shear_effect() {
+  return {.name = "shear", .stage = EffectStage::FABRIC, .choose = choose_shear, .add = add_shear};
+}
 
 } // namespace sloper::garment

@@ -10,7 +10,8 @@ EffectChoice choose_weights(const EffectFacts& facts) {
   return {false, "the scene has no weights"};
 }
 
-/// Shares a mass among the particles of a run, each by the length of the run beside it; a run of one particle gets all.
+/// Shares a mass among the particles of a run, each by the length of the run beside it; a run of
+/// one particle gets all.
 void add_mass(cloth::ClothMesh& mesh, const Garment& garment, const SceneWeight& weight) {
   const std::vector<int> run = run_vertices(garment, weight.run);
   std::vector<double> length(run.size(), 0);
@@ -35,6 +36,11 @@ void prepare_weights(cloth::ClothMesh& mesh, const Garment& garment, bool is_on)
 
 } // namespace
 
-EffectSpec weights_effect() { return {.name = "weights", .stage = EffectStage::NONE, .choose = choose_weights, .prepare = prepare_weights}; }
+EffectSpec weights_effect() {
+  return {.name = "weights",
+          .stage = EffectStage::NONE,
+          .choose = choose_weights,
+          .prepare = prepare_weights};
+}
 
 } // namespace sloper::garment

@@ -19,6 +19,8 @@ void add_wind(EffectBuild& build) {
 
 } // namespace
 
-EffectSpec wind_effect() { return {.name = "wind", .stage = EffectStage::SCENE, .choose = choose_wind, .add = add_wind}; }
+EffectSpec wind_effect() {
+  return {.name = "wind", .stage = EffectStage::SCENE, .choose = choose_wind, .add = add_wind};
+}
 
 } // namespace sloper::garment

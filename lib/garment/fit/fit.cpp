@@ -17,14 +17,18 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double REACH_BEYOND = 0.03;  // m above and below a level that cloth must reach, or it may slide to where it is wide enough
-constexpr double SLIDE_BEYOND = 0.06;  // m as far as cloth that is tight slides at most: three times what was seen, it holds on
-constexpr double SLIDE_STRIDE = 0.01;  // m between sections of the skin on that way
-constexpr double SLID = 0.10;          // m that what hangs from the waist may sink wherever it is; held by the hip it may more, and that is said
-constexpr double TRAILS = 0.01;        // m below the soles: such a hem is trodden on
-constexpr double CERTAIN_SLIP = 1.1;   // of what the policy bears: what has sunk so far does not rise
-constexpr double CERTAIN_STRAIN = 1.5; // of what the policy bears: cloth that seems still was seen to creep down by a quarter until it was at rest
-constexpr double GOES_ROUND = 0.99;    // of the body's girth: as long as cloth is that goes round it
+constexpr double REACH_BEYOND = 0.03; // m above and below a level that cloth must reach, or it may
+                                      // slide to where it is wide enough
+constexpr double SLIDE_BEYOND =
+    0.06; // m as far as cloth that is tight slides at most: three times what was seen, it holds on
+constexpr double SLIDE_STRIDE = 0.01; // m between sections of the skin on that way
+constexpr double SLID = 0.10;   // m that what hangs from the waist may sink wherever it is; held by
+                                // the hip it may more, and that is said
+constexpr double TRAILS = 0.01; // m below the soles: such a hem is trodden on
+constexpr double CERTAIN_SLIP = 1.1; // of what the policy bears: what has sunk so far does not rise
+constexpr double CERTAIN_STRAIN = 1.5; // of what the policy bears: cloth that seems still was seen
+                                       // to creep down by a quarter until it was at rest
+constexpr double GOES_ROUND = 0.99; // of the body's girth: as long as cloth is that goes round it
 constexpr double OVER_THE_HAND = 0.02; // m beyond the wrist from which a cuff lies on the hand
 constexpr double NOT_AT_REST = 0.01;   // m that a drape which did not come to rest may still move
 
@@ -34,42 +38,52 @@ std::string centimetres(double m) { return sloper::centimetres(std::abs(m)); }
 /// Why a girth is too small. @param goes_round  it was seen to close, stretched
 std::string too_small(const FitRow& row, bool goes_round) {
   const std::string where = " at the " + spoken_girth(row.name);
-  if (row.ease_m >= 0) return "has too little ease" + where + ": " + centimetres(row.ease_m); // a policy asks for some
+  if (row.ease_m >= 0)
+    return "has too little ease" + where + ": " + centimetres(row.ease_m); // a policy asks for some
   const double cloth = row.rest_m - row.bridged_m;
   if (!(cloth > 0)) return "does not close" + where + " by " + centimetres(row.ease_m);
   if (goes_round)
-    return "closes" + where + " only stretched by " + whole_percent((row.lying_m - row.rest_m) / cloth) + ": it is " + centimetres(row.ease_m) +
-           " too small there";
-  return "does not close" + where + " by " + centimetres(row.ease_m) + " unless it is stretched by " + whole_percent(-row.ease_m / cloth);
+    return "closes" + where + " only stretched by " +
+           whole_percent((row.lying_m - row.rest_m) / cloth) + ": it is " +
+           centimetres(row.ease_m) + " too small there";
+  return "does not close" + where + " by " + centimetres(row.ease_m) +
+         " unless it is stretched by " + whole_percent(-row.ease_m / cloth);
 }
 
 /// @param at_rest  strain is a fact only of cloth at rest
 void judge(bool at_rest, FitRow& row) {
   const FitLimits& limits = row.limits;
   const double share = row.ease_m / row.body_m;
-  row.margin_m = std::min(row.ease_m - limits.tight_ease * row.body_m, limits.loose_ease * row.body_m - row.ease_m);
+  row.margin_m = std::min(row.ease_m - limits.tight_ease * row.body_m,
+                          limits.loose_ease * row.body_m - row.ease_m);
   if (share < limits.too_small_ease) {
     row.verdict = FitVerdict::TOO_SMALL;
     row.reason = too_small(row, at_rest && row.lying_m >= GOES_ROUND * row.body_m);
   } else if (at_rest && row.strain_girth > limits.too_small_strain) {
     row.verdict = FitVerdict::TOO_SMALL;
-    row.reason = "is stretched by " + whole_percent(row.strain_girth) + " at the " + spoken_girth(row.name);
+    row.reason =
+        "is stretched by " + whole_percent(row.strain_girth) + " at the " + spoken_girth(row.name);
   } else if (share < limits.tight_ease) {
     row.verdict = FitVerdict::TIGHT;
-    row.reason = "is tight at the " + spoken_girth(row.name) + ": " + (row.ease_m < 0 ? "-" : "") + centimetres(row.ease_m) + " of ease";
+    row.reason = "is tight at the " + spoken_girth(row.name) + ": " + (row.ease_m < 0 ? "-" : "") +
+                 centimetres(row.ease_m) + " of ease";
   } else if (share > limits.too_large_ease) {
     row.verdict = FitVerdict::TOO_LARGE;
-    row.reason = "is too large at the " + spoken_girth(row.name) + ": " + centimetres(row.ease_m) + " of ease";
+    row.reason = "is too large at the " + spoken_girth(row.name) + ": " + centimetres(row.ease_m) +
+                 " of ease";
   } else if (share > limits.loose_ease) {
     row.verdict = FitVerdict::LOOSE;
-    row.reason = "is loose at the " + spoken_girth(row.name) + ": " + centimetres(row.ease_m) + " of ease";
+    row.reason =
+        "is loose at the " + spoken_girth(row.name) + ": " + centimetres(row.ease_m) + " of ease";
   }
 }
 
 /// Frame on which a particle hangs most.
 const std::string& main_frame(const Garment& garment, std::size_t particle) {
   const auto& weights = garment.bind.particles[particle];
-  const auto most = std::max_element(weights.begin(), weights.end(), [](const BindWeight& a, const BindWeight& b) { return a.weight < b.weight; });
+  const auto most = std::max_element(
+      weights.begin(), weights.end(),
+      [](const BindWeight& a, const BindWeight& b) { return a.weight < b.weight; });
   return garment.bind.frames[most->frame];
 }
 
@@ -95,36 +109,52 @@ std::string class_of(const std::vector<std::string>& region) {
   for (const std::string& name : region) share[name] += 1.0 / static_cast<double>(region.size());
   const double legs = share["left leg"] + share["right leg"];
   // Where a scan's arms lie on its flanks, no arm pits are found, and nothing counts as above them.
-  const bool top = share["shoulders"] + share["left sleeve"] + share["right sleeve"] + share["collar"] > 0.02;
+  const bool top =
+      share["shoulders"] + share["left sleeve"] + share["right sleeve"] + share["collar"] > 0.02;
   if (legs > 0.2 && legs > share["skirt"]) return top ? "whole" : "trousers";
-  if (share["skirt"] > (top ? 0.1 : 0.2)) return top ? "dress" : "skirt"; // of a short dress much more is bodice and sleeves
+  if (share["skirt"] > (top ? 0.1 : 0.2))
+    return top ? "dress" : "skirt"; // of a short dress much more is bodice and sleeves
   return top || share["trunk"] > 0.9 ? "top" : "skirt";
 }
 
-void measure_regions(const ClothState& cloth, const std::vector<std::string>& region, FitReport& report) {
+void measure_regions(const ClothState& cloth, const std::vector<std::string>& region,
+                     FitReport& report) {
   std::map<std::string, std::vector<int>> triangles;
   for (std::size_t f = 0; f < cloth.strains.size(); ++f) {
     const Triangle& t = cloth.garment.panels.triangles[f];
-    const auto at = [&](int k) -> const std::string& { return region[cloth.garment.particle_of[t[k]]]; };
+    const auto at = [&](int k) -> const std::string& {
+      return region[cloth.garment.particle_of[t[k]]];
+    };
     if (at(0) == at(1) && at(1) == at(2)) triangles[at(0)].push_back(static_cast<int>(f));
   }
   for (const auto& [name, list] : triangles) {
     const StrainFigures figures = strain_of(cloth, list);
-    report.regions.push_back({name, static_cast<int>(figures.n), figures.p50, figures.p99, figures.max, figures.direction});
+    report.regions.push_back({name, static_cast<int>(figures.n), figures.p50, figures.p99,
+                              figures.max, figures.direction});
   }
 }
 
 void judge_strain(const FitPolicy& policy, FitReport& report) {
-  const double p99 = policy.strain_p99(report.garment_class, report.fabric), most = policy.strain_max(report.garment_class, report.fabric);
-  if (report.verdict == FitVerdict::TOO_SMALL || (report.strain_p99 <= p99 && report.strain_max <= most)) return;
+  const double p99 = policy.strain_p99(report.garment_class, report.fabric),
+               most = policy.strain_max(report.garment_class, report.fabric);
+  if (report.verdict == FitVerdict::TOO_SMALL ||
+      (report.strain_p99 <= p99 && report.strain_max <= most))
+    return;
   const bool by_p99 = report.strain_p99 > p99;
   const FitRegion* worst = nullptr;
   for (const FitRegion& r : report.regions)
-    if (!worst || (by_p99 ? r.strain_p99 > worst->strain_p99 : r.strain_max > worst->strain_max)) worst = &r;
-  const std::string where = worst ? (worst->name == "trunk" || worst->name == "shoulders" ? " over the " : " on the ") + worst->name : "";
+    if (!worst || (by_p99 ? r.strain_p99 > worst->strain_p99 : r.strain_max > worst->strain_max))
+      worst = &r;
+  const std::string where =
+      worst ? (worst->name == "trunk" || worst->name == "shoulders" ? " over the " : " on the ") +
+                  worst->name
+            : "";
   report.verdict = FitVerdict::TOO_SMALL;
-  report.reason = by_p99 ? "is stretched by " + whole_percent(worst ? worst->strain_p99 : report.strain_p99) + where + "; the cloth bears " + whole_percent(p99)
-                         : "is stretched by " + whole_percent(report.strain_max) + " at one place" + where + "; the cloth bears " + whole_percent(most);
+  report.reason = by_p99 ? "is stretched by " +
+                               whole_percent(worst ? worst->strain_p99 : report.strain_p99) +
+                               where + "; the cloth bears " + whole_percent(p99)
+                         : "is stretched by " + whole_percent(report.strain_max) + " at one place" +
+                               where + "; the cloth bears " + whole_percent(most);
 }
 
 /// A cuff that is too small because it lies on the hand: that the sleeve is too long is the reason.
@@ -135,18 +165,24 @@ void tell_long_sleeve(const FitLines& lines, FitRow& row) {
   if (share == lines.coverage.end() || share->second <= 1) return;
   const double beyond = lines.coverage_m.at(sleeve) * (1 - 1 / share->second);
   if (beyond > OVER_THE_HAND)
-    row.reason = "has the " + spoken_girth(row.name) + " " + centimetres(beyond) + " beyond the wrist, on the hand, where it is " + centimetres(row.ease_m) +
+    row.reason = "has the " + spoken_girth(row.name) + " " + centimetres(beyond) +
+                 " beyond the wrist, on the hand, where it is " + centimetres(row.ease_m) +
                  " too small";
 }
 
-bool hangs_from_waist(const FitReport& report) { return report.garment_class == "skirt" || report.garment_class == "trousers"; }
+bool hangs_from_waist(const FitReport& report) {
+  return report.garment_class == "skirt" || report.garment_class == "trousers";
+}
 
-/// A waistband slides down to where the body is as wide as itself: what hangs from the waist falls off where its top edge has come below the
-/// level of the hip. m from where it was placed, of which `report` tells how far it is.
-double slip_borne(const FitPolicy& policy, const FitLines& lines, const body::Body& body, const FitReport& report) {
+/// A waistband slides down to where the body is as wide as itself: what hangs from the waist falls
+/// off where its top edge has come below the level of the hip. m from where it was placed, of which
+/// `report` tells how far it is.
+double slip_borne(const FitPolicy& policy, const FitLines& lines, const body::Body& body,
+                  const FitReport& report) {
   const double said = policy.slip_m(report.garment_class, report.fabric);
   if (!hangs_from_waist(report)) return said;
-  const auto top = std::find_if(lines.hems.begin(), lines.hems.end(), [](const FitHem& hem) { return hem.name == "top"; });
+  const auto top = std::find_if(lines.hems.begin(), lines.hems.end(),
+                                [](const FitHem& hem) { return hem.name == "top"; });
   const auto hip = body.levels.find("hip");
   if (top == lines.hems.end() || hip == body.levels.end()) return std::min(said, SLID);
   return std::min(said, std::max(SLID, report.slip_m + top->height_m - hip->second.y));
@@ -165,38 +201,48 @@ double soles_of(const body::Body& body) {
 void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& report) {
   const FitRow* worst = nullptr;
   for (const FitRow& row : report.rows) {
-    const bool worse = !worst || row.verdict > worst->verdict || (row.verdict == worst->verdict && row.margin_m / row.body_m < worst->margin_m / worst->body_m);
+    const bool worse = !worst || row.verdict > worst->verdict ||
+                       (row.verdict == worst->verdict &&
+                        row.margin_m / row.body_m < worst->margin_m / worst->body_m);
     if (worse) worst = &row;
-    if (&row == report.rows.data() || row.margin_m < report.margin_m) report.margin_m = row.margin_m, report.margin_at = row.name;
+    if (&row == report.rows.data() || row.margin_m < report.margin_m)
+      report.margin_m = row.margin_m, report.margin_at = row.name;
   }
   const bool slips = report.slip_m > report.slip_borne_m;
   const std::string slides_down = "slides down by " + centimetres(report.slip_m);
-  if (!worst && (slips || !std::isfinite(report.slip_borne_m))) { // it has slid off all of them, or may have
+  if (!worst &&
+      (slips || !std::isfinite(report.slip_borne_m))) { // it has slid off all of them, or may have
     report.fits = false;
     report.verdict = FitVerdict::TOO_LARGE;
     report.reason = slips ? slides_down : "goes round no girth of the body";
     return;
   }
   report.verdict = worst ? worst->verdict : FitVerdict::OK; // an apron goes round none
-  report.reason = worst ? worst->reason : "goes round no girth of the body: strain and slip alone were judged";
+  report.reason =
+      worst ? worst->reason : "goes round no girth of the body: strain and slip alone were judged";
   const bool certain = report.convergence_m == 0 || !unfit.empty();
   if (certain) judge_strain(policy, report);
   if (certain && report.verdict <= FitVerdict::TOO_LARGE && slips) {
     report.verdict = FitVerdict::TOO_LARGE;
     report.reason = slides_down;
-  } else if (certain && report.verdict <= FitVerdict::LOOSE && hangs_from_waist(report) && report.slip_m > SLID) {
+  } else if (certain && report.verdict <= FitVerdict::LOOSE && hangs_from_waist(report) &&
+             report.slip_m > SLID) {
     report.verdict = FitVerdict::LOOSE;
     report.reason = slides_down + " to where the hip holds it";
   } else if (certain && report.verdict <= FitVerdict::LOOSE && report.below_soles_m > TRAILS) {
     report.verdict = FitVerdict::LOOSE;
-    report.reason = "is too long: it reaches " + centimetres(report.below_soles_m) + " below the soles";
+    report.reason =
+        "is too long: it reaches " + centimetres(report.below_soles_m) + " below the soles";
   }
-  report.fits = report.verdict < FitVerdict::TOO_LARGE && !(report.verdict == FitVerdict::TIGHT && policy.refuse_tight);
-  if (report.fits && policy.refuse_loose && report.verdict == FitVerdict::LOOSE) report.fits = false;
+  report.fits = report.verdict < FitVerdict::TOO_LARGE &&
+                !(report.verdict == FitVerdict::TIGHT && policy.refuse_tight);
+  if (report.fits && policy.refuse_loose && report.verdict == FitVerdict::LOOSE)
+    report.fits = false;
   if (report.fits && policy.refuse_loose) // behind a tight one
     for (const FitRow& row : report.rows)
       if (row.verdict == FitVerdict::LOOSE) report.fits = false, report.reason = row.reason;
-  if (report.fits && !unfit.empty()) { // measured where it was then, it might be of another class, with limits of its own
+  if (report.fits && !unfit.empty()) { // measured where it was then, it might be of another class,
+                                       // with limits of its own
     report.fits = false;
     report.verdict = FitVerdict::TOO_LARGE;
     report.reason = unfit.rfind("does not close", 0) == 0 ? unfit : unfit + " too far to fit";
@@ -205,24 +251,33 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
 
 } // namespace
 
-FitReport fit_garment(const Garment& garment, const body::Body& body, const collision::BodyCollider& skin, const FitPolicy& policy,
-                      const std::vector<Vec3>* placed, const std::string& unfit, const std::map<std::string, double>& made_for) {
-  if (garment.bind.empty()) throw input_error("", "/bind", "the garment is not bound to a body", "drape it on the body first");
+FitReport fit_garment(const Garment& garment, const body::Body& body,
+                      const collision::BodyCollider& skin, const FitPolicy& policy,
+                      const std::vector<Vec3>* placed, const std::string& unfit,
+                      const std::map<std::string, double>& made_for) {
+  if (garment.bind.empty())
+    throw input_error("", "/bind", "the garment is not bound to a body",
+                      "drape it on the body first");
   FitReport report;
   report.policy = policy.name;
   report.fabric = main_material(garment);
   report.convergence_m = garment.converged ? 0 : NOT_AT_REST;
   report.state = garment.converged ? "at rest" : "not at rest";
   report.hem_height_m = 1e300, report.top_height_m = -1e300;
-  for (const Vec3& p : garment.position) report.hem_height_m = std::min(report.hem_height_m, p.y()), report.top_height_m = std::max(report.top_height_m, p.y());
-  if (body.has_landmark("foot_tip_l") || body.has_landmark("foot_tip_r")) report.below_soles_m = std::max(0.0, soles_of(body) - report.hem_height_m);
+  for (const Vec3& p : garment.position)
+    report.hem_height_m = std::min(report.hem_height_m, p.y()),
+    report.top_height_m = std::max(report.top_height_m, p.y());
+  if (body.has_landmark("foot_tip_l") || body.has_landmark("foot_tip_r"))
+    report.below_soles_m = std::max(0.0, soles_of(body) - report.hem_height_m);
   if (placed) {
     std::vector<double> sunk;
-    for (std::size_t i = 0; i < placed->size(); ++i) sunk.push_back((*placed)[i].y() - garment.position[i].y());
+    for (std::size_t i = 0; i < placed->size(); ++i)
+      sunk.push_back((*placed)[i].y() - garment.position[i].y());
     report.slip_m = sunk.empty() ? 0 : upper_median(sunk);
   }
   std::vector<std::string> region;
-  for (std::size_t i = 0; i < garment.position.size(); ++i) region.push_back(region_of(garment, i, axilla_height(body)));
+  for (std::size_t i = 0; i < garment.position.size(); ++i)
+    region.push_back(region_of(garment, i, axilla_height(body)));
   report.garment_class = class_of(region);
   const ClothState cloth(garment, skin);
   measure_regions(cloth, region, report);
@@ -242,8 +297,10 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
     for (const std::string& known : {row->name, "level:" + row->name})
       if (const auto girth = made_for.find(known); girth != made_for.end()) {
         const double designed = row->rest_m / girth->second - 1;
-        row->limits.too_large_ease = policy.too_large_ease(row->limits, designed, row->name, report.garment_class, report.fabric);
-        row->limits.too_small_ease = policy.too_small_ease(row->limits, designed, row->name, report.garment_class, report.fabric);
+        row->limits.too_large_ease = policy.too_large_ease(row->limits, designed, row->name,
+                                                           report.garment_class, report.fabric);
+        row->limits.too_small_ease = policy.too_small_ease(row->limits, designed, row->name,
+                                                           report.garment_class, report.fabric);
       }
     judge(garment.converged, *row);
     tell_long_sleeve(report.lines, *row);
@@ -254,26 +311,32 @@ FitReport fit_garment(const Garment& garment, const body::Body& body, const coll
     add(measure_place(cloth, place, report.convergence_m, why), place.name);
   }
   report.lines = fit_lines(garment, body);
-  for (const FitHem& hem : report.lines.hems) add(measure_edge(cloth, body, hem, report.convergence_m, why), hem.name + " edge");
+  for (const FitHem& hem : report.lines.hems)
+    add(measure_edge(cloth, body, hem, report.convergence_m, why), hem.name + " edge");
   for (const auto& [name, girth] : body.girths)
-    if (!measured.count(name)) report.left_out.emplace_back(name, "where it was measured is not told by the body document");
+    if (!measured.count(name))
+      report.left_out.emplace_back(name, "where it was measured is not told by the body document");
   if (placed) report.slip_borne_m = slip_borne(policy, report.lines, body, report);
   conclude(policy, unfit, report);
   return report;
 }
 
-FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& source_position, const body::Body& body, const FitPolicy& policy) {
+FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& source_position,
+                           const body::Body& body, const FitPolicy& policy) {
   FitReport report;
   report.policy = policy.name;
   report.state = "placed";
   report.fabric = main_material(garment);
   std::vector<std::string> region;
-  for (std::size_t i = 0; i < garment.position.size(); ++i) region.push_back(region_of(garment, i, axilla_height(body)));
+  for (std::size_t i = 0; i < garment.position.size(); ++i)
+    region.push_back(region_of(garment, i, axilla_height(body)));
   report.garment_class = class_of(region);
   double worst = 0;
-  const auto refuse = [&](const FitPlace& place, const SectionLine& line, const FitLimits& limits, double missing) {
+  const auto refuse = [&](const FitPlace& place, const SectionLine& line, const FitLimits& limits,
+                          double missing) {
     FitRow row;
-    row.name = place.name, row.kind = place.kind, row.height_m = place.center.y(), row.body_m = place.body_m;
+    row.name = place.name, row.kind = place.kind, row.height_m = place.center.y(),
+    row.body_m = place.body_m;
     row.rest_m = line.rest, row.lying_m = line.lying, row.ease_m = row.rest_m - row.body_m;
     row.bridged_m = line.bridged, row.open = !line.closed();
     row.body_uncertainty_m = row.ease_uncertainty_m = place.body_spread_m;
@@ -283,18 +346,23 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
     row.reason = too_small(row, false);
     report.fits = false;
     report.verdict = row.verdict;
-    if (missing / place.body_m > worst) worst = missing / place.body_m, report.reason = row.reason, report.margin_m = row.margin_m, report.margin_at = row.name;
+    if (missing / place.body_m > worst)
+      worst = missing / place.body_m, report.reason = row.reason, report.margin_m = row.margin_m,
+      report.margin_at = row.name;
     report.rows.push_back(std::move(row));
   };
   const auto accept = [&](const FitPlace& place, const SectionLine& line, const FitLimits& limits) {
-    if (worst == 0) report.margin_m = std::min(report.margin_m, line.rest - (1 + limits.tight_ease) * place.body_m);
+    if (worst == 0)
+      report.margin_m =
+          std::min(report.margin_m, line.rest - (1 + limits.tight_ease) * place.body_m);
   };
   for (const FitPlace& place : fit_places(body)) {
     if (place.kind == "neck") continue; // a collar slides to where it is wide enough
     const std::vector<char> use = cloth_of(garment, place);
     const FitLimits limits = policy.limits(place.name, report.garment_class, report.fabric);
     const double least = place.body_m - place.body_spread_m;
-    // Stretched by all that the policy bears it reaches round where it can slide to a little; or unstretched where it can slide to at all.
+    // Stretched by all that the policy bears it reaches round where it can slide to a little; or
+    // unstretched where it can slide to at all.
     std::optional<SectionLine> line;
     double beyond_stretch = 1e300, beyond_rest = 1e300;
     const auto look = [&](double shift) {
@@ -303,8 +371,11 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
       if (!line) return false;
       const double elsewhere = line->elsewhere - line->bridged, rest = line->rest - line->bridged;
       if (std::abs(shift) <= REACH_BEYOND)
-        beyond_stretch = std::min(beyond_stretch, least - std::max(rest * (1 + limits.too_small_strain), elsewhere) - line->bridged);
-      beyond_rest = std::min(beyond_rest, (1 + limits.too_small_ease) * least - std::max(line->rest, line->elsewhere));
+        beyond_stretch = std::min(
+            beyond_stretch,
+            least - std::max(rest * (1 + limits.too_small_strain), elsewhere) - line->bridged);
+      beyond_rest = std::min(beyond_rest, (1 + limits.too_small_ease) * least -
+                                              std::max(line->rest, line->elsewhere));
       return true;
     };
     if (!look(-REACH_BEYOND) || !look(REACH_BEYOND) || !look(0)) continue;
@@ -325,18 +396,24 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
     const FitLimits limits = policy.limits(place.name, report.garment_class, report.fabric);
     double least = place.body_m, elsewhere = 0;
     for (double shift = -SLIDE_BEYOND; shift <= SLIDE_BEYOND; shift += SLIDE_STRIDE)
-      least = std::min(least, skin_girth(body, edge->parts, place.center + shift * place.normal, place.normal));
+      least = std::min(
+          least, skin_girth(body, edge->parts, place.center + shift * place.normal, place.normal));
     for (std::size_t i = 0; i < edge->particles.size(); ++i)
-      elsewhere += (source_position[edge->particles[i]] - source_position[edge->particles[(i + 1) % edge->particles.size()]]).norm();
-    const double missing = (1 + limits.too_small_ease) * (least - place.body_spread_m) - std::max(edge->line.rest, elsewhere);
+      elsewhere += (source_position[edge->particles[i]] -
+                    source_position[edge->particles[(i + 1) % edge->particles.size()]])
+                       .norm();
+    const double missing = (1 + limits.too_small_ease) * (least - place.body_spread_m) -
+                           std::max(edge->line.rest, elsewhere);
     if (missing > 0) refuse(place, edge->line, limits, missing);
     else accept(place, edge->line, limits);
   }
   return report;
 }
 
-FitBounds hopeless_beyond(const FitPolicy& policy, const FitReport& before) {
-  return {CERTAIN_SLIP * before.slip_borne_m, CERTAIN_STRAIN * policy.strain_p99(before.garment_class, before.fabric), before.margin_m < 0};
+FitBounds early_termination_bounds(const FitPolicy& policy, const FitReport& before) {
+  return {CERTAIN_SLIP * before.slip_borne_m,
+          CERTAIN_STRAIN * policy.strain_p99(before.garment_class, before.fabric),
+          before.margin_m < 0};
 }
 
 FitReport impossible_fit(const std::string& reason, const FitPolicy& policy) {

@@ -28,16 +28,25 @@ io::Json fit_json(const FitReport& report, const std::string& tool) {
     j["kind"] = r.kind;
     j["height_m"] = r.height_m;
     j["body_m"] = {{"value", r.body_m}, {"uncertainty", r.body_uncertainty_m}};
-    j["garment_m"] = {{"rest", r.rest_m}, {"lying", r.lying_m}, {"uncertainty", r.garment_uncertainty_m}};
+    j["garment_m"] = {
+        {"rest", r.rest_m}, {"lying", r.lying_m}, {"uncertainty", r.garment_uncertainty_m}};
     j["ease_cm"] = {{"value", 100 * r.ease_m}, {"uncertainty", 100 * r.ease_uncertainty_m}};
-    j["ease_percent"] = {{"value", 100 * r.ease_m / r.body_m}, {"uncertainty", 100 * r.ease_uncertainty_m / r.body_m}};
+    j["ease_percent"] = {{"value", 100 * r.ease_m / r.body_m},
+                         {"uncertainty", 100 * r.ease_uncertainty_m / r.body_m}};
     j["open"] = r.open;
     j["bridged_m"] = r.bridged_m;
-    j["strain"] = {{"girth", r.strain_girth}, {"p99", r.strain_p99}, {"direction", r.strain_direction}, {"uncertainty", r.strain_uncertainty}};
+    j["strain"] = {{"girth", r.strain_girth},
+                   {"p99", r.strain_p99},
+                   {"direction", r.strain_direction},
+                   {"uncertainty", r.strain_uncertainty}};
     j["gap_m"] = {{"p05", r.gap_p05_m}, {"p50", r.gap_p50_m}, {"uncertainty", r.gap_uncertainty_m}};
-    j["pressure_p95_pa"] = {{"value", r.pressure_p95_pa}, {"uncertainty", r.pressure_uncertainty_pa}};
-    j["limits_percent"] = {{"too_small", 100 * r.limits.too_small_ease}, {"tight", 100 * r.limits.tight_ease}, {"loose", 100 * r.limits.loose_ease}};
-    if (std::isfinite(r.limits.too_large_ease)) j["limits_percent"]["too_large"] = 100 * r.limits.too_large_ease;
+    j["pressure_p95_pa"] = {{"value", r.pressure_p95_pa},
+                            {"uncertainty", r.pressure_uncertainty_pa}};
+    j["limits_percent"] = {{"too_small", 100 * r.limits.too_small_ease},
+                           {"tight", 100 * r.limits.tight_ease},
+                           {"loose", 100 * r.limits.loose_ease}};
+    if (std::isfinite(r.limits.too_large_ease))
+      j["limits_percent"]["too_large"] = 100 * r.limits.too_large_ease;
     j["margin_cm"] = 100 * r.margin_m;
     j["verdict"] = verdict_name(r.verdict);
     j["reason"] = r.reason;
@@ -46,32 +55,48 @@ io::Json fit_json(const FitReport& report, const std::string& tool) {
   document["regions"] = io::Json::object();
   for (const FitRegion& r : report.regions)
     document["regions"][r.name] = {{"triangles", r.triangles},
-                                   {"strain", {{"p50", r.strain_p50}, {"p99", r.strain_p99}, {"max", r.strain_max}, {"direction", r.strain_direction}}}};
+                                   {"strain",
+                                    {{"p50", r.strain_p50},
+                                     {"p99", r.strain_p99},
+                                     {"max", r.strain_max},
+                                     {"direction", r.strain_direction}}}};
   document["hems"] = io::Json::object();
   for (const FitHem& h : report.lines.hems)
-    document["hems"][h.name] = {{"height_m", {{"value", h.height_m}, {"uncertainty", h.uncertainty_m + report.convergence_m}}},
-                                {"lowest_m", h.lowest_m},
-                                {"highest_m", h.highest_m},
-                                {"length_m", h.length_m},
-                                {"balance_cm", {{"front_minus_back", 100 * h.front_minus_back_m}, {"left_minus_right", 100 * h.left_minus_right_m}}}};
+    document["hems"][h.name] = {
+        {"height_m",
+         {{"value", h.height_m}, {"uncertainty", h.uncertainty_m + report.convergence_m}}},
+        {"lowest_m", h.lowest_m},
+        {"highest_m", h.highest_m},
+        {"length_m", h.length_m},
+        {"balance_cm",
+         {{"front_minus_back", 100 * h.front_minus_back_m},
+          {"left_minus_right", 100 * h.left_minus_right_m}}}};
   document["coverage"] = io::Json::object();
-  for (const auto& [name, share] : report.lines.coverage) document["coverage"][name] = {{"share", share}, {"length_m", report.lines.coverage_m.at(name)}};
+  for (const auto& [name, share] : report.lines.coverage)
+    document["coverage"][name] = {{"share", share}, {"length_m", report.lines.coverage_m.at(name)}};
   document["left_out"] = io::Json::object();
   for (const auto& [name, why] : report.left_out) document["left_out"][name] = why;
   return document;
 }
 
 std::string fit_csv(const FitReport& report) {
-  std::string csv = "girth,kind,height_m,body_cm,body_uncertainty_cm,garment_rest_cm,garment_lying_cm,garment_uncertainty_cm,ease_cm,ease_percent,"
-                    "ease_uncertainty_cm,strain_girth,strain_p99,strain_direction,strain_uncertainty,gap_p05_mm,gap_p50_mm,gap_uncertainty_mm,"
+  std::string csv = "girth,kind,height_m,body_cm,body_uncertainty_cm,garment_rest_cm,garment_lying_"
+                    "cm,garment_uncertainty_cm,ease_cm,ease_percent,"
+                    "ease_uncertainty_cm,strain_girth,strain_p99,strain_direction,strain_"
+                    "uncertainty,gap_p05_mm,gap_p50_mm,gap_uncertainty_mm,"
                     "pressure_p95_pa,pressure_uncertainty_pa,margin_cm,verdict,reason\r\n";
   for (const FitRow& r : report.rows) {
     char line[512];
-    std::snprintf(line, sizeof line, "%s,%s,%.4f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.4f,%.4f,%s,%.4f,%.2f,%.2f,%.2f,%.1f,%.1f,%.2f,%s,", r.name.c_str(),
-                  r.kind.c_str(), r.height_m, 100 * r.body_m, 100 * r.body_uncertainty_m, 100 * r.rest_m, 100 * r.lying_m, 100 * r.garment_uncertainty_m,
-                  100 * r.ease_m, 100 * r.ease_m / r.body_m, 100 * r.ease_uncertainty_m, r.strain_girth, r.strain_p99, r.strain_direction.c_str(),
-                  r.strain_uncertainty, 1000 * r.gap_p05_m, 1000 * r.gap_p50_m, 1000 * r.gap_uncertainty_m, r.pressure_p95_pa, r.pressure_uncertainty_pa,
-                  100 * r.margin_m, verdict_name(r.verdict));
+    std::snprintf(line, sizeof line,
+                  "%s,%s,%.4f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%.4f,%.4f,%s,%.4f,%.2f,%.2f,%"
+                  ".2f,%.1f,%.1f,%.2f,%s,",
+                  r.name.c_str(), r.kind.c_str(), r.height_m, 100 * r.body_m,
+                  100 * r.body_uncertainty_m, 100 * r.rest_m, 100 * r.lying_m,
+                  100 * r.garment_uncertainty_m, 100 * r.ease_m, 100 * r.ease_m / r.body_m,
+                  100 * r.ease_uncertainty_m, r.strain_girth, r.strain_p99,
+                  r.strain_direction.c_str(), r.strain_uncertainty, 1000 * r.gap_p05_m,
+                  1000 * r.gap_p50_m, 1000 * r.gap_uncertainty_m, r.pressure_p95_pa,
+                  r.pressure_uncertainty_pa, 100 * r.margin_m, verdict_name(r.verdict));
     csv += line;
     csv += "\"" + r.reason + "\"\r\n";
   }

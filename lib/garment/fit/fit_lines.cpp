@@ -13,7 +13,8 @@ namespace {
 constexpr double SHORTEST_HEM = 0.08; // m: a shorter loop is a button hole or a slit's end
 
 /// Loops of edges that one triangle has: groups of edges that share particles.
-std::vector<std::vector<std::array<int, 2>>> free_loops(const std::vector<Triangle>& triangles, std::size_t n_particles) {
+std::vector<std::vector<std::array<int, 2>>> free_loops(const std::vector<Triangle>& triangles,
+                                                        std::size_t n_particles) {
   const std::vector<std::array<int, 2>> free = free_edges_of(triangles);
   DisjointSets joined(n_particles);
   for (const auto& [a, b] : free) joined.unite(a, b);
@@ -30,14 +31,18 @@ std::string owner(const Garment& garment, const std::vector<std::array<int, 2>>&
   for (const auto& e : loop)
     for (const BindWeight& w : garment.bind.particles[e[0]]) {
       std::string name = garment.bind.frames[w.frame];
-      if (name.find("arm_") != std::string::npos) name = name.back() == 'l' ? "left sleeve" : "right sleeve";
+      if (name.find("arm_") != std::string::npos)
+        name = name.back() == 'l' ? "left sleeve" : "right sleeve";
       else if (name.rfind("leg_", 0) == 0) name = name.back() == 'l' ? "left leg" : "right leg";
       share[name] += w.weight;
     }
-  return std::max_element(share.begin(), share.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+  return std::max_element(share.begin(), share.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
 }
 
-FitHem measure_hem(const Garment& garment, const std::vector<std::array<int, 2>>& loop, const Vec3& axis) {
+FitHem measure_hem(const Garment& garment, const std::vector<std::array<int, 2>>& loop,
+                   const Vec3& axis) {
   FitHem hem;
   hem.lowest_m = 1e300, hem.highest_m = -1e300;
   double sum = 0, half[4] = {}, half_length[4] = {}; // front, back, left, right
@@ -52,22 +57,29 @@ FitHem measure_hem(const Garment& garment, const std::vector<std::array<int, 2>>
     for (const int w : which) half[w] += length * middle.y(), half_length[w] += length;
   }
   hem.height_m = sum / hem.length_m;
-  if (half_length[0] > 0 && half_length[1] > 0) hem.front_minus_back_m = half[0] / half_length[0] - half[1] / half_length[1];
-  if (half_length[2] > 0 && half_length[3] > 0) hem.left_minus_right_m = half[2] / half_length[2] - half[3] / half_length[3];
+  if (half_length[0] > 0 && half_length[1] > 0)
+    hem.front_minus_back_m = half[0] / half_length[0] - half[1] / half_length[1];
+  if (half_length[2] > 0 && half_length[3] > 0)
+    hem.left_minus_right_m = half[2] / half_length[2] - half[3] / half_length[3];
   hem.uncertainty_m = 0.5 * hem.length_m / static_cast<double>(loop.size());
   return hem;
 }
 
-/// How far down a limb a loop lies: length along the line of landmarks from the first one, and the whole line's.
-void cover(const body::Body& body, const std::vector<std::string>& names, const Vec3& at, const std::string& key, FitLines& lines) {
+/// How far down a limb a loop lies: length along the line of landmarks from the first one, and the
+/// whole line's.
+void cover(const body::Body& body, const std::vector<std::string>& names, const Vec3& at,
+           const std::string& key, FitLines& lines) {
   double best = 1e300, way = 0, whole = 0;
   for (const std::string& name : names)
     if (!body.has_landmark(name)) return;
   for (std::size_t i = 0; i + 1 < names.size(); ++i) {
     const Vec3 a = body.landmark(names[i]), b = body.landmark(names[i + 1]), d = b - a;
     const double free = (at - a).dot(d) / d.squaredNorm();
-    const double t = i + 2 == names.size() ? std::max(0.0, free) : std::clamp(free, 0.0, 1.0); // may reach over the hand or the floor
-    if (const double distance = (a + t * d - at).norm(); distance < best) best = distance, way = whole + t * d.norm();
+    const double t = i + 2 == names.size()
+                         ? std::max(0.0, free)
+                         : std::clamp(free, 0.0, 1.0); // may reach over the hand or the floor
+    if (const double distance = (a + t * d - at).norm(); distance < best)
+      best = distance, way = whole + t * d.norm();
     whole += d.norm();
   }
   if (whole <= 0) return;
@@ -92,12 +104,16 @@ FitLines fit_lines(const Garment& garment, const body::Body& body) {
     if (hem.name == "head") hem.name = "neck";
     if (hem.name == "torso" || hem.name == "lower_body") {
       const bool up = hem.height_m > 0.5 * (low + high);
-      const bool neck = body.has_landmark("axilla_l") && hem.height_m > body.landmark("axilla_l").y();
+      const bool neck =
+          body.has_landmark("axilla_l") && hem.height_m > body.landmark("axilla_l").y();
       hem.name = !up ? "hem" : neck ? "neck" : "top";
     }
     const std::string side = hem.name.rfind("left", 0) == 0 ? "_l" : "_r";
-    if (hem.name.find("sleeve") != std::string::npos) cover(body, {"shoulder_joint" + side, "elbow" + side, "wrist" + side}, center, "sleeve" + side, lines);
-    if (hem.name.find("leg") != std::string::npos && body.has_landmark("crotch") && body.has_landmark("ankle" + side)) {
+    if (hem.name.find("sleeve") != std::string::npos)
+      cover(body, {"shoulder_joint" + side, "elbow" + side, "wrist" + side}, center,
+            "sleeve" + side, lines);
+    if (hem.name.find("leg") != std::string::npos && body.has_landmark("crotch") &&
+        body.has_landmark("ankle" + side)) {
       const double crotch = body.landmark("crotch").y(), ankle = body.landmark("ankle" + side).y();
       lines.coverage_m["inseam" + side] = crotch - hem.height_m;
       lines.coverage["inseam" + side] = (crotch - hem.height_m) / (crotch - ankle);

@@ -1,5 +1,6 @@
 #pragma once
-/// The free edges of a garment on its body: heights of hems, how far sleeves and legs reach, whether it hangs level.
+/// The free edges of a garment on its body: heights of hems, how far sleeves and legs reach,
+/// whether it hangs level.
 #include <body/body.hpp>
 #include <garment/garment.hpp>
 
@@ -8,7 +9,8 @@
 namespace sloper::garment {
 
 struct FitHem {
-  std::string name; ///< "hem", "top", "neck", "left sleeve", "left leg", with a number where there are several
+  std::string name; ///< "hem", "top", "neck", "left sleeve", "left leg", with a number where there
+                    ///< are several
   double height_m = 0, lowest_m = 0, highest_m = 0;
   double length_m = 0;           ///< along the edge, as it lies
   double front_minus_back_m = 0; ///< mean height of its front half less that of its back half
@@ -19,7 +21,8 @@ struct FitHem {
 
 struct FitLines {
   std::vector<FitHem> hems;
-  /// Share of the limb that is covered, 0..1: arm from shoulder to wrist, leg from crotch to ankle (inseam). By "sleeve_l", "inseam_r".
+  /// Share of the limb that is covered, 0..1: arm from shoulder to wrist, leg from crotch to ankle
+  /// (inseam). By "sleeve_l", "inseam_r".
   std::map<std::string, double> coverage;
   std::map<std::string, double> coverage_m; ///< the same as lengths
 };

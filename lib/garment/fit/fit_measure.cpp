@@ -11,16 +11,22 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double AROUND = 0.75;         // turns about the axis from which a line of cloth counts as going round
-constexpr double LARGEST_OPEN = 0.4;    // turns that arms and openings may leave bare of a trunk level
-constexpr double BAND = 0.02;           // m on both sides of the cut in which strain is taken
-constexpr double EDGE_HEIGHT = 0.005;   // m by which the plane of a free edge is uncertain
-constexpr double SLANT = 0.05;          // of a neck line that it may change within the error of its height
-constexpr double LEAST_ROUND = 0.3;     // of a circle's area at the same length: less is the rim of a flat piece or crumpled cloth
-constexpr double STEEPEST = 0.5;        // upward part of the normal of an edge round the trunk: a panel that nothing is sewn to stands upright
-constexpr double WIDER_THAN_NECK = 1.2; // of the neck base: a section this long goes through the shoulders
+constexpr double AROUND =
+    0.75; // turns about the axis from which a line of cloth counts as going round
+constexpr double LARGEST_OPEN = 0.4; // turns that arms and openings may leave bare of a trunk level
+constexpr double BAND = 0.02;        // m on both sides of the cut in which strain is taken
+constexpr double EDGE_HEIGHT = 0.005; // m by which the plane of a free edge is uncertain
+constexpr double SLANT = 0.05; // of a neck line that it may change within the error of its height
+constexpr double LEAST_ROUND =
+    0.3; // of a circle's area at the same length: less is the rim of a flat piece or crumpled cloth
+constexpr double STEEPEST = 0.5; // upward part of the normal of an edge round the trunk: a panel
+                                 // that nothing is sewn to stands upright
+constexpr double WIDER_THAN_NECK =
+    1.2; // of the neck base: a section this long goes through the shoulders
 
-double quantile(std::vector<double>& values, double q) { return values.empty() ? 0 : lower_quantile(values, q); }
+double quantile(std::vector<double>& values, double q) {
+  return values.empty() ? 0 : lower_quantile(values, q);
+}
 
 FitRow row_of(const FitPlace& place, const SectionLine& line) {
   FitRow row;
@@ -37,7 +43,8 @@ FitRow row_of(const FitPlace& place, const SectionLine& line) {
   return row;
 }
 
-/// @param other  the same of fewer or more triangles: how much the figure depends on which are taken
+/// @param other  the same of fewer or more triangles: how much the figure depends on which are
+/// taken
 void take_strain(const StrainFigures& strain, const StrainFigures& other, FitRow& row) {
   row.strain_p99 = strain.p99;
   row.strain_direction = strain.direction;
@@ -46,10 +53,14 @@ void take_strain(const StrainFigures& strain, const StrainFigures& other, FitRow
 
 /// Gap and pressure along the line, and what all figures are uncertain by.
 /// @param change  m, of the garment's girth within the error of the place
-void finish_row(const ClothState& cloth, const FitPlace& place, const SectionLine& line, double change, double convergence, FitRow& row) {
-  // A chord falls short of its arc by edge^2 / 24 r^2 of its length, and lies edge^2 / 8 r inside it.
-  const double radius = row.rest_m / (2 * units::PI), edge = row.rest_m / static_cast<double>(std::max<std::size_t>(line.n_segments(), 1));
-  row.garment_uncertainty_m = std::hypot(change, row.rest_m * edge * edge / (24 * radius * radius), convergence);
+void finish_row(const ClothState& cloth, const FitPlace& place, const SectionLine& line,
+                double change, double convergence, FitRow& row) {
+  // A chord falls short of its arc by edge^2 / 24 r^2 of its length, and lies edge^2 / 8 r inside
+  // it.
+  const double radius = row.rest_m / (2 * units::PI),
+               edge = row.rest_m / static_cast<double>(std::max<std::size_t>(line.n_segments(), 1));
+  row.garment_uncertainty_m =
+      std::hypot(change, row.rest_m * edge * edge / (24 * radius * radius), convergence);
   row.body_uncertainty_m = place.body_spread_m;
   row.ease_uncertainty_m = std::hypot(row.garment_uncertainty_m, row.body_uncertainty_m);
   row.gap_uncertainty_m = std::hypot(edge * edge / (8 * radius), convergence);
@@ -68,7 +79,8 @@ void finish_row(const ClothState& cloth, const FitPlace& place, const SectionLin
   row.pressure_p95_pa = quantile(pressures, 0.95);
   // As the strain that it comes from.
   const double strain = std::max(row.strain_p99, 1e-6);
-  row.pressure_uncertainty_pa = row.pressure_p95_pa * std::min(1.0, row.strain_uncertainty / strain);
+  row.pressure_uncertainty_pa =
+      row.pressure_p95_pa * std::min(1.0, row.strain_uncertainty / strain);
 }
 
 /// A loop's particles in order, or nothing where it is no simple one.
@@ -102,10 +114,12 @@ SectionLine line_of(const Garment& garment, const std::vector<int>& loop) {
   for (std::size_t f = 0; f < garment.panels.triangles.size(); ++f)
     for (int k = 0; k < 3; ++k) {
       const int u = garment.panels.triangles[f][k], v = garment.panels.triangles[f][(k + 1) % 3];
-      const auto found = sides.find({std::min(garment.particle_of[u], garment.particle_of[v]), std::max(garment.particle_of[u], garment.particle_of[v])});
+      const auto found = sides.find({std::min(garment.particle_of[u], garment.particle_of[v]),
+                                     std::max(garment.particle_of[u], garment.particle_of[v])});
       if (found == sides.end()) continue;
       const double scale = garment.rest_scale.empty() ? 1 : garment.rest_scale[f][k];
-      found->second = {static_cast<int>(f), scale * (garment.panels.pattern[v] - garment.panels.pattern[u]).norm()};
+      found->second = {static_cast<int>(f),
+                       scale * (garment.panels.pattern[v] - garment.panels.pattern[u]).norm()};
     }
   SectionChain chain;
   chain.closed = true;
@@ -113,7 +127,8 @@ SectionLine line_of(const Garment& garment, const std::vector<int>& loop) {
     const int a = loop[i], b = loop[(i + 1) % loop.size()];
     const Side& side = sides.at({std::min(a, b), std::max(a, b)});
     chain.segments.push_back({side.triangle, garment.position[a], garment.position[b], side.rest});
-    chain.length += (garment.position[b] - garment.position[a]).norm(), chain.rest_length += side.rest;
+    chain.length += (garment.position[b] - garment.position[a]).norm(),
+        chain.rest_length += side.rest;
   }
   SectionLine line;
   line.lying = chain.length, line.rest = chain.rest_length;
@@ -128,24 +143,32 @@ struct EdgeKind {
 };
 const EdgeKind* kind_of(const std::string& hem) {
   using body::Part;
-  static const std::vector<EdgeKind> KINDS = {{"neck", "neck_edge", {Part::HEAD, Part::TORSO}}, {"left sleeve", "sleeve_hem_l", {Part::ARM_L}},
-                                              {"right sleeve", "sleeve_hem_r", {Part::ARM_R}},  {"left leg", "leg_hem_l", {Part::LEG_L}},
-                                              {"right leg", "leg_hem_r", {Part::LEG_R}},        {"top", "top_edge", {Part::TORSO, Part::LEG_L, Part::LEG_R}}};
+  static const std::vector<EdgeKind> KINDS = {
+      {"neck", "neck_edge", {Part::HEAD, Part::TORSO}},
+      {"left sleeve", "sleeve_hem_l", {Part::ARM_L}},
+      {"right sleeve", "sleeve_hem_r", {Part::ARM_R}},
+      {"left leg", "leg_hem_l", {Part::LEG_L}},
+      {"right leg", "leg_hem_r", {Part::LEG_R}},
+      {"top", "top_edge", {Part::TORSO, Part::LEG_L, Part::LEG_R}}};
   for (const EdgeKind& kind : KINDS)
     if (hem == kind.hem) return &kind;
   return nullptr;
 }
 
 /// Whether a line is open where cloth was left out, as at an arm.
-bool ends_at_left_out(const Garment& garment, const std::vector<char>& use, const SectionLine& line) {
+bool ends_at_left_out(const Garment& garment, const std::vector<char>& use,
+                      const SectionLine& line) {
   std::vector<char> left_out(garment.position.size(), 0);
   for (std::size_t f = 0; f < use.size(); ++f)
-    for (int k = 0; k < 3 && !use[f]; ++k) left_out[garment.particle_of[garment.panels.triangles[f][k]]] = 1;
+    for (int k = 0; k < 3 && !use[f]; ++k)
+      left_out[garment.particle_of[garment.panels.triangles[f][k]]] = 1;
   const auto borders = [&](const SectionSegment& s) {
     const Triangle& t = garment.panels.triangles[s.triangle];
     return std::any_of(t.begin(), t.end(), [&](int v) { return left_out[garment.particle_of[v]]; });
   };
-  return std::any_of(line.chains.begin(), line.chains.end(), [&](const SectionChain& c) { return borders(c.segments.front()) || borders(c.segments.back()); });
+  return std::any_of(line.chains.begin(), line.chains.end(), [&](const SectionChain& c) {
+    return borders(c.segments.front()) || borders(c.segments.back());
+  });
 }
 
 /// Triangles that have a particle of the set; the set grows by theirs.
@@ -153,7 +176,8 @@ std::vector<int> ring_of(const Garment& garment, std::vector<char>& in) {
   std::vector<int> ring;
   for (std::size_t f = 0; f < garment.panels.triangles.size(); ++f) {
     const Triangle& t = garment.panels.triangles[f];
-    if (std::any_of(t.begin(), t.end(), [&](int v) { return in[garment.particle_of[v]]; })) ring.push_back(static_cast<int>(f));
+    if (std::any_of(t.begin(), t.end(), [&](int v) { return in[garment.particle_of[v]]; }))
+      ring.push_back(static_cast<int>(f));
   }
   for (const int f : ring)
     for (const int v : garment.panels.triangles[f]) in[garment.particle_of[v]] = 1;
@@ -166,26 +190,31 @@ StrainFigures strain_of(const ClothState& cloth, const std::vector<int>& triangl
   StrainFigures figures;
   std::vector<Weighted> values;
   for (const int f : triangles)
-    if (const TriangleStrain& s = cloth.strains[f]; s.area > 0) values.push_back({s.thread(), s.area});
+    if (const TriangleStrain& s = cloth.strains[f]; s.area > 0)
+      values.push_back({s.thread(), s.area});
   figures.n = values.size();
   if (values.empty()) return figures;
   figures.p50 = area_quantile(values, 0.5), figures.p99 = area_quantile(values, 0.99);
-  std::vector<Weighted> around(cloth.garment.position.size(), {0, 0}); // by particle: strain times area, area
+  std::vector<Weighted> around(cloth.garment.position.size(),
+                               {0, 0}); // by particle: strain times area, area
   for (const int f : triangles)
     if (const TriangleStrain& s = cloth.strains[f]; s.area > 0)
       for (const int v : cloth.garment.panels.triangles[f])
-        around[cloth.garment.particle_of[v]].value += s.area * s.thread(), around[cloth.garment.particle_of[v]].area += s.area;
+        around[cloth.garment.particle_of[v]].value += s.area * s.thread(),
+            around[cloth.garment.particle_of[v]].area += s.area;
   figures.max = values.front().value;
   for (const Weighted& place : around)
     if (place.area > 0) figures.max = std::max(figures.max, place.value / place.area);
   double warp = 0, weft = 0;
   for (const int f : triangles)
-    if (const TriangleStrain& s = cloth.strains[f]; s.area > 0 && s.thread() >= figures.p99) (s.thread() == s.warp ? warp : weft) += s.area;
+    if (const TriangleStrain& s = cloth.strains[f]; s.area > 0 && s.thread() >= figures.p99)
+      (s.thread() == s.warp ? warp : weft) += s.area;
   figures.direction = warp > weft ? "warp" : "weft";
   return figures;
 }
 
-std::optional<SectionLine> line_around(const Garment& garment, const std::vector<char>& use, const FitPlace& place, double shift, std::string& why,
+std::optional<SectionLine> line_around(const Garment& garment, const std::vector<char>& use,
+                                       const FitPlace& place, double shift, std::string& why,
                                        const std::vector<Vec3>* elsewhere) {
   const Vec3 center = place.center + shift * place.normal;
   std::vector<SectionChain> chains = cut_garment(garment, use, center, place.normal, elsewhere);
@@ -193,7 +222,9 @@ std::optional<SectionLine> line_around(const Garment& garment, const std::vector
   const SectionChain* best = nullptr;
   for (const SectionChain& chain : chains) {
     if (chain.turns(center, place.normal) < AROUND) continue;
-    const bool both = std::any_of(place.outside.begin(), place.outside.end(), [&](const Vec3& o) { return chain.turns(o, place.normal) > AROUND; });
+    const bool both = std::any_of(place.outside.begin(), place.outside.end(), [&](const Vec3& o) {
+      return chain.turns(o, place.normal) > AROUND;
+    });
     if (both) {
       if (!best) why = "the garment goes round both legs there";
       continue;
@@ -203,7 +234,8 @@ std::optional<SectionLine> line_around(const Garment& garment, const std::vector
   if (best) {
     SectionLine line;
     line.bridged = best->closed ? 0 : best->opening;
-    line.lying = best->length + line.bridged, line.rest = best->rest_length + line.bridged, line.elsewhere = best->elsewhere + line.bridged;
+    line.lying = best->length + line.bridged, line.rest = best->rest_length + line.bridged,
+    line.elsewhere = best->elsewhere + line.bridged;
     line.chains.push_back(*best);
     return line;
   }
@@ -211,7 +243,8 @@ std::optional<SectionLine> line_around(const Garment& garment, const std::vector
   return assemble_line(std::move(chains), center, place.normal, LARGEST_OPEN);
 }
 
-std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& place, double convergence, std::string& why) {
+std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& place,
+                                    double convergence, std::string& why) {
   const Garment& garment = cloth.garment;
   const std::vector<char> use = cloth_of(garment, place);
   const auto line = line_around(garment, use, place, 0, why);
@@ -221,58 +254,76 @@ std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& pla
     std::vector<int> near;
     for (std::size_t f = 0; f < use.size(); ++f) {
       Vec3 middle = Vec3::Zero();
-      for (const int v : garment.panels.triangles[f]) middle += garment.position[garment.particle_of[v]] / 3;
-      if (use[f] && std::abs((middle - place.center).dot(place.normal)) <= band) near.push_back(static_cast<int>(f));
+      for (const int v : garment.panels.triangles[f])
+        middle += garment.position[garment.particle_of[v]] / 3;
+      if (use[f] && std::abs((middle - place.center).dot(place.normal)) <= band)
+        near.push_back(static_cast<int>(f));
     }
     return strain_of(cloth, near);
   };
   take_strain(within(BAND), within(0.5 * BAND), row);
-  // How the girth changes within the error of the height, and how much wider it opens: openings whose sides lie flatter than 45
-  // degrees are a hem that crosses the level, and the bridges over them cut through the body.
-  const bool cut_open = row.open && (line->chains.size() == 1 || !ends_at_left_out(garment, use, *line));
+  // How the girth changes within the error of the height, and how much wider it opens: openings
+  // whose sides lie flatter than 45 degrees are a hem that crosses the level, and the bridges over
+  // them cut through the body.
+  const bool cut_open =
+      row.open && (line->chains.size() == 1 || !ends_at_left_out(garment, use, *line));
   double change = 0, widens = 0;
   for (const double shift : {-place.height_error_m, place.height_error_m}) {
     std::string ignored;
     const auto moved = line_around(garment, use, place, shift, ignored);
     if (moved) change = std::max(change, std::abs(moved->rest - row.rest_m));
-    widens = std::max(widens, moved ? std::abs(moved->bridged - line->bridged) : std::numeric_limits<double>::infinity());
+    widens = std::max(widens, moved ? std::abs(moved->bridged - line->bridged)
+                                    : std::numeric_limits<double>::infinity());
   }
-  if (cut_open && widens > 2 * place.height_error_m * static_cast<double>(line->chains.size())) return why = "a hem crosses it", std::nullopt;
-  if (place.kind == "neck" && change > SLANT * row.rest_m) return why = "the cloth crosses it at a slant", std::nullopt; // shoulders, not a neck
+  if (cut_open && widens > 2 * place.height_error_m * static_cast<double>(line->chains.size()))
+    return why = "a hem crosses it", std::nullopt;
+  if (place.kind == "neck" && change > SLANT * row.rest_m)
+    return why = "the cloth crosses it at a slant", std::nullopt; // shoulders, not a neck
   finish_row(cloth, place, *line, change, convergence, row);
   return row;
 }
 
-std::optional<EdgeLine> edge_line(const Garment& garment, const body::Body& body, const FitHem& hem, std::string& why) {
+std::optional<EdgeLine> edge_line(const Garment& garment, const body::Body& body, const FitHem& hem,
+                                  std::string& why) {
   why.clear();
   const EdgeKind* kind = kind_of(hem.name);
   if (!kind) return std::nullopt;
-  EdgeLine edge{{kind->row, "edge", Vec3::Zero(), Vec3::Zero(), 0, 0, EDGE_HEIGHT, {}, {}}, {}, kind->parts, in_order(hem.edges)};
+  EdgeLine edge{{kind->row, "edge", Vec3::Zero(), Vec3::Zero(), 0, 0, EDGE_HEIGHT, {}, {}},
+                {},
+                kind->parts,
+                in_order(hem.edges)};
   FitPlace& place = edge.place;
   const std::vector<int>& loop = edge.particles;
   if (loop.empty()) return std::nullopt;
   for (const int p : loop) place.center += garment.position[p] / static_cast<double>(loop.size());
   for (std::size_t i = 0; i < loop.size(); ++i)
-    place.normal += (garment.position[loop[i]] - place.center).cross(garment.position[loop[(i + 1) % loop.size()]] - place.center);
+    place.normal += (garment.position[loop[i]] - place.center)
+                        .cross(garment.position[loop[(i + 1) % loop.size()]] - place.center);
   edge.line = line_of(garment, loop);
-  const double round = 2 * units::PI * place.normal.norm() / (edge.line.lying * edge.line.lying); // 4 pi area / length^2: 1 for a circle
+  const double round = 2 * units::PI * place.normal.norm() /
+                       (edge.line.lying * edge.line.lying); // 4 pi area / length^2: 1 for a circle
   if (!(round > LEAST_ROUND)) return why = "its edge goes round nothing", std::nullopt;
   place.normal = (place.normal.y() < 0 ? Vec3(-place.normal) : place.normal).normalized();
   const bool of_limb = kind->parts.size() == 1;
-  if (!of_limb && place.normal.y() < STEEPEST) return why = "its edge does not go round the trunk", std::nullopt;
+  if (!of_limb && place.normal.y() < STEEPEST)
+    return why = "its edge does not go round the trunk", std::nullopt;
   place.body_m = skin_girth(body, kind->parts, place.center, place.normal);
   if (!(place.body_m > 0)) return why = "the skin has no section in its plane", std::nullopt;
   const auto base = body.girths.find("neck_base");
-  if (hem.name == "neck" && base != body.girths.end() && place.body_m > WIDER_THAN_NECK * base->second.value_m)
+  if (hem.name == "neck" && base != body.girths.end() &&
+      place.body_m > WIDER_THAN_NECK * base->second.value_m)
     return why = "it lies on the shoulders, wider than a neck", std::nullopt;
   place.body_spread_m = LEAST_GIRTH_SPREAD;
   for (const double shift : {-EDGE_HEIGHT, EDGE_HEIGHT})
-    if (const double moved = skin_girth(body, kind->parts, place.center + shift * place.normal, place.normal); moved > 0)
+    if (const double moved =
+            skin_girth(body, kind->parts, place.center + shift * place.normal, place.normal);
+        moved > 0)
       place.body_spread_m = std::max(place.body_spread_m, std::abs(moved - place.body_m));
   return edge;
 }
 
-std::optional<FitRow> measure_edge(const ClothState& cloth, const body::Body& body, const FitHem& hem, double convergence, std::string& why) {
+std::optional<FitRow> measure_edge(const ClothState& cloth, const body::Body& body,
+                                   const FitHem& hem, double convergence, std::string& why) {
   const Garment& garment = cloth.garment;
   const auto edge = edge_line(garment, body, hem, why);
   if (!edge) return std::nullopt;

@@ -57,7 +57,8 @@ std::string number(double value, int digits) {
 
 std::string cell(double value, int digits, double uncertainty = -1) {
   std::string text = "<td data-v=\"" + number(value, 6) + "\">" + number(value, digits);
-  if (uncertainty >= 0) text += " <span class=\"pale\">&plusmn; " + number(uncertainty, digits) + "</span>";
+  if (uncertainty >= 0)
+    text += " <span class=\"pale\">&plusmn; " + number(uncertainty, digits) + "</span>";
   return text + "</td>";
 }
 
@@ -72,16 +73,22 @@ const char* css_class(FitVerdict verdict) {
 
 std::string table(const std::vector<std::string>& heads, const std::string& rows) {
   std::string text = "<div class=\"wide\"><table><thead><tr>";
-  for (const std::string& head : heads) text += (head == "along" || head == "verdict" ? "<th class=\"words\">" : "<th>") + head + "</th>";
+  for (const std::string& head : heads)
+    text +=
+        (head == "along" || head == "verdict" ? "<th class=\"words\">" : "<th>") + head + "</th>";
   return text + "</tr></thead><tbody>" + rows + "</tbody></table></div>\n";
 }
 
 /// Shares of the body girth that the bars show, and where they lie on the track.
 struct Scale {
   double low = -0.06, high = 0.2;
-  void show(double share) { low = std::max(-0.5, std::min(low, share)), high = std::min(1.2, std::max(high, share)); }
+  void show(double share) {
+    low = std::max(-0.5, std::min(low, share)), high = std::min(1.2, std::max(high, share));
+  }
   bool shows(double share) const { return share >= low && share <= high; }
-  double at(double share) const { return 100 * (std::clamp(share, low, high) - low) / (high - low); } ///< per cent of the track
+  double at(double share) const {
+    return 100 * (std::clamp(share, low, high) - low) / (high - low);
+  } ///< per cent of the track
   double step() const {
     for (const double s : {0.05, 0.1, 0.2})
       if ((high - low) / s <= 7) return s;
@@ -90,10 +97,12 @@ struct Scale {
 };
 
 std::string mark(const char* what, double left, double width = -1) {
-  return std::string("<i class=\"") + what + "\" style=\"left:" + number(left, 2) + "%" + (width >= 0 ? ";width:" + number(width, 2) + "%" : "") + "\"></i>";
+  return std::string("<i class=\"") + what + "\" style=\"left:" + number(left, 2) + "%" +
+         (width >= 0 ? ";width:" + number(width, 2) + "%" : "") + "\"></i>";
 }
 
-/// Bars of ease with their uncertainty and the policy's limits, all in per cent of the body girth, on one scale.
+/// Bars of ease with their uncertainty and the policy's limits, all in per cent of the body girth,
+/// on one scale.
 std::string ease_bars(const std::vector<FitRow>& rows) {
   Scale scale;
   for (const FitRow& r : rows) {
@@ -104,25 +113,31 @@ std::string ease_bars(const std::vector<FitRow>& rows) {
     scale.show(r.limits.too_small_ease - 0.01);
   }
   std::string axis, lines;
-  for (int k = static_cast<int>(std::ceil(scale.low / scale.step())); k * scale.step() <= scale.high; ++k) {
+  for (int k = static_cast<int>(std::ceil(scale.low / scale.step()));
+       k * scale.step() <= scale.high; ++k) {
     const double at = scale.at(k * scale.step());
-    axis += "<i style=\"left:" + number(at, 2) + "%\">" + number(100 * scale.step() * k, 0) + "</i>";
+    axis +=
+        "<i style=\"left:" + number(at, 2) + "%\">" + number(100 * scale.step() * k, 0) + "</i>";
     lines += mark(k == 0 ? "zero" : "grid", at);
   }
-  std::string bars = "<div class=\"bars\"><b></b><span class=\"axis\">" + axis + "</span><b class=\"n\">ease %</b>\n";
+  std::string bars = "<div class=\"bars\"><b></b><span class=\"axis\">" + axis +
+                     "</span><b class=\"n\">ease %</b>\n";
   for (const FitRow& r : rows) {
-    const double share = r.ease_m / r.body_m, error = r.ease_uncertainty_m / r.body_m, tight = scale.at(r.limits.tight_ease);
-    bars += "<b>" + escaped(spoken_girth(r.name)) + "</b><span class=\"track " + css_class(r.verdict) + "\">" +
-            mark("okay", tight, scale.at(r.limits.loose_ease) - tight) + lines +
-            mark("bar", scale.at(std::min(0.0, share)), std::abs(scale.at(share) - scale.at(0))) +
-            mark("error", scale.at(share - error), scale.at(share + error) - scale.at(share - error));
+    const double share = r.ease_m / r.body_m, error = r.ease_uncertainty_m / r.body_m,
+                 tight = scale.at(r.limits.tight_ease);
+    bars +=
+        "<b>" + escaped(spoken_girth(r.name)) + "</b><span class=\"track " + css_class(r.verdict) +
+        "\">" + mark("okay", tight, scale.at(r.limits.loose_ease) - tight) + lines +
+        mark("bar", scale.at(std::min(0.0, share)), std::abs(scale.at(share) - scale.at(0))) +
+        mark("error", scale.at(share - error), scale.at(share + error) - scale.at(share - error));
     for (const double limit : {r.limits.too_small_ease, r.limits.too_large_ease})
       if (scale.shows(limit)) bars += mark("limit", scale.at(limit));
-    bars += "</span><b class=\"n\">" + number(100 * share, 1) + " &plusmn; " + number(100 * error, 1) + "</b>\n";
+    bars += "</span><b class=\"n\">" + number(100 * share, 1) + " &plusmn; " +
+            number(100 * error, 1) + "</b>\n";
   }
-  return bars +
-         "</div>\n<p class=\"pale\">Ease in per cent of the body's girth, with its uncertainty. Pale green: what the policy calls well fitting, from tight to "
-         "loose. Red marks: below, too small; above, too large.</p>\n";
+  return bars + "</div>\n<p class=\"pale\">Ease in per cent of the body's girth, with its "
+                "uncertainty. Pale green: what the policy calls well fitting, from tight to "
+                "loose. Red marks: below, too small; above, too large.</p>\n";
 }
 
 std::string said_of(const std::string& state) {
@@ -135,46 +150,63 @@ std::string said_of(const std::string& state) {
 std::string fit_page(const FitReport& report, const std::string& garment, const std::string& body) {
   const std::string title = escaped(garment) + " on " + escaped(body);
   std::string page = HEAD + ("<title>" + title) + "</title></head><body>\n<h1>" + title + "</h1>\n";
-  page += std::string("<div class=\"verdict ") + css_class(report.verdict) + "\"><b>" + (report.fits ? "Fits" : "Does not fit") + ": " +
-          verdict_name(report.verdict) + "</b>" + (report.reason.empty() ? "" : "<br>The garment " + escaped(report.reason) + ".") + "</div>\n";
-  page += "<p class=\"pale\">Policy: " + escaped(report.policy) + (report.garment_class.empty() ? "" : "; class: " + report.garment_class) +
-          (report.fabric.empty() ? "" : "; fabric: " + escaped(report.fabric)) + said_of(report.state) + "</p>\n";
+  page += std::string("<div class=\"verdict ") + css_class(report.verdict) + "\"><b>" +
+          (report.fits ? "Fits" : "Does not fit") + ": " + verdict_name(report.verdict) + "</b>" +
+          (report.reason.empty() ? "" : "<br>The garment " + escaped(report.reason) + ".") +
+          "</div>\n";
+  page += "<p class=\"pale\">Policy: " + escaped(report.policy) +
+          (report.garment_class.empty() ? "" : "; class: " + report.garment_class) +
+          (report.fabric.empty() ? "" : "; fabric: " + escaped(report.fabric)) +
+          said_of(report.state) + "</p>\n";
   if (!report.rows.empty()) {
     std::string rows;
     for (const FitRow& r : report.rows)
-      rows += "<tr><td>" + escaped(spoken_girth(r.name)) + "</td>" + cell(r.height_m * 100, 1) + cell(r.body_m * 100, 1, r.body_uncertainty_m * 100) +
-              cell(r.rest_m * 100, 1, r.garment_uncertainty_m * 100) + cell(r.ease_m * 100, 1, r.ease_uncertainty_m * 100) +
-              cell(100 * r.ease_m / r.body_m, 1) + "<td class=\"words " + css_class(r.verdict) + "\">" + verdict_name(r.verdict) + "</td>" +
-              cell(100 * r.strain_p99, 1, 100 * r.strain_uncertainty) + "<td class=\"words\">" + r.strain_direction + "</td>" + cell(1000 * r.gap_p05_m, 1) +
-              cell(1000 * r.gap_p50_m, 1, 1000 * r.gap_uncertainty_m) + cell(r.pressure_p95_pa, 0, r.pressure_uncertainty_pa) + "</tr>\n";
+      rows += "<tr><td>" + escaped(spoken_girth(r.name)) + "</td>" + cell(r.height_m * 100, 1) +
+              cell(r.body_m * 100, 1, r.body_uncertainty_m * 100) +
+              cell(r.rest_m * 100, 1, r.garment_uncertainty_m * 100) +
+              cell(r.ease_m * 100, 1, r.ease_uncertainty_m * 100) +
+              cell(100 * r.ease_m / r.body_m, 1) + "<td class=\"words " + css_class(r.verdict) +
+              "\">" + verdict_name(r.verdict) + "</td>" +
+              cell(100 * r.strain_p99, 1, 100 * r.strain_uncertainty) + "<td class=\"words\">" +
+              r.strain_direction + "</td>" + cell(1000 * r.gap_p05_m, 1) +
+              cell(1000 * r.gap_p50_m, 1, 1000 * r.gap_uncertainty_m) +
+              cell(r.pressure_p95_pa, 0, r.pressure_uncertainty_pa) + "</tr>\n";
     page += "<h2>Ease</h2>\n" + ease_bars(report.rows) + "<h2>Girths</h2>\n" +
-            table({"girth", "height cm", "body cm", "garment cm", "ease cm", "ease %", "verdict", "strain p99 %", "along", "gap p05 mm", "gap p50 mm",
-                   "pressure p95 Pa"},
+            table({"girth", "height cm", "body cm", "garment cm", "ease cm", "ease %", "verdict",
+                   "strain p99 %", "along", "gap p05 mm", "gap p50 mm", "pressure p95 Pa"},
                   rows);
   }
   if (!report.regions.empty()) {
     std::string rows;
     for (const FitRegion& r : report.regions)
-      rows += "<tr><td>" + r.name + "</td>" + cell(100 * r.strain_p50, 1) + cell(100 * r.strain_p99, 1) + cell(100 * r.strain_max, 1) + "<td class=\"words\">" +
+      rows += "<tr><td>" + r.name + "</td>" + cell(100 * r.strain_p50, 1) +
+              cell(100 * r.strain_p99, 1) + cell(100 * r.strain_max, 1) + "<td class=\"words\">" +
               r.strain_direction + "</td></tr>\n";
-    page += "<h2>Strain by region</h2>\n" + table({"region", "p50 %", "p99 %", "largest %", "along"}, rows);
+    page += "<h2>Strain by region</h2>\n" +
+            table({"region", "p50 %", "p99 %", "largest %", "along"}, rows);
   }
   if (!report.lines.hems.empty()) {
     std::string rows;
     for (const FitHem& h : report.lines.hems)
-      rows += "<tr><td>" + h.name + "</td>" + cell(100 * h.height_m, 1, 100 * (h.uncertainty_m + report.convergence_m)) + cell(100 * h.length_m, 1) +
-              cell(100 * h.front_minus_back_m, 1) + cell(100 * h.left_minus_right_m, 1) + "</tr>\n";
-    page += "<h2>Hems</h2>\n" + table({"edge", "height cm", "length cm", "front higher by cm", "left higher by cm"}, rows);
+      rows += "<tr><td>" + h.name + "</td>" +
+              cell(100 * h.height_m, 1, 100 * (h.uncertainty_m + report.convergence_m)) +
+              cell(100 * h.length_m, 1) + cell(100 * h.front_minus_back_m, 1) +
+              cell(100 * h.left_minus_right_m, 1) + "</tr>\n";
+    page +=
+        "<h2>Hems</h2>\n" +
+        table({"edge", "height cm", "length cm", "front higher by cm", "left higher by cm"}, rows);
   }
   if (!report.lines.coverage.empty()) {
     std::string rows;
     for (const auto& [name, share] : report.lines.coverage)
-      rows += "<tr><td>" + escaped(spoken_girth(name)) + "</td>" + cell(100 * report.lines.coverage_m.at(name), 1) + cell(100 * share, 0) + "</tr>\n";
+      rows += "<tr><td>" + escaped(spoken_girth(name)) + "</td>" +
+              cell(100 * report.lines.coverage_m.at(name), 1) + cell(100 * share, 0) + "</tr>\n";
     page += "<h2>Coverage</h2>\n" + table({"limb", "length cm", "of the limb %"}, rows);
   }
   if (!report.left_out.empty()) {
     page += "<h2>Not measured</h2>\n<p class=\"pale\">";
-    for (const auto& [name, why] : report.left_out) page += escaped(spoken_girth(name)) + ": " + escaped(why) + ". ";
+    for (const auto& [name, why] : report.left_out)
+      page += escaped(spoken_girth(name)) + ": " + escaped(why) + ". ";
     page += "</p>\n";
   }
   return page + SCRIPT + "</body></html>\n";

@@ -17,7 +17,9 @@ bool is_arm(const std::string& frame) { return frame.find("arm") != std::string:
 
 /// Spread of the landmarks that a level's height comes from.
 double level_spread(const body::Body& body, const std::string& level) {
-  const auto spread = [&](const std::string& landmark) { return body.has_landmark(landmark) ? body.landmarks.at(landmark).spread_m : 0.0; };
+  const auto spread = [&](const std::string& landmark) {
+    return body.has_landmark(landmark) ? body.landmarks.at(landmark).spread_m : 0.0;
+  };
   if (level == "bust") return std::max(spread("bust_point_l"), spread("bust_point_r"));
   if (level == "chest_axilla") return std::max(spread("axilla_l"), spread("axilla_r"));
   if (level == "hip") return spread("buttock_back");
@@ -25,13 +27,15 @@ double level_spread(const body::Body& body, const std::string& level) {
   return spread(level);
 }
 
-/// A level's girth has no spread of its own: what it changes within the error of its height, by the slope to the next level.
+/// A level's girth has no spread of its own: what it changes within the error of its height, by the
+/// slope to the next level.
 double level_girth_spread(const body::Body& body, const std::string& name, double height_error) {
   const body::Level& level = body.levels.at(name);
   double nearest = 1e300, slope = 0;
   for (const auto& [other_name, other] : body.levels) {
     const double distance = std::abs(other.y - level.y);
-    if (other_name == name || !(other.girth_m > 0) || distance < 0.02 || distance > nearest) continue;
+    if (other_name == name || !(other.girth_m > 0) || distance < 0.02 || distance > nearest)
+      continue;
     nearest = distance, slope = std::abs(other.girth_m - level.girth_m) / distance;
   }
   return std::hypot(LEAST_GIRTH_SPREAD, slope * height_error);
@@ -42,10 +46,19 @@ void add_levels(const body::Body& body, std::vector<FitPlace>& places) {
   for (const auto& [name, level] : body.levels) {
     if (!(level.girth_m > 0)) continue;
     const double height_error = std::max(HEIGHT_ERROR, level_spread(body, name));
-    FitPlace place{name, "level", Vec3(0, level.y, 0), Vec3::UnitY(), level.girth_m, level_girth_spread(body, name, height_error), height_error, {}, {}};
+    FitPlace place{name,
+                   "level",
+                   Vec3(0, level.y, 0),
+                   Vec3::UnitY(),
+                   level.girth_m,
+                   level_girth_spread(body, name, height_error),
+                   height_error,
+                   {},
+                   {}};
     if (torso != body.frames.end()) {
       const PartFrame& f = torso->second.frame;
-      place.center = f.lower + (f.upper - f.lower) * std::max(0.0, (level.y - f.lower.y()) / (f.upper.y() - f.lower.y()));
+      place.center = f.lower + (f.upper - f.lower) * std::max(0.0, (level.y - f.lower.y()) /
+                                                                       (f.upper.y() - f.lower.y()));
       place.center.y() = level.y;
     }
     places.push_back(place);
@@ -55,12 +68,13 @@ void add_levels(const body::Body& body, std::vector<FitPlace>& places) {
 std::vector<int> faces_of(const body::Body& body, const std::vector<body::Part>& parts) {
   std::vector<int> faces;
   for (std::size_t f = 0; f < body.face_part.size(); ++f)
-    if (std::find(parts.begin(), parts.end(), body.face_part[f]) != parts.end()) faces.push_back(static_cast<int>(f));
+    if (std::find(parts.begin(), parts.end(), body.face_part[f]) != parts.end())
+      faces.push_back(static_cast<int>(f));
   return faces;
 }
 
-/// Taut girth of the outline whose middle is nearest to the plane's origin, over all pieces where other parts (arms that lie on the flanks)
-/// take some of it away; 0 where there is none.
+/// Taut girth of the outline whose middle is nearest to the plane's origin, over all pieces where
+/// other parts (arms that lie on the flanks) take some of it away; 0 where there is none.
 double girth_in(const body::Body& body, const body::Plane& plane, const std::vector<int>& faces) {
   const std::vector<body::Loop> loops = body::cut(body.skin, plane, &faces);
   const body::Loop* best = nullptr;
@@ -69,12 +83,15 @@ double girth_in(const body::Body& body, const body::Plane& plane, const std::vec
   if (!best) return 0;
   body::Loop whole = *best;
   for (const body::Loop& loop : loops)
-    if (&loop != best && !best->closed && !loop.closed) whole.segments.insert(whole.segments.end(), loop.segments.begin(), loop.segments.end());
+    if (&loop != best && !best->closed && !loop.closed)
+      whole.segments.insert(whole.segments.end(), loop.segments.begin(), loop.segments.end());
   return body::taut_girth(whole);
 }
 
-/// Where along a way from `from` the section square to it is as long as `girth`, within a tenth: of those the nearest in length.
-std::optional<Vec3> like_girth(const body::Body& body, const std::vector<body::Part>& parts, const Vec3& from, const Vec3& direction, double reach,
+/// Where along a way from `from` the section square to it is as long as `girth`, within a tenth: of
+/// those the nearest in length.
+std::optional<Vec3> like_girth(const body::Body& body, const std::vector<body::Part>& parts,
+                               const Vec3& from, const Vec3& direction, double reach,
                                double girth) {
   const std::vector<int> faces = faces_of(body, parts);
   body::TriangleSpheres spheres(body.skin, faces);
@@ -94,22 +111,44 @@ void add_neck(const body::Body& body, std::vector<FitPlace>& places) {
   if (girth == body.girths.end() || !(girth->second.value_m > 0)) return;
   for (const char* name : {"neck_front", "neck_back", "neck_side_l", "neck_side_r"})
     if (!body.has_landmark(name)) return;
-  const Vec3 front = body.landmark("neck_front"), back = body.landmark("neck_back"), left = body.landmark("neck_side_l"), right = body.landmark("neck_side_r");
+  const Vec3 front = body.landmark("neck_front"), back = body.landmark("neck_back"),
+             left = body.landmark("neck_side_l"), right = body.landmark("neck_side_r");
   const Vec3 normal = (front - back).cross(left - right).normalized(); // z cross x: up
-  if (!(normal.y() > 0.3)) return;                                     // landmarks that lie in no plane of a neck
+  if (!(normal.y() > 0.3)) return; // landmarks that lie in no plane of a neck
   const Vec3 center = 0.25 * (front + back + left + right);
-  places.push_back({"neck_base", "neck", center, normal, girth->second.value_m, girth->second.spread_m, HEIGHT_ERROR, {}, {}});
+  places.push_back({"neck_base",
+                    "neck",
+                    center,
+                    normal,
+                    girth->second.value_m,
+                    girth->second.spread_m,
+                    HEIGHT_ERROR,
+                    {},
+                    {}});
   const auto neck = body.girths.find("neck");
   if (neck == body.girths.end() || !(neck->second.value_m > 0)) return;
   // A neck leans forward, between the plane of its base and the head above it.
-  const Vec3 up = body.has_landmark("head_tip") ? Vec3((body.landmark("head_tip") - center).normalized()) : normal, axis = (normal + up).normalized();
-  if (const auto at = like_girth(body, {body::Part::HEAD, body::Part::TORSO}, center, axis, NECK_REACH, neck->second.value_m))
-    places.push_back({"neck", "neck", *at, axis, neck->second.value_m, neck->second.spread_m, HEIGHT_ERROR, {}, {}});
+  const Vec3 up = body.has_landmark("head_tip")
+                      ? Vec3((body.landmark("head_tip") - center).normalized())
+                      : normal,
+             axis = (normal + up).normalized();
+  if (const auto at = like_girth(body, {body::Part::HEAD, body::Part::TORSO}, center, axis,
+                                 NECK_REACH, neck->second.value_m))
+    places.push_back({"neck",
+                      "neck",
+                      *at,
+                      axis,
+                      neck->second.value_m,
+                      neck->second.spread_m,
+                      HEIGHT_ERROR,
+                      {},
+                      {}});
 }
 
 } // namespace
 
-double skin_girth(const body::Body& body, const std::vector<body::Part>& parts, const Vec3& center, const Vec3& normal) {
+double skin_girth(const body::Body& body, const std::vector<body::Part>& parts, const Vec3& center,
+                  const Vec3& normal) {
   return girth_in(body, body::cross_plane(center, normal), faces_of(body, parts));
 }
 
@@ -119,28 +158,35 @@ std::vector<FitPlace> fit_places(const body::Body& body) {
   add_neck(body, places);
   for (const std::string side : {"l", "r"}) {
     const std::string other = side == "l" ? "r" : "l";
-    const auto add = [&](const std::string& name, const Vec3& center, const Vec3& normal, std::vector<std::string> frames, std::vector<Vec3> outside) {
+    const auto add = [&](const std::string& name, const Vec3& center, const Vec3& normal,
+                         std::vector<std::string> frames, std::vector<Vec3> outside) {
       const auto found = body.girths.find(name + "_" + side);
       if (found == body.girths.end() || !(found->second.value_m > 0)) return;
-      places.push_back(
-          {name + "_" + side, "limb", center, normal, found->second.value_m, found->second.spread_m, HEIGHT_ERROR, std::move(frames), std::move(outside)});
+      places.push_back({name + "_" + side, "limb", center, normal, found->second.value_m,
+                        found->second.spread_m, HEIGHT_ERROR, std::move(frames),
+                        std::move(outside)});
     };
     const auto has = [&](const std::string& name) { return body.has_landmark(name + "_" + side); };
     const auto at = [&](const std::string& name) { return body.landmark(name + "_" + side); };
     const std::vector<std::string> arm = {"upper_arm_" + side, "forearm_" + side};
     if (has("shoulder_joint") && has("elbow"))
-      add("upper_arm", 0.5 * (at("shoulder_joint") + at("elbow")), (at("shoulder_joint") - at("elbow")).normalized(), arm, {});
-    if (has("wrist") && has("elbow")) add("wrist", at("wrist"), (at("elbow") - at("wrist")).normalized(), arm, {});
+      add("upper_arm", 0.5 * (at("shoulder_joint") + at("elbow")),
+          (at("shoulder_joint") - at("elbow")).normalized(), arm, {});
+    if (has("wrist") && has("elbow"))
+      add("wrist", at("wrist"), (at("elbow") - at("wrist")).normalized(), arm, {});
     // Legs are cut level, as the body's are; their cloth hangs on a leg or on the torso above it.
     const auto leg_point = [&](const std::string& s, double y) -> std::optional<Vec3> {
       const auto frame = body.frames.find("leg_" + s);
       if (frame == body.frames.end()) return std::nullopt;
       const PartFrame& f = frame->second.frame;
-      return Vec3(f.lower + (f.upper - f.lower) * ((y - f.lower.y()) / (f.upper.y() - f.lower.y())));
+      return Vec3(f.lower +
+                  (f.upper - f.lower) * ((y - f.lower.y()) / (f.upper.y() - f.lower.y())));
     };
     const auto add_leg = [&](const std::string& name, double y) {
       const auto here = leg_point(side, y), there = leg_point(other, y);
-      if (here) add(name, *here, Vec3::UnitY(), {}, there ? std::vector<Vec3>{*there} : std::vector<Vec3>{});
+      if (here)
+        add(name, *here, Vec3::UnitY(), {},
+            there ? std::vector<Vec3>{*there} : std::vector<Vec3>{});
     };
     if (body.has_landmark("crotch")) add_leg("thigh", body.landmark("crotch").y() - 0.01);
     if (has("knee")) add_leg("knee", at("knee").y());
@@ -150,7 +196,9 @@ std::vector<FitPlace> fit_places(const body::Body& body) {
       const auto girth = body.girths.find(name + std::string("_") + side);
       if (girth == body.girths.end()) continue;
       const Vec3 knee = at("knee"), ankle = at("ankle");
-      if (const auto there = like_girth(body, {leg}, ankle, Vec3::UnitY(), knee.y() - ankle.y(), girth->second.value_m)) add_leg(name, there->y());
+      if (const auto there = like_girth(body, {leg}, ankle, Vec3::UnitY(), knee.y() - ankle.y(),
+                                        girth->second.value_m))
+        add_leg(name, there->y());
     }
   }
   return places;
@@ -161,7 +209,10 @@ std::vector<char> cloth_of(const Garment& garment, const FitPlace& place) {
   for (std::size_t i = 0; i < share.size(); ++i)
     for (const BindWeight& w : garment.bind.particles[i]) {
       const std::string& frame = garment.bind.frames[w.frame];
-      const bool belongs = place.frames.empty() ? !is_arm(frame) : std::find(place.frames.begin(), place.frames.end(), frame) != place.frames.end();
+      const bool belongs =
+          place.frames.empty()
+              ? !is_arm(frame)
+              : std::find(place.frames.begin(), place.frames.end(), frame) != place.frames.end();
       if (belongs) share[i] += w.weight;
     }
   std::vector<char> use(garment.panels.triangles.size(), 0);
@@ -176,8 +227,10 @@ std::vector<char> cloth_of(const Garment& garment, const FitPlace& place) {
 std::string spoken_girth(const std::string& girth) {
   std::string name = girth;
   std::replace(name.begin(), name.end(), '_', ' ');
-  if (name.size() > 2 && name.compare(name.size() - 2, 2, " l") == 0) return "left " + name.substr(0, name.size() - 2);
-  if (name.size() > 2 && name.compare(name.size() - 2, 2, " r") == 0) return "right " + name.substr(0, name.size() - 2);
+  if (name.size() > 2 && name.compare(name.size() - 2, 2, " l") == 0)
+    return "left " + name.substr(0, name.size() - 2);
+  if (name.size() > 2 && name.compare(name.size() - 2, 2, " r") == 0)
+    return "right " + name.substr(0, name.size() - 2);
   return name;
 }
 

@@ -12,7 +12,8 @@ namespace {
 constexpr double STRAIN_P99 = 0.05, STRAIN_MAX = 0.30, SLIP = 0.10; // woven cloth; m
 
 FitOverride read_override(const io::Node& node) {
-  node.allow_only({"too_small_ease", "too_small_strain", "tight_ease", "loose_ease", "too_large_ease"});
+  node.allow_only(
+      {"too_small_ease", "too_small_strain", "tight_ease", "loose_ease", "too_large_ease"});
   FitOverride o;
   const auto read = [&](const char* key, std::optional<double>& value) {
     if (node.has(key)) value = node.at(key).number();
@@ -22,11 +23,15 @@ FitOverride read_override(const io::Node& node) {
   read("tight_ease", o.tight_ease);
   read("loose_ease", o.loose_ease);
   read("too_large_ease", o.too_large_ease);
-  if (o.too_small_strain && *o.too_small_strain <= 0) node.fail("too_small_strain must be above zero");
-  // Only what is said here can be out of order here; the rest is checked where it is used with the rest.
-  const double low = o.too_small_ease.value_or(-1e300), middle = o.tight_ease.value_or(low), high = o.loose_ease.value_or(middle);
+  if (o.too_small_strain && *o.too_small_strain <= 0)
+    node.fail("too_small_strain must be above zero");
+  // Only what is said here can be out of order here; the rest is checked where it is used with the
+  // rest.
+  const double low = o.too_small_ease.value_or(-1e300), middle = o.tight_ease.value_or(low),
+               high = o.loose_ease.value_or(middle);
   if (!(low <= middle && middle <= high && high <= o.too_large_ease.value_or(high)))
-    node.fail("the limits are out of order", "too_small_ease <= tight_ease <= loose_ease <= too_large_ease");
+    node.fail("the limits are out of order",
+              "too_small_ease <= tight_ease <= loose_ease <= too_large_ease");
   return o;
 }
 
@@ -34,7 +39,8 @@ FitRules read_rules(const io::Node& node) {
   FitRules rules;
   if (node.has("default")) rules.standard = read_override(node.at("default"));
   if (node.has("girths"))
-    for (const std::string& name : node.at("girths").keys()) rules.girths[name] = read_override(node.at("girths").at(name));
+    for (const std::string& name : node.at("girths").keys())
+      rules.girths[name] = read_override(node.at("girths").at(name));
   const auto positive = [&](const char* key, std::optional<double>& value) {
     if (!node.has(key)) return;
     value = node.at(key).number();
@@ -52,10 +58,11 @@ const FitRules* rules_of(const std::map<std::string, FitRules>& rules, const std
 }
 
 /// The last of all garments', the class's and the fabric's that says something.
-double last_said(const FitPolicy& policy, std::optional<double> FitRules::*value, double fallback, const std::string& garment_class,
-                 const std::string& fabric) {
+double last_said(const FitPolicy& policy, std::optional<double> FitRules::*value, double fallback,
+                 const std::string& garment_class, const std::string& fabric) {
   for (const FitRuleSet* set : {&policy.standard, &policy.own})
-    for (const FitRules* rules : {&set->all, rules_of(set->classes, garment_class), rules_of(set->fabrics, fabric)})
+    for (const FitRules* rules :
+         {&set->all, rules_of(set->classes, garment_class), rules_of(set->fabrics, fabric)})
       if (rules && rules->*value) fallback = *(rules->*value);
   return fallback;
 }
@@ -68,30 +75,34 @@ FitOverride roomy(double loose, double too_large) {
   return o;
 }
 
-constexpr double BEYOND_DESIGN = 0.5; // of the ease that is too large: how much smaller than the body it was cut for one in a wide garment may be
+constexpr double BEYOND_DESIGN = 0.5; // of the ease that is too large: how much smaller than the
+                                      // body it was cut for one in a wide garment may be
 constexpr double BELOW_DESIGN = 0.01; // of a girth: what it differs by from drape to drape
 constexpr double AS_WORN = 1.1;       // times the strain on the body that a garment comes from
 
-constexpr const char* WAIST_LEVELS[] = {"waist_semantic", "waist_girth_min", "waist_width_min", "omphalion"};
+constexpr const char* WAIST_LEVELS[] = {"waist_semantic", "waist_girth_min", "waist_width_min",
+                                        "omphalion"};
 constexpr const char* CHESTS[] = {"bust", "chest_axilla"};
 constexpr const char* HIPS[] = {"hip", "hip_girth_max", "crotch"};
 
-template<class Names> void say(FitRules& rules, const Names& names, double loose, double too_large) {
+template<class Names>
+void say(FitRules& rules, const Names& names, double loose, double too_large) {
   for (const char* name : names) rules.girths[name] = roomy(loose, too_large);
 }
 
-/// Ease charts of pattern makers call a bust of 10 cm "fitted", of 13 to 20 cm "loose" and beyond that "very loose"; a waistband that is a
-/// tenth too wide falls to the hips.
+/// Ease charts of pattern makers call a bust of 10 cm "fitted", of 13 to 20 cm "loose" and beyond
+/// that "very loose"; a waistband that is a tenth too wide falls to the hips.
 FitRuleSet woven_rules() {
   FitRuleSet set;
-  FitRules &top = set.classes["top"], &dress = set.classes["dress"], &skirt = set.classes["skirt"], &trousers = set.classes["trousers"],
-           &whole = set.classes["whole"];
+  FitRules &top = set.classes["top"], &dress = set.classes["dress"], &skirt = set.classes["skirt"],
+           &trousers = set.classes["trousers"], &whole = set.classes["whole"];
   for (FitRules* rules : {&top, &dress, &whole}) {
     say(*rules, CHESTS, 0.25, 0.45);
     say(*rules, WAIST_LEVELS, 0.35, 0.65);
     rules->girths["upper_arm"] = roomy(0.60, 1.20);
     rules->girths["wrist"] = rules->girths["sleeve_hem"] = roomy(1.00, 0);
-    rules->girths["neck_edge"] = rules->girths["neck_base"] = rules->girths["neck"] = roomy(0.35, 0);
+    rules->girths["neck_edge"] = rules->girths["neck_base"] = rules->girths["neck"] =
+        roomy(0.35, 0);
   }
   say(top, HIPS, 0.35, 0.65);
   dress.standard = skirt.standard = roomy(1.50, 0);
@@ -103,7 +114,8 @@ FitRuleSet woven_rules() {
   for (FitRules* rules : {&trousers, &whole}) {
     say(*rules, HIPS, 0.25, 0.45);
     rules->girths["thigh"] = roomy(0.50, 0.90);
-    rules->girths["knee"] = rules->girths["calf"] = rules->girths["ankle_min"] = rules->girths["leg_hem"] = roomy(1.50, 0);
+    rules->girths["knee"] = rules->girths["calf"] = rules->girths["ankle_min"] =
+        rules->girths["leg_hem"] = roomy(1.50, 0);
   }
   return set;
 }
@@ -124,25 +136,35 @@ const char* verdict_name(FitVerdict verdict) {
 void FitOverride::apply(FitLimits& limits) const {
   limits.too_small_strain = too_small_strain.value_or(limits.too_small_strain);
   // A limit that is said pushes those on the way, which were said less near.
-  const std::array<double*, 4> ladder = {&limits.too_small_ease, &limits.tight_ease, &limits.loose_ease, &limits.too_large_ease};
-  const std::array<const std::optional<double>*, 4> said = {&too_small_ease, &tight_ease, &loose_ease, &too_large_ease};
+  const std::array<double*, 4> ladder = {&limits.too_small_ease, &limits.tight_ease,
+                                         &limits.loose_ease, &limits.too_large_ease};
+  const std::array<const std::optional<double>*, 4> said = {&too_small_ease, &tight_ease,
+                                                            &loose_ease, &too_large_ease};
   for (std::size_t k = 0; k < ladder.size(); ++k) {
     if (!*said[k]) continue;
-    for (std::size_t j = 0; j < ladder.size(); ++j) *ladder[j] = j < k ? std::min(*ladder[j], **said[k]) : j > k ? std::max(*ladder[j], **said[k]) : **said[k];
+    for (std::size_t j = 0; j < ladder.size(); ++j)
+      *ladder[j] = j < k   ? std::min(*ladder[j], **said[k])
+                   : j > k ? std::max(*ladder[j], **said[k])
+                           : **said[k];
   }
 }
 
-FitLimits FitPolicy::limits(const std::string& girth, const std::string& garment_class, const std::string& fabric) const {
+FitLimits FitPolicy::limits(const std::string& girth, const std::string& garment_class,
+                            const std::string& fabric) const {
   FitLimits limits;
-  const std::string both_sides = girth.size() > 2 && girth[girth.size() - 2] == '_' ? girth.substr(0, girth.size() - 2) : girth;
+  const std::string both_sides = girth.size() > 2 && girth[girth.size() - 2] == '_'
+                                     ? girth.substr(0, girth.size() - 2)
+                                     : girth;
   for (const FitRuleSet* set : {&standard, &own}) {
-    const std::array<const FitRules*, 3> layers = {&set->all, rules_of(set->classes, garment_class), rules_of(set->fabrics, fabric)};
+    const std::array<const FitRules*, 3> layers = {&set->all, rules_of(set->classes, garment_class),
+                                                   rules_of(set->fabrics, fabric)};
     for (const FitRules* rules : layers)
       if (rules) rules->standard.apply(limits);
     for (const FitRules* rules : layers) {
       if (!rules) continue;
       for (const std::string& key : {both_sides, girth})
-        if (const auto found = rules->girths.find(key); found != rules->girths.end()) found->second.apply(limits);
+        if (const auto found = rules->girths.find(key); found != rules->girths.end())
+          found->second.apply(limits);
     }
   }
   return limits;
@@ -154,24 +176,32 @@ static FitPolicy without_document(const FitPolicy& policy) {
   return ours;
 }
 
-double FitPolicy::too_small_ease(const FitLimits& limits, double designed, const std::string& girth, const std::string& garment_class,
+double FitPolicy::too_small_ease(const FitLimits& limits, double designed, const std::string& girth,
+                                 const std::string& garment_class,
                                  const std::string& fabric) const {
   if (worn_p99 == 0) return limits.too_small_ease;
-  const bool said = limits.too_small_ease != without_document(*this).limits(girth, garment_class, fabric).too_small_ease;
+  const bool said = limits.too_small_ease !=
+                    without_document(*this).limits(girth, garment_class, fabric).too_small_ease;
   return said ? limits.too_small_ease : std::min(limits.too_small_ease, designed - BELOW_DESIGN);
 }
 
-double FitPolicy::too_large_ease(const FitLimits& limits, double designed, const std::string& girth, const std::string& garment_class,
+double FitPolicy::too_large_ease(const FitLimits& limits, double designed, const std::string& girth,
+                                 const std::string& garment_class,
                                  const std::string& fabric) const {
-  const bool said = limits.too_large_ease != without_document(*this).limits(girth, garment_class, fabric).too_large_ease;
-  return said ? limits.too_large_ease : std::max(limits.too_large_ease, (1 + designed) * (1 + BEYOND_DESIGN * limits.too_large_ease) - 1);
+  const bool said = limits.too_large_ease !=
+                    without_document(*this).limits(girth, garment_class, fabric).too_large_ease;
+  return said ? limits.too_large_ease
+              : std::max(limits.too_large_ease,
+                         (1 + designed) * (1 + BEYOND_DESIGN * limits.too_large_ease) - 1);
 }
 
 double FitPolicy::strain_p99(const std::string& garment_class, const std::string& fabric) const {
-  return std::max(last_said(*this, &FitRules::strain_p99, STRAIN_P99, garment_class, fabric), AS_WORN * worn_p99);
+  return std::max(last_said(*this, &FitRules::strain_p99, STRAIN_P99, garment_class, fabric),
+                  AS_WORN * worn_p99);
 }
 double FitPolicy::strain_max(const std::string& garment_class, const std::string& fabric) const {
-  return std::max(last_said(*this, &FitRules::strain_max, STRAIN_MAX, garment_class, fabric), AS_WORN * worn_max);
+  return std::max(last_said(*this, &FitRules::strain_max, STRAIN_MAX, garment_class, fabric),
+                  AS_WORN * worn_max);
 }
 double FitPolicy::slip_m(const std::string& garment_class, const std::string& fabric) const {
   return last_said(*this, &FitRules::slip_m, SLIP, garment_class, fabric);
@@ -186,8 +216,8 @@ FitPolicy standard_fit_policy() {
 FitPolicy read_fit_policy(const std::string& path) {
   const io::Json document = io::read_document(path, "fit-policy", FIT_POLICY_VERSION);
   const io::Node root(document, path);
-  root.allow_only(
-      {"format", "version", "generator", "length_unit", "name", "refuse", "default", "girths", "strain_p99", "strain_max", "slip_m", "classes", "fabrics"});
+  root.allow_only({"format", "version", "generator", "length_unit", "name", "refuse", "default",
+                   "girths", "strain_p99", "strain_max", "slip_m", "classes", "fabrics"});
   FitPolicy policy = standard_fit_policy();
   policy.name = root.string("name", "unnamed");
   policy.own.all = read_rules(root);
@@ -202,8 +232,10 @@ FitPolicy read_fit_policy(const std::string& path) {
   layer("classes", policy.own.classes);
   layer("fabrics", policy.own.fabrics);
   for (const auto& [name, rules] : policy.own.classes)
-    if (name != "top" && name != "dress" && name != "skirt" && name != "trousers" && name != "whole")
-      root.at("classes").fail("\"" + name + "\" is not a class of garments", "use top, dress, skirt, trousers or whole");
+    if (name != "top" && name != "dress" && name != "skirt" && name != "trousers" &&
+        name != "whole")
+      root.at("classes").fail("\"" + name + "\" is not a class of garments",
+                              "use top, dress, skirt, trousers or whole");
   if (root.has("refuse")) {
     const io::Node refuse = root.at("refuse");
     for (std::size_t i = 0; i < refuse.size(); ++i) {
@@ -211,7 +243,8 @@ FitPolicy read_fit_policy(const std::string& path) {
       if (word == "loose") policy.refuse_loose = true;
       else if (word == "tight") policy.refuse_tight = true;
       else if (word != "too small" && word != "too large")
-        refuse.at(i).fail("\"" + word + "\" is not a verdict", "use \"too small\", \"too large\", \"tight\" or \"loose\"");
+        refuse.at(i).fail("\"" + word + "\" is not a verdict",
+                          "use \"too small\", \"too large\", \"tight\" or \"loose\"");
     }
   }
   return policy;

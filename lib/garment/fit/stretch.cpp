@@ -13,18 +13,23 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double GROSS = 0.1;           // of any fabric: woven cloth near its limit
-constexpr double WORN_TENSION = 100;    // N/m, twice a wearing load: knits give more than GROSS to it
-constexpr double FURTHER = 1.5;         // times the strain on its own body: within that it hangs as it did
-constexpr double TELLING_SHARE = 0.002; // of the particles held in a pinch: fewer are in any garment
+constexpr double GROSS = 0.1;        // of any fabric: woven cloth near its limit
+constexpr double WORN_TENSION = 100; // N/m, twice a wearing load: knits give more than GROSS to it
+constexpr double FURTHER = 1.5; // times the strain on its own body: within that it hangs as it did
+constexpr double TELLING_SHARE =
+    0.002; // of the particles held in a pinch: fewer are in any garment
 
 std::string strain_text(double strain) { return percent(strain, strain < 0.1 ? 1 : 0); }
 
 std::string stretch_text(const Stretch& s, const Garment& garment, const io::Json& quality) {
   const int held = quality.value("particles_held", 0);
-  return "a hundredth of its cloth is stretched by " + strain_text(s.p99) + " or more, most in panel " + s.panel + " (" + strain_text(s.panel_p99) +
-         "), at most by " + strain_text(s.max) + " at " + sloper::place_text(s.place.x(), s.place.y(), s.place.z()) + " m" +
-         (held > TELLING_SHARE * static_cast<double>(garment.position.size()) ? ", and " + std::to_string(held) + " particles are caught" : "");
+  return "a hundredth of its cloth is stretched by " + strain_text(s.p99) +
+         " or more, most in panel " + s.panel + " (" + strain_text(s.panel_p99) + "), at most by " +
+         strain_text(s.max) + " at " + sloper::place_text(s.place.x(), s.place.y(), s.place.z()) +
+         " m" +
+         (held > TELLING_SHARE * static_cast<double>(garment.position.size())
+              ? ", and " + std::to_string(held) + " particles are caught"
+              : "");
 }
 
 } // namespace
@@ -45,10 +50,12 @@ Stretch stretch_of(const Garment& garment) {
       if (stretch <= result.max) continue;
       result.max = stretch;
       result.place = Vec3::Zero();
-      for (const int v : garment.panels.triangles[f]) result.place += garment.position[garment.particle_of[v]] / 3;
+      for (const int v : garment.panels.triangles[f])
+        result.place += garment.position[garment.particle_of[v]] / 3;
     }
     all.insert(all.end(), own.begin(), own.end());
-    if (const double p99 = area_quantile(own, 0.99); result.panel.empty() || p99 > result.panel_p99) result.panel_p99 = p99, result.panel = panel.name;
+    if (const double p99 = area_quantile(own, 0.99); result.panel.empty() || p99 > result.panel_p99)
+      result.panel_p99 = p99, result.panel = panel.name;
   }
   result.p99 = area_quantile(all, 0.99);
   result.bound = std::max(GROSS, WORN_TENSION / softest);
@@ -56,21 +63,27 @@ Stretch stretch_of(const Garment& garment) {
 }
 
 std::optional<double> stretch_elsewhere(const Garment& garment, const std::string& skin_sha256) {
-  if (garment.body_sha256.empty() || skin_sha256.empty() || garment.body_sha256 == skin_sha256) return std::nullopt;
+  if (garment.body_sha256.empty() || skin_sha256.empty() || garment.body_sha256 == skin_sha256)
+    return std::nullopt;
   return stretch_of(garment).p99;
 }
 
-void judge_stretch(Garment& garment, DrapeOutcome& outcome, const Start& start, std::optional<double> before, std::vector<std::string>& findings,
+void judge_stretch(Garment& garment, DrapeOutcome& outcome, const Start& start,
+                   std::optional<double> before, std::vector<std::string>& findings,
                    Reporter& reporter) {
   if (start.body.empty() || garment.particle_of.empty()) return;
   DrapeReport& report = outcome.report;
   const Stretch now = stretch_of(garment);
-  const bool failed = before && now.p99 > std::max(standard_fit_policy().strain_p99("", ""), FURTHER * *before);
+  const bool failed =
+      before && now.p99 > std::max(standard_fit_policy().strain_p99("", ""), FURTHER * *before);
   if (!failed && (before || !report.converged || now.p99 <= now.bound)) return;
-  const std::string file = io::file_name(start.file), body = io::file_name(start.body), retarget = "retarget-garment --garment ";
-  findings.push_back(file + " on " + body + ": " + stretch_text(now, garment, report.quality) + "; " +
-                     (failed ? "it comes from another body, and draping does not put it on this one: " + retarget + file + " --to " + body + " does"
-                             : retarget + "FILE --to " + body + " --fit FIT tells how it fits"));
+  const std::string file = io::file_name(start.file), body = io::file_name(start.body),
+                    retarget = "retarget-garment --garment ";
+  findings.push_back(
+      file + " on " + body + ": " + stretch_text(now, garment, report.quality) + "; " +
+      (failed ? "it comes from another body, and draping does not put it on this one: " + retarget +
+                    file + " --to " + body + " does"
+              : retarget + "FILE --to " + body + " --fit FIT tells how it fits"));
   reporter.warning(findings.back());
   if (!failed || !report.converged) return;
   report.converged = garment.converged = false;

@@ -9,8 +9,9 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double ROUND = 0.75;      // share of the way to the rounded surface (Boubekeur and Alexa 2008)
-constexpr double MOST_BEYOND = 0.6; // of a triangle: its plane is not followed further, beyond the outline
+constexpr double ROUND = 0.75; // share of the way to the rounded surface (Boubekeur and Alexa 2008)
+constexpr double MOST_BEYOND =
+    0.6; // of a triangle: its plane is not followed further, beyond the outline
 
 /// A place on a mesh.
 struct Place {
@@ -22,7 +23,8 @@ Vec3 barycentric_of(const std::array<Vec2, 3>& t, const Vec2& p) {
   const Vec2 e = t[1] - t[0], f = t[2] - t[0], d = p - t[0];
   const double area = e.x() * f.y() - e.y() * f.x();
   if (std::abs(area) < 1e-18) return {1, 0, 0};
-  const double v = (d.x() * f.y() - d.y() * f.x()) / area, w = (e.x() * d.y() - e.y() * d.x()) / area;
+  const double v = (d.x() * f.y() - d.y() * f.x()) / area,
+               w = (e.x() * d.y() - e.y() * d.x()) / area;
   return {1 - v - w, v, w};
 }
 
@@ -40,14 +42,18 @@ Vec3 limited(const Vec3& weights) {
 const pattern::PanelInfo& panel_of_name(const pattern::PanelMesh& mesh, const std::string& name) {
   for (const pattern::PanelInfo& p : mesh.panels)
     if (p.name == name) return p;
-  throw input_error("", "panel " + name, "is not in the coarser mesh of the same pattern", "mesh the pattern anew");
+  throw input_error("", "panel " + name, "is not in the coarser mesh of the same pattern",
+                    "mesh the pattern anew");
 }
 
-/// Looks at the last triangle first: neighbours come one after the other. Cost: vertices of one times triangles of the other, by panel.
-Place place_in(const pattern::PanelMesh& mesh, const pattern::PanelInfo& panel, const Vec2& p, int last) {
+/// Looks at the last triangle first: neighbours come one after the other. Cost: vertices of one
+/// times triangles of the other, by panel.
+Place place_in(const pattern::PanelMesh& mesh, const pattern::PanelInfo& panel, const Vec2& p,
+               int last) {
   const auto corners = [&](int f) {
     const Triangle& t = mesh.triangles[static_cast<std::size_t>(f)];
-    return std::array<Vec2, 3>{mesh.pattern[static_cast<std::size_t>(t[0])], mesh.pattern[static_cast<std::size_t>(t[1])],
+    return std::array<Vec2, 3>{mesh.pattern[static_cast<std::size_t>(t[0])],
+                               mesh.pattern[static_cast<std::size_t>(t[1])],
                                mesh.pattern[static_cast<std::size_t>(t[2])]};
   };
   double least = 1e300;
@@ -59,7 +65,8 @@ Place place_in(const pattern::PanelMesh& mesh, const pattern::PanelInfo& panel, 
     const Vec3 w = barycentric_of(t, p);
     if (w.minCoeff() >= 0) return {f, w};
     double off = 1e300;
-    for (std::size_t side = 0; side < 3; ++side) off = std::min(off, distance2_to_edge(p, t[side], t[(side + 1) % 3]));
+    for (std::size_t side = 0; side < 3; ++side)
+      off = std::min(off, distance2_to_edge(p, t[side], t[(side + 1) % 3]));
     if (off < least) {
       least = off;
       nearest = {f, limited(w)};
@@ -74,7 +81,8 @@ std::vector<Place> places_of(const pattern::PanelMesh& from, const pattern::Pane
     const pattern::PanelInfo& same = panel_of_name(from, panel.name);
     int last = -1;
     for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
-      places[static_cast<std::size_t>(v)] = place_in(from, same, mesh.pattern[static_cast<std::size_t>(v)], last);
+      places[static_cast<std::size_t>(v)] =
+          place_in(from, same, mesh.pattern[static_cast<std::size_t>(v)], last);
       last = places[static_cast<std::size_t>(v)].triangle;
     }
   }
@@ -83,12 +91,14 @@ std::vector<Place> places_of(const pattern::PanelMesh& from, const pattern::Pane
 
 } // namespace
 
-std::vector<Vec3> interpolate(const pattern::PanelMesh& from, const std::vector<Vec3>& at, const pattern::PanelMesh& mesh) {
+std::vector<Vec3> interpolate(const pattern::PanelMesh& from, const std::vector<Vec3>& at,
+                              const pattern::PanelMesh& mesh) {
   std::vector<Vec3> out;
   for (const Place& place : places_of(from, mesh)) {
     const Triangle& t = from.triangles[static_cast<std::size_t>(place.triangle)];
     Vec3 p = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) p += place.weights[k] * at[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
+    for (int k = 0; k < 3; ++k)
+      p += place.weights[k] * at[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
     out.push_back(p);
   }
   return out;
@@ -97,7 +107,9 @@ std::vector<Vec3> interpolate(const pattern::PanelMesh& from, const std::vector<
 Garment on_finer_mesh(const Garment& coarse, const pattern::PanelMesh& mesh) {
   const std::vector<Triangle> triangles = coarse.particle_triangles();
   std::vector<Vec3> normal(coarse.position.size(), Vec3::Zero());
-  const auto at = [&](int i) -> const Vec3& { return coarse.position[static_cast<std::size_t>(i)]; };
+  const auto at = [&](int i) -> const Vec3& {
+    return coarse.position[static_cast<std::size_t>(i)];
+  };
   for (const Triangle& t : triangles) {
     const Vec3 n = (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
     for (int i : t) normal[static_cast<std::size_t>(i)] += n;

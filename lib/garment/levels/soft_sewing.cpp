@@ -18,13 +18,15 @@ namespace sloper::garment {
 
 namespace {
 
-// All steps are counted: nothing here depends on how far the cloth has come. Chosen on three garments (T-shirt, long sleeves, trousers).
+// All steps are counted: nothing here depends on how far the cloth has come. Chosen on three
+// garments (T-shirt, long sleeves, trousers).
 constexpr int SEWING_STEPS = 60;
 constexpr double SOFT_STEP_S = 0.1; // of the overdamped flow
 constexpr double SOFT_MOVE = 0.02;  // m, of the fastest particle in a step
-constexpr double BOARD = 1000;      // times the fabric's bending, while seams close; with 100 panels buckle: spread of 24 mm in place of none
-constexpr double FIRST_PULL = 10;   // of a stitch at its reach, in weights of a particle
-constexpr double LAST_PULL = 20;    // N, likewise
+constexpr double BOARD = 1000;    // times the fabric's bending, while seams close; with 100 panels
+                                  // buckle: spread of 24 mm in place of none
+constexpr double FIRST_PULL = 10; // of a stitch at its reach, in weights of a particle
+constexpr double LAST_PULL = 20;  // N, likewise
 constexpr int PULL_GROWS_FROM = 15, PULL_GROWS_TO = 50;
 constexpr double STITCH_REACH = 0.05; // m: the pull does not grow beyond this gap
 constexpr double DRAWN_IN = 0.7;      // of the body's thickness, until the panels are around it
@@ -33,18 +35,23 @@ constexpr double SEWING_REACH = 0.012;     // m: a chord of 48 mm lies 6 mm belo
 constexpr double SEWING_STIFFNESS = 5e5;   // N/m3
 constexpr double RELAXING_STIFFNESS = 3e5; // N/m3
 constexpr double CREEP = 0.5;              // of it, along the skin
-constexpr double SEWING_TOLERANCE = 1e-4;  // relative residual; 1e-3 left 11 mm of spread once, exact solves gain nothing more
-constexpr double SIDE_STIFFNESS = 200;     // N/m of a particle
-constexpr double SIDE_GAP = 0.004;         // m: how far legs are kept from the middle
-constexpr double LONG_EDGE = 0.024;        // m: with shorter ones contact on particles alone will do
+constexpr double SEWING_TOLERANCE =
+    1e-4; // relative residual; 1e-3 left 11 mm of spread once, exact solves gain nothing more
+constexpr double SIDE_STIFFNESS = 200; // N/m of a particle
+constexpr double SIDE_GAP = 0.004;     // m: how far legs are kept from the middle
+constexpr double LONG_EDGE = 0.024;    // m: with shorter ones contact on particles alone will do
 
-double share_of_way(int k, int from, int to) { return std::clamp(static_cast<double>(k - from) / (to - from), 0.0, 1.0); }
-
-double mean_weight(const cloth::ClothMesh& mesh) {
-  return std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0) * units::GRAVITY / static_cast<double>(mesh.n_particles);
+double share_of_way(int k, int from, int to) {
+  return std::clamp(static_cast<double>(k - from) / (to - from), 0.0, 1.0);
 }
 
-/// Which trouser leg each particle belongs to: 1 left, 2 right, 0 none, and none where both are joined.
+double mean_weight(const cloth::ClothMesh& mesh) {
+  return std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0) * units::GRAVITY /
+         static_cast<double>(mesh.n_particles);
+}
+
+/// Which trouser leg each particle belongs to: 1 left, 2 right, 0 none, and none where both are
+/// joined.
 std::vector<char> leg_sides(const Garment& garment) {
   std::vector<char> side(garment.position.size(), 0), joins(garment.position.size(), 0);
   for (const pattern::PanelInfo& p : garment.panels.panels) {
@@ -56,7 +63,8 @@ std::vector<char> leg_sides(const Garment& garment) {
     }
   }
   for (const auto& [a, b] : open_stitches(garment))
-    if (side[static_cast<std::size_t>(a)] != side[static_cast<std::size_t>(b)]) joins[static_cast<std::size_t>(a)] = joins[static_cast<std::size_t>(b)] = 1;
+    if (side[static_cast<std::size_t>(a)] != side[static_cast<std::size_t>(b)])
+      joins[static_cast<std::size_t>(a)] = joins[static_cast<std::size_t>(b)] = 1;
   for (std::size_t i = 0; i < side.size(); ++i)
     if (joins[i]) side[i] = 0;
   return side;
@@ -65,15 +73,21 @@ std::vector<char> leg_sides(const Garment& garment) {
 /// Cloth in the middle of its way, by steps without a line search.
 class SoftCloth {
 public:
-  SoftCloth(Garment& garment, CollisionBody& body, double reach, double stiffness, double drag, double tolerance)
-      : m_garment(garment), m_start(garment.position), m_mesh(cloth_mesh_of(garment)), m_hinges(m_mesh.hinges),
-        m_velocity(garment.position.size(), Vec3::Zero()), m_solver(m_mesh, garment.position, m_velocity) {
+  SoftCloth(Garment& garment, CollisionBody& body, double reach, double stiffness, double drag,
+            double tolerance)
+      : m_garment(garment), m_start(garment.position), m_mesh(cloth_mesh_of(garment)),
+        m_hinges(m_mesh.hinges), m_velocity(garment.position.size(), Vec3::Zero()),
+        m_solver(m_mesh, garment.position, m_velocity) {
     m_solver.emplace<cloth::EdgeSpringEffect>(m_mesh);
     m_solver.emplace<cloth::ShearEffect>(m_mesh);
     m_solver.emplace<cloth::BendingEffect>(m_mesh);
-    const cloth::SoftBodyContactOptions contact{
-        .reach_m = reach, .stiffness_n_m3 = stiffness, .drag = drag, .on_edges = garment.panels.edge_length > LONG_EDGE};
-    if (body.collider()) m_contact = &m_solver.emplace<cloth::SoftBodyContactEffect>(m_mesh, *body.collider(), contact);
+    const cloth::SoftBodyContactOptions contact{.reach_m = reach,
+                                                .stiffness_n_m3 = stiffness,
+                                                .drag = drag,
+                                                .on_edges = garment.panels.edge_length > LONG_EDGE};
+    if (body.collider())
+      m_contact =
+          &m_solver.emplace<cloth::SoftBodyContactEffect>(m_mesh, *body.collider(), contact);
     keep_legs_apart();
     m_options.h = SOFT_STEP_S;
     m_options.cg_tolerance = tolerance;
@@ -83,7 +97,8 @@ public:
   const cloth::ClothMesh& mesh() const { return m_mesh; }
   cloth::SoftBodyContactEffect* contact() { return m_contact; } ///< null without a body
   void set_bending(double times) {
-    for (std::size_t e = 0; e < m_hinges.size(); ++e) m_mesh.hinges[e].stiffness = times * m_hinges[e].stiffness;
+    for (std::size_t e = 0; e < m_hinges.size(); ++e)
+      m_mesh.hinges[e].stiffness = times * m_hinges[e].stiffness;
   }
   /// @return false where it is not finite: the garment is as it came
   bool step() {
@@ -122,13 +137,15 @@ SoftSewing sew_softly(Garment& garment, CollisionBody& body, Reporter& reporter)
   unsew(garment);
   if (body.collider()) body.draw_in(DRAWN_IN);
   SoftCloth cloth(garment, body, SEWING_REACH, SEWING_STIFFNESS, 0, SEWING_TOLERANCE);
-  auto& stitches = cloth.solver().emplace<cloth::SewingSpringEffect>(open_stitches(garment), 1.0, STITCH_REACH);
+  auto& stitches =
+      cloth.solver().emplace<cloth::SewingSpringEffect>(open_stitches(garment), 1.0, STITCH_REACH);
   cloth.set_bending(BOARD);
   const double first_pull = FIRST_PULL * mean_weight(cloth.mesh());
   SoftSewing result;
   for (int k = 0; k < SEWING_STEPS && !reporter.stop_requested(); ++k) {
     reporter.progress("sew", 0.4 * k / SEWING_STEPS);
-    const double pull = first_pull * std::pow(LAST_PULL / first_pull, share_of_way(k, PULL_GROWS_FROM, PULL_GROWS_TO));
+    const double pull = first_pull * std::pow(LAST_PULL / first_pull,
+                                              share_of_way(k, PULL_GROWS_FROM, PULL_GROWS_TO));
     stitches.set_stiffness(pull / STITCH_REACH);
     const double scale = DRAWN_IN + (1 - DRAWN_IN) * share_of_way(k, INFLATE_FROM, INFLATE_TO);
     if (cloth.contact() && scale > body.state().scale) {
@@ -146,13 +163,16 @@ SoftSewing sew_softly(Garment& garment, CollisionBody& body, Reporter& reporter)
   return result;
 }
 
-bool relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxing& how, double gravity_m_s2, Reporter& reporter) {
+bool relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxing& how,
+                  double gravity_m_s2, Reporter& reporter) {
   SoftCloth cloth(garment, body, how.reach_m, RELAXING_STIFFNESS, CREEP, how.cg_tolerance);
   cloth.solver().emplace<cloth::GravityEffect>(cloth.mesh(), Vec3(0, -gravity_m_s2, 0));
   for (int k = 0; k < how.steps && !reporter.stop_requested(); ++k) {
     reporter.progress("relax", -1);
     cloth.set_bending(std::pow(how.bending, 1 - share_of_way(k, 0, (how.steps + 1) / 2)));
-    if (cloth.contact()) cloth.contact()->set_reach(how.reach_m + (how.last_reach_m - how.reach_m) * share_of_way(k, 0, how.steps - 1));
+    if (cloth.contact())
+      cloth.contact()->set_reach(how.reach_m + (how.last_reach_m - how.reach_m) *
+                                                   share_of_way(k, 0, how.steps - 1));
     if (!cloth.step()) return false;
   }
   return true;

@@ -1,5 +1,6 @@
 #pragma once
-/// The pattern that a garment was meshed from, beside its mesh: which edge each mesh point of an outline lies on.
+/// The pattern that a garment was meshed from, beside its mesh: which edge each mesh point of an
+/// outline lies on.
 #include <garment/garment.hpp>
 #include <pattern/pattern.hpp>
 
@@ -9,11 +10,13 @@ namespace sloper::garment {
 
 struct DrawnPattern {
   const pattern::Pattern* pattern = nullptr; ///< PanelMesh::source of the garment
-  std::vector<std::vector<int>> edge_of;     ///< by panel, as PanelInfo::outline: the edge that starts at a vertex or runs through it, ascending
-  std::vector<std::vector<Vec2>> outlines;   ///< likewise, m: the vertices as they were drawn
+  std::vector<std::vector<int>> edge_of; ///< by panel, as PanelInfo::outline: the edge that starts
+                                         ///< at a vertex or runs through it, ascending
+  std::vector<std::vector<Vec2>> outlines; ///< likewise, m: the vertices as they were drawn
 };
 
-/// Nothing where the garment does not know its pattern, or its panels are meshed otherwise. A regraded garment still knows the one before.
+/// Nothing where the garment does not know its pattern, or its panels are meshed otherwise. A
+/// regraded garment still knows the one before.
 /// @param garment outlives the result
 std::optional<DrawnPattern> drawn_pattern(const Garment& garment);
 

@@ -9,10 +9,12 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr int SAMPLES = 128;              // of an outline, evenly spaced
-constexpr double ALIKE = 0.002;           // m that outlines of mirror images may differ: drawn by hand, digitised
+constexpr int SAMPLES = 128; // of an outline, evenly spaced
+constexpr double ALIKE =
+    0.002; // m that outlines of mirror images may differ: drawn by hand, digitised
 constexpr double PERIMETER_SHARE = 0.005; // by which their lengths may
-constexpr double SAME_PLACE = 0.2;        // m, mean distance of mirrored places on the body; twisted cloth is nearer than another limb's
+constexpr double SAME_PLACE = 0.2; // m, mean distance of mirrored places on the body; twisted cloth
+                                   // is nearer than another limb's
 
 /// An outline as evenly spaced points in the pattern and on the body.
 struct Ring {
@@ -51,12 +53,15 @@ struct WornOutline {
   }
 };
 
-WornOutline outline_of(const pattern::PanelMesh& panels, const pattern::PanelInfo& info, const std::vector<Vec3>& position) {
+WornOutline outline_of(const pattern::PanelMesh& panels, const pattern::PanelInfo& info,
+                       const std::vector<Vec3>& position) {
   WornOutline o;
-  for (const int v : info.outline) o.flat.push_back(panels.pattern[v]), o.body.push_back(position[v]);
+  for (const int v : info.outline)
+    o.flat.push_back(panels.pattern[v]), o.body.push_back(position[v]);
   double sharpest = 2;
   for (int i = 0; i < o.n(); ++i) {
-    const Vec2 before = o.flat[i] - o.flat[(i + o.n() - 1) % o.n()], after = o.flat[(i + 1) % o.n()] - o.flat[i];
+    const Vec2 before = o.flat[i] - o.flat[(i + o.n() - 1) % o.n()],
+               after = o.flat[(i + 1) % o.n()] - o.flat[i];
     o.perimeter += after.norm();
     const double cosine = before.normalized().dot(after.normalized());
     if (cosine < sharpest - 1e-9) sharpest = cosine, o.corner = i;
@@ -64,34 +69,42 @@ WornOutline outline_of(const pattern::PanelMesh& panels, const pattern::PanelInf
   return o;
 }
 
-/// The reflection that brings a best on b in the least squares, and the largest distance that is left.
+/// The reflection that brings a best on b in the least squares, and the largest distance that is
+/// left.
 PanelMirror reflection(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
   Vec2 center_a = Vec2::Zero(), center_b = Vec2::Zero();
   for (std::size_t i = 0; i < a.size(); ++i) center_a += a[i] / SAMPLES, center_b += b[i] / SAMPLES;
   Eigen::Matrix2d m = Eigen::Matrix2d::Zero();
   for (std::size_t i = 0; i < a.size(); ++i) m += (b[i] - center_b) * (a[i] - center_a).transpose();
-  const double angle = std::atan2(m(0, 1) + m(1, 0), m(0, 0) - m(1, 1)), c = std::cos(angle), s = std::sin(angle);
+  const double angle = std::atan2(m(0, 1) + m(1, 0), m(0, 0) - m(1, 1)), c = std::cos(angle),
+               s = std::sin(angle);
   PanelMirror mirror;
   mirror.linear << c, s, s, -c;
   mirror.shift = center_b - mirror.linear * center_a;
   for (std::size_t i = 0; i < a.size(); ++i)
-    mirror.largest_difference_m = std::max(mirror.largest_difference_m, (mirror.linear * a[i] + mirror.shift - b[i]).norm());
+    mirror.largest_difference_m =
+        std::max(mirror.largest_difference_m, (mirror.linear * a[i] + mirror.shift - b[i]).norm());
   return mirror;
 }
 
-/// The partner's grain lies along or across the mirrored one, or the threads would not be each other's.
-bool grain_agrees(const pattern::PanelInfo& from, const pattern::PanelInfo& to, PanelMirror& mirror) {
-  const double cosine = std::abs((mirror.linear * from.grain.normalized()).dot(to.grain.normalized()));
+/// The partner's grain lies along or across the mirrored one, or the threads would not be each
+/// other's.
+bool grain_agrees(const pattern::PanelInfo& from, const pattern::PanelInfo& to,
+                  PanelMirror& mirror) {
+  const double cosine =
+      std::abs((mirror.linear * from.grain.normalized()).dot(to.grain.normalized()));
   mirror.grain_across = cosine < 0.02;
   return mirror.grain_across || cosine > 0.9998;
 }
 
 } // namespace
 
-std::vector<PanelMirror> panel_mirrors(const pattern::PanelMesh& panels, const std::vector<Vec3>& position) {
+std::vector<PanelMirror> panel_mirrors(const pattern::PanelMesh& panels,
+                                       const std::vector<Vec3>& position) {
   const int n = static_cast<int>(panels.panels.size());
   std::vector<WornOutline> outlines;
-  for (const pattern::PanelInfo& info : panels.panels) outlines.push_back(outline_of(panels, info, position));
+  for (const pattern::PanelInfo& info : panels.panels)
+    outlines.push_back(outline_of(panels, info, position));
   struct Pair {
     double apart; ///< mean distance of mirrored places on the body, m
     int p, q;
@@ -102,20 +115,28 @@ std::vector<PanelMirror> panel_mirrors(const pattern::PanelMesh& panels, const s
     if (outlines[p].n() < 3) continue;
     const Ring ring = outlines[p].walk(outlines[p].corner, 1);
     for (int q = p; q < n; ++q) {
-      if (outlines[q].n() < 3 || std::abs(outlines[q].perimeter / outlines[p].perimeter - 1) > PERIMETER_SHARE) continue;
+      if (outlines[q].n() < 3 ||
+          std::abs(outlines[q].perimeter / outlines[p].perimeter - 1) > PERIMETER_SHARE)
+        continue;
       Pair best{SAME_PLACE, p, q, {}};
       for (int start = 0; start < outlines[q].n(); ++start) {
         const Ring image = outlines[q].walk(start, -1);
         PanelMirror mirror = reflection(ring.flat, image.flat);
-        if (mirror.largest_difference_m > ALIKE || !grain_agrees(panels.panels[p], panels.panels[q], mirror)) continue;
+        if (mirror.largest_difference_m > ALIKE ||
+            !grain_agrees(panels.panels[p], panels.panels[q], mirror))
+          continue;
         double apart = 0;
-        for (int k = 0; k < SAMPLES; ++k) apart += (Vec3(-ring.body[k].x(), ring.body[k].y(), ring.body[k].z()) - image.body[k]).norm() / SAMPLES;
+        for (int k = 0; k < SAMPLES; ++k)
+          apart +=
+              (Vec3(-ring.body[k].x(), ring.body[k].y(), ring.body[k].z()) - image.body[k]).norm() /
+              SAMPLES;
         if (apart < best.apart) best.apart = apart, best.mirror = mirror, best.mirror.partner = q;
       }
       if (best.mirror.partner >= 0) pairs.push_back(best);
     }
   }
-  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.apart < b.apart; });
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.apart < b.apart; });
   std::vector<PanelMirror> mirrors(n);
   for (const Pair& pair : pairs) {
     if (mirrors[pair.p].partner >= 0 || mirrors[pair.q].partner >= 0) continue;
@@ -130,7 +151,8 @@ std::vector<PanelMirror> panel_mirrors(const pattern::PanelMesh& panels, const s
   return mirrors;
 }
 
-Eigen::MatrixX2d seen_from_mirror(const pattern::PanelMesh& panels, const pattern::PanelInfo& panel, const pattern::PanelInfo& image, const PanelMirror& mirror,
+Eigen::MatrixX2d seen_from_mirror(const pattern::PanelMesh& panels, const pattern::PanelInfo& panel,
+                                  const pattern::PanelInfo& image, const PanelMirror& mirror,
                                   const Eigen::MatrixX2d& values) {
   std::vector<Vec3> flat;
   for (int i = 0; i < panel.n_vertices; ++i) {
@@ -140,15 +162,18 @@ Eigen::MatrixX2d seen_from_mirror(const pattern::PanelMesh& panels, const patter
   std::vector<Triangle> triangles;
   for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
     const Triangle& t = panels.triangles[f];
-    triangles.push_back({t[0] - panel.first_vertex, t[1] - panel.first_vertex, t[2] - panel.first_vertex});
+    triangles.push_back(
+        {t[0] - panel.first_vertex, t[1] - panel.first_vertex, t[2] - panel.first_vertex});
   }
   const collision::TriangleTree tree(flat, triangles);
   Eigen::MatrixX2d seen(image.n_vertices, 2);
   for (int i = 0; i < image.n_vertices; ++i) {
     const Vec2 p = mirror.linear * panels.pattern[image.first_vertex + i] + mirror.shift;
-    const collision::ClosestPoint at = tree.closest_point(Vec3(p.x(), p.y(), 0), std::numeric_limits<double>::infinity());
+    const collision::ClosestPoint at =
+        tree.closest_point(Vec3(p.x(), p.y(), 0), std::numeric_limits<double>::infinity());
     seen.row(i).setZero();
-    for (int k = 0; k < 3; ++k) seen.row(i) += at.barycentric[k] * values.row(triangles[at.triangle][k]);
+    for (int k = 0; k < 3; ++k)
+      seen.row(i) += at.barycentric[k] * values.row(triangles[at.triangle][k]);
   }
   return seen;
 }

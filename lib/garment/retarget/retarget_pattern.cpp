@@ -38,21 +38,25 @@ struct Stretch {
 int panel_at(const Garment& garment, int vertex) {
   for (std::size_t k = 0; k < garment.panels.panels.size(); ++k) {
     const pattern::PanelInfo& p = garment.panels.panels[k];
-    if (vertex >= p.first_vertex && vertex < p.first_vertex + p.n_vertices) return static_cast<int>(k);
+    if (vertex >= p.first_vertex && vertex < p.first_vertex + p.n_vertices)
+      return static_cast<int>(k);
   }
   return -1;
 }
 
 /// The stretches of a seam side; empty when part of it lies inside a panel.
-std::vector<Stretch> stretches_of(const Garment& garment, const std::vector<EdgedOutline>& outlines, const std::vector<int>& run) {
+std::vector<Stretch> stretches_of(const Garment& garment, const std::vector<EdgedOutline>& outlines,
+                                  const std::vector<int>& run) {
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i + 1 < run.size(); ++i) {
     if (run[i] == run[i + 1]) continue;
     const int panel = panel_at(garment, run[i]);
-    if (panel != panel_at(garment, run[i + 1])) continue; // over to the next panel: the particle is the same
+    if (panel != panel_at(garment, run[i + 1]))
+      continue; // over to the next panel: the particle is the same
     const int step = outlines[panel].step(run[i], run[i + 1]);
     if (step == 0) return {};
-    if (!stretches.empty() && stretches.back().panel == panel && stretches.back().last == run[i] && stretches.back().step == step)
+    if (!stretches.empty() && stretches.back().panel == panel && stretches.back().last == run[i] &&
+        stretches.back().step == step)
       stretches.back().last = run[i + 1];
     else stretches.push_back({panel, run[i], run[i + 1], step});
   }
@@ -60,10 +64,13 @@ std::vector<Stretch> stretches_of(const Garment& garment, const std::vector<Edge
 }
 
 /// Whole edges along a stretch, in its direction.
-void add_runs(const EdgedOutline& outline, const Stretch& stretch, std::vector<pattern::Run>& runs) {
+void add_runs(const EdgedOutline& outline, const Stretch& stretch,
+              std::vector<pattern::Run>& runs) {
   const int from = outline.position.at(stretch.first), to = outline.position.at(stretch.last);
   const auto edge_from = [&](int start) {
-    return static_cast<int>(std::lower_bound(outline.edge_starts.begin(), outline.edge_starts.end(), start) - outline.edge_starts.begin());
+    return static_cast<int>(
+        std::lower_bound(outline.edge_starts.begin(), outline.edge_starts.end(), start) -
+        outline.edge_starts.begin());
   };
   int at = from;
   do {
@@ -77,15 +84,18 @@ void add_runs(const EdgedOutline& outline, const Stretch& stretch, std::vector<p
 
 void mark_corners(const Garment& shape, EdgedOutline& outline) {
   for (int i = 0; i < outline.n(); ++i) {
-    const Vec2 &p = shape.panels.pattern[outline.vertices[i]], &before = shape.panels.pattern[outline.vertices[outline.next(i, -1)]],
+    const Vec2 &p = shape.panels.pattern[outline.vertices[i]],
+               &before = shape.panels.pattern[outline.vertices[outline.next(i, -1)]],
                &after = shape.panels.pattern[outline.vertices[outline.next(i, 1)]];
     const Vec2 u = p - before, v = after - p;
     if (std::abs(std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v))) > CORNER) outline.ends[i] = 1;
   }
 }
 
-/// Outlines with the places where edges end: those of the drawn pattern where it is known, else corners; and the ends of seams.
-std::vector<EdgedOutline> edged_outlines(const Garment& shape, const std::optional<DrawnPattern>& drawn) {
+/// Outlines with the places where edges end: those of the drawn pattern where it is known, else
+/// corners; and the ends of seams.
+std::vector<EdgedOutline> edged_outlines(const Garment& shape,
+                                         const std::optional<DrawnPattern>& drawn) {
   std::vector<EdgedOutline> outlines;
   for (const pattern::PanelInfo& info : shape.panels.panels) {
     EdgedOutline outline;
@@ -94,7 +104,8 @@ std::vector<EdgedOutline> edged_outlines(const Garment& shape, const std::option
     outline.ends.assign(outline.vertices.size(), 0);
     if (drawn) {
       const std::vector<int>& edge_of = drawn->edge_of[outlines.size()];
-      for (int i = 0; i < outline.n(); ++i) outline.ends[i] = i == 0 || edge_of[i] != edge_of[i - 1];
+      for (int i = 0; i < outline.n(); ++i)
+        outline.ends[i] = i == 0 || edge_of[i] != edge_of[i - 1];
     } else {
       mark_corners(shape, outline);
     }
@@ -103,8 +114,10 @@ std::vector<EdgedOutline> edged_outlines(const Garment& shape, const std::option
   return outlines;
 }
 
-/// NAME for an edge that is still in one piece, NAME_1, NAME_2 ... for the pieces of one that a seam ends on.
-std::vector<std::string> edge_names(const EdgedOutline& outline, const pattern::Panel* drawn, const std::vector<int>* edge_of) {
+/// NAME for an edge that is still in one piece, NAME_1, NAME_2 ... for the pieces of one that a
+/// seam ends on.
+std::vector<std::string> edge_names(const EdgedOutline& outline, const pattern::Panel* drawn,
+                                    const std::vector<int>* edge_of) {
   std::vector<std::string> names;
   std::map<int, int> pieces, piece;
   if (drawn)
@@ -124,9 +137,11 @@ std::vector<std::string> edge_names(const EdgedOutline& outline, const pattern::
   return names;
 }
 
-pattern::Panel panel_of(const Garment& garment, const pattern::PanelInfo& info, const EdgedOutline& outline, const std::vector<std::string>& names) {
+pattern::Panel panel_of(const Garment& garment, const pattern::PanelInfo& info,
+                        const EdgedOutline& outline, const std::vector<std::string>& names) {
   pattern::Panel panel;
-  panel.name = info.name, panel.grain = info.grain, panel.material = info.material, panel.layer = info.layer, panel.label = info.part;
+  panel.name = info.name, panel.grain = info.grain, panel.material = info.material,
+  panel.layer = info.layer, panel.label = info.part;
   panel.hint.part = info.part;
   panel.loops.emplace_back();
   for (std::size_t e = 0; e < outline.edge_starts.size(); ++e) {
@@ -134,7 +149,8 @@ pattern::Panel panel_of(const Garment& garment, const pattern::PanelInfo& info, 
     int at = outline.edge_starts[e];
     do {
       const int to = outline.next(at, 1);
-      edge.path.push_back(pattern::Segment::straight(garment.panels.pattern[outline.vertices[at]], garment.panels.pattern[outline.vertices[to]]));
+      edge.path.push_back(pattern::Segment::straight(garment.panels.pattern[outline.vertices[at]],
+                                                     garment.panels.pattern[outline.vertices[to]]));
       at = to;
     } while (!outline.ends[at]);
     panel.loops[0].push_back(std::move(edge));
@@ -148,17 +164,22 @@ double width_of(const std::vector<Vec2>& points) {
   return high - low;
 }
 
-/// Where a panel is to start on the body that the cloth lies on now: an anchor goes with the outline point nearest to it, a radius with the
-/// panel's width, a rigid placement with the panel's cloth.
-pattern::PlacementHint moved_hint(const pattern::PlacementHint& drawn, const std::vector<Vec2>& outline, const Garment& garment, const Garment& shape,
-                                  const pattern::PanelInfo& info) {
+/// Where a panel is to start on the body that the cloth lies on now: an anchor goes with the
+/// outline point nearest to it, a radius with the panel's width, a rigid placement with the panel's
+/// cloth.
+pattern::PlacementHint moved_hint(const pattern::PlacementHint& drawn,
+                                  const std::vector<Vec2>& outline, const Garment& garment,
+                                  const Garment& shape, const pattern::PanelInfo& info) {
   pattern::PlacementHint hint = drawn;
   if (hint.anchor) {
     const auto nearest =
-        std::min_element(outline.begin(), outline.end(), [&](const Vec2& a, const Vec2& b) { return (a - *drawn.anchor).norm() < (b - *drawn.anchor).norm(); });
+        std::min_element(outline.begin(), outline.end(), [&](const Vec2& a, const Vec2& b) {
+          return (a - *drawn.anchor).norm() < (b - *drawn.anchor).norm();
+        });
     const int v = info.outline[static_cast<std::size_t>(nearest - outline.begin())];
     *hint.anchor += garment.panels.pattern[v] - *nearest;
-    if (hint.height) hint.height = garment.position[garment.particle_of[v]].y() + (*drawn.anchor - *nearest).y();
+    if (hint.height)
+      hint.height = garment.position[garment.particle_of[v]].y() + (*drawn.anchor - *nearest).y();
   }
   if (hint.radius) {
     std::vector<Vec2> now;
@@ -168,14 +189,17 @@ pattern::PlacementHint moved_hint(const pattern::PlacementHint& drawn, const std
   if (hint.rigid) {
     Vec3 move = Vec3::Zero();
     for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v)
-      move += (garment.position[garment.particle_of[v]] - shape.position[shape.particle_of[v]]) / info.n_vertices;
+      move += (garment.position[garment.particle_of[v]] - shape.position[shape.particle_of[v]]) /
+              info.n_vertices;
     hint.rigid->topRightCorner<3, 1>() += move;
   }
   return hint;
 }
 
-/// A notch of the drawn panel on the new one's edges, as far between two mesh points as it was. @param outline as drawn
-pattern::Notch moved_notch(const pattern::Notch& drawn, const std::vector<Vec2>& outline, const std::vector<int>& edge_of, const EdgedOutline& edged,
+/// A notch of the drawn panel on the new one's edges, as far between two mesh points as it was.
+/// @param outline as drawn
+pattern::Notch moved_notch(const pattern::Notch& drawn, const std::vector<Vec2>& outline,
+                           const std::vector<int>& edge_of, const EdgedOutline& edged,
                            const pattern::Panel& panel) {
   const auto length = [&](int i) { return (outline[edged.next(i, 1)] - outline[i]).norm(); };
   const auto [first, last] = std::equal_range(edge_of.begin(), edge_of.end(), drawn.edge);
@@ -191,22 +215,29 @@ pattern::Notch moved_notch(const pattern::Notch& drawn, const std::vector<Vec2>&
   double before = 0;
   for (int i = 0; i < at - *start; ++i) before += (path[i].p[3] - path[i].p[0]).norm();
   const pattern::Segment& on = path[at - *start];
-  notch.at = std::min((before + std::min(left / length(at), 1.0) * (on.p[3] - on.p[0]).norm()) / pattern::length(path), 1.0);
+  notch.at = std::min((before + std::min(left / length(at), 1.0) * (on.p[3] - on.p[0]).norm()) /
+                          pattern::length(path),
+                      1.0);
   return notch;
 }
 
 /// What the drawn pattern says of a panel and no mesh does.
-void take_over(const DrawnPattern& drawn, std::size_t k, const Garment& garment, const Garment& shape, const EdgedOutline& edged, pattern::Pattern& result) {
+void take_over(const DrawnPattern& drawn, std::size_t k, const Garment& garment,
+               const Garment& shape, const EdgedOutline& edged, pattern::Pattern& result) {
   const pattern::Panel& from = drawn.pattern->panels[k];
   pattern::Panel& panel = result.panels[k];
   panel.label = from.label;
   panel.hint = moved_hint(from.hint, drawn.outlines[k], garment, shape, garment.panels.panels[k]);
   for (const pattern::Notch& notch : from.notches)
     if (notch.edge < static_cast<int>(from.loops[0].size()))
-      if (const pattern::Notch moved = moved_notch(notch, drawn.outlines[k], drawn.edge_of[k], edged, panel); moved.edge >= 0) panel.notches.push_back(moved);
+      if (const pattern::Notch moved =
+              moved_notch(notch, drawn.outlines[k], drawn.edge_of[k], edged, panel);
+          moved.edge >= 0)
+        panel.notches.push_back(moved);
   const bool lines = !from.lines.empty(), holes = from.loops.size() > 1;
   if (lines || holes)
-    result.findings.push_back(from.name + ": its " + (lines ? "inner lines" : "") + (lines && holes ? " and " : "") + (holes ? "holes" : "") +
+    result.findings.push_back(from.name + ": its " + (lines ? "inner lines" : "") +
+                              (lines && holes ? " and " : "") + (holes ? "holes" : "") +
                               " are not in the regraded pattern");
 }
 
@@ -220,17 +251,23 @@ pattern::Pattern pattern_of(const Garment& garment, const Garment& shape) {
   std::vector<EdgedOutline> outlines = edged_outlines(shape, drawn);
   std::vector<std::array<std::vector<Stretch>, 2>> sides;
   for (const pattern::MeshSeam& seam : garment.panels.seams) {
-    sides.push_back({stretches_of(garment, outlines, seam.a), stretches_of(garment, outlines, seam.b)});
+    sides.push_back(
+        {stretches_of(garment, outlines, seam.a), stretches_of(garment, outlines, seam.b)});
     for (const auto& side : sides.back())
       for (const Stretch& s : side)
-        outlines[s.panel].ends[outlines[s.panel].position.at(s.first)] = outlines[s.panel].ends[outlines[s.panel].position.at(s.last)] = 1;
+        outlines[s.panel].ends[outlines[s.panel].position.at(s.first)] =
+            outlines[s.panel].ends[outlines[s.panel].position.at(s.last)] = 1;
   }
   for (std::size_t k = 0; k < outlines.size(); ++k) {
     EdgedOutline& outline = outlines[k];
-    if (outline.n() > 0 && std::find(outline.ends.begin(), outline.ends.end(), 1) == outline.ends.end()) outline.ends[0] = 1; // a round panel
+    if (outline.n() > 0 &&
+        std::find(outline.ends.begin(), outline.ends.end(), 1) == outline.ends.end())
+      outline.ends[0] = 1; // a round panel
     for (int i = 0; i < outline.n(); ++i)
       if (outline.ends[i]) outline.edge_starts.push_back(i);
-    const std::vector<std::string> names = edge_names(outline, drawn ? &drawn->pattern->panels[k] : nullptr, drawn ? &drawn->edge_of[k] : nullptr);
+    const std::vector<std::string> names =
+        edge_names(outline, drawn ? &drawn->pattern->panels[k] : nullptr,
+                   drawn ? &drawn->edge_of[k] : nullptr);
     result.panels.push_back(panel_of(garment, garment.panels.panels[k], outline, names));
     if (drawn) take_over(*drawn, k, garment, shape, outline, result);
   }
@@ -238,7 +275,9 @@ pattern::Pattern pattern_of(const Garment& garment, const Garment& shape) {
     const pattern::MeshSeam& from = garment.panels.seams[s];
     const bool inside = sides[s][0].empty() || sides[s][1].empty();
     if (inside || from.kind == "pleat") {
-      result.findings.push_back("seam " + from.name + (inside ? " lies inside a panel and is left out" : " of a pleat is left out: fold and sew it again"));
+      result.findings.push_back("seam " + from.name +
+                                (inside ? " lies inside a panel and is left out"
+                                        : " of a pleat is left out: fold and sew it again"));
       continue;
     }
     pattern::Seam seam;
@@ -255,16 +294,19 @@ pattern::Pattern pattern_of(const Garment& garment, const Garment& shape) {
 
 std::string grade_table(const pattern::Pattern& before, const pattern::Pattern& after) {
   std::string csv = "kind,panel,edge,before_cm,after_cm,delta_cm\r\n";
-  const auto line = [&](const char* kind, const std::string& panel, const std::string& edge, double a, double b) {
+  const auto line = [&](const char* kind, const std::string& panel, const std::string& edge,
+                        double a, double b) {
     char text[256];
-    std::snprintf(text, sizeof text, "%s,%s,%s,%.2f,%.2f,%+.2f\r\n", kind, panel.c_str(), edge.c_str(), 100 * a, 100 * b, 100 * (b - a));
+    std::snprintf(text, sizeof text, "%s,%s,%s,%.2f,%.2f,%+.2f\r\n", kind, panel.c_str(),
+                  edge.c_str(), 100 * a, 100 * b, 100 * (b - a));
     csv += text;
   };
   const auto extent = [](const pattern::Panel& panel, const Vec2& direction) {
     double low = 1e300, high = -1e300;
     for (const auto& loop : panel.loops)
       for (const pattern::PanelEdge& e : loop)
-        for (const pattern::Segment& s : e.path) low = std::min(low, s.p[0].dot(direction)), high = std::max(high, s.p[0].dot(direction));
+        for (const pattern::Segment& s : e.path)
+          low = std::min(low, s.p[0].dot(direction)), high = std::max(high, s.p[0].dot(direction));
     return high - low;
   };
   for (std::size_t k = 0; k < before.panels.size() && k < after.panels.size(); ++k) {
@@ -272,13 +314,17 @@ std::string grade_table(const pattern::Pattern& before, const pattern::Pattern& 
     const Vec2 across(a.grain.y(), -a.grain.x());
     line("width", a.name, "", extent(a, across), extent(b, across));
     line("height", a.name, "", extent(a, a.grain), extent(b, a.grain));
-    for (int e = 0; e < a.n_edges(); ++e) line("edge", a.name, a.edge(e).name, pattern::length(a.edge(e).path), pattern::length(b.edge(e).path));
+    for (int e = 0; e < a.n_edges(); ++e)
+      line("edge", a.name, a.edge(e).name, pattern::length(a.edge(e).path),
+           pattern::length(b.edge(e).path));
   }
   for (std::size_t s = 0; s < before.seams.size() && s < after.seams.size(); ++s) {
     const pattern::Seam &a = before.seams[s], &b = after.seams[s];
-    const double a_length = pattern::side_length(before, a.a), b_length = pattern::side_length(after, b.a);
+    const double a_length = pattern::side_length(before, a.a),
+                 b_length = pattern::side_length(after, b.a);
     line("seam", a.name, "", a_length, b_length);
-    line("mismatch", a.name, "", a_length - pattern::side_length(before, a.b), b_length - pattern::side_length(after, b.b));
+    line("mismatch", a.name, "", a_length - pattern::side_length(before, a.b),
+         b_length - pattern::side_length(after, b.b));
   }
   return csv;
 }

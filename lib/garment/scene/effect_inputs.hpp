@@ -1,14 +1,16 @@
 #pragma once
-/// What a scene adds to a garment beside its panels: the model of stretch and bending, pins, elastic bands and attachments,
-/// shrunk regions, creases, wind, pressure. Places are named by panel and (s, t), so they survive remeshing and retargeting.
+/// What a scene adds to a garment beside its panels: the model of stretch and bending, pins,
+/// elastic bands and attachments, shrunk regions, creases, wind, pressure. Places are named by
+/// panel and (s, t), so they survive remeshing and retargeting.
 #include <geometry/types.hpp>
 #include <string>
 #include <vector>
 
 namespace sloper::garment {
 
-/// From one place of a panel to another (s, t in [0, 1] over its bounding box): along the outline when both lie on it, by the
-/// shorter way, else straight through the mesh. One place when both are the same.
+/// From one place of a panel to another (s, t in [0, 1] over its bounding box): along the outline
+/// when both lie on it, by the shorter way, else straight through the mesh. One place when both are
+/// the same.
 struct PanelRun {
   std::string panel;
   Vec2 from = Vec2::Zero(), to = Vec2::Zero();
@@ -44,7 +46,8 @@ struct SceneCrease {
 /// Weights sewn to a garment: a chain in a hem, lead in a curtain, beads, buttons.
 struct SceneWeight {
   PanelRun run;
-  double mass_kg = 0.01; ///< of all of it; shared by the particles of the run, each by the length beside it
+  double mass_kg =
+      0.01; ///< of all of it; shared by the particles of the run, each by the length beside it
 };
 
 struct SceneEffects {
@@ -60,8 +63,9 @@ struct SceneEffects {
   Vec3 wind_m_s = Vec3::Zero();
   double pressure_pa = 0; ///< on the inner side
   bool empty() const {
-    return membrane.empty() && bending.empty() && pins.empty() && bands.empty() && attachments.empty() && shrink.empty() && creases.empty() &&
-           weights.empty() && !air && pressure_pa == 0;
+    return membrane.empty() && bending.empty() && pins.empty() && bands.empty() &&
+           attachments.empty() && shrink.empty() && creases.empty() && weights.empty() && !air &&
+           pressure_pa == 0;
   }
 };
 

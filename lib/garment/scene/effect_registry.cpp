@@ -1,26 +1,27 @@
 #include <garment/scene/effect_registry.hpp>
 
-/// One line an effect, in the order of the report: NAME has its specification in garment/effects/NAME.cpp.
-#define SLOPER_EFFECTS(EFFECT)                                                                                                                                 \
-  EFFECT(edge_springs)                                                                                                                                         \
-  EFFECT(triangle_stretch)                                                                                                                                     \
-  EFFECT(membrane)                                                                                                                                             \
-  EFFECT(shear)                                                                                                                                                \
-  EFFECT(bending)                                                                                                                                              \
-  EFFECT(dihedral_bending)                                                                                                                                     \
-  EFFECT(damping)                                                                                                                                              \
-  EFFECT(sewing)                                                                                                                                               \
-  EFFECT(gravity)                                                                                                                                              \
-  EFFECT(weights)                                                                                                                                              \
-  EFFECT(pins)                                                                                                                                                 \
-  EFFECT(attachments)                                                                                                                                          \
-  EFFECT(elastic_bands)                                                                                                                                        \
-  EFFECT(wind)                                                                                                                                                 \
-  EFFECT(pressure)                                                                                                                                             \
-  EFFECT(body_contact)                                                                                                                                         \
-  EFFECT(body_motion)                                                                                                                                          \
-  EFFECT(friction)                                                                                                                                             \
-  EFFECT(self_contact)                                                                                                                                         \
+/// One line an effect, in the order of the report: NAME has its specification in
+/// garment/effects/NAME.cpp.
+#define SLOPER_EFFECTS(EFFECT) \
+  EFFECT(edge_springs)         \
+  EFFECT(triangle_stretch)     \
+  EFFECT(membrane)             \
+  EFFECT(shear)                \
+  EFFECT(bending)              \
+  EFFECT(dihedral_bending)     \
+  EFFECT(damping)              \
+  EFFECT(sewing)               \
+  EFFECT(gravity)              \
+  EFFECT(weights)              \
+  EFFECT(pins)                 \
+  EFFECT(attachments)          \
+  EFFECT(elastic_bands)        \
+  EFFECT(wind)                 \
+  EFFECT(pressure)             \
+  EFFECT(body_contact)         \
+  EFFECT(body_motion)          \
+  EFFECT(friction)             \
+  EFFECT(self_contact)         \
   EFFECT(layers)
 
 namespace sloper::garment {

@@ -1,6 +1,6 @@
 #pragma once
-/// What the drape knows of one effect: when it takes part, and how it is made. Each effect has one, in garment/effects; the list of all is
-/// effect_registry.cpp.
+/// What the drape knows of one effect: when it takes part, and how it is made. Each effect has one,
+/// in garment/effects; the list of all is effect_registry.cpp.
 #include <body/body.hpp>
 #include <cloth/contact/body_contact.hpp>
 #include <cloth/contact/self_contact.hpp>
@@ -22,8 +22,8 @@ struct EffectFacts {
   bool has_open_seams;
   bool touches_body;                                      ///< there is a body with a skin
   bool has_shear, has_bending, has_damping, has_friction; ///< some fabric of the garment does
-  bool is_fem, is_triangles;                              ///< the model of stretch that the scene asks for; else springs
-  bool is_dihedral;                                       ///< the model of bending that the scene asks for
+  bool is_fem, is_triangles; ///< the model of stretch that the scene asks for; else springs
+  bool is_dihedral;          ///< the model of bending that the scene asks for
 };
 
 struct EffectChoice {
@@ -31,7 +31,8 @@ struct EffectChoice {
   const char* why; ///< for the report, on or off
 };
 
-/// Effects that a drape speaks to while it runs, as typed handles; null where they are not in the solver.
+/// Effects that a drape speaks to while it runs, as typed handles; null where they are not in the
+/// solver.
 struct EffectHandles {
   cloth::BodyContactEffect* body_contact = nullptr;
   cloth::SelfContactEffect* self_contact = nullptr;
@@ -46,11 +47,12 @@ struct EffectBuild {
   const body::Body* body; ///< null for none
   const DrapeSettings& settings;
   collision::BodyCollider* collider; ///< null for none
-  bool open_seams;                   ///< panels are being sewn: only what holds them together and apart takes part
-  EffectHandles& handles;            ///< out
+  bool open_seams; ///< panels are being sewn: only what holds them together and apart takes part
+  EffectHandles& handles; ///< out
 };
 
-/// When an effect comes into the solver. Forces are summed in this order, and within a stage in that of the registry.
+/// When an effect comes into the solver. Forces are summed in this order, and within a stage in
+/// that of the registry.
 enum class EffectStage {
   FABRIC,  ///< in-plane and bending models that share the fabric's numbers
   MODEL,   ///< models that a scene chooses in their place
@@ -73,7 +75,8 @@ struct EffectSpec {
   EffectModel model = EffectModel::NONE;
   EffectChoice (*choose)(const EffectFacts& facts);
   void (*add)(EffectBuild& build) = nullptr; ///< null for stage NONE
-  /// Changes the rest state before any effect is made, whether this one is on or off; null for those that do not.
+  /// Changes the rest state before any effect is made, whether this one is on or off; null for
+  /// those that do not.
   void (*prepare)(cloth::ClothMesh& mesh, const Garment& garment, bool is_on) = nullptr;
 };
 

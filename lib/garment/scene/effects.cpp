@@ -18,7 +18,8 @@ static std::vector<const char*> models_of(EffectModel model) {
 }
 
 static EffectReport& named(std::vector<EffectReport>& effects, const std::string& name) {
-  const auto found = std::find_if(effects.begin(), effects.end(), [&](const EffectReport& e) { return e.name == name; });
+  const auto found = std::find_if(effects.begin(), effects.end(),
+                                  [&](const EffectReport& e) { return e.name == name; });
   if (found != effects.end()) return *found;
   std::string names;
   std::vector<std::string> known;
@@ -26,7 +27,8 @@ static EffectReport& named(std::vector<EffectReport>& effects, const std::string
     known.push_back(e.name);
     names += (names.empty() ? "" : ", ") + e.name;
   }
-  throw Error(ErrorKind::USAGE, "", "effect \"" + name + "\"", "is not known" + did_you_mean(name, known), "known are " + names);
+  throw Error(ErrorKind::USAGE, "", "effect \"" + name + "\"",
+              "is not known" + did_you_mean(name, known), "known are " + names);
 }
 
 /// One that is named takes the place of the others of its kind.
@@ -56,15 +58,19 @@ static void check_models(const std::vector<EffectReport>& effects) {
         ++n;
         both += (both.empty() ? "" : " and ") + std::string(m);
       }
-    if (n > 1) throw Error(ErrorKind::USAGE, "", "effects", both + " are models of the same " + of, "name one of them");
+    if (n > 1)
+      throw Error(ErrorKind::USAGE, "", "effects", both + " are models of the same " + of,
+                  "name one of them");
   };
   only_one(models_of(EffectModel::STRETCH), "stretch");
   only_one(models_of(EffectModel::BENDING), "bending");
   if (is_active(effects, "membrane") && is_active(effects, "shear"))
-    throw Error(ErrorKind::USAGE, "", "effects", "membrane and shear both carry shear", "leave shear out");
+    throw Error(ErrorKind::USAGE, "", "effects", "membrane and shear both carry shear",
+                "leave shear out");
 }
 
-static EffectFacts facts_of(const Garment& garment, const body::Body* body, const DrapeSettings& settings) {
+static EffectFacts facts_of(const Garment& garment, const body::Body* body,
+                            const DrapeSettings& settings) {
   const SceneEffects& scene = garment.scene;
   const std::size_t open = garment.particle_of.empty() ? 1 : open_stitches(garment).size();
   EffectFacts facts{.garment = garment,
@@ -92,10 +98,12 @@ static EffectFacts facts_of(const Garment& garment, const body::Body* body, cons
   return facts;
 }
 
-std::vector<EffectReport> choose_effects(const Garment& garment, const body::Body* body, const DrapeSettings& settings) {
+std::vector<EffectReport> choose_effects(const Garment& garment, const body::Body* body,
+                                         const DrapeSettings& settings) {
   const EffectFacts facts = facts_of(garment, body, settings);
   if (facts.is_fem && !facts.scene.shrink.empty())
-    throw input_error("", "shrink", "the finite-element membrane has no b_u, b_v", "choose \"membrane\": \"triangles\", which the scene gets by itself");
+    throw input_error("", "shrink", "the finite-element membrane has no b_u, b_v",
+                      "choose \"membrane\": \"triangles\", which the scene gets by itself");
   std::vector<EffectReport> effects;
   for (const EffectSpec& spec : effect_registry()) {
     const EffectChoice choice = spec.choose(facts);
@@ -104,7 +112,9 @@ std::vector<EffectReport> choose_effects(const Garment& garment, const body::Bod
   std::vector<std::string> list;
   std::stringstream stream(settings.effects);
   for (std::string name; std::getline(stream, name, ',');) list.push_back(name);
-  const bool changes = !list.empty() && list[0] == "auto"; // auto, then what is to be on (name) or off (-name) all the same
+  const bool changes =
+      !list.empty() &&
+      list[0] == "auto"; // auto, then what is to be on (name) or off (-name) all the same
   if (changes) list.erase(list.begin());
   else
     for (EffectReport& e : effects) {
@@ -122,7 +132,8 @@ std::vector<EffectReport> choose_effects(const Garment& garment, const body::Bod
   return effects;
 }
 
-void prepare_mesh(cloth::ClothMesh& mesh, const Garment& garment, const std::vector<EffectReport>& chosen) {
+void prepare_mesh(cloth::ClothMesh& mesh, const Garment& garment,
+                  const std::vector<EffectReport>& chosen) {
   for (const EffectSpec& spec : effect_registry())
     if (spec.prepare) spec.prepare(mesh, garment, is_active(chosen, spec.name));
 }
@@ -133,7 +144,8 @@ void add_effects(EffectStage stage, EffectBuild& build, const std::vector<Effect
 }
 
 bool is_active(const std::vector<EffectReport>& effects, const std::string& name) {
-  return std::any_of(effects.begin(), effects.end(), [&](const EffectReport& e) { return e.name == name && e.active; });
+  return std::any_of(effects.begin(), effects.end(),
+                     [&](const EffectReport& e) { return e.name == name && e.active; });
 }
 
 } // namespace sloper::garment

@@ -23,7 +23,8 @@ int nearest_vertex(const Garment& garment, const pattern::PanelInfo& panel, cons
 
 double pattern_length(const Garment& garment, const std::vector<int>& run) {
   double sum = 0;
-  for (std::size_t k = 0; k + 1 < run.size(); ++k) sum += (garment.panels.pattern[run[k + 1]] - garment.panels.pattern[run[k]]).norm();
+  for (std::size_t k = 0; k + 1 < run.size(); ++k)
+    sum += (garment.panels.pattern[run[k + 1]] - garment.panels.pattern[run[k]]).norm();
   return sum;
 }
 
@@ -38,11 +39,13 @@ std::vector<int> along(const std::vector<int>& outline, std::size_t a, std::size
 }
 
 /// Shortest path over the edges of the panel's triangles.
-std::vector<int> through(const Garment& garment, const pattern::PanelInfo& panel, int from, int to) {
+std::vector<int> through(const Garment& garment, const pattern::PanelInfo& panel, int from,
+                         int to) {
   std::vector<std::vector<int>> next(panel.n_vertices);
   for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f)
     for (int k = 0; k < 3; ++k) {
-      const int a = garment.panels.triangles[f][k] - panel.first_vertex, b = garment.panels.triangles[f][(k + 1) % 3] - panel.first_vertex;
+      const int a = garment.panels.triangles[f][k] - panel.first_vertex,
+                b = garment.panels.triangles[f][(k + 1) % 3] - panel.first_vertex;
       next[a].push_back(b);
       next[b].push_back(a);
     }
@@ -57,7 +60,9 @@ std::vector<int> through(const Garment& garment, const pattern::PanelInfo& panel
     queue.pop();
     if (d > distance[v]) continue;
     for (int w : next[v]) {
-      const double through_v = d + (garment.panels.pattern[w + panel.first_vertex] - garment.panels.pattern[v + panel.first_vertex]).norm();
+      const double through_v = d + (garment.panels.pattern[w + panel.first_vertex] -
+                                    garment.panels.pattern[v + panel.first_vertex])
+                                       .norm();
       if (through_v >= distance[w]) continue;
       distance[w] = through_v;
       before[w] = v;
@@ -65,7 +70,8 @@ std::vector<int> through(const Garment& garment, const pattern::PanelInfo& panel
     }
   }
   std::vector<int> run;
-  for (int v = to - panel.first_vertex; v >= 0; v = before[v]) run.push_back(v + panel.first_vertex);
+  for (int v = to - panel.first_vertex; v >= 0; v = before[v])
+    run.push_back(v + panel.first_vertex);
   std::reverse(run.begin(), run.end());
   return run;
 }
@@ -80,18 +86,25 @@ const pattern::PanelInfo& panel_named(const Garment& garment, const std::string&
     words.push_back(p.name);
     names += (names.empty() ? "" : ", ") + p.name;
   }
-  throw input_error("", "panel \"" + name + "\"", "is not in the garment" + did_you_mean(name, words), "panels are " + names);
+  throw input_error("", "panel \"" + name + "\"",
+                    "is not in the garment" + did_you_mean(name, words), "panels are " + names);
 }
 
-int particle_at(const Garment& garment, int vertex) { return garment.particle_of.empty() ? vertex : garment.particle_of[vertex]; }
+int particle_at(const Garment& garment, int vertex) {
+  return garment.particle_of.empty() ? vertex : garment.particle_of[vertex];
+}
 
 std::vector<int> run_vertices(const Garment& garment, const PanelRun& run) {
   const pattern::PanelInfo& panel = panel_named(garment, run.panel);
-  const int from = nearest_vertex(garment, panel, run.from), to = nearest_vertex(garment, panel, run.to);
+  const int from = nearest_vertex(garment, panel, run.from),
+            to = nearest_vertex(garment, panel, run.to);
   if (from == to) return {from};
-  const auto a = std::find(panel.outline.begin(), panel.outline.end(), from), b = std::find(panel.outline.begin(), panel.outline.end(), to);
-  if (a == panel.outline.end() || b == panel.outline.end()) return through(garment, panel, from, to);
-  const auto ia = static_cast<std::size_t>(a - panel.outline.begin()), ib = static_cast<std::size_t>(b - panel.outline.begin());
+  const auto a = std::find(panel.outline.begin(), panel.outline.end(), from),
+             b = std::find(panel.outline.begin(), panel.outline.end(), to);
+  if (a == panel.outline.end() || b == panel.outline.end())
+    return through(garment, panel, from, to);
+  const auto ia = static_cast<std::size_t>(a - panel.outline.begin()),
+             ib = static_cast<std::size_t>(b - panel.outline.begin());
   std::vector<int> forward = along(panel.outline, ia, ib), backward = along(panel.outline, ib, ia);
   std::reverse(backward.begin(), backward.end());
   return pattern_length(garment, forward) <= pattern_length(garment, backward) ? forward : backward;

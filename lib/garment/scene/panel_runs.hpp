@@ -13,7 +13,8 @@ const pattern::PanelInfo& panel_named(const Garment& garment, const std::string&
 /// The particle of a panel vertex, unsewn or sewn.
 int particle_at(const Garment& garment, int vertex);
 
-/// Panel vertices of a run, in order. @throws Error INPUT naming the panels when there is none of that name
+/// Panel vertices of a run, in order. @throws Error INPUT naming the panels when there is none of
+/// that name
 std::vector<int> run_vertices(const Garment& garment, const PanelRun& run);
 
 /// Particles of a run, neighbours that a seam has welded into one taken once.

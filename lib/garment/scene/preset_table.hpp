@@ -1,18 +1,21 @@
 #pragma once
-/// The presets of --accuracy: made by `make presets`, not by hand, from settings measured on three scenes going on from sewn starts.
-/// Each is the cheapest of those that come to rest on all and bring 95 % of the particles within its budget of the reference from all starts but one in nine:
-/// draft 1.5 mm, standard 1 mm, fine 0.2 mm; one that keeps its budget and costs up to 25 % more than the cheapest stays what it was.
-/// The reference is a definition: docs/accuracy-cost.md tells how far it moves when it is halved.
-/// Measured: skirt 854, shirt 1334, trousers 1415 particles, edges of 30 mm, 18 starts, on AMD EPYC.
+/// The presets of --accuracy: made by `make presets`, not by hand, from settings measured on three
+/// scenes going on from sewn starts. Each is the cheapest of those that come to rest on all and
+/// bring 95 % of the particles within its budget of the reference from all starts but one in nine:
+/// draft 1.5 mm, standard 1 mm, fine 0.2 mm; one that keeps its budget and costs up to 25 % more
+/// than the cheapest stays what it was. The reference is a definition: docs/accuracy-cost.md tells
+/// how far it moves when it is halved. Measured: skirt 854, shirt 1334, trousers 1415 particles,
+/// edges of 30 mm, 18 starts, on AMD EPYC.
 namespace sloper::garment {
 
 struct Preset {
   const char* name;
   double cg_tolerance, settle_force_ratio, settle_speed_m_s;
   int max_steps;
-  double rms_mm, worst_rms_mm;       ///< from the reference: mean of the starts, the worst
-  double worst_p95_mm, worst_max_mm; ///< from the reference, at worst: 95 % of the particles, all of them
-  double cost;                       ///< CPU time with sewing, in times of the cheapest settings, mean of the starts
+  double rms_mm, worst_rms_mm; ///< from the reference: mean of the starts, the worst
+  double worst_p95_mm,
+      worst_max_mm; ///< from the reference, at worst: 95 % of the particles, all of them
+  double cost;      ///< CPU time with sewing, in times of the cheapest settings, mean of the starts
 };
 
 // clang-format off

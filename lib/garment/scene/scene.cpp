@@ -50,18 +50,22 @@ Material read_material(const io::Node& node) {
   if (node.is_string()) {
     try {
       const std::string name = node.string();
-      return material_from(name.find(".csv") == std::string::npos ? name : io::path_beside(node.file(), name));
+      return material_from(
+          name.find(".csv") == std::string::npos ? name : io::path_beside(node.file(), name));
     } catch (const Error& e) {
       node.fail(e.fact());
     }
   }
-  node.allow_only({"preset", "density_kg_m2", "stretch_warp_n_m", "stretch_weft_n_m", "shear_n_m", "bend_n_m", "friction_body", "friction_self", "damping_s",
-                   "thickness_m", "poisson", "source"});
+  node.allow_only({"preset", "density_kg_m2", "stretch_warp_n_m", "stretch_weft_n_m", "shear_n_m",
+                   "bend_n_m", "friction_body", "friction_self", "damping_s", "thickness_m",
+                   "poisson", "source"});
   Material m = material_preset(node.string("preset", material_presets().front().name));
   auto read = [&](const char* key, double& value, double low, double high) {
     if (!node.has(key)) return;
     value = node.at(key).number();
-    if (value < low || value > high) node.at(key).fail("is out of range", "give a value from " + std::to_string(low) + " to " + std::to_string(high));
+    if (value < low || value > high)
+      node.at(key).fail("is out of range",
+                        "give a value from " + std::to_string(low) + " to " + std::to_string(high));
   };
   read("density_kg_m2", m.density_kg_m2, 1e-3, 100);
   read("stretch_warp_n_m", m.stretch_warp_n_m, 1e-3, 1e9);
@@ -82,8 +86,10 @@ Material read_material(const io::Node& node) {
 Scene read_scene(const std::string& path) {
   const io::Json document = io::read_document(path, "scene", SCENE_VERSION);
   const io::Node root(document, path);
-  root.allow_only({"format",   "version", "generator", "length_unit", "body",        "panels", "accuracy", "effects", "materials", "settings",
-                   "membrane", "bending", "pins",      "bands",       "attachments", "shrink", "creases",  "weights", "wind_m_s",  "pressure_pa"});
+  root.allow_only({"format",   "version",  "generator", "length_unit", "body",
+                   "panels",   "accuracy", "effects",   "materials",   "settings",
+                   "membrane", "bending",  "pins",      "bands",       "attachments",
+                   "shrink",   "creases",  "weights",   "wind_m_s",    "pressure_pa"});
   Scene scene;
   if (root.has("body")) scene.body = io::path_beside(path, root.at("body").string());
   if (root.has("panels")) scene.panels = io::path_beside(path, root.at("panels").string());
@@ -92,11 +98,13 @@ Scene read_scene(const std::string& path) {
     const io::Node effects = root.at("effects");
     if (effects.is_string()) scene.effects = effects.string();
     else
-      for (std::size_t i = 0; i < effects.size(); ++i) scene.effects.append(i ? "," : "").append(effects.at(i).string());
+      for (std::size_t i = 0; i < effects.size(); ++i)
+        scene.effects.append(i ? "," : "").append(effects.at(i).string());
   }
   scene.extras = read_scene_effects(root);
   if (root.has("materials"))
-    for (const std::string& name : root.at("materials").keys()) scene.materials[name == "default" ? "" : name] = read_material(root.at("materials").at(name));
+    for (const std::string& name : root.at("materials").keys())
+      scene.materials[name == "default" ? "" : name] = read_material(root.at("materials").at(name));
   if (root.has("settings"))
     for (const std::string& name : root.at("settings").keys()) {
       const io::Node value = root.at("settings").at(name);
@@ -142,7 +150,8 @@ DrapeSettings preset_settings(const std::string& accuracy) {
       s.max_steps = p.max_steps;
       return s;
     }
-  throw Error(ErrorKind::USAGE, "", "--accuracy", "\"" + accuracy + "\" is not known", "known are draft, standard, fine, reference");
+  throw Error(ErrorKind::USAGE, "", "--accuracy", "\"" + accuracy + "\" is not known",
+              "known are draft, standard, fine, reference");
 }
 
 void set_knob(DrapeSettings& settings, const std::string& name, double value) {
@@ -151,7 +160,8 @@ void set_knob(DrapeSettings& settings, const std::string& name, double value) {
   for (const Knob& k : knobs()) {
     if (name == k.name) {
       if (!(value >= k.low && value <= k.high))
-        throw Error(ErrorKind::USAGE, "", name, "is out of range", "give a value from " + std::to_string(k.low) + " to " + std::to_string(k.high));
+        throw Error(ErrorKind::USAGE, "", name, "is out of range",
+                    "give a value from " + std::to_string(k.low) + " to " + std::to_string(k.high));
       if (k.real) settings.*k.real = value;
       else settings.*k.whole = static_cast<int>(value);
       return;
@@ -159,7 +169,8 @@ void set_knob(DrapeSettings& settings, const std::string& name, double value) {
     words.emplace_back(k.name);
     names += (names.empty() ? "" : ", ") + words.back();
   }
-  throw Error(ErrorKind::USAGE, "", name, "is no knob" + did_you_mean(name, words), "knobs are " + names);
+  throw Error(ErrorKind::USAGE, "", name, "is no knob" + did_you_mean(name, words),
+              "knobs are " + names);
 }
 
 void set_knob(DrapeSettings& settings, const std::string& name, const io::Node& value) {
@@ -175,8 +186,10 @@ void set_knob(DrapeSettings& settings, const std::string& assignment) {
   const auto equals = assignment.find('=');
   double value = 0;
   const char* end = assignment.data() + assignment.size();
-  if (equals == std::string::npos) throw Error(ErrorKind::USAGE, "", "--set " + assignment, "is not KNOB=VALUE");
-  if (const auto r = std::from_chars(assignment.data() + equals + 1, end, value); r.ec != std::errc() || r.ptr != end || !std::isfinite(value))
+  if (equals == std::string::npos)
+    throw Error(ErrorKind::USAGE, "", "--set " + assignment, "is not KNOB=VALUE");
+  if (const auto r = std::from_chars(assignment.data() + equals + 1, end, value);
+      r.ec != std::errc() || r.ptr != end || !std::isfinite(value))
     throw Error(ErrorKind::USAGE, "", "--set " + assignment, "the value is not a number");
   set_knob(settings, assignment.substr(0, equals), value);
 }

@@ -16,7 +16,9 @@ constexpr double DEGREE = units::PI / 180;
 double in_range(const Node& node, const char* key, double fallback, double low, double high) {
   if (!node.has(key)) return fallback;
   const double value = node.at(key).number();
-  if (!(value >= low && value <= high)) node.at(key).fail("is out of range", "give a value from " + std::to_string(low) + " to " + std::to_string(high));
+  if (!(value >= low && value <= high))
+    node.at(key).fail("is out of range",
+                      "give a value from " + std::to_string(low) + " to " + std::to_string(high));
   return value;
 }
 
@@ -35,7 +37,8 @@ PanelRun read_run(const Node& node) {
   PanelRun run;
   run.panel = node.at("panel").string();
   if (node.has("at")) {
-    if (node.has("from") || node.has("to")) node.fail("names both a point (at) and a line (from, to)");
+    if (node.has("from") || node.has("to"))
+      node.fail("names both a point (at) and a line (from, to)");
     run.from = run.to = node.at("at").vec2();
   } else {
     run.from = node.at("from").vec2();
@@ -56,14 +59,16 @@ Json run_json(const PanelRun& run) {
   return j;
 }
 
-template<class Item, class Read> void read_list(const Node& node, const char* key, std::vector<Item>& list, Read read) {
+template<class Item, class Read>
+void read_list(const Node& node, const char* key, std::vector<Item>& list, Read read) {
   if (!node.has(key)) return;
   const Node items = node.at(key);
   if (!items.is_array()) items.fail("expected a list");
   for (std::size_t k = 0; k < items.size(); ++k) list.push_back(read(items.at(k)));
 }
 
-template<class Item, class Write> void write_list(Json& out, const char* key, const std::vector<Item>& list, Write write) {
+template<class Item, class Write>
+void write_list(Json& out, const char* key, const std::vector<Item>& list, Write write) {
   if (list.empty()) return;
   out[key] = Json::array();
   for (const Item& item : list) out[key].push_back(write(item));
@@ -93,7 +98,8 @@ SceneEffects read_scene_effects(const Node& node) {
     return band;
   });
   read_list(node, "attachments", scene.attachments, [](const Node& n) {
-    n.allow_only({"panel", "at", "from", "to", "anchor_m", "landmark", "rest_length_m", "stiffness_n_m"});
+    n.allow_only(
+        {"panel", "at", "from", "to", "anchor_m", "landmark", "rest_length_m", "stiffness_n_m"});
     SceneAttachment a;
     a.run = read_run(n);
     if (n.has("anchor_m") == n.has("landmark")) n.fail("needs either anchor_m or landmark");

@@ -1,12 +1,14 @@
 #pragma once
-/// The keys of a scene that describe effects, at the root of scene.json and under "scene" of a garment document:
+/// The keys of a scene that describe effects, at the root of scene.json and under "scene" of a
+/// garment document:
 ///   "membrane": "springs" | "triangles" | "fem", "bending": "isometric" | "dihedral"
-///   "pins":        [{PLACE, "target_m": [x, y, z], "stiffness_n_m"}]           without a target: held where it was placed
-///   "bands":       [{PLACE, "ratio", "strength_n"}]                            elastic sewn along a line
-///   "attachments": [{PLACE, "anchor_m": [x, y, z] or "landmark": NAME, "rest_length_m", "stiffness_n_m"}]
-///   "shrink":      [{"panel", "from": [s, t], "to": [s, t], "warp", "weft"}]   b_v and b_u; no panel: all, no region: the whole panel
-///   "creases":     [{PLACE, "angle_deg"}]                                      rest angle, positive folds away from the outside
-///   "wind_m_s": [x, y, z]; [0, 0, 0] is still air    "pressure_pa": number
+///   "pins":        [{PLACE, "target_m": [x, y, z], "stiffness_n_m"}]           without a target:
+///   held where it was placed "bands":       [{PLACE, "ratio", "strength_n"}] elastic sewn along a
+///   line "attachments": [{PLACE, "anchor_m": [x, y, z] or "landmark": NAME, "rest_length_m",
+///   "stiffness_n_m"}] "shrink":      [{"panel", "from": [s, t], "to": [s, t], "warp", "weft"}] b_v
+///   and b_u; no panel: all, no region: the whole panel "creases":     [{PLACE, "angle_deg"}] rest
+///   angle, positive folds away from the outside "wind_m_s": [x, y, z]; [0, 0, 0] is still air
+///   "pressure_pa": number
 /// PLACE is "panel" with "at": [s, t], or with "from" and "to" for a line.
 #include <garment/scene/effect_inputs.hpp>
 #include <io/json_fwd.hpp>

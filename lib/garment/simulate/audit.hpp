@@ -6,12 +6,14 @@
 namespace sloper::garment {
 
 struct Audit {
-  std::vector<int> through;                                             ///< garment triangles that cross the skin
-  std::vector<int> inside;                                              ///< particles inside the body
-  double deepest_m = 0;                                                 ///< of those
-  std::vector<std::array<int, 2>> self;                                 ///< pairs of triangles without a common particle that cross
-  double strain_warp[3] = {}, strain_weft[3] = {}, strain_bias[3] = {}; ///< p50, p99, max along the threads and the diagonals (cloth_strain.hpp)
-  double strain_p99 = 0, strain_max = 0;                                ///< of the larger in size of warp and weft
+  std::vector<int> through;             ///< garment triangles that cross the skin
+  std::vector<int> inside;              ///< particles inside the body
+  double deepest_m = 0;                 ///< of those
+  std::vector<std::array<int, 2>> self; ///< pairs of triangles without a common particle that cross
+  double strain_warp[3] = {}, strain_weft[3] = {},
+         strain_bias[3] =
+             {}; ///< p50, p99, max along the threads and the diagonals (cloth_strain.hpp)
+  double strain_p99 = 0, strain_max = 0; ///< of the larger in size of warp and weft
   bool clean() const { return through.empty() && inside.empty() && self.empty(); }
 };
 

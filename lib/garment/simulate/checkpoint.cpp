@@ -26,9 +26,11 @@ Json contact_json(const cloth::BodyContactEffect::Memory& contact) {
 cloth::BodyContactEffect::Memory read_contact(const Node& node, std::size_t n_particles) {
   cloth::BodyContactEffect::Memory contact;
   contact.anchor = io::read_flat_points(node.at("anchor"));
-  for (int has : io::read_integers(node.at("has_anchor"))) contact.has_anchor.push_back(static_cast<char>(has != 0));
+  for (int has : io::read_integers(node.at("has_anchor")))
+    contact.has_anchor.push_back(static_cast<char>(has != 0));
   contact.push = node.at("push").number();
-  if (contact.anchor.size() != contact.has_anchor.size() || (!contact.anchor.empty() && contact.anchor.size() != n_particles))
+  if (contact.anchor.size() != contact.has_anchor.size() ||
+      (!contact.anchor.empty() && contact.anchor.size() != n_particles))
     node.fail("does not belong to this garment");
   return contact;
 }
@@ -67,18 +69,26 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   s.inflate = InflatePhase::State::read(node);
   s.settle = SettlePhase::State::read(node, n_particles);
   s.sew.step = s.settle.step = node.at("step").integer();
-  if (s.phase == DrapePhase::SEW && static_cast<int>(s.sew.gaps.size()) != s.sew.step) node.at("gaps").fail("is not one number for each step");
-  if (s.phase == DrapePhase::SETTLE && s.settle.start_height.size() != n_particles) node.at("start_height").fail("does not belong to this garment");
-  if (node.has("motion") || s.phase == DrapePhase::MOVE) s.move = MovePhase::State::read(node.at("motion"));
+  if (s.phase == DrapePhase::SEW && static_cast<int>(s.sew.gaps.size()) != s.sew.step)
+    node.at("gaps").fail("is not one number for each step");
+  if (s.phase == DrapePhase::SETTLE && s.settle.start_height.size() != n_particles)
+    node.at("start_height").fail("does not belong to this garment");
+  if (node.has("motion") || s.phase == DrapePhase::MOVE)
+    s.move = MovePhase::State::read(node.at("motion"));
   if (node.has("fit")) s.fit = FitMonitor::State::read(node.at("fit")); // older ones have none
-  if (s.phase == DrapePhase::MOVE && s.move.velocity.size() != n_particles) node.at("motion").at("velocity").fail("does not belong to this garment");
+  if (s.phase == DrapePhase::MOVE && s.move.velocity.size() != n_particles)
+    node.at("motion").at("velocity").fail("does not belong to this garment");
   return s;
 }
 
-Json bounds_json(const FitBounds& b) { return {{"slip_m", b.slip_m}, {"strain_p99", b.strain_p99}, {"tight", b.tight}}; }
+Json bounds_json(const FitBounds& b) {
+  return {{"slip_m", b.slip_m}, {"strain_p99", b.strain_p99}, {"tight", b.tight}};
+}
 
 FitBounds read_bounds(const Node& node) {
-  return {.slip_m = node.at("slip_m").number(), .strain_p99 = node.at("strain_p99").number(), .tight = node.at("tight").boolean()};
+  return {.slip_m = node.at("slip_m").number(),
+          .strain_p99 = node.at("strain_p99").number(),
+          .tight = node.at("tight").boolean()};
 }
 
 Json progress_json(const DrapeReport& r) {
@@ -88,9 +98,14 @@ Json progress_json(const DrapeReport& r) {
   j["wall_s"] = r.wall_s;
   j["effects"] = Json::array();
   for (const EffectReport& e : r.effects)
-    j["effects"].push_back({{"name", e.name}, {"active", e.active}, {"why", e.why}, {"calls", e.calls}, {"wall_s", e.wall_s}});
+    j["effects"].push_back({{"name", e.name},
+                            {"active", e.active},
+                            {"why", e.why},
+                            {"calls", e.calls},
+                            {"wall_s", e.wall_s}});
   j["phases"] = Json::array();
-  for (const auto& [name, wall_s] : r.phases) j["phases"].push_back({{"name", name}, {"wall_s", wall_s}});
+  for (const auto& [name, wall_s] : r.phases)
+    j["phases"].push_back({{"name", name}, {"wall_s", wall_s}});
   j["repairs"] = r.repairs;
   return j;
 }
@@ -111,10 +126,12 @@ DrapeReport read_progress(const Node& node, const Node& settings) {
   r.wall_s = node.at("wall_s").number();
   for (std::size_t k = 0; k < node.at("effects").size(); ++k) {
     const Node e = node.at("effects").at(k);
-    r.effects.push_back({e.at("name").string(), e.at("active").boolean(), e.at("why").string(), e.at("calls").integer(), e.at("wall_s").number()});
+    r.effects.push_back({e.at("name").string(), e.at("active").boolean(), e.at("why").string(),
+                         e.at("calls").integer(), e.at("wall_s").number()});
   }
   for (std::size_t k = 0; k < node.at("phases").size(); ++k)
-    r.phases.emplace_back(node.at("phases").at(k).at("name").string(), node.at("phases").at(k).at("wall_s").number());
+    r.phases.emplace_back(node.at("phases").at(k).at("name").string(),
+                          node.at("phases").at(k).at("wall_s").number());
   r.repairs = io::read_strings(node.at("repairs"));
   r.settings = read_settings(settings);
   return r;
@@ -129,15 +146,21 @@ void put_garment(Json& document, const Garment& garment) {
 }
 
 Garment take_garment(const Node& node) {
-  Garment garment = garment_from(node.at("garment"), io::parse_obj(node.at("mesh").string(), node.file()), node.file());
+  Garment garment = garment_from(node.at("garment"),
+                                 io::parse_obj(node.at("mesh").string(), node.file()), node.file());
   garment.panels.placed = io::read_flat_points(node.at("placed"));
-  if (!garment.panels.placed.empty() && garment.panels.placed.size() != garment.panels.pattern.size())
+  if (!garment.panels.placed.empty() &&
+      garment.panels.placed.size() != garment.panels.pattern.size())
     node.at("placed").fail("does not belong to this garment");
   return garment;
 }
 
 Json layers_json(const LayersProgress& l) {
-  Json j = {{"settings", settings_json(l.settings)}, {"alone", l.alone}, {"alone_s", l.alone_s}, {"repairs", l.repairs}, {"garments", Json::array()}};
+  Json j = {{"settings", settings_json(l.settings)},
+            {"alone", l.alone},
+            {"alone_s", l.alone_s},
+            {"repairs", l.repairs},
+            {"garments", Json::array()}};
   for (const Garment& g : l.garments) {
     j["garments"].push_back(Json::object());
     put_garment(j["garments"].back(), g);
@@ -155,9 +178,11 @@ LayersProgress read_layers(const Node& node, std::size_t n_particles) {
     n += l.garments.back().position.size();
   }
   const int alone = node.at("alone").integer();
-  if (l.garments.empty() || alone < 0 || static_cast<std::size_t>(alone) > l.garments.size()) node.at("alone").fail("is none of the garments");
+  if (l.garments.empty() || alone < 0 || static_cast<std::size_t>(alone) > l.garments.size())
+    node.at("alone").fail("is none of the garments");
   l.alone = static_cast<std::size_t>(alone);
-  if (l.alone == l.garments.size() && n != n_particles) garments.fail("are not the garments that are draped together");
+  if (l.alone == l.garments.size() && n != n_particles)
+    garments.fail("are not the garments that are draped together");
   l.alone_s = node.at("alone_s").number();
   l.repairs = io::read_strings(node.at("repairs"));
   return l;
@@ -209,13 +234,17 @@ DrapeCheckpoint read_checkpoint(const std::string& path) {
 }
 
 void DrapeCheckpoint::check_moves(const BodyMoves* moves) const {
-  if (motion.has_value() == (moves != nullptr) && (!moves || state.move.frame <= moves->n_frames)) return;
-  throw input_error(file, "", motion ? "is of a run in another motion" : "was written without --motion", "give the same --motion as before");
+  if (motion.has_value() == (moves != nullptr) && (!moves || state.move.frame <= moves->n_frames))
+    return;
+  throw input_error(file, "",
+                    motion ? "is of a run in another motion" : "was written without --motion",
+                    "give the same --motion as before");
 }
 
 void DrapeCheckpoint::check_body(const body::Body* body, const std::string& body_sha256) const {
   const std::string& began_on = layers ? layers->garments.back().body_sha256 : garment.body_sha256;
-  const bool same = has_body == (body != nullptr) && (body_sha256.empty() || body_sha256 == began_on);
+  const bool same =
+      has_body == (body != nullptr) && (body_sha256.empty() || body_sha256 == began_on);
   if (same) return;
   throw input_error(file, "",
                     !has_body ? "this drape began without a body"

@@ -1,5 +1,6 @@
 #pragma once
-/// All that the phases of a drape share. The session owns it and hands it to one phase at a time; nothing else keeps pointers into it.
+/// All that the phases of a drape share. The session owns it and hands it to one phase at a time;
+/// nothing else keeps pointers into it.
 #include <garment/body_model/collision_body.hpp>
 #include <garment/simulate/fit_monitor.hpp>
 #include <garment/simulate/penetration_resolver.hpp>
@@ -15,22 +16,28 @@ namespace sloper::garment {
 class CheckpointSink {
 public:
   virtual ~CheckpointSink() = default;
-  /// Between two steps: takes a checkpoint where one is due. @return whether the solver was built anew
+  /// Between two steps: takes a checkpoint where one is due. @return whether the solver was built
+  /// anew
   virtual bool offer() = 0;
-  /// For a phase that counts in its own way: takes one when `count` has come far enough beyond `last`. @param last in and out
+  /// For a phase that counts in its own way: takes one when `count` has come far enough beyond
+  /// `last`. @param last in and out
   virtual bool offer(int count, int& last) = 0;
 };
 
 struct SimContext {
   /// All outlive this. @throws Error INPUT for a garment that cannot be simulated
-  SimContext(Garment& garment, const body::Body* body_model, const DrapeSettings& drape_settings, const FitBounds& bounds, Reporter& reporter)
-      : settings(drape_settings), telemetry(drape_settings, reporter), body(body_model, drape_settings.skin_tolerance_m, reporter),
-        cloth(garment, settings, body, telemetry), stepper(cloth, settings, telemetry), resolver(cloth, body, telemetry),
-        supports(cloth, settings, resolver, telemetry), fit(bounds, cloth) {}
+  SimContext(Garment& garment, const body::Body* body_model, const DrapeSettings& drape_settings,
+             const FitBounds& bounds, Reporter& reporter)
+      : settings(drape_settings), telemetry(drape_settings, reporter),
+        body(body_model, drape_settings.skin_tolerance_m, reporter),
+        cloth(garment, settings, body, telemetry), stepper(cloth, settings, telemetry),
+        resolver(cloth, body, telemetry), supports(cloth, settings, resolver, telemetry),
+        fit(bounds, cloth) {}
   SimContext(const SimContext&) = delete;
   SimContext& operator=(const SimContext&) = delete;
 
-  /// Cloth, solver and effects for the garment as it stands; what helps for a moment is applied again.
+  /// Cloth, solver and effects for the garment as it stands; what helps for a moment is applied
+  /// again.
   void build_cloth(bool open_seams, bool keep_velocity = false) {
     supports.forget_effects();
     cloth.build(open_seams, keep_velocity);
@@ -46,7 +53,8 @@ struct SimContext {
   TemporarySupports supports;
   FitMonitor fit;
   CheckpointSink* checkpoints = nullptr;
-  bool disturbed = false; ///< the start is strained, by sewing, by a body that was drawn in or by StartFacts: it first relaxes without load
+  bool disturbed = false; ///< the start is strained, by sewing, by a body that was drawn in or by
+                          ///< StartFacts: it first relaxes without load
 };
 
 } // namespace sloper::garment

@@ -13,9 +13,12 @@ namespace {
 constexpr double DECAY_RATIO = 0.5;         // of the change before: the change at this look
 constexpr double NEGLIGIBLE_CHANGE = 0.005; // of the strain: too small to be compared
 constexpr int TIGHT_LOOKS_AHEAD = 20;       // extrapolated, of a garment that is tight at a girth
-constexpr int LOOSE_LOOKS_AHEAD = 40;       // likewise, with ease all around: sleeves slide along an arm, slowly
-constexpr double LARGEST_IMBALANCE = 0.03;  // of the tension that goes with the strain of the bounds: the residual force
-constexpr int STRAINED_STEPS = 80;          // of a tight garment that never gets calm, without a strain less by STRAIN_FALLS: it stays
+constexpr int LOOSE_LOOKS_AHEAD =
+    40; // likewise, with ease all around: sleeves slide along an arm, slowly
+constexpr double LARGEST_IMBALANCE =
+    0.03; // of the tension that goes with the strain of the bounds: the residual force
+constexpr int STRAINED_STEPS =
+    80; // of a tight garment that never gets calm, without a strain less by STRAIN_FALLS: it stays
 constexpr double STRAIN_FALLS = 0.97;
 
 double median(std::vector<double> values) {
@@ -27,7 +30,10 @@ double median(std::vector<double> values) {
 } // namespace
 
 io::Json FitMonitor::State::to_json() const {
-  return {{"strains", strains}, {"least_strain", least_strain}, {"strain_fell_at", strain_fell_at}, {"slip_m", slip}};
+  return {{"strains", strains},
+          {"least_strain", least_strain},
+          {"strain_fell_at", strain_fell_at},
+          {"slip_m", slip}};
 }
 
 FitMonitor::State FitMonitor::State::read(const io::Node& node) {
@@ -46,7 +52,8 @@ bool FitMonitor::is_calm(const cloth::StepResult& last) const {
   const double change = std::abs(newest[1] - newest[0]);
   const double before = std::abs(newest[2] - newest[1]);
   return change <= std::max(DECAY_RATIO * before, NEGLIGIBLE_CHANGE * newest[0]) &&
-         last.residual_force_ratio <= LARGEST_IMBALANCE * m_bounds.strain_p99 * m_cloth.tension_ratio();
+         last.residual_force_ratio <=
+             LARGEST_IMBALANCE * m_bounds.strain_p99 * m_cloth.tension_ratio();
 }
 
 bool FitMonitor::slides(const std::vector<double>& start_height) {
@@ -70,13 +77,17 @@ bool FitMonitor::stays_stretched(const cloth::StepResult& last, int steps) {
     m_state.least_strain = strain;
     m_state.strain_fell_at = steps;
   }
-  if (m_bounds.tight && strain > m_bounds.strain_p99 && steps >= m_state.strain_fell_at + STRAINED_STEPS) return true;
+  if (m_bounds.tight && strain > m_bounds.strain_p99 &&
+      steps >= m_state.strain_fell_at + STRAINED_STEPS)
+    return true;
   if (!is_calm(last)) return false;
   const double change = std::abs(strains[strains.size() - 2] - strain);
-  return strain - (m_bounds.tight ? TIGHT_LOOKS_AHEAD : LOOSE_LOOKS_AHEAD) * change > m_bounds.strain_p99;
+  return strain - (m_bounds.tight ? TIGHT_LOOKS_AHEAD : LOOSE_LOOKS_AHEAD) * change >
+         m_bounds.strain_p99;
 }
 
-Misfit FitMonitor::judge(const std::vector<double>& start_height, const cloth::StepResult& last, int steps) {
+Misfit FitMonitor::judge(const std::vector<double>& start_height, const cloth::StepResult& last,
+                         int steps) {
   if (m_bounds.slip_m > 0 && slides(start_height)) return Misfit::SLIDES_DOWN;
   if (m_bounds.strain_p99 > 0 && stays_stretched(last, steps)) return Misfit::STAYS_STRETCHED;
   return Misfit::NONE;

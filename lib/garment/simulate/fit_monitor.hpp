@@ -1,9 +1,11 @@
 #pragma once
 /// Whether a garment that is not yet at rest can still fit.
 ///
-/// Cloth that is laid on a body too stretched relaxes along its threads within some tens of steps: strain decays roughly geometrically, and then the
-/// cloth slides slowly or not at all. So the extrapolated limit is judged: the strain less what the garment would lose if it went on losing as
-/// much as at its last look. While internal forces are still large against the tension, the extrapolation is not trusted.
+/// Cloth that is laid on a body too stretched relaxes along its threads within some tens of steps:
+/// strain decays roughly geometrically, and then the cloth slides slowly or not at all. So the
+/// extrapolated limit is judged: the strain less what the garment would lose if it went on losing
+/// as much as at its last look. While internal forces are still large against the tension, the
+/// extrapolation is not trusted.
 #include <garment/simulate/request.hpp>
 #include <garment/simulate/simulated_cloth.hpp>
 #include <garment/simulate/stop_reason.hpp>
@@ -28,7 +30,8 @@ public:
 
   /// @param cloth outlives this
   FitMonitor(const FitBounds& bounds, SimulatedCloth& cloth) : m_bounds(bounds), m_cloth(cloth) {}
-  /// Looks at the garment. @param start_height  #P, m: where settling began   @param last  the last step   @param steps  of the drape so far
+  /// Looks at the garment. @param start_height  #P, m: where settling began   @param last  the last
+  /// step   @param steps  of the drape so far
   /// @return which bound it is beyond for good
   Misfit judge(const std::vector<double>& start_height, const cloth::StepResult& last, int steps);
 

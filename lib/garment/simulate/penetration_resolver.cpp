@@ -33,7 +33,8 @@ PenetrationResolver::State PenetrationResolver::State::read(const io::Node& node
   return state;
 }
 
-PenetrationResolver::PenetrationResolver(SimulatedCloth& cloth, CollisionBody& body, Telemetry& telemetry)
+PenetrationResolver::PenetrationResolver(SimulatedCloth& cloth, CollisionBody& body,
+                                         Telemetry& telemetry)
     : m_cloth(cloth), m_body(body), m_telemetry(telemetry) {}
 
 std::size_t PenetrationResolver::count_in_body() const {
@@ -48,8 +49,10 @@ void PenetrationResolver::log_crossings(const char* when) const {
   const std::vector<Vec3>& position = m_cloth.garment().position;
   const std::vector<Triangle> triangles = m_cloth.garment().particle_triangles();
   const collision::TriangleTree tree(position, triangles);
-  m_telemetry.reporter.info(std::string(when) + ": " + std::to_string(collision::self_intersections(position, triangles, tree).size()) +
-                            " pairs of triangles cross");
+  m_telemetry.reporter.info(
+      std::string(when) + ": " +
+      std::to_string(collision::self_intersections(position, triangles, tree).size()) +
+      " pairs of triangles cross");
 }
 
 std::size_t PenetrationResolver::untangle() {
@@ -69,10 +72,13 @@ std::size_t PenetrationResolver::untangle() {
     }
     if (count == 0) break;
     const auto pairs = collision::untangle_directions(x, triangles, topology, tree);
-    const std::vector<Vec3> move = collision::untangle_displacements(pairs, triangles, topology, x.size(), UNTANGLE_STEP);
+    const std::vector<Vec3> move =
+        collision::untangle_displacements(pairs, triangles, topology, x.size(), UNTANGLE_STEP);
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += move[i];
   }
-  if (at_start > 0) m_telemetry.add_repair("untangled: " + std::to_string(at_start) + " pairs of triangles crossed, " + std::to_string(least) + " remain");
+  if (at_start > 0)
+    m_telemetry.add_repair("untangled: " + std::to_string(at_start) +
+                           " pairs of triangles crossed, " + std::to_string(least) + " remain");
   return least;
 }
 
@@ -82,9 +88,12 @@ void PenetrationResolver::untangle_in_flight() {
   m_cloth.positions_changed();
 }
 
-/// Pushes what of the garment crosses the skin or lies inside out along the skin's normal. @param move  #P by 3, m, in and out: the moves are added
+/// Pushes what of the garment crosses the skin or lies inside out along the skin's normal. @param
+/// move  #P by 3, m, in and out: the moves are added
 /// @return vertices inside and faces through the skin
-std::size_t PenetrationResolver::push_out_of_body(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, std::vector<Vec3>& move) const {
+std::size_t PenetrationResolver::push_out_of_body(const std::vector<Vec3>& x,
+                                                  const std::vector<Triangle>& triangles,
+                                                  std::vector<Vec3>& move) const {
   const collision::BodyCollider* skin = m_body.collider();
   if (!skin) return 0;
   std::size_t violations = 0;
@@ -105,14 +114,19 @@ std::size_t PenetrationResolver::push_out_of_body(const std::vector<Vec3>& x, co
   violations += through.size();
   std::vector<Triangle> crossing;
   for (int f : through) crossing.push_back(triangles[f]);
-  for (const collision::FaceContact& c : skin->face_contacts(x, crossing, PART_STEP)) { // skin that shows through between particles
+  for (const collision::FaceContact& c :
+       skin->face_contacts(x, crossing, PART_STEP)) { // skin that shows through between particles
     if (c.distance >= PART_CLEAR) continue;
     const double share = c.barycentric.squaredNorm();
-    for (int k = 0; k < 3; ++k) push(crossing[c.triangle][k], c.barycentric[k] / share * (PART_CLEAR - c.distance) * c.normal);
+    for (int k = 0; k < 3; ++k)
+      push(crossing[c.triangle][k],
+           c.barycentric[k] / share * (PART_CLEAR - c.distance) * c.normal);
   }
   for (int f : through) // what neither found: straight out
-    if (out[triangles[f][0]].isZero() && out[triangles[f][1]].isZero() && out[triangles[f][2]].isZero())
-      for (int i : triangles[f]) push(i, UNTANGLE_STEP * skin->signed_distance(x[i], PART_REACH).normal);
+    if (out[triangles[f][0]].isZero() && out[triangles[f][1]].isZero() &&
+        out[triangles[f][2]].isZero())
+      for (int i : triangles[f])
+        push(i, UNTANGLE_STEP * skin->signed_distance(x[i], PART_REACH).normal);
   for (std::size_t i = 0; i < x.size(); ++i) move[i] += out[i];
   return violations;
 }
@@ -128,8 +142,10 @@ std::size_t PenetrationResolver::resolve_all(int max_rounds, int& rounds) {
     m_telemetry.reporter.progress("untangle", static_cast<double>(rounds) / max_rounds);
     tree.refit(x);
     const auto pairs = collision::untangle_directions(x, triangles, topology, tree);
-    std::vector<Vec3> move = collision::untangle_displacements(pairs, triangles, topology, x.size(), UNTANGLE_STEP);
-    const std::size_t count = collision::self_intersections(x, triangles, tree).size() + push_out_of_body(x, triangles, move);
+    std::vector<Vec3> move =
+        collision::untangle_displacements(pairs, triangles, topology, x.size(), UNTANGLE_STEP);
+    const std::size_t count = collision::self_intersections(x, triangles, tree).size() +
+                              push_out_of_body(x, triangles, move);
     if (count < least) {
       least = count;
       position = x;
@@ -141,7 +157,9 @@ std::size_t PenetrationResolver::resolve_all(int max_rounds, int& rounds) {
 }
 
 bool PenetrationResolver::resolve_initial(std::size_t violations) {
-  if (static_cast<double>(violations) > MOST_AT_START * static_cast<double>(m_cloth.garment().panels.triangles.size())) return false;
+  if (static_cast<double>(violations) >
+      MOST_AT_START * static_cast<double>(m_cloth.garment().panels.triangles.size()))
+    return false;
   std::vector<Vec3>& position = m_cloth.garment().position;
   const std::vector<Vec3> start = position;
   int rounds = 0;
@@ -149,7 +167,8 @@ bool PenetrationResolver::resolve_initial(std::size_t violations) {
     position = start;
     return false;
   }
-  m_telemetry.add_repair("start: " + std::to_string(violations) + " vertices or faces in the body moved out");
+  m_telemetry.add_repair("start: " + std::to_string(violations) +
+                         " vertices or faces in the body moved out");
   return true;
 }
 
@@ -157,11 +176,14 @@ bool PenetrationResolver::resolve_residual() {
   const cloth::BodyContactEffect* contact = m_cloth.body_contact();
   if (!contact || m_state.partings >= MAX_PARTINGS) return false;
   const std::size_t through = contact->n_crossing();
-  if (through == 0 || static_cast<double>(through) > MOST_IN_FLIGHT * static_cast<double>(m_cloth.mesh().triangles.size())) return false;
+  if (through == 0 || static_cast<double>(through) >
+                          MOST_IN_FLIGHT * static_cast<double>(m_cloth.mesh().triangles.size()))
+    return false;
   ++m_state.partings;
   int rounds = 0;
   const std::size_t remain = resolve_all(SETTLING_ROUNDS, rounds);
-  m_telemetry.add_repair("step " + std::to_string(m_telemetry.report.steps) + ": " + std::to_string(through) + " faces through the skin moved out, " +
+  m_telemetry.add_repair("step " + std::to_string(m_telemetry.report.steps) + ": " +
+                         std::to_string(through) + " faces through the skin moved out, " +
                          std::to_string(remain) + " crossings remain");
   m_cloth.positions_changed();
   return true;

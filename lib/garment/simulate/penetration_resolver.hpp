@@ -1,5 +1,6 @@
 #pragma once
-/// Draws cloth that crosses itself apart, and out of the body, by short moves of what crosses alone.
+/// Draws cloth that crosses itself apart, and out of the body, by short moves of what crosses
+/// alone.
 #include <garment/body_model/collision_body.hpp>
 #include <garment/simulate/simulated_cloth.hpp>
 #include <garment/simulate/telemetry.hpp>
@@ -10,7 +11,7 @@
 
 namespace sloper::garment {
 
-inline constexpr int MAX_PUSH_STEPS = 120;         ///< for cloth at rest that is still through the skin
+inline constexpr int MAX_PUSH_STEPS = 120; ///< for cloth at rest that is still through the skin
 inline constexpr int MAX_RESOLVE_ALL_ROUNDS = 300; ///< of resolve_all(), where nothing else is done
 
 class PenetrationResolver {
@@ -27,19 +28,24 @@ public:
   /// All outlive this.
   PenetrationResolver(SimulatedCloth& cloth, CollisionBody& body, Telemetry& telemetry);
 
-  /// Draws cloth that crosses itself apart, with the body left aside. Told in the report where anything crossed.
+  /// Draws cloth that crosses itself apart, with the body left aside. Told in the report where
+  /// anything crossed.
   /// @return pairs of triangles that still cross. Cost: up to 80 searches for crossings
   std::size_t untangle();
   /// The same between two steps of the solver.
   void untangle_in_flight();
   /// Draws cloth out of itself and out of the body. The garment is left where least was wrong.
-  /// @param rounds  out: made   @return crossing pairs, faces through the skin and vertices inside that are left
+  /// @param rounds  out: made   @return crossing pairs, faces through the skin and vertices inside
+  /// that are left
   std::size_t resolve_all(int max_rounds, int& rounds);
-  /// Moves what little of a garment that was in order starts in the body out of it: drawing in the body would undo how it hangs.
-  /// @param violations  vertices and faces in the body   @return whether that was enough; else nothing moved
+  /// Moves what little of a garment that was in order starts in the body out of it: drawing in the
+  /// body would undo how it hangs.
+  /// @param violations  vertices and faces in the body   @return whether that was enough; else
+  /// nothing moved
   bool resolve_initial(std::size_t violations);
-  /// Moves the last faces through the skin out of it while the garment settles: contact alone does not free cloth whose other side is held
-  /// too, as in the fold of an arm pit. @return whether there were any
+  /// Moves the last faces through the skin out of it while the garment settles: contact alone does
+  /// not free cloth whose other side is held too, as in the fold of an arm pit. @return whether
+  /// there were any
   bool resolve_residual();
   /// How many vertices are in the body, and faces through its skin, at the garment's positions.
   std::size_t count_in_body() const;
@@ -49,7 +55,8 @@ public:
   void restore(const State& state) { m_state = state; }
 
 private:
-  std::size_t push_out_of_body(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles, std::vector<Vec3>& move) const;
+  std::size_t push_out_of_body(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles,
+                               std::vector<Vec3>& move) const;
 
   SimulatedCloth& m_cloth;
   CollisionBody& m_body;

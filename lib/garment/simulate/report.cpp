@@ -14,21 +14,26 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr const char* AUDITED[] = {"faces_through_body", "vertices_inside_body", "self_intersections"};
+constexpr const char* AUDITED[] = {"faces_through_body", "vertices_inside_body",
+                                   "self_intersections"};
 
-std::string counts_text(const std::string& faces, const std::string& vertices, const std::string& pairs) {
-  return faces + " faces through the body, " + vertices + " vertices inside it, " + pairs + " self intersections";
+std::string counts_text(const std::string& faces, const std::string& vertices,
+                        const std::string& pairs) {
+  return faces + " faces through the body, " + vertices + " vertices inside it, " + pairs +
+         " self intersections";
 }
 
 std::string unclean_text(const io::Json& quality) {
-  return "at rest, but " + counts_text(quality[AUDITED[0]].dump(), quality[AUDITED[1]].dump(), quality[AUDITED[2]].dump());
+  return "at rest, but " + counts_text(quality[AUDITED[0]].dump(), quality[AUDITED[1]].dump(),
+                                       quality[AUDITED[2]].dump());
 }
 
 std::string unclean_frames_text(const io::Json& motion) {
   int frames = 0;
   for (const char* count : AUDITED) frames = std::max(frames, motion[count]["frames"].get<int>());
   const auto most = [&](int k) { return motion[AUDITED[k]]["most"].dump(); };
-  return "at rest in the end, but of " + motion["frames"].dump() + " frames before " + std::to_string(frames) + " are not clean: at most " +
+  return "at rest in the end, but of " + motion["frames"].dump() + " frames before " +
+         std::to_string(frames) + " are not clean: at most " +
          counts_text(most(0), most(1), most(2));
 }
 
@@ -39,14 +44,17 @@ std::string stop_text(const DrapeReport& report) {
   case StopReason::NONE: return "";
   case StopReason::AT_REST: return "at rest";
   case StopReason::AT_REST_UNCLEAN: return unclean_text(report.quality);
-  case StopReason::AT_REST_AFTER_UNCLEAN_FRAMES: return unclean_frames_text(report.quality["motion"]);
+  case StopReason::AT_REST_AFTER_UNCLEAN_FRAMES:
+    return unclean_frames_text(report.quality["motion"]);
   case StopReason::AT_REST_STRETCHED: return "at rest, but stretched by " + report.stop_detail;
   case StopReason::STEP_LIMIT: return "step limit";
   case StopReason::TIME_LIMIT: return "time limit";
   case StopReason::INTERRUPTED: return "stopped by the user";
   case StopReason::NOT_FINITE: return "diverged";
-  case StopReason::STALLED: return "no nearer to rest in " + std::to_string(STALLED_STEPS) + " steps";
-  case StopReason::STUCK: return "stuck: nothing could move in " + std::to_string(UNMOVED_STEPS) + " steps";
+  case StopReason::STALLED:
+    return "no nearer to rest in " + std::to_string(STALLED_STEPS) + " steps";
+  case StopReason::STUCK:
+    return "stuck: nothing could move in " + std::to_string(UNMOVED_STEPS) + " steps";
   case StopReason::MISFIT: return "the garment " + misfit_text(report.misfit) + " too far to fit";
   case StopReason::NOTHING_CROSSED: return "nothing crossed";
   case StopReason::NOTHING_CROSSES: return "nothing crosses any more";
@@ -58,7 +66,8 @@ std::string stop_text(const DrapeReport& report) {
 }
 
 std::string strict_hash(const Garment& garment) {
-  return io::sha256({reinterpret_cast<const char*>(garment.position.data()), garment.position.size() * sizeof(Vec3)});
+  return io::sha256({reinterpret_cast<const char*>(garment.position.data()),
+                     garment.position.size() * sizeof(Vec3)});
 }
 
 std::string quantised_hash(const Garment& garment) {
@@ -78,13 +87,19 @@ io::Json report_json(const DrapeReport& report, const std::string& tool) {
   out["wall_s"] = report.wall_s;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   out["cpu_s"] = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   out["peak_rss_mb"] = static_cast<double>(usage.ru_maxrss) / 1024;
   out["threads"] = thread_count();
   out["effects"] = io::Json::array();
   for (const EffectReport& e : report.effects)
-    out["effects"].push_back({{"name", e.name}, {"active", e.active}, {"why", e.why}, {"calls", e.calls}, {"wall_s", e.wall_s}});
+    out["effects"].push_back({{"name", e.name},
+                              {"active", e.active},
+                              {"why", e.why},
+                              {"calls", e.calls},
+                              {"wall_s", e.wall_s}});
   out["phases"] = io::Json::object();
   for (const auto& [name, wall] : report.phases) out["phases"][name] = {{"wall_s", wall}};
   out["solver"] = report.solver;

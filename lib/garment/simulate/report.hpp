@@ -21,19 +21,21 @@ struct DrapeReport {
   double simulated_s = 0, wall_s = 0;
   std::vector<EffectReport> effects;
   std::vector<std::pair<std::string, double>> phases; ///< name, wall seconds
-  io::Json solver;                                    ///< as report.json has it: conjugate gradients, residual, rejected steps
-  io::Json quality;                                   ///< as report.json has it: what the audit found
+  io::Json solver;  ///< as report.json has it: conjugate gradients, residual, rejected steps
+  io::Json quality; ///< as report.json has it: what the audit found
   std::vector<std::string> repairs;
   DrapeSettings settings;
 };
 
-/// The sentence that report.json has as `stop_reason`: made of the reason, and of `quality` and `stop_detail` where counts belong to it.
+/// The sentence that report.json has as `stop_reason`: made of the reason, and of `quality` and
+/// `stop_detail` where counts belong to it.
 std::string stop_text(const DrapeReport& report);
 
 /// The report document without its envelope's inputs and hashes, which the tool adds.
 io::Json report_json(const DrapeReport& report, const std::string& tool);
 
-/// SHA-256 of the particle positions: of their bytes, and of their 10 um cells (to compare machines and compilers).
+/// SHA-256 of the particle positions: of their bytes, and of their 10 um cells (to compare machines
+/// and compilers).
 std::string strict_hash(const Garment& garment);
 std::string quantised_hash(const Garment& garment);
 

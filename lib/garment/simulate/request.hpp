@@ -7,9 +7,11 @@ namespace sloper::garment {
 
 /// Where a garment that is not yet at rest stands when it is plain that it will not fit; 0: never.
 struct FitBounds {
-  double slip_m = 0;     ///< half of the particles have sunk farther than this since the start
-  double strain_p99 = 0; ///< along the threads (cloth_strain.hpp), and by how it falls it will not come below
-  bool tight = true;     ///< the garment is tight at some girth; where it has ease all around, strain is waited for twice as long
+  double slip_m = 0; ///< half of the particles have sunk farther than this since the start
+  double strain_p99 =
+      0; ///< along the threads (cloth_strain.hpp), and by how it falls it will not come below
+  bool tight = true; ///< the garment is tight at some girth; where it has ease all around, strain
+                     ///< is waited for twice as long
 };
 
 /// What a checkpoint knows of the motion that the drape takes part in, for whoever gives it again.
@@ -24,25 +26,28 @@ struct LayersProgress; ///< checkpoint.hpp
 struct Checkpoints {
   std::string file; ///< replaced as a whole each time; empty: none is written
   int every_steps = 100;
-  bool renew = false;                     ///< without a file too: what a run with a file does, to the bit
-  std::optional<MotionInput> motion = {}; ///< of a drape in motion; drape_in_motion() and drape_layers() fill it in where it is not given
+  bool renew = false; ///< without a file too: what a run with a file does, to the bit
+  std::optional<MotionInput> motion = {}; ///< of a drape in motion; drape_in_motion() and
+                                          ///< drape_layers() fill it in where it is not given
   const LayersProgress* layers = nullptr; ///< set by drape_layers(): of the drapes around this one
 };
 
 /// What the caller knows of the garment's start and no drape can see.
 struct StartFacts {
-  /// Sleeves are longer than the arms and their ends are at the wrists (retarget()): they are held there until the cloth above them has
-  /// found its folds (sleeve_ends.hpp).
+  /// Sleeves are longer than the arms and their ends are at the wrists (retarget()): they are held
+  /// there until the cloth above them has found its folds (sleeve_ends.hpp).
   bool hold_sleeve_ends = false;
-  /// The cloth is strained by how it was put there, by tucking one layer below another (drape_layers()): it first relaxes free of weight and
-  /// friction, which would keep that strain.
+  /// The cloth is strained by how it was put there, by tucking one layer below another
+  /// (drape_layers()): it first relaxes free of weight and friction, which would keep that strain.
   bool relax_first = false;
 };
 
 /// What a drape may be given beside the garment, the body and the settings.
 struct DrapeRequest {
-  FitBounds bounds = {}; ///< end the drape, with the reason in DrapeReport::misfit, once the garment is beyond them
-  /// With a file: from one to the next the solver begins anew, so the result is another, as good, than without.
+  FitBounds bounds = {}; ///< end the drape, with the reason in DrapeReport::misfit, once the
+                         ///< garment is beyond them
+  /// With a file: from one to the next the solver begins anew, so the result is another, as good,
+  /// than without.
   Checkpoints checkpoints = {};
   StartFacts start = {};
 };

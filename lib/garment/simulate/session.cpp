@@ -8,9 +8,11 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double SEW_LEG_SCALE = 0.7;                                                          // of the body's thickness while trousers are sewn
-constexpr double SHRINK_SCALES[] = {0.9, 0.8, 0.65, 0.5, 0.35, 0.2};                           // tried one after the other until nothing is inside
-constexpr std::size_t INFLATE_INDEX = 1, SETTLE_INDEX = 2, MOVE_INDEX = 3, RESETTLE_INDEX = 4; // in the plan
+constexpr double SEW_LEG_SCALE = 0.7; // of the body's thickness while trousers are sewn
+constexpr double SHRINK_SCALES[] = {0.9,  0.8, 0.65, 0.5,
+                                    0.35, 0.2}; // tried one after the other until nothing is inside
+constexpr std::size_t INFLATE_INDEX = 1, SETTLE_INDEX = 2, MOVE_INDEX = 3,
+                      RESETTLE_INDEX = 4; // in the plan
 
 std::size_t plan_index(const DrapeState& state) {
   switch (state.phase) {
@@ -25,15 +27,22 @@ std::size_t plan_index(const DrapeState& state) {
 
 } // namespace
 
-DrapeSession::DrapeSession(const SessionInputs& inputs, const DrapeSettings& settings, Reporter& reporter)
-    : m_context(inputs.garment, inputs.body, settings, inputs.request.bounds, reporter), m_start(inputs.request.start),
-      m_checkpoints(inputs.request.checkpoints), m_move(inputs.moves, inputs.on_frame), m_plan{&m_sew, &m_inflate, &m_settle, &m_move, &m_settle} {
+DrapeSession::DrapeSession(const SessionInputs& inputs, const DrapeSettings& settings,
+                           Reporter& reporter)
+    : m_context(inputs.garment, inputs.body, settings, inputs.request.bounds, reporter),
+      m_start(inputs.request.start), m_checkpoints(inputs.request.checkpoints),
+      m_move(inputs.moves, inputs.on_frame), m_plan{&m_sew, &m_inflate, &m_settle, &m_move,
+                                                    &m_settle} {
   m_context.checkpoints = this;
 }
 
-DrapeSession::DrapeSession(const SessionInputs& inputs, const DrapeCheckpoint& from, Reporter& reporter)
-    : m_context(inputs.garment = from.garment, inputs.body, from.report.settings, from.bounds, reporter), m_checkpoints(inputs.request.checkpoints),
-      m_move(inputs.moves, inputs.on_frame), m_plan{&m_sew, &m_inflate, &m_settle, &m_move, &m_settle} {
+DrapeSession::DrapeSession(const SessionInputs& inputs, const DrapeCheckpoint& from,
+                           Reporter& reporter)
+    : m_context(inputs.garment = from.garment, inputs.body, from.report.settings, from.bounds,
+                reporter),
+      m_checkpoints(inputs.request.checkpoints),
+      m_move(inputs.moves, inputs.on_frame), m_plan{&m_sew, &m_inflate, &m_settle, &m_move,
+                                                    &m_settle} {
   m_context.checkpoints = this;
   restore(from);
 }
@@ -48,13 +57,15 @@ void DrapeSession::begin() {
   m_context.cloth.choose_effects();
   if (m_move.moves()) m_context.telemetry.activate("body_motion", "the body moves");
   start_outside_body(unsewn);
-  m_context.disturbed = unsewn || m_context.body.state().scale < 1 || m_start.hold_sleeve_ends || m_start.relax_first;
+  m_context.disturbed =
+      unsewn || m_context.body.state().scale < 1 || m_start.hold_sleeve_ends || m_start.relax_first;
   if (!unsewn && m_context.disturbed) m_context.supports.find_sleeve_ends();
   m_index = unsewn ? 0 : INFLATE_INDEX;
 }
 
-/// Sees to it that nothing of the garment starts inside the body. What is sewn around the lower body is sewn as if the arms were held up, where no sleeve
-/// needs them; trousers around legs drawn in, since between thighs that touch there is no room for a seam to close.
+/// Sees to it that nothing of the garment starts inside the body. What is sewn around the lower
+/// body is sewn as if the arms were held up, where no sleeve needs them; trousers around legs drawn
+/// in, since between thighs that touch there is no room for a seam to close.
 void DrapeSession::start_outside_body(bool unsewn) {
   CollisionBody& body = m_context.body;
   if (!body.has_skin()) return;
@@ -62,7 +73,8 @@ void DrapeSession::start_outside_body(bool unsewn) {
   const Garment& garment = m_context.cloth.garment();
   const bool sewn_on_legs = unsewn && !placed_on(garment, "leg").empty();
   if (unsewn && m_context.cloth.is_active("body_contact")) body.find_arms_aside(garment);
-  body.prepare(body.ends_near(garment.position) | (body.state().arms_aside ? CoveredSkin::HANDS : 0u));
+  body.prepare(body.ends_near(garment.position) |
+               (body.state().arms_aside ? ExtremityHulls::HANDS : 0u));
   body.put_arms_aside();
   const std::size_t violations = m_context.resolver.count_in_body();
   if (violations == 0 && sewn_on_legs) body.draw_in(SEW_LEG_SCALE);
@@ -79,9 +91,10 @@ void DrapeSession::start_outside_body(bool unsewn) {
     if (count == 0) break;
   }
   body.draw_in(best);
-  m_context.telemetry.add_repair("start: " + std::to_string(violations) + " vertices or faces in the body; body drawn in to " +
-                                 std::to_string(std::lround(best * 100)) + " % of its thickness and inflated again" +
-                                 (least ? ", " + std::to_string(least) + " remained" : ""));
+  m_context.telemetry.add_repair(
+      "start: " + std::to_string(violations) + " vertices or faces in the body; body drawn in to " +
+      std::to_string(std::lround(best * 100)) + " % of its thickness and inflated again" +
+      (least ? ", " + std::to_string(least) + " remained" : ""));
 }
 
 void DrapeSession::close_seams() {
@@ -92,7 +105,8 @@ void DrapeSession::close_seams() {
 void DrapeSession::enter(std::size_t index, bool resumed) {
   m_index = index;
   m_phase = m_plan[index];
-  if (*m_phase->name()) m_timer = std::make_unique<PhaseTimer>(m_context.telemetry, m_phase->name());
+  if (*m_phase->name())
+    m_timer = std::make_unique<PhaseTimer>(m_context.telemetry, m_phase->name());
   if (index == RESETTLE_INDEX && !resumed) m_settle.forget_progress();
   m_phase->begin(m_context, resumed);
 }
@@ -125,7 +139,9 @@ bool DrapeSession::step() {
   if (!m_begun) begin();
   if (!m_phase) return advance_to_next_phase();
   if (m_phase->step(m_context) == PhaseStatus::CONTINUE) return true;
-  const bool goes_on = !stopped() || m_phase == &m_inflate; // a garment that was stopped meanwhile is still let down onto its arms
+  const bool goes_on =
+      !stopped() ||
+      m_phase == &m_inflate; // a garment that was stopped meanwhile is still let down onto its arms
   leave();
   return goes_on && m_index < m_plan.size();
 }
@@ -148,7 +164,9 @@ void DrapeSession::start_live(bool loaded) {
   if (loaded) m_context.cloth.add_load();
 }
 
-bool DrapeSession::advance(const StepRequest& request) { return m_context.stepper.advance(request); }
+bool DrapeSession::advance(const StepRequest& request) {
+  return m_context.stepper.advance(request);
+}
 
 void DrapeSession::set_positions(const std::vector<Vec3>& x) {
   m_context.cloth.garment().position = x;
@@ -174,7 +192,8 @@ void DrapeSession::settle() {
 
 void DrapeSession::choose_contact_alone() {
   m_context.cloth.choose_effects();
-  for (EffectReport& e : m_context.telemetry.report.effects) e.active = e.active && (e.name == "body_contact" || e.name == "self_contact");
+  for (EffectReport& e : m_context.telemetry.report.effects)
+    e.active = e.active && (e.name == "body_contact" || e.name == "self_contact");
 }
 
 const collision::BodyCollider* DrapeSession::full_skin() {
@@ -201,11 +220,14 @@ void DrapeSession::push_apart(int max_push_steps) {
   m_context.body.use_full_skin();
 }
 
-bool DrapeSession::takes_checkpoints() const { return !m_checkpoints.file.empty() || m_checkpoints.renew; }
+bool DrapeSession::takes_checkpoints() const {
+  return !m_checkpoints.file.empty() || m_checkpoints.renew;
+}
 
 bool DrapeSession::offer() {
   const int steps = m_context.telemetry.report.steps;
-  if (!takes_checkpoints() || steps == m_checkpoint_step || steps % m_checkpoints.every_steps != 0) return false;
+  if (!takes_checkpoints() || steps == m_checkpoint_step || steps % m_checkpoints.every_steps != 0)
+    return false;
   take_checkpoint();
   return true;
 }
@@ -217,7 +239,8 @@ bool DrapeSession::offer(int count, int& last) {
   return true;
 }
 
-/// The solver begins anew here, whether a file is written or not: so does the run that goes on from it.
+/// The solver begins anew here, whether a file is written or not: so does the run that goes on from
+/// it.
 void DrapeSession::take_checkpoint() {
   DrapeReport& report = m_context.telemetry.report;
   m_checkpoint_step = report.steps;
@@ -251,7 +274,8 @@ DrapeState DrapeSession::save() const {
   if (m_context.cloth.body_contact()) state.contact = m_context.cloth.body_contact()->memory();
   state.sew = m_sew.state();
   state.inflate = m_inflate.state();
-  if (state.phase == DrapePhase::INFLATE) state.inflate.skin = m_context.body.collider()->mesh().positions;
+  if (state.phase == DrapePhase::INFLATE)
+    state.inflate.skin = m_context.body.collider()->mesh().positions;
   state.settle = m_settle.state();
   if (state.settle.dynamic_steps > 0) state.settle.velocity = m_context.cloth.v();
   state.move = m_move.state(m_context);
@@ -263,7 +287,8 @@ void DrapeSession::restore(const DrapeCheckpoint& from) {
   const DrapeState& state = from.state;
   from.check_body(m_context.body.body(), "");
   // The body stands still while a garment of several is alone.
-  if (!from.layers || from.layers->alone == from.layers->garments.size()) from.check_moves(m_move.moves());
+  if (!from.layers || from.layers->alone == from.layers->garments.size())
+    from.check_moves(m_move.moves());
   DrapeReport& report = m_context.telemetry.report;
   report.steps = m_checkpoint_step = from.report.steps;
   report.simulated_s = from.report.simulated_s;
@@ -285,7 +310,8 @@ void DrapeSession::restore(const DrapeCheckpoint& from) {
   m_move.restore(state.move);
   m_context.fit.restore(state.fit);
   restore_body(from);
-  m_context.cloth.set_velocity(state.phase == DrapePhase::MOVE ? state.move.velocity : state.settle.velocity);
+  m_context.cloth.set_velocity(state.phase == DrapePhase::MOVE ? state.move.velocity
+                                                               : state.settle.velocity);
   m_index = plan_index(state);
   Phase& phase = *m_plan[m_index];
   const bool keep_velocity = phase.keeps_velocity() && !m_context.cloth.v().empty();

@@ -1,8 +1,10 @@
 #pragma once
-/// One drape in progress. A session owns all state of it and goes through its phases: sew, inflate, settle, and where the body moves, move and
-/// settle once more. A fresh start and a checkpoint differ by the initial state alone.
+/// One drape in progress. A session owns all state of it and goes through its phases: sew, inflate,
+/// settle, and where the body moves, move and settle once more. A fresh start and a checkpoint
+/// differ by the initial state alone.
 ///
-/// Clients stand on this interface: drape() and resume_drape(), drape_in_motion(), drape_layers(), drape_to_goal(), follow(), untangle_only().
+/// Clients stand on this interface: drape() and resume_drape(), drape_in_motion(), drape_layers(),
+/// drape_to_goal(), follow(), untangle_only().
 #include <garment/simulate/audit.hpp>
 #include <garment/simulate/checkpoint.hpp>
 #include <garment/simulate/context.hpp>
@@ -27,8 +29,8 @@ class DrapeSession : private CheckpointSink {
 public:
   /// A fresh start. @throws Error INPUT for a garment that cannot be simulated
   DrapeSession(const SessionInputs& inputs, const DrapeSettings& settings, Reporter& reporter);
-  /// Goes on from a checkpoint; the garment becomes the checkpoint's, and so do settings, the bounds of a fit, and how often
-  /// checkpoints are taken.
+  /// Goes on from a checkpoint; the garment becomes the checkpoint's, and so do settings, the
+  /// bounds of a fit, and how often checkpoints are taken.
   /// @throws Error INPUT for another body or another motion
   DrapeSession(const SessionInputs& inputs, const DrapeCheckpoint& from, Reporter& reporter);
   ~DrapeSession() override;
@@ -40,7 +42,8 @@ public:
   DrapeReport run();
 
   // A live session, which a client leads itself.
-  /// Brings the garment outside of the body and to its weight, without settling: from then on the client makes steps. @param loaded  with weight and friction
+  /// Brings the garment outside of the body and to its weight, without settling: from then on the
+  /// client makes steps. @param loaded  with weight and friction
   void start_live(bool loaded);
   /// One guarded step. @return false when the session must end
   bool advance(const StepRequest& request);
@@ -48,12 +51,13 @@ public:
   bool stopped() const { return m_context.stepper.stopped(); }
   const cloth::StepResult& last_step() const { return m_context.stepper.last(); }
   /// Searches now for what the next step of h seconds would search for first.
-  void look_ahead(double h) { m_context.cloth.solver().look_ahead(h); }
+  void prefetch_contacts(double h) { m_context.cloth.solver().prefetch_contacts(h); }
   /// @param x #P by 3, m
   void set_positions(const std::vector<Vec3>& x);
   /// The garment has other rest lengths under the same particles: it goes on in place.
   void replace_rest_shape() { m_context.cloth.replace_rest_shape(); }
-  /// The garment has another mesh or other positions: cloth and solver are made anew. @param loaded  with weight and friction
+  /// The garment has another mesh or other positions: cloth and solver are made anew. @param loaded
+  /// with weight and friction
   void rebuild_cloth(bool loaded);
   /// The steps until now do not count for the limit, nor in the report.
   void forget_steps() { m_context.telemetry.report.steps = 0; }
@@ -62,7 +66,8 @@ public:
   void settle();
 
   // Without a drape.
-  /// Draws the body in where the garment starts inside it, untangles, and inflates the body again; without weight. Call after choose_effects().
+  /// Draws the body in where the garment starts inside it, untangles, and inflates the body again;
+  /// without weight. Call after choose_effects().
   void push_apart(int max_push_steps);
   /// For clients that resolve penetrations alone: only contact takes part.
   void choose_contact_alone();

@@ -20,16 +20,18 @@ void DrapeSession::write_quality(const Audit& audit) {
     report.converged = false;
     report.stop_reason = StopReason::AT_REST_UNCLEAN;
   }
-  report.quality = {
-      {"max_speed_m_s", m_context.stepper.speed()},
-      {"residual_force_ratio", last.residual_force_ratio},
-      {"residual_force_ratio_max", last.residual_force_ratio_max},
-      {"particles_held", last.held},
-      {"strain", {{"warp", quantiles_json(audit.strain_warp)}, {"weft", quantiles_json(audit.strain_weft)}, {"bias", quantiles_json(audit.strain_bias)}}},
-      {"faces_through_body", audit.through.size()},
-      {"vertices_inside_body", audit.inside.size()},
-      {"deepest_m", audit.deepest_m},
-      {"self_intersections", audit.self.size()}};
+  report.quality = {{"max_speed_m_s", m_context.stepper.speed()},
+                    {"residual_force_ratio", last.residual_force_ratio},
+                    {"residual_force_ratio_max", last.residual_force_ratio_max},
+                    {"particles_held", last.held},
+                    {"strain",
+                     {{"warp", quantiles_json(audit.strain_warp)},
+                      {"weft", quantiles_json(audit.strain_weft)},
+                      {"bias", quantiles_json(audit.strain_bias)}}},
+                    {"faces_through_body", audit.through.size()},
+                    {"vertices_inside_body", audit.inside.size()},
+                    {"deepest_m", audit.deepest_m},
+                    {"self_intersections", audit.self.size()}};
 }
 
 void DrapeSession::write_solver_report() {
@@ -41,10 +43,11 @@ void DrapeSession::write_solver_report() {
   const std::size_t n = std::max<std::size_t>(sorted.size(), 1);
   const int p95 = sorted.empty() ? 0 : sorted[(n - 1) * 95 / 100];
   const int max = sorted.empty() ? 0 : sorted.back();
-  m_context.telemetry.report.solver = {{"cg_iterations", {{"mean", sum / static_cast<double>(n)}, {"p95", p95}, {"max", max}}},
-                                       {"residual", state.last.cg.residual},
-                                       {"newton", static_cast<double>(state.solves) / static_cast<double>(n)},
-                                       {"rejected_steps", state.rejected}};
+  m_context.telemetry.report.solver = {
+      {"cg_iterations", {{"mean", sum / static_cast<double>(n)}, {"p95", p95}, {"max", max}}},
+      {"residual", state.last.cg.residual},
+      {"newton", static_cast<double>(state.solves) / static_cast<double>(n)},
+      {"rejected_steps", state.rejected}};
 }
 
 DrapeReport DrapeSession::finish() {

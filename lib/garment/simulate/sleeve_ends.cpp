@@ -64,16 +64,22 @@ std::vector<cloth::Pin> hold_sleeve_ends(const Garment& garment) {
   return pins;
 }
 
-std::vector<int> ends_pushed_on_hands(const Garment& garment, const std::vector<Vec3>& placed, const std::vector<Vec3>& shape) {
+std::vector<int> ends_pushed_on_hands(const Garment& garment, const std::vector<Vec3>& placed,
+                                      const std::vector<Vec3>& shape) {
   std::vector<int> pushed;
   for (const Sleeve& sleeve : sleeves_of(garment.bind)) {
-    const Vec3 to_hand = (mean_of(placed, sleeve.end) - mean_of(placed, sleeve.forearm)).normalized();
-    if ((mean_of(garment.position, sleeve.end) - mean_of(placed, sleeve.end)).dot(to_hand) < PUSHED) continue;
+    const Vec3 to_hand =
+        (mean_of(placed, sleeve.end) - mean_of(placed, sleeve.forearm)).normalized();
+    if ((mean_of(garment.position, sleeve.end) - mean_of(placed, sleeve.end)).dot(to_hand) < PUSHED)
+      continue;
     const std::vector<char> of_end = flags_of(sleeve.end, placed.size());
     double length = 0, before = 0;
     for (const auto& [a, b] : free_edges_of(garment.particle_triangles()))
-      if (of_end[a] && of_end[b]) length += (garment.position[a] - garment.position[b]).norm(), before += (shape[a] - shape[b]).norm();
-    if (length > (1 + STRETCHED) * before) pushed.insert(pushed.end(), sleeve.end.begin(), sleeve.end.end());
+      if (of_end[a] && of_end[b])
+        length += (garment.position[a] - garment.position[b]).norm(),
+            before += (shape[a] - shape[b]).norm();
+    if (length > (1 + STRETCHED) * before)
+      pushed.insert(pushed.end(), sleeve.end.begin(), sleeve.end.end());
   }
   return pushed;
 }

@@ -8,8 +8,10 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double ENERGY_LEFT = 0.15;   // of a solve's error in the energy norm; 0.03 to 0.1 and 0.3 took as long or longer over seven garments
-constexpr double LEFT_AT_REST = 0.025; // likewise, where all is as slow as at rest: what is slack and still moving has little of the energy
+constexpr double ENERGY_LEFT = 0.15;   // of a solve's error in the energy norm; 0.03 to 0.1 and 0.3
+                                       // took as long or longer over seven garments
+constexpr double LEFT_AT_REST = 0.025; // likewise, where all is as slow as at rest: what is slack
+                                       // and still moving has little of the energy
 constexpr double ROUGH = 0.01;         // relative residual; who asks for less means it
 constexpr double SEW_TOLERANCE = 0.05; // relative residual of a step while sewing
 
@@ -50,13 +52,17 @@ StepController::State StepController::State::read(const io::Node& node) {
   state.last = read_step(node.at("last"));
   state.last_h = node.at("last_h").number();
   state.cg_iterations = io::read_integers(node.at("cg_iterations"));
-  state.solves = node.has("solves") ? node.at("solves").integer() : static_cast<int>(state.cg_iterations.size()); // older ones: one a step
+  state.solves = node.has("solves")
+                     ? node.at("solves").integer()
+                     : static_cast<int>(state.cg_iterations.size()); // older ones: one a step
   state.rejected = io::read_strings(node.at("rejected"));
   return state;
 }
 
-StepController::StepController(SimulatedCloth& cloth, const DrapeSettings& settings, Telemetry& telemetry)
-    : m_cloth(cloth), m_settings(settings), m_telemetry(telemetry), m_step_limit(settings.max_steps) {}
+StepController::StepController(SimulatedCloth& cloth, const DrapeSettings& settings,
+                               Telemetry& telemetry)
+    : m_cloth(cloth), m_settings(settings), m_telemetry(telemetry),
+      m_step_limit(settings.max_steps) {}
 
 cloth::StepOptions StepController::options_for(const StepRequest& request) const {
   cloth::StepOptions options;
@@ -65,11 +71,14 @@ cloth::StepOptions StepController::options_for(const StepRequest& request) const
   options.largest_move_m = request.largest_move_m;
   options.line_search = request.kind == StepKind::DESCEND;
   options.cg_tolerance = std::max(request.least_cg_tolerance, m_settings.cg_tolerance);
-  if (request.kind == StepKind::SEW) options.cg_tolerance = std::max(SEW_TOLERANCE, options.cg_tolerance);
+  if (request.kind == StepKind::SEW)
+    options.cg_tolerance = std::max(SEW_TOLERANCE, options.cg_tolerance);
   options.cg_max_iterations = m_settings.cg_max_iterations;
-  if (request.cg_max_iterations > 0) options.cg_max_iterations = std::min(options.cg_max_iterations, request.cg_max_iterations);
+  if (request.cg_max_iterations > 0)
+    options.cg_max_iterations = std::min(options.cg_max_iterations, request.cg_max_iterations);
   if (request.kind != StepKind::PLAIN && !request.unloaded && m_settings.cg_tolerance >= ROUGH) {
-    const bool slow = options.line_search && m_state.last.largest_move_m < m_settings.settle_speed_m_s * m_state.last_h;
+    const bool slow = options.line_search &&
+                      m_state.last.largest_move_m < m_settings.settle_speed_m_s * m_state.last_h;
     options.cg_energy_tolerance = slow ? LEFT_AT_REST : ENERGY_LEFT;
   }
   return options;
@@ -100,7 +109,8 @@ bool StepController::advance(const StepRequest& request) {
 
 void StepController::check_time() {
   if (m_stopped) return;
-  if (m_settings.max_seconds > 0 && m_telemetry.elapsed() > m_settings.max_seconds) stop(StopReason::TIME_LIMIT);
+  if (m_settings.max_seconds > 0 && m_telemetry.elapsed() > m_settings.max_seconds)
+    stop(StopReason::TIME_LIMIT);
   else if (m_telemetry.reporter.stop_requested()) stop(StopReason::INTERRUPTED);
 }
 

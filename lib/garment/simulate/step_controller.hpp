@@ -1,5 +1,6 @@
 #pragma once
-/// One guarded step after the other, and when there are no more: limits of steps and time, the user's wish to stop, a number that is none.
+/// One guarded step after the other, and when there are no more: limits of steps and time, the
+/// user's wish to stop, a number that is none.
 #include <cloth/solver/implicit_step.hpp>
 #include <garment/simulate/simulated_cloth.hpp>
 #include <garment/simulate/telemetry.hpp>
@@ -19,13 +20,14 @@ enum class StepKind {
 struct StepRequest {
   double h = 1.0 / 30; ///< s
   StepKind kind = StepKind::PLAIN;
-  double inertia = 0;           ///< 0..1: share of the velocity that is carried over; not with DESCEND
+  double inertia = 0; ///< 0..1: share of the velocity that is carried over; not with DESCEND
   double largest_move_m = 0.02; ///< of any particle
-  /// Without weight and friction: seams just closed and pinched cloth have nearly all the energy, the strain that is to even out has little, so the
-  /// solve does not end by its energy.
+  /// Without weight and friction: seams just closed and pinched cloth have nearly all the energy,
+  /// the strain that is to even out has little, so the solve does not end by its energy.
   bool unloaded = false;
-  double least_cg_tolerance = 0; ///< the solve ends at this relative residual where the settings ask for less
-  int cg_max_iterations = 0;     ///< fewer than the settings allow; 0: as these
+  double least_cg_tolerance =
+      0; ///< the solve ends at this relative residual where the settings ask for less
+  int cg_max_iterations = 0; ///< fewer than the settings allow; 0: as these
 };
 
 class StepController {
@@ -47,7 +49,8 @@ public:
 
   /// Makes a step. @return false when the drape must end
   bool advance(const StepRequest& request);
-  /// Counts the solves of a step that was made elsewhere, and undoes nothing. @param what  for the report, where a number is none
+  /// Counts the solves of a step that was made elsewhere, and undoes nothing. @param what  for the
+  /// report, where a number is none
   /// @return false when the drape must end
   bool note(const cloth::StepResult& result, const std::string& what);
   /// Ends the drape where its time is over or the user asked for it.
@@ -60,7 +63,9 @@ public:
 
   const cloth::StepResult& last() const { return m_state.last; }
   double last_h() const { return m_state.last_h; }
-  double speed() const { return m_state.last_h > 0 ? m_state.last.largest_move_m / m_state.last_h : 0; } ///< m/s, of the fastest particle
+  double speed() const {
+    return m_state.last_h > 0 ? m_state.last.largest_move_m / m_state.last_h : 0;
+  } ///< m/s, of the fastest particle
   const State& state() const { return m_state; }
   void restore(State state) { m_state = std::move(state); }
   /// Steps before a session went live do not count.

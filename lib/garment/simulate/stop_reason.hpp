@@ -5,11 +5,12 @@
 namespace sloper::garment {
 
 enum class StopReason {
-  NONE,                         ///< it has not ended, or the caller ended it
-  AT_REST,                      ///< forces, speed and shape are within their tolerances
-  AT_REST_UNCLEAN,              ///< at rest, but the audit found cloth in the body or through itself
+  NONE,            ///< it has not ended, or the caller ended it
+  AT_REST,         ///< forces, speed and shape are within their tolerances
+  AT_REST_UNCLEAN, ///< at rest, but the audit found cloth in the body or through itself
   AT_REST_AFTER_UNCLEAN_FRAMES, ///< likewise in frames of a motion before
-  AT_REST_STRETCHED,            ///< at rest, but stretched beyond what the fabric bears: see DrapeReport::stop_detail
+  AT_REST_STRETCHED,            ///< at rest, but stretched beyond what the fabric bears: see
+                                ///< DrapeReport::stop_detail
   STEP_LIMIT,                   ///< DrapeSettings::max_steps
   TIME_LIMIT,                   ///< DrapeSettings::max_seconds
   INTERRUPTED,                  ///< the user asked for it
@@ -31,8 +32,9 @@ enum class Misfit {
   STAYS_STRETCHED,
 };
 
-inline constexpr int STALLED_STEPS = 400; ///< without a residual that is a tenth less, and more than the weight
-inline constexpr int UNMOVED_STEPS = 25;  ///< one after the other in which nothing can move at all
+inline constexpr int STALLED_STEPS =
+    400; ///< without a residual that is a tenth less, and more than the weight
+inline constexpr int UNMOVED_STEPS = 25; ///< one after the other in which nothing can move at all
 
 /// "slides down", "stays stretched", or nothing
 std::string misfit_text(Misfit misfit);

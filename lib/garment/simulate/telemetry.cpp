@@ -6,13 +6,20 @@
 
 namespace sloper::garment {
 
-Telemetry::Telemetry(const DrapeSettings& settings, Reporter& r) : reporter(r), m_start(std::chrono::steady_clock::now()) { report.settings = settings; }
+Telemetry::Telemetry(const DrapeSettings& settings, Reporter& r)
+    : reporter(r), m_start(std::chrono::steady_clock::now()) {
+  report.settings = settings;
+}
 
-double Telemetry::elapsed() const { return m_elapsed_before + std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
+double Telemetry::elapsed() const {
+  return m_elapsed_before +
+         std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count();
+}
 
 void Telemetry::add_phase_time(const std::string& phase, double wall_s) {
   auto& phases = report.phases;
-  const auto same = std::find_if(phases.begin(), phases.end(), [&](const auto& p) { return p.first == phase; });
+  const auto same =
+      std::find_if(phases.begin(), phases.end(), [&](const auto& p) { return p.first == phase; });
   if (same == phases.end()) phases.emplace_back(phase, wall_s);
   else same->second += wall_s; // a phase that comes twice, or a run that goes on from a checkpoint
 }
@@ -25,9 +32,12 @@ void Telemetry::activate(const char* effect, const char* why) {
     }
 }
 
-bool Telemetry::is_active(const char* effect) const { return garment::is_active(report.effects, effect); }
+bool Telemetry::is_active(const char* effect) const {
+  return garment::is_active(report.effects, effect);
+}
 
-PhaseTimer::PhaseTimer(Telemetry& telemetry, std::string name) : m_telemetry(telemetry), m_name(std::move(name)), m_began(telemetry.elapsed()) {
+PhaseTimer::PhaseTimer(Telemetry& telemetry, std::string name)
+    : m_telemetry(telemetry), m_name(std::move(name)), m_began(telemetry.elapsed()) {
   telemetry.reporter.info(m_name + " ...");
 }
 

@@ -15,16 +15,20 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr double TANGLE_REACH = 0.04;   // m: how far around what crosses after sewing cloth may be tucked in
-constexpr double TANGLE_LENGTH = 0.25;  // m: crossing pairs of such a place times the mesh edge; knots had 0.4 and more, what comes apart 0.2 and less
+constexpr double TANGLE_REACH =
+    0.04; // m: how far around what crosses after sewing cloth may be tucked in
+constexpr double TANGLE_LENGTH = 0.25;  // m: crossing pairs of such a place times the mesh edge;
+                                        // knots had 0.4 and more, what comes apart 0.2 and less
 constexpr double INFLATION_WEIGHTS = 1; // of the cloth on its area: the pressure from within
 
-/// Marks all vertices of triangles that have one marked, so many times. @param marked  #V, in and out
+/// Marks all vertices of triangles that have one marked, so many times. @param marked  #V, in and
+/// out
 void grow(std::vector<char>& marked, const std::vector<Triangle>& triangles, int rings) {
   for (int ring = 0; ring < rings; ++ring) {
     const std::vector<char> before = marked;
     for (const Triangle& t : triangles)
-      if (before[t[0]] || before[t[1]] || before[t[2]]) marked[t[0]] = marked[t[1]] = marked[t[2]] = 1;
+      if (before[t[0]] || before[t[1]] || before[t[2]])
+        marked[t[0]] = marked[t[1]] = marked[t[2]] = 1;
   }
 }
 
@@ -35,20 +39,24 @@ void TemporarySupports::State::write(io::Json& state) const {
   state["tucks"] = tangles;
 }
 
-TemporarySupports::State TemporarySupports::State::read(const io::Node& node, std::size_t n_particles) {
+TemporarySupports::State TemporarySupports::State::read(const io::Node& node,
+                                                        std::size_t n_particles) {
   State state;
   if (node.has("held")) state.held = io::read_flat_points(node.at("held"));
   if (node.has("tucks")) state.tangles = io::read_integers(node.at("tucks"));
   for (int i : state.tangles)
-    if (i < 0 || static_cast<std::size_t>(i) >= n_particles) node.at("tucks").fail("does not belong to this garment");
+    if (i < 0 || static_cast<std::size_t>(i) >= n_particles)
+      node.at("tucks").fail("does not belong to this garment");
   return state;
 }
 
-TemporarySupports::TemporarySupports(SimulatedCloth& cloth, const DrapeSettings& settings, PenetrationResolver& resolver, Telemetry& telemetry)
+TemporarySupports::TemporarySupports(SimulatedCloth& cloth, const DrapeSettings& settings,
+                                     PenetrationResolver& resolver, Telemetry& telemetry)
     : m_cloth(cloth), m_settings(settings), m_resolver(resolver), m_telemetry(telemetry) {}
 
 bool TemporarySupports::may_help(const std::string& effect) const {
-  return m_settings.effects.starts_with("auto") && m_settings.effects.find("-" + effect) == std::string::npos;
+  return m_settings.effects.starts_with("auto") &&
+         m_settings.effects.find("-" + effect) == std::string::npos;
 }
 
 void TemporarySupports::forget_effects() {
@@ -69,16 +77,19 @@ void TemporarySupports::remove_temporary_effect(const cloth::Effect*& effect) {
 
 void TemporarySupports::add_inflation_pressure() {
   if (m_pressure || !m_cloth.is_active("sewing") || !may_help("pressure")) return;
-  if (!m_cloth.is_active("pressure")) m_telemetry.activate("pressure", "for a moment after sewing: it turns out dents");
+  if (!m_cloth.is_active("pressure"))
+    m_telemetry.activate("pressure", "for a moment after sewing: it turns out dents");
   const double weight = material_of(m_cloth.garment(), "").density_kg_m2 * units::GRAVITY;
-  m_pressure = &m_cloth.solver().emplace<cloth::PressureEffect>(m_cloth.mesh().particle_triangles(), INFLATION_WEIGHTS * weight);
+  m_pressure = &m_cloth.solver().emplace<cloth::PressureEffect>(m_cloth.mesh().particle_triangles(),
+                                                                INFLATION_WEIGHTS * weight);
 }
 
 void TemporarySupports::remove_inflation_pressure() { remove_temporary_effect(m_pressure); }
 
 void TemporarySupports::find_sleeve_ends() {
   if (!may_help("pins")) return;
-  for (const cloth::Pin& pin : hold_sleeve_ends(m_cloth.garment())) m_state.held.push_back(pin.target);
+  for (const cloth::Pin& pin : hold_sleeve_ends(m_cloth.garment()))
+    m_state.held.push_back(pin.target);
 }
 
 void TemporarySupports::find_tangles() {
@@ -101,9 +112,12 @@ void TemporarySupports::find_tangles() {
   std::map<int, int> pairs; // by patch
   for (const auto& pair : crossing) ++pairs[patch[triangles[pair[0]][0]]];
   for (std::size_t i = 0; i < near.size(); ++i)
-    if (near[i] && pairs[patch[i]] * edge > TANGLE_LENGTH) m_state.tangles.push_back(static_cast<int>(i));
+    if (near[i] && pairs[patch[i]] * edge > TANGLE_LENGTH)
+      m_state.tangles.push_back(static_cast<int>(i));
   if (!m_state.tangles.empty())
-    m_telemetry.add_repair("sewing left cloth tucked in: " + std::to_string(m_state.tangles.size()) + " particles passed through each other until weight came");
+    m_telemetry.add_repair(
+        "sewing left cloth tucked in: " + std::to_string(m_state.tangles.size()) +
+        " particles passed through each other until weight came");
 }
 
 void TemporarySupports::apply() {
@@ -111,7 +125,9 @@ void TemporarySupports::apply() {
     std::vector<cloth::Pin> pins = hold_sleeve_ends(m_cloth.garment());
     if (!pins.empty() && pins.size() == m_state.held.size()) {
       for (std::size_t k = 0; k < pins.size(); ++k) pins[k].target = m_state.held[k];
-      if (!m_cloth.is_active("pins")) m_telemetry.activate("pins", "sleeve ends are held at the wrists until the cloth above has found its folds");
+      if (!m_cloth.is_active("pins"))
+        m_telemetry.activate(
+            "pins", "sleeve ends are held at the wrists until the cloth above has found its folds");
       m_hold = &m_cloth.solver().emplace<cloth::PinsEffect>(std::move(pins));
     }
   }

@@ -1,6 +1,7 @@
 #pragma once
-/// What helps a garment for a moment after sewing or placing, until weight and friction come: a little pressure from within, sleeve ends held at the
-/// wrists, cloth that sewing left tangled passing through itself. They come with effects = auto only, and not where they are switched off.
+/// What helps a garment for a moment after sewing or placing, until weight and friction come: a
+/// little pressure from within, sleeve ends held at the wrists, cloth that sewing left tangled
+/// passing through itself. They come with effects = auto only, and not where they are switched off.
 #include <garment/simulate/penetration_resolver.hpp>
 #include <garment/simulate/simulated_cloth.hpp>
 #include <io/json_fwd.hpp>
@@ -23,17 +24,19 @@ public:
   };
 
   /// All outlive this.
-  TemporarySupports(SimulatedCloth& cloth, const DrapeSettings& settings, PenetrationResolver& resolver, Telemetry& telemetry);
+  TemporarySupports(SimulatedCloth& cloth, const DrapeSettings& settings,
+                    PenetrationResolver& resolver, Telemetry& telemetry);
 
-  /// A flared hem that sewing has dented inwards may stay so: a cone turned in is a state of rest too. Pressure from within turns it out. Not for cloth
-  /// without seams, which would fly off.
+  /// A flared hem that sewing has dented inwards may stay so: a cone turned in is a state of rest
+  /// too. Pressure from within turns it out. Not for cloth without seams, which would fly off.
   void add_inflation_pressure();
   void remove_inflation_pressure();
 
   /// Holds sleeve ends where they are now, from the next apply() on.
   void find_sleeve_ends();
-  /// Where seams meet, panels that were drawn together may be tucked into each other, and once nothing crosses contact would keep them so. What
-  /// crosses, and cloth around it, passes through itself until weight comes; bending and pressure smooth it meanwhile. Where only a little
+  /// Where seams meet, panels that were drawn together may be tucked into each other, and once
+  /// nothing crosses contact would keep them so. What crosses, and cloth around it, passes through
+  /// itself until weight comes; bending and pressure smooth it meanwhile. Where only a little
   /// crosses, it is drawn apart for good: letting that pass too left knots in arm pits.
   void find_tangles();
   /// Holds sleeve ends and lets tangles pass, on a solver that was just built.

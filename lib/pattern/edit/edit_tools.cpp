@@ -9,7 +9,8 @@ namespace sloper::pattern {
 
 std::vector<Piece> pieces_of(const Panel& panel) {
   std::vector<Piece> out;
-  for (std::size_t k = 0; k < panel.loops[0].size(); ++k) out.push_back({panel.loops[0][k], {static_cast<int>(k), 0, 1}});
+  for (std::size_t k = 0; k < panel.loops[0].size(); ++k)
+    out.push_back({panel.loops[0][k], {static_cast<int>(k), 0, 1}});
   return out;
 }
 
@@ -18,9 +19,12 @@ const Vec2& end_of(const Piece& piece) { return piece.edge.path.back().p[3]; }
 
 std::pair<Piece, Piece> cut_piece(const Piece& piece, double at) {
   const ArcLength arc(piece.edge.path);
-  const double s = at * arc.length(), middle = piece.origin.from + at * (piece.origin.to - piece.origin.from);
-  Piece one{{piece.edge.name + "_1", arc.between(0, s)}, {piece.origin.edge, piece.origin.from, middle}};
-  Piece two{{piece.edge.name + "_2", arc.between(s, arc.length())}, {piece.origin.edge, middle, piece.origin.to}};
+  const double s = at * arc.length(),
+               middle = piece.origin.from + at * (piece.origin.to - piece.origin.from);
+  Piece one{{piece.edge.name + "_1", arc.between(0, s)},
+            {piece.origin.edge, piece.origin.from, middle}};
+  Piece two{{piece.edge.name + "_2", arc.between(s, arc.length())},
+            {piece.origin.edge, middle, piece.origin.to}};
   const Vec2 corner = snapped(end_of(one));
   one.edge.path.back().p[3] = two.edge.path.front().p[0] = corner;
   for (auto* p : {&one.edge.path.back(), &two.edge.path.front()})
@@ -28,7 +32,9 @@ std::pair<Piece, Piece> cut_piece(const Piece& piece, double at) {
   return {one, two};
 }
 
-Piece straight(const std::string& name, const Vec2& a, const Vec2& b) { return {{name, {Segment::straight(a, b)}}, {}}; }
+Piece straight(const std::string& name, const Vec2& a, const Vec2& b) {
+  return {{name, {Segment::straight(a, b)}}, {}};
+}
 
 std::size_t corner_at(std::vector<Piece>& pieces, std::size_t k, double at) {
   const double length = pattern::length(pieces[k].edge.path);
@@ -40,7 +46,8 @@ std::size_t corner_at(std::vector<Piece>& pieces, std::size_t k, double at) {
   return k + 1;
 }
 
-Rebuilt rebuilt(const Panel& like, const std::vector<Piece>& outer, const std::vector<std::size_t>& holes) {
+Rebuilt rebuilt(const Panel& like, const std::vector<Piece>& outer,
+                const std::vector<std::size_t>& holes) {
   Rebuilt out;
   out.panel = like;
   out.panel.loops.clear(), out.panel.notches.clear();
@@ -53,7 +60,8 @@ Rebuilt rebuilt(const Panel& like, const std::vector<Piece>& outer, const std::v
   for (std::size_t h : holes) {
     int edge = 0;
     for (std::size_t l = 0; l < h; ++l) edge += static_cast<int>(like.loops[l].size());
-    for (std::size_t k = 0; k < like.loops[h].size(); ++k) out.origin.push_back({edge + static_cast<int>(k), 0, 1});
+    for (std::size_t k = 0; k < like.loops[h].size(); ++k)
+      out.origin.push_back({edge + static_cast<int>(k), 0, 1});
     out.panel.loops.push_back(like.loops[h]);
   }
   return out;
@@ -73,22 +81,29 @@ std::vector<Piece> walk(const std::vector<Piece>& pieces, std::size_t from, std:
 
 int outer_edge(const Panel& panel, const io::Node& node, const char* key) {
   const int edge = edge_named(panel, node.at(key));
-  if (edge >= static_cast<int>(panel.loops[0].size())) node.at(key).fail("edge '" + panel.edge(edge).name + "' is on a hole", "name an edge of the outline");
+  if (edge >= static_cast<int>(panel.loops[0].size()))
+    node.at(key).fail("edge '" + panel.edge(edge).name + "' is on a hole",
+                      "name an edge of the outline");
   return edge;
 }
 
 double fraction(const io::Node& node, const char* key) {
   const double at = node.at(key).number();
-  if (!(at >= 0 && at <= 1)) node.at(key).fail(std::to_string(at) + " is no place on an edge", "give a fraction from 0 to 1");
+  if (!(at >= 0 && at <= 1))
+    node.at(key).fail(std::to_string(at) + " is no place on an edge",
+                      "give a fraction from 0 to 1");
   return at;
 }
 
-std::vector<Origin> cut_edges(Pattern& pattern, int p, const std::vector<std::pair<int, double>>& places) {
+std::vector<Origin> cut_edges(Pattern& pattern, int p,
+                              const std::vector<std::pair<int, double>>& places) {
   const Panel panel = pattern.panels[static_cast<std::size_t>(p)];
-  std::vector<std::pair<int, double>> order = places; // the last first, so that what comes before keeps its number
+  std::vector<std::pair<int, double>> order =
+      places; // the last first, so that what comes before keeps its number
   std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a > b; });
   std::vector<Piece> pieces = pieces_of(panel);
-  std::vector<double> left(pieces.size(), 1); // fraction of each edge that its first piece still has
+  std::vector<double> left(pieces.size(),
+                           1); // fraction of each edge that its first piece still has
   for (const auto& [edge, at] : order) {
     double& whole = left[static_cast<std::size_t>(edge)];
     const std::size_t before = pieces.size();
@@ -111,7 +126,8 @@ void keep_lines(Panel& panel, const std::function<bool(const InnerLine&)>& pass)
   }
   std::vector<Pleat> pleats;
   for (Pleat pleat : panel.pleats) {
-    pleat.fold = number[static_cast<std::size_t>(pleat.fold)], pleat.target = number[static_cast<std::size_t>(pleat.target)];
+    pleat.fold = number[static_cast<std::size_t>(pleat.fold)],
+    pleat.target = number[static_cast<std::size_t>(pleat.target)];
     if (pleat.fold >= 0 && pleat.target >= 0 && !pleat.edges.empty()) pleats.push_back(pleat);
   }
   panel.lines = std::move(kept), panel.pleats = std::move(pleats);
@@ -126,7 +142,8 @@ std::string free_edge_name(const Panel& panel, const std::string& wanted) {
 void replace_panel(Pattern& pattern, int p, std::vector<Rebuilt> panels, const io::Node& node) {
   const Panel old = pattern.panels[static_cast<std::size_t>(p)];
   std::vector<int> index;
-  for (std::size_t k = 0; k < panels.size(); ++k) index.push_back(k == 0 ? p : static_cast<int>(pattern.panels.size() + k - 1));
+  for (std::size_t k = 0; k < panels.size(); ++k)
+    index.push_back(k == 0 ? p : static_cast<int>(pattern.panels.size() + k - 1));
   struct Stretch {
     double from, to;
     int panel, edge;
@@ -135,8 +152,11 @@ void replace_panel(Pattern& pattern, int p, std::vector<Rebuilt> panels, const i
   for (std::size_t k = 0; k < panels.size(); ++k)
     for (std::size_t e = 0; e < panels[k].origin.size(); ++e)
       if (const Origin& o = panels[k].origin[e]; o.edge >= 0)
-        stretches[static_cast<std::size_t>(o.edge)].push_back({o.from, o.to, index[k], static_cast<int>(e)});
-  for (auto& list : stretches) std::sort(list.begin(), list.end(), [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
+        stretches[static_cast<std::size_t>(o.edge)].push_back(
+            {o.from, o.to, index[k], static_cast<int>(e)});
+  for (auto& list : stretches)
+    std::sort(list.begin(), list.end(),
+              [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
   for (Seam& seam : pattern.seams)
     for (auto* side : {&seam.a, &seam.b}) {
       std::vector<Run> runs;
@@ -148,9 +168,12 @@ void replace_panel(Pattern& pattern, int p, std::vector<Rebuilt> panels, const i
         std::vector<Run> parts;
         const double low = std::min(run.from, run.to), high = std::max(run.from, run.to);
         for (const Stretch& s : stretches[static_cast<std::size_t>(run.edge)]) {
-          const double from = std::max(low, s.from), to = std::min(high, s.to), span = s.to - s.from;
+          const double from = std::max(low, s.from), to = std::min(high, s.to),
+                       span = s.to - s.from;
           if (to - from < 1e-9) continue;
-          const auto local = [&](double f) { return f - s.from < 1e-9 ? 0.0 : s.to - f < 1e-9 ? 1.0 : (f - s.from) / span; };
+          const auto local = [&](double f) {
+            return f - s.from < 1e-9 ? 0.0 : s.to - f < 1e-9 ? 1.0 : (f - s.from) / span;
+          };
           parts.push_back({s.panel, s.edge, local(from), local(to)});
         }
         if (run.from > run.to) {
@@ -159,13 +182,17 @@ void replace_panel(Pattern& pattern, int p, std::vector<Rebuilt> panels, const i
         }
         runs.insert(runs.end(), parts.begin(), parts.end());
       }
-      if (runs.empty()) node.fail("nothing would be left of a side of seam " + seam.name, "take out the seam first, or cut elsewhere");
+      if (runs.empty())
+        node.fail("nothing would be left of a side of seam " + seam.name,
+                  "take out the seam first, or cut elsewhere");
       *side = std::move(runs);
     }
   for (const Notch& notch : old.notches)
     for (const Stretch& s : stretches[static_cast<std::size_t>(notch.edge)])
       if (notch.at >= s.from && notch.at <= s.to && s.to > s.from) {
-        Panel& panel = panels[static_cast<std::size_t>(std::find(index.begin(), index.end(), s.panel) - index.begin())].panel;
+        Panel& panel = panels[static_cast<std::size_t>(
+                                  std::find(index.begin(), index.end(), s.panel) - index.begin())]
+                           .panel;
         panel.notches.push_back({s.edge, (notch.at - s.from) / (s.to - s.from), notch.kind});
         break;
       }

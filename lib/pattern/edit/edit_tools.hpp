@@ -1,6 +1,6 @@
 #pragma once
-/// What the edits share: the grid that keeps moves exact, and outlines rebuilt edge by edge with their seams and notches following.
-/// Only for the edit sources.
+/// What the edits share: the grid that keeps moves exact, and outlines rebuilt edge by edge with
+/// their seams and notches following. Only for the edit sources.
 #include <io/json_fwd.hpp>
 #include <pattern/pattern.hpp>
 
@@ -11,7 +11,8 @@ namespace sloper::pattern {
 /// To the grid of 2^-30 m, on which sums are exact.
 Vec2 snapped(const Vec2& p);
 
-/// Where an edge of a rebuilt outline comes from: a stretch of an edge of the old panel, or nowhere (edge -1).
+/// Where an edge of a rebuilt outline comes from: a stretch of an edge of the old panel, or nowhere
+/// (edge -1).
 struct Origin {
   int edge = -1;
   double from = 0, to = 1;
@@ -23,13 +24,15 @@ struct Rebuilt {
   std::vector<Origin> origin;
 };
 
-/// Puts one or two rebuilt panels in the place of panel `p` (a second one goes to the end): runs of seams and notches are carried to
-/// the new edges; stretches that are gone leave their seams.
+/// Puts one or two rebuilt panels in the place of panel `p` (a second one goes to the end): runs of
+/// seams and notches are carried to the new edges; stretches that are gone leave their seams.
 /// @throws Error INPUT where nothing is left of a side of a seam
 void replace_panel(Pattern& pattern, int p, std::vector<Rebuilt> panels, const io::Node& node);
 
-/// Cuts edges of a panel's outer loop at fractions of their lengths. @return where each edge of the panel comes from
-std::vector<Origin> cut_edges(Pattern& pattern, int panel, const std::vector<std::pair<int, double>>& places);
+/// Cuts edges of a panel's outer loop at fractions of their lengths. @return where each edge of the
+/// panel comes from
+std::vector<Origin> cut_edges(Pattern& pattern, int panel,
+                              const std::vector<std::pair<int, double>>& places);
 
 /// Drops lines of a panel that do not pass, and the pleats that need them.
 void keep_lines(Panel& panel, const std::function<bool(const InnerLine&)>& pass);
@@ -53,14 +56,16 @@ const Vec2& end_of(const Piece& piece);
 Piece straight(const std::string& name, const Vec2& a, const Vec2& b);
 /// Cuts a piece at a fraction of its length; the parts are named name_1 and name_2.
 std::pair<Piece, Piece> cut_piece(const Piece& piece, double at);
-/// Makes sure that a corner lies at a fraction of a piece. @return the index of the piece that starts there
+/// Makes sure that a corner lies at a fraction of a piece. @return the index of the piece that
+/// starts there
 std::size_t corner_at(std::vector<Piece>& pieces, std::size_t k, double at);
 /// The pieces from one to before another, around the loop.
 std::vector<Piece> walk(const std::vector<Piece>& pieces, std::size_t from, std::size_t to);
 /// Indices of the loops that are holes.
 std::vector<std::size_t> all_holes(const Panel& panel);
 /// A panel `like` another with this outer loop and those of its holes.
-Rebuilt rebuilt(const Panel& like, const std::vector<Piece>& outer, const std::vector<std::size_t>& holes);
+Rebuilt rebuilt(const Panel& like, const std::vector<Piece>& outer,
+                const std::vector<std::size_t>& holes);
 
 /// The edge of the outline that an edit names. @throws Error INPUT
 int outer_edge(const Panel& panel, const io::Node& node, const char* key);

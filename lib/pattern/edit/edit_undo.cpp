@@ -9,7 +9,8 @@
 namespace sloper::pattern {
 namespace {
 
-/// A panel to the last bit, m: what our own format leaves out (world placement) and rounds (inches) is kept.
+/// A panel to the last bit, m: what our own format leaves out (world placement) and rounds (inches)
+/// is kept.
 io::Json panel_state(const Panel& p) {
   io::Json loops = io::Json::array();
   for (const auto& loop : p.loops) {
@@ -25,9 +26,11 @@ io::Json panel_state(const Panel& p) {
     }
     loops.push_back(edges);
   }
-  io::Json out = {{"name", p.name}, {"loops", loops}, {"grain", io::to_json(p.grain)}, {"material", p.material}, {"layer", p.layer}, {"label", p.label}};
+  io::Json out = {{"name", p.name},         {"loops", loops},   {"grain", io::to_json(p.grain)},
+                  {"material", p.material}, {"layer", p.layer}, {"label", p.label}};
   io::Json notches = io::Json::array(), hint = io::Json::object();
-  for (const Notch& n : p.notches) notches.push_back({{"edge", n.edge}, {"at", n.at}, {"kind", n.kind}});
+  for (const Notch& n : p.notches)
+    notches.push_back({{"edge", n.edge}, {"at", n.at}, {"kind", n.kind}});
   out["notches"] = notches;
   if (!p.lines.empty()) {
     io::Json lines = io::Json::array(), pleats = io::Json::array();
@@ -38,9 +41,17 @@ io::Json panel_state(const Panel& p) {
         for (const Vec2& x : s.p) segment.push_back(x.x()), segment.push_back(x.y());
         path.push_back(segment);
       }
-      lines.push_back({{"name", line.name}, {"kind", line.kind}, {"segments", path}, {"factor", line.factor}, {"width", line.width}});
+      lines.push_back({{"name", line.name},
+                       {"kind", line.kind},
+                       {"segments", path},
+                       {"factor", line.factor},
+                       {"width", line.width}});
     }
-    for (const Pleat& pleat : p.pleats) pleats.push_back({{"name", pleat.name}, {"fold", pleat.fold}, {"target", pleat.target}, {"edges", pleat.edges}});
+    for (const Pleat& pleat : p.pleats)
+      pleats.push_back({{"name", pleat.name},
+                        {"fold", pleat.fold},
+                        {"target", pleat.target},
+                        {"edges", pleat.edges}});
     out["lines"] = lines, out["pleats"] = pleats;
   }
   if (!p.hint.part.empty()) hint["part"] = p.hint.part;
@@ -66,7 +77,8 @@ Path path_from(const io::Node& segments) {
     if (numbers.size() != 9) numbers.fail("a segment has 9 numbers");
     Segment segment;
     segment.line = numbers.at(0).number() != 0;
-    for (std::size_t i = 0; i < 4; ++i) segment.p[i] = Vec2(numbers.at(1 + 2 * i).number(), numbers.at(2 + 2 * i).number());
+    for (std::size_t i = 0; i < 4; ++i)
+      segment.p[i] = Vec2(numbers.at(1 + 2 * i).number(), numbers.at(2 + 2 * i).number());
     path.push_back(segment);
   }
   return path;
@@ -74,7 +86,8 @@ Path path_from(const io::Node& segments) {
 
 Panel panel_from(const io::Node& node) {
   Panel p;
-  p.name = node.at("name").string(), p.grain = node.at("grain").vec2(), p.material = node.string("material", ""), p.layer = node.integer("layer", 0),
+  p.name = node.at("name").string(), p.grain = node.at("grain").vec2(),
+  p.material = node.string("material", ""), p.layer = node.integer("layer", 0),
   p.label = node.string("label", "");
   const io::Node loops = node.at("loops");
   if (!loops.is_array() || loops.size() == 0) loops.fail("the panel has no outline");
@@ -87,30 +100,40 @@ Panel panel_from(const io::Node& node) {
       p.loops.back().push_back({edges.at(k).at("edge").string(), path_from(segments)});
     }
     for (std::size_t k = 0; k < p.loops.back().size(); ++k)
-      if (const double gap = (p.loops.back()[k].path.back().p[3] - p.loops.back()[(k + 1) % p.loops.back().size()].path.front().p[0]).norm(); gap > 1e-4)
-        edges.fail("the outline of panel " + p.name + " is open by " + centimetres(gap) + " after edge " + p.loops.back()[k].name);
+      if (const double gap = (p.loops.back()[k].path.back().p[3] -
+                              p.loops.back()[(k + 1) % p.loops.back().size()].path.front().p[0])
+                                 .norm();
+          gap > 1e-4)
+        edges.fail("the outline of panel " + p.name + " is open by " + centimetres(gap) +
+                   " after edge " + p.loops.back()[k].name);
   }
   const io::Node notches = node.at("notches"), hint = node.at("hint");
   for (std::size_t k = 0; k < notches.size(); ++k) {
-    const Notch n{notches.at(k).at("edge").integer(), notches.at(k).at("at").number(), notches.at(k).string("kind", "")};
-    if (n.edge < 0 || n.edge >= p.n_edges()) notches.at(k).fail("there is no edge " + std::to_string(n.edge));
+    const Notch n{notches.at(k).at("edge").integer(), notches.at(k).at("at").number(),
+                  notches.at(k).string("kind", "")};
+    if (n.edge < 0 || n.edge >= p.n_edges())
+      notches.at(k).fail("there is no edge " + std::to_string(n.edge));
     p.notches.push_back(n);
   }
   if (node.has("lines")) {
     for (std::size_t k = 0; k < node.at("lines").size(); ++k) {
       const io::Node line = node.at("lines").at(k);
-      p.lines.push_back(
-          {line.at("name").string(), line.string("kind", "mark"), path_from(line.at("segments")), line.number("factor", 1), line.number("width", 0.01)});
+      p.lines.push_back({line.at("name").string(), line.string("kind", "mark"),
+                         path_from(line.at("segments")), line.number("factor", 1),
+                         line.number("width", 0.01)});
     }
     for (std::size_t k = 0; k < node.at("pleats").size(); ++k) {
       const io::Node item = node.at("pleats").at(k);
-      Pleat pleat{item.at("name").string(), item.at("fold").integer(), item.at("target").integer(), {}};
+      Pleat pleat{
+          item.at("name").string(), item.at("fold").integer(), item.at("target").integer(), {}};
       for (std::size_t e = 0; e < item.at("edges").size(); ++e) {
         pleat.edges.push_back(item.at("edges").at(e).integer());
-        if (pleat.edges.back() < 0 || pleat.edges.back() >= p.n_edges()) item.fail("pleat " + pleat.name + " is sewn along an edge that is not there");
+        if (pleat.edges.back() < 0 || pleat.edges.back() >= p.n_edges())
+          item.fail("pleat " + pleat.name + " is sewn along an edge that is not there");
       }
       for (int line : {pleat.fold, pleat.target})
-        if (line < 0 || line >= static_cast<int>(p.lines.size())) item.fail("pleat " + pleat.name + " folds along a line that is not there");
+        if (line < 0 || line >= static_cast<int>(p.lines.size()))
+          item.fail("pleat " + pleat.name + " folds along a line that is not there");
       p.pleats.push_back(std::move(pleat));
     }
   }
@@ -122,7 +145,8 @@ Panel panel_from(const io::Node& node) {
   if (hint.has("rigid")) {
     Mat4 m;
     if (hint.at("rigid").size() != 16) hint.at("rigid").fail("a placement has 16 numbers");
-    for (long k = 0; k < 16; ++k) m(k / 4, k % 4) = hint.at("rigid").at(static_cast<std::size_t>(k)).number();
+    for (long k = 0; k < 16; ++k)
+      m(k / 4, k % 4) = hint.at("rigid").at(static_cast<std::size_t>(k)).number();
     p.hint.rigid = m;
   }
   return p;
@@ -150,11 +174,13 @@ io::Json restore_edit(const Pattern& before, const Pattern& after) {
     order.push_back(p.name);
     const int k = after.find_panel(p.name);
     const io::Json state = panel_state(p);
-    if (k < 0 || panel_state(after.panels[static_cast<std::size_t>(k)]) != state) panels.push_back(state);
+    if (k < 0 || panel_state(after.panels[static_cast<std::size_t>(k)]) != state)
+      panels.push_back(state);
   }
   io::Json edit = {{"edit", "restore"}, {"order", order}, {"panels", panels}};
   const io::Json seams = seams_state(before);
-  if (seams != seams_state(after) || before.panels.size() != after.panels.size()) edit["seams"] = seams;
+  if (seams != seams_state(after) || before.panels.size() != after.panels.size())
+    edit["seams"] = seams;
   return edit;
 }
 
@@ -187,7 +213,8 @@ void restore(Pattern& pattern, const io::Node& node) {
     const std::string name = order.at(k).string();
     bool found = false;
     for (std::size_t g = 0; g < given.size() && !found; ++g)
-      if (given.at(g).at("name").string() == name) panels.push_back(panel_from(given.at(g))), found = true;
+      if (given.at(g).at("name").string() == name)
+        panels.push_back(panel_from(given.at(g))), found = true;
     if (found) continue;
     panels.push_back(pattern.panels[static_cast<std::size_t>(panel_named(pattern, order.at(k)))]);
   }
@@ -197,11 +224,18 @@ void restore(Pattern& pattern, const io::Node& node) {
     seams.clear();
     for (std::size_t k = 0; k < node.at("seams").size(); ++k) {
       const io::Node item = node.at("seams").at(k);
-      Seam seam{item.at("name").string(), item.string("kind", "seam"), {}, {}, item.string("ease", ""), item.has("open") && item.at("open").boolean()};
+      Seam seam{item.at("name").string(),
+                item.string("kind", "seam"),
+                {},
+                {},
+                item.string("ease", ""),
+                item.has("open") && item.at("open").boolean()};
       for (const char* side : {"a", "b"})
         for (std::size_t r = 0; r < item.at(side).size(); ++r) {
           const io::Node run = item.at(side).at(r);
-          (side[0] == 'a' ? seam.a : seam.b).push_back({run.at(0).integer(), run.at(1).integer(), run.at(2).number(), run.at(3).number()});
+          (side[0] == 'a' ? seam.a : seam.b)
+              .push_back({run.at(0).integer(), run.at(1).integer(), run.at(2).number(),
+                          run.at(3).number()});
         }
       seams.push_back(std::move(seam));
     }
@@ -211,13 +245,15 @@ void restore(Pattern& pattern, const io::Node& node) {
       if (side->empty()) node.fail("seam " + seam.name + " has an empty side");
       for (const Run& run : *side)
         if (run.panel < 0 || run.panel >= static_cast<int>(panels.size()) || run.edge < 0 ||
-            run.edge >= panels[static_cast<std::size_t>(run.panel)].n_edges() || !(run.from >= 0 && run.from <= 1 && run.to >= 0 && run.to <= 1))
+            run.edge >= panels[static_cast<std::size_t>(run.panel)].n_edges() ||
+            !(run.from >= 0 && run.from <= 1 && run.to >= 0 && run.to <= 1))
           node.fail("seam " + seam.name + " runs along an edge that is not there");
     }
   pattern.panels = std::move(panels), pattern.seams = std::move(seams);
 }
 
-io::Json inverse_edits(const Pattern& before, const io::Json& json, const std::string& file, const std::string& tool) {
+io::Json inverse_edits(const Pattern& before, const io::Json& json, const std::string& file,
+                       const std::string& tool) {
   io::Json out = io::new_document("edits", 1, tool);
   out["length_unit"] = json.at("length_unit");
   Pattern pattern = before;
@@ -232,7 +268,9 @@ io::Json inverse_edits(const Pattern& before, const io::Json& json, const std::s
     apply_edits(pattern, one, file);
     io::Json back = opposite(edits.at(k).json());
     // Inner lines follow the outline along curves, which no opposite undoes to the last bit.
-    if (std::any_of(last.panels.begin(), last.panels.end(), [](const Panel& p) { return !p.lines.empty(); })) back = nullptr;
+    if (std::any_of(last.panels.begin(), last.panels.end(),
+                    [](const Panel& p) { return !p.lines.empty(); }))
+      back = nullptr;
     steps.push_back(back.is_null() ? restore_edit(last, pattern) : back);
   }
   std::reverse(steps.begin(), steps.end());

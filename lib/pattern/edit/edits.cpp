@@ -14,8 +14,8 @@ namespace {
 
 constexpr double GRID = 1.0 / (1 << 30); // m: sums of multiples are exact
 
-/// Adds `by` to a path with weights that fall from w0 at its start to w1 at its end, by control point number: they do not depend on
-/// the shape, so that adding -by undoes it exactly.
+/// Adds `by` to a path with weights that fall from w0 at its start to w1 at its end, by control
+/// point number: they do not depend on the shape, so that adding -by undoes it exactly.
 void drag(Path& path, const Vec2& by, double w0, double w1) {
   const double n = 3.0 * static_cast<double>(path.size());
   for (std::size_t s = 0; s < path.size(); ++s)
@@ -42,7 +42,8 @@ Place place_of_edge(Panel& panel, int edge) {
   return {&panel.loops[0], 0};
 }
 
-/// Moves an edge's ends by two vectors; the edge follows in between, its neighbours with their near ends.
+/// Moves an edge's ends by two vectors; the edge follows in between, its neighbours with their near
+/// ends.
 void move_ends(const Place& place, const Vec2& start, const Vec2& end) {
   drag(place.edge().path, start, 1, 0), drag(place.edge().path, end, 0, 1);
   if (place.loop->size() == 1) return;
@@ -54,13 +55,18 @@ void set_length(Panel& panel, int edge, double length, const std::string& fixed)
   const Place place = place_of_edge(panel, edge);
   Path& path = place.edge().path;
   const double factor = length / pattern::length(path);
-  const Vec2 a = path.front().p[0], b = path.back().p[3], about = fixed == "end" ? b : fixed == "middle" ? Vec2(0.5 * (a + b)) : a;
+  const Vec2 a = path.front().p[0], b = path.back().p[3],
+             about = fixed == "end"      ? b
+                     : fixed == "middle" ? Vec2(0.5 * (a + b))
+                                         : a;
   for (Segment& s : path)
     for (Vec2& p : s.p) p = snapped(Vec2(about + factor * (p - about)));
   if (place.loop->size() == 1) return;
-  drag(place.before().path, path.front().p[0] - a, 0, 1), drag(place.after().path, path.back().p[3] - b, 1, 0);
+  drag(place.before().path, path.front().p[0] - a, 0, 1),
+      drag(place.after().path, path.back().p[3] - b, 1, 0);
   // The ends must meet to the last bit.
-  place.before().path.back().p[3] = path.front().p[0], place.after().path.front().p[0] = path.back().p[3];
+  place.before().path.back().p[3] = path.front().p[0],
+  place.after().path.front().p[0] = path.back().p[3];
 }
 
 void map_panel(Panel& panel, const std::function<Vec2(const Vec2&)>& map) {
@@ -86,7 +92,8 @@ void carry_lines(const Panel& before, Panel& after) {
       const ArcLength old(before.edge(on.edge).path), now(after.edge(on.edge).path);
       move[last] = now.at(on.at * now.length()) - old.at(on.at * old.length());
     }
-    if (move[0].norm() + move[1].norm() > 1e-12) drag(path, move[0], 1, 0), drag(path, move[1], 0, 1);
+    if (move[0].norm() + move[1].norm() > 1e-12)
+      drag(path, move[0], 1, 0), drag(path, move[1], 0, 1);
   }
 }
 
@@ -106,53 +113,70 @@ Vec2 middle(const Panel& panel) {
 void move_inward(const io::Node& node, Panel& panel, int edge, double by) {
   const Place place = place_of_edge(panel, edge);
   const Vec2 chord = place.edge().path.back().p[3] - place.edge().path.front().p[0];
-  if (chord.norm() < 1e-6) node.fail("edge " + place.edge().name + " ends where it starts and has no direction to move in");
+  if (chord.norm() < 1e-6)
+    node.fail("edge " + place.edge().name +
+              " ends where it starts and has no direction to move in");
   const Vec2 move = snapped(Vec2(Vec2(-chord.y(), chord.x()).normalized() * by));
   drag(place.edge().path, move, 1, 1);
-  if (place.loop->size() > 1) drag(place.before().path, move, 0, 1), drag(place.after().path, move, 1, 0);
+  if (place.loop->size() > 1)
+    drag(place.before().path, move, 0, 1), drag(place.after().path, move, 1, 0);
 }
 
 const Seam& seam_named(const Pattern& pattern, const io::Node& node) {
   const std::string name = node.string();
-  const auto seam = std::find_if(pattern.seams.begin(), pattern.seams.end(), [&](const Seam& s) { return s.name == name; });
+  const auto seam = std::find_if(pattern.seams.begin(), pattern.seams.end(),
+                                 [&](const Seam& s) { return s.name == name; });
   if (seam != pattern.seams.end()) return *seam;
   std::vector<std::string> names;
   for (const Seam& s : pattern.seams) names.push_back(s.name);
   node.fail("there is no seam '" + name + "'" + did_you_mean(name, names));
 }
 
-/// Opens a seam, or closes one that is open. An edit that changes nothing is a mistake, and would have no opposite.
+/// Opens a seam, or closes one that is open. An edit that changes nothing is a mistake, and would
+/// have no opposite.
 void open_seam(Pattern& pattern, const io::Node& node, bool open) {
   node.allow_only({"edit", "seam"});
   const Seam& found = seam_named(pattern, node.at("seam"));
   Seam& seam = pattern.seams[static_cast<std::size_t>(&found - pattern.seams.data())];
-  if (seam.kind == "dart" || seam.kind == "pleat") node.at("seam").fail(seam.name + " is a " + seam.kind + " and cannot be opened", "name a seam or a closure");
-  if (seam.open == open) node.at("seam").fail("seam " + seam.name + " is " + (open ? "open" : "closed") + " already");
+  if (seam.kind == "dart" || seam.kind == "pleat")
+    node.at("seam").fail(seam.name + " is a " + seam.kind + " and cannot be opened",
+                         "name a seam or a closure");
+  if (seam.open == open)
+    node.at("seam").fail("seam " + seam.name + " is " + (open ? "open" : "closed") + " already");
   seam.open = open;
 }
 
 double factor(const io::Node& node, const char* key) {
   const double f = node.number(key, 1);
-  if (!(f > 0.05 && f < 20)) node.at(key).fail("a factor of " + std::to_string(f) + " is no edit", "give 0.05 to 20");
+  if (!(f > 0.05 && f < 20))
+    node.at(key).fail("a factor of " + std::to_string(f) + " is no edit", "give 0.05 to 20");
   return f;
 }
 
 double positive_length(const io::Node& node, double unit) {
   const double length = node.at("length").number() * unit;
-  if (!(length > 1e-4)) node.at("length").fail("a length of " + centimetres(length) + " is no length", "give more than 0.01 cm");
+  if (!(length > 1e-4))
+    node.at("length").fail("a length of " + centimetres(length) + " is no length",
+                           "give more than 0.01 cm");
   return length;
 }
 
-Panel& edited_panel(Pattern& pattern, const io::Node& node) { return pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("panel")))]; }
-int edited_edge(const Panel& panel, const io::Node& node) { return edge_named(panel, node.at("edge")); }
+Panel& edited_panel(Pattern& pattern, const io::Node& node) {
+  return pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("panel")))];
+}
+int edited_edge(const Panel& panel, const io::Node& node) {
+  return edge_named(panel, node.at("edge"));
+}
 
 void move_point(Pattern& pattern, const io::Node& node, double unit) {
   node.allow_only({"edit", "panel", "edge", "end", "by"});
   Panel& p = edited_panel(pattern, node);
   const std::string end = node.string("end", "start");
-  if (end != "start" && end != "end") node.at("end").fail("'" + end + "' is no end of an edge", "give start or end");
+  if (end != "start" && end != "end")
+    node.at("end").fail("'" + end + "' is no end of an edge", "give start or end");
   const Vec2 by = snapped(Vec2(node.at("by").vec2() * unit)), none(0, 0);
-  move_ends(place_of_edge(p, edited_edge(p, node)), end == "start" ? by : none, end == "end" ? by : none);
+  move_ends(place_of_edge(p, edited_edge(p, node)), end == "start" ? by : none,
+            end == "end" ? by : none);
 }
 
 void move_edge(Pattern& pattern, const io::Node& node, double unit) {
@@ -161,10 +185,12 @@ void move_edge(Pattern& pattern, const io::Node& node, double unit) {
   const Vec2 by = snapped(Vec2(node.at("by").vec2() * unit));
   const Place place = place_of_edge(p, edited_edge(p, node));
   drag(place.edge().path, by, 1, 1);
-  if (place.loop->size() > 1) drag(place.before().path, by, 0, 1), drag(place.after().path, by, 1, 0);
+  if (place.loop->size() > 1)
+    drag(place.before().path, by, 0, 1), drag(place.after().path, by, 1, 0);
 }
 
-/// Inwards along one edge, or half of it along each side of a seam. @param way 1 takes in, -1 lets out
+/// Inwards along one edge, or half of it along each side of a seam. @param way 1 takes in, -1 lets
+/// out
 void take_in(Pattern& pattern, const io::Node& node, double unit, double way) {
   node.allow_only({"edit", "panel", "edge", "seam", "by"});
   const double by = way * node.at("by").number() * unit;
@@ -175,7 +201,8 @@ void take_in(Pattern& pattern, const io::Node& node, double unit, double way) {
   }
   const Seam& seam = seam_named(pattern, node.at("seam"));
   for (const auto* side : {&seam.a, &seam.b})
-    for (const Run& run : *side) move_inward(node, pattern.panels[static_cast<std::size_t>(run.panel)], run.edge, 0.5 * by);
+    for (const Run& run : *side)
+      move_inward(node, pattern.panels[static_cast<std::size_t>(run.panel)], run.edge, 0.5 * by);
 }
 
 void bend(Pattern& pattern, const io::Node& node, double unit) {
@@ -186,11 +213,14 @@ void bend(Pattern& pattern, const io::Node& node, double unit) {
   Path& path = place_of_edge(p, edited_edge(p, node)).edge().path;
   const double n = static_cast<double>(path.size());
   if (path.size() == 1) {
-    if (path[0].line) path[0] = Segment::cubic(path[0].p[0], path[0].at(1.0 / 3), path[0].at(2.0 / 3), path[0].p[3]);
+    if (path[0].line)
+      path[0] =
+          Segment::cubic(path[0].p[0], path[0].at(1.0 / 3), path[0].at(2.0 / 3), path[0].p[3]);
     path[0].p[1] += by, path[0].p[2] += by;
     return;
   }
-  for (std::size_t s = 0; s < path.size(); ++s) // along a chain the middle moves by `by`, the ends not at all
+  for (std::size_t s = 0; s < path.size();
+       ++s) // along a chain the middle moves by `by`, the ends not at all
     for (std::size_t k = 0; k < 4; ++k) {
       const double t = (static_cast<double>(s) + static_cast<double>(k) / 3) / n;
       path[s].p[k] += 3 * t * (1 - t) * by;
@@ -202,7 +232,8 @@ void set_lengths(Pattern& pattern, const io::Node& node, double unit) {
   node.allow_only({"edit", "panel", "edge", "seam", "length", "fixed"});
   const double length = positive_length(node, unit);
   const std::string fixed = node.string("fixed", "start");
-  if (fixed != "start" && fixed != "end" && fixed != "middle") node.at("fixed").fail("'" + fixed + "' cannot be fixed", "give start, end or middle");
+  if (fixed != "start" && fixed != "end" && fixed != "middle")
+    node.at("fixed").fail("'" + fixed + "' cannot be fixed", "give start, end or middle");
   if (!node.has("seam")) {
     Panel& p = edited_panel(pattern, node);
     set_length(p, edited_edge(p, node), length, fixed);
@@ -223,12 +254,15 @@ void lengthen(Pattern& pattern, const io::Node& node, double unit, double way) {
   node.allow_only({"edit", "panel", "at", "along", "by"});
   const Vec2 at = node.at("at").vec2() * unit, direction = node.at("along").vec2();
   if (!(direction.norm() > 0)) node.at("along").fail("there is no direction");
-  const Vec2 along = direction.normalized(), by = snapped(Vec2(along * node.at("by").number() * unit * way));
-  map_panel(edited_panel(pattern, node), [&](const Vec2& p) { return (p - at).dot(along) > 0 ? Vec2(p + by) : p; });
+  const Vec2 along = direction.normalized(),
+             by = snapped(Vec2(along * node.at("by").number() * unit * way));
+  map_panel(edited_panel(pattern, node),
+            [&](const Vec2& p) { return (p - at).dot(along) > 0 ? Vec2(p + by) : p; });
 }
 
 /// The panel that an edit names, or all.
-template<class Change> void change_panels(Pattern& pattern, const io::Node& node, const Change& change) {
+template<class Change>
+void change_panels(Pattern& pattern, const io::Node& node, const Change& change) {
   if (node.has("panel")) return change(edited_panel(pattern, node));
   for (Panel& p : pattern.panels) change(p);
 }
@@ -238,7 +272,9 @@ void scale(Pattern& pattern, const io::Node& node, double) {
   const double x = factor(node, "x"), y = factor(node, "y");
   change_panels(pattern, node, [&](Panel& p) {
     const Vec2 c = middle(p);
-    map_panel(p, [&](const Vec2& q) { return Vec2(c.x() + x * (q.x() - c.x()), c.y() + y * (q.y() - c.y())); });
+    map_panel(p, [&](const Vec2& q) {
+      return Vec2(c.x() + x * (q.x() - c.x()), c.y() + y * (q.y() - c.y()));
+    });
   });
 }
 
@@ -247,27 +283,37 @@ void grade(Pattern& pattern, const io::Node& node, double unit) {
   const double width = node.number("width", 0) * unit, height = node.number("height", 0) * unit;
   change_panels(pattern, node, [&](Panel& p) {
     const auto [low, high] = extent(p);
-    const Vec2 c = 0.5 * (low + high), size = high - low, factor((size.x() + width) / size.x(), (size.y() + height) / size.y());
+    const Vec2 c = 0.5 * (low + high), size = high - low,
+               factor((size.x() + width) / size.x(), (size.y() + height) / size.y());
     if (!(factor.minCoeff() > 0.2))
-      node.fail("panel " + p.name + " is " + centimetres(size.x()) + " by " + centimetres(size.y()) + ": too small to grade by that much");
+      node.fail("panel " + p.name + " is " + centimetres(size.x()) + " by " +
+                centimetres(size.y()) + ": too small to grade by that much");
     map_panel(p, [&](const Vec2& q) { return Vec2(c + factor.cwiseProduct(q - c)); });
   });
 }
 
 /// Elastic tape along a curve: rest lengths change along it, the outline does not.
 void add_tape(Panel& p, const io::Node& node, double unit) {
-  InnerLine tape{"", "tape", read_path(node.at("curve"), unit, nullptr), factor(node, "factor"), node.number("width", 0.01 / unit) * unit};
+  InnerLine tape{"", "tape", read_path(node.at("curve"), unit, nullptr), factor(node, "factor"),
+                 node.number("width", 0.01 / unit) * unit};
   for (Segment& s : tape.path)
     for (Vec2& q : s.p) q = snapped(q);
   const auto [low, high] = extent(p);
   for (const Segment& s : tape.path)
     for (const Vec2& q : s.p)
-      if (!((low - q).maxCoeff() < 0.1 && (q - high).maxCoeff() < 0.1)) node.at("curve").fail("the tape leaves panel " + p.name, "draw it inside");
-  if (!(pattern::length(tape.path) > 0.005)) node.at("curve").fail("a tape of " + centimetres(pattern::length(tape.path)) + " is none");
-  if (!(tape.width > 0 && tape.width < 1)) node.at("width").fail("a width of " + centimetres(tape.width) + " is none");
-  const auto taken = [&](const std::string& name) { return std::any_of(p.lines.begin(), p.lines.end(), [&](const InnerLine& l) { return l.name == name; }); };
+      if (!((low - q).maxCoeff() < 0.1 && (q - high).maxCoeff() < 0.1))
+        node.at("curve").fail("the tape leaves panel " + p.name, "draw it inside");
+  if (!(pattern::length(tape.path) > 0.005))
+    node.at("curve").fail("a tape of " + centimetres(pattern::length(tape.path)) + " is none");
+  if (!(tape.width > 0 && tape.width < 1))
+    node.at("width").fail("a width of " + centimetres(tape.width) + " is none");
+  const auto taken = [&](const std::string& name) {
+    return std::any_of(p.lines.begin(), p.lines.end(),
+                       [&](const InnerLine& l) { return l.name == name; });
+  };
   tape.name = node.string("name", "tape");
-  if (node.has("name") && taken(tape.name)) node.at("name").fail("panel " + p.name + " has a line '" + tape.name + "' already");
+  if (node.has("name") && taken(tape.name))
+    node.at("name").fail("panel " + p.name + " has a line '" + tape.name + "' already");
   for (int k = 2; taken(tape.name); ++k) tape.name = "tape" + std::to_string(k);
   p.lines.push_back(std::move(tape));
 }
@@ -288,7 +334,8 @@ void shrink_strip(Panel& p, const io::Node& node, double unit) {
 
 /// Along a curve, along an edge, in a strip, or all of a panel along warp and weft.
 void shrink(Pattern& pattern, const io::Node& node, double unit) {
-  node.allow_only({"edit", "panel", "warp", "weft", "edge", "factor", "strip", "curve", "width", "name"});
+  node.allow_only(
+      {"edit", "panel", "warp", "weft", "edge", "factor", "strip", "curve", "width", "name"});
   Panel& p = edited_panel(pattern, node);
   if (node.has("curve")) return add_tape(p, node, unit);
   if (node.has("edge")) {
@@ -298,7 +345,9 @@ void shrink(Pattern& pattern, const io::Node& node, double unit) {
   if (node.has("strip")) return shrink_strip(p, node, unit);
   const double warp = factor(node, "warp"), weft = factor(node, "weft");
   const Vec2 c = middle(p), u = p.grain, v(-u.y(), u.x());
-  map_panel(p, [&](const Vec2& q) { return Vec2(c + warp * (q - c).dot(u) * u + weft * (q - c).dot(v) * v); });
+  map_panel(p, [&](const Vec2& q) {
+    return Vec2(c + warp * (q - c).dot(u) * u + weft * (q - c).dot(v) * v);
+  });
 }
 
 struct Edit {
@@ -336,26 +385,36 @@ const Edit& edit_named(const io::Node& node) {
   std::string known;
   for (const Edit& edit : EDITS) {
     if (what == edit.name) return edit;
-    known += (names.empty() ? "" : &edit == std::end(EDITS) - 1 ? " and " : ", ") + std::string(edit.name);
+    known += (names.empty()                  ? ""
+              : &edit == std::end(EDITS) - 1 ? " and "
+                                             : ", ") +
+             std::string(edit.name);
     names.emplace_back(edit.name);
   }
-  node.at("edit").fail("unknown edit '" + what + "'" + did_you_mean(what, names), "known are " + known);
+  node.at("edit").fail("unknown edit '" + what + "'" + did_you_mean(what, names),
+                       "known are " + known);
 }
 
 } // namespace
 
-Vec2 snapped(const Vec2& p) { return {std::nearbyint(p.x() / GRID) * GRID, std::nearbyint(p.y() / GRID) * GRID}; }
+Vec2 snapped(const Vec2& p) {
+  return {std::nearbyint(p.x() / GRID) * GRID, std::nearbyint(p.y() / GRID) * GRID};
+}
 
 void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file) {
   const io::Node root(json, file);
   if (const std::string format = root.at("format").string(); format != "edits")
-    root.at("format").fail("is a \"" + format + "\" document, not edits", "write \"format\": \"edits\"");
+    root.at("format").fail("is a \"" + format + "\" document, not edits",
+                           "write \"format\": \"edits\"");
   root.allow_only({"format", "version", "generator", "length_unit", "edits"});
-  if (root.integer("version", 1) > 1) root.at("version").fail("the version is newer than this program knows", "update, or write version 1");
+  if (root.integer("version", 1) > 1)
+    root.at("version").fail("the version is newer than this program knows",
+                            "update, or write version 1");
   const double unit = unit_of(root.at("length_unit"));
-  const auto onto_grid = [&] { // after each edit, so that a log in one piece and in many gives the same
-    for (Panel& p : pattern.panels) map_panel(p, [](const Vec2& q) { return q; });
-  };
+  const auto onto_grid =
+      [&] { // after each edit, so that a log in one piece and in many gives the same
+        for (Panel& p : pattern.panels) map_panel(p, [](const Vec2& q) { return q; });
+      };
   onto_grid();
   const io::Node edits = root.at("edits");
   for (std::size_t k = 0; k < edits.size(); ++k) {
@@ -366,16 +425,20 @@ void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file
     edit.apply(pattern, edits.at(k), unit);
     if (edit.drags_edges && !edits.at(k).has("warp") && !edits.at(k).has("strip"))
       for (const Panel& before : lined)
-        if (const int p = pattern.find_panel(before.name); p >= 0) carry_lines(before, pattern.panels[static_cast<std::size_t>(p)]);
+        if (const int p = pattern.find_panel(before.name); p >= 0)
+          carry_lines(before, pattern.panels[static_cast<std::size_t>(p)]);
     onto_grid();
     for (const Panel& p : pattern.panels) {
       std::vector<Path> loop;
       for (const PanelEdge& e : p.loops[0]) loop.push_back(e.path);
       if (const double area = signed_area(loop); !(area > 0))
-        edits.at(k).fail("panel " + p.name + " is turned inside out: its outline now goes clockwise around " +
+        edits.at(k).fail("panel " + p.name +
+                         " is turned inside out: its outline now goes clockwise around " +
                          std::to_string(std::lround(std::min(1e9, -1e4 * area))) + " cm2");
       if (const auto fault = fault_of(p))
-        edits.at(k).fail("panel " + p.name + (fault->place.empty() ? "" : ": " + fault->place) + ": " + fault->fact, fault->next);
+        edits.at(k).fail("panel " + p.name + (fault->place.empty() ? "" : ": " + fault->place) +
+                             ": " + fault->fact,
+                         fault->next);
     }
   }
 }

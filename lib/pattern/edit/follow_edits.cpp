@@ -27,7 +27,8 @@ struct FollowedPanel {
 
 namespace {
 
-/// Projects a boundary vertex to the nearest edge. Vertices lie on their edges exactly, so the nearest is theirs; at corners either does.
+/// Projects a boundary vertex to the nearest edge. Vertices lie on their edges exactly, so the
+/// nearest is theirs; at corners either does.
 PlaceOnEdge locate(const Panel& panel, const std::vector<ArcLength>& arcs, const Vec2& p) {
   PlaceOnEdge best{0, 0, 0};
   double least = 1e300;
@@ -41,7 +42,8 @@ PlaceOnEdge locate(const Panel& panel, const std::vector<ArcLength>& arcs, const
       if (d < near) near = d, at = k;
     }
     if (std::sqrt(near) > std::sqrt(least) + 2 * arc.length() / n) continue;
-    double low = arc.length() * std::max(at - 1, 0) / n, high = arc.length() * std::min(at + 1, n) / n;
+    double low = arc.length() * std::max(at - 1, 0) / n,
+           high = arc.length() * std::min(at + 1, n) / n;
     for (int k = 0; k < 60; ++k) { // golden section; the distance has one minimum this near
       const double a = low + 0.381966 * (high - low), b = high - 0.381966 * (high - low);
       if ((arc.at(a) - p).squaredNorm() < (arc.at(b) - p).squaredNorm()) high = b;
@@ -59,11 +61,16 @@ PlaceOnEdge locate(const Panel& panel, const std::vector<ArcLength>& arcs, const
 bool same_edges(const Pattern& a, const Pattern& b) {
   if (a.panels.size() != b.panels.size() || a.seams.size() != b.seams.size()) return false;
   for (std::size_t p = 0; p < a.panels.size(); ++p) {
-    if (a.panels[p].name != b.panels[p].name || a.panels[p].loops.size() != b.panels[p].loops.size()) return false;
+    if (a.panels[p].name != b.panels[p].name ||
+        a.panels[p].loops.size() != b.panels[p].loops.size())
+      return false;
     const auto meshed = [](const Panel& panel) {
-      return std::count_if(panel.lines.begin(), panel.lines.end(), [](const InnerLine& line) { return line.kind != "tape"; });
+      return std::count_if(panel.lines.begin(), panel.lines.end(),
+                           [](const InnerLine& line) { return line.kind != "tape"; });
     };
-    if (meshed(a.panels[p]) != meshed(b.panels[p]) || a.panels[p].pleats.size() != b.panels[p].pleats.size()) return false;
+    if (meshed(a.panels[p]) != meshed(b.panels[p]) ||
+        a.panels[p].pleats.size() != b.panels[p].pleats.size())
+      return false;
     for (std::size_t l = 0; l < a.panels[p].loops.size(); ++l) {
       if (a.panels[p].loops[l].size() != b.panels[p].loops[l].size()) return false;
       for (std::size_t e = 0; e < a.panels[p].loops[l].size(); ++e)
@@ -72,10 +79,12 @@ bool same_edges(const Pattern& a, const Pattern& b) {
   }
   for (std::size_t s = 0; s < a.seams.size(); ++s) {
     if (a.seams[s].name != b.seams[s].name || a.seams[s].open != b.seams[s].open) return false;
-    for (const auto& [one, two] : {std::pair(&a.seams[s].a, &b.seams[s].a), std::pair(&a.seams[s].b, &b.seams[s].b)}) {
+    for (const auto& [one, two] :
+         {std::pair(&a.seams[s].a, &b.seams[s].a), std::pair(&a.seams[s].b, &b.seams[s].b)}) {
       if (one->size() != two->size()) return false;
       for (std::size_t k = 0; k < one->size(); ++k)
-        if ((*one)[k].panel != (*two)[k].panel || (*one)[k].edge != (*two)[k].edge || (*one)[k].from != (*two)[k].from || (*one)[k].to != (*two)[k].to)
+        if ((*one)[k].panel != (*two)[k].panel || (*one)[k].edge != (*two)[k].edge ||
+            (*one)[k].from != (*two)[k].from || (*one)[k].to != (*two)[k].to)
           return false;
     }
   }
@@ -92,18 +101,22 @@ bool same_paths(const Panel& a, const Panel& b) {
   return true;
 }
 
-/// Interior displacements are each the mean of their neighbours' (uniform weights on a quality mesh).
-void prepare(FollowedPanel& state, const Panel& panel, const PanelInfo& info, const PanelMesh& mesh) {
+/// Interior displacements are each the mean of their neighbours' (uniform weights on a quality
+/// mesh).
+void prepare(FollowedPanel& state, const Panel& panel, const PanelInfo& info,
+             const PanelMesh& mesh) {
   std::vector<ArcLength> arcs;
   for (int e = 0; e < panel.n_edges(); ++e) arcs.emplace_back(panel.edge(e).path);
   auto& edges = state.edges;
   for (int t = info.first_triangle; t < info.first_triangle + info.n_triangles; ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      const int a = mesh.triangles[static_cast<std::size_t>(t)][k], b = mesh.triangles[static_cast<std::size_t>(t)][(k + 1) % 3];
+      const int a = mesh.triangles[static_cast<std::size_t>(t)][k],
+                b = mesh.triangles[static_cast<std::size_t>(t)][(k + 1) % 3];
       edges.push_back({std::min(a, b), std::max(a, b)});
     }
   std::sort(edges.begin(), edges.end());
-  std::vector<char> boundary(static_cast<std::size_t>(info.n_vertices), 0); // on an edge with one triangle
+  std::vector<char> boundary(static_cast<std::size_t>(info.n_vertices),
+                             0); // on an edge with one triangle
   for (std::size_t k = 0; k < edges.size();) {
     std::size_t next = k + 1;
     while (next < edges.size() && edges[next] == edges[k]) ++next;
@@ -115,7 +128,9 @@ void prepare(FollowedPanel& state, const Panel& panel, const PanelInfo& info, co
   state.row.assign(boundary.size(), -1);
   state.on.assign(boundary.size(), PlaceOnEdge{0, 0, 0});
   for (std::size_t v = 0; v < boundary.size(); ++v)
-    if (boundary[v]) state.on[v] = locate(panel, arcs, mesh.pattern[static_cast<std::size_t>(info.first_vertex) + v]);
+    if (boundary[v])
+      state.on[v] =
+          locate(panel, arcs, mesh.pattern[static_cast<std::size_t>(info.first_vertex) + v]);
     else state.row[v] = state.n_free++;
   if (state.n_free == 0) return;
   std::vector<Eigen::Triplet<double>> entries;
@@ -140,11 +155,14 @@ struct MeshFollower::State {
   std::vector<FollowedPanel> panels;
 };
 
-MeshFollower::MeshFollower(const Pattern& before, const PanelMesh& mesh) : m_state(std::make_unique<State>()) {
+MeshFollower::MeshFollower(const Pattern& before, const PanelMesh& mesh)
+    : m_state(std::make_unique<State>()) {
   m_state->before = before, m_state->original = mesh.pattern;
   m_state->panels = std::vector<FollowedPanel>(mesh.panels.size());
-  if (before.panels.size() != mesh.panels.size()) throw input_error("", "pattern", "the mesh is of another pattern", "mesh the pattern again");
-  for (std::size_t p = 0; p < mesh.panels.size(); ++p) prepare(m_state->panels[p], before.panels[p], mesh.panels[p], mesh);
+  if (before.panels.size() != mesh.panels.size())
+    throw input_error("", "pattern", "the mesh is of another pattern", "mesh the pattern again");
+  for (std::size_t p = 0; p < mesh.panels.size(); ++p)
+    prepare(m_state->panels[p], before.panels[p], mesh.panels[p], mesh);
 }
 MeshFollower::~MeshFollower() = default;
 MeshFollower::MeshFollower(MeshFollower&&) noexcept = default;
@@ -177,8 +195,10 @@ bool MeshFollower::follow(const Pattern& after, PanelMesh& mesh, double least_an
       Eigen::MatrixXd right = Eigen::MatrixXd::Zero(state.n_free, 2);
       for (const auto& e : state.edges)
         for (int turn = 0; turn < 2; ++turn) {
-          const std::size_t a = static_cast<std::size_t>(e[turn ? 1 : 0]) - first, b = static_cast<std::size_t>(e[turn ? 0 : 1]) - first;
-          if (state.row[a] >= 0 && state.row[b] < 0) right.row(state.row[a]) += (moved[first + b] - original[first + b]).transpose();
+          const std::size_t a = static_cast<std::size_t>(e[turn ? 1 : 0]) - first,
+                            b = static_cast<std::size_t>(e[turn ? 0 : 1]) - first;
+          if (state.row[a] >= 0 && state.row[b] < 0)
+            right.row(state.row[a]) += (moved[first + b] - original[first + b]).transpose();
         }
       const Eigen::MatrixXd shift = state.solver.solve(right);
       for (std::size_t v = 0; v < state.row.size(); ++v)
@@ -187,20 +207,26 @@ bool MeshFollower::follow(const Pattern& after, PanelMesh& mesh, double least_an
     for (int t = info.first_triangle; t < info.first_triangle + info.n_triangles; ++t) {
       const Triangle& k = mesh.triangles[static_cast<std::size_t>(t)];
       const auto angle = [&](const std::vector<Vec2>& at) {
-        return smallest_angle(at[static_cast<std::size_t>(k[0])], at[static_cast<std::size_t>(k[1])], at[static_cast<std::size_t>(k[2])]);
+        return smallest_angle(at[static_cast<std::size_t>(k[0])],
+                              at[static_cast<std::size_t>(k[1])],
+                              at[static_cast<std::size_t>(k[2])]);
       };
-      if (const double now = angle(moved); now < units::radians(least_angle_deg) && now < angle(original) - 1e-9) return false;
+      if (const double now = angle(moved);
+          now < units::radians(least_angle_deg) && now < angle(original) - 1e-9)
+        return false;
     }
   }
   mesh.pattern = std::move(moved); // ids stay: they are those of the panel before the edits
   for (MeshSeam& s : mesh.seams)
     for (const Seam& seam : after.seams)
-      if (seam.name == s.name) s.length_a = side_length(after, seam.a), s.length_b = side_length(after, seam.b);
+      if (seam.name == s.name)
+        s.length_a = side_length(after, seam.a), s.length_b = side_length(after, seam.b);
   for (std::size_t p = 0; p < mesh.panels.size(); ++p) mesh.panels[p].grain = after.panels[p].grain;
   return true;
 }
 
-bool follow_edits(const Pattern& before, const Pattern& after, PanelMesh& mesh, double least_angle_deg) {
+bool follow_edits(const Pattern& before, const Pattern& after, PanelMesh& mesh,
+                  double least_angle_deg) {
   if (!same_edges(before, after)) return false;
   return MeshFollower(before, mesh).follow(after, mesh, least_angle_deg);
 }

@@ -12,7 +12,8 @@ constexpr double TOP_ZONE = 0.06;    // m below a panel's top where its waist ma
 constexpr double BOTTOM_ZONE = 0.03; // m above its end where the hem may
 constexpr double SLANT = 1.5;        // across per up: what leans more is an end and no side
 
-double middle_height(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot, std::size_t panel) {
+double middle_height(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot,
+                     std::size_t panel) {
   const auto b = laid_bounds(mesh, role, spot, static_cast<int>(panel));
   return 0.5 * (b[0].y() + b[1].y());
 }
@@ -26,7 +27,8 @@ void bridge(std::vector<LegRow>& rows, LegRow::Span LegRow::*span) {
     for (std::size_t j = last + 1; last < rows.size() && j < k; ++j) {
       const double t = static_cast<double>(j - last) / static_cast<double>(k - last);
       const LegRow::Span &a = rows[last].*span, &b = rows[k].*span;
-      (rows[j].*span).in = (1 - t) * a.in + t * b.in, (rows[j].*span).out = (1 - t) * a.out + t * b.out;
+      (rows[j].*span).in = (1 - t) * a.in + t * b.in,
+      (rows[j].*span).out = (1 - t) * a.out + t * b.out;
     }
     last = k;
   }
@@ -34,8 +36,11 @@ void bridge(std::vector<LegRow>& rows, LegRow::Span LegRow::*span) {
 
 /// Where the sides end in a zone, they go on straight up (or down).
 void carry_on(std::vector<LegRow>& rows, LegRow::Span LegRow::*span, double step, bool top) {
-  const int n = static_cast<int>(rows.size()), zone = static_cast<int>(std::lround((top ? TOP_ZONE : BOTTOM_ZONE) / step));
-  const auto at = [&](int k) -> LegRow::Span& { return rows[static_cast<std::size_t>(top ? k : n - 1 - k)].*span; };
+  const int n = static_cast<int>(rows.size()),
+            zone = static_cast<int>(std::lround((top ? TOP_ZONE : BOTTOM_ZONE) / step));
+  const auto at = [&](int k) -> LegRow::Span& {
+    return rows[static_cast<std::size_t>(top ? k : n - 1 - k)].*span;
+  };
   int first = 0; // first row that is there
   while (first < n && at(first).width() <= 0) ++first;
   if (first + zone >= n) return;
@@ -52,7 +57,8 @@ void carry_on(std::vector<LegRow>& rows, LegRow::Span LegRow::*span, double step
 
 } // namespace
 
-void level_trunk(const PanelMesh& mesh, const SeamGraph& graph, const std::vector<PanelRole>& roles, std::vector<PanelSpot>& spots) {
+void level_trunk(const PanelMesh& mesh, const SeamGraph& graph, const std::vector<PanelRole>& roles,
+                 std::vector<PanelSpot>& spots) {
   const long n = static_cast<long>(roles.size());
   Eigen::MatrixXd normal = 1e-6 * Eigen::MatrixXd::Identity(n, n);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
@@ -73,8 +79,10 @@ void level_trunk(const PanelMesh& mesh, const SeamGraph& graph, const std::vecto
         mean /= count;
         double wanted = 0;
         if (along.x() > along.y()) { // a level seam: the panel that has it at its bottom lies above
-          const bool above = own / count - middle_height(mesh, roles[p], spots[p], p) < other / count - middle_height(mesh, roles[q], spots[q], q);
-          for (const auto& s : seam) least = std::min(least, (above ? 1 : -1) * (v(p, s[0]).y() - v(q, s[1]).y()));
+          const bool above = own / count - middle_height(mesh, roles[p], spots[p], p) <
+                             other / count - middle_height(mesh, roles[q], spots[q], q);
+          for (const auto& s : seam)
+            least = std::min(least, (above ? 1 : -1) * (v(p, s[0]).y() - v(q, s[1]).y()));
           wanted = (above ? 1 : -1) * (PANEL_GAP - least) + mean;
         }
         const long i = static_cast<long>(p), j = static_cast<long>(q);
@@ -88,25 +96,34 @@ void level_trunk(const PanelMesh& mesh, const SeamGraph& graph, const std::vecto
     if (roles[p].region == Region::TRUNK) spots[p].offset.y() += shift(static_cast<long>(p));
 }
 
-std::optional<double> legs_part(const PanelMesh& mesh, const SeamGraph& graph, const std::vector<PanelRole>& roles, const std::vector<PanelSpot>& spots) {
+std::optional<double> legs_part(const PanelMesh& mesh, const SeamGraph& graph,
+                                const std::vector<PanelRole>& roles,
+                                const std::vector<PanelSpot>& spots) {
   std::optional<double> low;
   for (std::size_t p = 0; p < roles.size(); ++p)
     for (int q : graph.neighbours(static_cast<int>(p))) {
       const PanelRole& other = roles[static_cast<std::size_t>(q)];
-      if (!is_leg(roles[p]) || !is_leg(other) || roles[p].part == other.part || roles[p].side != other.side) continue;
+      if (!is_leg(roles[p]) || !is_leg(other) || roles[p].part == other.part ||
+          roles[p].side != other.side)
+        continue;
       for (const auto& seam : graph.between(static_cast<int>(p), q))
-        for (const auto& s : seam) low = std::min(low.value_or(1e300), laid(mesh, roles[p], spots[p], s[0]).y());
+        for (const auto& s : seam)
+          low = std::min(low.value_or(1e300), laid(mesh, roles[p], spots[p], s[0]).y());
     }
   return low;
 }
 
-std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>& roles, const std::vector<PanelSpot>& spots,
-                             const std::vector<std::size_t>& panels, bool left, double top, double step, std::size_t n) {
+std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>& roles,
+                             const std::vector<PanelSpot>& spots,
+                             const std::vector<std::size_t>& panels, bool left, double top,
+                             double step, std::size_t n) {
   std::vector<LegRow> rows(n);
   for (std::size_t p : panels) {
     const Side side = roles[p].side;
     const double sign = (left ? 1 : -1) * (side == Side::BACK ? -1 : 1);
-    const auto span = side == Side::FRONT ? &LegRow::front : side == Side::BACK ? &LegRow::back : &LegRow::ring;
+    const auto span = side == Side::FRONT  ? &LegRow::front
+                      : side == Side::BACK ? &LegRow::back
+                                           : &LegRow::ring;
     const auto& outline = mesh.panels[p].outline;
     const auto take = [&](double row, double t) {
       if (row < -0.5 || row > static_cast<double>(n) - 0.5) return;
@@ -114,14 +131,17 @@ std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>
       s.in = std::min(s.in, t), s.out = std::max(s.out, t);
     };
     for (std::size_t k = 0; k < outline.size(); ++k) {
-      const Vec2 a = laid(mesh, roles[p], spots[p], outline[k]), b = laid(mesh, roles[p], spots[p], outline[(k + 1) % outline.size()]);
+      const Vec2 a = laid(mesh, roles[p], spots[p], outline[k]),
+                 b = laid(mesh, roles[p], spots[p], outline[(k + 1) % outline.size()]);
       const double ra = (top - a.y()) / step, rb = (top - b.y()) / step;
-      for (double row = std::ceil(std::min(ra, rb)); row <= std::floor(std::max(ra, rb)) && std::abs(ra - rb) > 1e-12; ++row)
+      for (double row = std::ceil(std::min(ra, rb));
+           row <= std::floor(std::max(ra, rb)) && std::abs(ra - rb) > 1e-12; ++row)
         take(row, sign * (a.x() + (row - ra) / (rb - ra) * (b.x() - a.x())));
     }
   }
   for (const auto span : {&LegRow::front, &LegRow::back, &LegRow::ring}) bridge(rows, span);
-  for (const auto span : {&LegRow::front, &LegRow::back, &LegRow::ring}) carry_on(rows, span, step, true), carry_on(rows, span, step, false);
+  for (const auto span : {&LegRow::front, &LegRow::back, &LegRow::ring})
+    carry_on(rows, span, step, true), carry_on(rows, span, step, false);
   return rows;
 }
 

@@ -7,16 +7,22 @@
 
 namespace sloper::pattern {
 
-/// Brings all panels about the trunk to the heights that agree best along all their seams at once (least squares): level along upright
-/// seams, the upper panel clear of the lower along level ones.
-void level_trunk(const PanelMesh& mesh, const SeamGraph& graph, const std::vector<PanelRole>& roles, std::vector<PanelSpot>& spots);
+/// Brings all panels about the trunk to the heights that agree best along all their seams at once
+/// (least squares): level along upright seams, the upper panel clear of the lower along level ones.
+void level_trunk(const PanelMesh& mesh, const SeamGraph& graph, const std::vector<PanelRole>& roles,
+                 std::vector<PanelSpot>& spots);
 
-/// Height below which the two legs of trousers are apart: the lowest stitch between panels of two legs; none where there are no legs.
-std::optional<double> legs_part(const PanelMesh& mesh, const SeamGraph& graph, const std::vector<PanelRole>& roles, const std::vector<PanelSpot>& spots);
+/// Height below which the two legs of trousers are apart: the lowest stitch between panels of two
+/// legs; none where there are no legs.
+std::optional<double> legs_part(const PanelMesh& mesh, const SeamGraph& graph,
+                                const std::vector<PanelRole>& roles,
+                                const std::vector<PanelSpot>& spots);
 
-/// What the panels of one leg cover on level rows from `top` down, `step` apart; see LegRow. Slanting ends (waist, hem) count as if
-/// the sides went on.
-std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>& roles, const std::vector<PanelSpot>& spots,
-                             const std::vector<std::size_t>& panels, bool left, double top, double step, std::size_t n);
+/// What the panels of one leg cover on level rows from `top` down, `step` apart; see LegRow.
+/// Slanting ends (waist, hem) count as if the sides went on.
+std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>& roles,
+                             const std::vector<PanelSpot>& spots,
+                             const std::vector<std::size_t>& panels, bool left, double top,
+                             double step, std::size_t n);
 
 } // namespace sloper::pattern

@@ -6,31 +6,42 @@
 namespace sloper::pattern {
 namespace {
 
-constexpr double ASIDE = 0.03; // m that a panel is off its seams, from which it was put at another's place
+constexpr double ASIDE =
+    0.03; // m that a panel is off its seams, from which it was put at another's place
 
 class Layout {
 public:
-  Layout(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph, std::vector<PanelRole>& roles)
-      : m_pattern(pattern), m_mesh(mesh), m_graph(graph), m_roles(roles), m_spots(roles.size()), m_done(roles.size(), false), m_u_known(roles.size(), false),
-        m_block(roles.size(), -1) {}
+  Layout(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph,
+         std::vector<PanelRole>& roles)
+      : m_pattern(pattern), m_mesh(mesh), m_graph(graph), m_roles(roles), m_spots(roles.size()),
+        m_done(roles.size(), false), m_u_known(roles.size(), false), m_block(roles.size(), -1) {}
 
   std::vector<PanelSpot> run() {
-    for (Region region : {Region::TRUNK, Region::ARM_L, Region::ARM_R, Region::NECK}) lay_region(region);
+    for (Region region : {Region::TRUNK, Region::ARM_L, Region::ARM_R, Region::NECK})
+      lay_region(region);
     return std::move(m_spots);
   }
 
 private:
   std::size_t count() const { return m_roles.size(); }
-  Vec2 at(std::size_t panel, int vertex) const { return laid(m_mesh, m_roles[panel], m_spots[panel], vertex); }
-  std::array<Vec2, 2> bounds(std::size_t panel) const { return laid_bounds(m_mesh, m_roles[panel], m_spots[panel], static_cast<int>(panel)); }
+  Vec2 at(std::size_t panel, int vertex) const {
+    return laid(m_mesh, m_roles[panel], m_spots[panel], vertex);
+  }
+  std::array<Vec2, 2> bounds(std::size_t panel) const {
+    return laid_bounds(m_mesh, m_roles[panel], m_spots[panel], static_cast<int>(panel));
+  }
 
-  bool same_layer(std::size_t p, std::size_t q) const { return m_mesh.panels[p].layer == m_mesh.panels[q].layer; }
+  bool same_layer(std::size_t p, std::size_t q) const {
+    return m_mesh.panels[p].layer == m_mesh.panels[q].layer;
+  }
 
   double seam_length(std::size_t p, std::size_t q) const {
     double sum = 0;
     for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q)))
       for (std::size_t k = 0; k + 1 < seam.size(); ++k)
-        sum += (m_mesh.pattern[static_cast<std::size_t>(seam[k + 1][0])] - m_mesh.pattern[static_cast<std::size_t>(seam[k][0])]).norm();
+        sum += (m_mesh.pattern[static_cast<std::size_t>(seam[k + 1][0])] -
+                m_mesh.pattern[static_cast<std::size_t>(seam[k][0])])
+                   .norm();
     return sum;
   }
 
@@ -43,7 +54,8 @@ private:
       if (m_roles[k].du) m_spots[k].offset.x() = *m_roles[k].du, m_u_known[k] = true;
     }
     for (;;) {
-      // The unplaced panel with the longest seam to a placed one; seams within one side count ten times.
+      // The unplaced panel with the longest seam to a placed one; seams within one side count ten
+      // times.
       std::size_t best = count(), partner = count();
       double most = 0;
       for (std::size_t k = 0; k < count(); ++k) {
@@ -64,7 +76,8 @@ private:
         if (m_roles[k].region != region || m_done[k]) continue;
         double score = 1 + (bounds(k)[1] - bounds(k)[0]).prod();
         if (!trunk)
-          for (int q : m_graph.neighbours(static_cast<int>(k))) score += m_roles[static_cast<std::size_t>(q)].region == Region::TRUNK ? 10 : 0;
+          for (int q : m_graph.neighbours(static_cast<int>(k)))
+            score += m_roles[static_cast<std::size_t>(q)].region == Region::TRUNK ? 10 : 0;
         if (score > most) most = score, best = k;
       }
       if (best == count()) break;
@@ -80,16 +93,19 @@ private:
 
   bool upright(std::size_t p, std::size_t q) const {
     Vec2 along = Vec2::Zero();
-    for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q))) along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
+    for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q)))
+      along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
     return !goes_level(along);
   }
 
-  /// Panels side by side that were attached one to the other, the first of them to a panel whose u is known, as halves of a skirt to its waistband:
-  /// all of their seams with such panels together say where the row goes, or it would be off to the side of the last.
+  /// Panels side by side that were attached one to the other, the first of them to a panel whose u
+  /// is known, as halves of a skirt to its waistband: all of their seams with such panels together
+  /// say where the row goes, or it would be off to the side of the last.
   void align_rows() {
     std::vector<bool> met(count(), false);
     const auto in_row = [&](std::size_t k) {
-      return m_roles[k].region == Region::TRUNK && m_roles[k].side != Side::RING && !is_leg(m_roles[k]) && !m_roles[k].du;
+      return m_roles[k].region == Region::TRUNK && m_roles[k].side != Side::RING &&
+             !is_leg(m_roles[k]) && !m_roles[k].du;
     };
     for (std::size_t first = 0; first < count(); ++first) {
       if (met[first] || !in_row(first)) continue;
@@ -114,27 +130,35 @@ private:
     }
   }
 
-  /// Hints may leave panels above each other far apart, or overlapping: along level seams the lower one is brought to PANEL_GAP below.
+  /// Hints may leave panels above each other far apart, or overlapping: along level seams the lower
+  /// one is brought to PANEL_GAP below.
   void close_level_seams() {
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < count(); ++k)
       if (m_roles[k].region == Region::TRUNK) order.push_back(k);
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return middle_of(a).y() > middle_of(b).y() + 1e-9; });
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return middle_of(a).y() > middle_of(b).y() + 1e-9;
+    });
     for (std::size_t i = 0; i < order.size(); ++i) {
       const std::size_t p = order[i];
       double shift = 1e300;
       for (std::size_t j = 0; j < i; ++j) {
         const std::size_t q = order[j];
-        if (m_roles[p].side != m_roles[q].side && m_roles[p].side != Side::RING && m_roles[q].side != Side::RING) continue;
+        if (m_roles[p].side != m_roles[q].side && m_roles[p].side != Side::RING &&
+            m_roles[q].side != Side::RING)
+          continue;
         if (!same_layer(p, q)) continue;
         Vec2 along = Vec2::Zero();
-        double open = 1e300; // along the seam itself: gores stand aside of what they hang from, and columns that both cover may miss it
+        double open = 1e300; // along the seam itself: gores stand aside of what they hang from, and
+                             // columns that both cover may miss it
         for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q))) {
           along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
           for (const auto& s : seam) open = std::min(open, at(q, s[1]).y() - at(p, s[0]).y());
         }
         if (!goes_level(along) || along.x() < 0.05) continue; // no seam, an upright or a small one
-        const double clearance = m_roles[p].side == m_roles[q].side ? column_clearance(p, q) : bounds(q)[0].y() - bounds(p)[1].y();
+        const double clearance = m_roles[p].side == m_roles[q].side
+                                     ? column_clearance(p, q)
+                                     : bounds(q)[0].y() - bounds(p)[1].y();
         shift = std::min(shift, (open < clearance - ASIDE ? open : clearance) - PANEL_GAP);
       }
       if (shift < 1e299) m_spots[p].offset.y() += shift;
@@ -187,19 +211,23 @@ private:
     }
     m_block[p] = m_block[q];
     m_u_known[p] = m_u_known[q];
-    if (!same_layer(p, q)) return;                      // it lies over the other, seam on seam
-    const std::size_t axis = goes_level(along) ? 1 : 0; // a level seam parts them in v, an upright one in u
+    if (!same_layer(p, q)) return; // it lies over the other, seam on seam
+    const std::size_t axis =
+        goes_level(along) ? 1 : 0; // a level seam parts them in v, an upright one in u
     const Vec2 mine = middle_of(p), theirs = middle_of(q);
-    part(p, q, static_cast<long>(axis), mine[static_cast<long>(axis)] >= theirs[static_cast<long>(axis)] ? 1 : -1);
+    part(p, q, static_cast<long>(axis),
+         mine[static_cast<long>(axis)] >= theirs[static_cast<long>(axis)] ? 1 : -1);
   }
 
-  /// How far in u panel p is from all that it stands on, or hangs from, on its side, m: a bodice over gores is over the middle one, though it
-  /// was put over the first.
+  /// How far in u panel p is from all that it stands on, or hangs from, on its side, m: a bodice
+  /// over gores is over the middle one, though it was put over the first.
   double off_its_row(std::size_t p) const {
     double sum = 0, count = 0;
     for (int neighbour : m_graph.neighbours(static_cast<int>(p))) {
       const std::size_t o = static_cast<std::size_t>(neighbour);
-      if (!m_done[o] || m_roles[o].region != m_roles[p].region || m_roles[o].side != m_roles[p].side || !same_layer(p, o) || upright(p, o)) continue;
+      if (!m_done[o] || m_roles[o].region != m_roles[p].region ||
+          m_roles[o].side != m_roles[p].side || !same_layer(p, o) || upright(p, o))
+        continue;
       for (const auto& seam : m_graph.between(static_cast<int>(p), neighbour))
         for (const auto& s : seam) sum += at(o, s[1]).x() - at(p, s[0]).x(), ++count;
     }
@@ -221,12 +249,14 @@ private:
       for (std::size_t k = 0; k < outline.size(); ++k) {
         const Vec2 a = at(panel, outline[k]), b = at(panel, outline[(k + 1) % outline.size()]);
         if ((a[across] <= line) == (b[across] <= line)) continue;
-        const double x = a[axis] + (line - a[across]) / (b[across] - a[across]) * (b[axis] - a[axis]);
+        const double x =
+            a[axis] + (line - a[across]) / (b[across] - a[across]) * (b[axis] - a[axis]);
         low = std::min(low, x), high = std::max(high, x);
       }
     };
     const auto bp = bounds(p), bq = bounds(q);
-    const double from = std::max(bp[0][across], bq[0][across]), to = std::min(bp[1][across], bq[1][across]);
+    const double from = std::max(bp[0][across], bq[0][across]),
+                 to = std::min(bp[1][across], bq[1][across]);
     for (int k = 1; k < 200; ++k) {
       const double line = from + (to - from) * k / 200;
       double pl, ph, ql, qh;
@@ -237,13 +267,14 @@ private:
     if (need > 0) m_spots[p].offset[axis] += sense * need;
   }
 
-  /// Blocks of panels without a known u: their middle goes to u = 0; of two blocks on one side, left to the left.
+  /// Blocks of panels without a known u: their middle goes to u = 0; of two blocks on one side,
+  /// left to the left.
   void middle_blocks(Region region) {
     for (Side side : {Side::FRONT, Side::BACK, Side::RING}) {
       std::vector<int> blocks;
       for (std::size_t k = 0; k < count(); ++k)
-        if (m_roles[k].region == region && m_roles[k].side == side && !m_u_known[k] && m_block[k] >= 0 &&
-            std::find(blocks.begin(), blocks.end(), m_block[k]) == blocks.end())
+        if (m_roles[k].region == region && m_roles[k].side == side && !m_u_known[k] &&
+            m_block[k] >= 0 && std::find(blocks.begin(), blocks.end(), m_block[k]) == blocks.end())
           blocks.push_back(m_block[k]);
       std::vector<std::array<Vec2, 2>> taken;
       for (int block : blocks) {
@@ -256,14 +287,16 @@ private:
           const std::string& part = m_roles[k].part;
           const std::string& name = m_pattern.panels[k].name;
           const auto ends_with = [&](const std::string& tail) {
-            return name.size() > tail.size() && name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
+            return name.size() > tail.size() &&
+                   name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
           };
           left = left && (part == "leg_l" || ends_with("_l") || ends_with("left"));
           right = right && (part == "leg_r" || ends_with("_r") || ends_with("right"));
         }
         double shift = -0.5 * (low.x() + high.x());
         const double sense = (left ? 1 : right ? -1 : 0) * (side == Side::BACK ? -1.0 : 1.0);
-        if (region == Region::TRUNK && side != Side::RING && sense != 0) shift = sense > 0 ? 0.5 * PANEL_GAP - low.x() : -0.5 * PANEL_GAP - high.x();
+        if (region == Region::TRUNK && side != Side::RING && sense != 0)
+          shift = sense > 0 ? 0.5 * PANEL_GAP - low.x() : -0.5 * PANEL_GAP - high.x();
         for (std::size_t k = 0; k < count(); ++k)
           if (m_block[k] == block) m_spots[k].offset.x() += shift;
       }
@@ -285,7 +318,8 @@ Vec2 laid(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot, i
   return role.turn * mesh.pattern[static_cast<std::size_t>(vertex)] + spot.offset;
 }
 
-std::array<Vec2, 2> laid_bounds(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot, int panel) {
+std::array<Vec2, 2> laid_bounds(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot,
+                                int panel) {
   std::array<Vec2, 2> b = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
   for (int v : mesh.panels[static_cast<std::size_t>(panel)].outline) {
     const Vec2 p = laid(mesh, role, spot, v);
@@ -294,12 +328,15 @@ std::array<Vec2, 2> laid_bounds(const PanelMesh& mesh, const PanelRole& role, co
   return b;
 }
 
-double covered(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot, int panel, double v) {
+double covered(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& spot, int panel,
+               double v) {
   const auto& outline = mesh.panels[static_cast<std::size_t>(panel)].outline;
   std::vector<double> at;
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2 p = laid(mesh, role, spot, outline[i]), q = laid(mesh, role, spot, outline[(i + 1) % outline.size()]);
-    if ((p.y() <= v) != (q.y() <= v)) at.push_back(p.x() + (v - p.y()) / (q.y() - p.y()) * (q.x() - p.x()));
+    const Vec2 p = laid(mesh, role, spot, outline[i]),
+               q = laid(mesh, role, spot, outline[(i + 1) % outline.size()]);
+    if ((p.y() <= v) != (q.y() <= v))
+      at.push_back(p.x() + (v - p.y()) / (q.y() - p.y()) * (q.x() - p.x()));
   }
   std::sort(at.begin(), at.end());
   double sum = 0;
@@ -307,7 +344,8 @@ double covered(const PanelMesh& mesh, const PanelRole& role, const PanelSpot& sp
   return sum;
 }
 
-std::vector<PanelSpot> lay_out(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph, std::vector<PanelRole>& roles) {
+std::vector<PanelSpot> lay_out(const Pattern& pattern, const PanelMesh& mesh,
+                               const SeamGraph& graph, std::vector<PanelRole>& roles) {
   return Layout(pattern, mesh, graph, roles).run();
 }
 

@@ -11,9 +11,10 @@
 namespace sloper::pattern {
 namespace {
 
-constexpr double COARSE = 0.02;    // m, mesh edges: arcs lose less than 0.1 % to their chords
-constexpr double PER_PIECE = 0.25; // of the smallest panel's extent: pockets and belt loops have three vertices too
-constexpr double FINEST = 0.002;   // m
+constexpr double COARSE = 0.02; // m, mesh edges: arcs lose less than 0.1 % to their chords
+constexpr double PER_PIECE =
+    0.25; // of the smallest panel's extent: pockets and belt loops have three vertices too
+constexpr double FINEST = 0.002; // m
 
 /// Coarse, but no coarser than the smallest piece can be meshed with.
 double coarse_for(const Pattern& pattern) {
@@ -35,7 +36,8 @@ std::string edge_at(const Panel& panel, const Vec2& p) {
   for (int e = 0; e < panel.n_edges(); ++e) {
     const ArcLength arc(panel.edge(e).path);
     for (int k = 0; k <= 64; ++k)
-      if (const double d = (arc.at(arc.length() * k / 64) - p).norm(); d < least - 1e-9) least = d, name = panel.edge(e).name;
+      if (const double d = (arc.at(arc.length() * k / 64) - p).norm(); d < least - 1e-9)
+        least = d, name = panel.edge(e).name;
   }
   return name;
 }
@@ -49,11 +51,16 @@ std::vector<Opening> openings_of(const Pattern& pattern, const PanelMesh& mesh) 
   };
   std::map<std::pair<int, int>, Side> sides; // by welded ends
   for (std::size_t p = 0; p < mesh.panels.size(); ++p)
-    for (int t = mesh.panels[p].first_triangle; t < mesh.panels[p].first_triangle + mesh.panels[p].n_triangles; ++t)
+    for (int t = mesh.panels[p].first_triangle;
+         t < mesh.panels[p].first_triangle + mesh.panels[p].n_triangles; ++t)
       for (std::size_t k = 0; k < 3; ++k) {
-        const int a = mesh.triangles[static_cast<std::size_t>(t)][k], b = mesh.triangles[static_cast<std::size_t>(t)][(k + 1) % 3];
+        const int a = mesh.triangles[static_cast<std::size_t>(t)][k],
+                  b = mesh.triangles[static_cast<std::size_t>(t)][(k + 1) % 3];
         const int ra = sewn.find(a), rb = sewn.find(b);
-        Side& side = sides.try_emplace({std::min(ra, rb), std::max(ra, rb)}, Side{a, b, static_cast<int>(p), 0}).first->second;
+        Side& side = sides
+                         .try_emplace({std::min(ra, rb), std::max(ra, rb)},
+                                      Side{a, b, static_cast<int>(p), 0})
+                         .first->second;
         ++side.n;
       }
   DisjointSets loops(mesh.pattern.size());
@@ -64,18 +71,22 @@ std::vector<Opening> openings_of(const Pattern& pattern, const PanelMesh& mesh) 
   for (const auto& [ends, side] : sides) {
     if (side.n != 1) continue;
     const int id = loops.find(ends.first);
-    const Vec2 &a = mesh.pattern[static_cast<std::size_t>(side.a)], &b = mesh.pattern[static_cast<std::size_t>(side.b)];
+    const Vec2 &a = mesh.pattern[static_cast<std::size_t>(side.a)],
+               &b = mesh.pattern[static_cast<std::size_t>(side.b)];
     found[id].length += (a - b).norm();
     found[id].rim.push_back({side.a, side.b});
-    names[id][side.panel].insert(edge_at(pattern.panels[static_cast<std::size_t>(side.panel)], 0.5 * (a + b)));
+    names[id][side.panel].insert(
+        edge_at(pattern.panels[static_cast<std::size_t>(side.panel)], 0.5 * (a + b)));
   }
   std::vector<Opening> out;
   for (auto& [id, opening] : found) {
     for (const auto& [panel, edges] : names[id])
-      for (const std::string& edge : edges) opening.edges.push_back(pattern.panels[static_cast<std::size_t>(panel)].name + ": " + edge);
+      for (const std::string& edge : edges)
+        opening.edges.push_back(pattern.panels[static_cast<std::size_t>(panel)].name + ": " + edge);
     out.push_back(std::move(opening));
   }
-  std::stable_sort(out.begin(), out.end(), [](const Opening& a, const Opening& b) { return a.length > b.length; });
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Opening& a, const Opening& b) { return a.length > b.length; });
   return out;
 }
 
@@ -89,7 +100,8 @@ FinishedMeasures finished_measures(const Pattern& pattern, const std::string& fi
   out.named = std::move(trunk.named), out.around = std::move(trunk.around);
   const Pattern sewn = with_folds(pattern, file);
   for (const Seam& s : sewn.seams)
-    if (s.kind != "pleat") out.seams.push_back({s.name, 0.5 * (side_length(sewn, s.a) + side_length(sewn, s.b))});
+    if (s.kind != "pleat")
+      out.seams.push_back({s.name, 0.5 * (side_length(sewn, s.a) + side_length(sewn, s.b))});
   for (const Panel& p : pattern.panels)
     for (const auto& loop : p.loops) {
       std::vector<Path> paths;
@@ -101,12 +113,20 @@ FinishedMeasures finished_measures(const Pattern& pattern, const std::string& fi
 
 io::Json measures_json(const FinishedMeasures& measures) {
   io::Json openings = io::Json::array(), seams = io::Json::array(), around = io::Json::array();
-  for (const Opening& o : measures.openings) openings.push_back({{"edges", o.edges}, {"length_m", o.length}});
-  for (const auto& [name, length] : measures.seams) seams.push_back({{"name", name}, {"length_m", length}});
-  for (const auto& [depth, length] : measures.around) around.push_back({{"below_top_m", depth}, {"length_m", length}});
+  for (const Opening& o : measures.openings)
+    openings.push_back({{"edges", o.edges}, {"length_m", o.length}});
+  for (const auto& [name, length] : measures.seams)
+    seams.push_back({{"name", name}, {"length_m", length}});
+  for (const auto& [depth, length] : measures.around)
+    around.push_back({{"below_top_m", depth}, {"length_m", length}});
   io::Json named = io::Json::array();
-  for (const NamedMeasure& m : measures.named) named.push_back({{"name", m.name}, {"length_m", m.value}, {"how", m.how}});
-  return {{"named", named}, {"openings", openings}, {"seams", seams}, {"around", around}, {"cloth_m2", measures.cloth_m2}};
+  for (const NamedMeasure& m : measures.named)
+    named.push_back({{"name", m.name}, {"length_m", m.value}, {"how", m.how}});
+  return {{"named", named},
+          {"openings", openings},
+          {"seams", seams},
+          {"around", around},
+          {"cloth_m2", measures.cloth_m2}};
 }
 
 } // namespace sloper::pattern

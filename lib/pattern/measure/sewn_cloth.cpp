@@ -12,9 +12,12 @@
 namespace sloper::pattern {
 namespace {
 
-constexpr double HOLD_HEIGHT = 1e-9;  // 1: weight of the wanted height beside its slope; enough to hold pieces that nothing joins
-constexpr double ENDS_UPRIGHT = 0.8;  // rise per length of a free edge at which a level may end: steeper than hems are cut
-constexpr double PART_OF_TRUNK = 0.3; // of the most cloth that is sewn together: what is less is another thing
+constexpr double HOLD_HEIGHT = 1e-9; // 1: weight of the wanted height beside its slope; enough to
+                                     // hold pieces that nothing joins
+constexpr double ENDS_UPRIGHT =
+    0.8; // rise per length of a free edge at which a level may end: steeper than hems are cut
+constexpr double PART_OF_TRUNK =
+    0.3; // of the most cloth that is sewn together: what is less is another thing
 constexpr double AWAY = std::numeric_limits<double>::quiet_NaN();
 
 /// Least of f(x) + |c - x| over the side from a to b, along which f goes linearly from fa to fb.
@@ -23,7 +26,8 @@ double way_across(const Vec2& a, const Vec2& b, const Vec2& c, double fa, double
   if (length < 1e-12 || std::abs(fb - fa) >= length) return best;
   // Where the way meets the side at the angle that the slope along it asks for.
   const Vec2 along = (b - a) / length;
-  const double slope = (fb - fa) / length, at = (c - a).dot(along), off = std::abs(along.x() * (c - a).y() - along.y() * (c - a).x());
+  const double slope = (fb - fa) / length, at = (c - a).dot(along),
+               off = std::abs(along.x() * (c - a).y() - along.y() * (c - a).x());
   const double from = at - off * slope / std::sqrt(1 - slope * slope);
   if (from <= 0 || from >= length) return best;
   return std::min(best, fa + slope * from + std::hypot(at - from, off));
@@ -31,7 +35,8 @@ double way_across(const Vec2& a, const Vec2& b, const Vec2& c, double fa, double
 
 } // namespace
 
-SewnCloth::SewnCloth(const PanelMesh& mesh, std::vector<bool> panels) : m_mesh(mesh), m_panels(std::move(panels)), m_weld(mesh.pattern.size()) {
+SewnCloth::SewnCloth(const PanelMesh& mesh, std::vector<bool> panels)
+    : m_mesh(mesh), m_panels(std::move(panels)), m_weld(mesh.pattern.size()) {
   DisjointSets sewn(m_weld.size());
   for (const MeshSeam& s : mesh.seams)
     for (std::size_t k = 0; k < s.a.size(); ++k) sewn.unite(s.a[k], s.b[k]);
@@ -51,7 +56,8 @@ template<class F> void SewnCloth::each_triangle(const F& visit) const {
   }
 }
 
-Field SewnCloth::height(const std::vector<PanelRole>& roles, const Field& wanted, const std::function<double(int)>& weight) const {
+Field SewnCloth::height(const std::vector<PanelRole>& roles, const Field& wanted,
+                        const std::function<double(int)>& weight) const {
   const long n = static_cast<long>(m_weld.size());
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
@@ -59,8 +65,11 @@ Field SewnCloth::height(const std::vector<PanelRole>& roles, const Field& wanted
   each_triangle([&](std::size_t panel, const Triangle& corners, const Triangle& w) {
     const Vec2 up = roles[panel].turn.row(1).transpose();
     std::array<Vec2, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = m_mesh.pattern[static_cast<std::size_t>(corners[k])], there[static_cast<std::size_t>(w[k])] = true;
-    const double twice = (p[1] - p[0]).x() * (p[2] - p[0]).y() - (p[1] - p[0]).y() * (p[2] - p[0]).x();
+    for (std::size_t k = 0; k < 3; ++k)
+      p[k] = m_mesh.pattern[static_cast<std::size_t>(corners[k])],
+      there[static_cast<std::size_t>(w[k])] = true;
+    const double twice =
+        (p[1] - p[0]).x() * (p[2] - p[0]).y() - (p[1] - p[0]).y() * (p[2] - p[0]).x();
     if (std::abs(twice) < 1e-12) return;
     std::array<Vec2, 3> slope;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -70,7 +79,8 @@ Field SewnCloth::height(const std::vector<PanelRole>& roles, const Field& wanted
     const double area = 0.5 * std::abs(twice) * (weight ? weight(static_cast<int>(panel)) : 1);
     for (std::size_t i = 0; i < 3; ++i) {
       right(w[i]) += area * slope[i].dot(up);
-      for (std::size_t j = 0; j < 3; ++j) entries.emplace_back(w[i], w[j], area * slope[i].dot(slope[j]));
+      for (std::size_t j = 0; j < 3; ++j)
+        entries.emplace_back(w[i], w[j], area * slope[i].dot(slope[j]));
     }
   });
   for (long v = 0; v < n; ++v) {
@@ -88,9 +98,11 @@ Field SewnCloth::height(const std::vector<PanelRole>& roles, const Field& wanted
 }
 
 Field SewnCloth::way_from(const Field& start) const {
-  std::vector<std::vector<std::array<int, 3>>> fan(m_weld.size()); // corners of the mesh, by the welded first
+  std::vector<std::vector<std::array<int, 3>>> fan(
+      m_weld.size()); // corners of the mesh, by the welded first
   each_triangle([&](std::size_t, const Triangle& c, const Triangle& w) {
-    for (std::size_t k = 0; k < 3; ++k) fan[static_cast<std::size_t>(w[k])].push_back({c[k], c[(k + 1) % 3], c[(k + 2) % 3]});
+    for (std::size_t k = 0; k < 3; ++k)
+      fan[static_cast<std::size_t>(w[k])].push_back({c[k], c[(k + 1) % 3], c[(k + 2) % 3]});
   });
   std::vector<double> best(m_weld.size(), std::numeric_limits<double>::infinity());
   using Entry = std::pair<double, int>;
@@ -102,16 +114,21 @@ Field SewnCloth::way_from(const Field& start) const {
       at(static_cast<int>(v)) = start[v], fixed[static_cast<std::size_t>(m_weld[v])] = true;
       queue.emplace(start[v], m_weld[v]);
     }
-  const auto drawn = [&](int v) -> const Vec2& { return m_mesh.pattern[static_cast<std::size_t>(v)]; };
+  const auto drawn = [&](int v) -> const Vec2& {
+    return m_mesh.pattern[static_cast<std::size_t>(v)];
+  };
   while (!queue.empty()) { // a vertex comes again whenever a shorter way to it is found
     const auto [value, v] = queue.top();
     queue.pop();
     if (value > best[static_cast<std::size_t>(v)]) continue;
     for (const auto& [a, b, c] : fan[static_cast<std::size_t>(v)])
-      for (const auto& [from, other, to] : {std::array<int, 3>{a, c, b}, std::array<int, 3>{a, b, c}}) {
+      for (const auto& [from, other, to] :
+           {std::array<int, 3>{a, c, b}, std::array<int, 3>{a, b, c}}) {
         if (fixed[static_cast<std::size_t>(welded(to))]) continue;
         double way = at(from) + (drawn(to) - drawn(from)).norm();
-        if (std::isfinite(at(other))) way = std::min(way, way_across(drawn(from), drawn(other), drawn(to), at(from), at(other)));
+        if (std::isfinite(at(other)))
+          way =
+              std::min(way, way_across(drawn(from), drawn(other), drawn(to), at(from), at(other)));
         if (way < at(to) - 1e-12) at(to) = way, queue.emplace(way, welded(to));
       }
   }
@@ -121,7 +138,8 @@ Field SewnCloth::way_from(const Field& start) const {
   return field;
 }
 
-SewnCloth::Ring SewnCloth::around(const Field& field, double level, const std::function<bool(int)>& panel) const {
+SewnCloth::Ring SewnCloth::around(const Field& field, double level,
+                                  const std::function<bool(int)>& panel) const {
   struct Crossed {
     int n = 0, a = 0, b = 0;
   };
@@ -131,9 +149,13 @@ SewnCloth::Ring SewnCloth::around(const Field& field, double level, const std::f
     if (panel && !panel(static_cast<int>(p))) return;
     std::vector<Vec2> ends;
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t i = static_cast<std::size_t>(corners[k]), j = static_cast<std::size_t>(corners[(k + 1) % 3]);
-      if (std::isnan(field[i]) || std::isnan(field[j]) || (field[i] <= level) == (field[j] <= level)) continue;
-      ends.push_back(m_mesh.pattern[i] + (level - field[i]) / (field[j] - field[i]) * (m_mesh.pattern[j] - m_mesh.pattern[i]));
+      const std::size_t i = static_cast<std::size_t>(corners[k]),
+                        j = static_cast<std::size_t>(corners[(k + 1) % 3]);
+      if (std::isnan(field[i]) || std::isnan(field[j]) ||
+          (field[i] <= level) == (field[j] <= level))
+        continue;
+      ends.push_back(m_mesh.pattern[i] + (level - field[i]) / (field[j] - field[i]) *
+                                             (m_mesh.pattern[j] - m_mesh.pattern[i]));
       Crossed& side = crossed[{std::min(w[k], w[(k + 1) % 3]), std::max(w[k], w[(k + 1) % 3])}];
       ++side.n, side.a = corners[k], side.b = corners[(k + 1) % 3];
     }
@@ -143,12 +165,14 @@ SewnCloth::Ring SewnCloth::around(const Field& field, double level, const std::f
   for (const auto& [ends, side] : crossed)
     if (side.n == 1) {
       const std::size_t a = static_cast<std::size_t>(side.a), b = static_cast<std::size_t>(side.b);
-      ring.whole = ring.whole && std::abs(field[a] - field[b]) > ENDS_UPRIGHT * (m_mesh.pattern[a] - m_mesh.pattern[b]).norm();
+      ring.whole = ring.whole && std::abs(field[a] - field[b]) >
+                                     ENDS_UPRIGHT * (m_mesh.pattern[a] - m_mesh.pattern[b]).norm();
     }
   return ring;
 }
 
-std::vector<bool> trunk_cloth(const PanelMesh& mesh, const SeamGraph& graph, const std::vector<PanelRole>& roles) {
+std::vector<bool> trunk_cloth(const PanelMesh& mesh, const SeamGraph& graph,
+                              const std::vector<PanelRole>& roles) {
   std::vector<double> area(roles.size(), 0);
   std::map<int, double> of_layer;
   for (std::size_t k = 0; k < roles.size(); ++k) {
@@ -156,8 +180,11 @@ std::vector<bool> trunk_cloth(const PanelMesh& mesh, const SeamGraph& graph, con
     const PanelInfo& info = mesh.panels[k];
     for (int t = info.first_triangle; t < info.first_triangle + info.n_triangles; ++t) {
       std::array<Vec2, 3> p;
-      for (std::size_t i = 0; i < 3; ++i) p[i] = mesh.pattern[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(t)][i])];
-      area[k] += 0.5 * std::abs((p[1] - p[0]).x() * (p[2] - p[0]).y() - (p[1] - p[0]).y() * (p[2] - p[0]).x());
+      for (std::size_t i = 0; i < 3; ++i)
+        p[i] =
+            mesh.pattern[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(t)][i])];
+      area[k] += 0.5 * std::abs((p[1] - p[0]).x() * (p[2] - p[0]).y() -
+                                (p[1] - p[0]).y() * (p[2] - p[0]).x());
     }
     of_layer[info.layer] += area[k];
   }
@@ -165,7 +192,8 @@ std::vector<bool> trunk_cloth(const PanelMesh& mesh, const SeamGraph& graph, con
   std::iota(piece.begin(), piece.end(), 0);
   for (std::size_t round = 0; round < piece.size(); ++round)
     for (std::size_t k = 0; k < piece.size(); ++k)
-      for (int q : graph.neighbours(static_cast<int>(k))) piece[k] = std::min(piece[k], piece[static_cast<std::size_t>(q)]);
+      for (int q : graph.neighbours(static_cast<int>(k)))
+        piece[k] = std::min(piece[k], piece[static_cast<std::size_t>(q)]);
   std::map<int, double> of_piece;
   for (std::size_t k = 0; k < area.size(); ++k) of_piece[piece[k]] += area[k];
   const auto more = [](const auto& a, const auto& b) { return a.second < b.second; };
@@ -174,7 +202,8 @@ std::vector<bool> trunk_cloth(const PanelMesh& mesh, const SeamGraph& graph, con
   const int layer = std::max_element(of_layer.begin(), of_layer.end(), more)->first;
   const double most = std::max_element(of_piece.begin(), of_piece.end(), more)->second;
   for (std::size_t k = 0; k < out.size(); ++k)
-    out[k] = roles[k].region == Region::TRUNK && mesh.panels[k].layer == layer && (mesh.seams.empty() || of_piece[piece[k]] > PART_OF_TRUNK * most);
+    out[k] = roles[k].region == Region::TRUNK && mesh.panels[k].layer == layer &&
+             (mesh.seams.empty() || of_piece[piece[k]] > PART_OF_TRUNK * most);
   return out;
 }
 

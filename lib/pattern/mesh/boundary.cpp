@@ -59,15 +59,17 @@ private:
   std::vector<double> m_corners;
 };
 
-/// Matching breaks of both sides in order: (u on a, u on b). Corners that nearly face each other are brought together; the
-/// others have their partner in the middle of the other side's edge.
+/// Matching breaks of both sides in order: (u on a, u on b). Corners that nearly face each other
+/// are brought together; the others have their partner in the middle of the other side's edge.
 std::vector<std::array<double, 2>> matched_breaks(const Side& a, const Side& b, double tolerance) {
   std::vector<std::array<double, 2>> knots = {{0, 0}};
   std::size_t j = 1;
   for (std::size_t i = 1; i + 1 < a.corners().size(); ++i) {
     const double u = a.corners()[i];
     while (j + 1 < b.corners().size() && b.corners()[j] < u - tolerance) ++j;
-    if (j + 1 < b.corners().size() && std::abs(b.corners()[j] - u) <= tolerance && b.corners()[j] > knots.back()[1]) knots.push_back({u, b.corners()[j]}), ++j;
+    if (j + 1 < b.corners().size() && std::abs(b.corners()[j] - u) <= tolerance &&
+        b.corners()[j] > knots.back()[1])
+      knots.push_back({u, b.corners()[j]}), ++j;
   }
   knots.push_back({1, 1});
   std::vector<std::array<double, 2>> breaks = {{0, 0}};
@@ -76,9 +78,11 @@ std::vector<std::array<double, 2>> matched_breaks(const Side& a, const Side& b, 
     const auto [a1, b1] = knots[k + 1];
     std::vector<std::array<double, 2>> inner;
     for (double u : a.corners())
-      if (u > a0 + SAME && u < a1 - SAME) inner.push_back({u, b0 + (u - a0) / (a1 - a0) * (b1 - b0)});
+      if (u > a0 + SAME && u < a1 - SAME)
+        inner.push_back({u, b0 + (u - a0) / (a1 - a0) * (b1 - b0)});
     for (double u : b.corners())
-      if (u > b0 + SAME && u < b1 - SAME) inner.push_back({a0 + (u - b0) / (b1 - b0) * (a1 - a0), u});
+      if (u > b0 + SAME && u < b1 - SAME)
+        inner.push_back({a0 + (u - b0) / (b1 - b0) * (a1 - a0), u});
     std::sort(inner.begin(), inner.end());
     breaks.insert(breaks.end(), inner.begin(), inner.end());
     breaks.push_back(knots[k + 1]);
@@ -99,16 +103,19 @@ struct EdgeVertices {
 
 class Sampler {
 public:
-  Sampler(const Pattern& pattern, double h, double seam_h, const std::string& file) : m_pattern(pattern), m_h(h), m_seam_h(seam_h), m_file(file) {}
+  Sampler(const Pattern& pattern, double h, double seam_h, const std::string& file)
+      : m_pattern(pattern), m_h(h), m_seam_h(seam_h), m_file(file) {}
 
   Boundary run() {
     m_pieces.resize(m_pattern.panels.size());
-    for (std::size_t p = 0; p < m_pattern.panels.size(); ++p) m_pieces[p].resize(static_cast<std::size_t>(m_pattern.panels[p].n_edges()));
+    for (std::size_t p = 0; p < m_pattern.panels.size(); ++p)
+      m_pieces[p].resize(static_cast<std::size_t>(m_pattern.panels[p].n_edges()));
     for (const Panel& panel : m_pattern.panels) m_chord.push_back(chord_limit(panel));
     m_pairs.resize(m_pattern.seams.size());
     for (std::size_t s = 0; s < m_pattern.seams.size(); ++s)
       if (m_pattern.seams[s].kind != "pleat") cut_seam(s);
-    for (std::size_t s = 0; s < m_pattern.seams.size(); ++s) // their upper layers may be sewn already
+    for (std::size_t s = 0; s < m_pattern.seams.size();
+         ++s) // their upper layers may be sewn already
       if (m_pattern.seams[s].kind == "pleat") cut_pleat(s);
     for (std::size_t p = 0; p < m_pattern.panels.size(); ++p) {
       fill_free(static_cast<int>(p));
@@ -121,8 +128,8 @@ public:
 private:
   double piece_length(const Run& run) const { return run_length(m_pattern, run); }
 
-  /// Longest chord on curves for which all chords together cut off less than 0.05 % of the panel: an arc that turns by T in chords
-  /// of length c loses T c^2 / 12.
+  /// Longest chord on curves for which all chords together cut off less than 0.05 % of the panel:
+  /// an arc that turns by T in chords of length c loses T c^2 / 12.
   double chord_limit(const Panel& panel) const {
     double turn = 0, area = 0;
     for (const auto& loop : panel.loops) {
@@ -142,8 +149,10 @@ private:
     const double limit = m_chord[static_cast<std::size_t>(run.panel)];
     if (limit >= m_h) return 0;
     const ArcLength arc(m_pattern.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path);
-    const double s0 = std::min(run.from, run.to) * arc.length(), s1 = std::max(run.from, run.to) * arc.length();
-    if (turning(arc, s0, s1) * (s1 - s0) < 0.3 * m_h) return 0; // bends gently: shorter chords would gain next to nothing
+    const double s0 = std::min(run.from, run.to) * arc.length(),
+                 s1 = std::max(run.from, run.to) * arc.length();
+    if (turning(arc, s0, s1) * (s1 - s0) < 0.3 * m_h)
+      return 0; // bends gently: shorter chords would gain next to nothing
     return static_cast<int>(std::ceil((s1 - s0) / limit));
   }
 
@@ -153,30 +162,40 @@ private:
   }
 
   void add_piece(const Run& run, int n) {
-    auto& pieces = m_pieces[static_cast<std::size_t>(run.panel)][static_cast<std::size_t>(run.edge)];
-    const EdgePiece piece{run.panel, run.edge, std::min(run.from, run.to), std::max(run.from, run.to), n, true, {}};
+    auto& pieces =
+        m_pieces[static_cast<std::size_t>(run.panel)][static_cast<std::size_t>(run.edge)];
+    const EdgePiece piece{
+        run.panel, run.edge, std::min(run.from, run.to), std::max(run.from, run.to), n, true, {}};
     for (const EdgePiece& other : pieces)
       if (piece.from < other.to - 1e-7 && other.from < piece.to - 1e-7)
-        throw input_error(m_file, place_of(m_pattern, run),
-                          centimetres((std::min(piece.to, other.to) - std::max(piece.from, other.from)) *
-                                      length(m_pattern.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path)) +
-                              " of this edge are sewn twice",
-                          "let every stretch of an edge be in one seam only");
+        throw input_error(
+            m_file, place_of(m_pattern, run),
+            centimetres(
+                (std::min(piece.to, other.to) - std::max(piece.from, other.from)) *
+                length(m_pattern.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path)) +
+                " of this edge are sewn twice",
+            "let every stretch of an edge be in one seam only");
     pieces.push_back(piece);
   }
 
   void cut_seam(std::size_t s) {
     const Seam& seam = m_pattern.seams[s];
     const Side a(m_pattern, seam.a), b(m_pattern, seam.b);
-    const double length_a = side_length(m_pattern, seam.a), length_b = side_length(m_pattern, seam.b), shorter = std::max(std::min(length_a, length_b), 1e-9);
+    const double length_a = side_length(m_pattern, seam.a),
+                 length_b = side_length(m_pattern, seam.b),
+                 shorter = std::max(std::min(length_a, length_b), 1e-9);
     const auto breaks = matched_breaks(a, b, std::max(0.5 * m_h / shorter, 0.01));
     for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
-      Pair pair{a.stretch(breaks[k][0], breaks[k + 1][0]), b.stretch(breaks[k][1], breaks[k + 1][1])};
+      Pair pair{a.stretch(breaks[k][0], breaks[k + 1][0]),
+                b.stretch(breaks[k][1], breaks[k + 1][1])};
       pair.n = segments_for(piece_length(pair.a), piece_length(pair.b), m_seam_h);
-      if (pair.n > 0) pair.n = std::max({pair.n, segments_for_bends(pair.a), segments_for_bends(pair.b)});
+      if (pair.n > 0)
+        pair.n = std::max({pair.n, segments_for_bends(pair.a), segments_for_bends(pair.b)});
       if (pair.n == 0)
-        m_out.findings.push_back(place_of(m_pattern, pair.a) + " and " + place_of(m_pattern, pair.b) + ": a stretch of " + centimetres(piece_length(pair.a)) +
-                                 " is merged into its neighbours (edge length " + centimetres(m_seam_h) + ")");
+        m_out.findings.push_back(
+            place_of(m_pattern, pair.a) + " and " + place_of(m_pattern, pair.b) +
+            ": a stretch of " + centimetres(piece_length(pair.a)) +
+            " is merged into its neighbours (edge length " + centimetres(m_seam_h) + ")");
       add_piece(pair.a, pair.n), add_piece(pair.b, pair.n);
       m_pairs[s].push_back(pair);
     }
@@ -185,9 +204,12 @@ private:
   /// A layer of a pleat takes the cuts of the upper layer, one whole edge of another.
   void cut_pleat(std::size_t s) {
     const Run &layer = m_pattern.seams[s].a[0], &upper = m_pattern.seams[s].b[0];
-    auto& pieces = m_pieces[static_cast<std::size_t>(upper.panel)][static_cast<std::size_t>(upper.edge)];
-    std::sort(pieces.begin(), pieces.end(), [](const EdgePiece& x, const EdgePiece& y) { return x.from < y.from; });
-    const double total = length(m_pattern.panels[static_cast<std::size_t>(upper.panel)].edge(upper.edge).path);
+    auto& pieces =
+        m_pieces[static_cast<std::size_t>(upper.panel)][static_cast<std::size_t>(upper.edge)];
+    std::sort(pieces.begin(), pieces.end(),
+              [](const EdgePiece& x, const EdgePiece& y) { return x.from < y.from; });
+    const double total =
+        length(m_pattern.panels[static_cast<std::size_t>(upper.panel)].edge(upper.edge).path);
     std::vector<std::pair<double, double>> gaps;
     double at = 0;
     for (const EdgePiece& piece : pieces) {
@@ -196,17 +218,27 @@ private:
     }
     if (1 - at > 1e-7) gaps.push_back({at, 1});
     for (const auto& [from, to] : gaps)
-      pieces.push_back({upper.panel, upper.edge, from, to, std::max(1, segments_for((to - from) * total, (to - from) * total, m_seam_h)), true, {}});
-    std::sort(pieces.begin(), pieces.end(), [](const EdgePiece& x, const EdgePiece& y) { return x.from < y.from; });
+      pieces.push_back(
+          {upper.panel,
+           upper.edge,
+           from,
+           to,
+           std::max(1, segments_for((to - from) * total, (to - from) * total, m_seam_h)),
+           true,
+           {}});
+    std::sort(pieces.begin(), pieces.end(),
+              [](const EdgePiece& x, const EdgePiece& y) { return x.from < y.from; });
     const bool turned = (layer.from < layer.to) != (upper.from < upper.to);
     for (const EdgePiece& piece : std::vector<EdgePiece>(pieces)) {
-      Run a{layer.panel, layer.edge, turned ? 1 - piece.from : piece.from, turned ? 1 - piece.to : piece.to};
+      Run a{layer.panel, layer.edge, turned ? 1 - piece.from : piece.from,
+            turned ? 1 - piece.to : piece.to};
       m_pairs[s].push_back({a, {upper.panel, upper.edge, piece.from, piece.to}, piece.n});
       add_piece(a, piece.n);
     }
     if (upper.from > upper.to) { // walked as the seam says
       std::reverse(m_pairs[s].begin(), m_pairs[s].end());
-      for (Pair& pair : m_pairs[s]) std::swap(pair.a.from, pair.a.to), std::swap(pair.b.from, pair.b.to);
+      for (Pair& pair : m_pairs[s])
+        std::swap(pair.a.from, pair.a.to), std::swap(pair.b.from, pair.b.to);
     }
   }
 
@@ -214,17 +246,27 @@ private:
     auto& edges = m_pieces[static_cast<std::size_t>(p)];
     for (std::size_t e = 0; e < edges.size(); ++e) {
       auto& pieces = edges[e];
-      const double total = length(m_pattern.panels[static_cast<std::size_t>(p)].edge(static_cast<int>(e)).path);
-      std::sort(pieces.begin(), pieces.end(), [](const EdgePiece& x, const EdgePiece& y) { return x.from < y.from; });
+      const double total =
+          length(m_pattern.panels[static_cast<std::size_t>(p)].edge(static_cast<int>(e)).path);
+      std::sort(pieces.begin(), pieces.end(),
+                [](const EdgePiece& x, const EdgePiece& y) { return x.from < y.from; });
       std::vector<EdgePiece> all;
       double at = 0;
       const auto free_to = [&](double to) {
         if (to - at < 1e-7) return;
-        EdgePiece piece{p, static_cast<int>(e), at, to, segments_for((to - at) * total, (to - at) * total, m_h), false, {}};
-        if (piece.n > 0) piece.n = std::max(piece.n, segments_for_bends({p, static_cast<int>(e), at, to}));
+        EdgePiece piece{p,
+                        static_cast<int>(e),
+                        at,
+                        to,
+                        segments_for((to - at) * total, (to - at) * total, m_h),
+                        false,
+                        {}};
+        if (piece.n > 0)
+          piece.n = std::max(piece.n, segments_for_bends({p, static_cast<int>(e), at, to}));
         if (piece.n > 0 && m_seam_h < m_h) grade(piece, (to - at) * total);
         if (piece.n == 0)
-          m_out.findings.push_back(place_of(m_pattern, {p, static_cast<int>(e)}) + ": a free stretch of " + centimetres((to - at) * total) +
+          m_out.findings.push_back(place_of(m_pattern, {p, static_cast<int>(e)}) +
+                                   ": a free stretch of " + centimetres((to - at) * total) +
                                    " is merged into its neighbours");
         all.push_back(piece);
       };
@@ -242,7 +284,8 @@ private:
   bool meets_seam(const EdgePiece& piece, bool at_start) const {
     const Panel& panel = m_pattern.panels[static_cast<std::size_t>(piece.panel)];
     int edge = piece.edge, first = 0;
-    if (at_start ? piece.from > 1e-7 : piece.to < 1 - 1e-7) return true; // free stretches end within an edge only where a seam begins
+    if (at_start ? piece.from > 1e-7 : piece.to < 1 - 1e-7)
+      return true; // free stretches end within an edge only where a seam begins
     for (const auto& loop : panel.loops) {
       const int n = static_cast<int>(loop.size());
       if (edge < first + n) {
@@ -251,11 +294,15 @@ private:
       }
       first += n;
     }
-    const auto& pieces = m_pieces[static_cast<std::size_t>(piece.panel)][static_cast<std::size_t>(edge)];
-    return std::any_of(pieces.begin(), pieces.end(), [&](const EdgePiece& o) { return o.sewn && (at_start ? o.to > 1 - 1e-7 : o.from < 1e-7); });
+    const auto& pieces =
+        m_pieces[static_cast<std::size_t>(piece.panel)][static_cast<std::size_t>(edge)];
+    return std::any_of(pieces.begin(), pieces.end(), [&](const EdgePiece& o) {
+      return o.sewn && (at_start ? o.to > 1 - 1e-7 : o.from < 1e-7);
+    });
   }
 
-  /// Edges of a free piece grow away from the seams at its ends, if that makes more of them than its bends ask for.
+  /// Edges of a free piece grow away from the seams at its ends, if that makes more of them than
+  /// its bends ask for.
   void grade(EdgePiece& piece, double piece_length) const {
     const bool start = meets_seam(piece, true), end = meets_seam(piece, false);
     if (!start && !end) return;
@@ -267,9 +314,11 @@ private:
   /// Whether anything is sewn to the edges [first, end) of panel p.
   bool sewn(int p, int first, int end) const {
     const auto& edges = m_pieces[static_cast<std::size_t>(p)];
-    return std::any_of(edges.begin() + first, edges.begin() + end, [](const std::vector<EdgePiece>& pieces) {
-      return std::any_of(pieces.begin(), pieces.end(), [](const EdgePiece& o) { return o.sewn; });
-    });
+    return std::any_of(edges.begin() + first, edges.begin() + end,
+                       [](const std::vector<EdgePiece>& pieces) {
+                         return std::any_of(pieces.begin(), pieces.end(),
+                                            [](const EdgePiece& o) { return o.sewn; });
+                       });
   }
 
   void sample_panel(int p) {
@@ -290,33 +339,43 @@ private:
             points.push_back(arc.at(f * arc.length()));
             out.edge_of.push_back(e);
           }
-          ev.at.push_back(f), ev.vertex.push_back(first_of_loop + static_cast<int>(points.size()) - 1);
+          ev.at.push_back(f),
+              ev.vertex.push_back(first_of_loop + static_cast<int>(points.size()) - 1);
         };
-        for (const EdgePiece& piece : m_pieces[static_cast<std::size_t>(p)][static_cast<std::size_t>(e)]) {
+        for (const EdgePiece& piece :
+             m_pieces[static_cast<std::size_t>(p)][static_cast<std::size_t>(e)]) {
           if (ev.at.empty() || !merged) put(piece.from);
           else ev.at.push_back(piece.from), ev.vertex.push_back(ev.vertex.back());
           merged = piece.n == 0;
           for (int k = 1; k < piece.n; ++k)
-            put(piece.from + (piece.to - piece.from) * (piece.inner.empty() ? static_cast<double>(k) / piece.n : piece.inner[static_cast<std::size_t>(k - 1)]));
+            put(piece.from +
+                (piece.to - piece.from) * (piece.inner.empty()
+                                               ? static_cast<double>(k) / piece.n
+                                               : piece.inner[static_cast<std::size_t>(k - 1)]));
         }
         ++e;
       }
       const int n = static_cast<int>(points.size()), n_kept = n - (merged ? 1 : 0);
       if (n_kept < 3) {
         if (first_edge == 0 || sewn(p, first_edge, e))
-          throw input_error(m_file, panel.name, "the outline is too small: " + std::to_string(n_kept) + " vertices at an edge length of " + centimetres(m_h),
+          throw input_error(m_file, panel.name,
+                            "the outline is too small: " + std::to_string(n_kept) +
+                                " vertices at an edge length of " + centimetres(m_h),
                             "give a smaller --edge-length");
         // An eyelet or a drill hole that the mesh is too coarse for; nothing is sewn to it.
-        m_out.findings.push_back(panel.name + ": the hole at " + loop.front().name + " is smaller than the mesh's edges (" + centimetres(m_h) +
+        m_out.findings.push_back(panel.name + ": the hole at " + loop.front().name +
+                                 " is smaller than the mesh's edges (" + centimetres(m_h) +
                                  ") and is left out; a smaller --edge-length keeps it");
         out.edge_of.resize(out.edge_of.size() - points.size());
         continue;
       }
-      // Ends: the end of each edge is the start of the next; the last edge ends at the loop's first vertex.
+      // Ends: the end of each edge is the start of the next; the last edge ends at the loop's first
+      // vertex.
       for (int k = first_edge; k < e; ++k) {
         EdgeVertices& ev = vertices[static_cast<std::size_t>(k)];
         ev.at.push_back(1);
-        ev.vertex.push_back(k + 1 < e ? vertices[static_cast<std::size_t>(k + 1)].vertex.front() : first_of_loop);
+        ev.vertex.push_back(k + 1 < e ? vertices[static_cast<std::size_t>(k + 1)].vertex.front()
+                                      : first_of_loop);
       }
       if (merged) { // the loop's last stretch was merged: its vertex and the first are one
         const int last = first_of_loop + n - 1;
@@ -343,17 +402,23 @@ private:
       }
     // A corner both of whose edges are in this seam, sewn to each other: a cone's or a dart's tip.
     for (std::size_t k = 0; k < out.a.size(); ++k)
-      if (out.a[k] == out.b[k]) m_out.panels[static_cast<std::size_t>(out.a[k][0])].must_split[static_cast<std::size_t>(out.a[k][1])] = 1;
-    // So is the line along which a pleat is folded back: both layers under it are sewn to the same stretch.
+      if (out.a[k] == out.b[k])
+        m_out.panels[static_cast<std::size_t>(out.a[k][0])]
+            .must_split[static_cast<std::size_t>(out.a[k][1])] = 1;
+    // So is the line along which a pleat is folded back: both layers under it are sewn to the same
+    // stretch.
     if (m_pattern.seams[s].kind == "pleat" && !out.a.empty())
-      m_out.panels[static_cast<std::size_t>(out.a.back()[0])].must_split[static_cast<std::size_t>(out.a.back()[1])] = 1;
+      m_out.panels[static_cast<std::size_t>(out.a.back()[0])]
+          .must_split[static_cast<std::size_t>(out.a.back()[1])] = 1;
     m_out.seams.push_back(std::move(out));
   }
 
   std::array<int, 2> vertex_at(const Run& run, double t) const {
-    const EdgeVertices& ev = m_vertices[static_cast<std::size_t>(run.panel)][static_cast<std::size_t>(run.edge)];
+    const EdgeVertices& ev =
+        m_vertices[static_cast<std::size_t>(run.panel)][static_cast<std::size_t>(run.edge)];
     const int k = ev.find(run.from + (run.to - run.from) * t);
-    if (k < 0) throw Error(ErrorKind::INTERNAL, m_file, place_of(m_pattern, run), "a stitch has no vertex");
+    if (k < 0)
+      throw Error(ErrorKind::INTERNAL, m_file, place_of(m_pattern, run), "a stitch has no vertex");
     return {run.panel, ev.vertex[static_cast<std::size_t>(k)]};
   }
 

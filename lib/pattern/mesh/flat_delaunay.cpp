@@ -12,12 +12,15 @@
 namespace sloper::pattern {
 namespace {
 
-double cross(const Vec2& a, const Vec2& b, const Vec2& c) { return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()); }
+double cross(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
 
 /// Positive when d lies inside the circle through the counter-clockwise a, b, c.
 double in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const Vec2 p = a - d, q = b - d, r = c - d;
-  return p.squaredNorm() * (q.x() * r.y() - q.y() * r.x()) - q.squaredNorm() * (p.x() * r.y() - p.y() * r.x()) +
+  return p.squaredNorm() * (q.x() * r.y() - q.y() * r.x()) -
+         q.squaredNorm() * (p.x() * r.y() - p.y() * r.x()) +
          r.squaredNorm() * (p.x() * q.y() - p.y() * q.x());
 }
 
@@ -27,7 +30,8 @@ struct Geos {
   std::string message;
   Geos() {
     GEOSContext_setErrorMessageHandler_r(
-        context, [](const char* text, void* self) { static_cast<Geos*>(self)->message = text; }, this);
+        context, [](const char* text, void* self) { static_cast<Geos*>(self)->message = text; },
+        this);
   }
   ~Geos() { GEOS_finish_r(context); }
   Geos(const Geos&) = delete;
@@ -35,35 +39,43 @@ struct Geos {
 };
 
 GEOSGeometry* ring(Geos& geos, const std::vector<Vec2>& loop) {
-  GEOSCoordSequence* points = GEOSCoordSeq_create_r(geos.context, static_cast<unsigned>(loop.size() + 1), 2);
+  GEOSCoordSequence* points =
+      GEOSCoordSeq_create_r(geos.context, static_cast<unsigned>(loop.size() + 1), 2);
   for (std::size_t k = 0; k <= loop.size(); ++k)
-    GEOSCoordSeq_setXY_r(geos.context, points, static_cast<unsigned>(k), loop[k % loop.size()].x(), loop[k % loop.size()].y());
+    GEOSCoordSeq_setXY_r(geos.context, points, static_cast<unsigned>(k), loop[k % loop.size()].x(),
+                         loop[k % loop.size()].y());
   return GEOSGeom_createLinearRing_r(geos.context, points);
 }
 
 /// Corners of the triangles of the polygon, as GEOS finds them.
-std::vector<std::array<Vec2, 3>> geos_triangles(const std::vector<std::vector<Vec2>>& loops, const std::string& panel) {
+std::vector<std::array<Vec2, 3>> geos_triangles(const std::vector<std::vector<Vec2>>& loops,
+                                                const std::string& panel) {
   Geos geos;
   const auto destroy = [&](GEOSGeometry* g) { GEOSGeom_destroy_r(geos.context, g); };
   using Handle = std::unique_ptr<GEOSGeometry, decltype(destroy)>;
   std::vector<GEOSGeometry*> holes;
   for (std::size_t k = 1; k < loops.size(); ++k) holes.push_back(ring(geos, loops[k]));
-  const Handle polygon(GEOSGeom_createPolygon_r(geos.context, ring(geos, loops[0]), holes.data(), static_cast<unsigned>(holes.size())), destroy);
+  const Handle polygon(GEOSGeom_createPolygon_r(geos.context, ring(geos, loops[0]), holes.data(),
+                                                static_cast<unsigned>(holes.size())),
+                       destroy);
   if (!polygon) throw Error(ErrorKind::INTERNAL, "", panel, "no polygon: " + geos.message);
   if (GEOSisValid_r(geos.context, polygon.get()) != 1) {
     char* reason = GEOSisValidReason_r(geos.context, polygon.get());
     const std::string why = reason ? reason : "not valid";
     GEOSFree_r(geos.context, reason);
-    throw input_error("", panel, "the outline crosses or touches itself (" + why + " m)", "run pattern-mesh --check for the edges");
+    throw input_error("", panel, "the outline crosses or touches itself (" + why + " m)",
+                      "run pattern-mesh --check for the edges");
   }
   const Handle found(GEOSConstrainedDelaunayTriangulation_r(geos.context, polygon.get()), destroy);
   if (!found) throw Error(ErrorKind::INTERNAL, "", panel, "no triangulation: " + geos.message);
   std::vector<std::array<Vec2, 3>> out;
   for (int k = 0, n = GEOSGetNumGeometries_r(geos.context, found.get()); k < n; ++k) {
-    const GEOSGeometry* outer = GEOSGetExteriorRing_r(geos.context, GEOSGetGeometryN_r(geos.context, found.get(), k));
+    const GEOSGeometry* outer =
+        GEOSGetExteriorRing_r(geos.context, GEOSGetGeometryN_r(geos.context, found.get(), k));
     const GEOSCoordSequence* points = GEOSGeom_getCoordSeq_r(geos.context, outer);
     std::array<Vec2, 3> corners;
-    for (unsigned i = 0; i < 3; ++i) GEOSCoordSeq_getXY_r(geos.context, points, i, &corners[i].x(), &corners[i].y());
+    for (unsigned i = 0; i < 3; ++i)
+      GEOSCoordSeq_getXY_r(geos.context, points, i, &corners[i].x(), &corners[i].y());
     out.push_back(corners);
   }
   return out;
@@ -80,11 +92,15 @@ FlatDelaunay::FlatDelaunay(const std::vector<std::vector<Vec2>>& loops, const st
   for (const auto& corners : geos_triangles(loops, panel)) {
     Face face;
     for (int i = 0; i < 3; ++i) {
-      const auto it = number.find({corners[static_cast<std::size_t>(i)].x(), corners[static_cast<std::size_t>(i)].y()});
-      if (it == number.end()) throw Error(ErrorKind::INTERNAL, "", panel, "the triangulation has a point of its own");
+      const auto it = number.find(
+          {corners[static_cast<std::size_t>(i)].x(), corners[static_cast<std::size_t>(i)].y()});
+      if (it == number.end())
+        throw Error(ErrorKind::INTERNAL, "", panel, "the triangulation has a point of its own");
       face.v[i] = it->second, face.next[i] = -1;
     }
-    if (cross(m_points[static_cast<std::size_t>(face.v[0])], m_points[static_cast<std::size_t>(face.v[1])], m_points[static_cast<std::size_t>(face.v[2])]) < 0)
+    if (cross(m_points[static_cast<std::size_t>(face.v[0])],
+              m_points[static_cast<std::size_t>(face.v[1])],
+              m_points[static_cast<std::size_t>(face.v[2])]) < 0)
       std::swap(face.v[1], face.v[2]);
     const int f = static_cast<int>(m_faces.size());
     m_faces.push_back(face);
@@ -120,10 +136,12 @@ int FlatDelaunay::index_in(int face, int vertex) const {
 int FlatDelaunay::locate(const Vec2& p) const {
   const auto outside = [&](int f, int k) {
     const Face& face = m_faces[static_cast<std::size_t>(f)];
-    return cross(m_points[static_cast<std::size_t>(face.v[(k + 1) % 3])], m_points[static_cast<std::size_t>(face.v[(k + 2) % 3])], p) < 0;
+    return cross(m_points[static_cast<std::size_t>(face.v[(k + 1) % 3])],
+                 m_points[static_cast<std::size_t>(face.v[(k + 2) % 3])], p) < 0;
   };
   int f = m_last;
-  for (std::size_t steps = 0; steps < 200 && f >= 0 && m_faces[static_cast<std::size_t>(f)].alive; ++steps) {
+  for (std::size_t steps = 0; steps < 200 && f >= 0 && m_faces[static_cast<std::size_t>(f)].alive;
+       ++steps) {
     int way = -1;
     for (int k = 0; k < 3 && way < 0; ++k)
       if (outside(f, k)) way = k;
@@ -132,7 +150,9 @@ int FlatDelaunay::locate(const Vec2& p) const {
   }
   // The straight way left the polygon: look at every face.
   for (f = 0; f < static_cast<int>(m_faces.size()); ++f)
-    if (m_faces[static_cast<std::size_t>(f)].alive && !outside(f, 0) && !outside(f, 1) && !outside(f, 2)) return m_last = f;
+    if (m_faces[static_cast<std::size_t>(f)].alive && !outside(f, 0) && !outside(f, 1) &&
+        !outside(f, 2))
+      return m_last = f;
   return -1;
 }
 
@@ -159,7 +179,10 @@ void FlatDelaunay::keep(int a, int b, int depth) {
     m_kept.insert({std::min(a, b), std::max(a, b)});
     return;
   }
-  if (depth == 0 || !insert(0.5 * (m_points[static_cast<std::size_t>(a)] + m_points[static_cast<std::size_t>(b)]), true)) return;
+  if (depth == 0 ||
+      !insert(0.5 * (m_points[static_cast<std::size_t>(a)] + m_points[static_cast<std::size_t>(b)]),
+              true))
+    return;
   const int middle = static_cast<int>(m_points.size()) - 1;
   keep(a, middle, depth - 1), keep(middle, b, depth - 1);
 }
@@ -168,7 +191,8 @@ void FlatDelaunay::add_line(const std::vector<Vec2>& points) {
   std::vector<int> ids;
   for (const Vec2& p : points) {
     const auto end = m_points.begin() + m_n_boundary;
-    const auto on = std::find_if(m_points.begin(), end, [&](const Vec2& q) { return (p - q).squaredNorm() < 1e-18; });
+    const auto on = std::find_if(m_points.begin(), end,
+                                 [&](const Vec2& q) { return (p - q).squaredNorm() < 1e-18; });
     if (on != end) ids.push_back(static_cast<int>(on - m_points.begin()));
     else ids.push_back(insert(p, true) ? static_cast<int>(m_points.size()) - 1 : -1);
   }
@@ -193,7 +217,9 @@ void FlatDelaunay::split_face(int face, int vertex) {
     if (old.next[k] >= 0) {
       Face& n = m_faces[static_cast<std::size_t>(old.next[k])];
       for (int i = 0; i < 3; ++i)
-        if (n.next[i] == face && n.v[i] != old.v[0] && n.v[i] != old.v[1] && n.v[i] != old.v[2] && n.v[(i + 1) % 3] == old.v[(k + 2) % 3]) n.next[i] = f[k];
+        if (n.next[i] == face && n.v[i] != old.v[0] && n.v[i] != old.v[1] && n.v[i] != old.v[2] &&
+            n.v[(i + 1) % 3] == old.v[(k + 2) % 3])
+          n.next[i] = f[k];
     }
   m_face_of[static_cast<std::size_t>(vertex)] = face;
   legalize(stack);
@@ -201,13 +227,15 @@ void FlatDelaunay::split_face(int face, int vertex) {
 
 void FlatDelaunay::split_edge(int face, int k, int vertex) {
   const int other = m_faces[static_cast<std::size_t>(face)].next[k];
-  const Face old = m_faces[static_cast<std::size_t>(face)], twin = m_faces[static_cast<std::size_t>(other)];
+  const Face old = m_faces[static_cast<std::size_t>(face)],
+             twin = m_faces[static_cast<std::size_t>(other)];
   int j = 0;
   while (twin.next[j] != face || twin.v[(j + 1) % 3] != old.v[(k + 2) % 3]) ++j;
   const int apex = old.v[k], a = old.v[(k + 1) % 3], b = old.v[(k + 2) % 3], below = twin.v[j];
   if (is_kept(a, b)) { // in two from now on
     m_kept.erase({std::min(a, b), std::max(a, b)});
-    m_kept.insert({std::min(a, vertex), std::max(a, vertex)}), m_kept.insert({std::min(b, vertex), std::max(b, vertex)});
+    m_kept.insert({std::min(a, vertex), std::max(a, vertex)}),
+        m_kept.insert({std::min(b, vertex), std::max(b, vertex)});
     m_pinned[static_cast<std::size_t>(vertex)] = 1;
   }
   const int f2 = static_cast<int>(m_faces.size()), f3 = f2 + 1;
@@ -222,8 +250,9 @@ void FlatDelaunay::split_edge(int face, int k, int vertex) {
     for (int i = 0; i < 3; ++i)
       if (n.next[i] == from && n.v[(i + 1) % 3] == v1 && n.v[(i + 2) % 3] == v2) n.next[i] = to;
   };
-  const int n_bA = old.next[(k + 1) % 3], n_Aa = old.next[(k + 2) % 3];   // across b-apex and apex-a
-  const int n_aB = twin.next[(j + 1) % 3], n_Bb = twin.next[(j + 2) % 3]; // twin corners: below, b, a; across a-below and below-b
+  const int n_bA = old.next[(k + 1) % 3], n_Aa = old.next[(k + 2) % 3]; // across b-apex and apex-a
+  const int n_aB = twin.next[(j + 1) % 3],
+            n_Bb = twin.next[(j + 2) % 3]; // twin corners: below, b, a; across a-below and below-b
   set(face, apex, a, vertex, other, f2, n_Aa);
   set(f2, apex, vertex, b, f3, n_bA, face);
   set(other, below, vertex, a, face, n_aB, f3);
@@ -244,9 +273,10 @@ bool FlatDelaunay::wants_flip(int face, int k) const {
   if (j == 3) return false;
   const int p = f.v[k], a = f.v[(k + 1) % 3], b = f.v[(k + 2) % 3], q = g.v[j];
   if (is_kept(a, b)) return false;
-  if (is_chord(p, q) && !is_chord(a, b)) return false; // never make a boundary-to-boundary edge where there was none
-  const Vec2 &P = m_points[static_cast<std::size_t>(p)], &A = m_points[static_cast<std::size_t>(a)], &B = m_points[static_cast<std::size_t>(b)],
-             &Q = m_points[static_cast<std::size_t>(q)];
+  if (is_chord(p, q) && !is_chord(a, b))
+    return false; // never make a boundary-to-boundary edge where there was none
+  const Vec2 &P = m_points[static_cast<std::size_t>(p)], &A = m_points[static_cast<std::size_t>(a)],
+             &B = m_points[static_cast<std::size_t>(b)], &Q = m_points[static_cast<std::size_t>(q)];
   const double scale = (A - B).squaredNorm();
   if (cross(P, A, Q) <= 1e-9 * scale || cross(P, Q, B) <= 1e-9 * scale) return false; // not convex
   return in_circle(P, A, B, Q) > 1e-9 * scale * scale;
@@ -277,14 +307,17 @@ bool FlatDelaunay::flip(int face, int k) {
 }
 
 void FlatDelaunay::legalize(std::vector<std::pair<int, int>>& stack) {
-  std::size_t budget = 64 * m_faces.size() + 1000; // Lawson's flips end by themselves; chord rules must not make them circle
+  std::size_t budget =
+      64 * m_faces.size() +
+      1000; // Lawson's flips end by themselves; chord rules must not make them circle
   while (!stack.empty() && budget-- > 0) {
     const auto [face, k] = stack.back();
     stack.pop_back();
     if (!m_faces[static_cast<std::size_t>(face)].alive || !wants_flip(face, k)) continue;
     const int other = m_faces[static_cast<std::size_t>(face)].next[k];
     flip(face, k);
-    stack.push_back({face, 0}), stack.push_back({face, 2}), stack.push_back({other, 0}), stack.push_back({other, 1});
+    stack.push_back({face, 0}), stack.push_back({face, 2}), stack.push_back({other, 0}),
+        stack.push_back({other, 1});
   }
 }
 
@@ -301,7 +334,8 @@ void FlatDelaunay::star(int vertex, std::vector<int>& faces) const {
   faces.clear();
   const int start = m_face_of[static_cast<std::size_t>(vertex)];
   int f = start;
-  do { // counter-clockwise; on the boundary it stops at an open edge and the other side is added below
+  do { // counter-clockwise; on the boundary it stops at an open edge and the other side is added
+       // below
     faces.push_back(f);
     f = m_faces[static_cast<std::size_t>(f)].next[(index_in(f, vertex) + 1) % 3];
   } while (f >= 0 && f != start);
@@ -317,7 +351,8 @@ double FlatDelaunay::star_quality(const std::vector<int>& faces, int vertex, con
     const Face& face = m_faces[static_cast<std::size_t>(f)];
     const int k = index_in(f, vertex);
     worst =
-        std::min(worst, smallest_angle(at, m_points[static_cast<std::size_t>(face.v[(k + 1) % 3])], m_points[static_cast<std::size_t>(face.v[(k + 2) % 3])]));
+        std::min(worst, smallest_angle(at, m_points[static_cast<std::size_t>(face.v[(k + 1) % 3])],
+                                       m_points[static_cast<std::size_t>(face.v[(k + 2) % 3])]));
   }
   return worst;
 }
@@ -329,7 +364,9 @@ void FlatDelaunay::take(std::vector<Vec2>& points, std::vector<Triangle>& triang
     if (!m_dead[k]) number[k] = static_cast<int>(points.size()), points.push_back(m_points[k]);
   for (const Face& f : m_faces)
     if (f.alive)
-      triangles.push_back({number[static_cast<std::size_t>(f.v[0])], number[static_cast<std::size_t>(f.v[1])], number[static_cast<std::size_t>(f.v[2])]});
+      triangles.push_back({number[static_cast<std::size_t>(f.v[0])],
+                           number[static_cast<std::size_t>(f.v[1])],
+                           number[static_cast<std::size_t>(f.v[2])]});
 }
 
 } // namespace sloper::pattern

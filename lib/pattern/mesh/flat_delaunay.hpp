@@ -1,5 +1,6 @@
 #pragma once
-/// A triangulation of a polygon under change: points inserted, edges flipped, interior points moved. Used by triangulate().
+/// A triangulation of a polygon under change: points inserted, edges flipped, interior points
+/// moved. Used by triangulate().
 #include <geometry/types.hpp>
 #include <pattern/mesh/size_field.hpp>
 
@@ -15,15 +16,21 @@ public:
   /// Constrained Delaunay triangulation of the loops. @throws Error INPUT when they cross
   FlatDelaunay(const std::vector<std::vector<Vec2>>& loops, const std::string& panel);
   int n_boundary() const { return m_n_boundary; }
-  bool insert(const Vec2& p, bool pinned = false); ///< false when p is not inside; a pinned point stays where it is
-  /// Points of a line, pinned, and the edges between them, kept: boundary points are used where they are met. A stretch that cannot be
-  /// had as an edge is halved, at last left out.
+  bool
+  insert(const Vec2& p,
+         bool pinned = false); ///< false when p is not inside; a pinned point stays where it is
+  /// Points of a line, pinned, and the edges between them, kept: boundary points are used where
+  /// they are met. A stretch that cannot be had as an edge is halved, at last left out.
   void add_line(const std::vector<Vec2>& points);
-  /// Splits interior edges whose ends are both on the boundary; ears of corners under 50 degrees stay unless must_split.
+  /// Splits interior edges whose ends are both on the boundary; ears of corners under 50 degrees
+  /// stay unless must_split.
   void split_chords(const std::vector<char>& must_split);
-  void smooth();                           ///< one round: interior points to the area-weighted mean of their circumcentres, then flips
-  void fix_density(const SizeField& size); ///< points too close to others are taken out, edges too long are halved
-  bool improve_worst(double good_angle);   ///< one round of local search where an angle is below; false when there is nothing (more) to gain
+  void smooth(); ///< one round: interior points to the area-weighted mean of their circumcentres,
+                 ///< then flips
+  void fix_density(const SizeField& size); ///< points too close to others are taken out, edges too
+                                           ///< long are halved
+  bool improve_worst(double good_angle);   ///< one round of local search where an angle is below;
+                                           ///< false when there is nothing (more) to gain
   void take(std::vector<Vec2>& points, std::vector<Triangle>& triangles);
 
 private:
@@ -40,7 +47,9 @@ private:
   bool flip(int face, int k);
   bool wants_flip(int face, int k) const;
   bool connected(int a, int b) const;
-  bool is_kept(int a, int b) const { return !m_kept.empty() && m_kept.count({std::min(a, b), std::max(a, b)}) != 0; }
+  bool is_kept(int a, int b) const {
+    return !m_kept.empty() && m_kept.count({std::min(a, b), std::max(a, b)}) != 0;
+  }
   void keep(int a, int b, int depth);
   void legalize(std::vector<std::pair<int, int>>& stack);
   void legalize_all();

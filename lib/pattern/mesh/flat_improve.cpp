@@ -10,11 +10,14 @@ namespace sloper::pattern {
 
 bool FlatDelaunay::keeps_ear(int face, int k, const std::vector<char>& must_split) const {
   const Face& f = m_faces[static_cast<std::size_t>(face)];
-  if (f.next[(k + 1) % 3] >= 0 || f.next[(k + 2) % 3] >= 0) return false; // not an ear: the chord bounds more than a corner
+  if (f.next[(k + 1) % 3] >= 0 || f.next[(k + 2) % 3] >= 0)
+    return false; // not an ear: the chord bounds more than a corner
   const int corner = f.v[k];
   if (must_split[static_cast<std::size_t>(corner)]) return false;
-  const Vec2 a = m_points[static_cast<std::size_t>(f.v[(k + 1) % 3])] - m_points[static_cast<std::size_t>(corner)];
-  const Vec2 b = m_points[static_cast<std::size_t>(f.v[(k + 2) % 3])] - m_points[static_cast<std::size_t>(corner)];
+  const Vec2 a = m_points[static_cast<std::size_t>(f.v[(k + 1) % 3])] -
+                 m_points[static_cast<std::size_t>(corner)];
+  const Vec2 b = m_points[static_cast<std::size_t>(f.v[(k + 2) % 3])] -
+                 m_points[static_cast<std::size_t>(corner)];
   return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)) < units::radians(50);
 }
 
@@ -31,7 +34,8 @@ void FlatDelaunay::split_chords(const std::vector<char>& must_split) {
         int j = 0;
         while (m_faces[static_cast<std::size_t>(other)].next[j] != f) ++j;
         if (keeps_ear(f, k, must_split) || keeps_ear(other, j, must_split)) continue;
-        const Vec2 middle = 0.5 * (m_points[static_cast<std::size_t>(a)] + m_points[static_cast<std::size_t>(b)]);
+        const Vec2 middle =
+            0.5 * (m_points[static_cast<std::size_t>(a)] + m_points[static_cast<std::size_t>(b)]);
         split_edge(f, k, add_point(middle));
         ++n_split;
       }
@@ -46,17 +50,22 @@ void FlatDelaunay::smooth() {
     star(v, faces);
     Vec2 sum = Vec2::Zero();
     double weight = 0;
-    for (int f : faces) { // optimal Delaunay smoothing (Chen and Xu 2004): circumcentres weighted by area
+    for (int f :
+         faces) { // optimal Delaunay smoothing (Chen and Xu 2004): circumcentres weighted by area
       const Face& face = m_faces[static_cast<std::size_t>(f)];
-      const Vec2 &a = m_points[static_cast<std::size_t>(face.v[0])], &b = m_points[static_cast<std::size_t>(face.v[1])],
+      const Vec2 &a = m_points[static_cast<std::size_t>(face.v[0])],
+                 &b = m_points[static_cast<std::size_t>(face.v[1])],
                  &c = m_points[static_cast<std::size_t>(face.v[2])];
       const Vec2 p = b - a, q = c - a;
       const double area2 = p.x() * q.y() - p.y() * q.x();
       if (!(area2 > 0)) continue;
-      const Vec2 center = a + Vec2(q.y() * p.squaredNorm() - p.y() * q.squaredNorm(), p.x() * q.squaredNorm() - q.x() * p.squaredNorm()) / (2 * area2);
+      const Vec2 center = a + Vec2(q.y() * p.squaredNorm() - p.y() * q.squaredNorm(),
+                                   p.x() * q.squaredNorm() - q.x() * p.squaredNorm()) /
+                                  (2 * area2);
       const Vec2 middle = (a + b + c) / 3;
       // The circumcentre of a sliver lies far away; never trust it beyond the triangle's own size.
-      const double reach = std::sqrt(std::max({p.squaredNorm(), q.squaredNorm(), (p - q).squaredNorm()}));
+      const double reach =
+          std::sqrt(std::max({p.squaredNorm(), q.squaredNorm(), (p - q).squaredNorm()}));
       Vec2 away = center - middle;
       if (away.norm() > 0.5 * reach) away *= 0.5 * reach / away.norm();
       sum += area2 * (middle + away), weight += area2;
@@ -82,14 +91,20 @@ bool FlatDelaunay::remove(int vertex) {
   star(vertex, faces);
   if (faces.size() == 4) {
     for (int f : faces) { // flip one spoke so that three faces are left
-      const int k = (index_in(f, vertex) + 1) % 3, other = m_faces[static_cast<std::size_t>(f)].next[k];
-      const Face &g = m_faces[static_cast<std::size_t>(f)], &o = m_faces[static_cast<std::size_t>(other)];
+      const int k = (index_in(f, vertex) + 1) % 3,
+                other = m_faces[static_cast<std::size_t>(f)].next[k];
+      const Face &g = m_faces[static_cast<std::size_t>(f)],
+                 &o = m_faces[static_cast<std::size_t>(other)];
       int j = 0;
       while (o.next[j] != f || o.v[(j + 1) % 3] != g.v[(k + 2) % 3]) ++j;
       const int p = g.v[k], q = o.v[j], a = g.v[(k + 1) % 3], b = g.v[(k + 2) % 3];
       if (is_chord(p, q) || is_kept(a, b)) continue;
-      if (std::min(smallest_angle(m_points[static_cast<std::size_t>(p)], m_points[static_cast<std::size_t>(a)], m_points[static_cast<std::size_t>(q)]),
-                   smallest_angle(m_points[static_cast<std::size_t>(p)], m_points[static_cast<std::size_t>(q)], m_points[static_cast<std::size_t>(b)])) <= 1e-3)
+      if (std::min(smallest_angle(m_points[static_cast<std::size_t>(p)],
+                                  m_points[static_cast<std::size_t>(a)],
+                                  m_points[static_cast<std::size_t>(q)]),
+                   smallest_angle(m_points[static_cast<std::size_t>(p)],
+                                  m_points[static_cast<std::size_t>(q)],
+                                  m_points[static_cast<std::size_t>(b)])) <= 1e-3)
         continue;
       flip(f, k);
       star(vertex, faces);
@@ -104,8 +119,10 @@ bool FlatDelaunay::remove(int vertex) {
     const int k = index_in(faces[static_cast<std::size_t>(i)], vertex);
     ring[i] = g.v[(k + 1) % 3], outer[i] = g.next[k];
   }
-  // Faces run counter-clockwise, so the new face is ring[0], ring[1], ring[2]; edge ring[i] - ring[i+1] was outer[i].
-  for (int i = 1; i < 3; ++i) m_faces[static_cast<std::size_t>(faces[static_cast<std::size_t>(i)])].alive = false;
+  // Faces run counter-clockwise, so the new face is ring[0], ring[1], ring[2]; edge ring[i] -
+  // ring[i+1] was outer[i].
+  for (int i = 1; i < 3; ++i)
+    m_faces[static_cast<std::size_t>(faces[static_cast<std::size_t>(i)])].alive = false;
   Face& g = m_faces[static_cast<std::size_t>(f0)];
   for (int i = 0; i < 3; ++i) {
     g.v[i] = ring[i], g.next[(i + 2) % 3] = outer[i];
@@ -126,10 +143,13 @@ void FlatDelaunay::fix_density(const SizeField& size) {
   for (int v = m_n_boundary; v < static_cast<int>(m_points.size()); ++v) {
     if (m_dead[static_cast<std::size_t>(v)] || m_pinned[static_cast<std::size_t>(v)]) continue;
     star(v, faces);
-    if (faces.size() > 4) continue; // a corner of three or four faces has angles of 90 degrees and more around it
-    bool bridge = false;            // taking it out may make a boundary-to-boundary edge
+    if (faces.size() > 4)
+      continue; // a corner of three or four faces has angles of 90 degrees and more around it
+    bool bridge = false; // taking it out may make a boundary-to-boundary edge
     int n_boundary_ring = 0;
-    for (int f : faces) n_boundary_ring += on_boundary(m_faces[static_cast<std::size_t>(f)].v[(index_in(f, v) + 1) % 3]);
+    for (int f : faces)
+      n_boundary_ring +=
+          on_boundary(m_faces[static_cast<std::size_t>(f)].v[(index_in(f, v) + 1) % 3]);
     bridge = n_boundary_ring >= 2;
     if (!bridge) remove(v);
   }
@@ -138,8 +158,10 @@ void FlatDelaunay::fix_density(const SizeField& size) {
     for (int k = 0; k < 3; ++k) {
       const Face& face = m_faces[static_cast<std::size_t>(f)];
       if (!face.alive || face.next[k] < 0) continue;
-      const Vec2 &a = m_points[static_cast<std::size_t>(face.v[(k + 1) % 3])], &b = m_points[static_cast<std::size_t>(face.v[(k + 2) % 3])];
-      if ((a - b).norm() > 1.75 * size.at(0.5 * (a + b))) split_edge(f, k, add_point(0.5 * (a + b)));
+      const Vec2 &a = m_points[static_cast<std::size_t>(face.v[(k + 1) % 3])],
+                 &b = m_points[static_cast<std::size_t>(face.v[(k + 2) % 3])];
+      if ((a - b).norm() > 1.75 * size.at(0.5 * (a + b)))
+        split_edge(f, k, add_point(0.5 * (a + b)));
     }
   legalize_all();
 }
@@ -149,19 +171,26 @@ bool FlatDelaunay::improve_worst(double good_angle) {
   std::vector<char> look(m_points.size(), 0);
   bool any = false, gained = false;
   for (const Face& f : m_faces)
-    if (f.alive && smallest_angle(m_points[static_cast<std::size_t>(f.v[0])], m_points[static_cast<std::size_t>(f.v[1])],
+    if (f.alive && smallest_angle(m_points[static_cast<std::size_t>(f.v[0])],
+                                  m_points[static_cast<std::size_t>(f.v[1])],
                                   m_points[static_cast<std::size_t>(f.v[2])]) < good_angle)
       for (int v : f.v)
         if (!on_boundary(v)) look[static_cast<std::size_t>(v)] = 1, any = true;
   if (!any) return false;
   for (int v = m_n_boundary; v < static_cast<int>(m_points.size()); ++v) {
-    if (!look[static_cast<std::size_t>(v)] || m_dead[static_cast<std::size_t>(v)] || m_pinned[static_cast<std::size_t>(v)]) continue;
+    if (!look[static_cast<std::size_t>(v)] || m_dead[static_cast<std::size_t>(v)] ||
+        m_pinned[static_cast<std::size_t>(v)])
+      continue;
     star(v, faces);
     Vec2 best = m_points[static_cast<std::size_t>(v)];
     double quality = star_quality(faces, v, best);
     double size = 0;
     for (int f : faces)
-      size = std::max(size, (m_points[static_cast<std::size_t>(m_faces[static_cast<std::size_t>(f)].v[(index_in(f, v) + 1) % 3])] - best).norm());
+      size =
+          std::max(size, (m_points[static_cast<std::size_t>(
+                              m_faces[static_cast<std::size_t>(f)].v[(index_in(f, v) + 1) % 3])] -
+                          best)
+                             .norm());
     for (double step = 0.25 * size; step > 0.01 * size;) {
       bool moved = false;
       for (int d = 0; d < 8; ++d) {

@@ -9,7 +9,8 @@ namespace sloper::pattern {
 namespace {
 
 constexpr double LAYER_DEPTH = 0.003; // m between the layers of a pleat at the start
-constexpr double NEARLY = 0.97;       // of the way from fold to target: both folds of a box pleat must not touch
+constexpr double NEARLY =
+    0.97; // of the way from fold to target: both folds of a box pleat must not touch
 
 /// A pleat on one edge: fractions of its length.
 struct Stretch {
@@ -18,7 +19,8 @@ struct Stretch {
   double target, middle, fold, beyond;
 };
 
-[[noreturn]] void fail(const std::string& file, const Panel& panel, const Pleat& pleat, const std::string& fact, const std::string& next) {
+[[noreturn]] void fail(const std::string& file, const Panel& panel, const Pleat& pleat,
+                       const std::string& fact, const std::string& next) {
   throw input_error(file, panel.name + ": pleat " + pleat.name, fact, next);
 }
 
@@ -30,30 +32,41 @@ double end_on(const Panel& panel, const InnerLine& line, int edge) {
 }
 
 Stretch stretch_of(const Panel& panel, const Pleat& pleat, int edge, const std::string& file) {
-  const InnerLine &fold = panel.lines[static_cast<std::size_t>(pleat.fold)], &target = panel.lines[static_cast<std::size_t>(pleat.target)];
-  const double f = end_on(panel, fold, edge), t = end_on(panel, target, edge), length = pattern::length(panel.edge(edge).path);
+  const InnerLine &fold = panel.lines[static_cast<std::size_t>(pleat.fold)],
+                  &target = panel.lines[static_cast<std::size_t>(pleat.target)];
+  const double f = end_on(panel, fold, edge), t = end_on(panel, target, edge),
+               length = pattern::length(panel.edge(edge).path);
   for (const auto& [at, line] : {std::pair(f, &fold), std::pair(t, &target)})
-    if (at < 0) fail(file, panel, pleat, "line " + line->name + " does not end on edge " + panel.edge(edge).name, "draw it to within 0.20 cm of the edge");
-  if (std::abs(f - t) * length < 2 * LINE_ON_EDGE) fail(file, panel, pleat, "it is " + centimetres(std::abs(f - t) * length) + " wide", "draw its lines apart");
+    if (at < 0)
+      fail(file, panel, pleat,
+           "line " + line->name + " does not end on edge " + panel.edge(edge).name,
+           "draw it to within 0.20 cm of the edge");
+  if (std::abs(f - t) * length < 2 * LINE_ON_EDGE)
+    fail(file, panel, pleat, "it is " + centimetres(std::abs(f - t) * length) + " wide",
+         "draw its lines apart");
   const Stretch out{&pleat, edge, t, 0.5 * (f + t), f, f + 0.5 * (f - t)};
   if (out.beyond < 0 || out.beyond > 1)
     fail(file, panel, pleat,
-         "its upper layer reaches " + centimetres(std::max(-out.beyond, out.beyond - 1) * length) + " past the end of edge " + panel.edge(edge).name,
+         "its upper layer reaches " + centimetres(std::max(-out.beyond, out.beyond - 1) * length) +
+             " past the end of edge " + panel.edge(edge).name,
          "fold less, or move it inwards");
   return out;
 }
 
 /// No cloth lies in two pleats.
-void check_apart(const Panel& panel, const std::vector<Stretch>& stretches, const std::string& file) {
+void check_apart(const Panel& panel, const std::vector<Stretch>& stretches,
+                 const std::string& file) {
   for (std::size_t i = 0; i < stretches.size(); ++i)
     for (std::size_t j = i + 1; j < stretches.size(); ++j) {
       const Stretch &a = stretches[i], &b = stretches[j];
       if (a.edge != b.edge) continue;
-      const double overlap =
-          std::min(std::max(a.target, a.beyond), std::max(b.target, b.beyond)) - std::max(std::min(a.target, a.beyond), std::min(b.target, b.beyond));
+      const double overlap = std::min(std::max(a.target, a.beyond), std::max(b.target, b.beyond)) -
+                             std::max(std::min(a.target, a.beyond), std::min(b.target, b.beyond));
       const double metres = overlap * pattern::length(panel.edge(a.edge).path);
       if (metres > 1e-4)
-        fail(file, panel, *b.pleat, "overlaps pleat " + a.pleat->name + " by " + centimetres(metres) + " of edge " + panel.edge(a.edge).name,
+        fail(file, panel, *b.pleat,
+             "overlaps pleat " + a.pleat->name + " by " + centimetres(metres) + " of edge " +
+                 panel.edge(a.edge).name,
              "a pleat takes one and a half times the distance of its lines");
     }
 }
@@ -61,9 +74,13 @@ void check_apart(const Panel& panel, const std::vector<Stretch>& stretches, cons
 /// The line halfway between two, both sampled evenly and walked the same way.
 Path halfway(const Path& a, const Path& b) {
   const ArcLength one(a), two(b);
-  const bool turned = (one.at(0) - two.at(0)).squaredNorm() + (one.at(one.length()) - two.at(two.length())).squaredNorm() >
-                      (one.at(0) - two.at(two.length())).squaredNorm() + (one.at(one.length()) - two.at(0)).squaredNorm();
-  const auto at = [&](double f) { return Vec2(0.5 * (one.at(f * one.length()) + two.at((turned ? 1 - f : f) * two.length()))); };
+  const bool turned = (one.at(0) - two.at(0)).squaredNorm() +
+                          (one.at(one.length()) - two.at(two.length())).squaredNorm() >
+                      (one.at(0) - two.at(two.length())).squaredNorm() +
+                          (one.at(one.length()) - two.at(0)).squaredNorm();
+  const auto at = [&](double f) {
+    return Vec2(0.5 * (one.at(f * one.length()) + two.at((turned ? 1 - f : f) * two.length())));
+  };
   return {Segment::straight(at(0), at(1))};
 }
 
@@ -87,7 +104,9 @@ std::vector<char> vertices_on(const Path& line, const PanelMesh& mesh, const Pan
 
 void fold_panel(Pattern& pattern, int p, const std::string& file) {
   Panel& panel = pattern.panels[static_cast<std::size_t>(p)];
-  panel.lines.erase(std::remove_if(panel.lines.begin(), panel.lines.end(), [](const InnerLine& l) { return l.kind == "tape"; }), panel.lines.end());
+  panel.lines.erase(std::remove_if(panel.lines.begin(), panel.lines.end(),
+                                   [](const InnerLine& l) { return l.kind == "tape"; }),
+                    panel.lines.end());
   std::vector<Stretch> stretches;
   for (const Pleat& pleat : panel.pleats)
     for (int edge : pleat.edges) stretches.push_back(stretch_of(panel, pleat, edge, file));
@@ -95,7 +114,8 @@ void fold_panel(Pattern& pattern, int p, const std::string& file) {
   std::vector<InnerLine> middles;
   for (const Pleat& pleat : panel.pleats)
     middles.push_back({pleat.name + "-middle", "fold",
-                       halfway(panel.lines[static_cast<std::size_t>(pleat.fold)].path, panel.lines[static_cast<std::size_t>(pleat.target)].path)});
+                       halfway(panel.lines[static_cast<std::size_t>(pleat.fold)].path,
+                               panel.lines[static_cast<std::size_t>(pleat.target)].path)});
   panel.lines.insert(panel.lines.end(), middles.begin(), middles.end());
   std::vector<std::pair<int, double>> places;
   for (InnerLine& line : panel.lines)
@@ -105,7 +125,9 @@ void fold_panel(Pattern& pattern, int p, const std::string& file) {
       if (on.edge < 0) continue;
       double at = on.at; // a pleat's middle lies halfway along the edge
       for (const Stretch& s : stretches)
-        if (s.edge == on.edge && std::abs(at - s.middle) * length(panel.edge(on.edge).path) < LINE_ON_EDGE) at = s.middle;
+        if (s.edge == on.edge &&
+            std::abs(at - s.middle) * length(panel.edge(on.edge).path) < LINE_ON_EDGE)
+          at = s.middle;
       const ArcLength arc(panel.edge(on.edge).path);
       end = arc.at(at * arc.length());
       Segment& s = last ? line.path.back() : line.path.front();
@@ -114,13 +136,15 @@ void fold_panel(Pattern& pattern, int p, const std::string& file) {
     }
   for (const Stretch& s : stretches) places.push_back({s.edge, s.beyond});
   const std::vector<Pleat> pleats = panel.pleats; // the stretches point to these from here on
-  for (Stretch& s : stretches) s.pleat = &pleats[static_cast<std::size_t>(s.pleat - panel.pleats.data())];
+  for (Stretch& s : stretches)
+    s.pleat = &pleats[static_cast<std::size_t>(s.pleat - panel.pleats.data())];
   const std::vector<Origin> origin = cut_edges(pattern, p, places);
   // What lies under a pleat leaves the seams that were there.
   const auto pieces = [&](const Stretch& s, double from, double to) {
     std::vector<Run> out;
     for (std::size_t e = 0; e < origin.size(); ++e)
-      if (origin[e].edge == s.edge && origin[e].from > std::min(from, to) - 1e-6 && origin[e].to < std::max(from, to) + 1e-6)
+      if (origin[e].edge == s.edge && origin[e].from > std::min(from, to) - 1e-6 &&
+          origin[e].to < std::max(from, to) + 1e-6)
         out.push_back({p, static_cast<int>(e), from < to ? 0.0 : 1.0, from < to ? 1.0 : 0.0});
     if (from > to) std::reverse(out.begin(), out.end());
     return out;
@@ -132,16 +156,24 @@ void fold_panel(Pattern& pattern, int p, const std::string& file) {
         if (seam.kind == "pleat") continue;
         side->erase(std::remove_if(side->begin(), side->end(),
                                    [&](const Run& r) {
-                                     return std::any_of(hidden.begin(), hidden.end(), [&](const Run& h) { return h.panel == r.panel && h.edge == r.edge; });
+                                     return std::any_of(
+                                         hidden.begin(), hidden.end(), [&](const Run& h) {
+                                           return h.panel == r.panel && h.edge == r.edge;
+                                         });
                                    }),
                     side->end());
-        if (side->empty()) throw input_error(file, "seam " + seam.name, "pleat " + s.pleat->name + " leaves nothing of one side to sew", "sew the upper layer");
+        if (side->empty())
+          throw input_error(file, "seam " + seam.name,
+                            "pleat " + s.pleat->name + " leaves nothing of one side to sew",
+                            "sew the upper layer");
       }
-    const std::vector<Run> under = pieces(s, s.target, s.middle), back = pieces(s, s.fold, s.middle), upper = pieces(s, s.fold, s.beyond);
+    const std::vector<Run> under = pieces(s, s.target, s.middle),
+                           back = pieces(s, s.fold, s.middle), upper = pieces(s, s.fold, s.beyond);
     for (const auto* side : {&under, &back, &upper})
       if (side->size() != 1)
-        throw input_error(file, pattern.panels[static_cast<std::size_t>(p)].name + ": pleat " + s.pleat->name, "another line ends between its lines",
-                          "let no line end on the cloth of a pleat");
+        throw input_error(
+            file, pattern.panels[static_cast<std::size_t>(p)].name + ": pleat " + s.pleat->name,
+            "another line ends between its lines", "let no line end on the cloth of a pleat");
     pattern.seams.push_back({s.pleat->name + "-under", "pleat", under, upper, ""});
     pattern.seams.push_back({s.pleat->name + "-back", "pleat", back, upper, ""});
   }
@@ -157,8 +189,11 @@ OnOutline on_outline(const Panel& panel, const Vec2& p) {
     const int n = static_cast<int>(std::max(16.0, std::min(2000.0, arc.length() / 0.001)));
     for (int k = 0; k < n; ++k) { // on the chord between two points of the curve
       const Vec2 a = arc.at(arc.length() * k / n), along = arc.at(arc.length() * (k + 1) / n) - a;
-      const double t = along.squaredNorm() > 0 ? std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0.0;
-      if (const double d = (p - a - t * along).norm(); d < least) least = d, best = {static_cast<int>(e), (k + t) / n};
+      const double t = along.squaredNorm() > 0
+                           ? std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0)
+                           : 0.0;
+      if (const double d = (p - a - t * along).norm(); d < least)
+        least = d, best = {static_cast<int>(e), (k + t) / n};
     }
   }
   return best;
@@ -176,8 +211,11 @@ Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh) {
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     const Panel& panel = pattern.panels[p];
     for (const Pleat& pleat : panel.pleats) {
-      if (out.shift.empty()) out.shift.assign(mesh.pattern.size(), Vec2::Zero()), out.depth.assign(mesh.pattern.size(), 0);
-      const Path &fold = panel.lines[static_cast<std::size_t>(pleat.fold)].path, &target = panel.lines[static_cast<std::size_t>(pleat.target)].path;
+      if (out.shift.empty())
+        out.shift.assign(mesh.pattern.size(), Vec2::Zero()),
+            out.depth.assign(mesh.pattern.size(), 0);
+      const Path &fold = panel.lines[static_cast<std::size_t>(pleat.fold)].path,
+                 &target = panel.lines[static_cast<std::size_t>(pleat.target)].path;
       const Vec2 f0 = fold.front().p[0], f1 = fold.back().p[3];
       Vec2 t0 = target.front().p[0], t1 = target.back().p[3];
       if ((f1 - f0).dot(t1 - t0) < 0) std::swap(t0, t1);
@@ -187,9 +225,14 @@ Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh) {
         const double along = std::clamp((x - f0).dot(f1 - f0) / (f1 - f0).squaredNorm(), 0.0, 1.0);
         const Vec2 f = f0 + along * (f1 - f0), t = t0 + along * (t1 - t0), way = f - t;
         const double s = (x - t).dot(way) / way.squaredNorm(); // 0 at the target, 1 at the fold
-        out.shift[static_cast<std::size_t>(v)] -= NEARLY * (s < 0.5 ? 0.0 : std::min(2 * s - 1, 1.0)) * way;
-        const double deep = s < -0.5 || s > 1 ? 0.0 : s < 0 ? 4 * (0.5 + s) : s < 0.5 ? 2 + 2 * s : 6 * (1 - s);
-        out.depth[static_cast<std::size_t>(v)] = std::max(out.depth[static_cast<std::size_t>(v)], LAYER_DEPTH * deep);
+        out.shift[static_cast<std::size_t>(v)] -=
+            NEARLY * (s < 0.5 ? 0.0 : std::min(2 * s - 1, 1.0)) * way;
+        const double deep = s < -0.5 || s > 1 ? 0.0
+                            : s < 0           ? 4 * (0.5 + s)
+                            : s < 0.5         ? 2 + 2 * s
+                                              : 6 * (1 - s);
+        out.depth[static_cast<std::size_t>(v)] =
+            std::max(out.depth[static_cast<std::size_t>(v)], LAYER_DEPTH * deep);
       }
     }
   }
@@ -198,18 +241,22 @@ Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh) {
 
 std::vector<std::array<int, 2>> pleat_edges(const PanelMesh& mesh) {
   std::vector<std::array<int, 2>> out;
-  for (std::size_t p = 0; mesh.source && p < std::min(mesh.panels.size(), mesh.source->panels.size()); ++p) {
+  for (std::size_t p = 0;
+       mesh.source && p < std::min(mesh.panels.size(), mesh.source->panels.size()); ++p) {
     const Panel& panel = mesh.source->panels[p];
     const PanelInfo& info = mesh.panels[p];
     for (const Pleat& pleat : panel.pleats) {
-      const Path &fold = panel.lines[static_cast<std::size_t>(pleat.fold)].path, &target = panel.lines[static_cast<std::size_t>(pleat.target)].path;
+      const Path &fold = panel.lines[static_cast<std::size_t>(pleat.fold)].path,
+                 &target = panel.lines[static_cast<std::size_t>(pleat.target)].path;
       for (const Path& line : {fold, halfway(fold, target)}) {
         const std::vector<char> on = vertices_on(line, mesh, info);
         for (int f = info.first_triangle; f < info.first_triangle + info.n_triangles; ++f)
           for (std::size_t k = 0; k < 3; ++k) {
             const Triangle& t = mesh.triangles[static_cast<std::size_t>(f)];
             const int a = std::min(t[k], t[(k + 1) % 3]), b = std::max(t[k], t[(k + 1) % 3]);
-            if (on[static_cast<std::size_t>(a - info.first_vertex)] && on[static_cast<std::size_t>(b - info.first_vertex)]) out.push_back({a, b});
+            if (on[static_cast<std::size_t>(a - info.first_vertex)] &&
+                on[static_cast<std::size_t>(b - info.first_vertex)])
+              out.push_back({a, b});
           }
       }
     }
@@ -230,22 +277,26 @@ std::vector<std::array<double, 3>> tape_scales(const PanelMesh& mesh) {
       const int n = std::max(8, static_cast<int>(std::ceil(arc.length() / 0.004)));
       std::vector<Vec2> points;
       for (int k = 0; k <= n; ++k) points.push_back(arc.at(arc.length() * k / n));
-      const double reach = 0.5 * std::max(tape.width, 1.2 * mesh.edge_length); // a row of triangles at least
+      const double reach =
+          0.5 * std::max(tape.width, 1.2 * mesh.edge_length); // a row of triangles at least
       const PanelInfo& info = mesh.panels[p];
       for (int f = info.first_triangle; f < info.first_triangle + info.n_triangles; ++f)
         for (std::size_t k = 0; k < 3; ++k) {
           const Triangle& t = mesh.triangles[static_cast<std::size_t>(f)];
-          const Vec2 &a = mesh.pattern[static_cast<std::size_t>(t[k])], &b = mesh.pattern[static_cast<std::size_t>(t[(k + 1) % 3])];
+          const Vec2 &a = mesh.pattern[static_cast<std::size_t>(t[k])],
+                     &b = mesh.pattern[static_cast<std::size_t>(t[(k + 1) % 3])];
           const Vec2 middle = 0.5 * (a + b);
           double least = reach;
           Vec2 along = Vec2::Zero();
           for (std::size_t i = 0; i + 1 < points.size(); ++i) {
             const Vec2 d = points[i + 1] - points[i];
-            const double s = std::clamp((middle - points[i]).dot(d) / d.squaredNorm(), 0.0, 1.0), off = (middle - points[i] - s * d).norm();
+            const double s = std::clamp((middle - points[i]).dot(d) / d.squaredNorm(), 0.0, 1.0),
+                         off = (middle - points[i] - s * d).norm();
             if (off < least) least = off, along = d.normalized();
           }
           if (along.squaredNorm() > 0) // a stretch by `factor` along the tape, none across it
-            out[static_cast<std::size_t>(f)][k] *= std::sqrt(1 + (tape.factor * tape.factor - 1) * std::pow((b - a).normalized().dot(along), 2));
+            out[static_cast<std::size_t>(f)][k] *= std::sqrt(
+                1 + (tape.factor * tape.factor - 1) * std::pow((b - a).normalized().dot(along), 2));
         }
     }
   return out;

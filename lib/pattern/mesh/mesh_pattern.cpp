@@ -28,13 +28,16 @@ void list_small_angles(PanelMesh& mesh, const PanelInfo& panel) {
   }
   if (n == 0) return;
   char text[160];
-  std::snprintf(text, sizeof text, "%s: %d triangle%s below 25 degrees, the smallest %.1f at (%.1f, %.1f) cm", panel.name.c_str(), n, n == 1 ? "" : "s",
-                units::degrees(worst), where.x() * 100, where.y() * 100);
+  std::snprintf(text, sizeof text,
+                "%s: %d triangle%s below 25 degrees, the smallest %.1f at (%.1f, %.1f) cm",
+                panel.name.c_str(), n, n == 1 ? "" : "s", units::degrees(worst), where.x() * 100,
+                where.y() * 100);
   mesh.findings.push_back(text);
 }
 
 /// Fine along the seams of a panel where that is asked for.
-SizeField size_field(const Pattern& pattern, std::size_t p, const Boundary::PanelBoundary& boundary, const PanelMesh& mesh) {
+SizeField size_field(const Pattern& pattern, std::size_t p, const Boundary::PanelBoundary& boundary,
+                     const PanelMesh& mesh) {
   if (mesh.seam_length <= 0) return SizeField(mesh.edge_length);
   std::vector<char> sewn(static_cast<std::size_t>(pattern.panels[p].n_edges()), 0);
   for (const Seam& s : pattern.seams)
@@ -45,7 +48,8 @@ SizeField size_field(const Pattern& pattern, std::size_t p, const Boundary::Pane
   std::size_t v = 0;
   for (const auto& loop : boundary.loops)
     for (std::size_t k = 0; k < loop.size(); ++k, ++v)
-      if (sewn[static_cast<std::size_t>(boundary.edge_of[v])]) lines.push_back({loop[k], loop[(k + 1) % loop.size()]});
+      if (sewn[static_cast<std::size_t>(boundary.edge_of[v])])
+        lines.push_back({loop[k], loop[(k + 1) % loop.size()]});
   return SizeField(mesh.edge_length, mesh.seam_length, std::move(lines));
 }
 
@@ -53,14 +57,19 @@ double distance_to_line(const std::vector<Vec2>& loop, bool closed, const Vec2& 
   double least = 1e300;
   for (std::size_t k = 0; k + (closed ? 0 : 1) < loop.size(); ++k) {
     const Vec2 a = loop[k], along = loop[(k + 1) % loop.size()] - a;
-    const double t = along.squaredNorm() > 0 ? std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0.0;
+    const double t = along.squaredNorm() > 0
+                         ? std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0)
+                         : 0.0;
     least = std::min(least, (p - a - t * along).norm());
   }
   return least;
 }
 
-/// Inner lines as chains of mesh points: where a line comes too near to the outline or to a line before it, it is left out and told.
-std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel, const Boundary::PanelBoundary& boundary, double h, std::vector<std::string>& findings) {
+/// Inner lines as chains of mesh points: where a line comes too near to the outline or to a line
+/// before it, it is left out and told.
+std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel,
+                                             const Boundary::PanelBoundary& boundary, double h,
+                                             std::vector<std::string>& findings) {
   constexpr double CLEAR = 0.55; // edge lengths
   std::vector<std::vector<Vec2>> out;
   for (const InnerLine& line : panel.lines) {
@@ -73,7 +82,8 @@ std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel, const Boundary:
       Vec2 p = arc.at(arc.length() * k / n);
       bool fits = true;
       for (const auto& loop : boundary.loops) {
-        const auto on = std::find_if(loop.begin(), loop.end(), [&](const Vec2& q) { return (p - q).norm() < 1e-6; });
+        const auto on = std::find_if(loop.begin(), loop.end(),
+                                     [&](const Vec2& q) { return (p - q).norm() < 1e-6; });
         if ((k == 0 || k == n) && on != loop.end()) {
           p = *on;
           break;
@@ -86,14 +96,19 @@ std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel, const Boundary:
     }
     for (auto& chain : chains)
       if (chain.size() >= 2) out.push_back(std::move(chain));
-    if (n_left_out > 2 || n_left_out == n + 1) // the ends of a line may be a little short of an outline that it does not reach
-      findings.push_back(panel.name + ": line " + line.name + " runs within " + centimetres(CLEAR * h) + " of the outline or of another line; " +
-                         std::to_string(n_left_out) + " of its " + std::to_string(n + 1) + " points are left out");
+    if (n_left_out > 2 ||
+        n_left_out ==
+            n + 1) // the ends of a line may be a little short of an outline that it does not reach
+      findings.push_back(panel.name + ": line " + line.name + " runs within " +
+                         centimetres(CLEAR * h) + " of the outline or of another line; " +
+                         std::to_string(n_left_out) + " of its " + std::to_string(n + 1) +
+                         " points are left out");
   }
   return out;
 }
 
-/// More vertices than any drape could bear come of a unit that is none, and would fill the memory first.
+/// More vertices than any drape could bear come of a unit that is none, and would fill the memory
+/// first.
 void require_few_vertices(const Pattern& pattern, const PanelMesh& mesh, const std::string& file) {
   constexpr double MOST_VERTICES = 5e6;
   double area = 0;
@@ -105,7 +120,8 @@ void require_few_vertices(const Pattern& pattern, const PanelMesh& mesh, const s
   const double n = area / (mesh.edge_length * mesh.edge_length * std::sqrt(0.75));
   if (!(n <= MOST_VERTICES))
     throw input_error(file, pattern.name,
-                      "would have " + std::to_string(std::lround(std::min(n, 1e15))) + " vertices at an edge length of " + centimetres(mesh.edge_length),
+                      "would have " + std::to_string(std::lround(std::min(n, 1e15))) +
+                          " vertices at an edge length of " + centimetres(mesh.edge_length),
                       "give a larger --edge-length, or check the pattern's unit");
 }
 
@@ -125,7 +141,8 @@ MeshMemory::MeshMemory() : m_panels(std::make_unique<Panels>()) {}
 MeshMemory::~MeshMemory() = default;
 MeshMemory::MeshMemory(MeshMemory&&) noexcept = default;
 
-PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::string& file, double seam_length, MeshMemory* memory) {
+PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::string& file,
+                       double seam_length, MeshMemory* memory) {
   const Pattern pattern = with_folds(drawn, file);
   PanelMesh mesh;
   mesh.name = pattern.name;
@@ -141,7 +158,8 @@ PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::stri
   std::vector<MeshMemory::Panels::Task> tasks;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     const Boundary::PanelBoundary& b = boundary.panels[p];
-    tasks.push_back({b.loops, sampled_lines(pattern.panels[p], b, edge_length, mesh.findings), b.must_split, size_field(pattern, p, b, mesh)});
+    tasks.push_back({b.loops, sampled_lines(pattern.panels[p], b, edge_length, mesh.findings),
+                     b.must_split, size_field(pattern, p, b, mesh)});
   }
   require_few_vertices(pattern, mesh, file);
   parallel_for(pattern.panels.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -149,49 +167,65 @@ PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::stri
       try {
         const auto& task = tasks[p];
         if (memory)
-          if (const auto same = std::find(memory->m_panels->tasks.begin(), memory->m_panels->tasks.end(), task); same != memory->m_panels->tasks.end()) {
-            flat[p] = memory->m_panels->flat[static_cast<std::size_t>(same - memory->m_panels->tasks.begin())];
+          if (const auto same =
+                  std::find(memory->m_panels->tasks.begin(), memory->m_panels->tasks.end(), task);
+              same != memory->m_panels->tasks.end()) {
+            flat[p] = memory->m_panels
+                          ->flat[static_cast<std::size_t>(same - memory->m_panels->tasks.begin())];
             continue;
           }
-        flat[p] = triangulate(task.loops, task.size, task.must_split, pattern.panels[p].name, task.lines);
+        flat[p] =
+            triangulate(task.loops, task.size, task.must_split, pattern.panels[p].name, task.lines);
       } catch (const Error& e) {
         failed[p] = e.fact();
       }
     }
   });
   for (std::size_t p = 0; p < flat.size(); ++p)
-    if (!failed[p].empty()) throw input_error(file, pattern.panels[p].name, failed[p], "pattern-mesh --check names the edges");
+    if (!failed[p].empty())
+      throw input_error(file, pattern.panels[p].name, failed[p],
+                        "pattern-mesh --check names the edges");
 
   for (std::size_t p = 0; p < flat.size(); ++p) {
     const Panel& source = pattern.panels[p];
     PanelInfo info;
-    info.name = source.name, info.grain = source.grain, info.material = source.material, info.layer = source.layer, info.part = source.hint.part;
-    info.first_vertex = static_cast<int>(mesh.pattern.size()), info.n_vertices = static_cast<int>(flat[p].points.size());
-    info.first_triangle = static_cast<int>(mesh.triangles.size()), info.n_triangles = static_cast<int>(flat[p].triangles.size());
-    for (std::size_t k = 0; k < boundary.panels[p].loops[0].size(); ++k) info.outline.push_back(info.first_vertex + static_cast<int>(k));
+    info.name = source.name, info.grain = source.grain, info.material = source.material,
+    info.layer = source.layer, info.part = source.hint.part;
+    info.first_vertex = static_cast<int>(mesh.pattern.size()),
+    info.n_vertices = static_cast<int>(flat[p].points.size());
+    info.first_triangle = static_cast<int>(mesh.triangles.size()),
+    info.n_triangles = static_cast<int>(flat[p].triangles.size());
+    for (std::size_t k = 0; k < boundary.panels[p].loops[0].size(); ++k)
+      info.outline.push_back(info.first_vertex + static_cast<int>(k));
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
     for (const Vec2& q : flat[p].points) low = low.cwiseMin(q), high = high.cwiseMax(q);
     const Mat4 rigid = source.hint.rigid.value_or(Mat4::Identity());
     for (const Vec2& q : flat[p].points) {
       mesh.pattern.push_back(q);
       mesh.placed.push_back((rigid * Eigen::Vector4d(q.x(), q.y(), 0, 1)).head<3>());
-      mesh.ids.push_back({static_cast<int>(p), (q.x() - low.x()) / (high.x() - low.x()), (q.y() - low.y()) / (high.y() - low.y())});
+      mesh.ids.push_back({static_cast<int>(p), (q.x() - low.x()) / (high.x() - low.x()),
+                          (q.y() - low.y()) / (high.y() - low.y())});
     }
-    for (const Triangle& t : flat[p].triangles) mesh.triangles.push_back({t[0] + info.first_vertex, t[1] + info.first_vertex, t[2] + info.first_vertex});
+    for (const Triangle& t : flat[p].triangles)
+      mesh.triangles.push_back(
+          {t[0] + info.first_vertex, t[1] + info.first_vertex, t[2] + info.first_vertex});
     mesh.panels.push_back(info);
     list_small_angles(mesh, mesh.panels.back());
   }
   if (memory) *memory->m_panels = {std::move(tasks), std::move(flat)};
   for (std::size_t s = 0; s < pattern.seams.size(); ++s) {
     const Seam& seam = pattern.seams[s];
-    MeshSeam out{seam.name, seam.kind, {}, {}, side_length(pattern, seam.a), side_length(pattern, seam.b), seam.open};
+    MeshSeam out{
+        seam.name, seam.kind, {}, {}, side_length(pattern, seam.a), side_length(pattern, seam.b),
+        seam.open};
     for (std::size_t k = 0; k < boundary.seams[s].a.size(); ++k) {
       const auto &a = boundary.seams[s].a[k], &b = boundary.seams[s].b[k];
       out.a.push_back(mesh.panels[static_cast<std::size_t>(a[0])].first_vertex + a[1]);
       out.b.push_back(mesh.panels[static_cast<std::size_t>(b[0])].first_vertex + b[1]);
     }
     if (out.a.size() < 2) {
-      mesh.findings.push_back("seam " + seam.name + " is shorter than a fifth of the edge length and is left out");
+      mesh.findings.push_back("seam " + seam.name +
+                              " is shorter than a fifth of the edge length and is left out");
       continue;
     }
     mesh.seams.push_back(std::move(out));

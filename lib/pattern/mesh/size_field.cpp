@@ -10,13 +10,15 @@ double SizeField::at(const Vec2& p) const {
   double least = std::pow((m_usual - m_fine) / GROWTH, 2); // nothing further away matters
   for (const auto& [a, b] : m_lines) {
     const Vec2 along = b - a;
-    const double length = along.squaredNorm(), t = length > 0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0.0;
+    const double length = along.squaredNorm(),
+                 t = length > 0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0.0;
     least = std::min(least, (p - a - t * along).squaredNorm());
   }
   return m_fine + GROWTH * std::sqrt(least);
 }
 
-std::vector<double> graded_fractions(double length, double usual, double fine, bool fine_start, bool fine_end) {
+std::vector<double> graded_fractions(double length, double usual, double fine, bool fine_start,
+                                     bool fine_end) {
   constexpr int STEPS = 400;
   std::vector<double> count = {0}; // edges so far, if they could be cut anywhere
   for (int k = 0; k < STEPS; ++k) {
@@ -32,7 +34,8 @@ std::vector<double> graded_fractions(double length, double usual, double fine, b
   for (int k = 1; k < n; ++k) {
     const double wanted = count.back() * k / n;
     while (count[at + 1] < wanted) ++at;
-    out.push_back((static_cast<double>(at) + (wanted - count[at]) / (count[at + 1] - count[at])) / STEPS);
+    out.push_back((static_cast<double>(at) + (wanted - count[at]) / (count[at + 1] - count[at])) /
+                  STEPS);
   }
   return out;
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// How long mesh edges are to be where: fine along some lines, growing away from them up to the usual length.
+/// How long mesh edges are to be where: fine along some lines, growing away from them up to the
+/// usual length.
 #include <geometry/types.hpp>
 
 #include <vector>
@@ -13,7 +14,8 @@ public:
   /// The same length everywhere.
   explicit SizeField(double usual) : m_usual(usual), m_fine(usual) {}
   /// @param fine  m, on the lines; at most `usual`
-  SizeField(double usual, double fine, std::vector<std::array<Vec2, 2>> lines) : m_usual(usual), m_fine(fine), m_lines(std::move(lines)) {}
+  SizeField(double usual, double fine, std::vector<std::array<Vec2, 2>> lines)
+      : m_usual(usual), m_fine(fine), m_lines(std::move(lines)) {}
   double usual() const { return m_usual; }
   double fine() const { return m_fine; }
   bool uniform() const { return m_lines.empty() || m_fine >= m_usual; }
@@ -25,7 +27,9 @@ private:
   std::vector<std::array<Vec2, 2>> m_lines;
 };
 
-/// Fractions at which a stretch is cut whose edges may grow from `fine` at one end or both; empty where one edge is enough.
-std::vector<double> graded_fractions(double length, double usual, double fine, bool fine_start, bool fine_end);
+/// Fractions at which a stretch is cut whose edges may grow from `fine` at one end or both; empty
+/// where one edge is enough.
+std::vector<double> graded_fractions(double length, double usual, double fine, bool fine_start,
+                                     bool fine_end);
 
 } // namespace sloper::pattern

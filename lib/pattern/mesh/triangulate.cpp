@@ -13,19 +13,25 @@ namespace {
 /// Segments of boundary and inner lines in square cells of size h, for distances up to h.
 class SegmentGrid {
 public:
-  SegmentGrid(const std::vector<std::vector<Vec2>>& loops, const std::vector<std::vector<Vec2>>& lines, double h) : m_h(h) {
+  SegmentGrid(const std::vector<std::vector<Vec2>>& loops,
+              const std::vector<std::vector<Vec2>>& lines, double h)
+      : m_h(h) {
     for (const auto& loop : loops)
-      for (std::size_t k = 0; k < loop.size(); ++k) m_segments.push_back({loop[k], loop[(k + 1) % loop.size()]});
+      for (std::size_t k = 0; k < loop.size(); ++k)
+        m_segments.push_back({loop[k], loop[(k + 1) % loop.size()]});
     for (const auto& line : lines)
-      for (std::size_t k = 0; k + 1 < line.size(); ++k) m_segments.push_back({line[k], line[k + 1]});
+      for (std::size_t k = 0; k + 1 < line.size(); ++k)
+        m_segments.push_back({line[k], line[k + 1]});
     m_low = Vec2::Constant(1e300);
     Vec2 high = Vec2::Constant(-1e300);
     for (const auto& s : m_segments) m_low = m_low.cwiseMin(s[0]), high = high.cwiseMax(s[0]);
-    m_nx = static_cast<int>((high.x() - m_low.x()) / h) + 1, m_ny = static_cast<int>((high.y() - m_low.y()) / h) + 1;
+    m_nx = static_cast<int>((high.x() - m_low.x()) / h) + 1,
+    m_ny = static_cast<int>((high.y() - m_low.y()) / h) + 1;
     m_cells.resize(static_cast<std::size_t>(m_nx) * static_cast<std::size_t>(m_ny));
     for (std::size_t k = 0; k < m_segments.size(); ++k) {
       const auto& s = m_segments[k];
-      const int x0 = column(std::min(s[0].x(), s[1].x())), x1 = column(std::max(s[0].x(), s[1].x()));
+      const int x0 = column(std::min(s[0].x(), s[1].x())),
+                x1 = column(std::max(s[0].x(), s[1].x()));
       const int y0 = row(std::min(s[0].y(), s[1].y())), y1 = row(std::max(s[0].y(), s[1].y()));
       for (int y = y0; y <= y1; ++y)
         for (int x = x0; x <= x1; ++x) m_cells[cell(x, y)].push_back(static_cast<int>(k));
@@ -46,9 +52,16 @@ public:
   }
 
 private:
-  int column(double x) const { return std::clamp(static_cast<int>((x - m_low.x()) / m_h), 0, m_nx - 1); }
-  int row(double y) const { return std::clamp(static_cast<int>((y - m_low.y()) / m_h), 0, m_ny - 1); }
-  std::size_t cell(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(m_nx) + static_cast<std::size_t>(x); }
+  int column(double x) const {
+    return std::clamp(static_cast<int>((x - m_low.x()) / m_h), 0, m_nx - 1);
+  }
+  int row(double y) const {
+    return std::clamp(static_cast<int>((y - m_low.y()) / m_h), 0, m_ny - 1);
+  }
+  std::size_t cell(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(m_nx) +
+           static_cast<std::size_t>(x);
+  }
   double m_h;
   Vec2 m_low;
   int m_nx = 0, m_ny = 0;
@@ -56,14 +69,17 @@ private:
   std::vector<std::vector<int>> m_cells;
 };
 
-/// Points of a hexagonal lattice inside the polygon and not nearer than `clearance` to its boundary, row by row, to and fro.
-std::vector<Vec2> lattice(const std::vector<std::vector<Vec2>>& loops, const std::vector<std::vector<Vec2>>& lines, double h, double clearance) {
+/// Points of a hexagonal lattice inside the polygon and not nearer than `clearance` to its
+/// boundary, row by row, to and fro.
+std::vector<Vec2> lattice(const std::vector<std::vector<Vec2>>& loops,
+                          const std::vector<std::vector<Vec2>>& lines, double h, double clearance) {
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
   for (const Vec2& p : loops[0]) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const SegmentGrid grid(loops, lines, h);
   const double step_y = h * std::sqrt(0.75);
   const int rows = static_cast<int>((high.y() - low.y()) / step_y) + 1;
-  const double first_y = 0.5 * (low.y() + high.y() - (rows - 1) * step_y), middle = 0.5 * (low.x() + high.x());
+  const double first_y = 0.5 * (low.y() + high.y() - (rows - 1) * step_y),
+               middle = 0.5 * (low.x() + high.x());
   std::vector<Vec2> points;
   std::vector<double> crossings;
   for (int r = 0; r < rows; ++r) {
@@ -72,13 +88,15 @@ std::vector<Vec2> lattice(const std::vector<std::vector<Vec2>>& loops, const std
     for (const auto& loop : loops)
       for (std::size_t k = 0; k < loop.size(); ++k) {
         const Vec2 &a = loop[k], &b = loop[(k + 1) % loop.size()];
-        if ((a.y() <= y) != (b.y() <= y)) crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+        if ((a.y() <= y) != (b.y() <= y))
+          crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
       }
     std::sort(crossings.begin(), crossings.end());
     const std::size_t row_start = points.size();
     const double shift = middle + (r % 2 ? 0.5 * h : 0.0);
     for (std::size_t c = 0; c + 1 < crossings.size(); c += 2)
-      for (long i = static_cast<long>(std::ceil((crossings[c] - shift) / h)); shift + static_cast<double>(i) * h < crossings[c + 1]; ++i) {
+      for (long i = static_cast<long>(std::ceil((crossings[c] - shift) / h));
+           shift + static_cast<double>(i) * h < crossings[c + 1]; ++i) {
         const Vec2 p(shift + static_cast<double>(i) * h, y);
         if (!grid.nearer(p, clearance)) points.push_back(p);
       }
@@ -87,9 +105,13 @@ std::vector<Vec2> lattice(const std::vector<std::vector<Vec2>>& loops, const std
   return points;
 }
 
-/// The same for edge lengths that vary: points of the finest lattice, each taken where those taken before leave it room.
-std::vector<Vec2> graded_lattice(const std::vector<std::vector<Vec2>>& loops, const std::vector<std::vector<Vec2>>& lines, const SizeField& size) {
-  constexpr double ROOM = 0.8, CLEARANCE = 0.62; // of the local length; the former gives a lattice's density
+/// The same for edge lengths that vary: points of the finest lattice, each taken where those taken
+/// before leave it room.
+std::vector<Vec2> graded_lattice(const std::vector<std::vector<Vec2>>& loops,
+                                 const std::vector<std::vector<Vec2>>& lines,
+                                 const SizeField& size) {
+  constexpr double ROOM = 0.8,
+                   CLEARANCE = 0.62; // of the local length; the former gives a lattice's density
   const double cell = size.usual();
   const SegmentGrid grid(loops, lines, cell);
   Vec2 low = loops[0][0];
@@ -99,27 +121,32 @@ std::vector<Vec2> graded_lattice(const std::vector<std::vector<Vec2>>& loops, co
   for (const Vec2& p : lattice(loops, lines, size.fine(), CLEARANCE * size.fine())) {
     const double h = size.at(p);
     if (grid.nearer(p, CLEARANCE * h)) continue;
-    const long x = static_cast<long>((p.x() - low.x()) / cell), y = static_cast<long>((p.y() - low.y()) / cell);
+    const long x = static_cast<long>((p.x() - low.x()) / cell),
+               y = static_cast<long>((p.y() - low.y()) / cell);
     bool room = true;
     for (long i = x - 1; i <= x + 1 && room; ++i)
       for (long j = y - 1; j <= y + 1 && room; ++j)
         if (const auto near = taken.find({i, j}); near != taken.end())
-          room = std::none_of(near->second.begin(), near->second.end(), [&](const Vec2& q) { return (p - q).norm() < ROOM * h; });
+          room = std::none_of(near->second.begin(), near->second.end(),
+                              [&](const Vec2& q) { return (p - q).norm() < ROOM * h; });
     if (room) taken[{x, y}].push_back(p), points.push_back(p);
   }
   return points;
 }
 
-/// Where two edges that meet in a corner are sewn to each other, the corner needs three faces or more: two would be welded onto one
-/// another. Points on a circle about the corner, nearer than all others, are its Delaunay neighbours.
-std::vector<Vec2> fan_points(const std::vector<std::vector<Vec2>>& loops, const std::vector<char>& must_split) {
+/// Where two edges that meet in a corner are sewn to each other, the corner needs three faces or
+/// more: two would be welded onto one another. Points on a circle about the corner, nearer than all
+/// others, are its Delaunay neighbours.
+std::vector<Vec2> fan_points(const std::vector<std::vector<Vec2>>& loops,
+                             const std::vector<char>& must_split) {
   std::vector<Vec2> out;
   std::size_t first = 0;
   for (const auto& loop : loops) {
     const std::size_t n = loop.size();
     for (std::size_t k = 0; k < n; ++k) {
       if (!must_split[first + k]) continue;
-      const Vec2 corner = loop[k], a = loop[(k + 1) % n] - corner, b = loop[(k + n - 1) % n] - corner;
+      const Vec2 corner = loop[k], a = loop[(k + 1) % n] - corner,
+                 b = loop[(k + n - 1) % n] - corner;
       double angle = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
       if (angle <= 0) continue; // a tip that points inwards has faces enough
       const int count = std::max(2, static_cast<int>(std::ceil(angle * 3 / 3.14159265358979)) - 1);
@@ -139,22 +166,28 @@ int n_small(const FlatMesh& mesh) {
   int n = 0;
   for (const Triangle& t : mesh.triangles) {
     const bool ear = t[0] < mesh.n_boundary && t[1] < mesh.n_boundary && t[2] < mesh.n_boundary;
-    n += !ear && smallest_angle(mesh.points[static_cast<std::size_t>(t[0])], mesh.points[static_cast<std::size_t>(t[1])],
-                                mesh.points[static_cast<std::size_t>(t[2])]) < 25 * 3.14159265358979 / 180;
+    n += !ear &&
+         smallest_angle(mesh.points[static_cast<std::size_t>(t[0])],
+                        mesh.points[static_cast<std::size_t>(t[1])],
+                        mesh.points[static_cast<std::size_t>(t[2])]) < 25 * 3.14159265358979 / 180;
   }
   return n;
 }
 
 /// @param spacing of the lattice of interior points, in edge lengths
-FlatMesh attempt(const std::vector<std::vector<Vec2>>& loops, const std::vector<std::vector<Vec2>>& lines, const SizeField& size, double spacing,
+FlatMesh attempt(const std::vector<std::vector<Vec2>>& loops,
+                 const std::vector<std::vector<Vec2>>& lines, const SizeField& size, double spacing,
                  const std::vector<char>& must_split, const std::string& panel) {
   FlatDelaunay mesh(loops, panel);
   const std::vector<Vec2> fans = fan_points(loops, must_split);
   for (const auto& line : lines) mesh.add_line(line);
   for (const Vec2& p : fans) mesh.insert(p, true);
   const double h = size.usual();
-  for (const Vec2& p : size.uniform() ? lattice(loops, lines, spacing * h, 0.62 * spacing * h) : graded_lattice(loops, lines, size))
-    if (std::none_of(fans.begin(), fans.end(), [&](const Vec2& q) { return (p - q).norm() < 0.7 * size.at(q); })) mesh.insert(p);
+  for (const Vec2& p : size.uniform() ? lattice(loops, lines, spacing * h, 0.62 * spacing * h)
+                                      : graded_lattice(loops, lines, size))
+    if (std::none_of(fans.begin(), fans.end(),
+                     [&](const Vec2& q) { return (p - q).norm() < 0.7 * size.at(q); }))
+      mesh.insert(p);
   mesh.split_chords(must_split);
   for (int round = 0; round < 8; ++round) mesh.smooth();
   mesh.split_chords(must_split);
@@ -170,7 +203,8 @@ FlatMesh attempt(const std::vector<std::vector<Vec2>>& loops, const std::vector<
 
 } // namespace
 
-FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, const SizeField& size, const std::vector<char>& must_split, const std::string& panel,
+FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, const SizeField& size,
+                     const std::vector<char>& must_split, const std::string& panel,
                      const std::vector<std::vector<Vec2>>& lines) {
   FlatMesh best = attempt(loops, lines, size, 1, must_split, panel);
   int least = n_small(best);

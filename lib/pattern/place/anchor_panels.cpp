@@ -7,9 +7,11 @@
 
 namespace sloper::pattern {
 
-constexpr double SHOULDER_RAISE = 0.02; // m above the shoulders, so that the shoulder seam closes downwards
-constexpr double MOST_YOKE = 0.2;       // m that a yoke reaches over the shoulder
-constexpr double WIDE_SPREAD = 2.4;     // rad between the sides of a panel: laid on a cylinder, a skirt that is wider reaches beyond the arms
+constexpr double SHOULDER_RAISE =
+    0.02; // m above the shoulders, so that the shoulder seam closes downwards
+constexpr double MOST_YOKE = 0.2;   // m that a yoke reaches over the shoulder
+constexpr double WIDE_SPREAD = 2.4; // rad between the sides of a panel: laid on a cylinder, a skirt
+                                    // that is wider reaches beyond the arms
 
 std::array<Vec2, 2> Placer::bounds(const PanelGroup& group) const {
   std::array<Vec2, 2> all = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
@@ -24,15 +26,21 @@ std::optional<Sector> Placer::sector_of(std::size_t k) const {
   if (m_roles[k].part != "lower_body" || is_leg(m_roles[k])) return std::nullopt;
   std::vector<std::array<Vec2, 2>> sides; // from the waist to the hem
   for (int q : m_graph.neighbours(static_cast<int>(k)))
-    if (const PanelRole& other = m_roles[static_cast<std::size_t>(q)]; other.part == "lower_body" && other.side != m_roles[k].side)
-      for (const auto& seam : m_graph.between(static_cast<int>(k), q)) sides.push_back({uv(k, seam.front()[0]), uv(k, seam.back()[0])});
+    if (const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
+        other.part == "lower_body" && other.side != m_roles[k].side)
+      for (const auto& seam : m_graph.between(static_cast<int>(k), q))
+        sides.push_back({uv(k, seam.front()[0]), uv(k, seam.back()[0])});
   if (sides.size() != 2) return std::nullopt;
   const std::vector<std::array<Vec2, 2>> as_sewn = sides;
-  for (std::size_t i : {0, 1}) { // the waist's ends are nearer to each other than those of the hem; of a band the upper ones
-    const auto away = [&](const Vec2& end) { return std::min((end - as_sewn[1 - i][0]).norm(), (end - as_sewn[1 - i][1]).norm()); };
+  for (std::size_t i : {0, 1}) { // the waist's ends are nearer to each other than those of the hem;
+                                 // of a band the upper ones
+    const auto away = [&](const Vec2& end) {
+      return std::min((end - as_sewn[1 - i][0]).norm(), (end - as_sewn[1 - i][1]).norm());
+    };
     auto& [in, out] = sides[i];
     const double wider = away(out) - away(in);
-    if (std::abs(wider) < 0.2 * (out - in).norm() ? in.y() < out.y() : wider < 0) std::swap(in, out);
+    if (std::abs(wider) < 0.2 * (out - in).norm() ? in.y() < out.y() : wider < 0)
+      std::swap(in, out);
   }
   if (sides[0][0].x() > sides[1][0].x()) std::swap(sides[0], sides[1]);
   // Where the lines of the sides meet; of lines that are all but one, between their upper ends.
@@ -42,11 +50,14 @@ std::optional<Sector> Placer::sector_of(std::size_t k) const {
   for (const auto& [in, out] : sides) {
     const Vec2 along = (out - in).normalized(), across(-along.y(), along.x());
     a += across * across.transpose(), c += across.dot(in) * across;
-    spread += std::atan2((&in == &sides[0][0] ? -1 : 1) * along.x(), -along.y()); // from straight down
+    spread +=
+        std::atan2((&in == &sides[0][0] ? -1 : 1) * along.x(), -along.y()); // from straight down
   }
   if (!(spread > WIDE_SPREAD)) return std::nullopt;
   const Vec2 tip = a.ldlt().solve(c);
-  const auto reach = [&](std::size_t end) { return 0.5 * ((sides[0][end] - tip).norm() + (sides[1][end] - tip).norm()); };
+  const auto reach = [&](std::size_t end) {
+    return 0.5 * ((sides[0][end] - tip).norm() + (sides[1][end] - tip).norm());
+  };
   const double inner = reach(0), outer = reach(1);
   double area = 0; // which tells a ring from what narrows downwards
   const auto& outline = m_mesh.panels[k].outline;
@@ -62,13 +73,16 @@ std::optional<Sector> Placer::sector_of(std::size_t k) const {
 bool Placer::hangs_on_shoulders(double top) const {
   for (std::size_t k = 0; k < m_roles.size(); ++k) {
     if (m_roles[k].region != Region::TRUNK) return true;
-    if (m_roles[k].side != Side::FRONT || m_roles[k].part == "lower_body") continue; // the sides of a circle skirt may be drawn level
+    if (m_roles[k].side != Side::FRONT || m_roles[k].part == "lower_body")
+      continue; // the sides of a circle skirt may be drawn level
     for (int q : m_graph.neighbours(static_cast<int>(k))) {
       const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
       if (other.side != Side::BACK || other.part == "lower_body") continue;
       for (const auto& seam : m_graph.between(static_cast<int>(k), q)) { // a level seam at the top
         const Vec2 a = uv(k, seam.front()[0]), b = uv(k, seam.back()[0]);
-        if (std::abs(a.x() - b.x()) > 1.2 * std::abs(a.y() - b.y()) && std::min(a.y(), b.y()) > top - MOST_YOKE) return true;
+        if (std::abs(a.x() - b.x()) > 1.2 * std::abs(a.y() - b.y()) &&
+            std::min(a.y(), b.y()) > top - MOST_YOKE)
+          return true;
       }
     }
   }
@@ -83,7 +97,8 @@ double Placer::strapless_height(double top) const {
     for (const char* word : {"bodice", "bust", "corset", "bandeau", "tubetop", "tube_top"})
       named = named || m_pattern.panels[k].name.find(word) != std::string::npos;
   }
-  const double chest = std::min(m_space.level("chest_axilla", 0.76), top / USUAL_STATURE * m_space.stature());
+  const double chest =
+      std::min(m_space.level("chest_axilla", 0.76), top / USUAL_STATURE * m_space.stature());
   if (stated) return top > ABOVE_WAIST ? chest : 0;
   return named ? m_space.level("chest_axilla", 0.76) : 0;
 }
@@ -93,7 +108,9 @@ void Placer::anchor_trunk() {
   for (std::size_t k = 0; k < m_roles.size(); ++k) {
     if (m_roles[k].region != Region::TRUNK) continue;
     const auto sector = sector_of(k); // its sides may be drawn upwards
-    top = std::max(top, sector ? sector->top() : laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k))[1].y());
+    top = std::max(
+        top, sector ? sector->top()
+                    : laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k))[1].y());
   }
   if (top < -1e299) return;
   double shift = 0;
@@ -110,8 +127,13 @@ void Placer::anchor_trunk() {
     shift = chest - top;
   } else {
     const auto [around, edge] = hanging_lengths(top);
-    const double crotch = m_space.body().has_landmark("crotch") ? m_space.body().landmark("crotch").y() : 0.47 * m_space.stature();
-    shift = m_space.hang_height(around, crotch + edge - legs_part(m_mesh, m_graph, m_roles, m_spots).value_or(-1e3)) - edge;
+    const double crotch = m_space.body().has_landmark("crotch")
+                              ? m_space.body().landmark("crotch").y()
+                              : 0.47 * m_space.stature();
+    shift =
+        m_space.hang_height(
+            around, crotch + edge - legs_part(m_mesh, m_graph, m_roles, m_spots).value_or(-1e3)) -
+        edge;
   }
   for (std::size_t k = 0; k < m_roles.size(); ++k)
     if (m_roles[k].region == Region::TRUNK) m_spots[k].offset.y() += shift;
@@ -126,10 +148,12 @@ std::vector<std::vector<std::size_t>> Placer::hanging_pieces() const {
     met[first] = 1;
     for (std::size_t at = 0; at < sewn_together.size(); ++at)
       for (int q : m_graph.neighbours(static_cast<int>(sewn_together[at])))
-        if (const auto k = static_cast<std::size_t>(q); !met[k]) met[k] = 1, sewn_together.push_back(k);
+        if (const auto k = static_cast<std::size_t>(q); !met[k])
+          met[k] = 1, sewn_together.push_back(k);
     pieces.emplace_back();
     for (std::size_t k : sewn_together)
-      if (m_roles[k].region == Region::TRUNK && m_mesh.panels[k].layer == m_innermost) pieces.back().push_back(k);
+      if (m_roles[k].region == Region::TRUNK && m_mesh.panels[k].layer == m_innermost)
+        pieces.back().push_back(k);
   }
   return pieces;
 }
@@ -138,29 +162,38 @@ std::pair<std::vector<double>, double> Placer::hanging_lengths(double top) {
   std::pair<std::vector<double>, double> narrowest{{}, top};
   for (const std::vector<std::size_t>& piece : hanging_pieces()) {
     auto lengths = lengths_around(piece, top);
-    if (!lengths.first.empty() && (narrowest.first.empty() || lengths.first[0] < narrowest.first[0])) narrowest = std::move(lengths);
+    if (!lengths.first.empty() &&
+        (narrowest.first.empty() || lengths.first[0] < narrowest.first[0]))
+      narrowest = std::move(lengths);
   }
   return narrowest;
 }
 
-std::pair<std::vector<double>, double> Placer::lengths_around(const std::vector<std::size_t>& piece, double top) {
-  // The top edge: boundary within 6 cm of the top on the way round, as far as it is level and not sewn. It may be an arc.
+std::pair<std::vector<double>, double> Placer::lengths_around(const std::vector<std::size_t>& piece,
+                                                              double top) {
+  // The top edge: boundary within 6 cm of the top on the way round, as far as it is level and not
+  // sewn. It may be an arc.
   double length = 0, height = 0, dip = top;
   for (std::size_t k : piece) {
     const auto& outline = m_mesh.panels[k].outline;
-    if (const auto sector = sector_of(k)) { // as it hangs, not as it is drawn; with a waistband, that is the top
+    if (const auto sector =
+            sector_of(k)) { // as it hangs, not as it is drawn; with a waistband, that is the top
       const double waist = sector->spread * sector->inner;
       const bool band = std::any_of(outline.begin(), outline.end(), [&](int v) {
-        return sewn(v) && std::abs(uv(k, v).x() - sector->tip.x()) < 0.2 * waist && (uv(k, v) - sector->tip).norm() < sector->inner + 0.02;
+        return sewn(v) && std::abs(uv(k, v).x() - sector->tip.x()) < 0.2 * waist &&
+               (uv(k, v) - sector->tip).norm() < sector->inner + 0.02;
       });
-      if (!band && sector->top() > top - 0.06) length += waist, height += waist * sector->top(), dip = std::min(dip, sector->top());
+      if (!band && sector->top() > top - 0.06)
+        length += waist, height += waist * sector->top(), dip = std::min(dip, sector->top());
       continue;
     }
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const int a = outline[i], b = outline[(i + 1) % outline.size()];
       const Vec2 p = uv(k, a), q = uv(k, b);
-      if (std::min(p.y(), q.y()) > top - 0.06 && std::abs(p.x() - q.x()) > std::abs(p.y() - q.y()) && !(sewn(a) && sewn(b)))
-        length += (p - q).norm(), height += 0.5 * (p - q).norm() * (p.y() + q.y()), dip = std::min({dip, p.y(), q.y()});
+      if (std::min(p.y(), q.y()) > top - 0.06 &&
+          std::abs(p.x() - q.x()) > std::abs(p.y() - q.y()) && !(sewn(a) && sewn(b)))
+        length += (p - q).norm(), height += 0.5 * (p - q).norm() * (p.y() + q.y()),
+            dip = std::min({dip, p.y(), q.y()});
     }
   }
   if (!(length > 0.1)) return {{}, top};
@@ -169,7 +202,8 @@ std::pair<std::vector<double>, double> Placer::lengths_around(const std::vector<
   for (int row = 1; row <= 15; ++row) {
     const double line = edge - 0.01 * row;
     double widest = 0; // rows of panels are laid a little apart: look around the gap
-    for (double off : {-0.012, -0.006, 0.0, 0.006, 0.012}) widest = std::max(widest, covered(piece, line + off));
+    for (double off : {-0.012, -0.006, 0.0, 0.006, 0.012})
+      widest = std::max(widest, covered(piece, line + off));
     around.push_back(line > dip - 0.002 ? std::max(length, widest) : widest);
   }
   return {around, edge};
@@ -190,7 +224,8 @@ bool Placer::sewn(int vertex) {
   if (m_sewn.empty()) {
     m_sewn.assign(m_mesh.pattern.size(), 0);
     for (const MeshSeam& s : m_mesh.seams)
-      for (std::size_t k = 0; k < s.a.size(); ++k) m_sewn[static_cast<std::size_t>(s.a[k])] = m_sewn[static_cast<std::size_t>(s.b[k])] = 1;
+      for (std::size_t k = 0; k < s.a.size(); ++k)
+        m_sewn[static_cast<std::size_t>(s.a[k])] = m_sewn[static_cast<std::size_t>(s.b[k])] = 1;
   }
   return m_sewn[static_cast<std::size_t>(vertex)] != 0;
 }
@@ -208,13 +243,17 @@ void Placer::face_neck() {
       if (m_roles[trunk].region != Region::TRUNK || m_roles[trunk].side == Side::RING) continue;
       for (const auto& seam : m_graph.between(static_cast<int>(k), q))
         for (const auto& [here, there] : seam) {
-          const double aside = std::asin(std::clamp(uv(trunk, there).x() / HALF_WIDTH, -1.0, 1.0)); // u of a back runs to the right
+          const double aside = std::asin(std::clamp(uv(trunk, there).x() / HALF_WIDTH, -1.0,
+                                                    1.0)); // u of a back runs to the right
           const double at = m_roles[trunk].side == Side::FRONT ? aside : units::PI + aside;
-          const double middle = at - 2 * units::PI * (uv(k, here).x() - 0.5 * (own[0].x() + own[1].x())) / AROUND;
+          const double middle =
+              at - 2 * units::PI * (uv(k, here).x() - 0.5 * (own[0].x() + own[1].x())) / AROUND;
           sum += Vec2(std::cos(middle), std::sin(middle)), ++stitches;
         }
     }
-    if (stitches > 0 && sum.norm() > 0.3 * stitches) m_roles[k].theta = std::round(std::atan2(sum.y(), sum.x()) / (units::PI / 4)) * (units::PI / 4);
+    if (stitches > 0 && sum.norm() > 0.3 * stitches)
+      m_roles[k].theta =
+          std::round(std::atan2(sum.y(), sum.x()) / (units::PI / 4)) * (units::PI / 4);
   }
 }
 
@@ -224,7 +263,8 @@ void Placer::level_neck() {
   for (std::size_t k = 0; k < m_roles.size(); ++k) {
     double sum = 0, stitches = 0;
     for (int q : m_graph.neighbours(static_cast<int>(k)))
-      if (m_roles[k].region == Region::NECK && m_roles[static_cast<std::size_t>(q)].region == Region::TRUNK)
+      if (m_roles[k].region == Region::NECK &&
+          m_roles[static_cast<std::size_t>(q)].region == Region::TRUNK)
         for (const auto& seam : m_graph.between(static_cast<int>(k), q))
           for (const auto& s : seam) sum += uv(k, s[0]).y(), ++stitches;
     if (stitches == 0) continue;
@@ -246,7 +286,10 @@ void Placer::anchor_neck() {
   for (const PanelGroup& g : m_groups) {
     if (g.region != Region::NECK) continue;
     const auto b = bounds(g);
-    const double neck = std::max(m_space.shoulder_height(0.06), m_space.body().has_landmark("neck_side_l") ? m_space.body().landmark("neck_side_l").y() : 0.0);
+    const double neck =
+        std::max(m_space.shoulder_height(0.06), m_space.body().has_landmark("neck_side_l")
+                                                    ? m_space.body().landmark("neck_side_l").y()
+                                                    : 0.0);
     for (std::size_t k : g.panels) m_spots[k].offset.y() += neck + 0.005 - b[0].y();
   }
 }

@@ -13,25 +13,34 @@ namespace sloper::pattern {
 
 constexpr int ROUNDS = 60;
 
-Placer::Placer(const Pattern& pattern, const body::Body& body, PanelMesh& mesh, const Folding& folding)
-    : m_pattern(pattern), m_mesh(mesh), m_folding(folding), m_space(body), m_graph(mesh), m_roles(panel_roles(pattern, mesh, m_graph)),
-      m_spots(lay_out(pattern, mesh, m_graph, m_roles)), m_depth(m_roles.size(), 0), m_collider(body.skin) {
+Placer::Placer(const Pattern& pattern, const body::Body& body, PanelMesh& mesh,
+               const Folding& folding)
+    : m_pattern(pattern), m_mesh(mesh), m_folding(folding), m_space(body), m_graph(mesh),
+      m_roles(panel_roles(pattern, mesh, m_graph)),
+      m_spots(lay_out(pattern, mesh, m_graph, m_roles)), m_depth(m_roles.size(), 0),
+      m_collider(body.skin) {
   const auto inner = [](const PanelInfo& a, const PanelInfo& b) { return a.layer < b.layer; };
-  m_innermost = mesh.panels.empty() ? 0 : std::min_element(mesh.panels.begin(), mesh.panels.end(), inner)->layer;
+  m_innermost = mesh.panels.empty()
+                    ? 0
+                    : std::min_element(mesh.panels.begin(), mesh.panels.end(), inner)->layer;
   for (std::size_t k = 0; k < m_depth.size(); ++k) m_depth[k] = mesh.panels[k].layer - m_innermost;
   for (const PanelInfo& p : mesh.panels)
-    for (int t = 0; t < p.n_triangles; ++t) m_panel_of_triangle.push_back(static_cast<int>(&p - mesh.panels.data()));
+    for (int t = 0; t < p.n_triangles; ++t)
+      m_panel_of_triangle.push_back(static_cast<int>(&p - mesh.panels.data()));
 }
 
 PlacementReport Placer::run() {
   make_groups();
-  if (std::any_of(m_roles.begin(), m_roles.end(), [](const PanelRole& r) { return is_leg(r); })) level_trunk(m_mesh, m_graph, m_roles, m_spots);
+  if (std::any_of(m_roles.begin(), m_roles.end(), [](const PanelRole& r) { return is_leg(r); }))
+    level_trunk(m_mesh, m_graph, m_roles, m_spots);
   anchor_trunk();
   anchor_neck();
   make_rings();
   place_all();
   PlacementReport report = push_free();
-  for (std::size_t k = 0; k < m_roles.size(); ++k) m_mesh.panels[k].part = m_roles[k].part.empty() ? region_name(m_roles[k].region) : m_roles[k].part;
+  for (std::size_t k = 0; k < m_roles.size(); ++k)
+    m_mesh.panels[k].part =
+        m_roles[k].part.empty() ? region_name(m_roles[k].region) : m_roles[k].part;
   measure_gaps(report);
   report.is_guess = m_roles.size() > 1 && find_untold() == static_cast<int>(m_roles.size());
   return report;
@@ -42,12 +51,16 @@ int Placer::find_untold() {
   int count = 0;
   for (std::size_t k = 0; k < m_roles.size(); ++k) {
     const Panel& panel = m_pattern.panels[k];
-    if (panel.hint.rigid || !panel.hint.part.empty() || m_roles[k].side != Side::FRONT || says_anything(words_of(panel.name))) continue;
+    if (panel.hint.rigid || !panel.hint.part.empty() || m_roles[k].side != Side::FRONT ||
+        says_anything(words_of(panel.name)))
+      continue;
     names += (count++ ? ", " : "") + panel.name;
   }
   if (count > 0)
-    m_mesh.findings.push_back("start: nothing tells where " + names + (count > 1 ? " go" : " goes") +
-                              ": taken for the front; words like front, back, sleeve, cuff, collar, skirt or trousers in a name tell, or a hint");
+    m_mesh.findings.push_back("start: nothing tells where " + names +
+                              (count > 1 ? " go" : " goes") +
+                              ": taken for the front; words like front, back, sleeve, cuff, "
+                              "collar, skirt or trousers in a name tell, or a hint");
   return count;
 }
 
@@ -55,9 +68,12 @@ void Placer::make_groups() {
   for (std::size_t k = 0; k < m_roles.size(); ++k) {
     std::size_t g = 0;
     const std::string leg = is_leg(m_roles[k]) ? m_roles[k].part : "";
-    while (g < m_groups.size() && (m_groups[g].region != m_roles[k].region || m_groups[g].leg != leg || (leg.empty() && m_groups[g].side != m_roles[k].side)))
+    while (g < m_groups.size() &&
+           (m_groups[g].region != m_roles[k].region || m_groups[g].leg != leg ||
+            (leg.empty() && m_groups[g].side != m_roles[k].side)))
       ++g;
-    if (g == m_groups.size()) m_groups.push_back({m_roles[k].region, m_roles[k].side, {}, 0, 0, leg});
+    if (g == m_groups.size())
+      m_groups.push_back({m_roles[k].region, m_roles[k].side, {}, 0, 0, leg});
     m_groups[g].panels.push_back(k);
     m_group_of.push_back(g);
   }
@@ -70,12 +86,13 @@ void Placer::place_all() {
 
 void Placer::make_rings() {
   m_in_ring.assign(m_roles.size(), 0);
-  m_rings = GoreRing::find(m_mesh, m_graph, m_roles, m_spots);
+  m_rings = GoreRow::find(m_mesh, m_graph, m_roles, m_spots);
   std::vector<Vec3> skin;
   for (std::size_t v = 0; v < m_space.parts().size() && !m_rings.empty(); ++v)
-    if (const body::Part part = m_space.parts()[v]; part == body::Part::TORSO || part == body::Part::LEG_L || part == body::Part::LEG_R)
+    if (const body::Part part = m_space.parts()[v];
+        part == body::Part::TORSO || part == body::Part::LEG_L || part == body::Part::LEG_R)
       skin.push_back(m_space.body().skin.positions[v]);
-  for (const GoreRing& ring : m_rings) {
+  for (const GoreRow& ring : m_rings) {
     m_ring_tubes.emplace_back(ring, skin);
     for (const Gore& g : ring.gores) m_in_ring[g.panel] = 1;
   }
@@ -85,7 +102,8 @@ std::map<std::pair<int, int>, int> Placer::crossings() const {
   const collision::TriangleTree tree(m_mesh.placed, m_mesh.triangles);
   std::map<std::pair<int, int>, int> count;
   for (const auto& pair : collision::self_intersections(m_mesh.placed, m_mesh.triangles, tree)) {
-    const int p = m_panel_of_triangle[static_cast<std::size_t>(pair[0])], q = m_panel_of_triangle[static_cast<std::size_t>(pair[1])];
+    const int p = m_panel_of_triangle[static_cast<std::size_t>(pair[0])],
+              q = m_panel_of_triangle[static_cast<std::size_t>(pair[1])];
     ++count[{std::min(p, q), std::max(p, q)}];
   }
   return count;
@@ -101,16 +119,19 @@ PlacementReport Placer::push_free() {
     bool raise_neck = false;
     for (const auto& [pair, n] : crossings()) {
       report.crossings += n;
-      const std::size_t p = static_cast<std::size_t>(pair.first), q = static_cast<std::size_t>(pair.second);
+      const std::size_t p = static_cast<std::size_t>(pair.first),
+                        q = static_cast<std::size_t>(pair.second);
       if (m_roles[p].region == Region::NECK || m_roles[q].region == Region::NECK) {
         if (m_roles[p].region == m_roles[q].region) {
           if (p != q) ++m_depth[area(p) > area(q) ? q : p], changed = true;
         } else raise_neck = true;
       } else if (is_arm(p) != is_arm(q)) {
-        // Out along the arm first; a hanging arm never leaves the wings of a wide skirt that way, so then they make room.
+        // Out along the arm first; a hanging arm never leaves the wings of a wide skirt that way,
+        // so then they make room.
         const bool left = m_roles[is_arm(p) ? p : q].region == Region::ARM_L;
         PanelGroup& trunk = m_groups[m_group_of[is_arm(p) ? q : p]];
-        if (m_arm_shift[left] > -0.2 || trunk.side == Side::RING || trunk.wing > 0.2) moved_arms.insert(left);
+        if (m_arm_shift[left] > -0.2 || trunk.side == Side::RING || trunk.wing > 0.2)
+          moved_arms.insert(left);
         else widen.insert(m_group_of[is_arm(p) ? q : p]);
       } else if (is_arm(p)) {
         if (m_group_of[p] != m_group_of[q]) grow.insert(m_group_of[p]), grow.insert(m_group_of[q]);
@@ -135,9 +156,11 @@ PlacementReport Placer::push_free() {
         const PanelInfo& info = m_mesh.panels[k];
         for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v)
           inside += m_collider.is_inside(m_mesh.placed[static_cast<std::size_t>(v)]);
-        triangles.insert(triangles.end(), m_mesh.triangles.begin() + info.first_triangle, m_mesh.triangles.begin() + info.first_triangle + info.n_triangles);
+        triangles.insert(triangles.end(), m_mesh.triangles.begin() + info.first_triangle,
+                         m_mesh.triangles.begin() + info.first_triangle + info.n_triangles);
       }
-      const int through = static_cast<int>(m_collider.faces_through(m_mesh.placed, triangles).size());
+      const int through =
+          static_cast<int>(m_collider.faces_through(m_mesh.placed, triangles).size());
       report.vertices_inside += inside, report.faces_through += through;
       if (inside + through > 0) grow.insert(g);
     }
@@ -148,10 +171,13 @@ PlacementReport Placer::push_free() {
   }
   if (report.crossings)
     for (const auto& [pair, n] : crossings())
-      m_mesh.findings.push_back("start: " + m_mesh.panels[static_cast<std::size_t>(pair.first)].name + " and " +
-                                m_mesh.panels[static_cast<std::size_t>(pair.second)].name + " cross in " + std::to_string(n) + " pairs of triangles");
+      m_mesh.findings.push_back(
+          "start: " + m_mesh.panels[static_cast<std::size_t>(pair.first)].name + " and " +
+          m_mesh.panels[static_cast<std::size_t>(pair.second)].name + " cross in " +
+          std::to_string(n) + " pairs of triangles");
   if (report.vertices_inside + report.faces_through)
-    m_mesh.findings.push_back("start: " + std::to_string(report.vertices_inside) + " vertices inside the body, " + std::to_string(report.faces_through) +
+    m_mesh.findings.push_back("start: " + std::to_string(report.vertices_inside) +
+                              " vertices inside the body, " + std::to_string(report.faces_through) +
                               " faces through its skin");
   return report;
 }
@@ -161,7 +187,9 @@ void Placer::measure_gaps(PlacementReport& report) const {
   int n = 0;
   for (const MeshSeam& s : m_mesh.seams)
     for (std::size_t k = 0; k < s.a.size(); ++k) {
-      const double gap = (m_mesh.placed[static_cast<std::size_t>(s.a[k])] - m_mesh.placed[static_cast<std::size_t>(s.b[k])]).norm();
+      const double gap = (m_mesh.placed[static_cast<std::size_t>(s.a[k])] -
+                          m_mesh.placed[static_cast<std::size_t>(s.b[k])])
+                             .norm();
       sum += gap, ++n;
       report.seam_gap_max = std::max(report.seam_gap_max, gap);
     }
@@ -181,13 +209,16 @@ PlacementReport place_panels(const Pattern& pattern, const body::Body& body, Pan
 }
 
 void lay_flat(const Pattern& pattern, PanelMesh& mesh) {
-  const bool stated = std::all_of(pattern.panels.begin(), pattern.panels.end(), [](const Panel& p) { return p.hint.rigid.has_value(); });
+  const bool stated = std::all_of(pattern.panels.begin(), pattern.panels.end(),
+                                  [](const Panel& p) { return p.hint.rigid.has_value(); });
   mesh.placement = stated ? Placement::STATED : Placement::FLAT;
   if (stated) return;
   double x = 0;
   for (const PanelInfo& info : mesh.panels) {
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
-    for (int v : info.outline) low = low.cwiseMin(mesh.pattern[static_cast<std::size_t>(v)]), high = high.cwiseMax(mesh.pattern[static_cast<std::size_t>(v)]);
+    for (int v : info.outline)
+      low = low.cwiseMin(mesh.pattern[static_cast<std::size_t>(v)]),
+      high = high.cwiseMax(mesh.pattern[static_cast<std::size_t>(v)]);
     for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
       const Vec2 p = mesh.pattern[static_cast<std::size_t>(v)] - low;
       mesh.placed[static_cast<std::size_t>(v)] = Vec3(x + p.x(), p.y(), 0);

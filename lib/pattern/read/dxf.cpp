@@ -1,6 +1,7 @@
-/// AAMA / ASTM D6673 DXF: one block per piece. Layers: 1 cut line, 14 sew line, 2 turn and 3 curve points, 4 and 80-83 notches,
-/// 6 mirror line, 7 grain, 8 internal lines, 11 cut-outs, 15 annotation. Pieces are drawn face up, so every outline is taken
-/// counter-clockwise whatever its drawing order.
+/// AAMA / ASTM D6673 DXF: one block per piece. Layers: 1 cut line, 14 sew line, 2 turn and 3 curve
+/// points, 4 and 80-83 notches, 6 mirror line, 7 grain, 8 internal lines, 11 cut-outs, 15
+/// annotation. Pieces are drawn face up, so every outline is taken counter-clockwise whatever its
+/// drawing order.
 #include <base/units.hpp>
 #include <pattern/mesh/folds.hpp>
 #include <pattern/read/dxf_blocks.hpp>
@@ -22,7 +23,9 @@ namespace {
 std::string value_of(const std::string& text, const std::string& key) {
   if (text.size() <= key.size()) return {};
   for (std::size_t k = 0; k < key.size(); ++k)
-    if (std::tolower(static_cast<unsigned char>(text[k])) != std::tolower(static_cast<unsigned char>(key[k]))) return {};
+    if (std::tolower(static_cast<unsigned char>(text[k])) !=
+        std::tolower(static_cast<unsigned char>(key[k])))
+      return {};
   std::size_t at = key.size();
   while (at < text.size() && text[at] == ' ') ++at;
   if (at == text.size() || text[at] != ':') return {};
@@ -41,13 +44,16 @@ double distance_to_path(const Path& path, const Vec2& p) {
   double best = 1e300;
   for (const Segment& s : path) {
     const Vec2 along = s.p[3] - s.p[0];
-    const double t = along.squaredNorm() > 0 ? std::clamp((p - s.p[0]).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0.0;
+    const double t = along.squaredNorm() > 0
+                         ? std::clamp((p - s.p[0]).dot(along) / along.squaredNorm(), 0.0, 1.0)
+                         : 0.0;
     best = std::min(best, (p - s.p[0] - t * along).norm());
   }
   return best;
 }
 
-/// The panel edge nearest to p by distance to its middle part, so that a text set at a corner by rounding finds its own run.
+/// The panel edge nearest to p by distance to its middle part, so that a text set at a corner by
+/// rounding finds its own run.
 int edge_near(const Panel& panel, const Vec2& p) {
   int best = -1;
   double least = 1e300;
@@ -62,20 +68,27 @@ int edge_near(const Panel& panel, const Vec2& p) {
 
 class PieceReader {
 public:
-  PieceReader(const DxfFile& dxf, const DxfChoice& choice, const std::string& file) : m_dxf(dxf), m_choice(choice), m_file(file) {}
+  PieceReader(const DxfFile& dxf, const DxfChoice& choice, const std::string& file)
+      : m_dxf(dxf), m_choice(choice), m_file(file) {}
 
   Pattern run() {
     m_pattern.source_format = "dxf";
     m_unit = unit();
     m_pattern.name = find_value(m_dxf.texts, "Style Name");
     if (m_choice.rules) {
-      m_size = m_choice.size.empty() ? m_choice.rules->sample : m_choice.rules->find_size(m_choice.size);
+      m_size =
+          m_choice.size.empty() ? m_choice.rules->sample : m_choice.rules->find_size(m_choice.size);
       std::string list;
-      for (const std::string& size : m_choice.rules->sizes) list += (list.empty() ? "" : ", ") + size;
-      if (m_size < 0) throw input_error(m_file, "", "there is no size '" + m_choice.size + "'", "the grade rule table has " + list);
+      for (const std::string& size : m_choice.rules->sizes)
+        list += (list.empty() ? "" : ", ") + size;
+      if (m_size < 0)
+        throw input_error(m_file, "", "there is no size '" + m_choice.size + "'",
+                          "the grade rule table has " + list);
     }
     for (const DxfBlock* block : chosen_blocks()) read_piece(*block);
-    if (m_pattern.panels.empty()) throw input_error(m_file, "", "no block has a closed outline on layer 14 or 1", "export the pieces as AAMA or ASTM DXF");
+    if (m_pattern.panels.empty())
+      throw input_error(m_file, "", "no block has a closed outline on layer 14 or 1",
+                        "export the pieces as AAMA or ASTM DXF");
     m_sewing.make_seams(m_pattern, m_file);
     return std::move(m_pattern);
   }
@@ -85,10 +98,13 @@ private:
     std::string word = find_value(m_dxf.texts, "Units");
     for (const DxfBlock& b : m_dxf.blocks)
       if (word.empty()) word = find_value(b.texts, "Units");
-    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     if (word.rfind("METRIC", 0) == 0 || word.rfind("MM", 0) == 0) return units::MM;
     if (word.rfind("CM", 0) == 0) return units::CM;
-    if (word.rfind("ENGLISH", 0) == 0 || word.rfind("INCH", 0) == 0 || word.rfind("IMPERIAL", 0) == 0) return units::INCH;
+    if (word.rfind("ENGLISH", 0) == 0 || word.rfind("INCH", 0) == 0 ||
+        word.rfind("IMPERIAL", 0) == 0)
+      return units::INCH;
     switch (m_dxf.insunits) {
     case 1: return units::INCH;
     case 4: return units::MM;
@@ -97,11 +113,13 @@ private:
     default: break;
     }
     const double guess = m_dxf.measurement == 0 ? units::INCH : units::MM;
-    m_pattern.findings.push_back(std::string("the file states no unit; ") + (guess == units::MM ? "millimetres" : "inches") + " are assumed");
+    m_pattern.findings.push_back(std::string("the file states no unit; ") +
+                                 (guess == units::MM ? "millimetres" : "inches") + " are assumed");
     return guess;
   }
 
-  /// What orders the pieces, whatever their order in the file: name, then size of the drawing, then its place.
+  /// What orders the pieces, whatever their order in the file: name, then size of the drawing, then
+  /// its place.
   std::vector<double> shape_of(const DxfBlock& block) const {
     double length = 0;
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
@@ -113,7 +131,8 @@ private:
     return {-length, high.x() - low.x(), high.y() - low.y(), low.x(), low.y()};
   }
 
-  /// One block per piece: of a graded nest the size asked for, else the sample size, else the middle one.
+  /// One block per piece: of a graded nest the size asked for, else the sample size, else the
+  /// middle one.
   std::vector<const DxfBlock*> chosen_blocks() {
     std::map<std::string, std::vector<const DxfBlock*>> by_piece;
     const std::string sample = find_value(m_dxf.texts, "Sample Size");
@@ -128,44 +147,58 @@ private:
     for (auto& [piece, blocks] : by_piece) {
       std::map<std::string, int> sizes;
       for (const DxfBlock* b : blocks) ++sizes[find_value(b->texts, "Size")];
-      if (blocks.size() == 1 || sizes.size() < blocks.size()) { // the same name and size twice: two pieces
-        std::stable_sort(blocks.begin(), blocks.end(), [&](const DxfBlock* a, const DxfBlock* b) { return shape_of(*a) < shape_of(*b); });
+      if (blocks.size() == 1 ||
+          sizes.size() < blocks.size()) { // the same name and size twice: two pieces
+        std::stable_sort(blocks.begin(), blocks.end(), [&](const DxfBlock* a, const DxfBlock* b) {
+          return shape_of(*a) < shape_of(*b);
+        });
         out.insert(out.end(), blocks.begin(), blocks.end());
         continue;
       }
       for (const auto& [size, n] : sizes)
         if (std::find(known.begin(), known.end(), size) == known.end()) known.push_back(size);
       const DxfBlock* pick = nullptr;
-      for (const std::string& wanted : {m_choice.size, m_choice.size.empty() ? sample : std::string()})
+      for (const std::string& wanted :
+           {m_choice.size, m_choice.size.empty() ? sample : std::string()})
         for (const DxfBlock* b : blocks)
           if (!pick && !wanted.empty() && find_value(b->texts, "Size") == wanted) pick = b;
       if (!pick && !m_choice.size.empty() && !m_choice.rules) {
         std::string list;
         for (const auto& [size, n] : sizes) list += (list.empty() ? "" : ", ") + size;
-        throw input_error(m_file, piece, "there is no size '" + m_choice.size + "'", "its sizes are " + list);
+        throw input_error(m_file, piece, "there is no size '" + m_choice.size + "'",
+                          "its sizes are " + list);
       }
       if (!pick) pick = blocks[blocks.size() / 2];
       out.push_back(pick);
-      m_pattern.findings.push_back(piece + ": " + std::to_string(blocks.size()) + " sizes; size " + find_value(pick->texts, "Size") + " is taken");
+      m_pattern.findings.push_back(piece + ": " + std::to_string(blocks.size()) + " sizes; size " +
+                                   find_value(pick->texts, "Size") + " is taken");
     }
     if (!m_choice.size.empty() && known.empty() && !m_choice.rules)
-      throw input_error(m_file, "", "size '" + m_choice.size + "' is asked for, but the file holds one size", "give its grade rule table too");
+      throw input_error(m_file, "",
+                        "size '" + m_choice.size + "' is asked for, but the file holds one size",
+                        "give its grade rule table too");
     return out;
   }
 
   /// Moves a ring to the size asked for by the rule numbers written at its points ("# 7").
   void grade(const DxfBlock& block, PointRing& ring, const std::string& panel) {
     if (!m_choice.rules || m_size == m_choice.rules->sample) return;
-    constexpr double AT_POINT = 1e-3, AT_CORNER = 0.07; // m: on the ring, or on the cut line beside a corner of the sew line
+    constexpr double AT_POINT = 1e-3,
+                     AT_CORNER =
+                         0.07; // m: on the ring, or on the cut line beside a corner of the sew line
     std::vector<int> rule(ring.size(), 0);
     std::vector<double> nearest(ring.size(), 1e300);
     int n_texts = 0;
     for (const DxfText& t : block.texts) {
       int number = 0;
-      if (t.text.empty() || t.text[0] != '#' || !(std::istringstream(t.text.substr(1)) >> number) || number <= 0) continue;
+      if (t.text.empty() || t.text[0] != '#' || !(std::istringstream(t.text.substr(1)) >> number) ||
+          number <= 0)
+        continue;
       ++n_texts;
       if (!m_choice.rules->moves.count(number))
-        throw input_error(m_file, panel, "uses grade rule " + std::to_string(number) + ", which the table lacks", "give the table that belongs to the file");
+        throw input_error(m_file, panel,
+                          "uses grade rule " + std::to_string(number) + ", which the table lacks",
+                          "give the table that belongs to the file");
       std::size_t best = 0;
       for (std::size_t k = 1; k < ring.size(); ++k)
         if ((ring[k] - t.p * m_unit).norm() < (ring[best] - t.p * m_unit).norm()) best = k;
@@ -176,9 +209,12 @@ private:
           if ((ring[k] - t.p * m_unit).norm() < (ring[best] - t.p * m_unit).norm()) best = k;
       }
       const double distance = (ring[best] - t.p * m_unit).norm();
-      if (distance < AT_CORNER && distance < nearest[best]) nearest[best] = distance, rule[best] = number;
+      if (distance < AT_CORNER && distance < nearest[best])
+        nearest[best] = distance, rule[best] = number;
     }
-    if (n_texts == 0) m_pattern.findings.push_back(panel + ": no grade rules at its points; it is taken in the sample size");
+    if (n_texts == 0)
+      m_pattern.findings.push_back(
+          panel + ": no grade rules at its points; it is taken in the sample size");
     grade_ring(ring, rule, *m_choice.rules, m_size);
   }
 
@@ -193,15 +229,20 @@ private:
     std::vector<int> layers;
     for (const DxfLine& line : block.lines) {
       if (!is_notch(line.layer) || line.points.size() < 2) continue;
-      const Vec2 a = line.points.front() * m_unit, b = line.points.back() * m_unit, p = distance_to_ring(cut, a) <= distance_to_ring(cut, b) ? a : b;
-      if (!slits.empty() && layers.back() == line.layer && (slits.back().back() - p).norm() < SIDE_BY_SIDE) slits.back().push_back(p);
+      const Vec2 a = line.points.front() * m_unit, b = line.points.back() * m_unit,
+                 p = distance_to_ring(cut, a) <= distance_to_ring(cut, b) ? a : b;
+      if (!slits.empty() && layers.back() == line.layer &&
+          (slits.back().back() - p).norm() < SIDE_BY_SIDE)
+        slits.back().push_back(p);
       else slits.push_back({p}), layers.push_back(line.layer);
     }
     for (std::size_t k = 0; k < slits.size(); ++k) {
       Vec2 sum = Vec2::Zero();
       for (const Vec2& p : slits[k]) sum += p;
       const Vec2 at = sum / static_cast<double>(slits[k].size());
-      if (std::none_of(marks.begin(), marks.end(), [&](const auto& m) { return (m.first - at).norm() < SIDE_BY_SIDE; })) marks.push_back({at, layers[k]});
+      if (std::none_of(marks.begin(), marks.end(),
+                       [&](const auto& m) { return (m.first - at).norm() < SIDE_BY_SIDE; }))
+        marks.push_back({at, layers[k]});
     }
     for (const auto& [p, layer] : marks) {
       const int e = edge_near(panel, p);
@@ -224,14 +265,20 @@ private:
       panel.name = base + "#" + std::to_string(k);
     }
     const double join = 1e-3;
-    std::vector<PointRing> outer = rings_of(block, 14, m_unit, join), cut = rings_of(block, 1, m_unit, join);
-    if (outer.empty()) { // Valentina writes the sew line on layer 8, where others keep internal lines
+    std::vector<PointRing> outer = rings_of(block, 14, m_unit, join),
+                           cut = rings_of(block, 1, m_unit, join);
+    if (outer.empty()) { // Valentina writes the sew line on layer 8, where others keep internal
+                         // lines
       const std::vector<PointRing> inner = rings_of(block, 8, m_unit, join);
       if (!inner.empty() && !cut.empty() && follows(inner[0], cut[0])) outer = {inner[0]};
-    } else if (!cut.empty() && !follows(outer[0], cut[0])) {                                                     // some programs write broken sew lines
-      const double percent = 100 * std::abs(ring_area(outer[0])) / std::max(std::abs(ring_area(cut[0])), 1e-12); // an outline may have no area
-      m_pattern.findings.push_back(panel.name + ": the sew line encloses " + std::to_string(std::lround(std::min(1e6, percent))) +
-                                   " % of the piece and does not follow its outline; it is left out");
+    } else if (!cut.empty() && !follows(outer[0], cut[0])) { // some programs write broken sew lines
+      const double percent =
+          100 * std::abs(ring_area(outer[0])) /
+          std::max(std::abs(ring_area(cut[0])), 1e-12); // an outline may have no area
+      m_pattern.findings.push_back(
+          panel.name + ": the sew line encloses " +
+          std::to_string(std::lround(std::min(1e6, percent))) +
+          " % of the piece and does not follow its outline; it is left out");
       outer.clear();
     }
     if (outer.empty() && !cut.empty()) {
@@ -239,7 +286,8 @@ private:
       m_pattern.findings.push_back(panel.name + ": no sew line; the cut line is taken as it");
     }
     if (outer.empty()) {
-      m_pattern.findings.push_back("block " + block.name + " has no closed outline and is left out");
+      m_pattern.findings.push_back("block " + block.name +
+                                   " has no closed outline and is left out");
       return;
     }
     PointRing ring = outer[0];
@@ -251,12 +299,14 @@ private:
     panel.loops.push_back(edges_of(ring, corners, "edge"));
     for (PointRing hole : rings_of(block, 11, m_unit, join)) {
       if (ring_area(hole) > 0) std::reverse(hole.begin(), hole.end());
-      panel.loops.push_back(edges_of(hole, corners_of(hole, turns), "hole" + std::to_string(panel.loops.size()) + "_"));
+      panel.loops.push_back(edges_of(hole, corners_of(hole, turns),
+                                     "hole" + std::to_string(panel.loops.size()) + "_"));
     }
     for (const DxfLine& line : block.lines)
       if (line.layer == 7 && line.points.size() >= 2) {
         Vec2 along = line.points.back() - line.points.front();
-        if (along.norm() > 0) panel.grain = (along.y() < -1e-9 * along.norm() ? Vec2(-along) : along).normalized();
+        if (along.norm() > 0)
+          panel.grain = (along.y() < -1e-9 * along.norm() ? Vec2(-along) : along).normalized();
       }
     read_notches(block, cut.empty() ? ring : cut[0], panel);
     if (!m_choice.rules || m_size == m_choice.rules->sample) read_marks(block, panel);
@@ -265,10 +315,13 @@ private:
     if (!material.empty()) panel.label = material;
     for (const DxfText& t : block.texts) { // "Quantity: 2", or in free text "Fabric, Cut 2"
       const std::size_t cut_at = t.text.find("Cut ");
-      const std::string n = !value_of(t.text, "Quantity").empty() ? value_of(t.text, "Quantity") : cut_at != std::string::npos ? t.text.substr(cut_at + 4) : "";
+      const std::string n = !value_of(t.text, "Quantity").empty() ? value_of(t.text, "Quantity")
+                            : cut_at != std::string::npos         ? t.text.substr(cut_at + 4)
+                                                                  : "";
       int times = 0;
       if (std::istringstream(n) >> times && times > 1) {
-        m_pattern.findings.push_back(panel.name + ": to be cut " + std::to_string(times) + " times; one is taken");
+        m_pattern.findings.push_back(panel.name + ": to be cut " + std::to_string(times) +
+                                     " times; one is taken");
         break;
       }
     }
@@ -295,10 +348,12 @@ private:
         const Vec2 a = line.points[k] * m_unit, b = line.points[k + 1] * m_unit;
         if ((a - b).norm() > 1e-6) mark.path.push_back(Segment::straight(a, b));
         double near = 1e300;
-        for (int e = 0; e < panel.n_edges(); ++e) near = std::min(near, distance_to_path(panel.edge(e).path, 0.5 * (a + b)));
+        for (int e = 0; e < panel.n_edges(); ++e)
+          near = std::min(near, distance_to_path(panel.edge(e).path, 0.5 * (a + b)));
         off = std::max(off, near);
       }
-      if (off > LINE_ON_EDGE && length(mark.path) > SHORTEST) panel.lines.push_back(std::move(mark));
+      if (off > LINE_ON_EDGE && length(mark.path) > SHORTEST)
+        panel.lines.push_back(std::move(mark));
     }
   }
 
@@ -306,33 +361,41 @@ private:
   int fold_edge(const Panel& panel, const DxfLine& line) {
     const Vec2 middle = 0.5 * (line.points.front() + line.points.back()) * m_unit;
     const int e = edge_near(panel, middle);
-    if (e < static_cast<int>(panel.loops[0].size()) && distance_to_path(panel.edge(e).path, middle) < 1e-3) return e;
-    m_pattern.findings.push_back(panel.name + ": its mirror line lies on no straight edge; the piece is taken as whole");
+    if (e < static_cast<int>(panel.loops[0].size()) &&
+        distance_to_path(panel.edge(e).path, middle) < 1e-3)
+      return e;
+    m_pattern.findings.push_back(
+        panel.name + ": its mirror line lies on no straight edge; the piece is taken as whole");
     return -1;
   }
 
-  /// Notches of the other half are their mirror images; runs sewn on the drawn half keep their edges.
+  /// Notches of the other half are their mirror images; runs sewn on the drawn half keep their
+  /// edges.
   void open_fold(Panel& panel, int fold) {
     std::vector<std::pair<std::string, Notch>> notches;
     for (const Notch& n : panel.notches) notches.push_back({panel.edge(n.edge).name, n});
     const int index = static_cast<int>(m_pattern.panels.size());
     std::vector<std::pair<DxfSewing::Text*, std::string>> sewn;
-    for (DxfSewing::Text* t : m_sewing.texts_of(index)) sewn.push_back({t, panel.edge(t->edge).name});
+    for (DxfSewing::Text* t : m_sewing.texts_of(index))
+      sewn.push_back({t, panel.edge(t->edge).name});
     if (!unfold(panel, fold, "", "_mirror")) {
-      m_pattern.findings.push_back(panel.name + ": its mirror line lies on no straight edge; the piece is taken as whole");
+      m_pattern.findings.push_back(
+          panel.name + ": its mirror line lies on no straight edge; the piece is taken as whole");
       return;
     }
     for (auto& [text, name] : sewn) text->edge = panel.find_edge(name);
     panel.notches.clear();
     for (const auto& [name, notch] : notches)
       for (const bool mirror : {false, true})
-        if (const int e = panel.find_edge(mirror ? name + "_mirror" : name); e >= 0) panel.notches.push_back({e, mirror ? 1 - notch.at : notch.at, notch.kind});
+        if (const int e = panel.find_edge(mirror ? name + "_mirror" : name); e >= 0)
+          panel.notches.push_back({e, mirror ? 1 - notch.at : notch.at, notch.kind});
     m_pattern.findings.push_back(panel.name + ": a half piece, unfolded about its mirror line");
   }
 
   void read_sewing(const DxfBlock& block, Panel& panel, int index) {
     for (const DxfText& t : block.texts)
-      if (t.layer == 15) m_sewing.read(t.text, panel, index, edge_near(panel, t.p * m_unit), m_file);
+      if (t.layer == 15)
+        m_sewing.read(t.text, panel, index, edge_near(panel, t.p * m_unit), m_file);
   }
 
   const DxfFile& m_dxf;
@@ -347,7 +410,8 @@ private:
 } // namespace
 
 Pattern read_dxf(const std::string& text, const std::string& file, const DxfChoice& choice) {
-  if (text.find('\0') != std::string::npos) throw input_error(file, "", "this is a binary file", "give a pattern JSON or a text DXF");
+  if (text.find('\0') != std::string::npos)
+    throw input_error(file, "", "this is a binary file", "give a pattern JSON or a text DXF");
   return PieceReader(parse_dxf(text, file), choice, file).run();
 }
 

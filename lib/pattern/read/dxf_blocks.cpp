@@ -10,14 +10,19 @@ namespace {
 
 std::string_view trimmed(std::string_view s) {
   while (!s.empty() && (s.front() == ' ' || s.front() == '\t')) s.remove_prefix(1);
-  while (!s.empty() && (s.back() == ' ' || s.back() == '\t' || s.back() == '\r')) s.remove_suffix(1);
+  while (!s.empty() && (s.back() == ' ' || s.back() == '\t' || s.back() == '\r'))
+    s.remove_suffix(1);
   return s;
 }
 
 bool is_utf8(std::string_view s) {
   for (std::size_t k = 0; k < s.size();) {
     const unsigned char c = static_cast<unsigned char>(s[k]);
-    const std::size_t n = c < 0x80 ? 1 : (c >> 5) == 6 ? 2 : (c >> 4) == 14 ? 3 : (c >> 3) == 30 ? 4 : 0;
+    const std::size_t n = c < 0x80         ? 1
+                          : (c >> 5) == 6  ? 2
+                          : (c >> 4) == 14 ? 3
+                          : (c >> 3) == 30 ? 4
+                                           : 0;
     if (n == 0 || k + n > s.size()) return false;
     for (std::size_t i = 1; i < n; ++i)
       if ((static_cast<unsigned char>(s[k + i]) >> 6) != 2) return false;
@@ -49,7 +54,8 @@ public:
     } while (trimmed(code_line).empty());
     const std::string_view digits = trimmed(code_line);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), code);
-    if (error != std::errc() || end != digits.data() + digits.size()) fail("'" + utf8(digits.substr(0, 40)) + "' is no group code");
+    if (error != std::errc() || end != digits.data() + digits.size())
+      fail("'" + utf8(digits.substr(0, 40)) + "' is no group code");
     std::string_view value_line;
     if (!line(value_line)) fail("the file ends within a group");
     value = trimmed(value_line);
@@ -67,10 +73,13 @@ public:
   /// For flags and counts, which DXF keeps in 16 bits; some programs write them as 70.0.
   int whole() const {
     const double x = number();
-    if (!(std::abs(x) <= 1e6)) fail(std::string("'").append(utf8(value.substr(0, 40))).append("' is no flag or count"));
+    if (!(std::abs(x) <= 1e6))
+      fail(std::string("'").append(utf8(value.substr(0, 40))).append("' is no flag or count"));
     return static_cast<int>(x);
   }
-  [[noreturn]] void fail(const std::string& fact) const { throw input_error(m_file, "line " + std::to_string(m_line), fact, "give a text DXF"); }
+  [[noreturn]] void fail(const std::string& fact) const {
+    throw input_error(m_file, "line " + std::to_string(m_line), fact, "give a text DXF");
+  }
 
   int code = 0;
   std::string_view value;
@@ -114,9 +123,13 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
     for (const auto& list : {entity.x, entity.y, {entity.x2, entity.y2}})
       for (double x : list)
         if (block && !(std::abs(x) <= FARTHEST)) tags.fail("a coordinate is out of all bounds");
-    const auto point = [&](std::size_t k) { return Vec2(entity.x[k], k < entity.y.size() ? entity.y[k] : 0.0); };
-    if (entity.kind == "VERTEX" && in_polyline && !entity.x.empty()) polyline.points.push_back(point(0));
-    else if (entity.kind == "POLYLINE") polyline = {entity.layer, (entity.flags & 1) != 0, {}}, in_polyline = true;
+    const auto point = [&](std::size_t k) {
+      return Vec2(entity.x[k], k < entity.y.size() ? entity.y[k] : 0.0);
+    };
+    if (entity.kind == "VERTEX" && in_polyline && !entity.x.empty())
+      polyline.points.push_back(point(0));
+    else if (entity.kind == "POLYLINE")
+      polyline = {entity.layer, (entity.flags & 1) != 0, {}}, in_polyline = true;
     else if (entity.kind == "SEQEND" && in_polyline) {
       if (block) block->lines.push_back(polyline);
       in_polyline = false;
@@ -124,10 +137,13 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
       DxfLine line{entity.layer, (entity.flags & 1) != 0, {}};
       for (std::size_t k = 0; k < entity.x.size(); ++k) line.points.push_back(point(k));
       block->lines.push_back(line);
-    } else if (entity.kind == "LINE" && block && !entity.x.empty()) block->lines.push_back({entity.layer, false, {point(0), Vec2(entity.x2, entity.y2)}});
-    else if (entity.kind == "POINT" && block && !entity.x.empty()) block->points.push_back({entity.layer, point(0)});
+    } else if (entity.kind == "LINE" && block && !entity.x.empty())
+      block->lines.push_back({entity.layer, false, {point(0), Vec2(entity.x2, entity.y2)}});
+    else if (entity.kind == "POINT" && block && !entity.x.empty())
+      block->points.push_back({entity.layer, point(0)});
     else if ((entity.kind == "TEXT" || entity.kind == "MTEXT") && !entity.text.empty())
-      (block ? block->texts : out.texts).push_back({entity.layer, entity.x.empty() ? Vec2(0, 0) : point(0), entity.text});
+      (block ? block->texts : out.texts)
+          .push_back({entity.layer, entity.x.empty() ? Vec2(0, 0) : point(0), entity.text});
   };
 
   bool any = false;
@@ -173,7 +189,9 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
     }
   }
   finish();
-  if (!any || out.blocks.empty()) throw input_error(file, "", "there are no blocks, so no pieces", "give an AAMA or ASTM DXF, one block per piece");
+  if (!any || out.blocks.empty())
+    throw input_error(file, "", "there are no blocks, so no pieces",
+                      "give an AAMA or ASTM DXF, one block per piece");
   return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// The raw content of a garment DXF (R12 and later, text): per block its polylines, points and texts by layer. No meaning yet.
+/// The raw content of a garment DXF (R12 and later, text): per block its polylines, points and
+/// texts by layer. No meaning yet.
 #include <geometry/types.hpp>
 
 #include <string>

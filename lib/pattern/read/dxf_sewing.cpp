@@ -8,7 +8,8 @@ namespace sloper::pattern {
 
 constexpr double MOST_UNEVEN = 1.08; // sides that differ by more are gathered
 
-void DxfSewing::read(const std::string& text, Panel& panel, int index, int edge, const std::string& file) {
+void DxfSewing::read(const std::string& text, Panel& panel, int index, int edge,
+                     const std::string& file) {
   std::istringstream words(text);
   std::string what, seam, side, direction, run;
   int order = 0;
@@ -17,7 +18,8 @@ void DxfSewing::read(const std::string& text, Panel& panel, int index, int edge,
   if (what != "SEW" || !(words >> seam >> side >> order >> direction >> run)) return;
   panel.edge(edge).name = run;
   if ((side != "a" && side != "b") || (direction != "+" && direction != "-"))
-    throw input_error(file, panel.name, "'" + text + "' is no sewing text", "write SEW <seam> <a|b> <order> <+|-> <run>");
+    throw input_error(file, panel.name, "'" + text + "' is no sewing text",
+                      "write SEW <seam> <a|b> <order> <+|-> <run>");
   if (std::find(m_order.begin(), m_order.end(), seam) == m_order.end()) m_order.push_back(seam);
   Said& said = m_seams[seam];
   said.sides[side == "b"].push_back({index, edge, order, direction == "+"});
@@ -43,12 +45,19 @@ void DxfSewing::make_seams(Pattern& pattern, const std::string& file) const {
     seam.name = name;
     for (std::size_t s = 0; s < 2; ++s) {
       std::vector<Text> side = said.sides[s];
-      std::stable_sort(side.begin(), side.end(), [](const Text& a, const Text& b) { return a.order < b.order; });
-      for (const Text& t : side) (s == 0 ? seam.a : seam.b).push_back({t.panel, t.edge, t.with_outline ? 0.0 : 1.0, t.with_outline ? 1.0 : 0.0});
+      std::stable_sort(side.begin(), side.end(),
+                       [](const Text& a, const Text& b) { return a.order < b.order; });
+      for (const Text& t : side)
+        (s == 0 ? seam.a : seam.b)
+            .push_back({t.panel, t.edge, t.with_outline ? 0.0 : 1.0, t.with_outline ? 1.0 : 0.0});
     }
     if (seam.a.empty() || seam.b.empty())
-      throw input_error(file, "seam " + name, std::string("side ") + (seam.a.empty() ? "a" : "b") + " has no run", "add its SEW text");
-    if (seam.a.size() == 1 && seam.b.size() == 1 && seam.a[0].panel == seam.b[0].panel && name.find("dart") != std::string::npos) seam.kind = "dart";
+      throw input_error(file, "seam " + name,
+                        std::string("side ") + (seam.a.empty() ? "a" : "b") + " has no run",
+                        "add its SEW text");
+    if (seam.a.size() == 1 && seam.b.size() == 1 && seam.a[0].panel == seam.b[0].panel &&
+        name.find("dart") != std::string::npos)
+      seam.kind = "dart";
     const double ratio = side_length(pattern, seam.a) / side_length(pattern, seam.b);
     if (ratio > MOST_UNEVEN || ratio < 1 / MOST_UNEVEN) seam.kind = "gather";
     if (name.find("clos") != std::string::npos) seam.kind = "closure";

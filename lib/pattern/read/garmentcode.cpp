@@ -1,6 +1,7 @@
-/// GarmentCode specifications (Korosteleva and Sorkine-Hornung 2023). A panel's normal, by the sense of its loop, points away from
-/// the body, so a panel drawn clockwise is one whose inside we look at: it is turned over, and every loop ends up
-/// counter-clockwise seen from outside. Ordinary stitches then join edges that run in opposite directions. GarmentCode sees to that sense itself
+/// GarmentCode specifications (Korosteleva and Sorkine-Hornung 2023). A panel's normal, by the
+/// sense of its loop, points away from the body, so a panel drawn clockwise is one whose inside we
+/// look at: it is turned over, and every loop ends up counter-clockwise seen from outside. Ordinary
+/// stitches then join edges that run in opposite directions. GarmentCode sees to that sense itself
 /// (Panel.autonorm); specifications written or changed by hand may not.
 #include <base/units.hpp>
 #include <io/json.hpp>
@@ -12,10 +13,14 @@ namespace sloper::pattern {
 namespace {
 
 Mat4 placement_of(const io::Node& panel, double unit) {
-  const Vec3 t = panel.at("translation").vec3() * unit, r = panel.at("rotation").vec3() * (units::PI / 180);
-  // Intrinsic XYZ (scipy's upper-case "XYZ"): turn about x, then about the turned y, then about the turned z.
+  const Vec3 t = panel.at("translation").vec3() * unit,
+             r = panel.at("rotation").vec3() * (units::PI / 180);
+  // Intrinsic XYZ (scipy's upper-case "XYZ"): turn about x, then about the turned y, then about the
+  // turned z.
   const Mat3 rotation =
-      (Eigen::AngleAxisd(r.x(), Vec3::UnitX()) * Eigen::AngleAxisd(r.y(), Vec3::UnitY()) * Eigen::AngleAxisd(r.z(), Vec3::UnitZ())).toRotationMatrix();
+      (Eigen::AngleAxisd(r.x(), Vec3::UnitX()) * Eigen::AngleAxisd(r.y(), Vec3::UnitY()) *
+       Eigen::AngleAxisd(r.z(), Vec3::UnitZ()))
+          .toRotationMatrix();
   Mat4 m = Mat4::Identity();
   m.topLeftCorner<3, 3>() = rotation;
   m.topRightCorner<3, 1>() = t;
@@ -36,15 +41,20 @@ struct EdgeReader {
   Path path(const io::Node& edge, const Vec2& a, const Vec2& b) const {
     if (!edge.has("curvature") || edge.at("curvature").is_null()) return {Segment::straight(a, b)};
     const io::Node curvature = edge.at("curvature");
-    if (curvature.is_array()) return {Segment::quadratic(a, control(curvature, a, b), b)}; // specifications before 2023
+    if (curvature.is_array())
+      return {Segment::quadratic(a, control(curvature, a, b), b)}; // specifications before 2023
     const std::string type = curvature.at("type").string();
     const io::Node params = curvature.at("params");
     if (type == "quadratic") return {Segment::quadratic(a, control(params.at(0), a, b), b)};
-    if (type == "cubic") return {Segment::cubic(a, control(params.at(0), a, b), control(params.at(1), a, b), b)};
+    if (type == "cubic")
+      return {Segment::cubic(a, control(params.at(0), a, b), control(params.at(1), a, b), b)};
     if (type == "circle") {
-      const auto flag = [&](std::size_t k) { return params.at(k).is_number() ? params.at(k).number() != 0 : params.at(k).boolean(); };
+      const auto flag = [&](std::size_t k) {
+        return params.at(k).is_number() ? params.at(k).number() != 0 : params.at(k).boolean();
+      };
       const double radius = params.at(0).number() * unit;
-      if (!(radius > 0)) params.fail("the radius is " + std::to_string(radius) + " m", "give a positive radius");
+      if (!(radius > 0))
+        params.fail("the radius is " + std::to_string(radius) + " m", "give a positive radius");
       return circle_arc(a, b, radius, flag(1), flag(2));
     }
     curvature.fail("unknown curve type '" + type + "'", "known are quadratic, cubic and circle");
@@ -53,8 +63,8 @@ struct EdgeReader {
 
 constexpr double FACES_BODY = 0.3; // cosine
 
-/// Whether the panel's outside, by the sense of its loop, is placed towards the axis of the body, and towards the origin too: of a panel that lies on
-/// a shoulder one of these says nothing.
+/// Whether the panel's outside, by the sense of its loop, is placed towards the axis of the body,
+/// and towards the origin too: of a panel that lies on a shoulder one of these says nothing.
 bool faces_body(const Panel& panel) {
   std::vector<Path> outline;
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
@@ -63,7 +73,8 @@ bool faces_body(const Panel& panel) {
     for (const Segment& s : e.path) low = low.cwiseMin(s.p[0]), high = high.cwiseMax(s.p[0]);
   }
   const Vec2 middle = 0.5 * (low + high);
-  const Vec3 center = (*panel.hint.rigid * Eigen::Vector4d(middle.x(), middle.y(), 0, 1)).head<3>(), away(center.x(), 0, center.z());
+  const Vec3 center = (*panel.hint.rigid * Eigen::Vector4d(middle.x(), middle.y(), 0, 1)).head<3>(),
+             away(center.x(), 0, center.z());
   const Vec3 outwards = (signed_area(outline) < 0 ? -1 : 1) * panel.hint.rigid->col(2).head<3>();
   return outwards.dot(away) < -FACES_BODY * away.norm() && outwards.dot(center) < 0;
 }
@@ -85,7 +96,8 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
   if (root.has("properties")) {
     const io::Node properties = root.at("properties");
     const double per_meter = properties.number("units_in_meter", 100);
-    if (!(per_meter > 0)) properties.fail("units_in_meter is not positive", "it is 100 for centimetres");
+    if (!(per_meter > 0))
+      properties.fail("units_in_meter is not positive", "it is 100 for centimetres");
     reader.unit = 1 / per_meter;
     reader.relative = properties.string("curvature_coords", "relative") == "relative";
   }
@@ -97,7 +109,8 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
     panel.name = name;
     panel.label = node.string("label", "");
     std::vector<Vec2> points;
-    for (std::size_t k = 0; k < vertices.size(); ++k) points.push_back(vertices.at(k).vec2() * reader.unit);
+    for (std::size_t k = 0; k < vertices.size(); ++k)
+      points.push_back(vertices.at(k).vec2() * reader.unit);
     std::vector<PanelEdge> loop;
     if (edges.size() < 2) edges.fail("the outline of panel " + name + " has fewer than two edges");
     int last = -1, first = -1;
@@ -105,28 +118,37 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
       const io::Node edge = edges.at(k), ends = edge.at("endpoints");
       const int a = ends.at(0).integer(), b = ends.at(1).integer();
       for (int v : {a, b})
-        if (v < 0 || v >= static_cast<int>(points.size())) ends.fail("panel " + name + " has no vertex " + std::to_string(v));
+        if (v < 0 || v >= static_cast<int>(points.size()))
+          ends.fail("panel " + name + " has no vertex " + std::to_string(v));
       if (k == 0) first = a;
       else if (a != last) {
-        const double gap = (points[static_cast<std::size_t>(a)] - points[static_cast<std::size_t>(last)]).norm();
-        edge.fail("the outline of panel " + name + " is open: edge " + std::to_string(k) + " starts " + centimetres(gap) + " from where edge " +
-                      std::to_string(k - 1) + " ends",
+        const double gap =
+            (points[static_cast<std::size_t>(a)] - points[static_cast<std::size_t>(last)]).norm();
+        edge.fail("the outline of panel " + name + " is open: edge " + std::to_string(k) +
+                      " starts " + centimetres(gap) + " from where edge " + std::to_string(k - 1) +
+                      " ends",
                   "list the edges in order along the outline");
       }
       last = b;
       loop.push_back({edge.string("label", "") + (edge.has("label") ? "." : "") + std::to_string(k),
-                      reader.path(edge, points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)])});
+                      reader.path(edge, points[static_cast<std::size_t>(a)],
+                                  points[static_cast<std::size_t>(b)])});
     }
     if (last != first) {
-      const double gap = (points[static_cast<std::size_t>(first)] - points[static_cast<std::size_t>(last)]).norm();
-      edges.fail("the outline of panel " + name + " is open: its last edge ends " + centimetres(gap) + " from where edge 0 starts", "close the loop");
+      const double gap =
+          (points[static_cast<std::size_t>(first)] - points[static_cast<std::size_t>(last)]).norm();
+      edges.fail("the outline of panel " + name + " is open: its last edge ends " +
+                     centimetres(gap) + " from where edge 0 starts",
+                 "close the loop");
     }
     panel.loops.push_back(std::move(loop));
-    if (node.has("translation") && node.has("rotation")) panel.hint.rigid = placement_of(node, reader.unit);
+    if (node.has("translation") && node.has("rotation"))
+      panel.hint.rigid = placement_of(node, reader.unit);
     against.push_back(panel.hint.rigid && faces_body(panel));
     if (against.back()) {
       reverse_sense(panel.loops[0]);
-      pattern.findings.push_back(name + ": placed with its outside towards the body, so its outline is taken the other way round");
+      pattern.findings.push_back(name + ": placed with its outside towards the body, so its "
+                                        "outline is taken the other way round");
     }
     pattern.panels.push_back(std::move(panel));
   }
@@ -144,20 +166,27 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
         }
         const std::string panel_name = item.at("panel").string();
         const int panel = pattern.find_panel(panel_name), edge = item.at("edge").integer();
-        if (panel < 0) item.fail("stitch " + std::to_string(k) + " names panel '" + panel_name + "', which does not exist");
+        if (panel < 0)
+          item.fail("stitch " + std::to_string(k) + " names panel '" + panel_name +
+                    "', which does not exist");
         if (edge < 0 || edge >= pattern.panels[static_cast<std::size_t>(panel)].n_edges())
-          item.fail("stitch " + std::to_string(k) + " names edge " + std::to_string(edge) + " of panel " + panel_name + ", which has " +
+          item.fail("stitch " + std::to_string(k) + " names edge " + std::to_string(edge) +
+                    " of panel " + panel_name + ", which has " +
                     std::to_string(pattern.panels[static_cast<std::size_t>(panel)].n_edges()));
-        if (item.has("right_wrong")) same_direction = same_direction || item.boolean("right_wrong", false);
+        if (item.has("right_wrong"))
+          same_direction = same_direction || item.boolean("right_wrong", false);
         auto& runs = seam.a.empty() ? seam.a : seam.b;
-        if (!seam.b.empty()) item.fail("stitch " + std::to_string(k) + " joins more than two edges");
+        if (!seam.b.empty())
+          item.fail("stitch " + std::to_string(k) + " joins more than two edges");
         const auto p = static_cast<std::size_t>(panel);
         runs.push_back({panel, against[p] ? pattern.panels[p].n_edges() - 1 - edge : edge, 0, 1});
       }
-      if (seam.b.empty()) stitch.fail("stitch " + std::to_string(k) + " joins fewer than two edges");
+      if (seam.b.empty())
+        stitch.fail("stitch " + std::to_string(k) + " joins fewer than two edges");
       const auto& pa = pattern.panels[static_cast<std::size_t>(seam.a[0].panel)];
       const auto& pb = pattern.panels[static_cast<std::size_t>(seam.b[0].panel)];
-      seam.name = pa.name + "." + pa.edge(seam.a[0].edge).name + "-" + pb.name + "." + pb.edge(seam.b[0].edge).name;
+      seam.name = pa.name + "." + pa.edge(seam.a[0].edge).name + "-" + pb.name + "." +
+                  pb.edge(seam.b[0].edge).name;
       if (!same_direction) std::swap(seam.b[0].from, seam.b[0].to);
       if (seam.a[0].panel == seam.b[0].panel) seam.kind = "dart";
       pattern.seams.push_back(std::move(seam));

@@ -13,7 +13,8 @@ namespace {
 constexpr double LARGEST_MOVE = 1e6; // file units
 
 std::string upper_case(std::string s) {
-  std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(s.begin(), s.end(), s.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return s;
 }
 
@@ -41,18 +42,22 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
   std::string sample;
   int number_of_rule = 0, line_number = 0, first_line = 0;
   std::vector<double> numbers;
-  const auto fail = [&](int line, const std::string& fact, const std::string& next) { throw input_error(file, "line " + std::to_string(line), fact, next); };
+  const auto fail = [&](int line, const std::string& fact, const std::string& next) {
+    throw input_error(file, "line " + std::to_string(line), fact, next);
+  };
   const auto finish = [&] {
     if (number_of_rule == 0) return;
     if (numbers.size() != 2 * rules.sizes.size())
       fail(first_line,
-           "rule " + std::to_string(number_of_rule) + " has " + std::to_string(numbers.size()) + " numbers for " + std::to_string(rules.sizes.size()) +
-               " sizes",
+           "rule " + std::to_string(number_of_rule) + " has " + std::to_string(numbers.size()) +
+               " numbers for " + std::to_string(rules.sizes.size()) + " sizes",
            "give one x,y pair for each size of SIZE LIST");
     std::vector<Vec2> moves;
-    for (std::size_t k = 0; k + 1 < numbers.size(); k += 2) moves.push_back(Vec2(numbers[k], numbers[k + 1]) * unit);
+    for (std::size_t k = 0; k + 1 < numbers.size(); k += 2)
+      moves.push_back(Vec2(numbers[k], numbers[k + 1]) * unit);
     if (!rules.moves.emplace(number_of_rule, moves).second)
-      fail(first_line, "rule " + std::to_string(number_of_rule) + " is given twice", "give each rule once");
+      fail(first_line, "rule " + std::to_string(number_of_rule) + " is given twice",
+           "give each rule once");
     number_of_rule = 0, numbers.clear();
   };
   std::istringstream lines(text);
@@ -64,14 +69,20 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
     const std::vector<std::string> words = split_words(value);
     if (key == "UNITS" && !words.empty()) {
       const std::string word = upper_case(words[0]);
-      unit = word.rfind("ENGL", 0) == 0 || word.rfind("INCH", 0) == 0 || word.rfind("IMPERIAL", 0) == 0 ? units::INCH : word == "CM" ? units::CM : units::MM;
+      unit =
+          word.rfind("ENGL", 0) == 0 || word.rfind("INCH", 0) == 0 || word.rfind("IMPERIAL", 0) == 0
+              ? units::INCH
+          : word == "CM" ? units::CM
+                         : units::MM;
     } else if (key == "SIZE LIST") rules.sizes = words;
     else if (key == "SAMPLE SIZE" && !words.empty()) sample = words[0];
     else if (key == "GRADE RULE TABLE" && !words.empty()) rules.table = words[0];
     else if (key == "RULE") {
       finish();
-      if (words.size() < 2 || upper_case(words[0]) != "DELTA") fail(line_number, "'" + value + "' is no rule", "write RULE: DELTA <number>");
-      const auto [end, error] = std::from_chars(words[1].data(), words[1].data() + words[1].size(), number_of_rule);
+      if (words.size() < 2 || upper_case(words[0]) != "DELTA")
+        fail(line_number, "'" + value + "' is no rule", "write RULE: DELTA <number>");
+      const auto [end, error] =
+          std::from_chars(words[1].data(), words[1].data() + words[1].size(), number_of_rule);
       if (error != std::errc() || end != words[1].data() + words[1].size() || number_of_rule <= 0)
         fail(line_number, "'" + words[1] + "' is no rule number", "give a positive whole number");
       first_line = line_number;
@@ -81,30 +92,38 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
         double x = 0;
         const char* begin = word.data() + (word[0] == '+');
         const auto [end, error] = std::from_chars(begin, word.data() + word.size(), x);
-        if (error != std::errc() || end != word.data() + word.size() || !(std::abs(x) <= LARGEST_MOVE))
+        if (error != std::errc() || end != word.data() + word.size() ||
+            !(std::abs(x) <= LARGEST_MOVE))
           fail(line_number, "'" + word + "' is no number, or out of all bounds", "give x,y pairs");
         numbers.push_back(x);
       }
     }
   }
   finish();
-  if (rules.sizes.empty()) throw input_error(file, "", "there is no SIZE LIST", "give an AAMA / ASTM grade rule table");
+  if (rules.sizes.empty())
+    throw input_error(file, "", "there is no SIZE LIST", "give an AAMA / ASTM grade rule table");
   rules.sample = rules.find_size(sample);
-  if (rules.sample < 0) throw input_error(file, "SAMPLE SIZE", "'" + sample + "' is not in the size list", "name one of the sizes");
+  if (rules.sample < 0)
+    throw input_error(file, "SAMPLE SIZE", "'" + sample + "' is not in the size list",
+                      "name one of the sizes");
   for (const auto& [number, moves] : rules.moves)
     if (const double off = moves[static_cast<std::size_t>(rules.sample)].norm(); off > 1e-6)
-      throw input_error(file, "rule " + std::to_string(number), "moves the sample size by " + std::to_string(off * 100) + " cm",
+      throw input_error(file, "rule " + std::to_string(number),
+                        "moves the sample size by " + std::to_string(off * 100) + " cm",
                         "count the moves from the sample size, which itself stays");
   return rules;
 }
 
-void grade_ring(std::vector<Vec2>& ring, const std::vector<int>& rule, const GradeRules& rules, int size) {
+void grade_ring(std::vector<Vec2>& ring, const std::vector<int>& rule, const GradeRules& rules,
+                int size) {
   const std::size_t n = ring.size();
   std::vector<std::size_t> graded;
   for (std::size_t k = 0; k < n; ++k)
     if (rule[k] > 0 && rules.moves.count(rule[k])) graded.push_back(k);
   if (graded.empty()) return;
-  const auto move = [&](std::size_t k) { return rules.moves.at(rule[k])[static_cast<std::size_t>(size)]; };
+  const auto move = [&](std::size_t k) {
+    return rules.moves.at(rule[k])[static_cast<std::size_t>(size)];
+  };
   std::vector<Vec2> out = ring;
   for (std::size_t g = 0; g < graded.size(); ++g) {
     const std::size_t from = graded[g], to = g + 1 < graded.size() ? graded[g + 1] : graded[0] + n;

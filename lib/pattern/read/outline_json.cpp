@@ -21,10 +21,18 @@ Path read_path(const io::Node& node, double unit, const Vec2* start) {
     const io::Node item = node.at(k);
     if (!item.is_array() || item.size() == 0) item.fail("a path item is a list like [\"L\", x, y]");
     const std::string what = item.at(0).string();
-    const std::size_t count = what == "M" || what == "L" ? 3 : what == "Q" ? 5 : what == "C" ? 7 : what == "A" ? 6 : 0;
+    const std::size_t count = what == "M" || what == "L" ? 3
+                              : what == "Q"              ? 5
+                              : what == "C"              ? 7
+                              : what == "A"              ? 6
+                                                         : 0;
     if (count == 0) item.fail("unknown path letter '" + what + "'", "known are M, L, Q, C and A");
-    if (item.size() != count) item.fail("'" + what + "' takes " + std::to_string(count - 1) + " numbers, not " + std::to_string(item.size() - 1));
-    const auto point = [&](std::size_t i) { return Vec2(item.at(i).number() * unit, item.at(i + 1).number() * unit); };
+    if (item.size() != count)
+      item.fail("'" + what + "' takes " + std::to_string(count - 1) + " numbers, not " +
+                std::to_string(item.size() - 1));
+    const auto point = [&](std::size_t i) {
+      return Vec2(item.at(i).number() * unit, item.at(i + 1).number() * unit);
+    };
     const Vec2 to = point(count - 2);
     if (what == "M") {
       if (k != 0) item.fail("M stands first or not at all");
@@ -38,7 +46,8 @@ Path read_path(const io::Node& node, double unit, const Vec2* start) {
     if (what == "A") {
       const double radius = item.at(1).number() * unit;
       if (!(radius > 0)) item.fail("the radius is not positive");
-      const Path arc = circle_arc(*at, to, radius, item.at(2).number() != 0, item.at(3).number() != 0);
+      const Path arc =
+          circle_arc(*at, to, radius, item.at(2).number() != 0, item.at(3).number() != 0);
       path.insert(path.end(), arc.begin(), arc.end());
     }
     at = to;
@@ -47,9 +56,11 @@ Path read_path(const io::Node& node, double unit, const Vec2* start) {
   return path;
 }
 
-std::vector<PanelEdge> read_loop(const io::Node& node, const char* key, double unit, const std::string& panel) {
+std::vector<PanelEdge> read_loop(const io::Node& node, const char* key, double unit,
+                                 const std::string& panel) {
   std::vector<PanelEdge> loop;
-  if (!node.is_array() || node.size() < 2) node.fail("the outline of panel " + panel + " has fewer than two edges");
+  if (!node.is_array() || node.size() < 2)
+    node.fail("the outline of panel " + panel + " has fewer than two edges");
   for (std::size_t k = 0; k < node.size(); ++k) {
     const io::Node item = node.at(k);
     const std::string name = item.at(key).string();
@@ -63,7 +74,8 @@ std::vector<PanelEdge> read_loop(const io::Node& node, const char* key, double u
     const PanelEdge& next = loop[(k + 1) % loop.size()];
     const double gap = (next.path.front().p[0] - end).norm();
     if (!(gap <= 1e-4))
-      node.fail("the outline of panel " + panel + " is open: edge '" + loop[k].name + "' ends " + centimetres(gap) + " from where '" + next.name + "' starts",
+      node.fail("the outline of panel " + panel + " is open: edge '" + loop[k].name + "' ends " +
+                    centimetres(gap) + " from where '" + next.name + "' starts",
                 "close the gap");
     end = next.path.front().p[0];
   }

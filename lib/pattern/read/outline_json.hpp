@@ -5,13 +5,15 @@
 
 namespace sloper::pattern {
 
-/// [["M",x,y], ["L",x,y], ["Q",cx,cy,x,y], ["C",c1x,c1y,c2x,c2y,x,y], ["A",radius,large,ccw,x,y]]; "M" may be left out where the path
-/// starts at `start`.
+/// [["M",x,y], ["L",x,y], ["Q",cx,cy,x,y], ["C",c1x,c1y,c2x,c2y,x,y], ["A",radius,large,ccw,x,y]];
+/// "M" may be left out where the path starts at `start`.
 Path read_path(const io::Node& node, double unit, const Vec2* start);
 
-/// A loop of named edges. Ends that miss by less than 0.1 mm are joined; a wider gap is an error naming panel, edge and centimetres.
+/// A loop of named edges. Ends that miss by less than 0.1 mm are joined; a wider gap is an error
+/// naming panel, edge and centimetres.
 /// @param key "edge" or "run"
-std::vector<PanelEdge> read_loop(const io::Node& node, const char* key, double unit, const std::string& panel);
+std::vector<PanelEdge> read_loop(const io::Node& node, const char* key, double unit,
+                                 const std::string& panel);
 
 /// Metres per "m", "cm", "mm" or "in". @throws Error INPUT
 double unit_of(const io::Node& node);

@@ -1,4 +1,5 @@
-/// Our own pattern format, a file that people write: every unknown key is an error. Its schema is pattern.schema.json beside this file.
+/// Our own pattern format, a file that people write: every unknown key is an error. Its schema is
+/// pattern.schema.json beside this file.
 #include <base/units.hpp>
 #include <io/json.hpp>
 #include <pattern/read/outline_json.hpp>
@@ -29,25 +30,33 @@ void read_fold(const io::Node& node, Panel& panel) {
   if (node.has("suffix"))
     for (std::size_t k = 0; k < 2; ++k) suffix[k] = node.at("suffix").at(k).string();
   if (!unfold(panel, fold, suffix[0], suffix[1]))
-    node.fail("panel " + panel.name + ": the fold edge '" + panel.edge(fold).name + "' is not straight, or on a hole");
+    node.fail("panel " + panel.name + ": the fold edge '" + panel.edge(fold).name +
+              "' is not straight, or on a hole");
 }
 
 void read_place(const io::Node& node, Panel& panel, double unit) {
   node.allow_only({"part", "theta_deg", "radius", "anchor", "height", "rigid"});
   panel.hint.part = node.string("part", "");
-  const char* parts[] = {"", "torso", "neck", "arm_l", "arm_r", "leg_l", "leg_r", "lower_body", "head"};
+  const char* parts[] = {"",      "torso", "neck",       "arm_l", "arm_r",
+                         "leg_l", "leg_r", "lower_body", "head"};
   if (std::find(std::begin(parts), std::end(parts), panel.hint.part) == std::end(parts))
-    node.fail("unknown part '" + panel.hint.part + "'", "known are torso, neck, head, arm_l, arm_r, leg_l, leg_r and lower_body");
+    node.fail("unknown part '" + panel.hint.part + "'",
+              "known are torso, neck, head, arm_l, arm_r, leg_l, leg_r and lower_body");
   if (node.has("theta_deg")) panel.hint.theta = units::radians(node.at("theta_deg").number());
   if (node.has("radius")) panel.hint.radius = node.at("radius").number() * unit;
   if (node.has("anchor")) panel.hint.anchor = node.at("anchor").vec2() * unit;
   if (node.has("height")) panel.hint.height = node.at("height").number() * unit;
   if (node.has("rigid")) {
     const io::Node rigid = node.at("rigid");
-    if (rigid.size() != 12) rigid.fail("is no rigid motion", "give three rows of four numbers: a rotation and a shift");
+    if (rigid.size() != 12)
+      rigid.fail("is no rigid motion", "give three rows of four numbers: a rotation and a shift");
     Mat4 m = Mat4::Identity();
-    for (std::size_t k = 0; k < 12; ++k) m(static_cast<long>(k / 4), static_cast<long>(k % 4)) = rigid.at(k).number() * (k % 4 == 3 ? unit : 1);
-    if (!((m.topLeftCorner<3, 3>() * m.topLeftCorner<3, 3>().transpose() - Mat3::Identity()).cwiseAbs().maxCoeff() < 1e-6))
+    for (std::size_t k = 0; k < 12; ++k)
+      m(static_cast<long>(k / 4), static_cast<long>(k % 4)) =
+          rigid.at(k).number() * (k % 4 == 3 ? unit : 1);
+    if (!((m.topLeftCorner<3, 3>() * m.topLeftCorner<3, 3>().transpose() - Mat3::Identity())
+              .cwiseAbs()
+              .maxCoeff() < 1e-6))
       rigid.fail("its first three columns are no rotation");
     panel.hint.rigid = m;
   }
@@ -66,15 +75,21 @@ void read_lines(const io::Node& node, Panel& panel, double unit) {
   for (std::size_t k = 0; k < node.size(); ++k) {
     const io::Node item = node.at(k);
     item.allow_only({"name", "kind", "path", "factor", "width"});
-    InnerLine line{item.at("name").string(), item.string("kind", "mark"), read_path(item.at("path"), unit, nullptr)};
+    InnerLine line{item.at("name").string(), item.string("kind", "mark"),
+                   read_path(item.at("path"), unit, nullptr)};
     if (line.kind != "mark" && line.kind != "fold" && line.kind != "tape")
       item.at("kind").fail("'" + line.kind + "' is no kind of line", "give mark, fold or tape");
     line.factor = item.number("factor", 1), line.width = item.number("width", 0.01 / unit) * unit;
-    if (!(line.factor >= 0.05 && line.factor <= 20)) item.at("factor").fail("a factor of " + std::to_string(line.factor) + " is none", "give 0.05 to 20");
+    if (!(line.factor >= 0.05 && line.factor <= 20))
+      item.at("factor").fail("a factor of " + std::to_string(line.factor) + " is none",
+                             "give 0.05 to 20");
     if (!(line.width > 0)) item.at("width").fail("the tape has no width");
-    if (!(length(line.path) > 1e-3)) item.fail("line '" + line.name + "' of panel " + panel.name + " is " + centimetres(length(line.path)) + " long");
+    if (!(length(line.path) > 1e-3))
+      item.fail("line '" + line.name + "' of panel " + panel.name + " is " +
+                centimetres(length(line.path)) + " long");
     for (const InnerLine& other : panel.lines)
-      if (other.name == line.name) item.fail("panel " + panel.name + " has two lines named '" + line.name + "'");
+      if (other.name == line.name)
+        item.fail("panel " + panel.name + " has two lines named '" + line.name + "'");
     panel.lines.push_back(std::move(line));
   }
 }
@@ -85,26 +100,32 @@ void read_pleats(const io::Node& node, Panel& panel) {
     const io::Node item = node.at(k);
     item.allow_only({"name", "fold", "target", "edges"});
     Pleat pleat;
-    pleat.fold = line_named(panel, item.at("fold")), pleat.target = line_named(panel, item.at("target"));
-    pleat.name = item.string("name", panel.name + "-" + panel.lines[static_cast<std::size_t>(pleat.fold)].name);
+    pleat.fold = line_named(panel, item.at("fold")),
+    pleat.target = line_named(panel, item.at("target"));
+    pleat.name = item.string("name", panel.name + "-" +
+                                         panel.lines[static_cast<std::size_t>(pleat.fold)].name);
     if (pleat.fold == pleat.target) item.fail("pleat " + pleat.name + " brings a line to itself");
     const io::Node edges = item.at("edges");
     if (edges.size() == 0) edges.fail("pleat " + pleat.name + " is sewn along no edge");
-    for (std::size_t e = 0; e < edges.size(); ++e) pleat.edges.push_back(edge_named(panel, edges.at(e)));
+    for (std::size_t e = 0; e < edges.size(); ++e)
+      pleat.edges.push_back(edge_named(panel, edges.at(e)));
     panel.pleats.push_back(std::move(pleat));
   }
 }
 
 void read_panel(const io::Node& node, Pattern& pattern, double unit) {
-  node.allow_only({"name", "outline", "holes", "grain", "material", "layer", "notches", "mirror_of", "fold", "place", "label", "lines", "pleats"});
+  node.allow_only({"name", "outline", "holes", "grain", "material", "layer", "notches", "mirror_of",
+                   "fold", "place", "label", "lines", "pleats"});
   Panel panel;
   panel.name = node.at("name").string();
   if (panel.name.empty() || pattern.find_panel(panel.name) >= 0)
-    node.fail(panel.name.empty() ? "a panel has no name" : "there are two panels named '" + panel.name + "'");
+    node.fail(panel.name.empty() ? "a panel has no name"
+                                 : "there are two panels named '" + panel.name + "'");
   if (node.has("mirror_of")) {
     if (node.has("outline") || node.has("holes") || node.has("fold") || node.has("lines"))
       node.fail("panel " + panel.name + " has both mirror_of and an outline");
-    const Panel& other = pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("mirror_of")))];
+    const Panel& other =
+        pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("mirror_of")))];
     for (const auto& loop : other.loops) panel.loops.push_back(mirrored(loop));
     panel.lines = other.lines;
     for (InnerLine& line : panel.lines)
@@ -125,21 +146,28 @@ void read_panel(const io::Node& node, Pattern& pattern, double unit) {
   if (node.has("pleats")) read_pleats(node.at("pleats"), panel);
   if (node.has("grain")) {
     panel.grain = node.at("grain").vec2();
-    if (!(panel.grain.norm() > 0)) node.at("grain").fail("panel " + panel.name + ": the grain has no direction");
-    if (!(std::abs(panel.grain.squaredNorm() - 1) < 1e-15)) panel.grain.normalize(); // what is of unit length stays to the bit
+    if (!(panel.grain.norm() > 0))
+      node.at("grain").fail("panel " + panel.name + ": the grain has no direction");
+    if (!(std::abs(panel.grain.squaredNorm() - 1) < 1e-15))
+      panel.grain.normalize(); // what is of unit length stays to the bit
   }
-  panel.material = node.string("material", panel.material), panel.layer = node.integer("layer", panel.layer), panel.label = node.string("label", panel.label);
+  panel.material = node.string("material", panel.material),
+  panel.layer = node.integer("layer", panel.layer), panel.label = node.string("label", panel.label);
   if (node.has("place")) read_place(node.at("place"), panel, unit);
   if (node.has("notches"))
     for (std::size_t k = 0; k < node.at("notches").size(); ++k) {
       const io::Node notch = node.at("notches").at(k);
       notch.allow_only({"edge", "at", "kind"});
       const double at = notch.at("at").number();
-      if (at < 0 || at > 1) notch.fail("a notch lies at " + std::to_string(at) + " of its edge", "give a fraction from 0 to 1");
-      panel.notches.push_back({edge_named(panel, notch.at("edge")), at, notch.string("kind", "slit")});
+      if (at < 0 || at > 1)
+        notch.fail("a notch lies at " + std::to_string(at) + " of its edge",
+                   "give a fraction from 0 to 1");
+      panel.notches.push_back(
+          {edge_named(panel, notch.at("edge")), at, notch.string("kind", "slit")});
     }
   for (int k = 0; k < panel.n_edges(); ++k)
-    if (panel.find_edge(panel.edge(k).name) != k) node.fail("panel " + panel.name + " has two edges named '" + panel.edge(k).name + "'");
+    if (panel.find_edge(panel.edge(k).name) != k)
+      node.fail("panel " + panel.name + " has two edges named '" + panel.edge(k).name + "'");
   pattern.panels.push_back(std::move(panel));
 }
 
@@ -155,7 +183,9 @@ std::vector<Run> read_side(const io::Node& node, const Pattern& pattern, bool ag
     run.from = item.number("from", against ? 1 : 0), run.to = item.number("to", against ? 0 : 1);
     for (double f : {run.from, run.to})
       if (f < 0 || f > 1)
-        item.fail("a run goes from " + std::to_string(run.from) + " to " + std::to_string(run.to) + " of its edge", "give fractions from 0 to 1");
+        item.fail("a run goes from " + std::to_string(run.from) + " to " + std::to_string(run.to) +
+                      " of its edge",
+                  "give fractions from 0 to 1");
     if (run.from == run.to) item.fail("a run has no length");
     side.push_back(run);
   }
@@ -168,8 +198,11 @@ Pattern read_pattern_json(const io::Json& json, const std::string& file) {
   const io::Node root(json, file);
   root.allow_only({"format", "version", "generator", "length_unit", "name", "panels", "seams"});
   if (root.integer("version", 1) > 1)
-    root.at("version").fail("version " + std::to_string(root.at("version").integer()) + " is newer than this program knows", "update, or write version 1");
-  if (!root.has("length_unit")) root.fail("has no \"length_unit\"", "add for example \"length_unit\": \"cm\"");
+    root.at("version").fail("version " + std::to_string(root.at("version").integer()) +
+                                " is newer than this program knows",
+                            "update, or write version 1");
+  if (!root.has("length_unit"))
+    root.fail("has no \"length_unit\"", "add for example \"length_unit\": \"cm\"");
   const double unit = unit_of(root.at("length_unit"));
   Pattern pattern;
   pattern.source_format = "pattern";
@@ -182,11 +215,15 @@ Pattern read_pattern_json(const io::Json& json, const std::string& file) {
       const io::Node node = root.at("seams").at(k);
       node.allow_only({"name", "kind", "a", "b", "ease", "open"});
       Seam seam;
-      seam.name = node.string("name", "seam " + std::to_string(k)), seam.kind = node.string("kind", "seam"), seam.ease = node.string("ease", "");
+      seam.name = node.string("name", "seam " + std::to_string(k)),
+      seam.kind = node.string("kind", "seam"), seam.ease = node.string("ease", "");
       if (node.has("open")) seam.open = node.at("open").boolean();
-      if (seam.kind != "seam" && seam.kind != "dart" && seam.kind != "gather" && seam.kind != "closure")
-        node.at("kind").fail("unknown kind '" + seam.kind + "'", "known are seam, dart, gather and closure");
-      seam.a = read_side(node.at("a"), pattern, false), seam.b = read_side(node.at("b"), pattern, true);
+      if (seam.kind != "seam" && seam.kind != "dart" && seam.kind != "gather" &&
+          seam.kind != "closure")
+        node.at("kind").fail("unknown kind '" + seam.kind + "'",
+                             "known are seam, dart, gather and closure");
+      seam.a = read_side(node.at("a"), pattern, false),
+      seam.b = read_side(node.at("b"), pattern, true);
       pattern.seams.push_back(std::move(seam));
     }
   return pattern;

@@ -1,4 +1,5 @@
-/// The neutral sewing JSON: outlines of named runs in millimetres, counter-clockwise seen from outside, and the sidecar with seams only.
+/// The neutral sewing JSON: outlines of named runs in millimetres, counter-clockwise seen from
+/// outside, and the sidecar with seams only.
 #include <base/units.hpp>
 #include <io/json.hpp>
 #include <pattern/read/outline_json.hpp>
@@ -14,9 +15,11 @@ std::vector<Run> read_side(const io::Node& node, const Pattern& pattern) {
     Run run;
     run.panel = panel_named(pattern, item.at("panel"));
     run.edge = edge_named(pattern.panels[static_cast<std::size_t>(run.panel)], item.at("run"));
-    if (item.has("range")) run.from = item.at("range").at(0).number(), run.to = item.at("range").at(1).number();
+    if (item.has("range"))
+      run.from = item.at("range").at(0).number(), run.to = item.at("range").at(1).number();
     const std::string direction = item.string("dir", "+");
-    if (direction != "+" && direction != "-") item.at("dir").fail("the direction is '" + direction + "'", "give + or -");
+    if (direction != "+" && direction != "-")
+      item.at("dir").fail("the direction is '" + direction + "'", "give + or -");
     if (direction == "-") std::swap(run.from, run.to);
     if (run.from < 0 || run.from > 1 || run.to < 0 || run.to > 1 || run.from == run.to)
       item.fail("the range is no stretch of the run", "give two fractions from 0 to 1");
@@ -33,7 +36,8 @@ void read_sewing_seams(Pattern& pattern, const io::Json& json, const std::string
   for (std::size_t k = 0; k < seams.size(); ++k) {
     const io::Node node = seams.at(k);
     Seam seam;
-    seam.name = node.string("name", "seam " + std::to_string(k)), seam.kind = node.string("kind", "seam"), seam.ease = node.string("ease", "");
+    seam.name = node.string("name", "seam " + std::to_string(k)),
+    seam.kind = node.string("kind", "seam"), seam.ease = node.string("ease", "");
     seam.open = node.boolean("open", false);
     seam.a = read_side(node.at("a"), pattern), seam.b = read_side(node.at("b"), pattern);
     pattern.seams.push_back(std::move(seam));
@@ -52,10 +56,12 @@ Pattern read_sewing_spec(const io::Json& json, const std::string& file) {
     const io::Node node = panels.at(k);
     Panel panel;
     panel.name = node.at("name").string();
-    if (pattern.find_panel(panel.name) >= 0) node.fail("there are two panels named '" + panel.name + "'");
+    if (pattern.find_panel(panel.name) >= 0)
+      node.fail("there are two panels named '" + panel.name + "'");
     panel.loops.push_back(read_loop(node.at("outline"), "run", unit, panel.name));
     if (node.has("holes"))
-      for (std::size_t h = 0; h < node.at("holes").size(); ++h) panel.loops.push_back(read_loop(node.at("holes").at(h), "run", unit, panel.name));
+      for (std::size_t h = 0; h < node.at("holes").size(); ++h)
+        panel.loops.push_back(read_loop(node.at("holes").at(h), "run", unit, panel.name));
     if (node.has("grain")) {
       const Vec2 along = node.at("grain").at(1).vec2() - node.at("grain").at(0).vec2();
       if (along.norm() > 0) panel.grain = along.normalized();
@@ -66,7 +72,9 @@ Pattern read_sewing_spec(const io::Json& json, const std::string& file) {
       if (frame == "world") {
         Mat4 m = Mat4::Identity();
         for (std::size_t r = 0; r < 3; ++r) {
-          for (std::size_t c = 0; c < 3; ++c) m(static_cast<long>(r), static_cast<long>(c)) = place.at("rotation").at(r).at(c).number();
+          for (std::size_t c = 0; c < 3; ++c)
+            m(static_cast<long>(r), static_cast<long>(c)) =
+                place.at("rotation").at(r).at(c).number();
           m(static_cast<long>(r), 3) = place.at("translation").at(r).number() * unit;
         }
         panel.hint.rigid = m;

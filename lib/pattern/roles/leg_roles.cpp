@@ -8,7 +8,8 @@ namespace {
 
 class Legs {
 public:
-  Legs(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph, std::vector<PanelRole>& roles)
+  Legs(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph,
+       std::vector<PanelRole>& roles)
       : m_pattern(pattern), m_mesh(mesh), m_graph(graph), m_roles(roles) {}
 
   void run() {
@@ -21,22 +22,31 @@ private:
   static constexpr double LOWER_END = 0.4; // of a leg's height: cuffs are sewn on below
 
   std::size_t count() const { return m_roles.size(); }
-  Vec2 at(std::size_t k, int vertex) const { return m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(vertex)]; }
+  Vec2 at(std::size_t k, int vertex) const {
+    return m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(vertex)];
+  }
   std::array<Vec2, 2> bounds(std::size_t k) const {
     std::array<Vec2, 2> b = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
-    for (int v : m_mesh.panels[k].outline) b[0] = b[0].cwiseMin(at(k, v)), b[1] = b[1].cwiseMax(at(k, v));
+    for (int v : m_mesh.panels[k].outline)
+      b[0] = b[0].cwiseMin(at(k, v)), b[1] = b[1].cwiseMax(at(k, v));
     return b;
   }
   double middle_u(std::size_t k) const { return 0.5 * (bounds(k)[0].x() + bounds(k)[1].x()); }
-  auto between(std::size_t k, std::size_t q) const { return m_graph.between(static_cast<int>(k), static_cast<int>(q)); }
-  bool upright(std::size_t k, std::size_t q) const { return upright_seam(m_mesh, m_graph, m_roles, k, q); }
+  auto between(std::size_t k, std::size_t q) const {
+    return m_graph.between(static_cast<int>(k), static_cast<int>(q));
+  }
+  bool upright(std::size_t k, std::size_t q) const {
+    return upright_seam(m_mesh, m_graph, m_roles, k, q);
+  }
 
-  /// Leggings: a leg in one piece, sewn to itself along the inside, to its like above. The back's middle seam is the longer one, for
-  /// it goes over the seat; of a left leg, seen from outside, it is on the right.
+  /// Leggings: a leg in one piece, sewn to itself along the inside, to its like above. The back's
+  /// middle seam is the longer one, for it goes over the seat; of a left leg, seen from outside, it
+  /// is on the right.
   bool one_piece() {
     std::vector<std::size_t> tubes;
     for (std::size_t k = 0; k < count(); ++k)
-      if (m_roles[k].region == Region::TRUNK && m_roles[k].side == Side::RING && upright(k, k)) tubes.push_back(k);
+      if (m_roles[k].region == Region::TRUNK && m_roles[k].side == Side::RING && upright(k, k))
+        tubes.push_back(k);
     if (tubes.size() != 2 || !upright(tubes[0], tubes[1])) return false;
     double back[2];
     for (std::size_t i : {0, 1}) {
@@ -51,11 +61,13 @@ private:
       back[i] += (says_left(words) ? 1e3 : 0) - (says_right(words) ? 1e3 : 0);
     }
     const bool first_left = back[0] >= back[1];
-    m_roles[tubes[0]].part = first_left ? "leg_l" : "leg_r", m_roles[tubes[1]].part = first_left ? "leg_r" : "leg_l";
+    m_roles[tubes[0]].part = first_left ? "leg_l" : "leg_r",
+    m_roles[tubes[1]].part = first_left ? "leg_r" : "leg_l";
     return true;
   }
 
-  /// How many sides of panel k are sewn to panel q most of their height. A side may be drawn as several edges, one after the other.
+  /// How many sides of panel k are sewn to panel q most of their height. A side may be drawn as
+  /// several edges, one after the other.
   int long_seams(std::size_t k, std::size_t q) const {
     struct SewnSide {
       double low = 1e300, high = -1e300;
@@ -64,11 +76,16 @@ private:
     std::vector<SewnSide> sides;
     for (const auto& seam : between(k, q)) {
       SewnSide own;
-      for (const auto& s : seam) own.low = std::min(own.low, at(k, s[0]).y()), own.high = std::max(own.high, at(k, s[0]).y());
-      for (const auto& end : {seam.front(), seam.back()}) own.ends.insert(own.ends.end(), end.begin(), end.end());
+      for (const auto& s : seam)
+        own.low = std::min(own.low, at(k, s[0]).y()),
+        own.high = std::max(own.high, at(k, s[0]).y());
+      for (const auto& end : {seam.front(), seam.back()})
+        own.ends.insert(own.ends.end(), end.begin(), end.end());
       for (std::size_t i = sides.size(); i-- > 0;) {
         const SewnSide& other = sides[i];
-        if (std::find_first_of(own.ends.begin(), own.ends.end(), other.ends.begin(), other.ends.end()) == own.ends.end()) continue;
+        if (std::find_first_of(own.ends.begin(), own.ends.end(), other.ends.begin(),
+                               other.ends.end()) == own.ends.end())
+          continue;
         own.low = std::min(own.low, other.low), own.high = std::max(own.high, other.high);
         own.ends.insert(own.ends.end(), other.ends.begin(), other.ends.end());
         sides.erase(sides.begin() + static_cast<long>(i));
@@ -76,7 +93,9 @@ private:
       sides.push_back(std::move(own));
     }
     const double least = LONG * (bounds(k)[1].y() - bounds(k)[0].y());
-    return static_cast<int>(std::count_if(sides.begin(), sides.end(), [&](const SewnSide& side) { return side.high - side.low > least; }));
+    return static_cast<int>(std::count_if(sides.begin(), sides.end(), [&](const SewnSide& side) {
+      return side.high - side.low > least;
+    }));
   }
 
   /// Two front-back tubes that are sewn to each other.
@@ -91,18 +110,23 @@ private:
       }
       if (tube) tubes.push_back(k);
     }
-    // A waistband over a skirt is two tubes as well, one above the other: legs stand side by side, joined by upright seams.
+    // A waistband over a skirt is two tubes as well, one above the other: legs stand side by side,
+    // joined by upright seams.
     std::vector<std::size_t> beside;
     for (std::size_t k : tubes)
-      if (std::any_of(tubes.begin(), tubes.end(), [&](std::size_t q) { return q != k && m_roles[q].side == m_roles[k].side && upright(k, q); }))
+      if (std::any_of(tubes.begin(), tubes.end(), [&](std::size_t q) {
+            return q != k && m_roles[q].side == m_roles[k].side && upright(k, q);
+          }))
         beside.push_back(k);
     tubes = std::move(beside);
     if (tubes.size() < 4) return;
     for (std::size_t k : tubes) {
-      // The crotch is where the other leg's panel of the same side is sewn on; the left leg has it on its inner side.
+      // The crotch is where the other leg's panel of the same side is sewn on; the left leg has it
+      // on its inner side.
       double inner = 0;
       for (int q : m_graph.neighbours(static_cast<int>(k)))
-        if (std::find(tubes.begin(), tubes.end(), static_cast<std::size_t>(q)) != tubes.end() && m_roles[static_cast<std::size_t>(q)].side == m_roles[k].side)
+        if (std::find(tubes.begin(), tubes.end(), static_cast<std::size_t>(q)) != tubes.end() &&
+            m_roles[static_cast<std::size_t>(q)].side == m_roles[k].side)
           for (const auto& seam : between(k, static_cast<std::size_t>(q)))
             for (const auto& s : seam) inner += at(k, s[0]).x() - middle_u(k);
       const bool front = m_roles[k].side == Side::FRONT;
@@ -127,7 +151,8 @@ private:
           if (upright(o, k)) continue; // the cuff's other half
           const auto b = bounds(o);
           for (const auto& seam : between(o, k))
-            for (const auto& s : seam) end = end && at(o, s[0]).y() < b[0].y() + LOWER_END * (b[1].y() - b[0].y());
+            for (const auto& s : seam)
+              end = end && at(o, s[0]).y() < b[0].y() + LOWER_END * (b[1].y() - b[0].y());
         }
         if (leg.empty() || !end) continue;
         m_roles[k].part = leg, changed = true;
@@ -143,7 +168,8 @@ private:
 
 } // namespace
 
-bool upright_seam(const PanelMesh& mesh, const SeamGraph& graph, const std::vector<PanelRole>& roles, std::size_t k, std::size_t q) {
+bool upright_seam(const PanelMesh& mesh, const SeamGraph& graph,
+                  const std::vector<PanelRole>& roles, std::size_t k, std::size_t q) {
   for (const auto& seam : graph.between(static_cast<int>(k), static_cast<int>(q))) {
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
     for (const auto& s : seam) {
@@ -155,7 +181,8 @@ bool upright_seam(const PanelMesh& mesh, const SeamGraph& graph, const std::vect
   return false;
 }
 
-void assign_legs(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph, std::vector<PanelRole>& roles) {
+void assign_legs(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph,
+                 std::vector<PanelRole>& roles) {
   Legs(pattern, mesh, graph, roles).run();
 }
 

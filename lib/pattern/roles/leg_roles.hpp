@@ -7,9 +7,12 @@
 namespace sloper::pattern {
 
 /// A seam between the two panels that rises more than it goes across.
-bool upright_seam(const PanelMesh& mesh, const SeamGraph& graph, const std::vector<PanelRole>& roles, std::size_t k, std::size_t q);
+bool upright_seam(const PanelMesh& mesh, const SeamGraph& graph,
+                  const std::vector<PanelRole>& roles, std::size_t k, std::size_t q);
 
-/// Trouser legs, in four pieces or in one piece a leg, and what is sewn to their ends: cuffs, flounces.
-void assign_legs(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph, std::vector<PanelRole>& roles);
+/// Trouser legs, in four pieces or in one piece a leg, and what is sewn to their ends: cuffs,
+/// flounces.
+void assign_legs(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph,
+                 std::vector<PanelRole>& roles);
 
 } // namespace sloper::pattern

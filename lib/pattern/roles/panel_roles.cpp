@@ -29,7 +29,8 @@ public:
     ring_of_gores();
     one_ring_all_ring();
     for (std::size_t k = 0; k < n; ++k)
-      if (m_roles[k].region == Region::ARM_L || m_roles[k].region == Region::ARM_R) turn_arm_panel(k);
+      if (m_roles[k].region == Region::ARM_L || m_roles[k].region == Region::ARM_R)
+        turn_arm_panel(k);
     assign_legs(m_pattern, m_mesh, m_graph, m_roles);
     return std::move(m_roles);
   }
@@ -38,7 +39,9 @@ private:
   Vec2 middle(std::size_t k) const {
     const PanelInfo& p = m_mesh.panels[k];
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
-    for (int v : p.outline) low = low.cwiseMin(m_mesh.pattern[static_cast<std::size_t>(v)]), high = high.cwiseMax(m_mesh.pattern[static_cast<std::size_t>(v)]);
+    for (int v : p.outline)
+      low = low.cwiseMin(m_mesh.pattern[static_cast<std::size_t>(v)]),
+      high = high.cwiseMax(m_mesh.pattern[static_cast<std::size_t>(v)]);
     return 0.5 * (low + high);
   }
   double width(std::size_t k) const {
@@ -54,7 +57,9 @@ private:
   void side_from_theta(PanelRole& role, double theta) {
     theta = std::remainder(theta, 2 * units::PI);
     role.theta = theta;
-    role.side = std::abs(theta) <= units::radians(61) ? Side::FRONT : std::abs(theta) >= units::radians(119) ? Side::BACK : Side::RING;
+    role.side = std::abs(theta) <= units::radians(61)    ? Side::FRONT
+                : std::abs(theta) >= units::radians(119) ? Side::BACK
+                                                         : Side::RING;
   }
 
   void by_hint(std::size_t k) {
@@ -77,10 +82,14 @@ private:
         return;
       }
       side_from_theta(role, hint.theta.value_or(says_back(m_words[k]) ? units::PI : 0));
-      if (hint.anchor && (hint.radius || std::abs(std::remainder(*hint.theta, units::PI)) < 1e-6) && role.side != Side::RING && hint.part != "leg_l" &&
-          hint.part != "leg_r")
-        role.du = std::remainder(role.theta - (role.side == Side::BACK ? units::PI : 0), 2 * units::PI) * hint.radius.value_or(0) - hint.anchor->x();
-      if (hint.anchor && hint.height && (role.du || role.side == Side::RING)) role.dv = *hint.height - hint.anchor->y();
+      if (hint.anchor && (hint.radius || std::abs(std::remainder(*hint.theta, units::PI)) < 1e-6) &&
+          role.side != Side::RING && hint.part != "leg_l" && hint.part != "leg_r")
+        role.du =
+            std::remainder(role.theta - (role.side == Side::BACK ? units::PI : 0), 2 * units::PI) *
+                hint.radius.value_or(0) -
+            hint.anchor->x();
+      if (hint.anchor && hint.height && (role.du || role.side == Side::RING))
+        role.dv = *hint.height - hint.anchor->y();
       return;
     }
     if (!hint.rigid) return;
@@ -92,7 +101,9 @@ private:
     const Words& words = m_words[k];
     const bool legs = panel.label == "leg" || says_legs(words) || says_skirt(words);
     const bool arm =
-        !legs && (says_sleeve(words) || cuff_of_sleeve(k) || (panel.label == "arm" && !any_begins(words, {"torso", "bodice", "ftorso", "btorso"})));
+        !legs &&
+        (says_sleeve(words) || cuff_of_sleeve(k) ||
+         (panel.label == "arm" && !any_begins(words, {"torso", "bodice", "ftorso", "btorso"})));
     if (arm) role.region = center.x() > 0 ? Region::ARM_L : Region::ARM_R;
     else if (!legs && says_neck(words)) role.region = Region::NECK;
     else role.part = legs ? "lower_body" : "torso";
@@ -107,7 +118,8 @@ private:
     role.turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
     if (role.region == Region::NECK) return around_neck(role);
     role.dv = center.y() - (role.turn * m).y();
-    if (role.side != Side::RING) role.du = (role.side == Side::BACK ? -center.x() : center.x()) - (role.turn * m).x();
+    if (role.side != Side::RING)
+      role.du = (role.side == Side::BACK ? -center.x() : center.x()) - (role.turn * m).x();
   }
 
   static void around_neck(PanelRole& role) {
@@ -119,26 +131,33 @@ private:
   /// Whether a level seam at its top joins the panel to one of the other side.
   bool has_shoulder(std::size_t k) const {
     double low = 1e300, high = -1e300;
-    for (int v : m_mesh.panels[k].outline) low = std::min(low, turned(k, v).y()), high = std::max(high, turned(k, v).y());
+    for (int v : m_mesh.panels[k].outline)
+      low = std::min(low, turned(k, v).y()), high = std::max(high, turned(k, v).y());
     for (int q : m_graph.neighbours(static_cast<int>(k))) {
       const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
       if (other.region != Region::TRUNK || other.side == m_roles[k].side) continue;
       for (const auto& seam : m_graph.between(static_cast<int>(k), q)) {
         const Vec2 a = turned(k, seam.front()[0]), b = turned(k, seam.back()[0]);
-        if (std::abs(a.x() - b.x()) > std::abs(a.y() - b.y()) && std::min(a.y(), b.y()) > low + 0.75 * (high - low)) return true;
+        if (std::abs(a.x() - b.x()) > std::abs(a.y() - b.y()) &&
+            std::min(a.y(), b.y()) > low + 0.75 * (high - low))
+          return true;
       }
     }
     return false;
   }
-  Vec2 turned(std::size_t k, int vertex) const { return m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(vertex)]; }
+  Vec2 turned(std::size_t k, int vertex) const {
+    return m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(vertex)];
+  }
 
-  /// Hinted panels without a word for it that stand above all that they are sewn to, near the middle: hoods, collars.
+  /// Hinted panels without a word for it that stand above all that they are sewn to, near the
+  /// middle: hoods, collars.
   void necks_by_height() {
     const auto range = [&](std::size_t k) { // of the height of its hint
       Vec2 y(1e300, -1e300);
       for (int v : m_mesh.panels[k].outline) {
         const Vec2& p = m_mesh.pattern[static_cast<std::size_t>(v)];
-        const double h = (*m_pattern.panels[k].hint.rigid * Eigen::Vector4d(p.x(), p.y(), 0, 1)).y();
+        const double h =
+            (*m_pattern.panels[k].hint.rigid * Eigen::Vector4d(p.x(), p.y(), 0, 1)).y();
         y = Vec2(std::min(y.x(), h), std::max(y.y(), h));
       }
       return y;
@@ -146,7 +165,9 @@ private:
     std::vector<std::size_t> found;
     for (std::size_t k = 0; k < m_roles.size(); ++k) {
       const auto& hint = m_pattern.panels[k].hint;
-      if (!hint.rigid || m_roles[k].region != Region::TRUNK || m_roles[k].part != "torso" || m_graph.neighbours(static_cast<int>(k)).empty()) continue;
+      if (!hint.rigid || m_roles[k].region != Region::TRUNK || m_roles[k].part != "torso" ||
+          m_graph.neighbours(static_cast<int>(k)).empty())
+        continue;
       const Vec2 own = range(k), m = middle(k);
       const double x = (*hint.rigid * Eigen::Vector4d(m.x(), m.y(), 0, 1)).x();
       bool above = std::abs(x) < 0.2, trunk = false;
@@ -160,7 +181,8 @@ private:
       }
       if (above && trunk) found.push_back(k);
     }
-    for (std::size_t k : found) m_roles[k].region = Region::NECK, m_roles[k].part.clear(), around_neck(m_roles[k]);
+    for (std::size_t k : found)
+      m_roles[k].region = Region::NECK, m_roles[k].part.clear(), around_neck(m_roles[k]);
   }
 
   void by_name(std::size_t k) {
@@ -168,8 +190,10 @@ private:
     const Words& words = m_words[k];
     role.side = says_back(words) && !any_begins(words, {"front"}) ? Side::BACK : Side::FRONT;
     const bool legs = says_legs(words) || says_skirt(words);
-    if (!legs && (says_sleeve(words) || cuff_of_sleeve(k))) role.region = says_left(words) ? Region::ARM_L : Region::ARM_R;
-    else if (!legs && says_neck(words)) role.region = Region::NECK, role.side = Side::RING, role.theta = units::PI;
+    if (!legs && (says_sleeve(words) || cuff_of_sleeve(k)))
+      role.region = says_left(words) ? Region::ARM_L : Region::ARM_R;
+    else if (!legs && says_neck(words))
+      role.region = Region::NECK, role.side = Side::RING, role.theta = units::PI;
     else role.part = legs || says_cuff(words) ? "lower_body" : "torso";
     role.theta = role.region == Region::NECK || role.side == Side::BACK ? units::PI : 0;
   }
@@ -180,14 +204,15 @@ private:
     bool other = false;
     for (int q : m_graph.neighbours(static_cast<int>(k))) {
       const std::size_t o = static_cast<std::size_t>(q);
-      if (says_sleeve(m_words[o]) || m_pattern.panels[o].hint.part.rfind("arm", 0) == 0) return true;
+      if (says_sleeve(m_words[o]) || m_pattern.panels[o].hint.part.rfind("arm", 0) == 0)
+        return true;
       other = other || !says_cuff(m_words[o]);
     }
     return !other;
   }
 
-  /// A sleeve without a word for its side hangs on the armhole that it is sewn to: seen from outside, the left armhole of a front
-  /// is on its +u side, that of a back on its -u side.
+  /// A sleeve without a word for its side hangs on the armhole that it is sewn to: seen from
+  /// outside, the left armhole of a front is on its +u side, that of a back on its -u side.
   void arm_side(std::size_t k) {
     PanelRole& role = m_roles[k];
     if (role.region != Region::ARM_L && role.region != Region::ARM_R) return;
@@ -202,8 +227,10 @@ private:
         if (other.region != Region::TRUNK) continue;
         for (const auto& seam : m_graph.between(static_cast<int>(k), q))
           for (const auto& s : seam)
-            vote +=
-                (other.turn * (m_mesh.pattern[static_cast<std::size_t>(s[1])] - middle(static_cast<std::size_t>(q)))).x() * (other.side == Side::BACK ? -1 : 1);
+            vote += (other.turn * (m_mesh.pattern[static_cast<std::size_t>(s[1])] -
+                                   middle(static_cast<std::size_t>(q))))
+                        .x() *
+                    (other.side == Side::BACK ? -1 : 1);
       }
       role.region = vote >= 0 ? Region::ARM_L : Region::ARM_R;
     }
@@ -215,22 +242,28 @@ private:
     PanelRole& role = m_roles[k];
     for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(k))) {
       double apart = 0;
-      for (const auto& s : seam) apart += (m_mesh.pattern[static_cast<std::size_t>(s[0])] - m_mesh.pattern[static_cast<std::size_t>(s[1])]).norm();
+      for (const auto& s : seam)
+        apart += (m_mesh.pattern[static_cast<std::size_t>(s[0])] -
+                  m_mesh.pattern[static_cast<std::size_t>(s[1])])
+                     .norm();
       apart /= static_cast<double>(seam.size());
       if (apart < 0.5 * std::max(width(k), 1e-3)) continue; // a dart
       role.side = Side::RING;
       if (role.region == Region::ARM_L || role.region == Region::ARM_R) role.theta = 0;
     }
     const bool arm = role.region == Region::ARM_L || role.region == Region::ARM_R;
-    if (arm && role.side != Side::RING && !m_pattern.panels[k].hint.rigid) { // one piece, unless a partner makes the tube
+    if (arm && role.side != Side::RING &&
+        !m_pattern.panels[k].hint.rigid) { // one piece, unless a partner makes the tube
       bool partner = false;
       for (int q : m_graph.neighbours(static_cast<int>(k)))
-        partner = partner || (m_roles[static_cast<std::size_t>(q)].region == role.region && m_graph.between(static_cast<int>(k), q).size() >= 2);
+        partner = partner || (m_roles[static_cast<std::size_t>(q)].region == role.region &&
+                              m_graph.between(static_cast<int>(k), q).size() >= 2);
       if (!partner) role.side = Side::RING, role.theta = 0;
     }
   }
 
-  /// Where one gore of a skirt looks sideways, all gores of its row stand in a ring: those that upright seams lead to.
+  /// Where one gore of a skirt looks sideways, all gores of its row stand in a ring: those that
+  /// upright seams lead to.
   void one_ring_all_ring() {
     for (bool changed = true; changed;) {
       changed = false;
@@ -239,50 +272,62 @@ private:
         if (m_graph.between(static_cast<int>(k), static_cast<int>(k)).size() > 0) continue;
         for (int q : m_graph.neighbours(static_cast<int>(k))) {
           PanelRole& other = m_roles[static_cast<std::size_t>(q)];
-          if (other.region != Region::TRUNK || other.side == Side::RING || other.part != m_roles[k].part) continue;
-          if (upright_seam(m_mesh, m_graph, m_roles, k, static_cast<std::size_t>(q))) other.side = Side::RING, changed = true;
+          if (other.region != Region::TRUNK || other.side == Side::RING ||
+              other.part != m_roles[k].part)
+            continue;
+          if (upright_seam(m_mesh, m_graph, m_roles, k, static_cast<std::size_t>(q)))
+            other.side = Side::RING, changed = true;
         }
       }
     }
   }
 
-  /// Three panels or more whose names tell no side, each sewn upright to two others, one after the other all around: gores.
+  /// Three panels or more whose names tell no side, each sewn upright to two others, one after the
+  /// other all around: gores.
   void ring_of_gores() {
     std::vector<std::vector<std::size_t>> beside(m_roles.size());
     const auto untold = [&](std::size_t k) {
       const auto& hint = m_pattern.panels[k].hint;
-      return m_roles[k].region == Region::TRUNK && m_roles[k].side != Side::RING && !hint.rigid && hint.part.empty() && !says_front(m_words[k]) &&
-             !says_back(m_words[k]);
+      return m_roles[k].region == Region::TRUNK && m_roles[k].side != Side::RING && !hint.rigid &&
+             hint.part.empty() && !name_suggests_front(m_words[k]) && !says_back(m_words[k]);
     };
     for (std::size_t k = 0; k < m_roles.size(); ++k)
       if (untold(k))
         for (int q : m_graph.neighbours(static_cast<int>(k)))
-          if (untold(static_cast<std::size_t>(q)) && upright_seam(m_mesh, m_graph, m_roles, k, static_cast<std::size_t>(q)))
+          if (untold(static_cast<std::size_t>(q)) &&
+              upright_seam(m_mesh, m_graph, m_roles, k, static_cast<std::size_t>(q)))
             beside[k].push_back(static_cast<std::size_t>(q));
     // Godets go between two that are joined above them.
     std::vector<std::size_t> godets;
     std::vector<std::array<std::size_t, 2>> joined;
-    const auto joins = [&](std::size_t k, std::size_t q) { return std::find(beside[k].begin(), beside[k].end(), q) != beside[k].end(); };
+    const auto joins = [&](std::size_t k, std::size_t q) {
+      return std::find(beside[k].begin(), beside[k].end(), q) != beside[k].end();
+    };
     for (std::size_t k = 0; k < m_roles.size(); ++k)
       if (beside[k].size() == 2 && joins(beside[k][0], beside[k][1]) &&
-          m_mesh.panels[k].n_triangles < std::min(m_mesh.panels[beside[k][0]].n_triangles, m_mesh.panels[beside[k][1]].n_triangles) / 2)
+          m_mesh.panels[k].n_triangles < std::min(m_mesh.panels[beside[k][0]].n_triangles,
+                                                  m_mesh.panels[beside[k][1]].n_triangles) /
+                                             2)
         godets.push_back(k), joined.push_back({beside[k][0], beside[k][1]});
     for (std::size_t g = 0; g < godets.size(); ++g) {
-      for (std::size_t k : joined[g]) beside[k].erase(std::find(beside[k].begin(), beside[k].end(), godets[g]));
+      for (std::size_t k : joined[g])
+        beside[k].erase(std::find(beside[k].begin(), beside[k].end(), godets[g]));
       beside[godets[g]].clear();
     }
     for (std::size_t first = 0; first < m_roles.size(); ++first) {
       if (beside[first].size() != 2 || m_roles[first].side == Side::RING) continue;
       std::vector<std::size_t> row = {first, right_of(first, beside[first])};
       while (row.back() != first && row.size() <= m_roles.size() && beside[row.back()].size() == 2)
-        row.push_back(beside[row.back()][0] == row[row.size() - 2] ? beside[row.back()][1] : beside[row.back()][0]);
+        row.push_back(beside[row.back()][0] == row[row.size() - 2] ? beside[row.back()][1]
+                                                                   : beside[row.back()][0]);
       if (row.size() < 4 || row.back() != first) continue;
       row.pop_back();
       double around = 0, at = 0;
       for (std::size_t k : row) around += width(k);
       for (std::size_t k : row) { // u runs to the wearer's left, as theta does
         m_roles[k].side = Side::RING;
-        m_roles[k].theta = std::remainder((at + 0.5 * (width(k) - width(first))) / around * 2 * units::PI, 2 * units::PI);
+        m_roles[k].theta = std::remainder(
+            (at + 0.5 * (width(k) - width(first))) / around * 2 * units::PI, 2 * units::PI);
         at += width(k);
       }
     }
@@ -290,7 +335,8 @@ private:
       const PanelRole &a = m_roles[joined[g][0]], &b = m_roles[joined[g][1]];
       if (a.side != Side::RING || b.side != Side::RING) continue;
       m_roles[godets[g]].side = Side::RING;
-      m_roles[godets[g]].theta = std::atan2(std::sin(a.theta) + std::sin(b.theta), std::cos(a.theta) + std::cos(b.theta));
+      m_roles[godets[g]].theta =
+          std::atan2(std::sin(a.theta) + std::sin(b.theta), std::cos(a.theta) + std::cos(b.theta));
     }
   }
 
@@ -300,19 +346,22 @@ private:
     for (std::size_t i : {0, 1}) {
       double n = 0;
       for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(two[i])))
-        for (const auto& s : seam) u[i] += (m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(s[0])]).x(), ++n;
+        for (const auto& s : seam)
+          u[i] += (m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(s[0])]).x(), ++n;
       u[i] /= std::max(n, 1.0);
     }
     return two[u[0] >= u[1] ? 0 : 1];
   }
 
-  /// (u, v) of an arm panel: v runs along the seams that close the tube, towards the end that is sewn to the trunk (or to the sleeve).
+  /// (u, v) of an arm panel: v runs along the seams that close the tube, towards the end that is
+  /// sewn to the trunk (or to the sleeve).
   void turn_arm_panel(std::size_t k) {
     PanelRole& role = m_roles[k];
     const int p = static_cast<int>(k);
     std::vector<Vec2> directions;
     const auto add = [&](const std::vector<std::array<int, 2>>& seam, std::size_t side) {
-      const Vec2 d = m_mesh.pattern[static_cast<std::size_t>(seam.back()[side])] - m_mesh.pattern[static_cast<std::size_t>(seam.front()[side])];
+      const Vec2 d = m_mesh.pattern[static_cast<std::size_t>(seam.back()[side])] -
+                     m_mesh.pattern[static_cast<std::size_t>(seam.front()[side])];
       if (d.norm() > 1e-6) directions.push_back(d);
     };
     for (const auto& seam : m_graph.between(p, p)) add(seam, 0), add(seam, 1);
@@ -327,7 +376,8 @@ private:
       for (const Vec2& d : directions) sum += d.dot(directions[0]) < 0 ? Vec2(-d) : d;
       if (sum.norm() > 1e-6) up = sum.normalized();
     } else if (m_pattern.panels[k].hint.rigid) up = Vec2(1, 0);
-    // Towards the body: away from the middle, where the trunk (else another arm panel that leads to it) is sewn on.
+    // Towards the body: away from the middle, where the trunk (else another arm panel that leads to
+    // it) is sewn on.
     double sense = 0;
     for (bool trunk : {true, false}) {
       for (int q : m_graph.neighbours(p)) {
@@ -336,7 +386,8 @@ private:
         const auto seams = m_graph.between(p, q);
         if (!trunk && (seams.size() >= 2 || !touches_trunk(q))) continue;
         for (const auto& seam : seams)
-          for (const auto& s : seam) sense += (m_mesh.pattern[static_cast<std::size_t>(s[0])] - middle(k)).dot(up);
+          for (const auto& s : seam)
+            sense += (m_mesh.pattern[static_cast<std::size_t>(s[0])] - middle(k)).dot(up);
       }
       if (sense != 0) break;
     }
@@ -360,6 +411,9 @@ private:
 
 } // namespace
 
-std::vector<PanelRole> panel_roles(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph) { return Roles(pattern, mesh, graph).run(); }
+std::vector<PanelRole> panel_roles(const Pattern& pattern, const PanelMesh& mesh,
+                                   const SeamGraph& graph) {
+  return Roles(pattern, mesh, graph).run();
+}
 
 } // namespace sloper::pattern

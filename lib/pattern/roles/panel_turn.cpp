@@ -10,20 +10,27 @@ namespace {
 
 using Turn = Eigen::Matrix2d;
 
-constexpr double SNAP = 3;             // degrees: a grain this near to an axis, or to a bias, is drawn along it
+constexpr double SNAP = 3; // degrees: a grain this near to an axis, or to a bias, is drawn along it
 constexpr double DRAWN_UPRIGHT = 0.75; // of the grain's direction: pieces drawn so stand as drawn
-constexpr double GAIN = 0.2;           // of the seams' length, by which another turn has to go better with them than one with the grain upright
+constexpr double GAIN = 0.2; // of the seams' length, by which another turn has to go better with
+                             // them than one with the grain upright
 
-Turn rotation(double degrees) { return Eigen::Rotation2Dd(units::radians(degrees)).toRotationMatrix(); }
+Turn rotation(double degrees) {
+  return Eigen::Rotation2Dd(units::radians(degrees)).toRotationMatrix();
+}
 
 class Turning {
 public:
-  Turning(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph, std::vector<PanelRole>& roles)
-      : m_pattern(pattern), m_mesh(mesh), m_graph(graph), m_roles(roles), m_known(roles.size(), false) {}
+  Turning(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph,
+          std::vector<PanelRole>& roles)
+      : m_pattern(pattern), m_mesh(mesh), m_graph(graph), m_roles(roles),
+        m_known(roles.size(), false) {}
 
   void run() {
     const std::size_t n = m_roles.size();
-    for (std::size_t k = 0; k < n; ++k) m_known[k] = m_pattern.panels[k].hint.rigid.has_value() || !m_pattern.panels[k].hint.part.empty();
+    for (std::size_t k = 0; k < n; ++k)
+      m_known[k] =
+          m_pattern.panels[k].hint.rigid.has_value() || !m_pattern.panels[k].hint.part.empty();
     for (;;) {
       // The panel with the longest seams to those that stand; else the largest that is left.
       std::size_t best = n;
@@ -44,7 +51,8 @@ public:
     for (bool changed = true; changed;) { // stands on neck lines, then collars on stands
       changed = false;
       for (std::size_t k = 0; k < n; ++k)
-        if (!m_known[k] && m_roles[k].region == Region::NECK && seam_below(k)) m_known[k] = changed = true;
+        if (!m_known[k] && m_roles[k].region == Region::NECK && seam_below(k))
+          m_known[k] = changed = true;
     }
   }
 
@@ -67,7 +75,9 @@ private:
       const std::size_t o = static_cast<std::size_t>(q);
       if (!m_known[o] || m_roles[o].region != Region::TRUNK) continue;
       for (const auto& seam : m_graph.between(static_cast<int>(k), q))
-        for (std::size_t i = 0; i + 1 < seam.size(); ++i) visit(o, Vec2(at(seam[i + 1][0]) - at(seam[i][0])), Vec2(at(seam[i + 1][1]) - at(seam[i][1])));
+        for (std::size_t i = 0; i + 1 < seam.size(); ++i)
+          visit(o, Vec2(at(seam[i + 1][0]) - at(seam[i][0])),
+                Vec2(at(seam[i + 1][1]) - at(seam[i][1])));
     }
   }
 
@@ -77,10 +87,12 @@ private:
     return sum;
   }
 
-  /// Quarter turns from the drawing or, where it is drawn askew, from the grain; the first is the drawing's own or next to it.
+  /// Quarter turns from the drawing or, where it is drawn askew, from the grain; the first is the
+  /// drawing's own or next to it.
   std::vector<Turn> candidates(std::size_t k) const {
     const Vec2& grain = m_pattern.panels[k].grain;
-    const double lean = units::degrees(std::atan2(grain.x(), grain.y())); // of the grain, clockwise from up
+    const double lean =
+        units::degrees(std::atan2(grain.x(), grain.y())); // of the grain, clockwise from up
     const double off = std::remainder(lean, 45);
     double first = 0;
     if (std::abs(off) > SNAP) first = std::remainder(lean, 90);
@@ -91,7 +103,8 @@ private:
 
   bool side_known(std::size_t k) const {
     const Words words = words_of(m_pattern.panels[k].name);
-    return m_pattern.panels[k].hint.rigid || !m_pattern.panels[k].hint.part.empty() || says_front(words) || says_back(words);
+    return m_pattern.panels[k].hint.rigid || !m_pattern.panels[k].hint.part.empty() ||
+           name_suggests_front(words) || says_back(words);
   }
 
   /// The turn that goes best with the seams to panels that stand.
@@ -105,28 +118,40 @@ private:
       const double length = std::sqrt(own.norm() * b.norm());
       if (!(length > 0)) return;
       total += length;
-      const bool level = goes_level(b), ring = m_roles[k].side == Side::RING || m_roles[o].side == Side::RING;
-      const bool over = level && !ring && m_roles[k].side != m_roles[o].side; // over the shoulders, or between the legs
+      const bool level = goes_level(b),
+                 ring = m_roles[k].side == Side::RING || m_roles[o].side == Side::RING;
+      const bool over =
+          level && !ring &&
+          m_roles[k].side != m_roles[o].side; // over the shoulders, or between the legs
       for (std::size_t t = 0; t < turns.size(); ++t) {
         const Vec2 a = turns[t] * own;
         double along = a.dot(b) / length;
-        if (!level) along = std::max(along, a.dot(Vec2(-b.x(), b.y())) / length); // flared panels lean away from each other
-        score[t] += level && !ring && !(known && side_known(o)) ? std::abs(along) : over ? -along : along;
+        if (!level)
+          along = std::max(along, a.dot(Vec2(-b.x(), b.y())) /
+                                      length); // flared panels lean away from each other
+        score[t] += level && !ring && !(known && side_known(o)) ? std::abs(along)
+                    : over                                      ? -along
+                                                                : along;
       }
     });
-    const std::size_t best = static_cast<std::size_t>(std::max_element(score.begin(), score.end()) - score.begin());
-    const bool drawn_upright = std::abs((turns[0] * m_pattern.panels[k].grain).y()) >= DRAWN_UPRIGHT;
+    const std::size_t best =
+        static_cast<std::size_t>(std::max_element(score.begin(), score.end()) - score.begin());
+    const bool drawn_upright =
+        std::abs((turns[0] * m_pattern.panels[k].grain).y()) >= DRAWN_UPRIGHT;
     m_roles[k].turn = turns[score[best] > score[0] + (drawn_upright ? GAIN * total : 0) ? best : 0];
   }
 
-  /// By quarter turns, with the seams to what stands already at the lower edge; false where there are none.
+  /// By quarter turns, with the seams to what stands already at the lower edge; false where there
+  /// are none.
   bool seam_below(std::size_t k) {
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300), sum = Vec2::Zero();
     for (int v : m_mesh.panels[k].outline) low = low.cwiseMin(at(v)), high = high.cwiseMax(at(v));
     double count = 0;
-    for (const bool trunk : {true, false}) { // its own other half only where it is not sewn to the trunk
+    for (const bool trunk :
+         {true, false}) { // its own other half only where it is not sewn to the trunk
       for (int q : m_graph.neighbours(static_cast<int>(k)))
-        if (const std::size_t o = static_cast<std::size_t>(q); m_known[o] && (m_roles[o].region == Region::TRUNK) == trunk)
+        if (const std::size_t o = static_cast<std::size_t>(q);
+            m_known[o] && (m_roles[o].region == Region::TRUNK) == trunk)
           for (const auto& seam : m_graph.between(static_cast<int>(k), q))
             for (const auto& s : seam) sum += at(s[0]), ++count;
       if (count > 0) break;
@@ -134,7 +159,10 @@ private:
     if (count == 0) return false;
     const Vec2 down = sum / count - 0.5 * (low + high);
     const std::vector<Turn> turns = candidates(k);
-    m_roles[k].turn = *std::min_element(turns.begin(), turns.end(), [&](const Turn& a, const Turn& b) { return (a * down).y() < (b * down).y() - 1e-9; });
+    m_roles[k].turn =
+        *std::min_element(turns.begin(), turns.end(), [&](const Turn& a, const Turn& b) {
+          return (a * down).y() < (b * down).y() - 1e-9;
+        });
     return true;
   }
 
@@ -142,13 +170,15 @@ private:
   void stand(std::size_t k) {
     const std::vector<Turn> turns = candidates(k);
     const Vec2 grain = turns[0] * m_pattern.panels[k].grain;
-    if (std::abs(grain.y()) >= DRAWN_UPRIGHT || std::abs(std::abs(grain.x()) - std::abs(grain.y())) < 0.05) {
+    if (std::abs(grain.y()) >= DRAWN_UPRIGHT ||
+        std::abs(std::abs(grain.x()) - std::abs(grain.y())) < 0.05) {
       m_roles[k].turn = turns[0];
       return;
     }
     std::vector<char> sewn(m_mesh.pattern.size(), 0);
     for (const MeshSeam& s : m_mesh.seams)
-      for (std::size_t i = 0; i < s.a.size(); ++i) sewn[static_cast<std::size_t>(s.a[i])] = sewn[static_cast<std::size_t>(s.b[i])] = 1;
+      for (std::size_t i = 0; i < s.a.size(); ++i)
+        sewn[static_cast<std::size_t>(s.a[i])] = sewn[static_cast<std::size_t>(s.b[i])] = 1;
     const auto& outline = m_mesh.panels[k].outline;
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300), sum = Vec2::Zero();
     double length = 0;
@@ -172,7 +202,8 @@ private:
 
 } // namespace
 
-void turn_trunk_panels(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph, std::vector<PanelRole>& roles) {
+void turn_trunk_panels(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph,
+                       std::vector<PanelRole>& roles) {
   Turning(pattern, mesh, graph, roles).run();
 }
 

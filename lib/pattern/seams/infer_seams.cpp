@@ -19,7 +19,8 @@ struct Edge {
   std::vector<double> notches; ///< m from the start, ascending
 };
 
-/// A name without its last word where that says a side ("armhole_l" is "armhole"); empty for "edge12".
+/// A name without its last word where that says a side ("armhole_l" is "armhole"); empty for
+/// "edge12".
 std::string base_name(const std::string& name) {
   std::string base = name;
   for (const char* tail : {"_l", "_r", "_f", "_b", "_a", "_left", "_right", "_mirror"}) {
@@ -31,14 +32,19 @@ std::string base_name(const std::string& name) {
   }
   std::string letters;
   for (char c : base)
-    if (std::isalpha(static_cast<unsigned char>(c))) letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (std::isalpha(static_cast<unsigned char>(c)))
+      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return letters == "edge" || letters.rfind("hole", 0) == 0 ? "" : letters;
 }
 
 /// 1 left, -1 right, 0 unknown.
 int side_of(const std::string& name) {
-  const auto ends = [&](const std::string& t) { return name.size() > t.size() && name.compare(name.size() - t.size(), t.size(), t) == 0; };
-  return ends("_l") || ends("_left") || ends(" L") ? 1 : ends("_r") || ends("_right") || ends(" R") ? -1 : 0;
+  const auto ends = [&](const std::string& t) {
+    return name.size() > t.size() && name.compare(name.size() - t.size(), t.size(), t) == 0;
+  };
+  return ends("_l") || ends("_left") || ends(" L")    ? 1
+         : ends("_r") || ends("_right") || ends(" R") ? -1
+                                                      : 0;
 }
 
 class Inference {
@@ -47,7 +53,8 @@ public:
     for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
       const Panel& panel = pattern.panels[p];
       for (int e = 0; e < panel.n_edges(); ++e) {
-        Edge edge{static_cast<int>(p), e, length(panel.edge(e).path), base_name(panel.edge(e).name), {}};
+        Edge edge{
+            static_cast<int>(p), e, length(panel.edge(e).path), base_name(panel.edge(e).name), {}};
         for (const Notch& n : panel.notches)
           if (n.edge == e) edge.notches.push_back(n.at * edge.length);
         std::sort(edge.notches.begin(), edge.notches.end());
@@ -67,7 +74,8 @@ public:
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) {
         if (i == j) continue;
-        if (best[i] == n || score[i][j] > score[i][best[i]]) next[i] = best[i] == n ? 0 : score[i][best[i]], best[i] = j;
+        if (best[i] == n || score[i][j] > score[i][best[i]])
+          next[i] = best[i] == n ? 0 : score[i][best[i]], best[i] = j;
         else next[i] = std::max(next[i], score[i][j]);
       }
     std::vector<SeamGuess> out;
@@ -76,29 +84,37 @@ public:
         if (score[i][j] < PLAUSIBLE) continue;
         SeamGuess guess;
         const Edge &a = m_edges[i], &b = m_edges[j];
-        guess.seam.name =
-            m_pattern.panels[static_cast<std::size_t>(a.panel)].name + "." + m_pattern.panels[static_cast<std::size_t>(a.panel)].edge(a.edge).name + "-" +
-            m_pattern.panels[static_cast<std::size_t>(b.panel)].name + "." + m_pattern.panels[static_cast<std::size_t>(b.panel)].edge(b.edge).name;
+        guess.seam.name = m_pattern.panels[static_cast<std::size_t>(a.panel)].name + "." +
+                          m_pattern.panels[static_cast<std::size_t>(a.panel)].edge(a.edge).name +
+                          "-" + m_pattern.panels[static_cast<std::size_t>(b.panel)].name + "." +
+                          m_pattern.panels[static_cast<std::size_t>(b.panel)].edge(b.edge).name;
         guess.seam.a = {{a.panel, a.edge, 0, 1}}, guess.seam.b = {{b.panel, b.edge, 1, 0}};
         if (a.panel == b.panel) guess.seam.kind = "dart";
         guess.score = score[i][j];
-        guess.certain = best[i] == j && best[j] == i && score[i][j] >= CERTAIN && score[i][j] - std::max(next[i], next[j]) >= MARGIN;
+        guess.certain = best[i] == j && best[j] == i && score[i][j] >= CERTAIN &&
+                        score[i][j] - std::max(next[i], next[j]) >= MARGIN;
         out.push_back(std::move(guess));
       }
-    std::stable_sort(out.begin(), out.end(), [](const SeamGuess& a, const SeamGuess& b) { return a.score > b.score; });
+    std::stable_sort(out.begin(), out.end(),
+                     [](const SeamGuess& a, const SeamGuess& b) { return a.score > b.score; });
     return out;
   }
 
 private:
-  /// How well two edges go together: 0.5 for length, up to 0.3 for names, 0.2 for notches; sides that contradict each other forbid.
+  /// How well two edges go together: 0.5 for length, up to 0.3 for names, 0.2 for notches; sides
+  /// that contradict each other forbid.
   double rate(const Edge& a, const Edge& b) const {
-    const Panel &pa = m_pattern.panels[static_cast<std::size_t>(a.panel)], &pb = m_pattern.panels[static_cast<std::size_t>(b.panel)];
+    const Panel &pa = m_pattern.panels[static_cast<std::size_t>(a.panel)],
+                &pb = m_pattern.panels[static_cast<std::size_t>(b.panel)];
     const double ratio = std::abs(std::log(a.length / b.length));
     if (ratio > 0.15) return 0;
     const int sa = side_of(pa.edge(a.edge).name) ? side_of(pa.edge(a.edge).name) : side_of(pa.name),
               sb = side_of(pb.edge(b.edge).name) ? side_of(pb.edge(b.edge).name) : side_of(pb.name);
-    if (sa * sb < 0 && a.name != "crotch" && a.name != "cf" && a.name != "cb" && a.name != "centre" && a.name != "center") return 0;
-    if (a.panel == b.panel && !adjacent(pa, a.edge, b.edge)) return 0; // within a panel only darts are guessed
+    if (sa * sb < 0 && a.name != "crotch" && a.name != "cf" && a.name != "cb" &&
+        a.name != "centre" && a.name != "center")
+      return 0;
+    if (a.panel == b.panel && !adjacent(pa, a.edge, b.edge))
+      return 0; // within a panel only darts are guessed
     double names = 0.12;
     if (!a.name.empty() && !b.name.empty()) names = a.name == b.name ? 0.3 : 0.0;
     if (a.name == "hem" || b.name == "hem") return 0;
@@ -107,7 +123,9 @@ private:
       notches = 0;
       if (a.notches.size() == b.notches.size()) {
         double worst = 0; // b is walked against its outline
-        for (std::size_t k = 0; k < a.notches.size(); ++k) worst = std::max(worst, std::abs(a.notches[k] - (b.length - b.notches[b.notches.size() - 1 - k])));
+        for (std::size_t k = 0; k < a.notches.size(); ++k)
+          worst = std::max(
+              worst, std::abs(a.notches[k] - (b.length - b.notches[b.notches.size() - 1 - k])));
         notches = 0.2 * std::exp(-worst / 0.01);
       }
     }
@@ -125,7 +143,9 @@ private:
 
 io::Json run_json(const Pattern& pattern, const Run& run) {
   const Panel& panel = pattern.panels[static_cast<std::size_t>(run.panel)];
-  return {{"panel", panel.name}, {"run", panel.edge(run.edge).name}, {"dir", run.from < run.to ? "+" : "-"}};
+  return {{"panel", panel.name},
+          {"run", panel.edge(run.edge).name},
+          {"dir", run.from < run.to ? "+" : "-"}};
 }
 
 io::Json seam_json(const Pattern& pattern, const SeamGuess& guess) {
@@ -140,14 +160,16 @@ io::Json seam_json(const Pattern& pattern, const SeamGuess& guess) {
 
 std::vector<SeamGuess> infer_seams(const Pattern& pattern) { return Inference(pattern).run(); }
 
-io::Json sewing_questions(const Pattern& pattern, const std::vector<SeamGuess>& guesses, const std::string& tool) {
+io::Json sewing_questions(const Pattern& pattern, const std::vector<SeamGuess>& guesses,
+                          const std::string& tool) {
   io::Json doc = io::new_document("sewing-seams", 1, tool);
   doc["seams"] = io::Json::array(), doc["questions"] = io::Json::array();
   std::set<std::pair<int, int>> used;
   for (const SeamGuess& g : guesses)
     if (g.certain) {
       doc["seams"].push_back(seam_json(pattern, g));
-      used.insert({g.seam.a[0].panel, g.seam.a[0].edge}), used.insert({g.seam.b[0].panel, g.seam.b[0].edge});
+      used.insert({g.seam.a[0].panel, g.seam.a[0].edge}),
+          used.insert({g.seam.b[0].panel, g.seam.b[0].edge});
     }
   for (std::size_t p = 0; p < pattern.panels.size(); ++p)
     for (int e = 0; e < pattern.panels[p].n_edges(); ++e) {
@@ -155,7 +177,8 @@ io::Json sewing_questions(const Pattern& pattern, const std::vector<SeamGuess>& 
       if (used.count(edge)) continue;
       io::Json candidates = io::Json::array();
       for (const SeamGuess& g : guesses) {
-        const std::pair<int, int> a{g.seam.a[0].panel, g.seam.a[0].edge}, b{g.seam.b[0].panel, g.seam.b[0].edge};
+        const std::pair<int, int> a{g.seam.a[0].panel, g.seam.a[0].edge},
+            b{g.seam.b[0].panel, g.seam.b[0].edge};
         if ((a == edge && !used.count(b)) || (b == edge && !used.count(a)))
           if (candidates.size() < 5) candidates.push_back(seam_json(pattern, g));
       }

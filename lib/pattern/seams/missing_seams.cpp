@@ -11,12 +11,15 @@ namespace sloper::pattern {
 namespace {
 
 constexpr double SAME_PLACE = 0.003;               // m along an edge
-constexpr double ALIKE = 0.003, ALIKE_PART = 0.01; // m and of the length: mirrored edges differ by no more than the greater of them
+constexpr double ALIKE = 0.003, ALIKE_PART = 0.01; // m and of the length: mirrored edges differ by
+                                                   // no more than the greater of them
 constexpr double CENTRED = 0.005;                  // m: holes lie like those of the other half
-constexpr double SHORTEST_GAP = 0.03;              // m: what is shorter may be a vent, a buttonhole or a loop
-constexpr double CLOSES = 290 * units::PI / 180;   // of cloth around the end of a hole that comes to a point there; a hem has half a turn
-constexpr double LARGEST_TURN = units::PI / 4;     // of a rim that goes straight on
-constexpr double SAME_NOTCH = 0.05;                // of an edge
+constexpr double SHORTEST_GAP = 0.03; // m: what is shorter may be a vent, a buttonhole or a loop
+constexpr double CLOSES =
+    290 * units::PI /
+    180; // of cloth around the end of a hole that comes to a point there; a hem has half a turn
+constexpr double LARGEST_TURN = units::PI / 4; // of a rim that goes straight on
+constexpr double SAME_NOTCH = 0.05;            // of an edge
 
 /// A stretch of one edge, with what is around it. Edges are those of the outer loop, by index.
 struct EdgeId {
@@ -24,7 +27,9 @@ struct EdgeId {
   bool operator==(const EdgeId& other) const { return panel == other.panel && edge == other.edge; }
 };
 
-bool alike(double a, double b) { return std::abs(a - b) < std::max(ALIKE, ALIKE_PART * std::max(a, b)); }
+bool alike(double a, double b) {
+  return std::abs(a - b) < std::max(ALIKE, ALIKE_PART * std::max(a, b));
+}
 
 class Search {
 public:
@@ -38,7 +43,8 @@ public:
     }
     for (const Seam& seam : pattern.seams) {
       for (const auto* side : {&seam.a, &seam.b})
-        for (const Run& run : *side) m_sewn[static_cast<std::size_t>(run.panel)][static_cast<std::size_t>(run.edge)] = true;
+        for (const Run& run : *side)
+          m_sewn[static_cast<std::size_t>(run.panel)][static_cast<std::size_t>(run.edge)] = true;
       if (seam.kind != "pleat") weld(seam);
     }
   }
@@ -55,13 +61,22 @@ public:
 private:
   const Panel& panel(int p) const { return m_pattern.panels[static_cast<std::size_t>(p)]; }
   int count(int p) const { return static_cast<int>(panel(p).loops[0].size()); }
-  double length_of(const EdgeId& e) const { return m_length[static_cast<std::size_t>(e.panel)][static_cast<std::size_t>(e.edge)]; }
-  bool sewn(const EdgeId& e) const { return m_sewn[static_cast<std::size_t>(e.panel)][static_cast<std::size_t>(e.edge)]; }
+  double length_of(const EdgeId& e) const {
+    return m_length[static_cast<std::size_t>(e.panel)][static_cast<std::size_t>(e.edge)];
+  }
+  bool sewn(const EdgeId& e) const {
+    return m_sewn[static_cast<std::size_t>(e.panel)][static_cast<std::size_t>(e.edge)];
+  }
   EdgeId after(const EdgeId& e) const { return {e.panel, (e.edge + 1) % count(e.panel)}; }
-  EdgeId before(const EdgeId& e) const { return {e.panel, (e.edge + count(e.panel) - 1) % count(e.panel)}; }
+  EdgeId before(const EdgeId& e) const {
+    return {e.panel, (e.edge + count(e.panel) - 1) % count(e.panel)};
+  }
 
-  // Corners, and places on edges that meet a corner, are joined where seams join them. A corner has the number of the edge that begins there.
-  int corner(const EdgeId& e, bool end) const { return m_first[static_cast<std::size_t>(e.panel)] + (end ? after(e) : e).edge; }
+  // Corners, and places on edges that meet a corner, are joined where seams join them. A corner has
+  // the number of the edge that begins there.
+  int corner(const EdgeId& e, bool end) const {
+    return m_first[static_cast<std::size_t>(e.panel)] + (end ? after(e) : e).edge;
+  }
   int find(int node) const { return m_nodes.find(node); }
   int node_at(const Run& run, double fraction) {
     const EdgeId e{run.panel, run.edge};
@@ -80,7 +95,9 @@ private:
     std::vector<double> ends = {0, 1}; // of runs, on the way along the seam
     for (const auto* side : {&seam.a, &seam.b}) {
       double sum = 0;
-      for (const Run& run : *side) sum += run_length(m_pattern, run), ends.push_back(std::min(1.0, sum / std::max(total[side == &seam.b], 1e-9)));
+      for (const Run& run : *side)
+        sum += run_length(m_pattern, run),
+            ends.push_back(std::min(1.0, sum / std::max(total[side == &seam.b], 1e-9)));
     }
     for (double end : ends) {
       int first = -1;
@@ -91,7 +108,9 @@ private:
           const double own = run_length(m_pattern, run), along = end * all - at;
           at += own;
           if (along < -SAME_PLACE || along > own + SAME_PLACE) continue;
-          const int node = node_at(run, run.from + (run.to - run.from) * std::clamp(along / std::max(own, 1e-9), 0.0, 1.0));
+          const int node =
+              node_at(run, run.from + (run.to - run.from) *
+                                          std::clamp(along / std::max(own, 1e-9), 0.0, 1.0));
           if (node < 0) continue;
           if (first < 0) first = node;
           m_nodes.unite_into(node, first);
@@ -102,7 +121,8 @@ private:
 
   /// Of the cloth, at the corner of an outline where an edge begins.
   double angle_before(int p, int loop_first, int n, int k) const {
-    const Path &in = panel(p).edge(loop_first + (k + n - 1) % n).path, &out = panel(p).edge(loop_first + k).path;
+    const Path &in = panel(p).edge(loop_first + (k + n - 1) % n).path,
+               &out = panel(p).edge(loop_first + k).path;
     const ArcLength arrives(in), leaves(out);
     const Vec2 a = -arrives.tangent(arrives.length()), b = leaves.tangent(0);
     const double angle = std::atan2(b.x() * a.y() - b.y() * a.x(), b.dot(a));
@@ -113,7 +133,8 @@ private:
     double sum = 0;
     for (int p = 0; p < static_cast<int>(m_pattern.panels.size()); ++p)
       for (int k = 0; k < count(p); ++k)
-        if (find(m_first[static_cast<std::size_t>(p)] + k) == joined) sum += angle_before(p, 0, count(p), k);
+        if (find(m_first[static_cast<std::size_t>(p)] + k) == joined)
+          sum += angle_before(p, 0, count(p), k);
     for (const auto& place : m_places)
       if (find(place.node) == joined) sum += units::PI;
     return sum;
@@ -132,11 +153,14 @@ private:
     return out;
   }
   double gap_length(const std::vector<EdgeId>& gap) const {
-    return std::accumulate(gap.begin(), gap.end(), 0.0, [&](double sum, const EdgeId& e) { return sum + length_of(e); });
+    return std::accumulate(gap.begin(), gap.end(), 0.0,
+                           [&](double sum, const EdgeId& e) { return sum + length_of(e); });
   }
 
   void tell(const EdgeId& a, const EdgeId& b, const std::string& why) {
-    const auto met = [&](const Run& run, const EdgeId& e) { return run.panel == e.panel && run.edge == e.edge; };
+    const auto met = [&](const Run& run, const EdgeId& e) {
+      return run.panel == e.panel && run.edge == e.edge;
+    };
     for (const MissingSeam& s : m_out)
       if ((met(s.a, a) && met(s.b, b)) || (met(s.a, b) && met(s.b, a))) return;
     m_out.push_back({{a.panel, a.edge, 0, 1}, {b.panel, b.edge, 1, 0}, why});
@@ -150,22 +174,27 @@ private:
       const int start = corner(all[i].front(), false), end = corner(all[i].back(), true);
       if (all[i].size() == 2 && find(start) == find(end)) { // a dart
         const EdgeId &a = all[i][0], &b = all[i][1];
-        if (length_of(a) > SHORTEST_GAP && alike(length_of(a), length_of(b)) && pointed(start) && angle_before(b.panel, 0, count(b.panel), b.edge) > CLOSES)
+        if (length_of(a) > SHORTEST_GAP && alike(length_of(a), length_of(b)) && pointed(start) &&
+            angle_before(b.panel, 0, count(b.panel), b.edge) > CLOSES)
           tell(a, b, point);
       }
       for (std::size_t j = i + 1; j < all.size(); ++j) {
         const int from = corner(all[j].front(), false), to = corner(all[j].back(), true);
-        if (find(start) != find(to) || find(end) != find(from) || find(start) == find(end)) continue;
-        if (gap_length(all[i]) > SHORTEST_GAP && alike(gap_length(all[i]), gap_length(all[j])) && pointed(start) && pointed(end))
+        if (find(start) != find(to) || find(end) != find(from) || find(start) == find(end))
+          continue;
+        if (gap_length(all[i]) > SHORTEST_GAP && alike(gap_length(all[i]), gap_length(all[j])) &&
+            pointed(start) && pointed(end))
           tell(all[i].front(), all[j].back(), point);
       }
     }
     for (int p = 0; p < static_cast<int>(m_pattern.panels.size()); ++p) { // a dart within a panel
       int first = count(p);
-      for (std::size_t h = 1; h < panel(p).loops.size(); first += static_cast<int>(panel(p).loops[h++].size())) {
+      for (std::size_t h = 1; h < panel(p).loops.size();
+           first += static_cast<int>(panel(p).loops[h++].size())) {
         const EdgeId a{p, first}, b{p, first + 1};
-        if (panel(p).loops[h].size() == 2 && !sewn(a) && !sewn(b) && length_of(a) > SHORTEST_GAP && alike(length_of(a), length_of(b)) &&
-            angle_before(p, first, 2, 0) > CLOSES && angle_before(p, first, 2, 1) > CLOSES)
+        if (panel(p).loops[h].size() == 2 && !sewn(a) && !sewn(b) && length_of(a) > SHORTEST_GAP &&
+            alike(length_of(a), length_of(b)) && angle_before(p, first, 2, 0) > CLOSES &&
+            angle_before(p, first, 2, 1) > CLOSES)
           tell(a, b, point);
       }
     }
@@ -182,7 +211,9 @@ private:
     const Vec2& g = panel(p).grain;
     return {v.dot(g), g.x() * v.y() - g.y() * v.x()};
   }
-  Vec2 chord(int p, int e) const { return by_grain(p, panel(p).edge(e).path.back().p[3] - panel(p).edge(e).path.front().p[0]); }
+  Vec2 chord(int p, int e) const {
+    return by_grain(p, panel(p).edge(e).path.back().p[3] - panel(p).edge(e).path.front().p[0]);
+  }
   std::vector<double> notches_of(int p, int e, bool turned) const {
     std::vector<double> out;
     for (const Notch& n : panel(p).notches)
@@ -203,14 +234,18 @@ private:
     const int n = count(p);
     for (int e = 0; e < n; ++e) {
       const int f = (sum - e + n) % n;
-      const double own = length_of({p, e}), other = length_of({q, f}), off = std::max(ALIKE, ALIKE_PART * own);
+      const double own = length_of({p, e}), other = length_of({q, f}),
+                   off = std::max(ALIKE, ALIKE_PART * own);
       const Vec2 a = chord(p, e), b = chord(q, f);
       if (!alike(own, other) || (b - Vec2(-a.x(), a.y())).norm() > 2 * off) return false;
       const std::vector<double> at = notches_of(p, e, true), there = notches_of(q, f, false);
-      if (!std::equal(at.begin(), at.end(), there.begin(), there.end(), [](double x, double y) { return std::abs(x - y) < SAME_NOTCH; })) return false;
+      if (!std::equal(at.begin(), at.end(), there.begin(), there.end(),
+                      [](double x, double y) { return std::abs(x - y) < SAME_NOTCH; }))
+        return false;
     }
     const Vec2 a = holes_at(p), b = holes_at(q);
-    return panel(p).loops.size() == panel(q).loops.size() && (b - Vec2(a.x(), -a.y())).norm() < CENTRED;
+    return panel(p).loops.size() == panel(q).loops.size() &&
+           (b - Vec2(a.x(), -a.y())).norm() < CENTRED;
   }
   Mirror mirror(int p, int q) const {
     if (count(p) == count(q))
@@ -219,7 +254,8 @@ private:
     return {};
   }
 
-  /// The other half of each panel: the one that its name tells, else itself, else the only one that it can be.
+  /// The other half of each panel: the one that its name tells, else itself, else the only one that
+  /// it can be.
   void find_mirrors() {
     const int n = static_cast<int>(m_pattern.panels.size());
     std::vector<Words> words;
@@ -235,14 +271,17 @@ private:
     const auto at = [](auto& list, int k) -> auto& { return list[static_cast<std::size_t>(k)]; };
     for (int p = 0; p < n; ++p)
       for (int q = 0; q < n && at(m_mirror, p).panel < 0; ++q)
-        if (at(side, p) * at(side, q) < 0 && at(words, p) == at(words, q)) at(m_mirror, p) = mirror(p, q);
+        if (at(side, p) * at(side, q) < 0 && at(words, p) == at(words, q))
+          at(m_mirror, p) = mirror(p, q);
     for (int p = 0; p < n; ++p)
       if (at(m_mirror, p).panel < 0) at(m_mirror, p) = mirror(p, p);
     for (int p = 0; p < n; ++p) {
       if (at(m_mirror, p).panel >= 0) continue;
       std::vector<Mirror> others;
       for (int q = 0; q < n; ++q)
-        if (const Mirror m = q == p || at(m_mirror, q).panel == q ? Mirror{} : mirror(p, q); m.panel >= 0) others.push_back(m);
+        if (const Mirror m = q == p || at(m_mirror, q).panel == q ? Mirror{} : mirror(p, q);
+            m.panel >= 0)
+          others.push_back(m);
       if (others.size() == 1) at(m_mirror, p) = others[0];
     }
   }
@@ -255,10 +294,13 @@ private:
 
   bool sewn_together(const EdgeId& a, const EdgeId& b) const {
     const auto has = [](const std::vector<Run>& side, const EdgeId& e) {
-      return std::any_of(side.begin(), side.end(), [&](const Run& run) { return run.panel == e.panel && run.edge == e.edge; });
+      return std::any_of(side.begin(), side.end(), [&](const Run& run) {
+        return run.panel == e.panel && run.edge == e.edge;
+      });
     };
-    return std::any_of(m_pattern.seams.begin(), m_pattern.seams.end(),
-                       [&](const Seam& s) { return (has(s.a, a) && has(s.b, b)) || (has(s.a, b) && has(s.b, a)); });
+    return std::any_of(m_pattern.seams.begin(), m_pattern.seams.end(), [&](const Seam& s) {
+      return (has(s.a, a) && has(s.b, b)) || (has(s.a, b) && has(s.b, a));
+    });
   }
 
   struct EdgeEnd {
@@ -276,19 +318,23 @@ private:
       for (int k = 0; k < count(p); ++k)
         for (const bool end : {false, true}) {
           const EdgeEnd e{{p, k}, end};
-          if (!sewn(e.edge) && node_of(e) == node_of(from) && !(e.edge == from.edge && e.end == from.end)) found.push_back({e.edge, !end});
+          if (!sewn(e.edge) && node_of(e) == node_of(from) &&
+              !(e.edge == from.edge && e.end == from.end))
+            found.push_back({e.edge, !end});
         }
     return found.size() == 1 ? found[0] : EdgeEnd{};
   }
 
-  /// Whether both sides of an opening lead, by way of others such as the ends of a waistband, to where the same panels are sewn together: it is a
-  /// slit or a placket.
+  /// Whether both sides of an opening lead, by way of others such as the ends of a waistband, to
+  /// where the same panels are sewn together: it is a slit or a placket.
   bool goes_on_sewn(std::array<EdgeEnd, 2> ends) const {
     for (std::size_t step = 0; step < m_first.size(); ++step) {
       if (sewn_together(beyond(ends[0]), beyond(ends[1]))) return true;
       if (node_of(ends[0]) == node_of(ends[1])) return false;
       ends = {straight_on(ends[0]), straight_on(ends[1])};
-      if (ends[0].edge.panel < 0 || ends[1].edge.panel < 0 || !alike(length_of(ends[0].edge), length_of(ends[1].edge))) return false;
+      if (ends[0].edge.panel < 0 || ends[1].edge.panel < 0 ||
+          !alike(length_of(ends[0].edge), length_of(ends[1].edge)))
+        return false;
     }
     return false;
   }
@@ -305,11 +351,13 @@ private:
       std::array<EdgeEnd, 2> ends;
       for (std::size_t s : {0, 1}) {
         const Run& run = end ? (s ? seam.b : seam.a).back() : (s ? seam.b : seam.a).front();
-        ends[s] = {end ? side[s].back() : side[s].front(), (run.from < run.to) != end}; // an image runs the other way round
+        ends[s] = {end ? side[s].back() : side[s].front(),
+                   (run.from < run.to) != end}; // an image runs the other way round
       }
       if (goes_on_sewn(ends)) return;
     }
-    tell(side[0].front(), side[1].front(), "their like in the other half are sewn together (" + seam.name + ")");
+    tell(side[0].front(), side[1].front(),
+         "their like in the other half are sewn together (" + seam.name + ")");
   }
 
   struct Place {

@@ -1,6 +1,7 @@
 #pragma once
-/// Edges that were obviously meant to be sewn together and are not. An opening of a garment, be it a neckline, a hem, a slit, an open front or
-/// a placket, is none: only what can be nothing else is told.
+/// Edges that were obviously meant to be sewn together and are not. An opening of a garment, be it
+/// a neckline, a hem, a slit, an open front or a placket, is none: only what can be nothing else is
+/// told.
 #include <pattern/pattern.hpp>
 
 namespace sloper::pattern {
@@ -11,11 +12,14 @@ struct MissingSeam {
 };
 
 /// Two kinds of free edges are told:
-/// - both sides of a hole as long as each other that comes to a point at both ends, where the cloth would lie flat were it closed: a stretch
+/// - both sides of a hole as long as each other that comes to a point at both ends, where the cloth
+/// would lie flat were it closed: a stretch
 ///   left out of a seam, a dart, of which the ends meet
-/// - those of a pattern's one half whose like in the other half are sewn: one side seam of two, one sleeve. Halves are panels that mirror each
-///   other about the grain, holes and notches too, by the words left and right in their names or by their shape alone, or one panel's own
-///   two. Where such a free stretch goes on in a seam of the same two panels it is a slit or a placket, and is not told.
+/// - those of a pattern's one half whose like in the other half are sewn: one side seam of two, one
+/// sleeve. Halves are panels that mirror each
+///   other about the grain, holes and notches too, by the words left and right in their names or by
+///   their shape alone, or one panel's own two. Where such a free stretch goes on in a seam of the
+///   same two panels it is a slit or a placket, and is not told.
 /// In pattern order.
 std::vector<MissingSeam> missing_seams(const Pattern& pattern);
 

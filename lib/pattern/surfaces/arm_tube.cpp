@@ -9,7 +9,8 @@ namespace sloper::pattern {
 
 using body::Part;
 
-ArmTube::ArmTube(const BodySpace& space, const Axis& axis, bool left, double low, double high) : m_high(high) {
+ArmTube::ArmTube(const BodySpace& space, const Axis& axis, bool left, double low, double high)
+    : m_high(high) {
   const std::size_t n = static_cast<std::size_t>(std::ceil((high - low) / ROW)) + 2;
   std::vector<Ring> skin(n, empty_ring());
   bool any = false;
@@ -22,10 +23,14 @@ ArmTube::ArmTube(const BodySpace& space, const Axis& axis, bool left, double low
     any = true;
   }
   if (!any)
-    throw input_error("", "body", std::string("the ") + (left ? "left" : "right") + " arm has no skin where the sleeve lies",
+    throw input_error("", "body",
+                      std::string("the ") + (left ? "left" : "right") +
+                          " arm has no skin where the sleeve lies",
                       "scan the arms, or leave the sleeves out");
   m_section = smooth(joined(filled(std::move(skin)), 2), 2);
-  for (const Ring& r : m_section) m_center.push_back(0.5 * Vec2(r[RING_ANGLES / 4] - r[3 * RING_ANGLES / 4], r[0] - r[RING_ANGLES / 2]));
+  for (const Ring& r : m_section)
+    m_center.push_back(
+        0.5 * Vec2(r[RING_ANGLES / 4] - r[3 * RING_ANGLES / 4], r[0] - r[RING_ANGLES / 2]));
   m_center = averaged(m_center, 4);
 }
 
@@ -33,8 +38,11 @@ ArmTube::Curve ArmTube::trace(std::size_t row, double grown) const {
   const Ring radius = radii(m_section[row], m_center[row], grown);
   Curve c;
   for (int k = -RING_ANGLES / 2; k <= RING_ANGLES / 2; ++k) {
-    c.points.push_back(m_center[row] + radius[static_cast<std::size_t>((k + RING_ANGLES) % RING_ANGLES)] * direction(k));
-    c.s.push_back(c.s.empty() ? 0 : c.s.back() + (c.points.back() - c.points[c.points.size() - 2]).norm());
+    c.points.push_back(m_center[row] +
+                       radius[static_cast<std::size_t>((k + RING_ANGLES) % RING_ANGLES)] *
+                           direction(k));
+    c.s.push_back(
+        c.s.empty() ? 0 : c.s.back() + (c.points.back() - c.points[c.points.size() - 2]).norm());
   }
   c.middle = c.s[RING_ANGLES / 2];
   return c;
@@ -56,13 +64,17 @@ void ArmTube::shape(const std::vector<double>& widths, double gap) {
 
 Vec2 ArmTube::on(const Curve& c, double u) {
   const double length = c.s.back(), s = c.middle + u - std::floor((c.middle + u) / length) * length;
-  const std::size_t k = std::clamp<std::size_t>(static_cast<std::size_t>(std::upper_bound(c.s.begin(), c.s.end(), s) - c.s.begin()), 1, c.s.size() - 1);
+  const std::size_t k = std::clamp<std::size_t>(
+      static_cast<std::size_t>(std::upper_bound(c.s.begin(), c.s.end(), s) - c.s.begin()), 1,
+      c.s.size() - 1);
   const double span = c.s[k] - c.s[k - 1];
-  return c.points[k - 1] + (span > 0 ? (s - c.s[k - 1]) / span : 0.0) * (c.points[k] - c.points[k - 1]);
+  return c.points[k - 1] +
+         (span > 0 ? (s - c.s[k - 1]) / span : 0.0) * (c.points[k] - c.points[k - 1]);
 }
 
 Vec2 ArmTube::at(double u, double v) const {
-  const double x = std::clamp((m_high - v) / ROW, 0.0, static_cast<double>(m_curves.size()) - 1.001);
+  const double x =
+      std::clamp((m_high - v) / ROW, 0.0, static_cast<double>(m_curves.size()) - 1.001);
   const std::size_t k = static_cast<std::size_t>(x);
   const double f = x - static_cast<double>(k);
   return (1 - f) * on(m_curves[k], u) + f * on(m_curves[k + 1], u);

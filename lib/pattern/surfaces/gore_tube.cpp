@@ -8,15 +8,18 @@ namespace sloper::pattern {
 
 constexpr double GODET_GAP = 0.02; // m of half width over which the room beside a godet opens
 
-GoreTube::GoreTube(const GoreRing& ring, const std::vector<Vec3>& skin) : m_ring(ring) {
+GoreTube::GoreTube(const GoreRow& ring, const std::vector<Vec3>& skin) : m_ring(ring) {
   const std::size_t n = static_cast<std::size_t>(std::ceil((ring.top - ring.bottom) / STEP)) + 2;
   m_skin.assign(n, empty_ring());
   for (const Vec3& p : skin)
     if (p.y() < ring.top + 0.02 && p.y() > ring.bottom - 0.04)
-      include(m_skin[static_cast<std::size_t>(std::clamp((ring.top - p.y()) / STEP, 0.0, static_cast<double>(n) - 1))], Vec2(p.x(), p.z()));
+      include(m_skin[static_cast<std::size_t>(
+                  std::clamp((ring.top - p.y()) / STEP, 0.0, static_cast<double>(n) - 1))],
+              Vec2(p.x(), p.z()));
   m_skin = joined(filled(m_skin), 2);
   for (std::size_t k = 1; k < n; ++k) // it must not come nearer than skin above that it has to pass
-    for (std::size_t d = 0; d < RING_ANGLES; ++d) m_skin[k][d] = std::max(m_skin[k][d], m_skin[k - 1][d]);
+    for (std::size_t d = 0; d < RING_ANGLES; ++d)
+      m_skin[k][d] = std::max(m_skin[k][d], m_skin[k - 1][d]);
   m_skin = smooth(m_skin, 2);
   const auto extent = [&](std::size_t quarter) { return m_skin.back()[quarter * RING_ANGLES / 4]; };
   m_center = 0.5 * Vec2(extent(1) - extent(3), extent(0) - extent(2));
@@ -29,7 +32,9 @@ std::vector<double> GoreTube::gaps(double height) const {
   for (std::size_t k = 0; k < n; ++k) {
     double gap = PANEL_GAP;
     for (const Gore* g : {&m_ring.gores[k], &m_ring.gores[(k + 1) % n]})
-      if (g->godet) gap = std::min(gap, 0.5 * PANEL_GAP * (1 + std::clamp(g->half_width(height) / GODET_GAP, 0.0, 1.0)));
+      if (g->godet)
+        gap = std::min(gap, 0.5 * PANEL_GAP *
+                                (1 + std::clamp(g->half_width(height) / GODET_GAP, 0.0, 1.0)));
     out.push_back(gap);
   }
   return out;
@@ -39,16 +44,23 @@ void GoreTube::trace(Row& row, const Ring& radius, double out, double fold) cons
   constexpr int FINER = 3, FOLDS = 12;
   row.points.clear(), row.s.clear();
   for (int k = 0; k <= FINER * RING_ANGLES; ++k) {
-    const std::size_t a = static_cast<std::size_t>(k / FINER) % RING_ANGLES, b = (a + 1) % RING_ANGLES;
-    const double f = static_cast<double>(k % FINER) / FINER, angle = 2 * units::PI * k / (FINER * RING_ANGLES);
-    const double r = (1 - f) * radius[a] + f * radius[b] + out + fold * (1 - std::cos(FOLDS * angle));
+    const std::size_t a = static_cast<std::size_t>(k / FINER) % RING_ANGLES,
+                      b = (a + 1) % RING_ANGLES;
+    const double f = static_cast<double>(k % FINER) / FINER,
+                 angle = 2 * units::PI * k / (FINER * RING_ANGLES);
+    const double r =
+        (1 - f) * radius[a] + f * radius[b] + out + fold * (1 - std::cos(FOLDS * angle));
     row.points.push_back(m_center + r * Vec2(std::sin(angle), std::cos(angle)));
-    row.s.push_back(k ? row.s.back() + (row.points[static_cast<std::size_t>(k)] - row.points[static_cast<std::size_t>(k) - 1]).norm() : 0);
+    row.s.push_back(k ? row.s.back() + (row.points[static_cast<std::size_t>(k)] -
+                                        row.points[static_cast<std::size_t>(k) - 1])
+                                           .norm()
+                      : 0);
   }
   row.length = row.s.back();
 }
 
-/// Where each gore goes on a row: what the curve is longer than the cloth opens the seams between front and back, or those all around.
+/// Where each gore goes on a row: what the curve is longer than the cloth opens the seams between
+/// front and back, or those all around.
 void GoreTube::spread(Row& row, double height) const {
   const std::size_t n = m_ring.gores.size();
   const std::vector<double> least = gaps(height);
@@ -61,7 +73,8 @@ void GoreTube::spread(Row& row, double height) const {
   double shares = 0, cloth = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const Gore &a = m_ring.gores[k], &b = m_ring.gores[(k + 1) % n];
-    const Gore &p = a.godet ? m_ring.gores[main_from(k, n - 1)] : a, &q = b.godet ? m_ring.gores[main_from(k, 1)] : b;
+    const Gore &p = a.godet ? m_ring.gores[main_from(k, n - 1)] : a,
+               &q = b.godet ? m_ring.gores[main_from(k, 1)] : b;
     if (p.side != q.side || p.side == Side::RING) share[k] = a.godet || b.godet ? 0.5 : 1;
     shares += share[k], cloth += 2 * a.half_width(height) + least[k];
   }
@@ -77,7 +90,10 @@ void GoreTube::spread(Row& row, double height) const {
     row.middle[k] = s + half;
     s += 2 * half + row.scale * least[k] + open * share[k];
     if (g.godet) continue;
-    const double wanted = g.side == Side::FRONT ? 0 : g.side == Side::BACK ? units::PI : g.theta, is = wanted - 2 * units::PI * row.middle[k] / row.length;
+    const double wanted = g.side == Side::FRONT  ? 0
+                          : g.side == Side::BACK ? units::PI
+                                                 : g.theta,
+                 is = wanted - 2 * units::PI * row.middle[k] / row.length;
     off += std::max(half, 1e-3) * Vec2(std::cos(is), std::sin(is));
   }
   const double turn = std::atan2(off.y(), off.x()) / (2 * units::PI) * row.length;
@@ -85,7 +101,8 @@ void GoreTube::spread(Row& row, double height) const {
 }
 
 void GoreTube::shape(double gap, double upright_to) {
-  constexpr double SLOPE = 0.45, DEEPEST = 0.3, SHALLOW = 0.03; // sine of the angle to the vertical; m; of the row's length
+  constexpr double SLOPE = 0.45, DEEPEST = 0.3,
+                   SHALLOW = 0.03; // sine of the angle to the vertical; m; of the row's length
   const std::size_t n = m_skin.size();
   m_rows.assign(n, Row{});
   std::vector<Ring> radius;
@@ -94,19 +111,23 @@ void GoreTube::shape(double gap, double upright_to) {
     Row& row = m_rows[j];
     radius.push_back(radii(m_skin[j], m_center, gap));
     trace(row, radius[j], 0, 0);
-    for (std::size_t k = 0; k < m_ring.gores.size(); ++k) row.cloth += 2 * m_ring.gores[k].half_width(height(j));
+    for (std::size_t k = 0; k < m_ring.gores.size(); ++k)
+      row.cloth += 2 * m_ring.gores[k].half_width(height(j));
     for (double g : gaps(height(j))) row.cloth += g;
     mean[j] = row.length / (2 * units::PI);
     out[j] = std::max(0.0, (row.cloth - row.length) / (2 * units::PI));
   }
   // No steeper than a skirt hangs, seen from either end.
-  for (std::size_t j = 1; j < n; ++j) out[j] = std::min(out[j], std::max(out[j - 1] + mean[j - 1] + SLOPE * STEP - mean[j], 0.0));
-  for (std::size_t j = n - 1; j-- > 0;) out[j] = std::min(out[j], std::max(out[j + 1] + mean[j + 1] + SLOPE * STEP - mean[j], 0.0));
+  for (std::size_t j = 1; j < n; ++j)
+    out[j] = std::min(out[j], std::max(out[j - 1] + mean[j - 1] + SLOPE * STEP - mean[j], 0.0));
+  for (std::size_t j = n - 1; j-- > 0;)
+    out[j] = std::min(out[j], std::max(out[j + 1] + mean[j + 1] + SLOPE * STEP - mean[j], 0.0));
   out = averaged(out, 3);
   for (std::size_t j = 0; j < n; ++j) {
     Row& row = m_rows[j];
     trace(row, radius[j], out[j], 0);
-    if (row.length < row.cloth) { // what is little wider makes the row wider: even shallow folds would show
+    if (row.length <
+        row.cloth) { // what is little wider makes the row wider: even shallow folds would show
       out[j] += std::min(row.cloth - row.length, SHALLOW * row.cloth) / (2 * units::PI);
       trace(row, radius[j], out[j], 0);
     }
@@ -120,7 +141,11 @@ void GoreTube::shape(double gap, double upright_to) {
       trace(row, radius[j], out[j], high);
     }
     const double grown = j > 0 ? mean[j] + out[j] - mean[j - 1] - out[j - 1] : 0;
-    row.y = j == 0 ? m_ring.top : height(j) >= upright_to ? height(j) : m_rows[j - 1].y - std::sqrt(std::max(STEP * STEP - grown * grown, 0.3 * STEP * STEP));
+    row.y =
+        j == 0 ? m_ring.top
+        : height(j) >= upright_to
+            ? height(j)
+            : m_rows[j - 1].y - std::sqrt(std::max(STEP * STEP - grown * grown, 0.3 * STEP * STEP));
     spread(row, height(j));
   }
 }
@@ -128,14 +153,18 @@ void GoreTube::shape(double gap, double upright_to) {
 Vec2 GoreTube::on(const Row& row, std::size_t gore, double along, double out) const {
   double s = row.middle[gore] + row.scale * along;
   s -= std::floor(s / row.length) * row.length;
-  const std::size_t k = std::clamp<std::size_t>(static_cast<std::size_t>(std::upper_bound(row.s.begin(), row.s.end(), s) - row.s.begin()), 1, row.s.size() - 1);
+  const std::size_t k = std::clamp<std::size_t>(
+      static_cast<std::size_t>(std::upper_bound(row.s.begin(), row.s.end(), s) - row.s.begin()), 1,
+      row.s.size() - 1);
   const double span = row.s[k] - row.s[k - 1];
-  const Vec2 p = row.points[k - 1] + (span > 0 ? (s - row.s[k - 1]) / span : 0.0) * (row.points[k] - row.points[k - 1]);
+  const Vec2 p = row.points[k - 1] +
+                 (span > 0 ? (s - row.s[k - 1]) / span : 0.0) * (row.points[k] - row.points[k - 1]);
   return out != 0 ? Vec2(p + out * (p - m_center).normalized()) : p;
 }
 
 Vec3 GoreTube::at(std::size_t gore, const Gore::Place& place, double out) const {
-  const double x = std::clamp((m_ring.top - place.row) / STEP, 0.0, static_cast<double>(m_rows.size()) - 1.001);
+  const double x =
+      std::clamp((m_ring.top - place.row) / STEP, 0.0, static_cast<double>(m_rows.size()) - 1.001);
   const std::size_t k = static_cast<std::size_t>(x);
   const double f = x - static_cast<double>(k);
   const Row &a = m_rows[k], &b = m_rows[k + 1];
@@ -144,7 +173,8 @@ Vec3 GoreTube::at(std::size_t gore, const Gore::Place& place, double out) const 
 }
 
 double GoreTube::across(std::size_t gore, const Gore::Place& place) const {
-  const double x = std::clamp((m_ring.top - place.row) / STEP, 0.0, static_cast<double>(m_rows.size()) - 1.001);
+  const double x =
+      std::clamp((m_ring.top - place.row) / STEP, 0.0, static_cast<double>(m_rows.size()) - 1.001);
   const std::size_t k = static_cast<std::size_t>(x);
   double sum = 0;
   for (std::size_t j : {k, k + 1}) {
@@ -161,7 +191,8 @@ double GoreTube::reach(Side side, double above) const {
   for (std::size_t j = 0; j < m_rows.size() && height(j) >= above; ++j)
     for (std::size_t k = 0; k < m_ring.gores.size(); ++k)
       if (const Gore& g = m_ring.gores[k]; g.side == side)
-        for (double end : {-1.0, 1.0}) most = std::max(most, std::abs(across(k, {height(j), end * g.half_width(height(j))})));
+        for (double end : {-1.0, 1.0})
+          most = std::max(most, std::abs(across(k, {height(j), end * g.half_width(height(j))})));
   return most;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
-/// The surface that the panels of one trouser leg start on. Below the crotch it is a tube around the leg; above, the half of the
-/// hips on the leg's side; between, one turns smoothly into the other, always clear of the plane between the legs. Level rows of
-/// cloth lie along level curves, from the inner end in front over the outer side to the inner end behind, unstretched where the
+/// The surface that the panels of one trouser leg start on. Below the crotch it is a tube around
+/// the leg; above, the half of the hips on the leg's side; between, one turns smoothly into the
+/// other, always clear of the plane between the legs. Level rows of cloth lie along level curves,
+/// from the inner end in front over the outer side to the inner end behind, unstretched where the
 /// curve is long enough; where the cloth is wider the curve is grown.
 #include <pattern/place/body_space.hpp>
 #include <pattern/roles/panel_role.hpp>
@@ -11,8 +12,8 @@
 
 namespace sloper::pattern {
 
-/// Cloth of one leg on a level row, m, counted outwards from the legs' inner sides: what the front, the back and pieces that go all
-/// around cover. A side that is not there has in > out.
+/// Cloth of one leg on a level row, m, counted outwards from the legs' inner sides: what the front,
+/// the back and pieces that go all around cover. A side that is not there has in > out.
 struct LegRow {
   struct Span {
     double in = 1e300, out = -1e300;
@@ -32,7 +33,8 @@ public:
   /// @param gap     m, between skin and cloth
   void shape(const std::vector<double>& heights, const std::vector<LegRow>& rows, double gap);
 
-  /// Point of a piece of cloth: `row` counts rows and may lie between two, `t` is in the row's own count, `out` is m further out.
+  /// Point of a piece of cloth: `row` counts rows and may lie between two, `t` is in the row's own
+  /// count, `out` is m further out.
   Vec3 at(Side side, double t, double row, double out) const;
 
   double crotch() const { return m_crotch; } ///< height of the body's, m
@@ -52,8 +54,9 @@ private:
 
   bool m_left;
   double m_low = 0, m_crotch = 0, m_middle = 0;
-  std::vector<Ring> m_leg, m_trunk; ///< support functions by height: furthest skin in each direction, m from (0, 0)
-  std::vector<Ring> m_skin;         ///< of the leg alone, not smoothed
+  std::vector<Ring> m_leg,
+      m_trunk; ///< support functions by height: furthest skin in each direction, m from (0, 0)
+  std::vector<Ring> m_skin; ///< of the leg alone, not smoothed
   std::vector<Vec2> m_center;
   std::vector<std::vector<Vec2>> m_arms;
   std::vector<Curve> m_curves;

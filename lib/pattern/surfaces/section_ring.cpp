@@ -17,7 +17,9 @@ Ring empty_ring() {
 }
 
 void include(Ring& ring, const Vec2& p) {
-  for (int d = 0; d < RING_ANGLES; ++d) ring[static_cast<std::size_t>(d)] = std::max(ring[static_cast<std::size_t>(d)], p.dot(direction(d)));
+  for (int d = 0; d < RING_ANGLES; ++d)
+    ring[static_cast<std::size_t>(d)] =
+        std::max(ring[static_cast<std::size_t>(d)], p.dot(direction(d)));
 }
 
 std::vector<Ring> filled(std::vector<Ring> rows) {
@@ -35,7 +37,8 @@ std::vector<Ring> joined(const std::vector<Ring>& rows, int reach) {
   for (int k = 0; k < n; ++k)
     for (int o = std::max(0, k - reach); o <= std::min(n - 1, k + reach); ++o)
       for (std::size_t d = 0; d < RING_ANGLES; ++d)
-        out[static_cast<std::size_t>(k)][d] = std::max(out[static_cast<std::size_t>(k)][d], rows[static_cast<std::size_t>(o)][d]);
+        out[static_cast<std::size_t>(k)][d] =
+            std::max(out[static_cast<std::size_t>(k)][d], rows[static_cast<std::size_t>(o)][d]);
   return out;
 }
 
@@ -58,11 +61,13 @@ Ring radii(const Ring& support, const Vec2& center, double grown) {
   }();
   Ring own, out;
   for (int k = 0; k < RING_ANGLES; ++k)
-    own[static_cast<std::size_t>(k)] = std::max(support[static_cast<std::size_t>(k)] - center.dot(direction(k)) + grown, 1e-3);
+    own[static_cast<std::size_t>(k)] =
+        std::max(support[static_cast<std::size_t>(k)] - center.dot(direction(k)) + grown, 1e-3);
   for (int k = 0; k < RING_ANGLES; ++k) {
     double r = 1e300;
     for (int o = -RING_ANGLES / 4 + 4; o <= RING_ANGLES / 4 - 4; ++o)
-      r = std::min(r, own[static_cast<std::size_t>((k + o + RING_ANGLES) % RING_ANGLES)] / cosine[static_cast<std::size_t>(std::abs(o))]);
+      r = std::min(r, own[static_cast<std::size_t>((k + o + RING_ANGLES) % RING_ANGLES)] /
+                          cosine[static_cast<std::size_t>(std::abs(o))]);
     out[static_cast<std::size_t>(k)] = r;
   }
   return out;
@@ -73,7 +78,8 @@ std::vector<double> least(const std::vector<double>& in, int reach) {
   const int n = static_cast<int>(in.size());
   for (int k = 0; k < n; ++k)
     for (int o = std::max(0, k - reach); o <= std::min(n - 1, k + reach); ++o)
-      out[static_cast<std::size_t>(k)] = std::min(out[static_cast<std::size_t>(k)], in[static_cast<std::size_t>(o)]);
+      out[static_cast<std::size_t>(k)] =
+          std::min(out[static_cast<std::size_t>(k)], in[static_cast<std::size_t>(o)]);
   return out;
 }
 

@@ -11,12 +11,17 @@ namespace {
 
 constexpr double DXF_CHORD = 0.002; // m
 
-/// In metres to the last bit; else edits keep coordinates on a grid of a nanometre: ten of them are rounded away, so that 20 cm are written as 20.
-double rounded(double x, double unit) { return unit == 1 ? x + 0.0 : std::nearbyint(x / unit * 1e6) / 1e6 + 0.0; }
+/// In metres to the last bit; else edits keep coordinates on a grid of a nanometre: ten of them are
+/// rounded away, so that 20 cm are written as 20.
+double rounded(double x, double unit) {
+  return unit == 1 ? x + 0.0 : std::nearbyint(x / unit * 1e6) / 1e6 + 0.0;
+}
 
 io::Json path_json(const Path& path, double unit) {
   io::Json out = io::Json::array();
-  const auto point = [&](io::Json& item, const Vec2& p) { item.push_back(rounded(p.x(), unit)), item.push_back(rounded(p.y(), unit)); };
+  const auto point = [&](io::Json& item, const Vec2& p) {
+    item.push_back(rounded(p.x(), unit)), item.push_back(rounded(p.y(), unit));
+  };
   io::Json start = io::Json::array({"M"});
   point(start, path.front().p[0]);
   out.push_back(start);
@@ -39,14 +44,17 @@ double exact_degrees(double angle) {
 
 io::Json loop_json(const std::vector<PanelEdge>& loop, double unit) {
   io::Json out = io::Json::array();
-  for (const PanelEdge& e : loop) out.push_back({{"edge", e.name}, {"path", path_json(e.path, unit)}});
+  for (const PanelEdge& e : loop)
+    out.push_back({{"edge", e.name}, {"path", path_json(e.path, unit)}});
   return out;
 }
 
 /// Text of group codes and values.
 class DxfWriter {
 public:
-  void tag(int code, const std::string& value) { m_text += std::to_string(code) + "\n" + value + "\n"; }
+  void tag(int code, const std::string& value) {
+    m_text += std::to_string(code) + "\n" + value + "\n";
+  }
   void tag(int code, double value) {
     char text[40];
     std::snprintf(text, sizeof text, "%.4f", value);
@@ -72,14 +80,16 @@ private:
   std::string m_text;
 };
 
-std::string word(const std::string& name) { // names of seams and runs are single words in layer-15 texts
+std::string
+word(const std::string& name) { // names of seams and runs are single words in layer-15 texts
   std::string out = name;
   std::replace_if(
       out.begin(), out.end(), [](char c) { return c == ' ' || c == '\n'; }, '_');
   return out;
 }
 
-/// What readers cannot see from the sides: kind, whether it is left open, and why the sides differ. Last, for that is free text.
+/// What readers cannot see from the sides: kind, whether it is left open, and why the sides differ.
+/// Last, for that is free text.
 std::string about_seam(const Seam& seam) {
   std::string why = seam.ease;
   std::replace_if(
@@ -96,7 +106,12 @@ int notch_layer(const Notch& notch) {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (char c : text) out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+  for (char c : text)
+    out += c == '&'   ? "&amp;"
+           : c == '<' ? "&lt;"
+           : c == '>' ? "&gt;"
+           : c == '"' ? "&quot;"
+                      : std::string(1, c);
   return out;
 }
 
@@ -115,7 +130,9 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNu
   doc["name"] = pattern.name;
   io::Json panels = io::Json::array(), seams = io::Json::array();
   for (const Panel& p : pattern.panels) {
-    io::Json panel = {{"name", p.name}, {"outline", loop_json(p.loops[0], unit)}, {"grain", io::to_json(p.grain)}};
+    io::Json panel = {{"name", p.name},
+                      {"outline", loop_json(p.loops[0], unit)},
+                      {"grain", io::to_json(p.grain)}};
     if (p.loops.size() > 1) {
       io::Json holes = io::Json::array();
       for (std::size_t k = 1; k < p.loops.size(); ++k) holes.push_back(loop_json(p.loops[k], unit));
@@ -126,14 +143,17 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNu
     if (!p.label.empty()) panel["label"] = p.label;
     if (!p.notches.empty()) {
       io::Json notches = io::Json::array();
-      for (const Notch& n : p.notches) notches.push_back({{"edge", p.edge(n.edge).name}, {"at", n.at}, {"kind", n.kind}});
+      for (const Notch& n : p.notches)
+        notches.push_back({{"edge", p.edge(n.edge).name}, {"at", n.at}, {"kind", n.kind}});
       panel["notches"] = notches;
     }
     if (!p.lines.empty()) {
       io::Json lines = io::Json::array();
       for (const InnerLine& line : p.lines) {
-        lines.push_back({{"name", line.name}, {"kind", line.kind}, {"path", path_json(line.path, unit)}});
-        if (line.kind == "tape") lines.back()["factor"] = line.factor, lines.back()["width"] = line.width / unit;
+        lines.push_back(
+            {{"name", line.name}, {"kind", line.kind}, {"path", path_json(line.path, unit)}});
+        if (line.kind == "tape")
+          lines.back()["factor"] = line.factor, lines.back()["width"] = line.width / unit;
       }
       panel["lines"] = lines;
     }
@@ -153,7 +173,8 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNu
     if (!p.hint.part.empty()) place["part"] = p.hint.part;
     if (p.hint.theta) place["theta_deg"] = exact_degrees(*p.hint.theta);
     if (p.hint.radius) place["radius"] = rounded(*p.hint.radius, unit);
-    if (p.hint.anchor) place["anchor"] = {rounded(p.hint.anchor->x(), unit), rounded(p.hint.anchor->y(), unit)};
+    if (p.hint.anchor)
+      place["anchor"] = {rounded(p.hint.anchor->x(), unit), rounded(p.hint.anchor->y(), unit)};
     if (p.hint.height) place["height"] = rounded(*p.hint.height, unit);
     if (p.hint.rigid) {
       io::Json rigid = io::Json::array();
@@ -170,7 +191,10 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNu
       io::Json runs = io::Json::array();
       for (const Run& r : *side) {
         const Panel& panel = pattern.panels[static_cast<std::size_t>(r.panel)];
-        runs.push_back({{"panel", panel.name}, {"edge", panel.edge(r.edge).name}, {"from", r.from}, {"to", r.to}});
+        runs.push_back({{"panel", panel.name},
+                        {"edge", panel.edge(r.edge).name},
+                        {"from", r.from},
+                        {"to", r.to}});
       }
       seam[side == &s.a ? "a" : "b"] = runs;
     }
@@ -185,7 +209,8 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNu
 std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_out) {
   DxfWriter out;
   std::vector<std::string> hinted; // panels
-  out.tag(0, "SECTION"), out.tag(2, "HEADER"), out.tag(9, "$ACADVER"), out.tag(1, "AC1009"), out.tag(0, "ENDSEC");
+  out.tag(0, "SECTION"), out.tag(2, "HEADER"), out.tag(9, "$ACADVER"), out.tag(1, "AC1009"),
+      out.tag(0, "ENDSEC");
   out.tag(0, "SECTION"), out.tag(2, "BLOCKS");
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     const Panel& panel = pattern.panels[p];
@@ -201,7 +226,8 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
         const ArcLength arc(edge.path);
         turns.push_back(arc.at(0));
         for (const Segment& s : edge.path) {
-          const int n = s.line ? 1 : std::max(1, static_cast<int>(std::ceil(s.length(0, 1) / DXF_CHORD)));
+          const int n =
+              s.line ? 1 : std::max(1, static_cast<int>(std::ceil(s.length(0, 1) / DXF_CHORD)));
           for (int k = 0; k < n; ++k) {
             ring.push_back(s.at(static_cast<double>(k) / n));
             if (k > 0 || &s != &edge.path.front()) curve.push_back(ring.back());
@@ -214,10 +240,12 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
               const Run& run = (*side)[k];
               if (run.panel != static_cast<int>(p) || run.edge != e) continue;
               if (std::min(run.from, run.to) > 0 || std::max(run.from, run.to) < 1) {
-                left_out.push_back("seam " + seam.name + ": only part of " + place_of(pattern, run) + " is sewn, which layer 15 cannot say");
+                left_out.push_back("seam " + seam.name + ": only part of " +
+                                   place_of(pattern, run) + " is sewn, which layer 15 cannot say");
                 continue;
               }
-              said = "SEW " + word(seam.name) + (side == &seam.a ? " a " : " b ") + std::to_string(k) + (run.from < run.to ? " + " : " - ") + word(edge.name) +
+              said = "SEW " + word(seam.name) + (side == &seam.a ? " a " : " b ") +
+                     std::to_string(k) + (run.from < run.to ? " + " : " - ") + word(edge.name) +
                      about_seam(seam);
             }
         texts.push_back({arc.at(0.5 * arc.length()), said});
@@ -233,8 +261,12 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
       const ArcLength arc(panel.edge(n.edge).path);
       out.mark(notch_layer(n), arc.at(n.at * arc.length()));
     }
-    if (panel.layer) left_out.push_back(panel.name + ": that it lies in layer " + std::to_string(panel.layer) + " is not written");
-    if (!panel.hint.part.empty() || panel.hint.theta || panel.hint.anchor || panel.hint.height || panel.hint.rigid) hinted.push_back(panel.name);
+    if (panel.layer)
+      left_out.push_back(panel.name + ": that it lies in layer " + std::to_string(panel.layer) +
+                         " is not written");
+    if (!panel.hint.part.empty() || panel.hint.theta || panel.hint.anchor || panel.hint.height ||
+        panel.hint.rigid)
+      hinted.push_back(panel.name);
     for (const InnerLine& line : panel.lines) {
       const ArcLength arc(line.path);
       const bool bent = line.path.size() > 1 || !line.path[0].line;
@@ -242,21 +274,31 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
       std::vector<Vec2> points;
       for (int k = 0; k <= n; ++k) points.push_back(arc.at(arc.length() * k / n));
       out.chain(8, points);
-      const auto uses = [&](const Pleat& pleat) { return &panel.lines[static_cast<std::size_t>(pleat.fold)] == &line; }; // pleats are told below
+      const auto uses = [&](const Pleat& pleat) {
+        return &panel.lines[static_cast<std::size_t>(pleat.fold)] == &line;
+      }; // pleats are told below
       if (line.kind == "fold" && std::none_of(panel.pleats.begin(), panel.pleats.end(), uses))
-        left_out.push_back(panel.name + ": line " + line.name + " is written without saying that it is a fold");
-      if (line.kind == "tape") left_out.push_back(panel.name + ": line " + line.name + " is written without saying that it is a tape");
+        left_out.push_back(panel.name + ": line " + line.name +
+                           " is written without saying that it is a fold");
+      if (line.kind == "tape")
+        left_out.push_back(panel.name + ": line " + line.name +
+                           " is written without saying that it is a tape");
     }
-    for (const Pleat& pleat : panel.pleats) left_out.push_back(panel.name + ": pleat " + pleat.name + " is written as two lines");
+    for (const Pleat& pleat : panel.pleats)
+      left_out.push_back(panel.name + ": pleat " + pleat.name + " is written as two lines");
     const Vec2 from = panel.loops[0][0].path.front().p[0], to = from + 0.1 * panel.grain;
     out.entity("LINE", 7), out.point(from), out.tag(11, to.x() * 1000), out.tag(21, to.y() * 1000);
     out.entity("ENDBLK", 1);
   }
-  if (!hinted.empty()) // one line: nearly all panels of a garment have a hint, and names and seams tell most of it again
-    left_out.push_back(hinted[0] + (hinted.size() > 1 ? " and " + std::to_string(hinted.size() - 1) + " more" : "") +
-                       ": where it is to be placed is not written");
+  if (!hinted.empty()) // one line: nearly all panels of a garment have a hint, and names and seams
+                       // tell most of it again
+    left_out.push_back(
+        hinted[0] +
+        (hinted.size() > 1 ? " and " + std::to_string(hinted.size() - 1) + " more" : "") +
+        ": where it is to be placed is not written");
   out.tag(0, "ENDSEC"), out.tag(0, "SECTION"), out.tag(2, "ENTITIES");
-  for (const Panel& panel : pattern.panels) out.entity("INSERT", 1), out.tag(2, word(panel.name)), out.point(Vec2(0, 0));
+  for (const Panel& panel : pattern.panels)
+    out.entity("INSERT", 1), out.tag(2, word(panel.name)), out.point(Vec2(0, 0));
   out.text(1, Vec2(0, 0), "Style Name: " + pattern.name);
   out.text(1, Vec2(0, 0), "Units: METRIC");
   out.text(1, Vec2(0, 0), "ANSI/AAMA VERSION: 1.0.0");
@@ -272,12 +314,17 @@ std::string pattern_svg(const Pattern& pattern) {
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
     for (const PanelEdge& e : panel.loops[0]) {
       const ArcLength arc(e.path);
-      for (int k = 0; k <= 32; ++k) low = low.cwiseMin(arc.at(arc.length() * k / 32)), high = high.cwiseMax(arc.at(arc.length() * k / 32));
+      for (int k = 0; k <= 32; ++k)
+        low = low.cwiseMin(arc.at(arc.length() * k / 32)),
+        high = high.cwiseMax(arc.at(arc.length() * k / 32));
     }
-    const auto at = [&](const Vec2& q) { return number(x + (q.x() - low.x()) * 1000) + " " + number(40 + (high.y() - q.y()) * 1000); };
+    const auto at = [&](const Vec2& q) {
+      return number(x + (q.x() - low.x()) * 1000) + " " + number(40 + (high.y() - q.y()) * 1000);
+    };
     const auto path = [&](const Path& segments, bool move) {
       std::string d = move ? "M" + at(segments.front().p[0]) : "";
-      for (const Segment& s : segments) d += s.line ? " L" + at(s.p[3]) : " C" + at(s.p[1]) + " " + at(s.p[2]) + " " + at(s.p[3]);
+      for (const Segment& s : segments)
+        d += s.line ? " L" + at(s.p[3]) : " C" + at(s.p[1]) + " " + at(s.p[2]) + " " + at(s.p[3]);
       return d;
     };
     std::string fill;
@@ -285,9 +332,11 @@ std::string pattern_svg(const Pattern& pattern) {
       for (std::size_t k = 0; k < loop.size(); ++k) fill += path(loop[k].path, k == 0) + " ";
       fill += "Z ";
     }
-    body += "<g id=\"" + escaped(panel.name) + "\">\n<path d=\"" + fill + "\" fill=\"#f4f1ea\" fill-rule=\"evenodd\"/>\n";
+    body += "<g id=\"" + escaped(panel.name) + "\">\n<path d=\"" + fill +
+            "\" fill=\"#f4f1ea\" fill-rule=\"evenodd\"/>\n";
     for (const InnerLine& line : panel.lines)
-      body += "<path d=\"" + path(line.path, true) + "\" fill=\"none\" stroke=\"#555\" stroke-width=\"0.8\" stroke-dasharray=\"" +
+      body += "<path d=\"" + path(line.path, true) +
+              "\" fill=\"none\" stroke=\"#555\" stroke-width=\"0.8\" stroke-dasharray=\"" +
               (line.kind == "fold"   ? "8 4"
                : line.kind == "tape" ? "2 2"
                                      : "1 4") +
@@ -298,23 +347,31 @@ std::string pattern_svg(const Pattern& pattern) {
       for (std::size_t s = 0; s < pattern.seams.size(); ++s)
         for (const auto* side : {&pattern.seams[s].a, &pattern.seams[s].b})
           for (const Run& run : *side)
-            if (run.panel == static_cast<int>(p) && run.edge == e) color = "hsl(" + std::to_string(s * 137 % 360) + ",75%,42%)", width = 3;
+            if (run.panel == static_cast<int>(p) && run.edge == e)
+              color = "hsl(" + std::to_string(s * 137 % 360) + ",75%,42%)", width = 3;
       const ArcLength arc(panel.edge(e).path);
-      body += "<path d=\"" + path(panel.edge(e).path, true) + "\" fill=\"none\" stroke=\"" + color + "\" stroke-width=\"" + number(width) + "\"/>\n";
+      body += "<path d=\"" + path(panel.edge(e).path, true) + "\" fill=\"none\" stroke=\"" + color +
+              "\" stroke-width=\"" + number(width) + "\"/>\n";
       const std::string where = at(arc.at(0.5 * arc.length()));
       const std::size_t gap = where.find(' ');
-      body += "<text x=\"" + where.substr(0, gap) + "\" y=\"" + where.substr(gap + 1) + "\" font-size=\"9\" text-anchor=\"middle\" fill=\"#333\">" +
+      body += "<text x=\"" + where.substr(0, gap) + "\" y=\"" + where.substr(gap + 1) +
+              "\" font-size=\"9\" text-anchor=\"middle\" fill=\"#333\">" +
               escaped(panel.edge(e).name) + "</text>\n";
     }
-    const Vec2 middle = 0.5 * (low + high), tip = middle + 0.05 * panel.grain, tail = middle - 0.05 * panel.grain;
-    body += "<path d=\"M" + at(tail) + " L" + at(tip) + "\" stroke=\"#333\" stroke-width=\"1\" marker-end=\"url(#tip)\"/>\n";
-    body += "<text x=\"" + number(x) + "\" y=\"25\" font-size=\"16\">" + escaped(panel.name) + "</text>\n</g>\n";
+    const Vec2 middle = 0.5 * (low + high), tip = middle + 0.05 * panel.grain,
+               tail = middle - 0.05 * panel.grain;
+    body += "<path d=\"M" + at(tail) + " L" + at(tip) +
+            "\" stroke=\"#333\" stroke-width=\"1\" marker-end=\"url(#tip)\"/>\n";
+    body += "<text x=\"" + number(x) + "\" y=\"25\" font-size=\"16\">" + escaped(panel.name) +
+            "</text>\n</g>\n";
     x += (high.x() - low.x()) * 1000 + 30;
     height = std::max(height, (high.y() - low.y()) * 1000);
   }
   const std::string w = number(x), h = number(height + 60);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "mm\" height=\"" + h + "mm\" viewBox=\"0 0 " + w + " " + h +
-         "\" font-family=\"sans-serif\">\n<defs><marker id=\"tip\" orient=\"auto\" markerWidth=\"8\" markerHeight=\"8\" refX=\"6\" refY=\"3\"><path d=\"M0 0 "
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "mm\" height=\"" + h +
+         "mm\" viewBox=\"0 0 " + w + " " + h +
+         "\" font-family=\"sans-serif\">\n<defs><marker id=\"tip\" orient=\"auto\" "
+         "markerWidth=\"8\" markerHeight=\"8\" refX=\"6\" refY=\"3\"><path d=\"M0 0 "
          "L6 3 L0 6 Z\"/></marker></defs>\n" +
          "<title>" + escaped(pattern.name) + "</title>\n" + body + "</svg>\n";
 }

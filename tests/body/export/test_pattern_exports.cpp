@@ -16,7 +16,8 @@ std::map<std::string, double> values_of(const std::string& yaml) {
   std::istringstream lines(yaml);
   for (std::string line; std::getline(lines, line);) {
     const auto colon = line.find(": ");
-    if (line.starts_with("  ") && colon != std::string::npos) values[line.substr(2, colon - 2)] = std::stod(line.substr(colon + 2));
+    if (line.starts_with("  ") && colon != std::string::npos)
+      values[line.substr(2, colon - 2)] = std::stod(line.substr(colon + 2));
   }
   return values;
 }
@@ -27,11 +28,31 @@ TEST(GarmentCodeBody, has_every_measure_in_centimetres_and_of_a_persons_size) {
   const Body body = test::measure(test::mannequin("f-165-a").mesh).body;
   const auto values = values_of(garmentcode_body(body));
   const std::map<std::string, std::pair<double, double>> ranges = {
-      {"height", {160, 170}},         {"head_l", {22, 32}},    {"neck_w", {8, 18}},          {"shoulder_w", {30, 48}},      {"armscye_depth", {10, 26}},
-      {"arm_length", {42, 65}},       {"wrist", {12, 20}},     {"waist", {55, 100}},         {"waist_line", {28, 48}},      {"waist_over_bust_line", {30, 55}},
-      {"waist_back_width", {25, 50}}, {"bust_line", {12, 32}}, {"bust", {75, 115}},          {"bust_points", {12, 26}},     {"underbust", {65, 100}},
-      {"back_width", {30, 55}},       {"hips", {80, 120}},     {"hip_back_width", {35, 65}}, {"hips_line", {12, 30}},       {"bum_points", {0.1, 24}},
-      {"crotch_hip_diff", {3, 16}},   {"leg_circ", {45, 75}},  {"shoulder_incl", {0, 35}},   {"hip_inclination", {-5, 25}}, {"arm_pose_angle", {20, 70}}};
+      {"height", {160, 170}},
+      {"head_l", {22, 32}},
+      {"neck_w", {8, 18}},
+      {"shoulder_w", {30, 48}},
+      {"armscye_depth", {10, 26}},
+      {"arm_length", {42, 65}},
+      {"wrist", {12, 20}},
+      {"waist", {55, 100}},
+      {"waist_line", {28, 48}},
+      {"waist_over_bust_line", {30, 55}},
+      {"waist_back_width", {25, 50}},
+      {"bust_line", {12, 32}},
+      {"bust", {75, 115}},
+      {"bust_points", {12, 26}},
+      {"underbust", {65, 100}},
+      {"back_width", {30, 55}},
+      {"hips", {80, 120}},
+      {"hip_back_width", {35, 65}},
+      {"hips_line", {12, 30}},
+      {"bum_points", {0.1, 24}},
+      {"crotch_hip_diff", {3, 16}},
+      {"leg_circ", {45, 75}},
+      {"shoulder_incl", {0, 35}},
+      {"hip_inclination", {-5, 25}},
+      {"arm_pose_angle", {20, 70}}};
   for (const auto& [name, range] : ranges) {
     ASSERT_TRUE(values.count(name)) << name;
     EXPECT_GT(values.at(name), range.first) << name;
@@ -49,7 +70,8 @@ TEST(ValentinaMeasurements, are_xml_in_centimetres_without_a_statement_about_the
   EXPECT_NE(text.find("<gender>unknown</gender>"), std::string::npos);
   EXPECT_EQ(text.find("<given-name/>") == std::string::npos, false);
   std::size_t open = 0, rows = 0;
-  for (std::size_t at = text.find("<m name="); at != std::string::npos; at = text.find("<m name=", at + 1)) {
+  for (std::size_t at = text.find("<m name="); at != std::string::npos;
+       at = text.find("<m name=", at + 1)) {
     ++rows;
     const std::size_t value = text.find("value=\"", at) + 7;
     EXPECT_GT(std::stod(text.substr(value)), 1) << text.substr(at, 60);
@@ -58,7 +80,8 @@ TEST(ValentinaMeasurements, are_xml_in_centimetres_without_a_statement_about_the
   }
   EXPECT_GT(rows, 28u);
   EXPECT_EQ(open, 0u);
-  for (const char* name : {"height", "bust_circ", "waist_circ", "hip_circ", "leg_crotch_to_floor", "arm_shoulder_tip_to_wrist", "neck_back_to_waist_b"})
+  for (const char* name : {"height", "bust_circ", "waist_circ", "hip_circ", "leg_crotch_to_floor",
+                           "arm_shoulder_tip_to_wrist", "neck_back_to_waist_b"})
     EXPECT_NE(text.find("name=\"" + std::string(name) + "\""), std::string::npos) << name;
 }
 

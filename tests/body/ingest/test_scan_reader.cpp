@@ -11,8 +11,9 @@ using namespace sloper::io;
 
 namespace {
 
-const std::string PLY_HEAD = "element vertex 4\nproperty float x\nproperty uchar red\nproperty float y\nproperty float z\n"
-                             "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+const std::string PLY_HEAD =
+    "element vertex 4\nproperty float x\nproperty uchar red\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
 
 std::string binary_ply() {
   std::string bytes = "ply\nformat binary_little_endian 1.0\n" + PLY_HEAD;
@@ -42,7 +43,8 @@ std::string complaint(const std::function<void()>& read) {
 } // namespace
 
 TEST(ScanReader, ply_keeps_the_order_of_vertices_in_text_and_binary) {
-  const std::string text = "ply\nformat ascii 1.0\n" + PLY_HEAD + "0 9 0 -1.5\n1 9 10 -1.5\n2 9 20 -1.5\n3 9 30 -1.5\n4 0 1 2 3\n";
+  const std::string text = "ply\nformat ascii 1.0\n" + PLY_HEAD +
+                           "0 9 0 -1.5\n1 9 10 -1.5\n2 9 20 -1.5\n3 9 30 -1.5\n4 0 1 2 3\n";
   for (const std::string& bytes : {text, binary_ply()}) {
     const TriangleMesh mesh = parse_ply(bytes, "a.ply");
     ASSERT_EQ(mesh.positions.size(), 4u);
@@ -54,23 +56,34 @@ TEST(ScanReader, ply_keeps_the_order_of_vertices_in_text_and_binary) {
 
 TEST(ScanReader, a_truncated_ply_is_refused_with_place_and_reason) {
   const std::string bytes = binary_ply();
-  for (const std::size_t n : {bytes.size() - 3, bytes.size() - 20, std::size_t(60), std::size_t(2)}) {
+  for (const std::size_t n :
+       {bytes.size() - 3, bytes.size() - 20, std::size_t(60), std::size_t(2)}) {
     const std::string what = complaint([&] { parse_ply(bytes.substr(0, n), "a.ply"); });
     EXPECT_NE(what.find("a.ply"), std::string::npos);
   }
 }
 
 TEST(ScanReader, a_ply_with_nan_or_an_index_out_of_range_is_refused) {
-  EXPECT_NE(
-      complaint([] { parse_ply("ply\nformat ascii 1.0\n" + PLY_HEAD + "0 9 nan -1.5\n1 9 10 0\n2 9 20 0\n3 9 30 0\n4 0 1 2 3\n", "a.ply"); }).find("finite"),
-      std::string::npos);
-  EXPECT_NE(
-      complaint([] { parse_ply("ply\nformat ascii 1.0\n" + PLY_HEAD + "0 9 0 -1.5\n1 9 10 0\n2 9 20 0\n3 9 30 0\n3 0 1 7\n", "a.ply"); }).find("vertex 7"),
-      std::string::npos);
+  EXPECT_NE(complaint([] {
+              parse_ply("ply\nformat ascii 1.0\n" + PLY_HEAD +
+                            "0 9 nan -1.5\n1 9 10 0\n2 9 20 0\n3 9 30 0\n4 0 1 2 3\n",
+                        "a.ply");
+            }).find("finite"),
+            std::string::npos);
+  EXPECT_NE(complaint([] {
+              parse_ply("ply\nformat ascii 1.0\n" + PLY_HEAD +
+                            "0 9 0 -1.5\n1 9 10 0\n2 9 20 0\n3 9 30 0\n3 0 1 7\n",
+                        "a.ply");
+            }).find("vertex 7"),
+            std::string::npos);
 }
 
 TEST(ScanReader, a_header_that_promises_too_much_is_refused_before_memory_is_taken) {
-  complaint([] { parse_ply("ply\nformat ascii 1.0\nelement vertex 99999999999999\nproperty float x\nend_header\n", "a.ply"); });
+  complaint([] {
+    parse_ply(
+        "ply\nformat ascii 1.0\nelement vertex 99999999999999\nproperty float x\nend_header\n",
+        "a.ply");
+  });
   std::string stl(84, '\0');
   const std::uint32_t many = 0xffffffffu;
   std::memcpy(stl.data() + 80, &many, 4);
@@ -78,18 +91,22 @@ TEST(ScanReader, a_header_that_promises_too_much_is_refused_before_memory_is_tak
 }
 
 TEST(ScanReader, stl_is_read_as_text_and_binary) {
-  const std::string text = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+  const std::string text = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 "
+                           "0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
   const TriangleMesh mesh = parse_stl(text, "a.stl");
   ASSERT_EQ(mesh.triangles.size(), 1u);
   EXPECT_EQ(mesh.positions[1], Vec3(1, 0, 0));
-  complaint([] { parse_stl("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0", "a.stl"); });
+  complaint([] {
+    parse_stl("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0", "a.stl");
+  });
 }
 
 TEST(ScanReader, xyz_takes_comments_a_heading_and_more_columns) {
   const TriangleMesh mesh = parse_xyz("x y z r g b\n# note\n1 2 3 255 0 0\n4,5,6\n\n", "a.xyz");
   ASSERT_EQ(mesh.positions.size(), 2u);
   EXPECT_EQ(mesh.positions[1], Vec3(4, 5, 6));
-  EXPECT_NE(complaint([] { parse_xyz("1 2 3\n4 5\n", "a.xyz"); }).find("line 2"), std::string::npos);
+  EXPECT_NE(complaint([] { parse_xyz("1 2 3\n4 5\n", "a.xyz"); }).find("line 2"),
+            std::string::npos);
   complaint([] { parse_xyz("1 2 inf\n", "a.xyz"); });
 }
 
@@ -107,16 +124,22 @@ template<class T> std::string raw(std::initializer_list<T> values) {
   return std::string(reinterpret_cast<const char*>(values.begin()), values.size() * sizeof(T));
 }
 
-/// One triangle at x..x+2, its corners in the order 2, 0, 1; behind it lie two vertices that no face names.
+/// One triangle at x..x+2, its corners in the order 2, 0, 1; behind it lie two vertices that no
+/// face names.
 std::string triangle_3ds(float x, std::uint16_t corner = 2) {
-  const std::string vertices = raw<std::uint16_t>({5}) + raw<float>({x, 0, 0, x + 1, 0, 7, x + 2, 3, 0, 9, 9, 9, 8, 8, 8});
-  return chunk(0x4000, std::string("part\0", 5) + chunk(0x4100, chunk(0x4110, vertices) + chunk(0x4120, raw<std::uint16_t>({1, corner, 0, 1, 7}))));
+  const std::string vertices =
+      raw<std::uint16_t>({5}) + raw<float>({x, 0, 0, x + 1, 0, 7, x + 2, 3, 0, 9, 9, 9, 8, 8, 8});
+  return chunk(0x4000,
+               std::string("part\0", 5) +
+                   chunk(0x4100, chunk(0x4110, vertices) +
+                                     chunk(0x4120, raw<std::uint16_t>({1, corner, 0, 1, 7}))));
 }
 
 } // namespace
 
 TEST(ScanReader, a_3ds_keeps_the_vertices_of_all_its_meshes_in_order_count_and_place) {
-  const std::string file = chunk(0x4D4D, chunk(0x0002, raw<std::uint32_t>({3})) + chunk(0x3D3D, triangle_3ds(100) + triangle_3ds(200)));
+  const std::string file = chunk(0x4D4D, chunk(0x0002, raw<std::uint32_t>({3})) +
+                                             chunk(0x3D3D, triangle_3ds(100) + triangle_3ds(200)));
   const TriangleMesh mesh = parse_3ds(file, "a.3ds");
   ASSERT_EQ(mesh.positions.size(), 10u);
   EXPECT_EQ(mesh.positions[1], Vec3(101, 0, 7));
@@ -128,7 +151,9 @@ TEST(ScanReader, a_3ds_keeps_the_vertices_of_all_its_meshes_in_order_count_and_p
 /// A file that is gone with the test.
 class Beside {
 public:
-  Beside(const std::string& name, const std::string& bytes) : path(testing::TempDir() + name) { std::ofstream(path, std::ios::binary) << bytes; }
+  Beside(const std::string& name, const std::string& bytes) : path(testing::TempDir() + name) {
+    std::ofstream(path, std::ios::binary) << bytes;
+  }
   ~Beside() { std::remove(path.c_str()); }
   const std::string path;
 };
@@ -144,7 +169,9 @@ TEST(ScanReader, other_formats_come_through_assimp_without_holes_at_seams) {
   const float corners[18] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0};
   const std::string bytes(reinterpret_cast<const char*>(corners), sizeof corners);
   const Beside buffer("split.bin", bytes);
-  const Beside gltf("split.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "translation": [0, 2, 0]}],
+  const Beside gltf(
+      "split.gltf",
+      R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "translation": [0, 2, 0]}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "buffers": [{"uri": "split.bin", "byteLength": 72}],
     "bufferViews": [{"buffer": 0, "byteLength": 72}], "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}]})");
   const TriangleMesh split = read_scan(gltf.path).mesh;
@@ -156,16 +183,27 @@ TEST(ScanReader, other_formats_come_through_assimp_without_holes_at_seams) {
 TEST(ScanReader, what_assimp_cannot_read_is_refused_with_what_to_do) {
   for (const char* name : {"bad.glb", "bad.gltf", "bad.fbx", "bad.dae", "bad.off"}) {
     const Beside bad(name, "glTF{ no such thing <COLLADA");
-    EXPECT_NE(complaint([&] { read_scan(bad.path); }).find("export it as OBJ or PLY"), std::string::npos) << name;
+    EXPECT_NE(complaint([&] { read_scan(bad.path); }).find("export it as OBJ or PLY"),
+              std::string::npos)
+        << name;
   }
 }
 
 TEST(ScanReader, a_broken_3ds_is_refused) {
   const std::string file = chunk(0x4D4D, chunk(0x3D3D, triangle_3ds(1)));
-  EXPECT_NE(complaint([&] { parse_3ds(file.substr(0, file.size() - 9), "a.3ds"); }).find("truncated"), std::string::npos);
-  EXPECT_NE(complaint([&] { parse_3ds(chunk(0x4D4D, chunk(0x3D3D, triangle_3ds(1, 5))), "a.3ds"); }).find("vertex 5"), std::string::npos);
-  EXPECT_NE(complaint([&] { parse_3ds(chunk(0x4D4D, chunk(0x3D3D, triangle_3ds(std::nanf("")))), "a.3ds"); }).find("finite"), std::string::npos);
-  EXPECT_NE(complaint([] { parse_3ds("v 0 0 0\nv 1 0 0\n", "a.3ds"); }).find("3DS"), std::string::npos);
+  EXPECT_NE(
+      complaint([&] { parse_3ds(file.substr(0, file.size() - 9), "a.3ds"); }).find("truncated"),
+      std::string::npos);
+  EXPECT_NE(complaint([&] {
+              parse_3ds(chunk(0x4D4D, chunk(0x3D3D, triangle_3ds(1, 5))), "a.3ds");
+            }).find("vertex 5"),
+            std::string::npos);
+  EXPECT_NE(complaint([&] {
+              parse_3ds(chunk(0x4D4D, chunk(0x3D3D, triangle_3ds(std::nanf("")))), "a.3ds");
+            }).find("finite"),
+            std::string::npos);
+  EXPECT_NE(complaint([] { parse_3ds("v 0 0 0\nv 1 0 0\n", "a.3ds"); }).find("3DS"),
+            std::string::npos);
   std::string nested;
   for (int k = 0; k < 2000; ++k) nested = chunk(0x4D4D, nested);
   complaint([&] { parse_3ds(nested, "a.3ds"); });

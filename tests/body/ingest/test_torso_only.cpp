@@ -20,7 +20,8 @@ TriangleMesh above(const samples::MadeMannequin& figure, double height, bool kee
     torso.positions.push_back(figure.mesh.positions[v]);
   }
   for (const Triangle& t : figure.mesh.triangles)
-    if (number[t[0]] >= 0 && number[t[1]] >= 0 && number[t[2]] >= 0) torso.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+    if (number[t[0]] >= 0 && number[t[1]] >= 0 && number[t[2]] >= 0)
+      torso.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
   return torso;
 }
 
@@ -49,17 +50,27 @@ TEST(TorsoOnly, shows_head_neck_arms_and_chest_where_they_are_and_no_legs) {
     const double cut = test::in_scan(whole, "crotch").y() + 0.04;
     for (const double degrees : {75.0}) {
       const Eigen::Matrix3d turn = test::turn_about_y(degrees);
-      const MeasuredScan measured = test::measure(test::moved(above(figure, cut, true), turn, Vec3::Zero()), torso_only());
-      EXPECT_TRUE(measured.missing.empty()) << name << ": " << ::testing::PrintToString(measured.missing);
-      for (const char* part : {"head_tip", "neck_front", "neck_back", "hand_tip_l", "hand_tip_r", "wrist_l", "shoulder_joint_r", "axilla_l"}) {
+      const MeasuredScan measured =
+          test::measure(test::moved(above(figure, cut, true), turn, Vec3::Zero()), torso_only());
+      EXPECT_TRUE(measured.missing.empty())
+          << name << ": " << ::testing::PrintToString(measured.missing);
+      for (const char* part : {"head_tip", "neck_front", "neck_back", "hand_tip_l", "hand_tip_r",
+                               "wrist_l", "shoulder_joint_r", "axilla_l"}) {
         ASSERT_TRUE(measured.body.has_landmark(part)) << name << ": " << part;
-        EXPECT_LT((turn * test::in_scan(whole, part) - test::in_scan(measured.body, part)).norm(), 0.03) << name << ": " << part;
+        EXPECT_LT((turn * test::in_scan(whole, part) - test::in_scan(measured.body, part)).norm(),
+                  0.03)
+            << name << ": " << part;
       }
-      for (const char* part : {"crotch", "hip_joint_l", "hip_center", "knee_l", "ankle_r", "foot_tip_l"})
-        EXPECT_FALSE(measured.body.has_landmark(part)) << name << ": " << part << " is not in the scan";
+      for (const char* part :
+           {"crotch", "hip_joint_l", "hip_center", "knee_l", "ankle_r", "foot_tip_l"})
+        EXPECT_FALSE(measured.body.has_landmark(part))
+            << name << ": " << part << " is not in the scan";
       EXPECT_EQ(measured.body.girths.count("thigh_l"), 0u);
-      const auto said = std::count_if(measured.body.scan.findings.begin(), measured.body.scan.findings.end(),
-                                      [](const Finding& f) { return f.what.starts_with("torso only") || f.what.starts_with("not in this scan"); });
+      const auto said = std::count_if(measured.body.scan.findings.begin(),
+                                      measured.body.scan.findings.end(), [](const Finding& f) {
+                                        return f.what.starts_with("torso only") ||
+                                               f.what.starts_with("not in this scan");
+                                      });
       EXPECT_EQ(said, 2);
     }
   }

@@ -11,8 +11,10 @@ using namespace sloper::body;
 TEST(RestingPlane, is_that_of_three_feet_under_the_place) {
   // feet on y = 0.1 x - 0.2 z + 1, others above it
   std::vector<Vec3> points;
-  for (const auto& [x, z] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {0.0, 1.0}}) points.emplace_back(x, 0.1 * x - 0.2 * z + 1, z);
-  for (int k = 0; k < 50; ++k) points.emplace_back(std::cos(k), 1.6 + 0.1 * std::sin(3 * k), std::sin(k));
+  for (const auto& [x, z] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {0.0, 1.0}})
+    points.emplace_back(x, 0.1 * x - 0.2 * z + 1, z);
+  for (int k = 0; k < 50; ++k)
+    points.emplace_back(std::cos(k), 1.6 + 0.1 * std::sin(3 * k), std::sin(k));
   const auto plane = resting_plane(points, Vec2::Zero());
   ASSERT_TRUE(plane);
   EXPECT_NEAR((*plane - Vec3(0.1, -0.2, 1)).norm(), 0, 1e-9);
@@ -22,13 +24,16 @@ TEST(RestingPlane, is_that_of_three_feet_under_the_place) {
 TEST(Upright, who_stands_or_leans_a_little_is_left_so) {
   const TriangleMesh& mesh = test::mannequin("f-165-a").mesh;
   EXPECT_FALSE(upright_turn(mesh, segment_scan(mesh, "auto")));
-  const TriangleMesh leaning = test::moved(mesh, Eigen::AngleAxisd(0.035, Vec3::UnitX()).toRotationMatrix(), Vec3::Zero());
+  const TriangleMesh leaning =
+      test::moved(mesh, Eigen::AngleAxisd(0.035, Vec3::UnitX()).toRotationMatrix(), Vec3::Zero());
   EXPECT_FALSE(upright_turn(leaning, segment_scan(leaning, "auto")));
 }
 
 TEST(Upright, who_lies_askew_is_set_on_both_soles) {
   const TriangleMesh& mesh = test::mannequin("f-165-a").mesh;
-  const Eigen::Matrix3d turn = (Eigen::AngleAxisd(2.0, Vec3::UnitZ()) * Eigen::AngleAxisd(0.7, Vec3::UnitX())).toRotationMatrix();
+  const Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(2.0, Vec3::UnitZ()) * Eigen::AngleAxisd(0.7, Vec3::UnitX()))
+          .toRotationMatrix();
   const TriangleMesh lying = test::moved(mesh, turn, Vec3(5, 5, 5));
   const auto upright = upright_turn(lying, segment_scan(lying, "auto"));
   ASSERT_TRUE(upright);
@@ -39,7 +44,8 @@ TEST(Upright, a_body_with_level_arms_is_found_however_it_lies) {
   const TriangleMesh& mesh = test::mannequin("m-185-t").mesh;
   Random random(5);
   for (int k = 0; k < 8; ++k) {
-    const Eigen::Quaterniond q{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    const Eigen::Quaterniond q{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
+                               random.uniform(-1, 1)};
     const Eigen::Matrix3d turn = q.normalized().toRotationMatrix();
     const TriangleMesh lying = test::moved(mesh, turn, Vec3(1, 2, 3));
     const auto upright = upright_turn(lying, segment_scan(lying, "auto"));
@@ -54,7 +60,8 @@ namespace {
 double missed_by(const Eigen::Matrix3d& turn, bool given) {
   ScanOptions options;
   if (given) options.up = "y";
-  const Body body = test::measure(test::moved(test::mannequin("f-165-a").mesh, turn, Vec3::Zero()), options).body;
+  const Body body =
+      test::measure(test::moved(test::mannequin("f-165-a").mesh, turn, Vec3::Zero()), options).body;
   const Vec3 up = body.scan_to_body.block<1, 3>(1, 0).transpose().normalized();
   return std::acos(std::min(1.0, up.dot(turn.col(1))));
 }
@@ -64,8 +71,10 @@ double missed_by(const Eigen::Matrix3d& turn, bool given) {
 TEST(Vertical, is_the_bodys_own_whichever_way_it_leans_in_the_file) {
   for (const double degrees : {0.0, 1.0, 4.0})
     for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(-1, 0, -1)}) {
-      const Eigen::Matrix3d turn = Eigen::AngleAxisd(degrees * 3.14159265 / 180, axis.normalized()).toRotationMatrix();
-      EXPECT_LT(missed_by(turn, false), 0.005) << degrees; // posture tells it to a third of a degree
+      const Eigen::Matrix3d turn =
+          Eigen::AngleAxisd(degrees * 3.14159265 / 180, axis.normalized()).toRotationMatrix();
+      EXPECT_LT(missed_by(turn, false), 0.005)
+          << degrees; // posture tells it to a third of a degree
     }
 }
 
@@ -79,5 +88,6 @@ TEST(Vertical, of_the_file_stays_where_a_person_bends_over_level_soles) {
   for (Vec3& p : bent.positions) // from the ankles up, which leaves the soles as they are
     if (p.y() > 0.12) p.z() += 0.08 * (p.y() - 0.12);
   const Body body = test::measure(bent).body;
-  EXPECT_NEAR((body.scan_to_body.block<1, 3>(1, 0).normalized() - Vec3::UnitY().transpose()).norm(), 0, 1e-6);
+  EXPECT_NEAR((body.scan_to_body.block<1, 3>(1, 0).normalized() - Vec3::UnitY().transpose()).norm(),
+              0, 1e-6);
 }

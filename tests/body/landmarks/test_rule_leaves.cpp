@@ -1,4 +1,5 @@
-/// Every rule that a landmark or level can be found by is reached, and the spread says how far to believe it.
+/// Every rule that a landmark or level can be found by is reached, and the spread says how far to
+/// believe it.
 #include <support/figures.hpp>
 
 #include <gtest/gtest.h>
@@ -13,12 +14,14 @@ using namespace sloper::body;
 namespace {
 
 /// A mannequin with bumps or dimples: paraboloids on the skin near points of the front.
-TriangleMesh with_relief(TriangleMesh mesh, const std::vector<std::pair<Vec3, double>>& marks, double radius) {
+TriangleMesh with_relief(TriangleMesh mesh, const std::vector<std::pair<Vec3, double>>& marks,
+                         double radius) {
   const std::vector<Vec3> normals = vertex_normals(mesh);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
     for (const auto& [at, height] : marks) {
       const double d = std::hypot(mesh.positions[v].x() - at.x(), mesh.positions[v].y() - at.y());
-      if (normals[v].z() > 0.3 && d < radius) mesh.positions[v].z() += height * (1 - d * d / (radius * radius));
+      if (normals[v].z() > 0.3 && d < radius)
+        mesh.positions[v].z() += height * (1 - d * d / (radius * radius));
     }
   return mesh;
 }
@@ -39,7 +42,8 @@ TriangleMesh without(TriangleMesh mesh, const std::vector<Vec3>& holes, double r
     out.positions.push_back(mesh.positions[v]);
   }
   for (const Triangle& t : mesh.triangles)
-    if (number[t[0]] >= 0 && number[t[1]] >= 0 && number[t[2]] >= 0) out.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+    if (number[t[0]] >= 0 && number[t[1]] >= 0 && number[t[2]] >= 0)
+      out.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
   return out;
 }
 
@@ -66,7 +70,8 @@ TriangleMesh with_scarf(TriangleMesh mesh, double s, bool over_throat) {
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     Vec3& p = mesh.positions[v];
     if (p.y() < 0.77 * s || p.y() > 0.90 * s || std::hypot(p.x(), p.z()) > 0.13 * s) continue;
-    if (over_throat && normals[v].z() > 0.1) p.z() = std::max(p.z(), s * (0.09 - 0.3 * (p.y() / s - 0.78)));
+    if (over_throat && normals[v].z() > 0.1)
+      p.z() = std::max(p.z(), s * (0.09 - 0.3 * (p.y() / s - 0.78)));
     const double r = std::hypot(p.x(), p.z()), wanted = s * (0.055 + 0.9 * (0.90 - p.y() / s));
     if (p.y() > 0.79 * s && r < wanted && r > 1e-6) p.x() *= wanted / r, p.z() *= wanted / r;
   }
@@ -76,17 +81,20 @@ TriangleMesh with_scarf(TriangleMesh mesh, double s, bool over_throat) {
 /// Breeches that are full above the knee: no hollow behind it.
 TriangleMesh with_breeches(TriangleMesh mesh, double s) {
   for (Vec3& p : mesh.positions)
-    if (const double y = p.y() / s; y > 0.15 && y < 0.46 && p.z() < 0) p.z() -= 0.3 * s * std::min(y - 0.15, 2 * (0.46 - y));
+    if (const double y = p.y() / s; y > 0.15 && y < 0.46 && p.z() < 0)
+      p.z() -= 0.3 * s * std::min(y - 0.15, 2 * (0.46 - y));
   return mesh;
 }
 
-/// Wide sleeves cut in one with the trunk: skin under level arms from the trunk to the elbows, and no arm pit.
+/// Wide sleeves cut in one with the trunk: skin under level arms from the trunk to the elbows, and
+/// no arm pit.
 TriangleMesh with_bat_sleeves(TriangleMesh mesh, double s) {
   const std::vector<Vec3> normals = vertex_normals(mesh);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     Vec3& p = mesh.positions[v];
     const double x = std::abs(p.x()) / s;
-    if (p.y() > 0.6 * s && x > 0.09 && x < 0.28 && normals[v].y() < -0.2) p.y() -= s * std::min(0.25, 1.6 * (0.28 - x));
+    if (p.y() > 0.6 * s && x > 0.09 && x < 0.28 && normals[v].y() < -0.2)
+      p.y() -= s * std::min(0.25, 1.6 * (0.28 - x));
   }
   return mesh;
 }
@@ -94,7 +102,8 @@ TriangleMesh with_bat_sleeves(TriangleMesh mesh, double s) {
 /// Gauntlets: from the palm up no place is thinner, and nothing swells above the elbow.
 TriangleMesh with_sleeves(TriangleMesh mesh, const Body& body) {
   for (const char* side : {"_l", "_r"}) {
-    const Vec3 shoulder = test::in_scan(body, std::string("shoulder_joint") + side), wrist = test::in_scan(body, std::string("wrist") + side);
+    const Vec3 shoulder = test::in_scan(body, std::string("shoulder_joint") + side),
+               wrist = test::in_scan(body, std::string("wrist") + side);
     const double length = (shoulder - wrist).norm();
     const Vec3 axis = (shoulder - wrist) / length;
     for (Vec3& p : mesh.positions) {
@@ -110,14 +119,16 @@ TriangleMesh with_sleeves(TriangleMesh mesh, const Body& body) {
 /// Upper arms that swell above the elbow, as muscles do: a mannequin's arms are cones.
 TriangleMesh with_muscles(TriangleMesh mesh, const Body& body) {
   for (const char* side : {"_l", "_r"}) {
-    const Vec3 shoulder = test::in_scan(body, std::string("shoulder_joint") + side), elbow = test::in_scan(body, std::string("elbow") + side);
+    const Vec3 shoulder = test::in_scan(body, std::string("shoulder_joint") + side),
+               elbow = test::in_scan(body, std::string("elbow") + side);
     const double length = (shoulder - elbow).norm();
     const Vec3 axis = (shoulder - elbow) / length;
     for (Vec3& p : mesh.positions) {
       const double along = (p - elbow).dot(axis);
       const Vec3 off = p - elbow - along * axis;
       if (along < 0 || along > 0.8 * length || off.norm() > 0.08) continue;
-      p += 0.35 * std::clamp(along / 0.05, 0.0, 1.0) * std::clamp((0.8 * length - along) / 0.1, 0.0, 1.0) * off;
+      p += 0.35 * std::clamp(along / 0.05, 0.0, 1.0) *
+           std::clamp((0.8 * length - along) / 0.1, 0.0, 1.0) * off;
     }
   }
   return mesh;
@@ -128,18 +139,26 @@ TriangleMesh with_muscles(TriangleMesh mesh, const Body& body) {
 TEST(RuleLeaves, every_rule_of_the_tree_is_reached) {
   std::set<Leaf> reached;
   auto visit = [&](const TriangleMesh& mesh) { collect(test::measure(mesh).trail, reached); };
-  for (const char* name : {"f-165-a", "m-185-t", "m-170-stout", "f-178-slim"}) visit(test::mannequin(name).mesh);
-  const TriangleMesh &woman = test::mannequin("f-165-a").mesh, &man = test::mannequin("m-178-a").mesh;
+  for (const char* name : {"f-165-a", "m-185-t", "m-170-stout", "f-178-slim"})
+    visit(test::mannequin(name).mesh);
+  const TriangleMesh &woman = test::mannequin("f-165-a").mesh,
+                     &man = test::mannequin("m-178-a").mesh;
   const double f = 1.65, m = 1.78;
   const Body whole = test::measure(woman).body;
   const Vec3 foremost = test::in_scan(whole, "bust_prominent_l");
   // nipples and a navel
-  visit(with_relief(woman, {{foremost, 0.012}, {Vec3(-foremost.x(), foremost.y(), 0), 0.012}, {Vec3(0, 0.60 * f, 0), -0.012}}, 0.022));
+  visit(with_relief(woman,
+                    {{foremost, 0.012},
+                     {Vec3(-foremost.x(), foremost.y(), 0), 0.012},
+                     {Vec3(0, 0.60 * f, 0), -0.012}},
+                    0.022));
   // a flat chest with muscles
-  visit(with_relief(man, {{Vec3(0.07 * m, 0.72 * m, 0), 0.006}, {Vec3(-0.07 * m, 0.72 * m, 0), 0.006}}, 0.03));
+  visit(with_relief(
+      man, {{Vec3(0.07 * m, 0.72 * m, 0), 0.006}, {Vec3(-0.07 * m, 0.72 * m, 0), 0.006}}, 0.03));
   // bare points with a hole at the crotch
   visit(cloud_of(without(woman, {test::in_scan(whole, "crotch")}, 0.05)));
-  visit(with_relief(with_scarf(woman, f, false), {{Vec3(0, 0.85 * f, 0), -0.04}}, 0.03)); // open at the throat
+  visit(with_relief(with_scarf(woman, f, false), {{Vec3(0, 0.85 * f, 0), -0.04}},
+                    0.03)); // open at the throat
   visit(with_scarf(woman, f, true));
   visit(with_breeches(woman, f));
   visit(with_bat_sleeves(test::mannequin("m-185-t").mesh, 1.85));
@@ -150,11 +169,14 @@ TEST(RuleLeaves, every_rule_of_the_tree_is_reached) {
   visit(with_muscles(woman, whole));
   const Rules standard = Rules::standard();
   for (const auto& [place, rules] : standard.tree())
-    for (const RuleChoice& rule : rules) EXPECT_TRUE(reached.count({place, rule.name})) << place << " was never found by " << rule.name;
+    for (const RuleChoice& rule : rules)
+      EXPECT_TRUE(reached.count({place, rule.name}))
+          << place << " was never found by " << rule.name;
 }
 
 TEST(RuleLeaves, a_file_reorders_the_tree_and_turns_rules_off) {
-  const auto path = std::filesystem::temp_directory_path() / ("sloper-tree-" + std::to_string(::getpid()) + ".json");
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("sloper-tree-" + std::to_string(::getpid()) + ".json");
   std::ofstream(path) << R"({"format": "landmark-rules", "version": 1,
     "tree": {"wrist": ["arm_ratio", "least_girth_after_hand"], "olecranon": [], "knee": [{"rule": "leg_ratio", "when": {"figure": "male"}}]}})";
   ScanOptions options;
@@ -184,6 +206,8 @@ TEST(Spread, grows_where_the_scan_says_little) {
 TEST(Spread, is_the_same_on_every_run) {
   ScanOptions options;
   options.jitter = 2;
-  const Body a = test::measure(test::mannequin("f-165-a").mesh, options).body, b = test::measure(test::mannequin("f-165-a").mesh, options).body;
-  for (const auto& [name, landmark] : a.landmarks) EXPECT_EQ(landmark.spread_m, b.landmarks.at(name).spread_m) << name;
+  const Body a = test::measure(test::mannequin("f-165-a").mesh, options).body,
+             b = test::measure(test::mannequin("f-165-a").mesh, options).body;
+  for (const auto& [name, landmark] : a.landmarks)
+    EXPECT_EQ(landmark.spread_m, b.landmarks.at(name).spread_m) << name;
 }

@@ -14,7 +14,8 @@ using namespace sloper::body;
 namespace {
 
 std::string write_temporary(const std::string& text) {
-  const auto path = std::filesystem::temp_directory_path() / ("sloper-rules-" + std::to_string(::getpid()) + ".json");
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("sloper-rules-" + std::to_string(::getpid()) + ".json");
   std::ofstream(path) << text;
   return path.string();
 }
@@ -22,7 +23,8 @@ std::string write_temporary(const std::string& text) {
 } // namespace
 
 TEST(Rules, a_file_replaces_numbers_by_name) {
-  const std::string path = write_temporary(R"({"format": "landmark-rules", "version": 1, "numbers": {"neck_back.height": {"value": 0.9}}})");
+  const std::string path = write_temporary(
+      R"({"format": "landmark-rules", "version": 1, "numbers": {"neck_back.height": {"value": 0.9}}})");
   const Rules rules = Rules::read(path);
   EXPECT_EQ(rules.number("neck_back.height"), 0.9);
   EXPECT_EQ(rules.number("elbow.of_arm"), Rules::standard().number("elbow.of_arm"));
@@ -30,7 +32,8 @@ TEST(Rules, a_file_replaces_numbers_by_name) {
 }
 
 TEST(Rules, an_unknown_name_is_refused_with_a_suggestion) {
-  const std::string path = write_temporary(R"({"format": "landmark-rules", "version": 1, "numbers": {"neck_back.heigth": 0.9}})");
+  const std::string path = write_temporary(
+      R"({"format": "landmark-rules", "version": 1, "numbers": {"neck_back.heigth": 0.9}})");
   try {
     Rules::read(path);
     FAIL() << "was read";
@@ -42,11 +45,15 @@ TEST(Rules, an_unknown_name_is_refused_with_a_suggestion) {
 
 TEST(Rules, an_unknown_place_or_rule_or_condition_is_refused) {
   for (const auto& [tree, part] :
-       {std::pair(R"({"wirst": []})", "wrist"), std::pair(R"({"wrist": ["arm_ration"]})", "arm_ratio"),
+       {std::pair(R"({"wirst": []})", "wrist"),
+        std::pair(R"({"wrist": ["arm_ration"]})", "arm_ratio"),
         std::pair(R"({"wrist": [{"rule": "arm_ratio", "when": {"stance": ["X"]}}]})", "stance"),
-        std::pair(R"({"wrist": [{"rule": "arm_ratio", "when": {"sex": "f"}}]})", "sex"), std::pair(R"({"wrist": [{"rule": "arm_ratio", "uses": []}]})", "uses"),
-        std::pair(R"({"wrist": ["arm_ratio", "arm_ratio"]})", "again"), std::pair(R"({"wrist": "arm_ratio"})", "list")}) {
-    const std::string path = write_temporary(std::string(R"({"format": "landmark-rules", "version": 1, "tree": )") + tree + "}");
+        std::pair(R"({"wrist": [{"rule": "arm_ratio", "when": {"sex": "f"}}]})", "sex"),
+        std::pair(R"({"wrist": [{"rule": "arm_ratio", "uses": []}]})", "uses"),
+        std::pair(R"({"wrist": ["arm_ratio", "arm_ratio"]})", "again"),
+        std::pair(R"({"wrist": "arm_ratio"})", "list")}) {
+    const std::string path = write_temporary(
+        std::string(R"({"format": "landmark-rules", "version": 1, "tree": )") + tree + "}");
     try {
       Rules::read(path);
       ADD_FAILURE() << tree << " was read";
@@ -70,8 +77,10 @@ TEST(Rules, the_tree_names_its_numbers_and_says_why) {
       }
     }
   }
-  for (const auto& [name, value] : rules.numbers()) // the first questions, and the girths' numbers, belong to no place
-    EXPECT_TRUE(used.count(name) || name.starts_with("figure.") || name.starts_with("neck.") || name.starts_with("neck_base."))
+  for (const auto& [name, value] :
+       rules.numbers()) // the first questions, and the girths' numbers, belong to no place
+    EXPECT_TRUE(used.count(name) || name.starts_with("figure.") || name.starts_with("neck.") ||
+                name.starts_with("neck_base."))
         << name << " is used by no rule";
 }
 

@@ -14,11 +14,13 @@ namespace {
 
 int told_flat(const Body& body) {
   int n = 0;
-  for (const Finding& finding : body.scan.findings) n += finding.what.find("the belly is flat") != std::string::npos;
+  for (const Finding& finding : body.scan.findings)
+    n += finding.what.find("the belly is flat") != std::string::npos;
   return n;
 }
 
-/// A belly pressed flat from `low` to `high`, leaning by `slope` (m per m), and round above and below.
+/// A belly pressed flat from `low` to `high`, leaning by `slope` (m per m), and round above and
+/// below.
 TriangleMesh pressed(TriangleMesh mesh, double low, double high, double slope) {
   double depth = 0;
   for (const Vec3& p : mesh.positions)
@@ -28,7 +30,8 @@ TriangleMesh pressed(TriangleMesh mesh, double low, double high, double slope) {
   for (Vec3& p : mesh.positions) {
     const double off = std::abs(p.y() - middle) - half;
     if (off > 0.08 || std::abs(p.x()) > 0.08 || p.z() < 0) continue;
-    p.z() = std::max(p.z(), depth + slope * (p.y() - middle) - 3 * std::max(0.0, off) * std::max(0.0, off) - 5 * p.x() * p.x());
+    p.z() = std::max(p.z(), depth + slope * (p.y() - middle) -
+                                3 * std::max(0.0, off) * std::max(0.0, off) - 5 * p.x() * p.x());
   }
   return mesh;
 }
@@ -47,7 +50,8 @@ TEST(FlatBelly, is_given_its_middle_and_told) {
     EXPECT_GT(body.landmarks.at("abdomen_front").spread_m, 0.02);
     EXPECT_LT(body.landmarks.at("abdomen_front").confidence, 0.5);
   }
-  EXPECT_LT((at[0] - at[1]).norm(), 0.025) << "half a degree turns the foremost level from one end of the flat part to the other, 100 mm away";
+  EXPECT_LT((at[0] - at[1]).norm(), 0.025) << "half a degree turns the foremost level from one end "
+                                              "of the flat part to the other, 100 mm away";
 }
 
 TEST(FlatBelly, is_not_told_of_a_round_one) {
@@ -57,12 +61,15 @@ TEST(FlatBelly, is_not_told_of_a_round_one) {
 
 TEST(HandTip, is_that_of_the_middle_finger_where_another_reaches_as_far_over_the_skin) {
   const char* shared = std::getenv("SLOPER_SHARED");
-  const auto path = std::filesystem::path(shared ? shared : "") / "data" / "bodies" / "smpl" / "m_smpl_average_A40.obj";
-  if (!shared || !std::filesystem::exists(path)) GTEST_SKIP() << "needs a hand with fingers: SLOPER_SHARED";
+  const auto path = std::filesystem::path(shared ? shared : "") / "data" / "bodies" / "smpl" /
+                    "m_smpl_average_A40.obj";
+  if (!shared || !std::filesystem::exists(path))
+    GTEST_SKIP() << "needs a hand with fingers: SLOPER_SHARED";
   const TriangleMesh scan = io::read_scan(path.string()).mesh;
   const Body body = test::measure(scan).body;
   for (const char* side : {"_l", "_r"}) {
-    const Vec3 wrist = test::in_scan(body, std::string("wrist") + side), tip = test::in_scan(body, std::string("hand_tip") + side);
+    const Vec3 wrist = test::in_scan(body, std::string("wrist") + side),
+               tip = test::in_scan(body, std::string("hand_tip") + side);
     double farthest = 0;
     for (const Vec3& p : scan.positions)
       if ((p - tip).norm() < 0.15) farthest = std::max(farthest, (p - wrist).norm());

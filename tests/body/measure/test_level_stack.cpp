@@ -1,4 +1,5 @@
-/// Level slices of simple solids: which loop is the trunk, where the crotch lies, and the arm pit between an arm and a trunk.
+/// Level slices of simple solids: which loop is the trunk, where the crotch lies, and the arm pit
+/// between an arm and a trunk.
 #include <body/measure/arm_trace.hpp>
 #include <body/measure/level_stack.hpp>
 #include <gtest/gtest.h>
@@ -13,15 +14,19 @@ constexpr double STATURE = 1.7;
 void append(TriangleMesh& mesh, const TriangleMesh& more) {
   const int shift = static_cast<int>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
-  for (const Triangle& t : more.triangles) mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  for (const Triangle& t : more.triangles)
+    mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
 }
 
-/// A prism over `outline` (counterclockwise about `along`, seen whole from its first point), from -half to half of it.
-TriangleMesh prism(const std::vector<Vec2>& outline, const Vec3& first, const Vec3& second, const Vec3& along, double half) {
+/// A prism over `outline` (counterclockwise about `along`, seen whole from its first point), from
+/// -half to half of it.
+TriangleMesh prism(const std::vector<Vec2>& outline, const Vec3& first, const Vec3& second,
+                   const Vec3& along, double half) {
   TriangleMesh mesh;
   const int n = static_cast<int>(outline.size());
   for (const double end : {-half, half})
-    for (const Vec2& q : outline) mesh.positions.push_back(q.x() * first + q.y() * second + end * along);
+    for (const Vec2& q : outline)
+      mesh.positions.push_back(q.x() * first + q.y() * second + end * along);
   for (int k = 0; k < n; ++k) {
     const int next = (k + 1) % n;
     mesh.triangles.push_back({k, next, next + n});
@@ -34,8 +39,9 @@ TriangleMesh prism(const std::vector<Vec2>& outline, const Vec3& first, const Ve
 }
 
 TriangleMesh box(const Vec3& low, const Vec3& high) {
-  TriangleMesh mesh = prism({{low.x(), low.y()}, {high.x(), low.y()}, {high.x(), high.y()}, {low.x(), high.y()}}, Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(),
-                            0.5 * (high.z() - low.z()));
+  TriangleMesh mesh =
+      prism({{low.x(), low.y()}, {high.x(), low.y()}, {high.x(), high.y()}, {low.x(), high.y()}},
+            Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(), 0.5 * (high.z() - low.z()));
   for (Vec3& p : mesh.positions) p.z() += 0.5 * (low.z() + high.z());
   return mesh;
 }
@@ -49,7 +55,8 @@ TriangleMesh legs(double top) {
 /// Legs under a trunk whose lower side is lowest in front and behind, there by `lower` more.
 TriangleMesh two_lowest_places(double lower) {
   TriangleMesh mesh = legs(0.82);
-  const std::vector<Vec2> side = {{0, 1.4}, {-0.12, 1.4}, {-0.1, 0.8 - lower}, {0, 0.81}, {0.06, 0.8}, {0.12, 1.4}}; // z, y
+  const std::vector<Vec2> side = {{0, 1.4},  {-0.12, 1.4}, {-0.1, 0.8 - lower},
+                                  {0, 0.81}, {0.06, 0.8},  {0.12, 1.4}}; // z, y
   append(mesh, prism(side, Vec3::UnitZ(), Vec3::UnitY(), -Vec3::UnitX(), 0.17));
   return mesh;
 }
@@ -81,10 +88,12 @@ TEST(LevelStack, crotch_that_is_as_low_behind_lies_in_front) {
   EXPECT_NEAR(back.crotch_point().y(), -0.1, 0.005);
 }
 
-/// The skin from a level arm to the trunk's side runs along the lines that look for the gap between both: it closes nowhere in particular.
+/// The skin from a level arm to the trunk's side runs along the lines that look for the gap between
+/// both: it closes nowhere in particular.
 TEST(ArmPit, lies_at_its_usual_distance_from_a_level_arm_where_the_skin_has_no_corner) {
-  const std::vector<Vec2> outline = {{0.19, 1.42},    {0, 1.42},     {0, 0.9},    {0.15, 0.9},  {0.19, 1.1},
-                                     {0.205, 1.2253}, {0.26, 1.315}, {0.3, 1.32}, {0.75, 1.32}, {0.75, 1.42}};
+  const std::vector<Vec2> outline = {{0.19, 1.42}, {0, 1.42},       {0, 0.9},      {0.15, 0.9},
+                                     {0.19, 1.1},  {0.205, 1.2253}, {0.26, 1.315}, {0.3, 1.32},
+                                     {0.75, 1.32}, {0.75, 1.42}};
   const TriangleMesh skin = prism(outline, Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(), 0.1);
   const LevelStack levels(skin, STATURE, 0.005);
   ArmTrace arm;

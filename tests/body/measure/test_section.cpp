@@ -10,7 +10,8 @@ using namespace sloper::body;
 namespace {
 
 TriangleMesh cylinder(double radius, double y0, double y1, int n, double x = 0) {
-  return shapes::cylinder(radius, y0, y1, n, 1, Vec3(x, 0, 0), 0.25 * n); // the first vertex of a ring at +x
+  return shapes::cylinder(radius, y0, y1, n, 1, Vec3(x, 0, 0),
+                          0.25 * n); // the first vertex of a ring at +x
 }
 
 } // namespace
@@ -62,12 +63,14 @@ TEST(Section, knows_when_the_skin_ends) {
 
 TEST(LevelledMesh, gives_the_same_bits_as_a_cut_of_the_whole_mesh) {
   TriangleMesh mesh = cylinder(0.1, 0, 1, 60, 0.3);
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) mesh.positions[v].y() += 0.07 * std::sin(5.0 * static_cast<double>(v)); // no level ends
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    mesh.positions[v].y() += 0.07 * std::sin(5.0 * static_cast<double>(v)); // no level ends
   constexpr double SPACING = 0.05;
   const LevelledMesh levelled(mesh, 0.5 * SPACING, SPACING, 24);
   int n = 0;
   for (double y = 0.001; y < 1.2; y += 0.0137) {
-    const std::vector<Loop> all = cut(mesh, level_plane(y)), quick = levelled.cut(static_cast<int>(y / SPACING), y);
+    const std::vector<Loop> all = cut(mesh, level_plane(y)),
+                            quick = levelled.cut(static_cast<int>(y / SPACING), y);
     ASSERT_EQ(all.size(), quick.size()) << y;
     for (std::size_t k = 0; k < all.size(); ++k, ++n) {
       EXPECT_EQ(all[k].segments, quick[k].segments) << y;

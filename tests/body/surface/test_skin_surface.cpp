@@ -8,14 +8,17 @@ using namespace sloper::body;
 
 namespace {
 
-std::vector<char> all(const TriangleMesh& mesh) { return std::vector<char>(mesh.positions.size(), 1); }
+std::vector<char> all(const TriangleMesh& mesh) {
+  return std::vector<char>(mesh.positions.size(), 1);
+}
 
 double mean_distance(const TriangleMesh& from, const TriangleMesh& to) {
   double sum = 0;
   int n = 0;
   for (std::size_t v = 0; v < from.positions.size(); v += 37, ++n) {
     double least = 1e300;
-    for (const Vec3& q : to.positions) least = std::min(least, (q - from.positions[v]).squaredNorm());
+    for (const Vec3& q : to.positions)
+      least = std::min(least, (q - from.positions[v]).squaredNorm());
     sum += std::sqrt(least);
   }
   return sum / n;
@@ -61,7 +64,9 @@ TEST(Skin, of_bare_noisy_points_is_a_closed_surface_near_them) {
 
 TEST(Skin, of_a_mesh_with_one_small_hole_keeps_its_vertices_and_is_closed) {
   TriangleMesh mesh = test::mannequin("m-178-a").mesh;
-  std::erase_if(mesh.triangles, [&](const Triangle& t) { return (mesh.positions[t[0]] - Vec3(0, 1.2, 0.12)).norm() < 0.03; });
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    return (mesh.positions[t[0]] - Vec3(0, 1.2, 0.12)).norm() < 0.03;
+  });
   const SkinSurface skin = make_skin(mesh.positions, mesh.triangles, all(mesh), 1.78);
   EXPECT_FALSE(skin.rebuilt);
   EXPECT_TRUE(test::is_closed_and_oriented(skin.mesh));
@@ -69,8 +74,10 @@ TEST(Skin, of_a_mesh_with_one_small_hole_keeps_its_vertices_and_is_closed) {
 
 TEST(Skin, of_a_mesh_with_large_holes_is_closed) {
   TriangleMesh mesh = test::mannequin("m-178-a").mesh;
-  for (const Vec3& hole : {Vec3(0, 1.2, 0.12), Vec3(0, 1.75, 0), Vec3(0.2, 0.05, 0.1), Vec3(-0.2, 1.3, 0), Vec3(0, 0.9, -0.1)})
-    std::erase_if(mesh.triangles, [&](const Triangle& t) { return (mesh.positions[t[0]] - hole).norm() < 0.12; });
+  for (const Vec3& hole : {Vec3(0, 1.2, 0.12), Vec3(0, 1.75, 0), Vec3(0.2, 0.05, 0.1),
+                           Vec3(-0.2, 1.3, 0), Vec3(0, 0.9, -0.1)})
+    std::erase_if(mesh.triangles,
+                  [&](const Triangle& t) { return (mesh.positions[t[0]] - hole).norm() < 0.12; });
   const SkinSurface skin = make_skin(mesh.positions, mesh.triangles, all(mesh), 1.78);
   EXPECT_TRUE(skin.rebuilt);
   EXPECT_GT(skin.border_edges, 0);

@@ -1,4 +1,5 @@
-/// Contact of cloth with a body and with itself: forces against their energies, and what no step may pass.
+/// Contact of cloth with a body and with itself: forces against their energies, and what no step
+/// may pass.
 #include <support/grid.hpp>
 
 #include <base/random.hpp>
@@ -23,14 +24,17 @@ TriangleMesh table(int n, double size) {
   for (int r = 0; r <= n; ++r)
     for (int c = 0; c <= n; ++c) m.positions.emplace_back(size * c / n, 0, -size * r / n);
   const int top = static_cast<int>(m.positions.size());
-  for (const Vec3& p : {Vec3(0, -0.2, 0), Vec3(size, -0.2, 0), Vec3(size, -0.2, -size), Vec3(0, -0.2, -size)}) m.positions.push_back(p);
+  for (const Vec3& p :
+       {Vec3(0, -0.2, 0), Vec3(size, -0.2, 0), Vec3(size, -0.2, -size), Vec3(0, -0.2, -size)})
+    m.positions.push_back(p);
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
       const int a = r * (n + 1) + c, b = a + 1, d = a + n + 1, e = d + 1;
       m.triangles.push_back({a, b, e});
       m.triangles.push_back({a, e, d});
     }
-  auto side = [&](int low0, int low1, auto at) { // a fan from the lower edge to the row of upper vertices
+  auto side = [&](int low0, int low1,
+                  auto at) { // a fan from the lower edge to the row of upper vertices
     for (int c = 0; c < n; ++c) m.triangles.push_back({at(c + 1), at(c), low0});
     m.triangles.push_back({at(n), low0, low1});
   };
@@ -74,10 +78,12 @@ double upward(const Filled& filled) {
   return sum;
 }
 
-/// Edges 2 degrees from parallel share their force with vertices and faces, in a share that no force tells of. @return about y by that
+/// Edges 2 degrees from parallel share their force with vertices and faces, in a share that no
+/// force tells of. @return about y by that
 Vec3 turned(const Vec3& p) { return Eigen::AngleAxisd(0.035, Vec3::UnitY()) * p; }
 
-/// Force against central differences of the energy over the pairs of the last search, relative to the largest force.
+/// Force against central differences of the energy over the pairs of the last search, relative to
+/// the largest force.
 double gradient_error(Effect& effect, const ClothMesh& mesh, std::vector<Vec3> x) {
   Couplings couplings;
   effect.declare(couplings);
@@ -105,18 +111,22 @@ TEST(Contact, PotentialHasTheForceAndStiffnessOfItsEnergy) {
   const double reach = 0.003, k = 40;
   for (double d : {2e-5, 1e-4, 3e-4, 8e-4, 0.0012, 0.0025, 0.0029}) {
     const double eps = 1e-5 * d;
-    const Push above = push_of(d + eps, reach, k), at = push_of(d, reach, k), below = push_of(d - eps, reach, k);
+    const ContactResponse above = evaluate_contact_potential(d + eps, reach, k),
+                          at = evaluate_contact_potential(d, reach, k),
+                          below = evaluate_contact_potential(d - eps, reach, k);
     EXPECT_NEAR(at.force, -(above.energy - below.energy) / (2 * eps), 1e-4 * at.force + 1e-12) << d;
-    EXPECT_NEAR(at.stiffness, -(above.force - below.force) / (2 * eps), 1e-2 * at.stiffness + 1e-12) << d;
+    EXPECT_NEAR(at.stiffness, -(above.force - below.force) / (2 * eps), 1e-2 * at.stiffness + 1e-12)
+        << d;
   }
-  EXPECT_EQ(push_of(reach, reach, k).force, 0);
+  EXPECT_EQ(evaluate_contact_potential(reach, reach, k).force, 0);
 }
 
 TEST(Contact, ForceOfTheBodyIsTheGradientOfItsEnergy) {
   collision::BodyCollider body(table(9, 0.2));
   Grid grid = make_grid(12, 0.15);
   Random random(3);
-  for (Vec3& p : grid.x) p = Vec3(p.x() + 0.023, 0.0012 + 0.0008 * random.uniform(-1, 1), p.z() - 0.0231);
+  for (Vec3& p : grid.x)
+    p = Vec3(p.x() + 0.023, 0.0012 + 0.0008 * random.uniform(-1, 1), p.z() - 0.0231);
   BodyContactEffect contact(grid.mesh, body, {});
   EXPECT_LT(gradient_error(contact, grid.mesh, grid.x), 2e-3);
   EXPECT_EQ(contact.n_crossing(), 0u);
@@ -138,7 +148,8 @@ TEST(Contact, EachLevelSeesWhatTheOneBeforeSeesAndMore) {
   for (Vec3& p : grid.x) p += Vec3(0.023, 0.0004, -0.0231);
   const TriangleMesh fine = table(40, 0.2);
   double last = 0;
-  for (const ContactLevel level : {ContactLevel::VERTEX, ContactLevel::FACE, ContactLevel::CONTINUOUS}) { // flat skin has no edge to see
+  for (const ContactLevel level : {ContactLevel::VERTEX, ContactLevel::FACE,
+                                   ContactLevel::CONTINUOUS}) { // flat skin has no edge to see
     collision::BodyCollider body(fine);
     BodyContactOptions options;
     options.level = level;
@@ -147,7 +158,7 @@ TEST(Contact, EachLevelSeesWhatTheOneBeforeSeesAndMore) {
     const double up = upward(filled);
     if (level == ContactLevel::CONTINUOUS) EXPECT_GE(up, last);
     else EXPECT_GT(up, 1.01 * last) << static_cast<int>(level);
-    EXPECT_EQ(filled.limits.guards.empty(), level != ContactLevel::CONTINUOUS);
+    EXPECT_EQ(filled.limits.planes.empty(), level != ContactLevel::CONTINUOUS);
     last = up;
   }
 }
@@ -195,19 +206,21 @@ TEST(Contact, WhateverTheForceNoStepPassesTheSkin) {
   for (int k = 0; k < 150; ++k) {
     const StepResult result = solver.step(options);
     ASSERT_TRUE(result.finite);
-    ASSERT_TRUE(body.faces_through(solver.x(), grid.mesh.particle_triangles()).empty()) << "step " << k;
+    ASSERT_TRUE(body.faces_through(solver.x(), grid.mesh.particle_triangles()).empty())
+        << "step " << k;
   }
   EXPECT_GT(contact.searches, 0);
 }
 
-/// Pairs that are too far apart to repel are left out of a step, until the cloth comes nearer or is about to.
+/// Pairs that are too far apart to repel are left out of a step, until the cloth comes nearer or is
+/// about to.
 TEST(Contact, WhatIsNotLookedAtIsNeitherFeltNorPassed) {
   collision::BodyCollider body(table(7, 0.2));
   Grid grid = make_grid(10, 0.15);
   for (Vec3& p : grid.x) p += Vec3(0.02, 0.0045, -0.02); // seen, but beyond the reach
   BodyContactEffect contact(grid.mesh, body, {});
   Filled filled = fill_alone(contact, grid); // the search has told how far off all pairs are
-  EXPECT_TRUE(filled.limits.guards.empty());
+  EXPECT_TRUE(filled.limits.planes.empty());
 
   std::vector<Vec3> low = grid.x;
   for (Vec3& p : low) p.y() = 0.0025; // no farther than pairs are seen ahead
@@ -219,10 +232,11 @@ TEST(Contact, WhatIsNotLookedAtIsNeitherFeltNorPassed) {
   EXPECT_NEAR(contact.energy(low), there.energy(low), 1e-12 * there.energy(low));
 
   std::vector<Vec3> dx(grid.x.size(), Vec3(0, -0.001, 0));
-  EXPECT_FALSE(contact.guard_motion(grid.x, dx, filled.limits, false)) << "far too short to reach the skin";
+  EXPECT_FALSE(contact.add_separating_planes(grid.x, dx, filled.limits, false))
+      << "far too short to reach the skin";
   dx.assign(grid.x.size(), Vec3(0, -0.03, 0));
-  EXPECT_TRUE(contact.guard_motion(grid.x, dx, filled.limits, false));
-  filled.limits.most.assign(grid.x.size(), 1); // of planes alone
+  EXPECT_TRUE(contact.add_separating_planes(grid.x, dx, filled.limits, false));
+  filled.limits.max_displacement.assign(grid.x.size(), 1); // of planes alone
   std::vector<char> held(grid.x.size(), 0);
   filled.limits.apply(grid.x, dx, held);
   for (std::size_t i = 0; i < dx.size(); ++i) EXPECT_GT(grid.x[i].y() + dx[i].y(), 0.001);
@@ -269,7 +283,8 @@ FallingSheet sheet_above_sheet(double height) {
 }
 
 TEST(Contact, ClothThatFallsTogetherFallsFreely) {
-  for (const double apart : {0.02, 0.003}) { // out of each other's sight, and near enough for planes between them
+  for (const double apart :
+       {0.02, 0.003}) { // out of each other's sight, and near enough for planes between them
     FallingSheet s = sheet_above_sheet(apart);
     ClothSolver solver(s.mesh, s.x);
     solver.emplace<EdgeSpringEffect>(s.mesh);
@@ -283,7 +298,8 @@ TEST(Contact, ClothThatFallsTogetherFallsFreely) {
       solver.step(options);
       fallen += 9.81 * k * options.h * options.h;
     }
-    for (std::size_t i = 0; i < s.x.size(); ++i) EXPECT_NEAR(s.x[i].y() - solver.x()[i].y(), fallen, 1e-3 * fallen) << apart;
+    for (std::size_t i = 0; i < s.x.size(); ++i)
+      EXPECT_NEAR(s.x[i].y() - solver.x()[i].y(), fallen, 1e-3 * fallen) << apart;
   }
 }
 
@@ -331,7 +347,8 @@ TEST(Contact, WhatCrossedIsGuardedAsAllElseOnceItIsParted) {
   const FallingSheet s = sheet_above_sheet(0.0012);
   const int n = static_cast<int>(s.x.size());
   std::vector<Vec3> crossing = s.x;
-  for (int i = n / 2; i < n; ++i) crossing[i].y() += 0.2 * (crossing[i].x() - s.x[n / 2].x()) - 0.005;
+  for (int i = n / 2; i < n; ++i)
+    crossing[i].y() += 0.2 * (crossing[i].x() - s.x[n / 2].x()) - 0.005;
   SelfContactEffect contact(s.mesh, {}), fresh(s.mesh, {});
   BlockMatrix matrix(n, {});
   fill(contact, n, crossing, matrix);
@@ -339,14 +356,16 @@ TEST(Contact, WhatCrossedIsGuardedAsAllElseOnceItIsParted) {
   contact.refresh();
   const Filled parted = fill(contact, n, s.x, matrix), expected = fill(fresh, n, s.x, matrix);
   EXPECT_TRUE(contact.crossings().empty());
-  EXPECT_GT(expected.limits.guards.size(), 0u);
-  EXPECT_EQ(parted.limits.guards.size(), expected.limits.guards.size());
+  EXPECT_GT(expected.limits.planes.size(), 0u);
+  EXPECT_EQ(parted.limits.planes.size(), expected.limits.planes.size());
   EXPECT_EQ(parted.force, expected.force);
 }
 
 TEST(Contact, LookingAheadChangesNoStep) {
   collision::BodyCollider body(table(7, 0.2));
-  for (const double height : {0.004, -0.001}) { // outside, and with faces in the skin, which are pushed harder with every search
+  for (const double height :
+       {0.004,
+        -0.001}) { // outside, and with faces in the skin, which are pushed harder with every search
     Grid grid = make_grid(14, 0.26);
     for (Vec3& p : grid.x) p += Vec3(-0.03, height, 0.03);
     std::vector<Vec3> end[2];
@@ -360,7 +379,7 @@ TEST(Contact, LookingAheadChangesNoStep) {
       for (int k = 0; k < 20; ++k) {
         solver.step({});
         const long searches = skin.searches;
-        if (look) solver.look_ahead(StepOptions{}.h);
+        if (look) solver.prefetch_contacts(StepOptions{}.h);
         ahead += skin.searches - searches;
       }
       end[look] = solver.x();
@@ -379,16 +398,17 @@ TEST_P(ContactFrom, ClothThatMeetsClothInOneStepDoesNotPassIt) {
   ClothSolver solver(s.mesh, s.x);
   solver.emplace<EdgeSpringEffect>(s.mesh);
   auto& contact = solver.emplace<SelfContactEffect>(s.mesh, SelfContactOptions{});
-  struct Push : Effect { // drives the upper sheet down and the lower one up
+  struct ContactResponse : Effect { // drives the upper sheet down and the lower one up
     const ClothMesh& mesh;
-    explicit Push(const ClothMesh& m) : mesh(m) {}
+    explicit ContactResponse(const ClothMesh& m) : mesh(m) {}
     const char* name() const override { return "push"; }
     void add(StepContext& c) override {
       const std::size_t n = c.force.size();
-      for (std::size_t i = 0; i < n; ++i) c.force[i] += mesh.mass[i] * Vec3(0, i < n / 2 ? 60 : -60, 0);
+      for (std::size_t i = 0; i < n; ++i)
+        c.force[i] += mesh.mass[i] * Vec3(0, i < n / 2 ? 60 : -60, 0);
     }
   };
-  solver.emplace<Push>(s.mesh);
+  solver.emplace<ContactResponse>(s.mesh);
   StepOptions options;
   options.inertia = 1;
   options.largest_move_m = 1;
@@ -396,23 +416,26 @@ TEST_P(ContactFrom, ClothThatMeetsClothInOneStepDoesNotPassIt) {
   for (int k = 0; k < 30; ++k) {
     const std::vector<Vec3> before = solver.x();
     ASSERT_TRUE(solver.step(options).finite);
-    for (int part = 1; part <= 40; ++part) { // a sheet that passes in one step leaves no crossing behind
+    for (int part = 1; part <= 40;
+         ++part) { // a sheet that passes in one step leaves no crossing behind
       std::vector<Vec3> x = before;
       for (std::size_t i = 0; i < x.size(); ++i) x[i] += part / 40.0 * (solver.x()[i] - before[i]);
       const collision::TriangleTree tree(x, triangles);
-      ASSERT_TRUE(collision::self_intersections(x, triangles, tree).empty()) << "step " << k << ", part " << part;
+      ASSERT_TRUE(collision::self_intersections(x, triangles, tree).empty())
+          << "step " << k << ", part " << part;
     }
   }
   EXPECT_GT(contact.far_searches, 0);
 }
-INSTANTIATE_TEST_SUITE_P(beyond_the_search_radius_and_within_it_but_too_far_to_repel, ContactFrom, ::testing::Values(0.03, 0.005));
+INSTANTIATE_TEST_SUITE_P(beyond_the_search_radius_and_within_it_but_too_far_to_repel, ContactFrom,
+                         ::testing::Values(0.03, 0.005));
 
 TEST(Contact, LimitsKeepPlanesAndLengths) {
   MotionLimits limits;
   limits.reset(2);
-  limits.guards.push_back({1, 1, {0, 0, 0, 0}, Vec3::UnitY(), 0.5, 0});
-  limits.guards.push_back({1, 0, {1, 0, 0, 0}, Vec3::UnitX(), 0, 0.2});
-  limits.most[1] = 0.15;
+  limits.planes.push_back({1, 1, {0, 0, 0, 0}, Vec3::UnitY(), 0.5, 0});
+  limits.planes.push_back({1, 0, {1, 0, 0, 0}, Vec3::UnitX(), 0, 0.2});
+  limits.max_displacement[1] = 0.15;
   const std::vector<Vec3> x = {{0, 1, 0}, {0, 0, 0}};
   std::vector<Vec3> dx = {{0.3, -2, 0}, {1, 0, 1}};
   std::vector<char> held(2, 0);
@@ -427,10 +450,10 @@ TEST(Contact, LimitsKeepPlanesAndLengths) {
 TEST(Contact, PlanesThatFollowStopOnlyWhatWouldMeet) {
   MotionLimits limits;
   limits.reset(2);
-  limits.guards.push_back({2, 1, {0, 1, 0, 0}, Vec3::UnitY(), 0.55, 0.45});
+  limits.planes.push_back({2, 1, {0, 1, 0, 0}, Vec3::UnitY(), 0.55, 0.45});
   const std::vector<Vec3> x = {{0, 1, 0}, {0, 0, 0}};
   const auto limited = [&](double above, double below, bool follow) {
-    limits.planes_follow = follow;
+    limits.planes_translate = follow;
     std::vector<Vec3> dx = {{0.1, above, 0}, {-0.1, below, 0}};
     std::vector<char> held(2, 0);
     limits.apply(x, dx, held);
@@ -441,9 +464,11 @@ TEST(Contact, PlanesThatFollowStopOnlyWhatWouldMeet) {
   EXPECT_EQ(limited(3, 3, true), Vec2(3, 3));
   EXPECT_EQ(limited(3, 3, false), Vec2(3, 0.45));
   EXPECT_EQ(limited(-3, -3, true), Vec2(-3, -3));
-  EXPECT_NEAR((limited(3, 5, true) - Vec2(3, 3.9)).norm(), 0, 1e-12) << "the faster one comes up to the other";
+  EXPECT_NEAR((limited(3, 5, true) - Vec2(3, 3.9)).norm(), 0, 1e-12)
+      << "the faster one comes up to the other";
   EXPECT_NEAR((limited(-5, -3, true) - Vec2(-3.9, -3)).norm(), 0, 1e-12);
-  EXPECT_NEAR((limited(-5, 0.2, true) - limited(-5, 0.2, false) - Vec2(-0.25, 0)).norm(), 0, 1e-12) << "one takes the room that the other leaves";
+  EXPECT_NEAR((limited(-5, 0.2, true) - limited(-5, 0.2, false) - Vec2(-0.25, 0)).norm(), 0, 1e-12)
+      << "one takes the room that the other leaves";
   EXPECT_EQ(limited(-5, 5, true), limited(-5, 5, false)) << "half the way each";
 }
 
@@ -458,11 +483,12 @@ TEST(Contact, PlanesThatFollowLeaveTheElementsOnTheirSides) {
     for (Vec3& p : x) p = point();
     for (Vec3& d : dx) d = wind + 0.5 * point();
     MotionLimits limits;
-    limits.planes_follow = true;
+    limits.planes_translate = true;
     limits.reset(N);
-    for (int i = 0; i < N; i += 7) limits.most[i] = 0.2;
-    for (int g = 0; g < 60; ++g) { // planes that present positions keep, between one and three or two and two, and some that stay
-      PlaneGuard guard;
+    for (int i = 0; i < N; i += 7) limits.max_displacement[i] = 0.2;
+    for (int g = 0; g < 60; ++g) { // planes that present positions keep, between one and three or
+                                   // two and two, and some that stay
+      SeparatingPlane guard;
       guard.n = 4;
       guard.n_above = g % 10 == 0 ? 4 : 1 + g % 2;
       for (int k = 0; k < 4; ++k) guard.particle[k] = static_cast<int>(random() % N);
@@ -473,13 +499,14 @@ TEST(Contact, PlanesThatFollowLeaveTheElementsOnTheirSides) {
         if (k < guard.n_above) guard.above = std::min(guard.above, height - 0.02);
         else guard.below = std::max(guard.below, height + 0.02);
       }
-      if (guard.n_above == 4 || guard.above >= guard.below) limits.guards.push_back(guard);
+      if (guard.n_above == 4 || guard.above >= guard.below) limits.planes.push_back(guard);
     }
     const std::vector<Vec3> wanted = dx;
     std::vector<char> held(N, 0);
     limits.apply(x, dx, held);
-    for (int i = 0; i < N; ++i) EXPECT_LE(dx[i].norm(), std::min(wanted[i].norm(), limits.most[i]) + 1e-9);
-    for (const PlaneGuard& g : limits.guards) {
+    for (int i = 0; i < N; ++i)
+      EXPECT_LE(dx[i].norm(), std::min(wanted[i].norm(), limits.max_displacement[i]) + 1e-9);
+    for (const SeparatingPlane& g : limits.planes) {
       double most = 1e300, least = -1e300;
       for (int k = 0; k < 4; ++k) {
         const double way = g.normal.dot(x[g.particle[k]] + dx[g.particle[k]]);
@@ -500,7 +527,9 @@ TEST(Contact, WithLineSearchClothComesToRestOnTheTable) {
   auto& gravity = solver.emplace<GravityEffect>(grid.mesh, Vec3(0, -9.81, 0));
   auto& contact = solver.emplace<BodyContactEffect>(grid.mesh, body, BodyContactOptions{});
   contact.set_friction(0.4); // without it the cloth would slide off
-  const auto energy = [&] { return springs.energy(solver.x()) + gravity.energy(solver.x()) + contact.energy(solver.x()); };
+  const auto energy = [&] {
+    return springs.energy(solver.x()) + gravity.energy(solver.x()) + contact.energy(solver.x());
+  };
   StepOptions options;
   options.line_search = true;
   solver.step(options);
@@ -510,7 +539,8 @@ TEST(Contact, WithLineSearchClothComesToRestOnTheTable) {
   for (int k = 0; k < 120; ++k) {
     const double before = energy();
     result = solver.step(options);
-    rises += energy() > before + 1e-7 * std::abs(before); // friction's anchors are moved between the steps
+    rises += energy() >
+             before + 1e-7 * std::abs(before); // friction's anchors are moved between the steps
     options.h = std::clamp(options.h * (result.halvings > 0 ? 0.7 : 1.15), 0.005, 0.2);
   }
   EXPECT_EQ(rises, 0) << "no step may raise the energy, whatever limits do to it";
@@ -523,7 +553,8 @@ TEST(Contact, WithLineSearchClothComesToRestOnTheTable) {
 TEST(BodyContact, skin_that_keeps_to_its_room_never_passes_the_cloth) {
   Grid cloth = make_grid(8, 0.2);
   Random random(11);
-  for (Vec3& p : cloth.x) p += Vec3(0.1, 0.004 + random.uniform(-0.002, 0.002), -0.1) - Vec3(p.x() * 0.5, 0, p.z() * 0.5);
+  for (Vec3& p : cloth.x)
+    p += Vec3(0.1, 0.004 + random.uniform(-0.002, 0.002), -0.1) - Vec3(p.x() * 0.5, 0, p.z() * 0.5);
   const TriangleMesh skin = table(12, 0.3);
   collision::BodyCollider body(skin);
   ClothSolver solver(cloth.mesh, cloth.x);
@@ -535,7 +566,7 @@ TEST(BodyContact, skin_that_keeps_to_its_room_never_passes_the_cloth) {
   std::vector<Vec3> moved = skin.positions;
   const std::vector<Triangle> triangles = cloth.mesh.particle_triangles();
   for (int k = 0; k < 30; ++k) {
-    const std::vector<double> room = contact.skin_room(solver.x());
+    const std::vector<double> room = contact.max_safe_skin_displacement(solver.x());
     for (std::size_t v = 0; v < moved.size(); ++v) moved[v].y() += room[v]; // up, into the cloth
     contact.move_body(moved, solver.x());
     EXPECT_TRUE(body.faces_through(solver.x(), triangles).empty());

@@ -13,8 +13,10 @@ constexpr double LEVEL = 0.02; // m: the sheet above the middle of the floor's t
 /// A closed block with its top at y = 0.
 TriangleMesh block() {
   TriangleMesh mesh;
-  for (int k = 0; k < 8; ++k) mesh.positions.emplace_back(k & 1 ? 1 : -1, k & 2 ? 0 : -0.5, k & 4 ? 1 : -1);
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  for (int k = 0; k < 8; ++k)
+    mesh.positions.emplace_back(k & 1 ? 1 : -1, k & 2 ? 0 : -0.5, k & 4 ? 1 : -1);
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   return mesh;
 }
 
@@ -39,7 +41,8 @@ TEST(SoftBodyContact, begins_at_its_reach_and_grows_as_its_formula_says) {
   const double area = 0.06 * 0.06, k = 1e4;
   EXPECT_EQ(push_at(1.01 * LEVEL), 0);
   EXPECT_NEAR(push_at(0.5 * LEVEL), k * area * 0.25 * LEVEL * LEVEL / (2 * LEVEL), 1e-9);
-  EXPECT_NEAR(push_at(-0.01), k * area * (LEVEL + 0.01 - 0.5 * LEVEL), 1e-9) << "below the skin it grows by the depth";
+  EXPECT_NEAR(push_at(-0.01), k * area * (LEVEL + 0.01 - 0.5 * LEVEL), 1e-9)
+      << "below the skin it grows by the depth";
 }
 
 TEST(SoftBodyContact, its_matrix_is_the_change_of_its_force) {

@@ -1,4 +1,5 @@
-/// The effects that a scene may ask for: forces against their energies, matrices against their forces, and what each is for.
+/// The effects that a scene may ask for: forces against their energies, matrices against their
+/// forces, and what each is for.
 #include <support/force_checks.hpp>
 
 #include <cloth/forces/attachments.hpp>
@@ -34,7 +35,9 @@ Grid make_octahedron(double r) {
     for (int b : {2, 3})
       for (int c : {4, 5}) {
         const bool even = (a + b + c) % 2 == 0; // of the signs: outward orientation
-        triangles.push_back({{a, even ? b : c, even ? c : b}, {Vec2(0, 0), Vec2(side, 0), Vec2(side / 2, side * std::sqrt(0.75))}, 0});
+        triangles.push_back({{a, even ? b : c, even ? c : b},
+                             {Vec2(0, 0), Vec2(side, 0), Vec2(side / 2, side * std::sqrt(0.75))},
+                             0});
       }
   g.mesh = make_cloth_mesh(6, triangles, {Fabric{}});
   return g;
@@ -44,7 +47,8 @@ Grid make_octahedron(double r) {
 
 TEST(TriangleStretch, force_is_minus_energy_gradient_also_when_shrunk) {
   const Grid g = make_grid(5, 0.1);
-  TriangleStretchEffect plain(g.mesh), shrunk(g.mesh, std::vector<Shrink>(g.mesh.triangles.size(), {0.8, 0.9}));
+  TriangleStretchEffect plain(g.mesh),
+      shrunk(g.mesh, std::vector<Shrink>(g.mesh.triangles.size(), {0.8, 0.9}));
   expect_gradient(plain, g.mesh, jittered(g.x, 0.004, 1));
   expect_gradient(shrunk, g.mesh, jittered(g.x, 0.004, 2));
 }
@@ -95,10 +99,12 @@ TEST(TriangleStretch, one_percent_compression_makes_the_assembled_exact_matrix_i
       BlockMatrix matrix(g.mesh.n_particles, couplings);
       effect->bind(matrix);
       force_of(*effect, g.mesh.n_particles, scaled(g.x, 0.99), matrix);
-      if (exact) effect->add_left_out(scaled(g.x, 0.99), matrix);
+      if (exact) effect->add_indefinite_part(scaled(g.x, 0.99), matrix);
       const double h = 1.0 / 30; // with the inertia of the paper's own step
-      for (int i = 0; i < g.mesh.n_particles; ++i) matrix.add_diagonal(i, g.mesh.mass[i] / (h * h) * Mat3::Identity());
-      const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(matrix)).eigenvalues()[0];
+      for (int i = 0; i < g.mesh.n_particles; ++i)
+        matrix.add_diagonal(i, g.mesh.mass[i] / (h * h) * Mat3::Identity());
+      const double least =
+          Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(matrix)).eigenvalues()[0];
       if (exact) EXPECT_LT(least, -0.1) << effect->name();
       else EXPECT_GT(least, 0) << effect->name();
     }
@@ -141,7 +147,8 @@ TEST(Membrane, a_strip_pulled_along_the_warp_has_the_stretch_stiffness_and_narro
   for (double n = 0; n < 0.6; n += 0.001)
     if (energy(n) < energy(best)) best = n;
   EXPECT_NEAR(best, 0.3, 0.002);
-  EXPECT_NEAR(energy(best), 0.5 * 2000 * strain * strain, 1e-3 * energy(best)); // to first order in strain
+  EXPECT_NEAR(energy(best), 0.5 * 2000 * strain * strain,
+              1e-3 * energy(best)); // to first order in strain
 }
 
 TEST(DihedralBending, force_is_minus_energy_gradient_with_rest_angles) {
@@ -174,7 +181,8 @@ TEST(DihedralBending, agrees_with_the_isometric_model_for_small_angles) {
 
 TEST(Pins, hold_with_the_force_they_report) {
   const Grid g = make_grid(3, 0.1);
-  PinsEffect effect({{0, g.x[0] + Vec3(0.01, 0.02, 0), 500, Vec3::Zero()}, {4, g.x[4] + Vec3(0, 0.03, 0.01), 800, Vec3::UnitY()}});
+  PinsEffect effect({{0, g.x[0] + Vec3(0.01, 0.02, 0), 500, Vec3::Zero()},
+                     {4, g.x[4] + Vec3(0, 0.03, 0.01), 800, Vec3::UnitY()}});
   expect_gradient(effect, g.mesh, g.x, false);
   expect_jacobian(effect, g.mesh, g.x, 1e-6);
   EXPECT_LT((effect.force(0, g.x) - Vec3(5, 10, 0)).norm(), 1e-12);
@@ -183,7 +191,8 @@ TEST(Pins, hold_with_the_force_they_report) {
 
 TEST(Attachments, pull_and_never_push) {
   const Grid g = make_grid(3, 0.1);
-  AttachmentsEffect effect({{0, g.x[0] + Vec3(0, 0.2, 0.1), 0.1, 50}, {4, g.x[4] + Vec3(0, 0.05, 0), 0.1, 50}});
+  AttachmentsEffect effect(
+      {{0, g.x[0] + Vec3(0, 0.2, 0.1), 0.1, 50}, {4, g.x[4] + Vec3(0, 0.05, 0), 0.1, 50}});
   expect_gradient(effect, g.mesh, jittered(g.x, 0.004, 12), false);
   expect_jacobian(effect, g.mesh, g.x, 1e-5);
   AttachmentsEffect slack({{0, g.x[0] + Vec3(0, 0.05, 0), 0.1, 50}});
@@ -227,7 +236,8 @@ TEST(Wind, of_still_air_takes_energy_from_cloth_that_moves) {
   std::vector<ContactElement> elements;
   StepContext c{x, h, force, matrix, elements};
   effect.add(c);
-  matrix.multiply(std::vector<Vec3>(x.size(), h * v), product); // D/h dx: the drag over a step at this velocity
+  matrix.multiply(std::vector<Vec3>(x.size(), h * v),
+                  product); // D/h dx: the drag over a step at this velocity
   double power = 0;
   for (std::size_t i = 0; i < x.size(); ++i) power += (force[i] - product[i]).dot(v);
   EXPECT_NEAR(power, -0.5 * 1.2 * (1.2 * 27 + 0.02 * 1) * 0.01, 1e-6);
@@ -248,5 +258,6 @@ TEST(Pressure, pushes_an_open_sheet_with_p_times_area) {
   Vec3 total = Vec3::Zero();
   for (const Vec3& f : force_of(effect, g.mesh.n_particles, g.x, matrix)) total += f;
   EXPECT_LT((total - Vec3(0, 2, 0)).norm(), 1e-9) << total.transpose();
-  expect_gradient(effect, g.mesh, jittered(g.x, 0.01, 16), false); // the rim's correction holds where add() was called
+  expect_gradient(effect, g.mesh, jittered(g.x, 0.01, 16),
+                  false); // the rim's correction holds where add() was called
 }

@@ -1,4 +1,5 @@
-/// Every force against finite differences of its energy, every stiffness against finite differences of its force.
+/// Every force against finite differences of its energy, every stiffness against finite differences
+/// of its force.
 #include <support/force_checks.hpp>
 
 #include <cloth/forces/bending.hpp>
@@ -33,7 +34,8 @@ TEST(EdgeSpring, one_percent_compression_makes_the_unclamped_matrix_indefinite) 
   // The paper says that the left side of eq. (1) is always positive definite. It is not.
   const Vec3 a(0, 0, 0), b(0.0099, 0, 0);
   const double k = 1000, l0 = 0.01;
-  Eigen::SelfAdjointEigenSolver<Mat3> exact(edge_spring_stiffness(a, b, l0, k, false)), clamped(edge_spring_stiffness(a, b, l0, k, true));
+  Eigen::SelfAdjointEigenSolver<Mat3> exact(edge_spring_stiffness(a, b, l0, k, false)),
+      clamped(edge_spring_stiffness(a, b, l0, k, true));
   EXPECT_LT(exact.eigenvalues()[0], -1.0);
   EXPECT_GE(clamped.eigenvalues()[0], -1e-9);
 }
@@ -71,7 +73,8 @@ TEST(Shear, pure_shear_costs_half_k_angle_squared_per_area) {
   auto x = g.x;
   const double angle = 0.01;
   for (Vec3& p : x) p.x() += angle * p.z();
-  EXPECT_NEAR(shear_energy(make_shear(g.mesh), x), 0.5 * fabric.shear_n_m * angle * angle * 0.04, 1e-3 * fabric.shear_n_m * angle * angle * 0.04);
+  EXPECT_NEAR(shear_energy(make_shear(g.mesh), x), 0.5 * fabric.shear_n_m * angle * angle * 0.04,
+              1e-3 * fabric.shear_n_m * angle * angle * 0.04);
 }
 
 TEST(Shear, stiffness_with_what_is_left_out_of_it_is_minus_force_gradient) {
@@ -141,7 +144,10 @@ TEST(ClothMesh, tension_of_a_stretched_strip_is_the_stretch_stiffness) {
   const Grid g = make_grid(21, 0.2, fabric);
   auto x = g.x;
   const double strain = 1e-3;
-  for (Vec3& p : x) p *= 1 + strain; // all-round stretch: energy per area is Y strain^2 / (1 - nu), nu = 1/3 for springs
+  for (Vec3& p : x)
+    p *=
+        1 +
+        strain; // all-round stretch: energy per area is Y strain^2 / (1 - nu), nu = 1/3 for springs
   const double energy = edge_springs_energy(g.mesh, x) / 0.04;
   EXPECT_NEAR(energy, 1000 * strain * strain / (1 - 1.0 / 3), 0.12 * energy);
 }

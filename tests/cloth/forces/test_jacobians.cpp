@@ -1,5 +1,6 @@
-/// Stiffness against finite differences of the force, matrix and contact elements together, for the effects that test_forces.cpp and
-/// test_effects.cpp do not cover; and what the paper says of the matrix of edge springs.
+/// Stiffness against finite differences of the force, matrix and contact elements together, for the
+/// effects that test_forces.cpp and test_effects.cpp do not cover; and what the paper says of the
+/// matrix of edge springs.
 #include <support/force_checks.hpp>
 
 #include <cloth/contact/body_contact.hpp>
@@ -25,16 +26,20 @@ namespace {
 
 using Field = std::vector<Vec3>;
 
-Field random_field(std::size_t n, std::uint64_t seed) { return jittered(Field(n, Vec3::Zero()), 1, seed); }
+Field random_field(std::size_t n, std::uint64_t seed) {
+  return jittered(Field(n, Vec3::Zero()), 1, seed);
+}
 
 /// Largest difference of K d from -(f(x + s d) - f(x - s d)) / 2 s, over the largest of K d.
-double jacobian_error(Effect& effect, const ClothMesh& mesh, const Field& x, const Field& direction, double step = 1e-7) {
+double jacobian_error(Effect& effect, const ClothMesh& mesh, const Field& x, const Field& direction,
+                      double step = 1e-7) {
   Couplings couplings;
   effect.declare(couplings);
   BlockMatrix matrix(mesh.n_particles, couplings), unused(mesh.n_particles, couplings);
   effect.bind(matrix);
   effect.begin_step(x, 1e30);
-  const auto fill = [&](const Field& at, BlockMatrix& stiffness, std::vector<ContactElement>& elements) {
+  const auto fill = [&](const Field& at, BlockMatrix& stiffness,
+                        std::vector<ContactElement>& elements) {
     Field force(x.size(), Vec3::Zero());
     StepContext c{at, 1e30, force, stiffness, elements, nullptr};
     effect.add(c);
@@ -45,7 +50,8 @@ double jacobian_error(Effect& effect, const ClothMesh& mesh, const Field& x, con
   fill(x, matrix, elements);
   expect_blocks_as_declared(matrix);
   Field plus = x, minus = x, product(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) plus[i] += step * direction[i], minus[i] -= step * direction[i];
+  for (std::size_t i = 0; i < x.size(); ++i)
+    plus[i] += step * direction[i], minus[i] -= step * direction[i];
   const Field fp = fill(plus, unused, of_plus), fm = fill(minus, unused, of_minus);
   matrix.multiply(direction, product);
   for (const ContactElement& e : elements) {
@@ -75,7 +81,8 @@ struct Linearised {
 Linearised linearised(Effect& effect, const Field& x, double h) {
   Couplings couplings;
   effect.declare(couplings);
-  Linearised made{BlockMatrix(static_cast<int>(x.size()), couplings), Field(x.size(), Vec3::Zero())};
+  Linearised made{BlockMatrix(static_cast<int>(x.size()), couplings),
+                  Field(x.size(), Vec3::Zero())};
   effect.bind(made.matrix);
   std::vector<ContactElement> elements;
   StepContext c{x, h, made.force, made.matrix, elements, nullptr};
@@ -111,25 +118,34 @@ template<class SomeEffect> void expect_damping(double damping_s) {
   }
 }
 
-// Contact leaves out how the way between closest points turns, which is not definite. These scenes have pairs that do not turn.
+// Contact leaves out how the way between closest points turns, which is not definite. These scenes
+// have pairs that do not turn.
 
 /// One large triangle below all of the cloth, closed downwards.
-TriangleMesh plate() { return {{Vec3(-2, 0, 2), Vec3(3, 0, 2), Vec3(0, 0, -4), Vec3(0, -1, 0)}, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}}; }
+TriangleMesh plate() {
+  return {{Vec3(-2, 0, 2), Vec3(3, 0, 2), Vec3(0, 0, -4), Vec3(0, -1, 0)},
+          {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
+}
 
 /// A roof whose ridge runs along z below the middle of a column of cells.
-TriangleMesh roof() { return {{Vec3(0.05, 0, 1), Vec3(0.05, 0, -1), Vec3(-1, -0.5, 0), Vec3(1.1, -0.5, 0)}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}}; }
+TriangleMesh roof() {
+  return {{Vec3(0.05, 0, 1), Vec3(0.05, 0, -1), Vec3(-1, -0.5, 0), Vec3(1.1, -0.5, 0)},
+          {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
+}
 
 } // namespace
 
 TEST(Jacobian, of_sewing_springs_within_reach) {
   const Grid g = make_grid(4, 0.1);
   SewingSpringEffect effect({{0, 1}, {2, 9}, {0, 15}}, 50, 1.0);
-  EXPECT_LT(jacobian_error(effect, g.mesh, jittered(g.x, 0.004, 1), random_field(16, 2), 1e-5), 1e-8);
+  EXPECT_LT(jacobian_error(effect, g.mesh, jittered(g.x, 0.004, 1), random_field(16, 2), 1e-5),
+            1e-8);
 }
 
 TEST(Jacobian, of_pins_with_and_without_a_free_axis) {
   const Grid g = make_grid(3, 0.1);
-  PinsEffect effect({{0, Vec3(0.01, 0.02, 0), 1e4, Vec3::Zero()}, {4, Vec3::Zero(), 500, Vec3::UnitX()}});
+  PinsEffect effect(
+      {{0, Vec3(0.01, 0.02, 0), 1e4, Vec3::Zero()}, {4, Vec3::Zero(), 500, Vec3::UnitX()}});
   EXPECT_LT(jacobian_error(effect, g.mesh, g.x, random_field(9, 3), 1e-5), 1e-8);
 }
 
@@ -151,7 +167,8 @@ TEST(Jacobian, of_weight_is_none) {
   const Grid g = make_grid(3, 0.1);
   GravityEffect effect(g.mesh, Vec3(0, -9.80665, 0));
   BlockMatrix matrix(g.mesh.n_particles, {});
-  const auto a = force_of(effect, g.mesh.n_particles, g.x, matrix), b = force_of(effect, g.mesh.n_particles, jittered(g.x, 0.1, 8), matrix);
+  const auto a = force_of(effect, g.mesh.n_particles, g.x, matrix),
+             b = force_of(effect, g.mesh.n_particles, jittered(g.x, 0.1, 8), matrix);
   EXPECT_EQ(a, b);
   EXPECT_EQ(dense(matrix).norm(), 0);
 }
@@ -185,7 +202,8 @@ TEST(Jacobian, of_friction_that_sticks_along_the_skin) {
 }
 
 TEST(Jacobian, of_self_contact_of_edges_that_cross) {
-  // two triangles over each other like a star: six pairs of edges cross, corners are far from the other face
+  // two triangles over each other like a star: six pairs of edges cross, corners are far from the
+  // other face
   std::vector<RestTriangle> triangles;
   Field x, up(6, Vec3::Zero());
   for (int of = 0; of < 2; ++of) {
@@ -225,15 +243,18 @@ TEST(Jacobian, of_damping_takes_the_power_with_which_stretched_springs_change_le
     const Field v = random_field(x.size(), 13);
     double power = 0; // W
     for (const EdgeSpring& s : g.mesh.springs) {
-      const double longer = (x[s.j] + STEP * v[s.j] - x[s.i] - STEP * v[s.i]).norm(), shorter = (x[s.j] - STEP * v[s.j] - x[s.i] + STEP * v[s.i]).norm();
+      const double longer = (x[s.j] + STEP * v[s.j] - x[s.i] - STEP * v[s.i]).norm(),
+                   shorter = (x[s.j] - STEP * v[s.j] - x[s.i] + STEP * v[s.i]).norm();
       power += s.stiffness * s.damping_s * std::pow((longer - shorter) / (2 * STEP), 2);
     }
-    const double taken = H * (dot(v, linearised(springs, x, H).times(v)) - dot(v, linearised(springs, x, 1e30).times(v)));
+    const double taken = H * (dot(v, linearised(springs, x, H).times(v)) -
+                              dot(v, linearised(springs, x, 1e30).times(v)));
     EXPECT_NEAR(taken, power, 1e-6 * power);
   }
 }
 
-/// Air has no potential: its matrix is minus the derivative of its force by the velocity, over h, with the speeds |q.n| and |q_t| kept.
+/// Air has no potential: its matrix is minus the derivative of its force by the velocity, over h,
+/// with the speeds |q.n| and |q_t| kept.
 TEST(Jacobian, of_wind_makes_its_force_that_of_the_velocity_at_the_steps_end) {
   const Grid g = make_grid(3, 0.1);
   const std::vector<Triangle> triangles = g.mesh.particle_triangles();
@@ -247,13 +268,17 @@ TEST(Jacobian, of_wind_makes_its_force_that_of_the_velocity_at_the_steps_end) {
   for (Vec3& p : x) p += H * v;
   wind.begin_step(x, H);
   const Linearised air = linearised(wind, x, H);
-  const Field carried = air.times(along(9, H * options.velocity)), kept = air.times(along(9, H * v));
+  const Field carried = air.times(along(9, H * options.velocity)),
+              kept = air.times(along(9, H * v));
   Field drag(9, Vec3::Zero());
   for (const Triangle& t : triangles) {
-    const Vec3 cross = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]), n = cross.normalized(), q = options.velocity - v;
+    const Vec3 cross = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]), n = cross.normalized(),
+               q = options.velocity - v;
     const Vec3 across = q - q.dot(n) * n;
     const double share = 0.5 * options.air_density * 0.5 * cross.norm() / 3;
-    for (int k : t) drag[k] += share * (options.normal_drag * std::abs(q.dot(n)) * q.dot(n) * n + options.tangent_drag * across.norm() * across);
+    for (int k : t)
+      drag[k] += share * (options.normal_drag * std::abs(q.dot(n)) * q.dot(n) * n +
+                          options.tangent_drag * across.norm() * across);
   }
   for (int i = 0; i < 9; ++i) {
     EXPECT_LT((air.force[i] - carried[i]).norm(), 1e-12) << "cloth that goes with the air feels it";
@@ -264,11 +289,13 @@ TEST(Jacobian, of_wind_makes_its_force_that_of_the_velocity_at_the_steps_end) {
 TEST(Jacobian, of_pressure_is_left_out) {
   const Grid g = make_grid(3, 0.1);
   PressureEffect effect(g.mesh.particle_triangles(), 200);
-  for (const Vec3& row : linearised(effect, g.x, 0.02).times(random_field(9, 15))) EXPECT_EQ(row, Vec3(Vec3::Zero()));
+  for (const Vec3& row : linearised(effect, g.x, 0.02).times(random_field(9, 15)))
+    EXPECT_EQ(row, Vec3(Vec3::Zero()));
 }
 
 TEST(Jacobian, one_percent_compression_makes_the_papers_whole_matrix_indefinite) {
-  // M - h df/dv - h^2 df/dx over h^2, of a square of cloth that is 1 % too short: "always positive definite" it is not; clamped it is.
+  // M - h df/dv - h^2 df/dx over h^2, of a square of cloth that is 1 % too short: "always positive
+  // definite" it is not; clamped it is.
   Fabric undamped;
   undamped.damping_s = 0;
   const Grid g = make_grid(5, 0.1, undamped);
@@ -277,7 +304,8 @@ TEST(Jacobian, one_percent_compression_makes_the_papers_whole_matrix_indefinite)
   const double h = 1.0 / 30;
   for (bool clamp : {false, true}) {
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(75, 75);
-    for (int i = 0; i < 25; ++i) a.block<3, 3>(3 * i, 3 * i) = g.mesh.mass[i] / (h * h) * Mat3::Identity();
+    for (int i = 0; i < 25; ++i)
+      a.block<3, 3>(3 * i, 3 * i) = g.mesh.mass[i] / (h * h) * Mat3::Identity();
     for (const EdgeSpring& s : g.mesh.springs) {
       const Mat3 k = edge_spring_stiffness(x[s.i], x[s.j], s.rest_length, s.stiffness, clamp);
       a.block<3, 3>(3 * s.i, 3 * s.i) += k;

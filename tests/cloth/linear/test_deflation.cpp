@@ -39,7 +39,9 @@ Eigen::VectorXd any_vector(std::uint64_t seed) {
 /// A diagonal matrix from 1 to 100.
 const Eigen::VectorXd DIAGONAL = Eigen::VectorXd::LinSpaced(N, 1, 100);
 
-void multiply_diagonal(const std::vector<Float4>& x, std::vector<Float4>& y) { y = to_floats(DIAGONAL.cwiseProduct(to_doubles(x))); }
+void multiply_diagonal(const std::vector<Float4>& x, std::vector<Float4>& y) {
+  y = to_floats(DIAGONAL.cwiseProduct(to_doubles(x)));
+}
 
 /// Wavy cloth that hangs by a corner and hardly resists: what moves it most is soft.
 struct Cloth {
@@ -63,7 +65,8 @@ struct Cloth {
     StepContext c{grid.x, 1e30, force, matrix, elements};
     springs.add(c);
     bending.add(c);
-    for (int i = 0; i < matrix.size(); ++i) matrix.add_isotropic_diagonal(i, 1e-3 * grid.mesh.mass[i] / grid.mesh.mass[0]);
+    for (int i = 0; i < matrix.size(); ++i)
+      matrix.add_isotropic_diagonal(i, 1e-3 * grid.mesh.mass[i] / grid.mesh.mass[0]);
     matrix.add_isotropic_diagonal(0, 1e3);
     index.build(elements, grid.x.size());
     for (double m : grid.mesh.mass) weight.emplace_back(0, -9.81 * m, 0);
@@ -79,7 +82,8 @@ std::vector<int> solve_in_turn(const Cloth& cloth, bool recurs, std::vector<Vec3
   std::vector<int> iterations;
   for (int k = 0; k < 6; ++k) {
     std::vector<Vec3> tilted = cloth.weight;
-    for (std::size_t i = 0; i < tilted.size(); ++i) tilted[i].x() = 0.05 * k * tilted[i].y() * std::cos(10 * cloth.grid.x[i].z());
+    for (std::size_t i = 0; i < tilted.size(); ++i)
+      tilted[i].x() = 0.05 * k * tilted[i].y() * std::cos(10 * cloth.grid.x[i].z());
     aggregation.update(system);
     const CgResult r = conjugate_gradient(system, aggregation, tilted, 1e-3, 2000, x, work);
     EXPECT_TRUE(r.converged);
@@ -100,16 +104,19 @@ TEST(Deflation, starts_from_the_best_of_the_ways_and_keeps_directions_apart_from
   deflation.keep(to_floats(Eigen::VectorXd::Zero(N))); // none at all
   deflation.prepare(ROWS, multiply_diagonal);
   ASSERT_EQ(deflation.n_ways(), 2U);
-  std::vector<Float4> x = to_floats(Eigen::VectorXd::Zero(N)), r = to_floats(right), z = to_floats(any_vector(4));
+  std::vector<Float4> x = to_floats(Eigen::VectorXd::Zero(N)), r = to_floats(right),
+                      z = to_floats(any_vector(4));
   deflation.start(x, r);
   Eigen::MatrixXd ways(N, 2);
   ways << a, b;
   const Eigen::MatrixXd images = DIAGONAL.asDiagonal() * ways;
-  const Eigen::VectorXd best = ways * (ways.transpose() * images).ldlt().solve(ways.transpose() * right);
+  const Eigen::VectorXd best =
+      ways * (ways.transpose() * images).ldlt().solve(ways.transpose() * right);
   EXPECT_LT((to_doubles(x) - best).norm(), 1e-5 * best.norm());
   EXPECT_LT((to_doubles(r) - (right - DIAGONAL.cwiseProduct(best))).norm(), 1e-5 * right.norm());
   deflation.project(r, z); // r has nothing of the ways left
-  EXPECT_LT((images.transpose() * to_doubles(z)).norm(), 1e-5 * images.norm() * to_doubles(z).norm());
+  EXPECT_LT((images.transpose() * to_doubles(z)).norm(),
+            1e-5 * images.norm() * to_doubles(z).norm());
 }
 
 TEST(Deflation, the_newest_ways_stay_and_those_of_other_cloth_go) {
@@ -117,7 +124,8 @@ TEST(Deflation, the_newest_ways_stay_and_those_of_other_cloth_go) {
   for (std::uint64_t k = 0; k < 2 * Deflation::MOST; ++k) deflation.keep(to_floats(any_vector(k)));
   deflation.prepare(ROWS, multiply_diagonal);
   EXPECT_EQ(deflation.n_ways(), Deflation::MOST);
-  const Eigen::VectorXd oldest = any_vector(Deflation::MOST); // of those that stay: it is in W, so that nothing of it is left
+  const Eigen::VectorXd oldest =
+      any_vector(Deflation::MOST); // of those that stay: it is in W, so that nothing of it is left
   std::vector<Float4> z = to_floats(oldest);
   deflation.project(to_floats(Eigen::VectorXd::Zero(N)), z);
   EXPECT_LT(to_doubles(z).norm(), 1e-4 * oldest.norm());
@@ -128,7 +136,9 @@ TEST(Deflation, the_newest_ways_stay_and_those_of_other_cloth_go) {
 TEST(Deflation, ways_along_which_the_matrix_is_not_definite_are_left_out) {
   Deflation deflation;
   deflation.keep(to_floats(any_vector(1)));
-  deflation.prepare(ROWS, [](const std::vector<Float4>& x, std::vector<Float4>& y) { y = to_floats(-to_doubles(x)); });
+  deflation.prepare(ROWS, [](const std::vector<Float4>& x, std::vector<Float4>& y) {
+    y = to_floats(-to_doubles(x));
+  });
   EXPECT_EQ(deflation.n_ways(), 0U);
   deflation.keep(to_floats(Eigen::VectorXd::Constant(N, std::numeric_limits<double>::infinity())));
   deflation.prepare(ROWS, multiply_diagonal);
@@ -138,13 +148,15 @@ TEST(Deflation, ways_along_which_the_matrix_is_not_definite_are_left_out) {
 TEST(Deflation, systems_that_recur_take_far_fewer_iterations_to_the_same_solution) {
   const Cloth cloth;
   std::vector<Vec3> alone, in_turn;
-  const std::vector<int> each = solve_in_turn(cloth, false, alone), with = solve_in_turn(cloth, true, in_turn);
+  const std::vector<int> each = solve_in_turn(cloth, false, alone),
+                         with = solve_in_turn(cloth, true, in_turn);
   EXPECT_EQ(with[0], each[0]);
   int all = 0, fewer = 0;
   for (std::size_t k = 1; k < each.size(); ++k) all += each[k], fewer += with[k];
   EXPECT_LT(2 * fewer, all) << fewer << " against " << all;
   double difference = 0, length = 0;
-  for (std::size_t i = 0; i < alone.size(); ++i) difference += (alone[i] - in_turn[i]).squaredNorm(), length += alone[i].squaredNorm();
+  for (std::size_t i = 0; i < alone.size(); ++i)
+    difference += (alone[i] - in_turn[i]).squaredNorm(), length += alone[i].squaredNorm();
   EXPECT_LT(std::sqrt(difference / length), 0.02);
 }
 
@@ -157,7 +169,8 @@ TEST(Deflation, a_start_beyond_the_radius_is_not_taken) {
   std::vector<Vec3> x;
   ASSERT_TRUE(conjugate_gradient(system, aggregation, cloth.weight, 1e-4, 2000, x, work).converged);
   const double radius = 1e-3;
-  const CgResult bounded = conjugate_gradient(system, aggregation, cloth.weight, 1e-4, 2000, x, work, radius);
+  const CgResult bounded =
+      conjugate_gradient(system, aggregation, cloth.weight, 1e-4, 2000, x, work, radius);
   EXPECT_TRUE(bounded.bounded);
   for (const Vec3& v : x) EXPECT_LT(v.norm(), (1 + 1e-6) * radius);
 }

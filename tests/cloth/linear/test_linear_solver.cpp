@@ -61,7 +61,8 @@ System make_system(int n, double h, bool sheared = false) {
 } // namespace
 
 TEST(BlockMatrix, multiplies_as_the_dense_matrix_does) {
-  BlockMatrix m(3, {.full = {{0, 1}, {2, 1}, {1, 0}}, .symmetric = {}, .isotropic = {{2, 0}, {1, 2}}});
+  BlockMatrix m(3,
+                {.full = {{0, 1}, {2, 1}, {1, 0}}, .symmetric = {}, .isotropic = {{2, 0}, {1, 2}}});
   Mat3 a;
   a << 1, 2, 3, 4, 5, 6, 7, 8, 9;
   m.add_diagonal(0, Mat3::Identity());
@@ -76,7 +77,9 @@ TEST(BlockMatrix, multiplies_as_the_dense_matrix_does) {
 }
 
 TEST(BlockMatrix, keeps_as_one_number_what_is_isotropic_for_all_and_refuses_what_nobody_declared) {
-  BlockMatrix m(4, {.full = {{0, 1}, {3, 3}}, .symmetric = {}, .isotropic = {{1, 0}, {2, 0}, {0, 2}, {2, 1}}});
+  BlockMatrix m(
+      4,
+      {.full = {{0, 1}, {3, 3}}, .symmetric = {}, .isotropic = {{1, 0}, {2, 0}, {0, 2}, {2, 1}}});
   EXPECT_EQ(m.value().size(), 1U); // (1, 0) is full for one, and so for all
   EXPECT_EQ(m.isotropic_value().size(), 2U);
   m.add_isotropic(m.slot(0, 1), 3);
@@ -86,7 +89,8 @@ TEST(BlockMatrix, keeps_as_one_number_what_is_isotropic_for_all_and_refuses_what
 }
 
 TEST(BlockMatrix, tells_whether_every_block_was_declared_symmetric) {
-  EXPECT_TRUE(BlockMatrix(3, {.full = {}, .symmetric = {{0, 1}}, .isotropic = {{1, 2}}}).all_symmetric());
+  EXPECT_TRUE(
+      BlockMatrix(3, {.full = {}, .symmetric = {{0, 1}}, .isotropic = {{1, 2}}}).all_symmetric());
   BlockMatrix m(3, {.full = {{1, 0}}, .symmetric = {{0, 1}, {1, 2}}, .isotropic = {{1, 2}}});
   EXPECT_FALSE(m.all_symmetric());
   EXPECT_EQ(m.value().size(), 2U);
@@ -112,12 +116,14 @@ TEST(BlockMatrix, is_the_same_matrix_in_all_its_forms) {
     EXPECT_NE(s.matrix.all_symmetric(), sheared);
     const Eigen::MatrixXd a = dense(s.matrix);
     EXPECT_FALSE(s.matrix.isotropic_value().empty());
-    EXPECT_EQ((columns_of(n, [&](const auto& x, auto& y) { s.matrix.multiply(x, y); }) - a).norm(), 0);
+    EXPECT_EQ((columns_of(n, [&](const auto& x, auto& y) { s.matrix.multiply(x, y); }) - a).norm(),
+              0);
     BlockRows rows;
     expand(s.matrix, rows);
     Eigen::MatrixXd b = Eigen::MatrixXd::Zero(3 * n, 3 * n);
     for (int i = 0; i < n; ++i)
-      for (int k = rows.start[i]; k < rows.start[i + 1]; ++k) b.block<3, 3>(3 * i, 3 * rows.column[k]) += rows.value[k];
+      for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
+        b.block<3, 3>(3 * i, 3 * rows.column[k]) += rows.value[k];
     EXPECT_EQ((b - a).norm(), 0);
     const FloatRows single = to_float(s.matrix), of_rows = to_float(rows);
     EXPECT_LT(single.blocks(), of_rows.blocks());
@@ -149,7 +155,9 @@ TEST(FloatRows, gives_the_same_bytes_with_wide_registers_and_without) {
     for (int wide : {0, 1}) {
       FloatRows::allow_wide(wide != 0);
       result[wide].resize(4 * n);
-      rows.multiply(x, [&](std::size_t i, Float4 row) { std::memcpy(&result[wide][4 * i], &row, sizeof row); });
+      rows.multiply(x, [&](std::size_t i, Float4 row) {
+        std::memcpy(&result[wide][4 * i], &row, sizeof row);
+      });
     }
     EXPECT_EQ(result[0], result[1]);
     EXPECT_EQ(result[0][3], 0);
@@ -157,7 +165,9 @@ TEST(FloatRows, gives_the_same_bytes_with_wide_registers_and_without) {
 }
 
 /// The system solved with a preconditioner fresh for it.
-template<class Preconditioner> CgResult solve_with(const LinearSystem& system, const std::vector<Vec3>& rhs, double tolerance, std::vector<Vec3>& x) {
+template<class Preconditioner>
+CgResult solve_with(const LinearSystem& system, const std::vector<Vec3>& rhs, double tolerance,
+                    std::vector<Vec3>& x) {
   Preconditioner preconditioner;
   preconditioner.update(system);
   CgWork work;
@@ -173,7 +183,8 @@ TEST(Aggregation, solves_the_same_system_as_block_jacobi_in_far_fewer_iterations
   const CgResult plain = solve_with<BlockJacobi>(system, s.rhs, 1e-8, x_jacobi);
   const CgResult fast = solve_with<Aggregation>(system, s.rhs, 1e-8, x_aggregation);
   ASSERT_TRUE(plain.converged && fast.converged);
-  EXPECT_LT(fast.iterations * 4, plain.iterations) << fast.iterations << " against " << plain.iterations;
+  EXPECT_LT(fast.iterations * 4, plain.iterations)
+      << fast.iterations << " against " << plain.iterations;
   double difference = 0, scale = 0;
   for (std::size_t i = 0; i < x_jacobi.size(); ++i) {
     difference = std::max(difference, (x_jacobi[i] - x_aggregation[i]).norm());
@@ -190,7 +201,8 @@ TEST(ConjugateGradient, what_the_work_vectors_hold_does_not_matter) {
   BlockJacobi preconditioner;
   preconditioner.update(system);
   CgWork work;
-  for (auto* v : {&work.r, &work.z, &work.p, &work.q}) v->assign(s.rhs.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+  for (auto* v : {&work.r, &work.z, &work.p, &work.q})
+    v->assign(s.rhs.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
   std::vector<Vec3> x;
   EXPECT_TRUE(conjugate_gradient(system, preconditioner, s.rhs, 1e-6, 5000, x, work).converged);
 }
@@ -198,10 +210,12 @@ TEST(ConjugateGradient, what_the_work_vectors_hold_does_not_matter) {
 TEST(Factorisation, solves_the_same_system_contacts_too_at_once) {
   System s = make_system(40, 0.1);
   Random random(3);
-  for (int k = 0; k < 200; ++k) { // some tie a particle to itself, as sewing springs between merged ones do
+  for (int k = 0; k < 200;
+       ++k) { // some tie a particle to itself, as sewing springs between merged ones do
     ContactElement e;
     e.n = 3;
-    for (int i = 0; i < e.n; ++i) e.particle[i] = static_cast<int>(random.uniform(0, 1) * (s.matrix.size() - 1));
+    for (int i = 0; i < e.n; ++i)
+      e.particle[i] = static_cast<int>(random.uniform(0, 1) * (s.matrix.size() - 1));
     if (k % 10 == 0) e.particle[2] = e.particle[0];
     e.weight = {0.5, 0.3, -0.8, 0};
     e.normal = Vec3{random.uniform(-1, 1), random.uniform(-1, 1), 2}.normalized();
@@ -217,14 +231,16 @@ TEST(Factorisation, solves_the_same_system_contacts_too_at_once) {
   const CgResult once = solve_with<Factorisation>(system, s.rhs, 1e-10, x_exact);
   EXPECT_TRUE(once.converged);
   EXPECT_LE(once.iterations, 2);
-  for (std::size_t i = 0; i < x_jacobi.size(); ++i) EXPECT_LT((x_jacobi[i] - x_exact[i]).norm(), 1e-6 * (1e-3 + x_exact[i].norm()));
+  for (std::size_t i = 0; i < x_jacobi.size(); ++i)
+    EXPECT_LT((x_jacobi[i] - x_exact[i]).norm(), 1e-6 * (1e-3 + x_exact[i].norm()));
 }
 
 TEST(Aggregation, particles_that_contacts_all_but_pin_do_not_fill_the_coarse_levels) {
   System s = make_system(40, 1.0 / 30);
   Random random(5);
   for (int i = 0; i < s.matrix.size(); ++i)
-    if (random.uniform(0, 1) < 0.8) s.matrix.add_diagonal(i, 1e5 * Mat3::Identity()); // trousers drawn over far too wide hips
+    if (random.uniform(0, 1) < 0.8)
+      s.matrix.add_diagonal(i, 1e5 * Mat3::Identity()); // trousers drawn over far too wide hips
   ContactIndex index;
   index.build(s.elements, s.matrix.size());
   const LinearSystem system{s.matrix, s.elements, index};
@@ -256,7 +272,8 @@ TEST(Aggregation, iterations_hardly_grow_with_the_mesh) {
 }
 
 TEST(Aggregation, solves_in_double_what_single_precision_takes_for_an_indefinite_matrix) {
-  System s = make_system(12, 100); // cloth that nothing holds: 1e-7 N/m of inertia next to springs of 1e3
+  System s =
+      make_system(12, 100); // cloth that nothing holds: 1e-7 N/m of inertia next to springs of 1e3
   s.elements.clear();
   ContactIndex index;
   index.build(s.elements, s.matrix.size());
@@ -265,7 +282,8 @@ TEST(Aggregation, solves_in_double_what_single_precision_takes_for_an_indefinite
   aggregation.update(system);
   std::vector<Vec3> x(s.rhs.size());
   CgResult single;
-  EXPECT_TRUE(aggregation.solve_in_single(system, s.rhs, 1e-3, 1000, std::numeric_limits<double>::infinity(), x, single));
+  EXPECT_TRUE(aggregation.solve_in_single(system, s.rhs, 1e-3, 1000,
+                                          std::numeric_limits<double>::infinity(), x, single));
   EXPECT_TRUE(single.indefinite);
   CgWork work;
   const CgResult both = conjugate_gradient(system, aggregation, s.rhs, 1e-3, 1000, x, work);
@@ -279,7 +297,8 @@ TEST(ConjugateGradient, goes_along_negative_curvature_to_the_radius_and_no_farth
   index.build(s.elements, s.matrix.size());
   BlockMatrix whole = s.matrix;
   for (int i = 0; i < whole.size(); ++i) whole.add_isotropic_diagonal(i, -20);
-  const LinearSystem definite{s.matrix, s.elements, index}, indefinite{s.matrix, s.elements, index, &whole};
+  const LinearSystem definite{s.matrix, s.elements, index},
+      indefinite{s.matrix, s.elements, index, &whole};
   const double radius = 0.001;
   const auto longest = [](const std::vector<Vec3>& x) {
     double most = 0;
@@ -288,12 +307,14 @@ TEST(ConjugateGradient, goes_along_negative_curvature_to_the_radius_and_no_farth
   };
   BlockJacobi jacobi;
   Aggregation aggregation;
-  for (Preconditioner* preconditioner : {static_cast<Preconditioner*>(&jacobi), static_cast<Preconditioner*>(&aggregation)})
+  for (Preconditioner* preconditioner :
+       {static_cast<Preconditioner*>(&jacobi), static_cast<Preconditioner*>(&aggregation)})
     for (const LinearSystem* system : {&definite, &indefinite}) {
       preconditioner->update(*system);
       CgWork work;
       std::vector<Vec3> x;
-      const CgResult r = conjugate_gradient(*system, *preconditioner, s.rhs, 1e-6, 1000, x, work, radius);
+      const CgResult r =
+          conjugate_gradient(*system, *preconditioner, s.rhs, 1e-6, 1000, x, work, radius);
       EXPECT_TRUE(r.bounded);
       EXPECT_FALSE(r.converged);
       EXPECT_LT(longest(x), (1 + 1e-6) * radius);
@@ -301,7 +322,8 @@ TEST(ConjugateGradient, goes_along_negative_curvature_to_the_radius_and_no_farth
       double falls = 0;
       for (std::size_t i = 0; i < x.size(); ++i) falls += x[i].dot(s.rhs[i]);
       EXPECT_GT(falls, 0);
-      const CgResult free = conjugate_gradient(*system, *preconditioner, s.rhs, 1e-6, 1000, x, work);
+      const CgResult free =
+          conjugate_gradient(*system, *preconditioner, s.rhs, 1e-6, 1000, x, work);
       EXPECT_EQ(free.converged, system == &definite);
       EXPECT_EQ(free.indefinite, system == &indefinite);
     }
@@ -330,7 +352,8 @@ TEST(ConjugateGradient, ends_at_a_share_of_the_error_in_the_energy_norm) {
   EXPECT_GT(r.residual, 1e-6);
   EXPECT_LT(error(x), 0.3 * all);
   EXPECT_GT(error(x), 0.01 * all);
-  const CgResult by_residual = conjugate_gradient(system, aggregation, s.rhs, {0.5, 1e-9}, 5000, x, work); // whichever is reached first
+  const CgResult by_residual = conjugate_gradient(system, aggregation, s.rhs, {0.5, 1e-9}, 5000, x,
+                                                  work); // whichever is reached first
   EXPECT_FALSE(by_residual.near);
   EXPECT_LE(by_residual.residual, 0.5);
   BlockJacobi jacobi; // cannot tell what is soft
@@ -381,7 +404,8 @@ struct RoundedSpace {
 TEST(ConjugateGradient, does_not_take_what_rounding_leaves_for_near) {
   for (double energy : {0.0, 0.1}) {
     CgResult result;
-    const double left2 = conjugate_gradient_loop(RoundedSpace{}, 1, 1e-8, energy, 100, std::numeric_limits<double>::infinity(), result);
+    const double left2 = conjugate_gradient_loop(RoundedSpace{}, 1, 1e-8, energy, 100,
+                                                 std::numeric_limits<double>::infinity(), result);
     EXPECT_EQ(left2, 0.5);
     EXPECT_EQ(result.iterations, 1);
     EXPECT_FALSE(result.near) << energy;

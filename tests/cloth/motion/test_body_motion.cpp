@@ -19,17 +19,23 @@ TriangleMesh slab(double half, int n) {
   const int row = n + 1;
   for (int side = 0; side < 2; ++side)
     for (int r = 0; r <= n; ++r)
-      for (int c = 0; c <= n; ++c) m.positions.emplace_back(half * (2.0 * c / n - 1), side ? -0.05 : 0.0, half * (2.0 * r / n - 1));
+      for (int c = 0; c <= n; ++c)
+        m.positions.emplace_back(half * (2.0 * c / n - 1), side ? -0.05 : 0.0,
+                                 half * (2.0 * r / n - 1));
   const int below = row * row;
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
       const int a = r * row + c, b = a + 1, d = a + row, e = d + 1;
       m.triangles.push_back({a, d, b}), m.triangles.push_back({b, d, e});
-      m.triangles.push_back({below + a, below + b, below + d}), m.triangles.push_back({below + b, below + e, below + d});
+      m.triangles.push_back({below + a, below + b, below + d}),
+          m.triangles.push_back({below + b, below + e, below + d});
     }
   for (int k = 0; k < n; ++k) { // walls
-    const auto wall = [&](int p, int q) { m.triangles.push_back({p, q, below + p}), m.triangles.push_back({q, below + q, below + p}); };
-    wall(k, k + 1), wall(n * row + k + 1, n * row + k), wall((k + 1) * row, k * row), wall(k * row + n, (k + 1) * row + n);
+    const auto wall = [&](int p, int q) {
+      m.triangles.push_back({p, q, below + p}), m.triangles.push_back({q, below + q, below + p});
+    };
+    wall(k, k + 1), wall(n * row + k + 1, n * row + k), wall((k + 1) * row, k * row),
+        wall(k * row + n, (k + 1) * row + n);
   }
   return m;
 }
@@ -75,7 +81,8 @@ TEST(BodyMotion, a_body_that_stands_still_takes_one_step_and_changes_no_bit) {
     motion.advance(a.skin.positions, o);
     b.solver.step(o);
   }
-  for (std::size_t i = 0; i < a.solver.x().size(); ++i) EXPECT_EQ((a.solver.x()[i] - b.solver.x()[i]).norm(), 0) << i;
+  for (std::size_t i = 0; i < a.solver.x().size(); ++i)
+    EXPECT_EQ((a.solver.x()[i] - b.solver.x()[i]).norm(), 0) << i;
   EXPECT_EQ(motion.parts, 20);
 }
 
@@ -103,7 +110,8 @@ TEST(BodyMotion, a_table_that_is_thrown_up_takes_all_cloth_with_it_and_passes_no
     o.largest_move_m = 1;
     for (int k = 1; k <= 4; ++k) {
       ASSERT_TRUE(motion.advance(t.moved(Vec3(0, speed * o.h * k, 0)), o).finite);
-      for (const Vec3& p : t.solver.x()) ASSERT_GT(p.y(), speed * o.h * k) << "inertia " << inertia << " step " << k;
+      for (const Vec3& p : t.solver.x())
+        ASSERT_GT(p.y(), speed * o.h * k) << "inertia " << inertia << " step " << k;
     }
     EXPECT_EQ(motion.forced, 0);
   }
@@ -115,7 +123,8 @@ namespace {
 struct BareContact {
   BodyContactEffect effect;
   BlockMatrix matrix;
-  BareContact(const ClothMesh& mesh, collision::BodyCollider& body) : effect(mesh, body, BodyContactOptions{}) {
+  BareContact(const ClothMesh& mesh, collision::BodyCollider& body)
+      : effect(mesh, body, BodyContactOptions{}) {
     Couplings couplings;
     effect.declare(couplings);
     matrix = BlockMatrix(mesh.n_particles, std::move(couplings));
@@ -133,17 +142,21 @@ struct BareContact {
 };
 
 /// Of what turns about z, and goes up.
-Vec3 turning(const Vec3& p, double angle, double up) { return Vec3(-angle * p.y(), angle * p.x() + up, 0); }
+Vec3 turning(const Vec3& p, double angle, double up) {
+  return Vec3(-angle * p.y(), angle * p.x() + up, 0);
+}
 
 void add_slab(TriangleMesh& skin, const TriangleMesh& slab, const Vec3& at) {
   const int first = static_cast<int>(skin.positions.size());
-  for (const Triangle& t : slab.triangles) skin.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  for (const Triangle& t : slab.triangles)
+    skin.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   for (const Vec3& p : slab.positions) skin.positions.push_back(p + at);
 }
 
 } // namespace
 
-/// What contact has found out about skin and cloth serves many parts of a motion. It must never hold less than a search from anew would find.
+/// What contact has found out about skin and cloth serves many parts of a motion. It must never
+/// hold less than a search from anew would find.
 TEST(BodyMotion, what_was_found_out_holds_where_cloth_goes_with_the_skin_beside_it) {
   TriangleMesh skin = slab(0.2, 16);
   const std::size_t below = skin.positions.size();
@@ -153,7 +166,8 @@ TEST(BodyMotion, what_was_found_out_holds_where_cloth_goes_with_the_skin_beside_
     Random random(seed);
     const bool from_afar = seed % 4 == 0; // the skin is 3 cm off, and comes
     TriangleMesh start = skin;
-    for (std::size_t v = 0; from_afar && v < skin.positions.size(); ++v) start.positions[v].y() += v < below ? -0.03 : 0.05;
+    for (std::size_t v = 0; from_afar && v < skin.positions.size(); ++v)
+      start.positions[v].y() += v < below ? -0.03 : 0.05;
     collision::BodyCollider body(start);
     Grid grid = make_grid(14, 0.26);
     for (Vec3& p : grid.x) p += Vec3(-0.13, 0.0045 + 0.0012 * random.uniform(-1, 1), 0.13);
@@ -161,14 +175,16 @@ TEST(BodyMotion, what_was_found_out_holds_where_cloth_goes_with_the_skin_beside_
     contact.energy(grid.x);
     for (int part = 0; part < 40; ++part) {
       std::vector<Vec3> way, carry, positions = body.mesh().positions;
-      const double lower = 0.004 * random.uniform(-1, 1), upper = 0.004 * random.uniform(-1, 1), up = 0.002 * random.uniform(-1, 1);
+      const double lower = 0.004 * random.uniform(-1, 1), upper = 0.004 * random.uniform(-1, 1),
+                   up = 0.002 * random.uniform(-1, 1);
       for (std::size_t v = 0; v < positions.size(); ++v)
-        way.push_back(v < below ? turning(positions[v], lower, from_afar ? 0.003 : 0) : turning(positions[v], upper, up));
+        way.push_back(v < below ? turning(positions[v], lower, from_afar ? 0.003 : 0)
+                                : turning(positions[v], upper, up));
       for (const Vec3& p : grid.x) {
         const double to_side = random.uniform(-1, 1), up_or_down = random.uniform(-1, 1);
         carry.push_back(turning(p, lower, 0) + 3e-4 * Vec3(to_side, up_or_down, 0));
       }
-      const double share = contact.effect.free_share(grid.x, way, carry);
+      const double share = contact.effect.collision_free_step_fraction(grid.x, way, carry);
       ASSERT_GT(share, 0);
       for (std::size_t v = 0; v < positions.size(); ++v) positions[v] += share * way[v];
       for (Vec3& c : carry) c *= share;
@@ -177,7 +193,8 @@ TEST(BodyMotion, what_was_found_out_holds_where_cloth_goes_with_the_skin_beside_
       const double kept = contact.energy(grid.x);
       BareContact anew(grid.mesh, body);
       const double found = anew.energy(grid.x);
-      ASSERT_NEAR(kept, found, 1e-3 * found) << "seed " << seed << " part " << part; // the skin is stretched by less than that
+      ASSERT_NEAR(kept, found, 1e-3 * found)
+          << "seed " << seed << " part " << part; // the skin is stretched by less than that
       touching += found > 0;
       ASSERT_TRUE(body.faces_through(grid.x, grid.mesh.particle_triangles()).empty());
     }
@@ -209,7 +226,8 @@ TEST(BodyMotion, cloth_that_turns_with_its_body_goes_in_few_parts) {
     const double angle = 0.002 * k * k; // corners go up to 14 mm in a step
     for (std::size_t v = 0; v < target.size(); ++v) {
       const Vec3& p = skin.positions[v];
-      target[v] = Vec3(std::cos(angle) * p.x() + std::sin(angle) * p.z(), p.y(), std::cos(angle) * p.z() - std::sin(angle) * p.x());
+      target[v] = Vec3(std::cos(angle) * p.x() + std::sin(angle) * p.z(), p.y(),
+                       std::cos(angle) * p.z() - std::sin(angle) * p.x());
     }
     motion.advance(target, o);
   }
@@ -217,8 +235,8 @@ TEST(BodyMotion, cloth_that_turns_with_its_body_goes_in_few_parts) {
   EXPECT_EQ(motion.forced, 0);
 }
 
-/// Where cloth cannot be carried all the way that was asked for, it is asked for less; what kept layers apart on the long way must do so on the
-/// short one too.
+/// Where cloth cannot be carried all the way that was asked for, it is asked for less; what kept
+/// layers apart on the long way must do so on the short one too.
 TEST(BodyMotion, layers_that_are_carried_less_far_do_not_pass_each_other) {
   constexpr int N = 9, LAYER = N * N;
   const Grid one = make_grid(N, 0.12);
@@ -231,8 +249,8 @@ TEST(BodyMotion, layers_that_are_carried_less_far_do_not_pass_each_other) {
   const std::vector<Triangle> faces = mesh.particle_triangles();
   for (std::uint64_t seed = 1; seed <= 180; ++seed) {
     Random random(seed);
-    const double low = random.uniform(0.003, 0.009), gap = random.uniform(0.0021, 0.006), high = random.uniform(0.003, 0.009),
-                 rise = random.uniform(0.01, 0.06);
+    const double low = random.uniform(0.003, 0.009), gap = random.uniform(0.0021, 0.006),
+                 high = random.uniform(0.003, 0.009), rise = random.uniform(0.01, 0.06);
     const double bend = random.uniform(0, 0.05), bend_below = random.uniform(0, 0.05);
     if (bend < bend_below) continue;
     TriangleMesh skin = slab(0.2, 10);
@@ -241,10 +259,15 @@ TEST(BodyMotion, layers_that_are_carried_less_far_do_not_pass_each_other) {
     collision::BodyCollider body(skin);
     std::vector<Vec3> x;
     for (int layer = 0; layer < 2; ++layer)
-      for (const Vec3& p : one.x) x.push_back(p + Vec3(-0.06, low + layer * gap + (layer ? bend : bend_below) * std::abs(p.x() - 0.06), 0.06));
+      for (const Vec3& p : one.x)
+        x.push_back(p +
+                    Vec3(-0.06,
+                         low + layer * gap + (layer ? bend : bend_below) * std::abs(p.x() - 0.06),
+                         0.06));
     ClothSolver solver(mesh, x);
     solver.emplace<EdgeSpringEffect>(mesh);
-    BodyContactEffect& contact = solver.emplace<BodyContactEffect>(mesh, body, BodyContactOptions{});
+    BodyContactEffect& contact =
+        solver.emplace<BodyContactEffect>(mesh, body, BodyContactOptions{});
     contact.set_slack(0.008);
     SelfContactEffect& self_contact = solver.emplace<SelfContactEffect>(mesh, SelfContactOptions{});
     BodyMotion motion(solver, contact, body, &self_contact);
@@ -257,7 +280,10 @@ TEST(BodyMotion, layers_that_are_carried_less_far_do_not_pass_each_other) {
     for (std::size_t v = 0; v < coming; ++v) target[v].y() += rise;
     struct Enough {}; // of one part, before the cloth's own step
     const auto look = [&](const StepOptions&) -> StepResult {
-      EXPECT_TRUE(collision::self_intersections(solver.x(), faces, collision::TriangleTree(solver.x(), faces)).empty()) << "seed " << seed;
+      EXPECT_TRUE(collision::self_intersections(solver.x(), faces,
+                                                collision::TriangleTree(solver.x(), faces))
+                      .empty())
+          << "seed " << seed;
       throw Enough{};
     };
     EXPECT_THROW(motion.advance(target, o, look), Enough);

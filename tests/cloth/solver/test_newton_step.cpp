@@ -1,4 +1,5 @@
-/// Steps with inertia in several solves: the minimum of the incremental potential, which is backward Euler.
+/// Steps with inertia in several solves: the minimum of the incremental potential, which is
+/// backward Euler.
 #include <support/grid.hpp>
 
 #include <cloth/contact/body_contact.hpp>
@@ -25,19 +26,22 @@ Fabric fabric_with(double damping_s) {
 struct Swing {
   Grid grid;
   ClothSolver solver;
-  explicit Swing(double damping_s, bool held = true) : grid(make_grid(9, 0.3, fabric_with(damping_s))), solver(grid.mesh, grid.x) {
+  explicit Swing(double damping_s, bool held = true)
+      : grid(make_grid(9, 0.3, fabric_with(damping_s))), solver(grid.mesh, grid.x) {
     solver.emplace<EdgeSpringEffect>(grid.mesh);
     solver.emplace<ShearEffect>(grid.mesh);
     solver.emplace<BendingEffect>(grid.mesh);
     if (held) {
       solver.emplace<GravityEffect>(grid.mesh, GRAVITY);
-      solver.emplace<PinsEffect>(std::vector<Pin>{{0, grid.x[0], 1e4, Vec3::Zero()}, {8, grid.x[8], 1e4, Vec3::Zero()}});
+      solver.emplace<PinsEffect>(
+          std::vector<Pin>{{0, grid.x[0], 1e4, Vec3::Zero()}, {8, grid.x[8], 1e4, Vec3::Zero()}});
     }
   }
   double energy() const {
     double sum = 0;
     for (const auto& e : solver.effects()) sum += e->energy(solver.x());
-    for (std::size_t i = 0; i < grid.x.size(); ++i) sum += 0.5 * grid.mesh.mass[i] * solver.v()[i].squaredNorm();
+    for (std::size_t i = 0; i < grid.x.size(); ++i)
+      sum += 0.5 * grid.mesh.mass[i] * solver.v()[i].squaredNorm();
     return sum;
   }
 };
@@ -63,7 +67,8 @@ TEST(NewtonStep, cloth_that_turns_gains_no_energy_where_one_solve_gives_it_some)
         const StepResult r = swing.solver.step(options_of(h, 30));
         ASSERT_TRUE(r.finite);
         ASSERT_FALSE(r.cg.indefinite);
-        ASSERT_LE(swing.energy(), energy + 1e-6) << "h " << h << " damping " << damping << " step " << k; // J; it falls by 0.02
+        ASSERT_LE(swing.energy(), energy + 1e-6)
+            << "h " << h << " damping " << damping << " step " << k; // J; it falls by 0.02
         energy = swing.energy();
         for (const Vec3& p : swing.solver.x()) farthest = std::max(farthest, -p.y());
       }
@@ -137,13 +142,17 @@ TEST(NewtonStep, a_free_fall_is_one_solve) {
   solver.emplace<GravityEffect>(grid.mesh, GRAVITY);
   const StepOptions o = options_of(0.01, 10);
   for (int k = 1; k <= 5; ++k) EXPECT_EQ(solver.step(o).newton_iterations, 1);
-  for (std::size_t i = 0; i < grid.x.size(); ++i) EXPECT_LT((solver.x()[i] - grid.x[i] - 15 * o.h * o.h * GRAVITY).norm(), 1e-7); // 1 + 2 + .. + 5
+  for (std::size_t i = 0; i < grid.x.size(); ++i)
+    EXPECT_LT((solver.x()[i] - grid.x[i] - 15 * o.h * o.h * GRAVITY).norm(),
+              1e-7); // 1 + 2 + .. + 5
 }
 
 TEST(NewtonStep, damping_takes_no_momentum) {
   Swing free(0.05, false);
   std::vector<Vec3> x = free.grid.x, push(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) push[i] = Vec3(0.3, 0, 0) + 2 * Vec3(x[i].z(), 0.5 * x[i].x(), -x[i].x()); // goes, turns, and is sheared
+  for (std::size_t i = 0; i < x.size(); ++i)
+    push[i] = Vec3(0.3, 0, 0) +
+              2 * Vec3(x[i].z(), 0.5 * x[i].x(), -x[i].x()); // goes, turns, and is sheared
   free.solver.shift(std::vector<Vec3>(x.size(), Vec3::Zero()), push);
   const auto momentum = [&] {
     Vec3 sum = Vec3::Zero();
@@ -168,7 +177,9 @@ TEST(NewtonStep, cloth_that_is_thrown_down_lies_on_the_table_and_on_itself) {
   table.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
   collision::BodyCollider body(table);
   Grid grid = make_grid(9, 0.2);
-  for (Vec3& p : grid.x) p = Vec3(p.x() - 0.1, 0.03 + 0.15 * std::abs(p.x() - 0.1) + 0.02 * p.z(), p.z() + 0.1); // as a valley
+  for (Vec3& p : grid.x)
+    p = Vec3(p.x() - 0.1, 0.03 + 0.15 * std::abs(p.x() - 0.1) + 0.02 * p.z(),
+             p.z() + 0.1); // as a valley
   ClothSolver solver(grid.mesh, grid.x);
   solver.emplace<EdgeSpringEffect>(grid.mesh);
   solver.emplace<BendingEffect>(grid.mesh);
@@ -179,7 +190,8 @@ TEST(NewtonStep, cloth_that_is_thrown_down_lies_on_the_table_and_on_itself) {
   cloth.friction = 0.3;
   solver.emplace<SelfContactEffect>(grid.mesh, cloth);
   solver.emplace<GravityEffect>(grid.mesh, GRAVITY);
-  solver.shift(std::vector<Vec3>(grid.x.size(), Vec3::Zero()), std::vector<Vec3>(grid.x.size(), Vec3(0, -2, 0)));
+  solver.shift(std::vector<Vec3>(grid.x.size(), Vec3::Zero()),
+               std::vector<Vec3>(grid.x.size(), Vec3(0, -2, 0)));
   const StepOptions o = options_of(1.0 / 60, 6);
   StepResult r;
   for (int k = 0; k < 60; ++k) {

@@ -1,4 +1,5 @@
-/// Any bytes as a DXF, as its grade rule table, and as both, one after the other: read or refused with an Error, never a crash, never without end.
+/// Any bytes as a DXF, as its grade rule table, and as both, one after the other: read or refused
+/// with an Error, never a crash, never without end.
 #include <base/error.hpp>
 #include <pattern/read/grade_rules.hpp>
 #include <pattern/read/read_pattern.hpp>
@@ -17,8 +18,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try { // with a table of grade rules behind it, in its largest size
     const std::size_t end = text.find("EOF\n");
     if (end != std::string::npos && end + 4 < text.size()) {
-      const pattern::GradeRules rules = pattern::parse_grade_rules(text.substr(end + 4), "fuzz.rul");
-      pattern::Pattern pattern = pattern::read_dxf(text.substr(0, end + 4), "fuzz.dxf", {rules.sizes.back(), &rules});
+      const pattern::GradeRules rules =
+          pattern::parse_grade_rules(text.substr(end + 4), "fuzz.rul");
+      pattern::Pattern pattern =
+          pattern::read_dxf(text.substr(0, end + 4), "fuzz.dxf", {rules.sizes.back(), &rules});
       pattern::finish_pattern(pattern, "fuzz.dxf");
       pattern::check_pattern(pattern);
     }

@@ -1,4 +1,5 @@
-/// Any bytes as a pattern JSON of each kind, and as edits and as a sidecar of a small pattern: read or refused with an Error, never a crash.
+/// Any bytes as a pattern JSON of each kind, and as edits and as a sidecar of a small pattern: read
+/// or refused with an Error, never a crash.
 #include <base/error.hpp>
 #include <io/json.hpp>
 #include <pattern/edit/edits.hpp>
@@ -10,7 +11,8 @@
 
 namespace {
 
-const char* TUBE = R"({"format": "pattern", "version": 1, "length_unit": "cm", "panels": [{"name": "p", "outline": [
+const char* TUBE =
+    R"({"format": "pattern", "version": 1, "length_unit": "cm", "panels": [{"name": "p", "outline": [
   {"edge": "a", "path": [["M", 0, 0], ["L", 40, 0]]}, {"edge": "b", "path": [["Q", 45, 30, 40, 60]]}, {"edge": "c", "path": [["L", 0, 60]]},
   {"edge": "d", "path": [["L", 0, 0]]}]}], "seams": [{"name": "s", "a": [{"panel": "p", "edge": "b"}], "b": [{"panel": "p", "edge": "d"}]}]})";
 

@@ -68,8 +68,10 @@ TEST(bind, weights_change_little_from_one_particle_to_the_next) {
   double steepest = 0; // per metre
   for (const auto& [i, j] : edges_of(g.particle_triangles()))
     for (int k = 0; k < static_cast<int>(g.bind.frames.size()); ++k)
-      steepest = std::max(steepest, std::abs(weight_on(i, k) - weight_on(j, k)) / std::max((g.position[i] - g.position[j]).norm(), 0.005));
-  EXPECT_LT(steepest, 25); // a border without blending would be 1 over an edge of 18 mm: more than 50
+      steepest = std::max(steepest, std::abs(weight_on(i, k) - weight_on(j, k)) /
+                                        std::max((g.position[i] - g.position[j]).norm(), 0.005));
+  EXPECT_LT(steepest,
+            25); // a border without blending would be 1 over an edge of 18 mm: more than 50
 }
 
 TEST(bind, a_shirt_on_a_larger_body_is_stretched_but_not_torn) {
@@ -100,14 +102,17 @@ TEST(bind, sleeves_follow_arms_from_t_to_a_stance_and_back) {
       for (const Vec3& q : x) best = std::min(best, (q - p).norm());
       return best;
     };
-    for (const char* wrist : {"wrist_l", "wrist_r"}) EXPECT_NEAR(nearest(placed, to->landmark(wrist)), nearest(g.position, from->landmark(wrist)), 0.02);
+    for (const char* wrist : {"wrist_l", "wrist_r"})
+      EXPECT_NEAR(nearest(placed, to->landmark(wrist)), nearest(g.position, from->landmark(wrist)),
+                  0.02);
   }
 }
 
 TEST(bind, a_skirt_hangs_on_both_legs_together_and_stays_one_round_tube) {
   const body::Body from = measured("f-165-a"), to = measured("m-170-stout");
   Garment g;
-  for (const double depth : {0.3, 0.83}) { // a narrow skirt is as flat as the legs, and the farther apart they are, the flatter
+  for (const double depth : {0.3, 0.83}) { // a narrow skirt is as flat as the legs, and the farther
+                                           // apart they are, the flatter
     g = tube_skirt(from, 0.06, depth);
     bind_garment(g, from);
     const std::set<std::string> used = frames_used(g);
@@ -141,7 +146,9 @@ TEST(bind, levels_go_to_their_like) {
   for (const char* level : {"waist_semantic", "bust"}) {
     double sum = 0, n = 0;
     for (std::size_t i = 0; i < placed.size(); ++i)
-      if (std::abs(g.position[i].x()) < 0.1 && std::abs(g.position[i].y() - from.levels.at(level).y) < 0.01) sum += placed[i].y(), ++n;
+      if (std::abs(g.position[i].x()) < 0.1 &&
+          std::abs(g.position[i].y() - from.levels.at(level).y) < 0.01)
+        sum += placed[i].y(), ++n;
     ASSERT_GT(n, 5);
     EXPECT_NEAR(sum / n, to.levels.at(level).y, 0.02) << level;
   }
@@ -149,16 +156,21 @@ TEST(bind, levels_go_to_their_like) {
 
 TEST(bind, a_waist_whose_places_lie_the_other_way_round_is_met_between_them) {
   const body::Body from = measured("f-165-a"), to = measured("f-172-t");
-  const auto height = [](const body::Body& body, const char* level) { return body.levels.at(level).y; };
+  const auto height = [](const body::Body& body, const char* level) {
+    return body.levels.at(level).y;
+  };
   ASSERT_GT(height(from, "waist_girth_min"), height(from, "waist_semantic") + 0.015);
   ASSERT_LT(height(to, "waist_girth_min"), height(to, "waist_semantic") - 0.015);
   Garment g = skin_shirt(from);
   bind_garment(g, from);
   const std::vector<Vec3> placed = place_garment(g, to, Waist::OF_ALL);
-  for (const auto& [level, off] : {std::pair{"waist_semantic", 0.04}, std::pair{"waist_girth_min", 0.02}}) { // which is the surer one
+  for (const auto& [level, off] : {std::pair{"waist_semantic", 0.04},
+                                   std::pair{"waist_girth_min", 0.02}}) { // which is the surer one
     double sum = 0, n = 0;
     for (std::size_t i = 0; i < placed.size(); ++i)
-      if (std::abs(g.position[i].x()) < 0.1 && std::abs(g.position[i].y() - height(from, level)) < 0.01) sum += placed[i].y(), ++n;
+      if (std::abs(g.position[i].x()) < 0.1 &&
+          std::abs(g.position[i].y() - height(from, level)) < 0.01)
+        sum += placed[i].y(), ++n;
     ASSERT_GT(n, 5);
     EXPECT_NEAR(sum / n, height(to, level), off) << level;
   }
@@ -166,7 +178,8 @@ TEST(bind, a_waist_whose_places_lie_the_other_way_round_is_met_between_them) {
 
 TEST(bind, a_sleeveless_top_goes_on_a_body_without_arms) {
   const body::Body whole = measured("f-165-a"), armless = without_arms(measured("f-172-t"));
-  Garment g = skin_garment(whole, {body::Part::TORSO}, whole.levels.at("hip").y, whole.landmark("axilla_l").y() - 0.02, 0.01);
+  Garment g = skin_garment(whole, {body::Part::TORSO}, whole.levels.at("hip").y,
+                           whole.landmark("axilla_l").y() - 0.02, 0.01);
   bind_garment(g, whole);
   const std::vector<Vec3> placed = place_garment(g, armless);
   for (const Vec3& p : placed) ASSERT_TRUE(p.allFinite());
@@ -192,8 +205,9 @@ TEST(bind, an_unsewn_garment_hangs_on_nothing) {
 }
 
 TEST(mark_map, it_is_the_identity_between_equal_bodies_and_monotone_between_others) {
-  const std::map<std::string, double> a = {{"hip", 0.1}, {"waist", 0.4}, {"bust", 0.65}, {"neck_side", 1.0}},
-                                      b = {{"hip", 0.0}, {"waist", 0.5}, {"bust", 0.6}, {"neck_side", 1.1}};
+  const std::map<std::string, double>
+      a = {{"hip", 0.1}, {"waist", 0.4}, {"bust", 0.65}, {"neck_side", 1.0}},
+      b = {{"hip", 0.0}, {"waist", 0.5}, {"bust", 0.6}, {"neck_side", 1.1}};
   const MarkMap same(a, 0.5, a, 0.5), other(a, 0.5, b, 0.6);
   double before = -1e300;
   for (double z = -1; z < 2; z += 0.001) {
@@ -206,9 +220,10 @@ TEST(mark_map, it_is_the_identity_between_equal_bodies_and_monotone_between_othe
 }
 
 TEST(mark_map, a_waist_lies_where_what_both_bodies_tell_of_it_does_on_average) {
-  const std::map<std::string, double> a = {{"crotch", 0}, {"waist", 0.40}, {"waist_girth_min", 0.44}, {"bust", 0.7}},
-                                      b = {{"crotch", 0}, {"waist", 0.44}, {"waist_girth_min", 0.40}, {"bust", 0.7}},
-                                      c = {{"crotch", 0}, {"waist", 0.43}, {"waist_width_min", 0.5}, {"bust", 0.7}};
+  const std::map<std::string, double>
+      a = {{"crotch", 0}, {"waist", 0.40}, {"waist_girth_min", 0.44}, {"bust", 0.7}},
+      b = {{"crotch", 0}, {"waist", 0.44}, {"waist_girth_min", 0.40}, {"bust", 0.7}},
+      c = {{"crotch", 0}, {"waist", 0.43}, {"waist_width_min", 0.5}, {"bust", 0.7}};
   const double surer = 0.04 * 9 / 13; // the least girth is told to 1 cm, the proportion to 1.5
   const auto waists = [&](const Marks& to) {
     const auto [from, there] = with_one_waist(a, to);
@@ -221,7 +236,8 @@ TEST(mark_map, a_waist_lies_where_what_both_bodies_tell_of_it_does_on_average) {
 }
 
 TEST(mark_map, marks_in_another_order_on_the_other_body_do_not_fold_the_cloth) {
-  const std::map<std::string, double> a = {{"hip", 0.1}, {"waist", 0.4}, {"bust", 0.65}}, b = {{"hip", 0.1}, {"waist", 0.8}, {"bust", 0.6}};
+  const std::map<std::string, double> a = {{"hip", 0.1}, {"waist", 0.4}, {"bust", 0.65}},
+                                      b = {{"hip", 0.1}, {"waist", 0.8}, {"bust", 0.6}};
   const MarkMap map(a, 0.5, b, 0.5);
   double before = -1e300;
   for (double z = -1; z < 2; z += 0.001) {

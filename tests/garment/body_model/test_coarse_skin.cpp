@@ -27,7 +27,8 @@ TEST(CoarseSkin, lies_near_the_skin_with_few_triangles) {
   EXPECT_LT(coarse.mesh().triangles.size(), skin.triangles.size() / 4);
   const collision::TriangleTree tree(coarse.mesh().positions, coarse.mesh().triangles);
   double farthest = 0;
-  for (const Vec3& p : skin.positions) farthest = std::max(farthest, (tree.closest_point(p, 0.05).point - p).norm());
+  for (const Vec3& p : skin.positions)
+    farthest = std::max(farthest, (tree.closest_point(p, 0.05).point - p).norm());
   EXPECT_GT(farthest, 0);
   EXPECT_LT(farthest, 4 * TOLERANCE);
 }
@@ -47,7 +48,8 @@ TEST(CoarseSkin, moves_with_the_skin_whose_vertices_it_has) {
 
 TEST(CoarseSkin, what_has_no_triangle_to_spare_does_not_pay) {
   TriangleMesh jagged = make_pillar(64, 60).skin; // by centimetres
-  for (std::size_t v = 0; v < jagged.positions.size(); ++v) jagged.positions[v].x() *= 1 + 0.1 * std::sin(static_cast<double>(v * v));
+  for (std::size_t v = 0; v < jagged.positions.size(); ++v)
+    jagged.positions[v].x() *= 1 + 0.1 * std::sin(static_cast<double>(v * v));
   EXPECT_FALSE(CoarseSkin(jagged, TOLERANCE).pays());
 }
 
@@ -59,7 +61,8 @@ TEST_P(OnCoarseSkin, cloth_ends_at_rest_on_the_skin_itself_where_it_hung_before)
   std::normal_distribution<double> noise(0, 1);
   for (Vec3& p : pillar.skin.positions)
     for (double& coordinate : p) coordinate += GetParam() * noise(random);
-  EXPECT_EQ(CoarseSkin(pillar.skin, TOLERANCE).pays(), GetParam() == 0) << "noise takes twice the tolerance";
+  EXPECT_EQ(CoarseSkin(pillar.skin, TOLERANCE).pays(), GetParam() == 0)
+      << "noise takes twice the tolerance";
   const collision::BodyCollider skin(pillar.skin);
   DrapeSettings settings;
   settings.settle_speed_m_s = 0.002;
@@ -73,7 +76,8 @@ TEST_P(OnCoarseSkin, cloth_ends_at_rest_on_the_skin_itself_where_it_hung_before)
   EXPECT_TRUE(audit(again, &skin).clean());
   double squares = 0, nearest = 1e300;
   for (std::size_t i = 0; i < again.position.size(); ++i) {
-    squares += (again.position[i] - whole.position[i]).squaredNorm() / static_cast<double>(again.position.size());
+    squares += (again.position[i] - whole.position[i]).squaredNorm() /
+               static_cast<double>(again.position.size());
     nearest = std::min(nearest, skin.signed_distance(again.position[i], 0.1).distance);
   }
   EXPECT_LT(std::sqrt(squares), 0.002);

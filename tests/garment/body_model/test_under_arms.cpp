@@ -13,17 +13,20 @@ namespace {
 
 constexpr double ARM_X = 0.24, ARM_R = 0.03, ELBOW_Y = 1.0, WRIST_Y = 0.85, TIP_Y = 0.7;
 
-/// The pillar, and beside it on its left an upright arm with its hand, which ends above the skirt's hem.
+/// The pillar, and beside it on its left an upright arm with its hand, which ends above the skirt's
+/// hem.
 body::Body pillar_with_arm() {
   body::Body body = make_pillar(48, 40);
   const body::Body other = make_pillar(24, 40);
   const int first = static_cast<int>(body.skin.positions.size());
   for (const Vec3& p : other.skin.positions) {
     const double share = (p.y() - 0.2) / 1.0, round = std::min(1.0, 4 * std::min(share, 1 - share));
-    const Vec3 across = Vec3(p.x(), 0, p.z()).normalized() * (p.x() == 0 && p.z() == 0 ? 0 : ARM_R * std::sqrt(round));
+    const Vec3 across = Vec3(p.x(), 0, p.z()).normalized() *
+                        (p.x() == 0 && p.z() == 0 ? 0 : ARM_R * std::sqrt(round));
     body.skin.positions.push_back(Vec3(ARM_X, TIP_Y + share * 0.5, 0) + across);
   }
-  for (const Triangle& t : other.skin.triangles) body.skin.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  for (const Triangle& t : other.skin.triangles)
+    body.skin.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   body.face_part.resize(body.skin.triangles.size(), body::Part::ARM_L);
   body.landmarks["shoulder_joint_l"].p = Vec3(ARM_X, 1.18, 0);
   body.landmarks["elbow_l"].p = Vec3(ARM_X, ELBOW_Y, 0);
@@ -36,7 +39,8 @@ body::Body pillar_with_arm() {
 
 TEST(UnderArms, what_lies_beyond_the_forearm_comes_before_it) {
   const body::Body body = pillar_with_arm();
-  const std::vector<Vec3> start = {{0.4, 0.9, 0}, {0.24, 0.8, 0}, {0.2, 0.9, 0.3}, {-0.4, 0.9, 0}, {0.4, 0.6, 0}, {0.4, 1.1, 0}, {0.4, 0.9, 0}};
+  const std::vector<Vec3> start = {{0.4, 0.9, 0}, {0.24, 0.8, 0}, {0.2, 0.9, 0.3}, {-0.4, 0.9, 0},
+                                   {0.4, 0.6, 0}, {0.4, 1.1, 0},  {0.4, 0.9, 0}};
   std::vector<Vec3> x = start;
   EXPECT_EQ(bring_under_arms(x, {0, 0, 0, 0, 0, 0, 1}, body, 0.005), 2U);
   for (int i : {0, 1}) {
@@ -44,7 +48,8 @@ TEST(UnderArms, what_lies_beyond_the_forearm_comes_before_it) {
     EXPECT_GT(x[i].x(), 0.14);
     EXPECT_NEAR(x[i].z(), 0, 0.01);
   }
-  EXPECT_EQ(std::vector<Vec3>(x.begin() + 2, x.end()), std::vector<Vec3>(start.begin() + 2, start.end()))
+  EXPECT_EQ(std::vector<Vec3>(x.begin() + 2, x.end()),
+            std::vector<Vec3>(start.begin() + 2, start.end()))
       << "before the arm, on the other side, below the hand, above the elbow, of a sleeve";
 }
 
@@ -62,7 +67,8 @@ TEST(UnderArms, a_forearm_drawn_in_is_at_its_elbow) {
   const std::vector<Vec3> drawn = forearms.drawn_in(body.skin.positions);
   for (std::size_t v = 0; v < drawn.size(); ++v) {
     const Vec3& p = body.skin.positions[v];
-    if (p.x() > 0.2 && p.y() < ELBOW_Y) EXPECT_LT((drawn[v] - body.landmark("elbow_l")).norm(), 0.01);
+    if (p.x() > 0.2 && p.y() < ELBOW_Y)
+      EXPECT_LT((drawn[v] - body.landmark("elbow_l")).norm(), 0.01);
     else EXPECT_EQ(drawn[v], p);
   }
   EXPECT_TRUE(forearms.are_near({{0.3, 0.9, 0.1}, {-0.3, 0.9, -0.1}}));
@@ -73,10 +79,12 @@ TEST(UnderArms, a_forearm_drawn_in_is_at_its_elbow) {
 TEST(UnderArms, a_long_sleeve_covers_the_forearm) {
   const Forearms forearms(pillar_with_arm());
   EXPECT_TRUE(forearms.is_covered(body::Part::ARM_L, {{0.24, 1.2, 0}, {0.24, 0.9, 0}}));
-  EXPECT_TRUE(forearms.is_covered(body::Part::ARM_L, {{0.24, 1.0, 0}, {0.24, 0.7, 0}})) << "wherever it lies";
+  EXPECT_TRUE(forearms.is_covered(body::Part::ARM_L, {{0.24, 1.0, 0}, {0.24, 0.7, 0}}))
+      << "wherever it lies";
   EXPECT_FALSE(forearms.is_covered(body::Part::ARM_L, {{0.24, 1.2, 0}, {0.24, 0.95, 0}}));
   EXPECT_FALSE(forearms.is_covered(body::Part::ARM_L, {}));
-  EXPECT_FALSE(forearms.is_covered(body::Part::ARM_R, {{0.24, 1.2, 0}, {0.24, 0.7, 0}})) << "it was not found";
+  EXPECT_FALSE(forearms.is_covered(body::Part::ARM_R, {{0.24, 1.2, 0}, {0.24, 0.7, 0}}))
+      << "it was not found";
 }
 
 TEST(UnderArms, what_a_sleeve_is_sewn_around_stays) {
@@ -84,7 +92,8 @@ TEST(UnderArms, what_a_sleeve_is_sewn_around_stays) {
   Forearms forearms(body);
   forearms.leave_in(body::Part::ARM_L, {{0.24, 1.2, 0}, {0.24, 0.95, 0}}); // 5 cm of the forearm
   const std::vector<Vec3> drawn = forearms.drawn_in(body.skin.positions);
-  const Vec3 elbow = body.landmark("elbow_l"), down = (body.landmark("wrist_l") - elbow).normalized();
+  const Vec3 elbow = body.landmark("elbow_l"),
+             down = (body.landmark("wrist_l") - elbow).normalized();
   const double covered = 0.25 - (elbow - body.landmark("shoulder_joint_l")).norm();
   int left = 0, away = 0;
   for (std::size_t v = 0; v < drawn.size(); ++v) {
@@ -109,10 +118,13 @@ TEST(UnderArms, a_wide_skirt_is_sewn_inside_of_a_hanging_arm) {
   EXPECT_TRUE(report.converged) << stop_text(report);
   const collision::BodyCollider collider(body.skin);
   EXPECT_TRUE(audit(skirt, &collider).clean());
-  const auto told = [](const std::string& r) { return r.find("forearms or hands") != std::string::npos; };
+  const auto told = [](const std::string& r) {
+    return r.find("forearms or hands") != std::string::npos;
+  };
   EXPECT_TRUE(std::any_of(report.repairs.begin(), report.repairs.end(), told));
   std::vector<Vec3> x = skirt.position;
-  EXPECT_EQ(bring_under_arms(x, std::vector<char>(x.size(), 0), body, 0), 0U) << "nothing of it is beyond the arm";
+  EXPECT_EQ(bring_under_arms(x, std::vector<char>(x.size(), 0), body, 0), 0U)
+      << "nothing of it is beyond the arm";
 }
 
 TEST(UnderArms, without_contact_no_arm_is_held_up) {

@@ -19,16 +19,20 @@ void keep(DrapeSettings&) {}
 
 double rms(const Garment& a, const Garment& b) {
   double sum = 0;
-  for (std::size_t i = 0; i < a.position.size(); ++i) sum += (a.position[i] - b.position[i]).squaredNorm() / static_cast<double>(a.position.size());
+  for (std::size_t i = 0; i < a.position.size(); ++i)
+    sum += (a.position[i] - b.position[i]).squaredNorm() / static_cast<double>(a.position.size());
   return std::sqrt(sum);
 }
 
 } // namespace
 
-/// The table's figures are of three samples. On other scenes presets may be farther off; on these they are not. Of a single scene the
-/// rest within half a millimetre is a matter of chance, so that only the mean says which preset is nearer; and as the table's budgets are kept from
-/// all starts but one in nine, one scene may fall into other folds: silk has rests 0.1 to 5 mm apart.
-TEST(Presets, are_within_ten_times_their_table_on_scenes_that_it_was_not_made_from_and_each_is_nearer_than_the_last) {
+/// The table's figures are of three samples. On other scenes presets may be farther off; on these
+/// they are not. Of a single scene the rest within half a millimetre is a matter of chance, so that
+/// only the mean says which preset is nearer; and as the table's budgets are kept from all starts
+/// but one in nine, one scene may fall into other folds: silk has rests 0.1 to 5 mm apart.
+TEST(
+    Presets,
+    are_within_ten_times_their_table_on_scenes_that_it_was_not_made_from_and_each_is_nearer_than_the_last) {
   const body::Body pillar = make_pillar();
   std::vector<double> before;
   std::array<std::vector<double>, std::size(PRESETS)> off; // m, by fabric
@@ -40,13 +44,15 @@ TEST(Presets, are_within_ten_times_their_table_on_scenes_that_it_was_not_made_fr
     sewn.settle_speed_m_s = 1;
     drape(start, &pillar, sewn, silent_reporter());
     Garment reference = start;
-    const DrapeReport finest = drape(reference, &pillar, preset_settings("reference"), silent_reporter());
+    const DrapeReport finest =
+        drape(reference, &pillar, preset_settings("reference"), silent_reporter());
     ASSERT_TRUE(finest.converged) << fabric << ": " << stop_text(finest);
     before.push_back(rms(start, reference));
     for (std::size_t k = 0; k < off.size(); ++k) {
       const Preset& p = PRESETS[k];
       Garment cloth = start;
-      EXPECT_TRUE(drape(cloth, &pillar, preset_settings(p.name), silent_reporter()).converged) << fabric << ", " << p.name;
+      EXPECT_TRUE(drape(cloth, &pillar, preset_settings(p.name), silent_reporter()).converged)
+          << fabric << ", " << p.name;
       off[k].push_back(rms(cloth, reference));
     }
   }
@@ -63,8 +69,11 @@ TEST(Presets, are_within_ten_times_their_table_on_scenes_that_it_was_not_made_fr
   }
 }
 
-/// From a residual of 0.01 on, a solve also ends at its error in the energy norm, which is reached before the residual is small.
-TEST(Presets, that_end_solves_at_the_error_in_the_energy_norm_take_fewer_iterations_than_for_a_small_residual) {
+/// From a residual of 0.01 on, a solve also ends at its error in the energy norm, which is reached
+/// before the residual is small.
+TEST(
+    Presets,
+    that_end_solves_at_the_error_in_the_energy_norm_take_fewer_iterations_than_for_a_small_residual) {
   const body::Body pillar = make_pillar();
   Garment placed = make_skirt(0.76, 0.28, 0.04);
   ASSERT_TRUE(drape(placed, &pillar, preset_settings("standard"), silent_reporter()).converged);
@@ -86,7 +95,8 @@ class Goal : public testing::TestWithParam<double> {};
 TEST_P(Goal, is_met_against_the_reference_going_on_from_the_same_state) {
   const body::Body pillar = make_pillar();
   Garment skirt = make_skirt(0.78, 0.35, 0.035);
-  const AccuracyReport report = drape_to_goal(skirt, &pillar, {GetParam(), 0}, keep, silent_reporter());
+  const AccuracyReport report =
+      drape_to_goal(skirt, &pillar, {GetParam(), 0}, keep, silent_reporter());
   ASSERT_TRUE(report.drape.converged) << stop_text(report.drape);
   Garment reference = skirt;
   drape(reference, &pillar, preset_settings("reference"), silent_reporter());
@@ -100,7 +110,9 @@ TEST_P(Goal, is_met_against_the_reference_going_on_from_the_same_state) {
 }
 
 INSTANTIATE_TEST_SUITE_P(millimetres, Goal, testing::Values(2e-3, 5e-4, 1e-4),
-                         [](const auto& goal) { return std::to_string(static_cast<int>(1e6 * goal.param)) + "_um"; });
+                         [](const auto& goal) {
+                           return std::to_string(static_cast<int>(1e6 * goal.param)) + "_um";
+                         });
 
 TEST(Goal, of_time_is_kept_and_a_tighter_goal_takes_finer_presets) {
   const body::Body pillar = make_pillar(32, 30);

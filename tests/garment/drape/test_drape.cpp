@@ -31,7 +31,9 @@ TEST(Drape, effects_that_are_off_are_never_called_and_named_with_a_reason) {
   for (const EffectReport& e : report.effects) {
     EXPECT_FALSE(e.why.empty()) << e.name;
     EXPECT_TRUE(e.active || (e.calls == 0 && e.wall_s == 0)) << e.name;
-    EXPECT_FALSE(e.active && (e.name == "gravity" || e.name == "body_contact" || e.name == "friction")) << e.name;
+    EXPECT_FALSE(e.active &&
+                 (e.name == "gravity" || e.name == "body_contact" || e.name == "friction"))
+        << e.name;
     EXPECT_TRUE(e.name != "edge_springs" || e.calls > 0);
   }
 }
@@ -44,7 +46,8 @@ TEST(Drape, after_sewing_the_cloth_breathes_until_its_weight_comes_unless_told_n
     if (!breathes) settings.effects = "auto,-pressure";
     const DrapeReport report = drape(skirt, &pillar, settings, silent_reporter());
     EXPECT_TRUE(report.converged);
-    const auto pressure = std::find_if(report.effects.begin(), report.effects.end(), [](const EffectReport& e) { return e.name == "pressure"; });
+    const auto pressure = std::find_if(report.effects.begin(), report.effects.end(),
+                                       [](const EffectReport& e) { return e.name == "pressure"; });
     ASSERT_NE(pressure, report.effects.end());
     EXPECT_EQ(pressure->active, breathes);
     EXPECT_EQ(pressure->calls, breathes ? 40 : 0);
@@ -85,7 +88,8 @@ TEST(Drape, going_on_from_a_garment_at_rest_changes_nothing_that_can_be_seen) {
   const DrapeReport again = drape(skirt, &pillar, {}, silent_reporter());
   EXPECT_TRUE(again.converged);
   double moved = 0;
-  for (std::size_t i = 0; i < before.size(); ++i) moved = std::max(moved, (skirt.position[i] - before[i]).norm());
+  for (std::size_t i = 0; i < before.size(); ++i)
+    moved = std::max(moved, (skirt.position[i] - before[i]).norm());
   EXPECT_LT(moved, 0.003);
 }
 
@@ -104,7 +108,8 @@ TEST(Drape, a_skirt_that_stays_stretched_is_given_up_and_one_that_fits_is_not) {
   const body::Body pillar = make_pillar();
   FitBounds bounds{0.15, 0.05};
   Garment tight = make_skirt(0.54, 0.3, 0.03);
-  EXPECT_EQ(drape(tight, &pillar, {}, silent_reporter(), {.bounds = bounds}).misfit, Misfit::STAYS_STRETCHED);
+  EXPECT_EQ(drape(tight, &pillar, {}, silent_reporter(), {.bounds = bounds}).misfit,
+            Misfit::STAYS_STRETCHED);
   Garment good = make_skirt(0.75, 0.3, 0.03);
   const DrapeReport report = drape(good, &pillar, {}, silent_reporter(), {.bounds = bounds});
   EXPECT_EQ(report.misfit, Misfit::NONE);

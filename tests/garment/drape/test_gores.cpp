@@ -1,4 +1,5 @@
-/// Skirts whose flare is in the seams between their panels, from the drawing to rest on a person with legs and arms.
+/// Skirts whose flare is in the seams between their panels, from the drawing to rest on a person
+/// with legs and arms.
 #include <support/gored_patterns.hpp>
 
 #include <base/progress.hpp>
@@ -31,6 +32,10 @@ void expect_dressed(const pattern::test::DrawnPattern& drawn) {
 
 } // namespace
 
-TEST(Gores, with_godets_between_them_come_to_rest_clean) { expect_dressed(pattern::test::skirt_with_godets(6)); }
+TEST(Gores, with_godets_between_them_come_to_rest_clean) {
+  expect_dressed(pattern::test::skirt_with_godets(6));
+}
 
-TEST(Gores, that_are_quarters_of_a_circle_come_to_rest_clean) { expect_dressed(pattern::test::circle_in_quarters(12.25, 67)); }
+TEST(Gores, that_are_quarters_of_a_circle_come_to_rest_clean) {
+  expect_dressed(pattern::test::circle_in_quarters(12.25, 67));
+}

@@ -31,7 +31,8 @@ TEST(Layers, merged_garments_come_apart_as_they_were) {
   const std::vector<Garment> before = garments;
   const Garment merged = merge_layers(garments);
   EXPECT_EQ(merged.position.size(), before[0].position.size() + before[1].position.size());
-  EXPECT_EQ(merged.particle_triangles().size(), before[0].panels.triangles.size() + before[1].panels.triangles.size());
+  EXPECT_EQ(merged.particle_triangles().size(),
+            before[0].panels.triangles.size() + before[1].panels.triangles.size());
   for (Garment& g : garments)
     for (Vec3& p : g.position) p.setZero();
   split_layers(merged, garments);
@@ -42,7 +43,8 @@ TEST(Layers, inner_cloth_outside_of_the_outer_is_tucked_in_until_nothing_crosses
   const body::Body pillar = make_pillar(48, 40);
   const collision::BodyCollider body(pillar.skin);
   std::vector<Garment> garments = {tube(1.3, 0.3, 0.03, 0.19), tube(1.0, 0.2, 0.03, 0.16)};
-  for (std::size_t i = 0; i < garments[0].position.size(); i += 3) garments[0].position[i] *= 1 + 1e-3 * static_cast<double>(i % 7); // not a grid on a grid
+  for (std::size_t i = 0; i < garments[0].position.size(); i += 3)
+    garments[0].position[i] *= 1 + 1e-3 * static_cast<double>(i % 7); // not a grid on a grid
   EXPECT_GT(order_violations(garments, body)[0], 10U);
   const LayerOrder order = order_layers(garments, body, 0.002);
   EXPECT_GT(order.tucked, 10U);
@@ -83,15 +85,20 @@ TEST(Layers, a_little_of_a_garment_in_the_body_moves_out_and_the_body_is_not_dra
   ASSERT_TRUE(drape(skirt, &pillar, {}, silent_reporter()).converged);
   const std::vector<Vec3> rest = skirt.position;
   const collision::BodyCollider body(pillar.skin);
-  const auto nearer = [&](const Vec3& a, const Vec3& b) { return body.signed_distance(a, 1).distance < body.signed_distance(b, 1).distance; };
+  const auto nearer = [&](const Vec3& a, const Vec3& b) {
+    return body.signed_distance(a, 1).distance < body.signed_distance(b, 1).distance;
+  };
   Vec3& pressed = *std::min_element(skirt.position.begin(), skirt.position.end(), nearer);
-  pressed -= 0.005 * Vec3(pressed.x(), 0, pressed.z()).normalized(); // as where something was tucked below it
+  pressed -=
+      0.005 *
+      Vec3(pressed.x(), 0, pressed.z()).normalized(); // as where something was tucked below it
   const DrapeReport report = drape(skirt, &pillar, {}, silent_reporter());
   EXPECT_TRUE(report.converged) << stop_text(report);
   ASSERT_EQ(report.repairs.size(), 1U);
   EXPECT_NE(report.repairs[0].find("moved out"), std::string::npos) << report.repairs[0];
   EXPECT_TRUE(audit(skirt, &body).clean());
   double farthest = 0;
-  for (std::size_t i = 0; i < rest.size(); ++i) farthest = std::max(farthest, (skirt.position[i] - rest[i]).norm());
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    farthest = std::max(farthest, (skirt.position[i] - rest[i]).norm());
   EXPECT_LT(farthest, 0.01) << "it hangs as it did";
 }

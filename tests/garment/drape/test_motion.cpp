@@ -53,7 +53,9 @@ TEST(Motion, steps_may_take_more_solves_and_be_shorter) {
     settings.motion_step_s = motion_step_s;
     return drape_in_motion(
         skirt, pillar, moves, settings,
-        [&](const MotionFrame& f, const Garment&) { EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U) << f.number; },
+        [&](const MotionFrame& f, const Garment&) {
+          EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U) << f.number;
+        },
         silent_reporter());
   };
   const DrapeReport one = run(1, 1.0 / 60), more = run(6, 1.0 / 60), shorter = run(1, 1.0 / 240);
@@ -69,7 +71,8 @@ TEST(Motion, cloth_at_rest_sleeps_until_skin_near_it_moves) {
   const std::size_t n_still = 90;
   BodyMoves moves = swing;
   moves.n_frames = 10 + n_still + 5;
-  moves.skin = [&](std::size_t k) { // a swing, a hold in which only the foot of the pillar moves, far below the skirt, and another swing
+  moves.skin = [&](std::size_t k) { // a swing, a hold in which only the foot of the pillar moves,
+                                    // far below the skirt, and another swing
     std::vector<Vec3> x = swing.skin(k < 10 ? k : k < 10 + n_still ? 9 : k - n_still);
     if (k >= 10 && k < 10 + n_still)
       for (Vec3& p : x)
@@ -125,7 +128,8 @@ TEST(Motion, cloth_on_a_body_that_walks_on_evenly_hangs_as_on_one_that_stands_st
         if (f.number <= 20) parts += f.parts;
         if (f.number < 50) return;
         double off2 = 0;
-        for (std::size_t i = 0; i < stood.size(); ++i) off2 += (g.position[i] - stood[i] - Vec3(0, 0, way(f.number - 1))).squaredNorm();
+        for (std::size_t i = 0; i < stood.size(); ++i)
+          off2 += (g.position[i] - stood[i] - Vec3(0, 0, way(f.number - 1))).squaredNorm();
         EXPECT_LT(std::sqrt(off2 / static_cast<double>(stood.size())), 0.003) << f.number;
       },
       silent_reporter());
@@ -136,20 +140,25 @@ TEST(Motion, frames_that_are_not_clean_are_no_success) {
   const body::Body pillar = make_pillar(48, 40);
   Garment skirt = make_skirt(0.75, 0.3, 0.04);
   ASSERT_TRUE(drape(skirt, &pillar, {}, silent_reporter()).converged);
-  for (const char* panel : {"front", "back"}) skirt.scene.pins.push_back({{panel, Vec2(0, 1), Vec2(1, 1)}, false, Vec3::Zero(), 1e5});
+  for (const char* panel : {"front", "back"})
+    skirt.scene.pins.push_back({{panel, Vec2(0, 1), Vec2(1, 1)}, false, Vec3::Zero(), 1e5});
   BodyMoves moves;
   moves.n_frames = 12;
   moves.skin = [&](std::size_t k) { // out of a skirt that is nailed to the air, and back
     std::vector<Vec3> x = pillar.skin.positions;
-    for (Vec3& p : x) p.x() += 0.05 * static_cast<double>(std::min(k + 1, 11 - std::min<std::size_t>(k, 11)));
+    for (Vec3& p : x)
+      p.x() += 0.05 * static_cast<double>(std::min(k + 1, 11 - std::min<std::size_t>(k, 11)));
     return x;
   };
   std::size_t through = 0;
   const DrapeReport report = drape_in_motion(
-      skirt, pillar, moves, {}, [&](const MotionFrame& f, const Garment&) { through = std::max(through, f.faces_through); }, silent_reporter());
+      skirt, pillar, moves, {},
+      [&](const MotionFrame& f, const Garment&) { through = std::max(through, f.faces_through); },
+      silent_reporter());
   ASSERT_GT(through, 0U);
   EXPECT_FALSE(report.converged);
-  EXPECT_TRUE(!skirt.converged || stop_text(report).find("12 frames before") != std::string::npos) << stop_text(report);
+  EXPECT_TRUE(!skirt.converged || stop_text(report).find("12 frames before") != std::string::npos)
+      << stop_text(report);
 }
 
 TEST(Motion, a_skirt_below_a_skirt_goes_with_the_body_and_the_order_is_kept) {
@@ -157,16 +166,20 @@ TEST(Motion, a_skirt_below_a_skirt_goes_with_the_body_and_the_order_is_kept) {
   std::vector<Garment> garments = {make_skirt(0.72, 0.3, 0.04), make_skirt(0.76, 0.2, 0.04)};
   const BodyMoves moves = swinging(pillar, 12, 0.15);
   int frames = 0;
-  const DrapeReport report = drape_layers(garments, &pillar, {}, silent_reporter(), {}, &moves, [&](const MotionFrame& f, const Garment& all) {
-    ++frames;
-    EXPECT_EQ(all.panels.panels.size(), 4U) << "of both";
-    EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U) << f.number;
-    EXPECT_FALSE(f.forced) << f.number;
-  });
+  const DrapeReport report =
+      drape_layers(garments, &pillar, {}, silent_reporter(), {}, &moves,
+                   [&](const MotionFrame& f, const Garment& all) {
+                     ++frames;
+                     EXPECT_EQ(all.panels.panels.size(), 4U) << "of both";
+                     EXPECT_EQ(f.faces_through + f.vertices_inside + f.self_intersections, 0U)
+                         << f.number;
+                     EXPECT_FALSE(f.forced) << f.number;
+                   });
   EXPECT_EQ(frames, 12);
   EXPECT_TRUE(report.converged) << stop_text(report);
   EXPECT_TRUE(is_active(report.effects, "body_motion") && is_active(report.effects, "layers"));
-  collision::BodyCollider end(TriangleMesh{moves.skin(11), pillar.skin.triangles}); // the body as the motion leaves it
+  collision::BodyCollider end(
+      TriangleMesh{moves.skin(11), pillar.skin.triangles}); // the body as the motion leaves it
   EXPECT_TRUE(audit(merge_layers(garments), &end).clean());
   EXPECT_EQ(order_violations(garments, end)[0], 0U);
   for (const io::Json& layer : report.quality["layers"]) {

@@ -35,7 +35,8 @@ Audit audit_on(const Garment& garment, const body::Body& body) {
 double far_motion(const Garment& a, const Garment& b, const Vec3& from, double radius) {
   double most = 0;
   for (std::size_t i = 0; i < a.position.size(); ++i)
-    if ((b.position[i] - from).norm() > radius) most = std::max(most, (a.position[i] - b.position[i]).norm());
+    if ((b.position[i] - from).norm() > radius)
+      most = std::max(most, (a.position[i] - b.position[i]).norm());
   return most;
 }
 

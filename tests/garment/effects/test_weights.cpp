@@ -29,9 +29,12 @@ Garment hung_tube(const std::string& scene) {
   return g;
 }
 
-double mass_of(const cloth::ClothMesh& mesh) { return std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0); }
+double mass_of(const cloth::ClothMesh& mesh) {
+  return std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0);
+}
 
-const char* const PINNED = R"("pins": [{"panel": "front", "from": [0, 1], "to": [1, 1], "stiffness_n_m": 1000},
+const char* const PINNED =
+    R"("pins": [{"panel": "front", "from": [0, 1], "to": [1, 1], "stiffness_n_m": 1000},
                                       {"panel": "back", "from": [0, 1], "to": [1, 1], "stiffness_n_m": 1000}])";
 const char* const WEIGHTED =
     R"("weights": [{"panel": "front", "from": [0, 0], "to": [1, 0], "mass_kg": 0.06}, {"panel": "back", "at": [0.5, 0], "mass_kg": 0.04}])";
@@ -57,7 +60,8 @@ TEST(Weights, add_their_mass_to_the_particles_of_their_run) {
   prepare_mesh(weighted, g, choose_effects(g, nullptr, {}));
   EXPECT_NEAR(mass_of(weighted) - mass_of(plain), 0.1, 1e-12);
   double heaviest = 0;
-  for (std::size_t i = 0; i < plain.mass.size(); ++i) heaviest = std::max(heaviest, weighted.mass[i] - plain.mass[i]);
+  for (std::size_t i = 0; i < plain.mass.size(); ++i)
+    heaviest = std::max(heaviest, weighted.mass[i] - plain.mass[i]);
   EXPECT_NEAR(heaviest, 0.04, 1e-12) << "a point gets all of its weight";
   DrapeSettings off;
   off.effects = "auto,-weights";
@@ -67,7 +71,8 @@ TEST(Weights, add_their_mass_to_the_particles_of_their_run) {
 }
 
 TEST(Weights, hang_from_what_the_cloth_hangs_from) {
-  const double plain = carried(std::string("{") + PINNED + "}"), weighted = carried(std::string("{") + PINNED + ", " + WEIGHTED + "}");
+  const double plain = carried(std::string("{") + PINNED + "}"),
+               weighted = carried(std::string("{") + PINNED + ", " + WEIGHTED + "}");
   EXPECT_NEAR(weighted - plain, 0.1 * units::GRAVITY, 0.02 * 0.1 * units::GRAVITY);
 }
 
@@ -75,7 +80,8 @@ TEST(Weights, are_read_and_written_and_refused_where_they_are_none) {
   const SceneEffects scene = parsed(std::string("{") + WEIGHTED + "}");
   ASSERT_EQ(scene.weights.size(), 2u);
   EXPECT_FALSE(scene.empty());
-  EXPECT_EQ(scene_effects_json(parsed(scene_effects_json(scene).dump())), scene_effects_json(scene));
+  EXPECT_EQ(scene_effects_json(parsed(scene_effects_json(scene).dump())),
+            scene_effects_json(scene));
   EXPECT_THROW(parsed(R"({"weights": [{"panel": "front", "at": [0, 0], "mass_kg": -1}]})"), Error);
   EXPECT_THROW(parsed(R"({"weights": [{"panel": "front", "at": [0, 0], "mass": 1}]})"), Error);
 }

@@ -14,7 +14,8 @@ namespace sloper::garment {
 
 namespace {
 
-/// Cloth on a cylinder about y, weft around it, rest lengths those of the pattern: stretched where the pattern is shorter.
+/// Cloth on a cylinder about y, weft around it, rest lengths those of the pattern: stretched where
+/// the pattern is shorter.
 Garment tube(double radius, double around, double along) {
   Garment g;
   const int n = 96, rows = 24;
@@ -25,7 +26,8 @@ Garment tube(double radius, double around, double along) {
       const double angle = 2 * M_PI * c / n;
       g.particle_of.push_back(static_cast<int>(g.position.size()));
       g.position.emplace_back(radius * std::sin(angle), 0.4 * r / rows, radius * std::cos(angle));
-      g.panels.pattern.emplace_back(2 * M_PI * radius / (1 + around) * c / n, 0.4 / (1 + along) * r / rows);
+      g.panels.pattern.emplace_back(2 * M_PI * radius / (1 + around) * c / n,
+                                    0.4 / (1 + along) * r / rows);
       g.panels.ids.push_back({0, 0.0, 0.0});
     }
   for (int r = 0; r < rows; ++r)
@@ -34,7 +36,8 @@ Garment tube(double radius, double around, double along) {
       g.panels.triangles.push_back({a, b, d + 1});
       g.panels.triangles.push_back({a, d + 1, d});
     }
-  p.n_vertices = static_cast<int>(g.position.size()), p.n_triangles = static_cast<int>(g.panels.triangles.size());
+  p.n_vertices = static_cast<int>(g.position.size()),
+  p.n_triangles = static_cast<int>(g.panels.triangles.size());
   g.panels.panels.push_back(p);
   g.panels.placed = g.position;
   return g;
@@ -42,16 +45,19 @@ Garment tube(double radius, double around, double along) {
 
 } // namespace
 
-// A flat triangle beside a seam, its edges 6 % longer at most, was 34 % higher and had a skirt refused.
+// A flat triangle beside a seam, its edges 6 % longer at most, was 34 % higher and had a skirt
+// refused.
 TEST(cloth_strain, the_largest_is_that_of_a_place_and_not_of_one_triangle) {
   Garment g = tube(0.15, 0.02, 0);
   const int inner = 12 * 97 + 40; // far from both edges
-  g.position[inner].y() += 0.008; // half of a cell: triangles above it are pressed together, those below are drawn out
+  g.position[inner].y() +=
+      0.008; // half of a cell: triangles above it are pressed together, those below are drawn out
   const collision::BodyCollider skin(shapes::cylinder(0.149, -0.2, 0.6, 96));
   const ClothState cloth(g, skin);
   double single = 0;
   std::vector<int> all;
-  for (std::size_t f = 0; f < cloth.strains.size(); ++f) single = std::max(single, cloth.strains[f].thread()), all.push_back(static_cast<int>(f));
+  for (std::size_t f = 0; f < cloth.strains.size(); ++f)
+    single = std::max(single, cloth.strains[f].thread()), all.push_back(static_cast<int>(f));
   const StrainFigures figures = strain_of(cloth, all);
   EXPECT_GT(single, 0.3);
   EXPECT_LT(figures.max, 0.5 * single);
@@ -85,15 +91,21 @@ TEST(cloth_strain, the_audit_tells_the_same_strain) {
 TEST(cloth_strain, a_stretched_tube_presses_with_tension_over_radius_where_it_touches) {
   const double radius = 0.15;
   const Garment g = tube(radius, 0.1, 0.02);
-  const double expected = material_of(g, "").stretch_weft_n_m * 0.1 / radius; // the warp runs straight down and presses nowhere
+  const double expected = material_of(g, "").stretch_weft_n_m * 0.1 /
+                          radius; // the warp runs straight down and presses nowhere
   std::vector<Weighted> touching, away;
   const std::vector<TriangleStrain> strains = triangle_strains(g, g.position);
-  for (const double p : contact_pressures(g, strains, collision::BodyCollider(shapes::cylinder(radius - 0.001, -0.2, 0.6, 96)))) touching.push_back({p, 1});
+  for (const double p : contact_pressures(
+           g, strains, collision::BodyCollider(shapes::cylinder(radius - 0.001, -0.2, 0.6, 96))))
+    touching.push_back({p, 1});
   EXPECT_NEAR(area_quantile(touching, 0.5), expected, 0.02 * expected);
-  for (const double p : contact_pressures(g, strains, collision::BodyCollider(shapes::cylinder(radius - 0.02, -0.2, 0.6, 96)))) EXPECT_EQ(p, 0);
+  for (const double p : contact_pressures(
+           g, strains, collision::BodyCollider(shapes::cylinder(radius - 0.02, -0.2, 0.6, 96))))
+    EXPECT_EQ(p, 0);
   const Garment slack = tube(radius, -0.05, -0.05);
   for (const double p :
-       contact_pressures(slack, triangle_strains(slack, slack.position), collision::BodyCollider(shapes::cylinder(radius - 0.001, -0.2, 0.6, 96))))
+       contact_pressures(slack, triangle_strains(slack, slack.position),
+                         collision::BodyCollider(shapes::cylinder(radius - 0.001, -0.2, 0.6, 96))))
     EXPECT_EQ(p, 0);
 }
 

@@ -48,7 +48,8 @@ SectionChain arc(double a, double b, double radius, bool backwards = false) {
   const int n = 100;
   for (int i = 0; i < n; ++i) {
     const double u = a + (b - a) * i / n, v = a + (b - a) * (i + 1) / n;
-    const Vec3 p(radius * std::sin(u), 0, radius * std::cos(u)), q(radius * std::sin(v), 0, radius * std::cos(v));
+    const Vec3 p(radius * std::sin(u), 0, radius * std::cos(u)),
+        q(radius * std::sin(v), 0, radius * std::cos(v));
     chain.segments.push_back({0, p, q, (q - p).norm(), 0});
     chain.length += (q - p).norm(), chain.rest_length += (q - p).norm();
   }
@@ -61,15 +62,18 @@ SectionChain arc(double a, double b, double radius, bool backwards = false) {
 TEST(FitPolicy, what_is_borne_on_its_own_body_is_borne_on_another) {
   FitPolicy policy = standard_fit_policy();
   const FitLimits limits = policy.limits("bust", "top");
-  EXPECT_EQ(policy.too_small_ease(limits, -0.06, "bust", "top", ""), limits.too_small_ease) << "nothing is known of it";
+  EXPECT_EQ(policy.too_small_ease(limits, -0.06, "bust", "top", ""), limits.too_small_ease)
+      << "nothing is known of it";
   EXPECT_EQ(policy.strain_p99("top", ""), 0.05);
   policy.worn_p99 = 0.07, policy.worn_max = 0.1;
   EXPECT_NEAR(policy.strain_p99("top", ""), 0.077, 1e-12);
   EXPECT_EQ(policy.strain_max("top", ""), 0.30) << "what any cloth bears stays";
   EXPECT_NEAR(policy.too_small_ease(limits, -0.06, "bust", "top", ""), -0.07, 1e-12);
-  EXPECT_EQ(policy.too_small_ease(limits, 0.2, "bust", "top", ""), limits.too_small_ease) << "it was not tight";
+  EXPECT_EQ(policy.too_small_ease(limits, 0.2, "bust", "top", ""), limits.too_small_ease)
+      << "it was not tight";
   policy.own.all.standard.too_small_ease = -0.02;
-  EXPECT_EQ(policy.too_small_ease(policy.limits("bust", "top"), -0.06, "bust", "top", ""), -0.02) << "a document says so";
+  EXPECT_EQ(policy.too_small_ease(policy.limits("bust", "top"), -0.06, "bust", "top", ""), -0.02)
+      << "a document says so";
 }
 
 TEST(fit, ease_is_the_gap_times_two_pi_on_a_garment_made_from_the_skin) {
@@ -77,7 +81,8 @@ TEST(fit, ease_is_the_gap_times_two_pi_on_a_garment_made_from_the_skin) {
   for (const char* name : {"waist_semantic", "bust", "upper_arm_l"}) {
     const FitRow* r = row(d.report, name);
     ASSERT_TRUE(r) << name;
-    // A line at constant distance from a convex one is longer by 2 pi times it; the skin itself is not quite convex.
+    // A line at constant distance from a convex one is longer by 2 pi times it; the skin itself is
+    // not quite convex.
     EXPECT_NEAR(r->ease_m, 2 * M_PI * 0.01, 0.02) << name;
     EXPECT_NEAR(r->gap_p50_m, 0.01, 0.002) << name;
     EXPECT_NEAR(r->strain_p99, 0, 1e-6) << name;
@@ -97,14 +102,17 @@ TEST(fit, cloth_stretched_by_a_tenth_is_too_small_and_presses) {
   EXPECT_NEAR(r->strain_girth, 1 / 0.9 - 1, 0.002);
   EXPECT_NEAR(r->strain_p99, 1 / 0.9 - 1, 0.002);
   EXPECT_LT(r->ease_m, -0.03);
-  // Tension over the mean radius of the waist; where a trunk curves most, twice as much and more (test_cloth_strain.cpp has the exact case).
-  const double mean = material_of(d.garment, "").stretch_weft_n_m * (1 / 0.9 - 1) / (r->body_m / (2 * M_PI));
+  // Tension over the mean radius of the waist; where a trunk curves most, twice as much and more
+  // (test_cloth_strain.cpp has the exact case).
+  const double mean =
+      material_of(d.garment, "").stretch_weft_n_m * (1 / 0.9 - 1) / (r->body_m / (2 * M_PI));
   EXPECT_GT(r->pressure_p95_pa, mean);
   EXPECT_LT(r->pressure_p95_pa, 3 * mean);
   EXPECT_FALSE(d.report.fits);
   EXPECT_EQ(d.report.verdict, FitVerdict::TOO_SMALL);
   EXPECT_EQ(d.report.reason.rfind("closes at the ", 0), 0u) << d.report.reason; // it does go round
-  EXPECT_NE(d.report.reason.find(" only stretched by 11 %: it is "), std::string::npos) << d.report.reason;
+  EXPECT_NE(d.report.reason.find(" only stretched by 11 %: it is "), std::string::npos)
+      << d.report.reason;
   EXPECT_EQ(d.report.state, "at rest");
 }
 
@@ -115,18 +123,21 @@ TEST(fit, free_edges_around_neck_and_arms_are_measured_against_the_skin_in_their
     const FitRow* r = row(d.report, name);
     ASSERT_TRUE(r) << name;
     EXPECT_EQ(r->kind, "edge");
-    EXPECT_NEAR(r->ease_m, 2 * M_PI * 0.01, 0.05) << name; // an edge along the scan's faces is a zigzag
+    EXPECT_NEAR(r->ease_m, 2 * M_PI * 0.01, 0.05)
+        << name; // an edge along the scan's faces is a zigzag
     EXPECT_NEAR(r->gap_p50_m, 0.01, 0.002) << name;
     EXPECT_NEAR(r->body_m, body.girths.at("wrist_l").value_m, 0.04) << name;
     EXPECT_GT(r->ease_uncertainty_m, 0) << name;
   }
-  for (const char* name : {"calf_l", "ankle_min_l"}) EXPECT_FALSE(row(d.report, name)) << name; // a shirt has no legs
+  for (const char* name : {"calf_l", "ankle_min_l"})
+    EXPECT_FALSE(row(d.report, name)) << name; // a shirt has no legs
 }
 
 TEST(fit, trousers_are_measured_down_to_their_hems) {
   const body::Body body = measured("f-165-a");
   const Dressed d = dressed(body, skin_trousers(body, 0.01));
-  for (const char* name : {"top_edge", "leg_hem_l", "leg_hem_r", "calf_l", "calf_r"}) EXPECT_TRUE(row(d.report, name)) << name;
+  for (const char* name : {"top_edge", "leg_hem_l", "leg_hem_r", "calf_l", "calf_r"})
+    EXPECT_TRUE(row(d.report, name)) << name;
 }
 
 TEST(fit, strain_that_no_girth_shows_is_told_by_its_region) {
@@ -135,8 +146,10 @@ TEST(fit, strain_that_no_girth_shows_is_told_by_its_region) {
   const double shoulder = body.landmark("acromion_l").y();
   for (std::size_t f = 0; f < g.panels.triangles.size(); ++f)
     for (int k = 0; k < 3; ++k) {
-      const Vec3 &a = g.position[g.panels.triangles[f][k]], &b = g.position[g.panels.triangles[f][(k + 1) % 3]];
-      if (std::abs(a.x()) > 0.13 && std::abs(b.x()) > 0.13 && std::abs(a.x()) < 0.2 && a.y() > shoulder - 0.08 && b.y() > shoulder - 0.08)
+      const Vec3 &a = g.position[g.panels.triangles[f][k]],
+                 &b = g.position[g.panels.triangles[f][(k + 1) % 3]];
+      if (std::abs(a.x()) > 0.13 && std::abs(b.x()) > 0.13 && std::abs(a.x()) < 0.2 &&
+          a.y() > shoulder - 0.08 && b.y() > shoulder - 0.08)
         g.rest_scale[f][k] *= 0.8;
     }
   const Dressed d = dressed(body, g);
@@ -168,18 +181,24 @@ TEST(fit, a_level_that_a_slanting_hem_crosses_is_left_out) {
   const double level = body.levels.at("waist_semantic").y;
   double front = -1e9, back = 1e9;
   for (const Vec3& p : whole.position)
-    if (std::abs(p.y() - level) < 0.02 && std::abs(p.x()) < 0.1) front = std::max(front, p.z()), back = std::min(back, p.z());
-  for (const bool both : {false, true}) { // the hem rises to the front, where it leaves a fifth of the level bare; or to front and back
+    if (std::abs(p.y() - level) < 0.02 && std::abs(p.x()) < 0.1)
+      front = std::max(front, p.z()), back = std::min(back, p.z());
+  for (const bool both : {false, true}) { // the hem rises to the front, where it leaves a fifth of
+                                          // the level bare; or to front and back
     const double middle = 0.5 * (front + back);
     std::vector<Triangle> faces;
     for (const Triangle& t : whole.panels.triangles) {
       const Vec3 p = (whole.position[t[0]] + whole.position[t[1]] + whole.position[t[2]]) / 3;
       const double z = both ? middle + std::abs(p.z() - middle) : p.z();
-      if (std::abs(p.x()) > 0.25 || p.y() > level + 0.3 * (z - front + (both ? 0.01 : 0.1) * (front - back))) faces.push_back(t);
+      if (std::abs(p.x()) > 0.25 ||
+          p.y() > level + 0.3 * (z - front + (both ? 0.01 : 0.1) * (front - back)))
+        faces.push_back(t);
     }
     const Dressed d = dressed(body, sheet(whole.position, faces, 0));
     EXPECT_FALSE(row(d.report, "waist_semantic"));
-    EXPECT_TRUE(std::count(d.report.left_out.begin(), d.report.left_out.end(), std::pair<std::string, std::string>("waist_semantic", "a hem crosses it")))
+    EXPECT_TRUE(
+        std::count(d.report.left_out.begin(), d.report.left_out.end(),
+                   std::pair<std::string, std::string>("waist_semantic", "a hem crosses it")))
         << both;
   }
   ASSERT_TRUE(row(dressed(body, whole).report, "waist_semantic"));
@@ -201,7 +220,8 @@ TEST(fit, a_dress_is_one_whether_its_hem_is_long_or_short) {
     std::vector<Triangle> faces = shirt.panels.triangles;
     const int first = static_cast<int>(shirt.position.size());
     for (const Triangle& t : skirt.panels.triangles)
-      if (skirt.position[t[0]].y() > body.landmark("crotch").y() - below_crotch) faces.push_back({t[0] + first, t[1] + first, t[2] + first});
+      if (skirt.position[t[0]].y() > body.landmark("crotch").y() - below_crotch)
+        faces.push_back({t[0] + first, t[1] + first, t[2] + first});
     return dressed(body, sheet(position, faces)).report.garment_class;
   };
   EXPECT_EQ(with_skirt(0.25), "dress");
@@ -209,16 +229,20 @@ TEST(fit, a_dress_is_one_whether_its_hem_is_long_or_short) {
   EXPECT_EQ(with_skirt(-0.03), "top");
 }
 
-TEST(fit, a_trunk_whose_flanks_went_to_the_arms_keeps_its_girth) { // as where arms lie on the flanks of a stout person
+TEST(fit, a_trunk_whose_flanks_went_to_the_arms_keeps_its_girth) { // as where arms lie on the
+                                                                   // flanks of a stout person
   body::Body body = measured("f-165-a");
   const Vec3 waist(0, body.levels.at("waist_semantic").y, 0);
   const double whole = skin_girth(body, {body::Part::TORSO}, waist, Vec3::UnitY());
   for (std::size_t f = 0; f < body.face_part.size(); ++f) {
     const Triangle& t = body.skin.triangles[f];
-    const double x = (body.skin.positions[t[0]] + body.skin.positions[t[1]] + body.skin.positions[t[2]]).x() / 3;
-    if (body.face_part[f] == body::Part::TORSO && std::abs(x) > 0.11) body.face_part[f] = x > 0 ? body::Part::ARM_L : body::Part::ARM_R;
+    const double x =
+        (body.skin.positions[t[0]] + body.skin.positions[t[1]] + body.skin.positions[t[2]]).x() / 3;
+    if (body.face_part[f] == body::Part::TORSO && std::abs(x) > 0.11)
+      body.face_part[f] = x > 0 ? body::Part::ARM_L : body::Part::ARM_R;
   }
-  EXPECT_NEAR(skin_girth(body, {body::Part::TORSO}, waist, Vec3::UnitY()) / whole, 1, 0.07); // straight over the gaps
+  EXPECT_NEAR(skin_girth(body, {body::Part::TORSO}, waist, Vec3::UnitY()) / whole, 1,
+              0.07); // straight over the gaps
 }
 
 TEST(fit, what_has_slid_off_all_girths_is_told_as_sliding_down) {
@@ -231,7 +255,8 @@ TEST(fit, what_has_slid_off_all_girths_is_told_as_sliding_down) {
   EXPECT_TRUE(slid.rows.empty());
   EXPECT_FALSE(slid.fits);
   EXPECT_EQ(slid.reason.rfind("slides down by 300", 0), 0u) << slid.reason;
-  EXPECT_EQ(fit_garment(trousers, body, skin, standard_fit_policy(), nullptr).reason, "goes round no girth of the body");
+  EXPECT_EQ(fit_garment(trousers, body, skin, standard_fit_policy(), nullptr).reason,
+            "goes round no girth of the body");
 }
 
 TEST(fit, what_goes_round_no_girth_and_stays_where_it_was_placed_fits) { // an apron
@@ -239,7 +264,8 @@ TEST(fit, what_goes_round_no_girth_and_stays_where_it_was_placed_fits) { // an a
   Garment trousers = dressed(body, skin_trousers(body)).garment;
   for (Vec3& p : trousers.position) p.y() += 3;
   const std::vector<Vec3> placed = trousers.position;
-  const FitReport lying = fit_garment(trousers, body, collision::BodyCollider(body.skin), standard_fit_policy(), &placed);
+  const FitReport lying = fit_garment(trousers, body, collision::BodyCollider(body.skin),
+                                      standard_fit_policy(), &placed);
   EXPECT_TRUE(lying.rows.empty());
   EXPECT_TRUE(lying.fits) << lying.reason;
   EXPECT_EQ(lying.reason, "goes round no girth of the body: strain and slip alone were judged");
@@ -247,13 +273,16 @@ TEST(fit, what_goes_round_no_girth_and_stays_where_it_was_placed_fits) { // an a
 
 TEST(fit, sleeves_and_legs_are_covered_to_where_they_end) {
   const body::Body body = measured("f-165-a");
-  const Dressed shirt = dressed(body, skin_shirt(body)), trousers = dressed(body, skin_trousers(body));
-  ASSERT_TRUE(shirt.report.lines.coverage.count("sleeve_l") && shirt.report.lines.coverage.count("sleeve_r"));
+  const Dressed shirt = dressed(body, skin_shirt(body)),
+                trousers = dressed(body, skin_trousers(body));
+  ASSERT_TRUE(shirt.report.lines.coverage.count("sleeve_l") &&
+              shirt.report.lines.coverage.count("sleeve_r"));
   EXPECT_NEAR(shirt.report.lines.coverage.at("sleeve_l"), 1, 0.05);
   EXPECT_EQ(trousers.report.garment_class, "trousers");
   ASSERT_TRUE(trousers.report.lines.coverage.count("inseam_l"));
   const double crotch = body.landmark("crotch").y(), ankle = body.landmark("ankle_l").y();
-  EXPECT_NEAR(trousers.report.lines.coverage.at("inseam_l"), (crotch - ankle - 0.03) / (crotch - ankle), 0.03);
+  EXPECT_NEAR(trousers.report.lines.coverage.at("inseam_l"),
+              (crotch - ankle - 0.03) / (crotch - ankle), 0.03);
 }
 
 TEST(fit, a_skirt_that_hangs_askew_is_out_of_balance) {
@@ -263,7 +292,8 @@ TEST(fit, a_skirt_that_hangs_askew_is_out_of_balance) {
   const Dressed d = dressed(body, g);
   EXPECT_EQ(d.report.garment_class, "skirt");
   const auto& hems = d.report.lines.hems;
-  const auto hem = std::find_if(hems.begin(), hems.end(), [](const FitHem& h) { return h.name == "hem"; });
+  const auto hem =
+      std::find_if(hems.begin(), hems.end(), [](const FitHem& h) { return h.name == "hem"; });
   ASSERT_NE(hem, hems.end());
   EXPECT_GT(hem->front_minus_back_m, 0.01);
   EXPECT_NEAR(hem->left_minus_right_m, 0, 0.002);
@@ -274,8 +304,10 @@ TEST(fit, a_skirt_that_sank_has_slipped_down_where_the_hip_does_not_hold_it) {
   const body::Body body = measured("f-165-a");
   const double top = body.levels.at("waist_semantic").y, hip = body.levels.at("hip").y;
   FitPolicy policy = standard_fit_policy();
-  for (FitRules* rules : {&policy.own.all, &policy.own.classes["skirt"]}) rules->standard.loose_ease = rules->standard.too_large_ease = 9;
-  for (const char* girth : {"waist_semantic", "waist_girth_min", "waist_width_min", "omphalion", "top_edge"})
+  for (FitRules* rules : {&policy.own.all, &policy.own.classes["skirt"]})
+    rules->standard.loose_ease = rules->standard.too_large_ease = 9;
+  for (const char* girth :
+       {"waist_semantic", "waist_girth_min", "waist_width_min", "omphalion", "top_edge"})
     policy.own.classes["skirt"].girths[girth].loose_ease = 9; // only the way counts here
   const collision::BodyCollider skin(body.skin);
   const auto sunk = [&](double way, double top_edge) { // m
@@ -315,15 +347,21 @@ TEST(fit, legs_that_reach_below_the_soles_are_too_long) {
   const body::Body body = measured("f-165-a");
   const double knee = body.landmark("knee_l").y();
   FitPolicy policy = standard_fit_policy();
-  for (FitRules* rules : {&policy.own.all, &policy.own.classes["trousers"]}) rules->standard.loose_ease = rules->standard.too_large_ease = 9;
-  policy.own.classes["trousers"].girths["top_edge"].loose_ease = 9; // it runs in a zigzag along the faces
-  const auto lengthened = [&](double by) {                          // m, below the knee
+  for (FitRules* rules : {&policy.own.all, &policy.own.classes["trousers"]})
+    rules->standard.loose_ease = rules->standard.too_large_ease = 9;
+  policy.own.classes["trousers"].girths["top_edge"].loose_ease =
+      9;                                   // it runs in a zigzag along the faces
+  const auto lengthened = [&](double by) { // m, below the knee
     const Garment trousers = skin_trousers(body);
     std::vector<Vec3> position = trousers.position;
-    const double hem = std::min_element(position.begin(), position.end(), [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); })->y();
+    const double hem =
+        std::min_element(position.begin(), position.end(), [](const Vec3& a, const Vec3& b) {
+          return a.y() < b.y();
+        })->y();
     for (Vec3& p : position)
       if (p.y() < knee) p.y() -= by * (knee - p.y()) / (knee - hem);
-    return std::pair(dressed(body, sheet(position, trousers.panels.triangles), policy).report, hem - by);
+    return std::pair(dressed(body, sheet(position, trousers.panels.triangles), policy).report,
+                     hem - by);
   };
   const auto [fitting, above] = lengthened(0);
   EXPECT_GT(above, 0);
@@ -343,23 +381,33 @@ TEST(fit, every_figure_is_in_the_document_the_csv_and_the_page) {
   EXPECT_NO_THROW(io::to_text(document)); // no figure is infinite
   EXPECT_EQ(document["girths"].size(), d.report.rows.size());
   const std::string csv = fit_csv(d.report), page = fit_page(d.report, "a <shirt>", "body & soul");
-  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), d.report.rows.size() + 1);
-  const std::string head = csv.substr(0, csv.find('\r')), second = csv.substr(csv.find('\n') + 1, csv.find('\r', csv.find('\n')) - csv.find('\n') - 1);
-  EXPECT_EQ(std::count(head.begin(), head.end(), ','), std::count(second.begin(), second.end(), ','));
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
+            d.report.rows.size() + 1);
+  const std::string head = csv.substr(0, csv.find('\r')),
+                    second = csv.substr(csv.find('\n') + 1,
+                                        csv.find('\r', csv.find('\n')) - csv.find('\n') - 1);
+  EXPECT_EQ(std::count(head.begin(), head.end(), ','),
+            std::count(second.begin(), second.end(), ','));
   EXPECT_NE(page.find("a &lt;shirt&gt; on body &amp; soul"), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos); // nothing from a network
   EXPECT_EQ(page.find("nan"), std::string::npos);
   for (const char* tag : {"table", "tr", "span", "div", "script"}) {
     std::size_t opened = 0, closed = 0;
-    for (std::size_t at = 0; (at = page.find(std::string("<") + tag, at)) != std::string::npos; ++at) ++opened;
-    for (std::size_t at = 0; (at = page.find(std::string("</") + tag, at)) != std::string::npos; ++at) ++closed;
+    for (std::size_t at = 0; (at = page.find(std::string("<") + tag, at)) != std::string::npos;
+         ++at)
+      ++opened;
+    for (std::size_t at = 0; (at = page.find(std::string("</") + tag, at)) != std::string::npos;
+         ++at)
+      ++closed;
     EXPECT_GE(opened, closed) << tag;
   }
 }
 
 TEST(fit_section, front_and_back_are_bridged_under_the_arms) {
   const double h = M_PI / 2;
-  const auto line = assemble_line({arc(-0.8 * h, 0.8 * h, 0.15), arc(M_PI - 0.8 * h, M_PI + 0.8 * h, 0.15, true)}, Vec3::Zero(), Vec3::UnitY(), 0.4);
+  const auto line =
+      assemble_line({arc(-0.8 * h, 0.8 * h, 0.15), arc(M_PI - 0.8 * h, M_PI + 0.8 * h, 0.15, true)},
+                    Vec3::Zero(), Vec3::UnitY(), 0.4);
   ASSERT_TRUE(line);
   EXPECT_EQ(line->chains.size(), 2u);
   EXPECT_NEAR(line->bridged, 2 * 2 * 0.15 * std::sin(0.2 * h), 1e-6);
@@ -367,25 +415,31 @@ TEST(fit_section, front_and_back_are_bridged_under_the_arms) {
 }
 
 TEST(fit_section, a_facing_over_a_front_counts_once) {
-  const auto line = assemble_line({arc(-1.5, 1.5, 0.15), arc(1.7, 4.5, 0.15), arc(-0.5, 0.5, 0.152)}, Vec3::Zero(), Vec3::UnitY(), 0.4);
+  const auto line =
+      assemble_line({arc(-1.5, 1.5, 0.15), arc(1.7, 4.5, 0.15), arc(-0.5, 0.5, 0.152)},
+                    Vec3::Zero(), Vec3::UnitY(), 0.4);
   ASSERT_TRUE(line);
   EXPECT_EQ(line->chains.size(), 2u);
 }
 
-TEST(fit_section, a_scarf_does_not_go_round) { EXPECT_FALSE(assemble_line({arc(-1, 1, 0.15)}, Vec3::Zero(), Vec3::UnitY(), 0.4)); }
+TEST(fit_section, a_scarf_does_not_go_round) {
+  EXPECT_FALSE(assemble_line({arc(-1, 1, 0.15)}, Vec3::Zero(), Vec3::UnitY(), 0.4));
+}
 
 TEST(fit, a_garment_for_whose_fit_the_drape_was_ended_does_not_fit) {
   const body::Body body = measured("f-165-a");
   const Dressed d = dressed(body, skin_shirt(body, 0.01));
   ASSERT_TRUE(d.report.fits) << d.report.reason;
   const collision::BodyCollider skin(body.skin);
-  const FitReport ended = fit_garment(d.garment, body, skin, standard_fit_policy(), nullptr, "slides down");
+  const FitReport ended =
+      fit_garment(d.garment, body, skin, standard_fit_policy(), nullptr, "slides down");
   EXPECT_FALSE(ended.fits);
   EXPECT_EQ(ended.reason, "slides down too far to fit");
 }
 
 TEST(fit_policy, a_girth_goes_before_the_default_and_a_fabric_before_a_class) {
-  const FitPolicy p = read_fit_policy(policy_file(R"("name": "shop", "refuse": ["tight"], "default": {"tight_ease": 0.02},
+  const FitPolicy p = read_fit_policy(
+      policy_file(R"("name": "shop", "refuse": ["tight"], "default": {"tight_ease": 0.02},
     "girths": {"wrist": {"loose_ease": 1.0}}, "classes": {"skirt": {"default": {"loose_ease": 2.0}}},
     "fabrics": {"jersey": {"default": {"too_small_ease": -0.2, "tight_ease": -0.1}, "strain_p99": 0.25}})"));
   EXPECT_TRUE(p.refuse_tight);
@@ -405,21 +459,27 @@ TEST(fit_policy, what_hangs_from_the_waist_may_not_be_far_wider_than_it) {
   EXPECT_LT(woven.limits("waist_semantic", "top").loose_ease, 0.42);
   EXPECT_GT(woven.limits("hip", "skirt").loose_ease, 1);
   EXPECT_TRUE(std::isinf(woven.limits("hip", "skirt").too_large_ease));
-  EXPECT_TRUE(std::isinf(woven.limits("omphalion", "skirt").too_large_ease)); // it may flare from its top edge on
+  EXPECT_TRUE(std::isinf(
+      woven.limits("omphalion", "skirt").too_large_ease)); // it may flare from its top edge on
 }
 
 TEST(fit_policy, a_limit_that_is_said_pushes_those_that_are_not) {
-  const FitPolicy p = read_fit_policy(policy_file(R"("default": {"too_large_ease": 0.1}, "girths": {"bust": {"loose_ease": 0.9}})"));
-  EXPECT_DOUBLE_EQ(p.limits("waist_semantic", "top").too_large_ease, 0.1); // before the standard policy's own word on the waist
+  const FitPolicy p = read_fit_policy(policy_file(
+      R"("default": {"too_large_ease": 0.1}, "girths": {"bust": {"loose_ease": 0.9}})"));
+  EXPECT_DOUBLE_EQ(p.limits("waist_semantic", "top").too_large_ease,
+                   0.1); // before the standard policy's own word on the waist
   EXPECT_DOUBLE_EQ(p.limits("waist_semantic", "top").loose_ease, 0.1);
   EXPECT_DOUBLE_EQ(p.limits("bust", "top").loose_ease, 0.9);
   EXPECT_DOUBLE_EQ(p.limits("bust", "top").too_large_ease, 0.9);
-  EXPECT_THROW(read_fit_policy(policy_file(R"("default": {"loose_ease": 0.5, "too_large_ease": 0.1})")), Error);
+  EXPECT_THROW(
+      read_fit_policy(policy_file(R"("default": {"loose_ease": 0.5, "too_large_ease": 0.1})")),
+      Error);
 }
 
 TEST(fit_policy, a_girth_above_its_limit_is_too_large_and_refused) {
   const body::Body body = measured("f-165-a");
-  FitPolicy policy = read_fit_policy(policy_file(R"("girths": {"bust": {"loose_ease": 0.01, "too_large_ease": 0.02}})"));
+  FitPolicy policy = read_fit_policy(
+      policy_file(R"("girths": {"bust": {"loose_ease": 0.01, "too_large_ease": 0.02}})"));
   const Dressed d = dressed(body, skin_shirt(body, 0.01), policy);
   EXPECT_FALSE(d.report.fits);
   EXPECT_EQ(d.report.verdict, FitVerdict::TOO_LARGE);
@@ -431,7 +491,8 @@ TEST(fit_policy, a_girth_above_its_limit_is_too_large_and_refused) {
 
 TEST(fit_policy, a_girth_with_less_ease_than_is_asked_for_is_not_told_as_one_that_does_not_close) {
   const body::Body body = measured("f-165-a");
-  const FitPolicy policy = read_fit_policy(policy_file(R"("girths": {"bust": {"too_small_ease": 0.4, "tight_ease": 0.4}})"));
+  const FitPolicy policy = read_fit_policy(
+      policy_file(R"("girths": {"bust": {"too_small_ease": 0.4, "tight_ease": 0.4}})"));
   const Dressed d = dressed(body, skin_shirt(body, 0.01), policy);
   EXPECT_EQ(d.report.verdict, FitVerdict::TOO_SMALL);
   EXPECT_EQ(d.report.reason.rfind("has too little ease at the bust: ", 0), 0u) << d.report.reason;
@@ -442,9 +503,13 @@ TEST(fit_policy, what_was_cut_wide_is_not_too_large_for_being_wide) {
   const FitLimits limits = policy.limits("waist_semantic", "top");
   const double limit = limits.too_large_ease;
   EXPECT_EQ(policy.too_large_ease(limits, 0.1, "waist_semantic", "top", ""), limit);
-  EXPECT_DOUBLE_EQ(policy.too_large_ease(limits, 0.9, "waist_semantic", "top", ""), 1.9 * (1 + 0.5 * limit) - 1);
+  EXPECT_DOUBLE_EQ(policy.too_large_ease(limits, 0.9, "waist_semantic", "top", ""),
+                   1.9 * (1 + 0.5 * limit) - 1);
   policy.own.classes["top"].girths["waist_semantic"].too_large_ease = 0.3;
-  EXPECT_EQ(policy.too_large_ease(policy.limits("waist_semantic", "top"), 0.9, "waist_semantic", "top", ""), 0.3) << "said is said";
+  EXPECT_EQ(policy.too_large_ease(policy.limits("waist_semantic", "top"), 0.9, "waist_semantic",
+                                  "top", ""),
+            0.3)
+      << "said is said";
 
   const body::Body body = measured("f-165-a");
   Garment tent = skin_shirt(body, 0.12);
@@ -452,16 +517,19 @@ TEST(fit_policy, what_was_cut_wide_is_not_too_large_for_being_wide) {
   const collision::BodyCollider skin(body.skin);
   std::map<std::string, double> stouter = tent.body_girths_m;
   EXPECT_EQ(fit_garment(tent, body, skin, standard_fit_policy()).verdict, FitVerdict::TOO_LARGE);
-  EXPECT_TRUE(fit_garment(tent, body, skin, standard_fit_policy(), nullptr, "", tent.body_girths_m).fits);
+  EXPECT_TRUE(
+      fit_garment(tent, body, skin, standard_fit_policy(), nullptr, "", tent.body_girths_m).fits);
   for (auto& [name, girth] : stouter) girth *= 1.6; // cut for a much stouter person
-  const FitReport report = fit_garment(tent, body, skin, standard_fit_policy(), nullptr, "", stouter);
+  const FitReport report =
+      fit_garment(tent, body, skin, standard_fit_policy(), nullptr, "", stouter);
   EXPECT_EQ(report.verdict, FitVerdict::TOO_LARGE) << report.reason;
 }
 
 TEST(fit_policy, what_it_does_not_know_is_refused) {
   EXPECT_THROW(read_fit_policy(policy_file(R"("defualt": {})")), Error);
   EXPECT_THROW(read_fit_policy(policy_file(R"("default": {"tight": 1})")), Error);
-  EXPECT_THROW(read_fit_policy(policy_file(R"("default": {"tight_ease": 0.5, "loose_ease": 0.1})")), Error);
+  EXPECT_THROW(read_fit_policy(policy_file(R"("default": {"tight_ease": 0.5, "loose_ease": 0.1})")),
+               Error);
   EXPECT_THROW(read_fit_policy(policy_file(R"("refuse": ["ugly"])")), Error);
   EXPECT_THROW(read_fit_policy(policy_file(R"("classes": {"hat": {}})")), Error);
 }

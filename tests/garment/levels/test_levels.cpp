@@ -1,4 +1,5 @@
-/// Panels draped through a coarse mesh: how cloth is sewn there so that starts that differ a little end alike, and how it comes to the given mesh.
+/// Panels draped through a coarse mesh: how cloth is sewn there so that starts that differ a little
+/// end alike, and how it comes to the given mesh.
 #include <base/progress.hpp>
 #include <body/body_json.hpp>
 #include <garment/drape/drape.hpp>
@@ -21,7 +22,8 @@ namespace {
 
 /// Two pieces, 40 x 30 cm, sewn at their sides: one of them with a curved hem.
 pattern::PanelMesh two_pieces(double edge) {
-  const std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "two", "panels": [
+  const std::string text =
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "two", "panels": [
     {"name": "front", "outline": [{"edge": "hem", "path": [["M", -20, 0], ["Q", 0, -6, 20, 0]]}, {"edge": "left", "path": [["L", 20, 30]]},
       {"edge": "top", "path": [["L", -20, 30]]}, {"edge": "right", "path": [["L", -20, 0]]}]},
     {"name": "back", "outline": [{"edge": "hem", "path": [["M", -20, 0], ["L", 20, 0]]}, {"edge": "left", "path": [["L", 20, 30]]},
@@ -35,7 +37,8 @@ pattern::PanelMesh two_pieces(double edge) {
     for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
       const Vec2& p = mesh.pattern[static_cast<std::size_t>(v)];
       const bool front = panel.name == "front";
-      mesh.placed[static_cast<std::size_t>(v)] = Vec3(front ? p.x() : -p.x(), 0.7 + p.y(), front ? 0.25 : -0.25);
+      mesh.placed[static_cast<std::size_t>(v)] =
+          Vec3(front ? p.x() : -p.x(), 0.7 + p.y(), front ? 0.25 : -0.25);
     }
   return mesh;
 }
@@ -68,7 +71,8 @@ TEST(FinerMesh, cloth_around_a_cylinder_is_rounder_than_its_coarse_triangles) {
       for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
         const Vec2& p = mesh.pattern[static_cast<std::size_t>(v)];
         const double angle = p.x() / radius + (panel.name == "front" ? 0 : M_PI);
-        x[static_cast<std::size_t>(v)] = Vec3(radius * std::sin(angle), p.y(), radius * std::cos(angle));
+        x[static_cast<std::size_t>(v)] =
+            Vec3(radius * std::sin(angle), p.y(), radius * std::cos(angle));
       }
     return x;
   };
@@ -81,10 +85,12 @@ TEST(FinerMesh, cloth_around_a_cylinder_is_rounder_than_its_coarse_triangles) {
   const std::vector<Vec3> flat = interpolate(coarse.panels, corners, mesh), truth = around(mesh);
   const auto off = [&](const auto& at) {
     double sum = 0;
-    for (std::size_t v = 0; v < truth.size(); ++v) sum += std::abs(std::hypot(at(v).x(), at(v).z()) - radius);
+    for (std::size_t v = 0; v < truth.size(); ++v)
+      sum += std::abs(std::hypot(at(v).x(), at(v).z()) - radius);
     return sum / static_cast<double>(truth.size());
   };
-  const double rounded = off([&](std::size_t v) { return fine.position[static_cast<std::size_t>(fine.particle_of[v])]; });
+  const double rounded = off(
+      [&](std::size_t v) { return fine.position[static_cast<std::size_t>(fine.particle_of[v])]; });
   EXPECT_LT(rounded, 0.6 * off([&](std::size_t v) { return flat[v]; }));
   EXPECT_LT(fine.position.size(), mesh.pattern.size()) << "what is sewn stays sewn";
 }
@@ -96,7 +102,8 @@ TEST(SoftSewing, starts_a_micrometre_apart_end_nearer_to_each_other) {
   for (std::size_t k = 0; k < 2; ++k) {
     ends[k].panels = two_pieces(0.048);
     if (k == 1)
-      for (std::size_t v = 0; v < ends[k].panels.placed.size(); ++v) ends[k].panels.placed[v].z() += v % 3 == 0 ? 1e-6 : 0;
+      for (std::size_t v = 0; v < ends[k].panels.placed.size(); ++v)
+        ends[k].panels.placed[v].z() += v % 3 == 0 ? 1e-6 : 0;
     const SoftSewing sewing = sew_softly(ends[k], nothing, silent_reporter());
     EXPECT_TRUE(sewing.finite);
     EXPECT_LT(sewing.widest_gap_m, 0.002);
@@ -114,7 +121,8 @@ TEST(DrapeLevels, panels_without_their_pattern_are_draped_on_their_own_mesh_to_t
   const DrapeReport report = drape(through, &pillar, settings, silent_reporter());
   EXPECT_EQ(largest_difference(once.position, through.position), 0);
   ASSERT_FALSE(report.repairs.empty());
-  EXPECT_EQ(report.repairs.front(), "draped on the given mesh alone: the panels do not name their pattern");
+  EXPECT_EQ(report.repairs.front(),
+            "draped on the given mesh alone: the panels do not name their pattern");
 }
 
 TEST(DrapeLevels, a_body_without_bones_is_no_error) {

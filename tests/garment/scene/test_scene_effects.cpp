@@ -1,4 +1,5 @@
-/// What a scene may ask for: found in scene.json, given a reason, placed on the right particles, kept with the garment.
+/// What a scene may ask for: found in scene.json, given a reason, placed on the right particles,
+/// kept with the garment.
 #include <support/drape_scene.hpp>
 #include <support/scratch_folder.hpp>
 
@@ -48,7 +49,9 @@ Garment skirt(bool sewn) {
   return g;
 }
 
-bool active(const std::vector<EffectReport>& effects, const std::string& name) { return is_active(effects, name); }
+bool active(const std::vector<EffectReport>& effects, const std::string& name) {
+  return is_active(effects, name);
+}
 const std::string& why(const std::vector<EffectReport>& effects, const std::string& name) {
   for (const EffectReport& e : effects)
     if (e.name == name) return e.why;
@@ -69,8 +72,8 @@ const char* const FULL = R"({"membrane": "triangles", "bending": "dihedral",
   "wind_m_s": [0, 0, -3], "pressure_pa": 5})";
 
 /// What a scene adds, and the models that it chooses.
-void add_scene(cloth::ClothSolver& solver, const cloth::ClothMesh& mesh, const Garment& garment, const body::Body* body,
-               const std::vector<EffectReport>& effects, bool open_seams) {
+void add_scene(cloth::ClothSolver& solver, const cloth::ClothMesh& mesh, const Garment& garment,
+               const body::Body* body, const std::vector<EffectReport>& effects, bool open_seams) {
   const DrapeSettings settings;
   EffectHandles handles;
   EffectBuild build{.solver = solver,
@@ -97,9 +100,12 @@ TEST(SceneEffects, are_read_and_written_without_loss) {
 }
 
 TEST(SceneEffects, wrong_keys_and_values_are_refused_with_their_place) {
-  for (const char* text : {R"({"membrane": "rubber"})", R"({"pins": [{"panel": "front", "at": [0, 1], "stifness_n_m": 3}]})",
-                           R"({"bands": [{"panel": "front", "from": [0, 1], "to": [1, 1], "ratio": -1}]})", R"({"pins": {"panel": "front"}})",
-                           R"({"attachments": [{"panel": "front", "at": [0, 1]}]})", R"({"wind_m_s": [0, 0, 1e5]})"}) {
+  for (const char* text :
+       {R"({"membrane": "rubber"})",
+        R"({"pins": [{"panel": "front", "at": [0, 1], "stifness_n_m": 3}]})",
+        R"({"bands": [{"panel": "front", "from": [0, 1], "to": [1, 1], "ratio": -1}]})",
+        R"({"pins": {"panel": "front"}})", R"({"attachments": [{"panel": "front", "at": [0, 1]}]})",
+        R"({"wind_m_s": [0, 0, 1e5]})"}) {
     try {
       parsed(text);
       FAIL() << text;
@@ -115,7 +121,8 @@ TEST(SceneEffects, travel_with_the_garment_document) {
   Garment g = skirt(true);
   g.scene = parsed(FULL);
   write_garment((folder / "skirt.json"), g, "test");
-  EXPECT_EQ(io::to_text(scene_effects_json(read_garment((folder / "skirt.json")).scene)), io::to_text(scene_effects_json(g.scene)));
+  EXPECT_EQ(io::to_text(scene_effects_json(read_garment((folder / "skirt.json")).scene)),
+            io::to_text(scene_effects_json(g.scene)));
 }
 
 TEST(SceneEffects, a_run_follows_the_outline_the_shorter_way_or_the_mesh) {
@@ -133,16 +140,19 @@ TEST(SceneEffects, a_run_follows_the_outline_the_shorter_way_or_the_mesh) {
 TEST(SceneEffects, auto_finds_the_reason_for_each) {
   Garment g = skirt(true);
   auto effects = choose_effects(g, nullptr, {});
-  for (const char* off : {"triangle_stretch", "membrane", "dihedral_bending", "pins", "attachments", "elastic_bands", "wind", "pressure"}) {
+  for (const char* off : {"triangle_stretch", "membrane", "dihedral_bending", "pins", "attachments",
+                          "elastic_bands", "wind", "pressure"}) {
     EXPECT_FALSE(active(effects, off)) << off;
     EXPECT_FALSE(why(effects, off).empty()) << off;
   }
   EXPECT_TRUE(active(effects, "edge_springs"));
   g.scene = parsed(FULL);
   effects = choose_effects(g, nullptr, {});
-  for (const char* on : {"triangle_stretch", "dihedral_bending", "pins", "attachments", "elastic_bands", "wind", "pressure"})
+  for (const char* on : {"triangle_stretch", "dihedral_bending", "pins", "attachments",
+                         "elastic_bands", "wind", "pressure"})
     EXPECT_TRUE(active(effects, on)) << on;
-  for (const char* off : {"edge_springs", "bending", "membrane"}) EXPECT_FALSE(active(effects, off)) << off;
+  for (const char* off : {"edge_springs", "bending", "membrane"})
+    EXPECT_FALSE(active(effects, off)) << off;
   for (const EffectReport& e : effects) EXPECT_FALSE(e.why.empty()) << e.name;
 }
 
@@ -151,8 +161,10 @@ TEST(SceneEffects, a_list_may_change_what_auto_finds) {
   DrapeSettings settings;
   settings.effects = "auto,membrane,-self_contact";
   const auto effects = choose_effects(g, nullptr, settings);
-  EXPECT_TRUE(active(effects, "membrane") && active(effects, "bending") && active(effects, "gravity"));
-  EXPECT_FALSE(active(effects, "edge_springs") || active(effects, "shear") || active(effects, "self_contact"));
+  EXPECT_TRUE(active(effects, "membrane") && active(effects, "bending") &&
+              active(effects, "gravity"));
+  EXPECT_FALSE(active(effects, "edge_springs") || active(effects, "shear") ||
+               active(effects, "self_contact"));
   EXPECT_EQ(why(effects, "edge_springs"), "membrane takes its place");
   settings.effects = "edge_springs,membrane";
   EXPECT_THROW(choose_effects(g, nullptr, settings), Error);
@@ -175,7 +187,8 @@ TEST(SceneEffects, are_built_when_active_and_only_then) {
     for (const auto& e : solver.effects()) out += std::string(e->name()) + " ";
     return out;
   };
-  EXPECT_EQ(names("auto", false), "triangle_stretch dihedral_bending pins attachments elastic_bands wind pressure ");
+  EXPECT_EQ(names("auto", false),
+            "triangle_stretch dihedral_bending pins attachments elastic_bands wind pressure ");
   EXPECT_EQ(names("auto", true), "triangle_stretch dihedral_bending pins ");
   EXPECT_EQ(names("gravity", false), "");
   Garment plain = skirt(true);
@@ -186,7 +199,8 @@ TEST(SceneEffects, are_built_when_active_and_only_then) {
 
 TEST(SceneEffects, a_band_of_two_panels_is_one_ring_over_welded_seams) {
   Garment g = skirt(true);
-  g.scene = parsed(R"({"bands": [{"panel": "front", "from": [0, 1], "to": [1, 1], "ratio": 0.8, "strength_n": 40},
+  g.scene = parsed(
+      R"({"bands": [{"panel": "front", "from": [0, 1], "to": [1, 1], "ratio": 0.8, "strength_n": 40},
                                 {"panel": "back", "from": [0, 1], "to": [1, 1], "ratio": 0.8, "strength_n": 40}]})");
   const cloth::ClothMesh mesh = cloth_mesh_of(g);
   cloth::ClothSolver solver(mesh, g.position);
@@ -206,7 +220,8 @@ TEST(SceneEffects, a_band_of_two_panels_is_one_ring_over_welded_seams) {
 TEST(SceneEffects, an_elastic_waistband_draws_the_skirt_in_to_the_balance_of_band_and_cloth) {
   Garment g = skirt(true);
   g.materials[""] = material_preset("cotton-poplin");
-  g.scene = parsed(R"({"membrane": "fem", "bands": [{"panel": "front", "from": [0, 1], "to": [1, 1], "ratio": 0.5, "strength_n": 40},
+  g.scene = parsed(
+      R"({"membrane": "fem", "bands": [{"panel": "front", "from": [0, 1], "to": [1, 1], "ratio": 0.5, "strength_n": 40},
                                 {"panel": "back", "from": [0, 1], "to": [1, 1], "ratio": 0.5, "strength_n": 40}]})");
   const cloth::ClothMesh mesh = cloth_mesh_of(g);
   cloth::ClothSolver solver(mesh, g.position);
@@ -221,7 +236,9 @@ TEST(SceneEffects, an_elastic_waistband_draws_the_skirt_in_to_the_balance_of_ban
   options.h = 0.1;
   options.cg_tolerance = 1e-4;
   for (int k = 0; k < 150; ++k) solver.step(options);
-  EXPECT_LT(girth(), 0.75 * 0.8) << "cloth without bending gathers under the band"; // rest girth of the cloth 0.8, of the band 0.4
+  EXPECT_LT(girth(), 0.75 * 0.8)
+      << "cloth without bending gathers under the band"; // rest girth of the cloth 0.8, of the band
+                                                         // 0.4
   EXPECT_GT(girth(), 0.39);
 }
 
@@ -243,7 +260,9 @@ TEST(SceneEffects, a_drape_runs_what_the_scene_asks_for_and_reports_it) {
   };
   DrapeReport still, blown;
   const Vec3 before = hem(R"({})", still);
-  const Vec3 after = hem(R"({"membrane": "fem", "wind_m_s": [0, 0, 6], "bands": [{"panel": "front", "from": [0, 1], "to": [1, 1]}]})", blown);
+  const Vec3 after = hem(
+      R"({"membrane": "fem", "wind_m_s": [0, 0, 6], "bands": [{"panel": "front", "from": [0, 1], "to": [1, 1]}]})",
+      blown);
   EXPECT_GT(after.z(), before.z() + 0.02) << "the wind blows the hem along +z";
   auto calls = [](const DrapeReport& report, const std::string& name) {
     for (const EffectReport& e : report.effects)
@@ -261,8 +280,10 @@ TEST(SceneEffects, a_drape_runs_what_the_scene_asks_for_and_reports_it) {
 
 TEST(Kes, one_property_per_row_in_kes_units) {
   const test::ScratchFolder folder;
-  io::write_file((folder / "poplin.csv"), "property,unit,warp,weft\nW,mg/cm2,12.1,12.1\nB,gf.cm2/cm,0.1,0.06\n2HB,gf.cm/cm,0.05,0.04\n"
-                                          "G,gf/cm.deg,1.2,1.0\nEMT,%,2,8\nLT,,0.8,0.7\nMIU,,0.15,0.17\nT0,mm,0.4,0.4\n");
+  io::write_file(
+      (folder / "poplin.csv"),
+      "property,unit,warp,weft\nW,mg/cm2,12.1,12.1\nB,gf.cm2/cm,0.1,0.06\n2HB,gf.cm/cm,0.05,0.04\n"
+      "G,gf/cm.deg,1.2,1.0\nEMT,%,2,8\nLT,,0.8,0.7\nMIU,,0.15,0.17\nT0,mm,0.4,0.4\n");
   const Material m = material_from((folder / "poplin.csv"));
   EXPECT_NEAR(m.density_kg_m2, 0.121, 1e-9);
   EXPECT_NEAR(m.bend_n_m, 0.08 * 9.80665e-5, 1e-12);
@@ -276,8 +297,10 @@ TEST(Kes, one_property_per_row_in_kes_units) {
 
 TEST(Kes, one_fabric_per_row_is_picked_by_name) {
   const test::ScratchFolder folder;
-  io::write_file((folder / "set.csv"),
-                 "fabric;W [g/m2];B-1 [uN.m];B-2 [uN.m];G [N/m];E100-1;E100-2;T0\r\nserge;210;9,5;7,5;35;2,5;5;0,6\r\ntwill;300;20;15;60;2;3;0,8\r\n");
+  io::write_file(
+      (folder / "set.csv"),
+      "fabric;W [g/m2];B-1 [uN.m];B-2 [uN.m];G "
+      "[N/m];E100-1;E100-2;T0\r\nserge;210;9,5;7,5;35;2,5;5;0,6\r\ntwill;300;20;15;60;2;3;0,8\r\n");
   const Material m = material_from((folder / "set.csv") + "#serge");
   EXPECT_EQ(m.name, "serge");
   EXPECT_NEAR(m.density_kg_m2, 0.21, 1e-12);
@@ -289,9 +312,10 @@ TEST(Kes, one_fabric_per_row_is_picked_by_name) {
 
 TEST(Kes, what_is_wrong_is_named_with_its_line) {
   const test::ScratchFolder folder;
-  for (const auto& [text, part] : {std::pair{"property,unit,warp,weft\nW,mg/cm2,12,12\n", "B"},
-                                   {"property,unit,warp,weft\nW,stone,12,12\n", "line 2"},
-                                   {"property,unit,warp,weft\nW,mg/cm2,12,12\nB,gf.cm2/cm,much,1\n", "line 3"}}) {
+  for (const auto& [text, part] :
+       {std::pair{"property,unit,warp,weft\nW,mg/cm2,12,12\n", "B"},
+        {"property,unit,warp,weft\nW,stone,12,12\n", "line 2"},
+        {"property,unit,warp,weft\nW,mg/cm2,12,12\nB,gf.cm2/cm,much,1\n", "line 3"}}) {
     io::write_file((folder / "bad.csv"), text);
     try {
       read_kes((folder / "bad.csv"));
@@ -316,7 +340,9 @@ TEST(Materials, every_panel_may_have_its_own_and_every_preset_names_its_source) 
   g.panels.panels[0].material = "denim";
   g.panels.panels[1].material = "silk";
   const cloth::ClothMesh mesh = cloth_mesh_of(g);
-  EXPECT_EQ(mesh.fabrics[mesh.triangles.front().fabric].density_kg_m2, material_preset("denim").density_kg_m2);
-  EXPECT_EQ(mesh.fabrics[mesh.triangles.back().fabric].density_kg_m2, material_preset("silk").density_kg_m2);
+  EXPECT_EQ(mesh.fabrics[mesh.triangles.front().fabric].density_kg_m2,
+            material_preset("denim").density_kg_m2);
+  EXPECT_EQ(mesh.fabrics[mesh.triangles.back().fabric].density_kg_m2,
+            material_preset("silk").density_kg_m2);
   for (const Material& m : material_presets()) EXPECT_FALSE(m.source.empty()) << m.name;
 }

@@ -1,4 +1,5 @@
-/// Cloth between two bodies that nearly touch, as in the fold of an arm pit, caught through one of them in a few of its faces.
+/// Cloth between two bodies that nearly touch, as in the fold of an arm pit, caught through one of
+/// them in a few of its faces.
 #include <support/drape_scene.hpp>
 
 #include <algorithm>
@@ -17,7 +18,9 @@ constexpr double LENGTH = 0.3;                       // m, of a curtain
 constexpr int CELLS = 20;
 
 /// Closed upright cylinder about (x, 0), from y = 0.2 to 1.2 m.
-void append_column(TriangleMesh& mesh, double x) { shapes::append(mesh, shapes::cylinder(COLUMN_RADIUS, 0.2, 1.2, 48, 24, Vec3(x, 0, 0), 0.5)); }
+void append_column(TriangleMesh& mesh, double x) {
+  shapes::append(mesh, shapes::cylinder(COLUMN_RADIUS, 0.2, 1.2, 48, 24, Vec3(x, 0, 0), 0.5));
+}
 
 /// Without bones, so that it cannot be drawn in for a start that is inside it.
 body::Body two_columns() {
@@ -28,7 +31,8 @@ body::Body two_columns() {
   return body;
 }
 
-/// Two curtains 0.6 mm apart in the slot, held at their top edges, drawn 60 mm into one column at a spot of 30 mm radius: more than is moved out at the start.
+/// Two curtains 0.6 mm apart in the slot, held at their top edges, drawn 60 mm into one column at a
+/// spot of 30 mm radius: more than is moved out at the start.
 Garment caught_curtains() {
   Garment g;
   g.panels.name = "two curtains";
@@ -38,7 +42,10 @@ Garment caught_curtains() {
     const double x = layer ? 3e-4 : -3e-4, shift = 0.003 * layer; // not a grid on a grid
     add_panel(
         g, name, CELLS, CELLS,
-        [](int c, int r) { return Vec2(LENGTH * (static_cast<double>(c) / CELLS - 0.5), LENGTH * (static_cast<double>(r) / CELLS - 0.5)); },
+        [](int c, int r) {
+          return Vec2(LENGTH * (static_cast<double>(c) / CELLS - 0.5),
+                      LENGTH * (static_cast<double>(r) / CELLS - 0.5));
+        },
         [&](const Vec2& uv) { return Vec3(x, 0.7 + uv.y(), uv.x() + shift); });
     g.scene.pins.push_back({{name, Vec2(0, 1), Vec2(1, 1)}, false, Vec3::Zero(), 1e4});
   }
@@ -50,17 +57,21 @@ Garment caught_curtains() {
   return g;
 }
 
-bool freed(const std::string& repair) { return repair.find("faces through the skin moved out, 0 crossings remain") != std::string::npos; }
+bool freed(const std::string& repair) {
+  return repair.find("faces through the skin moved out, 0 crossings remain") != std::string::npos;
+}
 
 } // namespace
 
-TEST(Pinched, few_faces_caught_where_the_other_side_is_held_too_are_moved_out_while_the_cloth_settles) {
+TEST(Pinched,
+     few_faces_caught_where_the_other_side_is_held_too_are_moved_out_while_the_cloth_settles) {
   const body::Body body = two_columns();
   const collision::BodyCollider collider(body.skin);
   Garment g = caught_curtains();
   ASSERT_GT(audit(g, &collider).through.size(), 0U);
   DrapeSettings settings;
-  settings.max_steps = 45;        // the first look is after 40; by contact alone eight faces are still through the skin then
+  settings.max_steps = 45; // the first look is after 40; by contact alone eight faces are still
+                           // through the skin then
   settings.cg_tolerance = 0.0099; // by rougher steps none
   DrapeReport report = drape(g, &body, settings, silent_reporter());
   EXPECT_EQ(std::count_if(report.repairs.begin(), report.repairs.end(), freed), 1);

@@ -21,11 +21,14 @@ Garment hung(body::Body& pillar) {
 }
 
 double lowest(const Garment& garment) {
-  return std::min_element(garment.position.begin(), garment.position.end(), [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); })->y();
+  return std::min_element(garment.position.begin(), garment.position.end(),
+                          [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); })
+      ->y();
 }
 
 const EffectReport& pins(const DrapeReport& report) {
-  return *std::find_if(report.effects.begin(), report.effects.end(), [](const EffectReport& e) { return e.name == "pins"; });
+  return *std::find_if(report.effects.begin(), report.effects.end(),
+                       [](const EffectReport& e) { return e.name == "pins"; });
 }
 
 } // namespace
@@ -37,7 +40,8 @@ TEST(SleeveEnds, only_what_ends_near_the_wrist_is_held_and_of_that_the_last_3_cm
   for (const double past_wrist : {-0.1, 0.0, 0.07}) {
     garment.bind = bind_as_sleeve(garment, lowest(garment) + past_wrist);
     const std::vector<cloth::Pin> held = hold_sleeve_ends(garment);
-    const auto low = std::count_if(garment.position.begin(), garment.position.end(), [&](const Vec3& p) { return p.y() < lowest(garment) + 0.03; });
+    const auto low = std::count_if(garment.position.begin(), garment.position.end(),
+                                   [&](const Vec3& p) { return p.y() < lowest(garment) + 0.03; });
     EXPECT_GT(low, 5);
     EXPECT_EQ(held.size(), static_cast<std::size_t>(low));
     for (const cloth::Pin& pin : held) EXPECT_EQ(pin.target, garment.position[pin.particle]);
@@ -74,7 +78,8 @@ TEST(SleeveEnds, are_held_on_a_shorter_arm_until_there_are_folds_above) {
   garment.bind = bind_as_sleeve(garment, lowest(garment));
   const double top = lowest(garment) + 0.25;
   for (Vec3& p : garment.position) p.y() = top + 0.85 * (p.y() - top);
-  const DrapeReport report = drape(garment, &pillar, {}, silent_reporter(), {.start = {.hold_sleeve_ends = true}});
+  const DrapeReport report =
+      drape(garment, &pillar, {}, silent_reporter(), {.start = {.hold_sleeve_ends = true}});
   EXPECT_TRUE(report.converged) << stop_text(report);
   EXPECT_GE(pins(report).calls, 40) << "steps without weight and friction";
   EXPECT_LT(pins(report).calls, report.steps);

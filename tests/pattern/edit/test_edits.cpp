@@ -10,7 +10,12 @@ namespace sloper::pattern::test {
 namespace {
 
 void edit(Pattern& pattern, const std::string& edits) {
-  apply_edits(pattern, io::parse_json(R"({"format": "edits", "version": 1, "length_unit": "cm", "edits": [)" + edits + "]}", "edits.json"), "edits.json");
+  apply_edits(
+      pattern,
+      io::parse_json(R"({"format": "edits", "version": 1, "length_unit": "cm", "edits": [)" +
+                         edits + "]}",
+                     "edits.json"),
+      "edits.json");
 }
 
 std::vector<Vec2> points(const Pattern& pattern) {
@@ -28,7 +33,8 @@ TEST(Edits, MovesAreUndoneToTheLastBit) {
        R"({"edit": "move-point", "panel": "front", "edge": "side_l", "end": "end", "by": [-1.37, 0.7]})"},
       {R"({"edit": "move-edge", "panel": "back", "edge": "hem", "by": [0.1, 3.33]})",
        R"({"edit": "move-edge", "panel": "back", "edge": "hem", "by": [-0.1, -3.33]})"},
-      {R"({"edit": "take-in", "panel": "front", "edge": "side_r", "by": 1.1})", R"({"edit": "let-out", "panel": "front", "edge": "side_r", "by": 1.1})"}};
+      {R"({"edit": "take-in", "panel": "front", "edge": "side_r", "by": 1.1})",
+       R"({"edit": "let-out", "panel": "front", "edge": "side_r", "by": 1.1})"}};
   for (const auto& [one, other] : pairs) {
     Pattern pattern = own(tube_text());
     edit(pattern, "");
@@ -42,7 +48,9 @@ TEST(Edits, MovesAreUndoneToTheLastBit) {
 
 TEST(Edits, SetLengthGivesTheLength) {
   Pattern pattern = own(tube_text());
-  edit(pattern, R"({"edit": "set-length", "panel": "front", "edge": "hem", "length": 44.4, "fixed": "middle"})");
+  edit(
+      pattern,
+      R"({"edit": "set-length", "panel": "front", "edge": "hem", "length": 44.4, "fixed": "middle"})");
   EXPECT_NEAR(length(pattern.panels[0].edge(0).path), 0.444, 1e-8);
   edit(pattern, R"({"edit": "set-length", "seam": "left", "length": 55})");
   EXPECT_NEAR(side_length(pattern, pattern.seams[0].a), 0.55, 1e-8);
@@ -72,7 +80,9 @@ TEST(Edits, AMeshFollowsWithItsIdsAndTriangles) {
   ASSERT_TRUE(follow_edits(before, after, mesh, 15));
   EXPECT_EQ(mesh.triangles, old.triangles);
   for (std::size_t v = 0; v < mesh.ids.size(); ++v) EXPECT_EQ(mesh.ids[v].t, old.ids[v].t);
-  for (std::size_t p = 0; p < 2; ++p) EXPECT_NEAR(mesh_area(mesh, mesh.panels[p]), outline_area(after.panels[p]), 1e-3 * outline_area(after.panels[p]));
+  for (std::size_t p = 0; p < 2; ++p)
+    EXPECT_NEAR(mesh_area(mesh, mesh.panels[p]), outline_area(after.panels[p]),
+                1e-3 * outline_area(after.panels[p]));
   EXPECT_GT(smallest_angle_deg(mesh), 15);
 }
 
@@ -81,7 +91,8 @@ TEST(Edits, NoEditLeavesTheMeshWhereItIs) {
   PanelMesh mesh = mesh_pattern(before, 0.015, "t");
   const PanelMesh old = mesh;
   ASSERT_TRUE(follow_edits(before, before, mesh, 15));
-  for (std::size_t v = 0; v < mesh.pattern.size(); ++v) EXPECT_LT((mesh.pattern[v] - old.pattern[v]).norm(), 1e-8);
+  for (std::size_t v = 0; v < mesh.pattern.size(); ++v)
+    EXPECT_LT((mesh.pattern[v] - old.pattern[v]).norm(), 1e-8);
 }
 
 TEST(Edits, AnEditTooWildForTheMeshIsToldSo) {
@@ -93,12 +104,21 @@ TEST(Edits, AnEditTooWildForTheMeshIsToldSo) {
 }
 
 TEST(Edits, NumbersBeyondAllBoundsAreRefusedBeforeTheyAreMeshed) {
-  for (const char* edit : {R"({"edit": "scale", "x": 1e6, "y": 1})", R"({"edit": "bend", "panel": "front", "edge": "top", "by": [0, 1e300]})",
-                           R"({"edit": "grade", "width": 1e200})",
-                           R"({"edit": "shrink", "panel": "front", "curve": [["M", 0, 0], ["L", 1e250, 1e250]], "factor": 0.5, "width": 1})"}) {
+  for (
+      const char* edit :
+      {R"({"edit": "scale", "x": 1e6, "y": 1})",
+       R"({"edit": "bend", "panel": "front", "edge": "top", "by": [0, 1e300]})",
+       R"({"edit": "grade", "width": 1e200})",
+       R"({"edit": "shrink", "panel": "front", "curve": [["M", 0, 0], ["L", 1e250, 1e250]], "factor": 0.5, "width": 1})"}) {
     Pattern p = own(tube_text());
-    EXPECT_THROW(apply_edits(p, io::parse_json(R"({"format": "edits", "version": 1, "length_unit": "cm", "edits": [)" + std::string(edit) + "]}", "e"), "e"),
-                 Error)
+    EXPECT_THROW(
+        apply_edits(
+            p,
+            io::parse_json(R"({"format": "edits", "version": 1, "length_unit": "cm", "edits": [)" +
+                               std::string(edit) + "]}",
+                           "e"),
+            "e"),
+        Error)
         << edit;
   }
 }
@@ -106,7 +126,8 @@ TEST(Edits, NumbersBeyondAllBoundsAreRefusedBeforeTheyAreMeshed) {
 TEST(Edits, WrongNamesAreRefusedWithASuggestion) {
   Pattern pattern = own(tube_text());
   for (const char* wrong :
-       {R"({"edit": "moove-point", "panel": "front", "edge": "hem", "by": [1, 0]})", R"({"edit": "move-point", "panel": "frunt", "edge": "hem", "by": [1, 0]})",
+       {R"({"edit": "moove-point", "panel": "front", "edge": "hem", "by": [1, 0]})",
+        R"({"edit": "move-point", "panel": "frunt", "edge": "hem", "by": [1, 0]})",
         R"({"edit": "move-point", "panel": "front", "edge": "hm", "by": [1, 0]})",
         R"({"edit": "move-point", "panel": "front", "edge": "hem", "bye": [1, 0]})"}) {
     try {

@@ -17,19 +17,23 @@
 namespace sloper::pattern::test {
 namespace {
 
-/// A skirt of two panels and a waistband; the front has a knife pleat (4 cm from target to fold) and a box pleat (3 cm to both sides).
-/// Its top is 58 cm, of which 4 + 3 + 3 cm lie under pleats: the band's front is 48 cm.
+/// A skirt of two panels and a waistband; the front has a knife pleat (4 cm from target to fold)
+/// and a box pleat (3 cm to both sides). Its top is 58 cm, of which 4 + 3 + 3 cm lie under pleats:
+/// the band's front is 48 cm.
 std::string pleated_text(const std::string& edges = R"(["top"])", const std::string& fold = "4") {
   const auto line = [](const std::string& name, const std::string& kind, const std::string& x) {
-    return R"({"name": ")" + name + R"(", "kind": ")" + kind + R"(", "path": [["M", )" + x + R"(, 0], ["L", )" + x + R"(, 50]]})";
+    return R"({"name": ")" + name + R"(", "kind": ")" + kind + R"(", "path": [["M", )" + x +
+           R"(, 0], ["L", )" + x + R"(, 50]]})";
   };
-  const std::string band = R"("outline": [{"edge": "low", "path": [["M", -24, 0], ["L", 24, 0]]}, {"edge": "l", "path": [["L", 24, 4]]},
+  const std::string band =
+      R"("outline": [{"edge": "low", "path": [["M", -24, 0], ["L", 24, 0]]}, {"edge": "l", "path": [["L", 24, 4]]},
       {"edge": "up", "path": [["L", -24, 4]]}, {"edge": "r", "path": [["L", -24, 0]]}])";
   return R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "pleated skirt", "panels": [
     {"name": "skirt_front", "outline": [{"edge": "hem", "path": [["M", -29, 0], ["L", 29, 0]]}, {"edge": "left", "path": [["L", 29, 50]]},
       {"edge": "top", "path": [["L", -29, 50]]}, {"edge": "right", "path": [["L", -29, 0]]}],
       "lines": [)" +
-         line("t1", "mark", "0") + "," + line("f1", "fold", fold) + "," + line("t2", "mark", "-15") + "," + line("f2", "fold", "-18") + "," +
+         line("t1", "mark", "0") + "," + line("f1", "fold", fold) + "," +
+         line("t2", "mark", "-15") + "," + line("f2", "fold", "-18") + "," +
          line("f3", "fold", "-12") + R"(],
       "pleats": [{"name": "knife", "fold": "f1", "target": "t1", "edges": )" +
          edges + R"(}, {"name": "box_r", "fold": "f2", "target": "t2", "edges": ["top"]},
@@ -50,25 +54,30 @@ std::vector<int> weld_of(const PanelMesh& mesh) { return sew(mesh).weld; }
 
 TEST(Pleats, ThreeLayersAreSewnOntoEachOtherAndTheSeamTakesTheUpperOne) {
   const Pattern pattern = own(pleated_text());
-  EXPECT_TRUE(check_pattern(pattern).empty()) << "the lengths that are sewn agree: " << check_pattern(pattern)[0].fact;
+  EXPECT_TRUE(check_pattern(pattern).empty())
+      << "the lengths that are sewn agree: " << check_pattern(pattern)[0].fact;
   const PanelMesh mesh = mesh_pattern(pattern, 0.006, "t");
   for (const MeshSeam& s : mesh.seams) EXPECT_EQ(s.a.size(), s.b.size());
   const std::vector<int> weld = weld_of(mesh);
   const auto on_top = [&](double x) { // vertices of the front's top edge at x, cm
     for (int v : mesh.panels[0].outline) {
       const Vec2 p = mesh.pattern[static_cast<std::size_t>(v)];
-      if (std::abs(p.x() * 100 - x) < 1e-6 && std::abs(p.y() - 0.5) < 1e-9) return weld[static_cast<std::size_t>(v)];
+      if (std::abs(p.x() * 100 - x) < 1e-6 && std::abs(p.y() - 0.5) < 1e-9)
+        return weld[static_cast<std::size_t>(v)];
     }
     return -1;
   };
-  for (const auto& [target, fold] : {std::pair(0.0, 4.0), std::pair(-15.0, -18.0), std::pair(-15.0, -12.0)}) {
+  for (const auto& [target, fold] :
+       {std::pair(0.0, 4.0), std::pair(-15.0, -18.0), std::pair(-15.0, -12.0)}) {
     ASSERT_GE(on_top(target), 0);
     EXPECT_EQ(on_top(target), on_top(fold)) << "the fold comes to the target";
     ASSERT_GE(on_top(0.5 * (target + fold)), 0);
-    EXPECT_EQ(on_top(0.5 * (target + fold)), on_top(fold + 0.5 * (fold - target))) << "and the line between lies under the upper layer";
+    EXPECT_EQ(on_top(0.5 * (target + fold)), on_top(fold + 0.5 * (fold - target)))
+        << "and the line between lies under the upper layer";
   }
   EXPECT_EQ(on_top(-12), on_top(-18)) << "both folds of a box pleat meet";
-  // Along the seam each particle of the pleats' upper layers has three vertices of the skirt and one of the band.
+  // Along the seam each particle of the pleats' upper layers has three vertices of the skirt and
+  // one of the band.
   std::map<int, std::array<int, 4>> count;
   for (std::size_t p = 0; p < 4; ++p)
     for (int v : mesh.panels[p].outline) ++count[weld[static_cast<std::size_t>(v)]][p];
@@ -86,8 +95,11 @@ TEST(Pleats, FoldLinesAreEdgesOfTheMeshAndItsAnglesAreGood) {
       double covered = 0; // length of mesh edges on the line, each found from both of its triangles
       for (const Triangle& t : mesh.triangles)
         for (std::size_t k = 0; k < 3; ++k) {
-          const Vec2 &a = mesh.pattern[static_cast<std::size_t>(t[k])], &b = mesh.pattern[static_cast<std::size_t>(t[(k + 1) % 3])];
-          if (t[k] < mesh.panels[0].n_vertices && std::abs(a.x() - x) < 1e-6 && std::abs(b.x() - x) < 1e-6) covered += 0.5 * (a - b).norm();
+          const Vec2 &a = mesh.pattern[static_cast<std::size_t>(t[k])],
+                     &b = mesh.pattern[static_cast<std::size_t>(t[(k + 1) % 3])];
+          if (t[k] < mesh.panels[0].n_vertices && std::abs(a.x() - x) < 1e-6 &&
+              std::abs(b.x() - x) < 1e-6)
+            covered += 0.5 * (a - b).norm();
         }
       if (h <= 0.5 * 0.03 + 1e-9) {
         EXPECT_NEAR(covered, 0.5, 1e-6) << "line at " << x << ", edge length " << h;
@@ -104,13 +116,15 @@ TEST(Pleats, EdgesOfTheirFoldsAreKnown) {
   const PanelMesh mesh = mesh_pattern(own(pleated_text()), 0.008, "t");
   std::map<long, double> length; // by place across, 0.1 mm
   for (const auto& [a, b] : pleat_edges(mesh)) {
-    const Vec2 &p = mesh.pattern[static_cast<std::size_t>(a)], &q = mesh.pattern[static_cast<std::size_t>(b)];
+    const Vec2 &p = mesh.pattern[static_cast<std::size_t>(a)],
+               &q = mesh.pattern[static_cast<std::size_t>(b)];
     EXPECT_LT(a, b);
     EXPECT_NEAR(p.x(), q.x(), 1e-6);
     length[std::lround(1e4 * p.x())] += (q - p).norm();
   }
   ASSERT_EQ(length.size(), 6U) << "three folds, and the three lines halfway to their targets";
-  for (long x : {200L, 400L, -1800L, -1650L, -1200L, -1350L}) EXPECT_NEAR(length[x], 0.5, 1e-6) << x;
+  for (long x : {200L, 400L, -1800L, -1650L, -1200L, -1350L})
+    EXPECT_NEAR(length[x], 0.5, 1e-6) << x;
 }
 
 TEST(Pleats, TheyStartFoldedAroundTheBodyWithoutCrossing) {
@@ -121,7 +135,11 @@ TEST(Pleats, TheyStartFoldedAroundTheBodyWithoutCrossing) {
   EXPECT_EQ(report.vertices_inside + report.faces_through, 0);
   for (const MeshSeam& s : mesh.seams)
     for (std::size_t k = 0; s.kind == "pleat" && k < s.a.size(); ++k)
-      EXPECT_LT((mesh.placed[static_cast<std::size_t>(s.a[k])] - mesh.placed[static_cast<std::size_t>(s.b[k])]).norm(), 0.015) << s.name;
+      EXPECT_LT((mesh.placed[static_cast<std::size_t>(s.a[k])] -
+                 mesh.placed[static_cast<std::size_t>(s.b[k])])
+                    .norm(),
+                0.015)
+          << s.name;
   // The upper layer lies outside.
   const Folding folding = fold_panels(pattern, mesh);
   double deepest = 0;
@@ -138,9 +156,11 @@ TEST(Pleats, WhatDoesNotFitIsSaidInCentimetres) {
     }
     return std::string();
   };
-  EXPECT_NE(said(pleated_text(R"(["top"])", "25")).find("reaches 8.50 cm past the end of edge top"), std::string::npos)
+  EXPECT_NE(said(pleated_text(R"(["top"])", "25")).find("reaches 8.50 cm past the end of edge top"),
+            std::string::npos)
       << said(pleated_text(R"(["top"])", "25"));
-  EXPECT_NE(said(pleated_text(R"(["left"])")).find("line f1 does not end on edge left"), std::string::npos);
+  EXPECT_NE(said(pleated_text(R"(["left"])")).find("line f1 does not end on edge left"),
+            std::string::npos);
   std::string overlap = pleated_text();
   const std::string target = R"(["M", 0, 0], ["L", 0, 50])";
   overlap.replace(overlap.find(target), target.size(), R"(["M", -11, 0], ["L", -11, 50])");
@@ -162,7 +182,8 @@ TEST(Lines, AreKeptByTheFormatsAndTheEdits) {
       {"edit": "move-edge", "panel": "skirt_front", "edge": "hem", "by": [0, -10]}]})",
                              "e"),
               "e");
-  for (const InnerLine& line : edited.panels[0].lines) EXPECT_NEAR(length(line.path), 0.6, 1e-6) << "lines go with the edges that they end on";
+  for (const InnerLine& line : edited.panels[0].lines)
+    EXPECT_NEAR(length(line.path), 0.6, 1e-6) << "lines go with the edges that they end on";
   PanelMesh mesh = mesh_pattern(pattern, 0.015, "t");
   EXPECT_TRUE(follow_edits(pattern, edited, mesh, 15)) << "and the mesh with them";
 }
@@ -173,9 +194,13 @@ TEST(Lines, MarksInsideAPanelBecomeMeshEdges) {
       text.find(R"("outline")"), 0,
       R"("lines": [{"name": "pocket", "path": [["M", -12, 22], ["C", -6, 14, 6, 30, 12, 22]]}, {"name": "free", "path": [["M", 0, 35], ["L", 5, 50]]}], )");
   const Pattern pattern = own(text);
-  const PanelMesh mesh = mesh_pattern(pattern, 0.012, "t"), plain = mesh_pattern(own(tube_text()), 0.012, "t");
+  const PanelMesh mesh = mesh_pattern(pattern, 0.012, "t"),
+                  plain = mesh_pattern(own(tube_text()), 0.012, "t");
   EXPECT_GT(smallest_angle_deg(mesh), 25);
-  EXPECT_LT(std::abs(static_cast<double>(mesh.pattern.size()) / static_cast<double>(plain.pattern.size()) - 1), 0.1);
+  EXPECT_LT(
+      std::abs(
+          static_cast<double>(mesh.pattern.size()) / static_cast<double>(plain.pattern.size()) - 1),
+      0.1);
   const ArcLength curve(pattern.panels[0].lines[0].path);
   const int n = static_cast<int>(std::lround(curve.length() / 0.012));
   std::set<std::pair<int, int>> edges;
@@ -187,7 +212,8 @@ TEST(Lines, MarksInsideAPanelBecomeMeshEdges) {
     return -1;
   };
   for (int k = 0; k < n; ++k) {
-    const int a = vertex(curve.at(curve.length() * k / n)), b = vertex(curve.at(curve.length() * (k + 1) / n));
+    const int a = vertex(curve.at(curve.length() * k / n)),
+              b = vertex(curve.at(curve.length() * (k + 1) / n));
     EXPECT_TRUE(edges.count({a, b}) == 1) << k;
   }
 }
@@ -196,23 +222,27 @@ TEST(Tapes, ShortenWhatRunsAlongThemAndNothingElse) {
   Pattern pattern = own(tube_text());
   const PanelMesh before = mesh_pattern(pattern, 0.015, "t");
   EXPECT_TRUE(tape_scales(before).empty());
-  const io::Json edit = io::parse_json(R"({"format": "edits", "version": 1, "length_unit": "cm", "edits": [
+  const io::Json edit =
+      io::parse_json(R"({"format": "edits", "version": 1, "length_unit": "cm", "edits": [
       {"edit": "shrink", "panel": "front", "curve": [["M", -20, 30], ["Q", 0, 36, 20, 30]], "factor": 0.6, "name": "elastic"}]})",
-                                       "e");
+                     "e");
   const Pattern source = pattern;
   apply_edits(pattern, edit, "e");
   PanelMesh mesh = before;
   ASSERT_TRUE(follow_edits(source, pattern, mesh, 15)) << "a tape keeps the mesh";
   EXPECT_EQ(mesh.triangles, before.triangles);
-  for (std::size_t v = 0; v < mesh.pattern.size(); ++v) EXPECT_LT((mesh.pattern[v] - before.pattern[v]).norm(), 1e-8);
+  for (std::size_t v = 0; v < mesh.pattern.size(); ++v)
+    EXPECT_LT((mesh.pattern[v] - before.pattern[v]).norm(), 1e-8);
   mesh.source = std::make_shared<Pattern>(pattern);
   const auto scale = tape_scales(mesh);
   ASSERT_EQ(scale.size(), mesh.triangles.size());
   double least = 1;
   for (std::size_t f = 0; f < scale.size(); ++f)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 &a = mesh.pattern[static_cast<std::size_t>(mesh.triangles[f][k])], &b = mesh.pattern[static_cast<std::size_t>(mesh.triangles[f][(k + 1) % 3])];
-      if (static_cast<int>(f) >= mesh.panels[1].first_triangle || std::abs(0.5 * (a + b).y() - 0.315) > 0.03) {
+      const Vec2 &a = mesh.pattern[static_cast<std::size_t>(mesh.triangles[f][k])],
+                 &b = mesh.pattern[static_cast<std::size_t>(mesh.triangles[f][(k + 1) % 3])];
+      if (static_cast<int>(f) >= mesh.panels[1].first_triangle ||
+          std::abs(0.5 * (a + b).y() - 0.315) > 0.03) {
         EXPECT_EQ(scale[f][k], 1);
       }
       if (std::abs((b - a).normalized().x()) < 0.1) {
@@ -242,7 +272,8 @@ TEST(NamedMeasures, OfAPleatedSkirtAreThoseOfTheFinishedOne) {
 }
 
 TEST(NamedMeasures, OfAShirtWithSleeves) {
-  // A box: 100 cm around, shoulders of 14 cm, armholes of 20 cm, sleeves of 30 cm that narrow from 40 to 24 cm.
+  // A box: 100 cm around, shoulders of 14 cm, armholes of 20 cm, sleeves of 30 cm that narrow from
+  // 40 to 24 cm.
   const std::string body =
       R"("outline": [{"edge": "hem", "path": [["M", -25, 0], ["L", 25, 0]]}, {"edge": "l_side", "path": [["L", 25, 40]]}, {"edge": "l_arm", "path": [["L", 25, 60]]},
       {"edge": "l_shoulder", "path": [["L", 11, 60]]}, {"edge": "neck", "path": [["L", -11, 60]]}, {"edge": "r_shoulder", "path": [["L", -25, 60]]},
@@ -250,18 +281,26 @@ TEST(NamedMeasures, OfAShirtWithSleeves) {
   const std::string sleeve =
       R"("outline": [{"edge": "cuff", "path": [["M", -12, 0], ["L", 12, 0]]}, {"edge": "l", "path": [["L", 20, 30]]}, {"edge": "top_1", "path": [["L", 0, 30]]},
       {"edge": "top_2", "path": [["L", -20, 30]]}, {"edge": "r", "path": [["L", -12, 0]]}])";
-  const auto seam = [](const std::string& name, const std::string& p, const std::string& e, const std::string& q, const std::string& g) {
-    return R"({"name": ")" + name + R"(", "a": [{"panel": ")" + p + R"(", "edge": ")" + e + R"("}], "b": [{"panel": ")" + q + R"(", "edge": ")" + g + R"("}]})";
+  const auto seam = [](const std::string& name, const std::string& p, const std::string& e,
+                       const std::string& q, const std::string& g) {
+    return R"({"name": ")" + name + R"(", "a": [{"panel": ")" + p + R"(", "edge": ")" + e +
+           R"("}], "b": [{"panel": ")" + q + R"(", "edge": ")" + g + R"("}]})";
   };
-  const FinishedMeasures m =
-      finished_measures(own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "box", "panels": [{"name": "front", )" + body +
-                            R"(}, {"name": "back", )" + body + R"(}, {"name": "sleeve_l", )" + sleeve + R"(}, {"name": "sleeve_r", )" + sleeve +
-                            R"(}], "seams": [)" + seam("s1", "front", "l_side", "back", "r_side") + "," + seam("s2", "back", "l_side", "front", "r_side") +
-                            "," + seam("h1", "front", "l_shoulder", "back", "r_shoulder") + "," + seam("h2", "back", "l_shoulder", "front", "r_shoulder") +
-                            "," + seam("a1", "front", "l_arm", "sleeve_l", "top_2") + "," + seam("a2", "back", "r_arm", "sleeve_l", "top_1") + "," +
-                            seam("a3", "front", "r_arm", "sleeve_r", "top_1") + "," + seam("a4", "back", "l_arm", "sleeve_r", "top_2") + "," +
-                            seam("u1", "sleeve_l", "l", "sleeve_l", "r") + "," + seam("u2", "sleeve_r", "l", "sleeve_r", "r") + "]}"),
-                        "t");
+  const FinishedMeasures m = finished_measures(
+      own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "box", "panels": [{"name": "front", )" +
+          body + R"(}, {"name": "back", )" + body + R"(}, {"name": "sleeve_l", )" + sleeve +
+          R"(}, {"name": "sleeve_r", )" + sleeve + R"(}], "seams": [)" +
+          seam("s1", "front", "l_side", "back", "r_side") + "," +
+          seam("s2", "back", "l_side", "front", "r_side") + "," +
+          seam("h1", "front", "l_shoulder", "back", "r_shoulder") + "," +
+          seam("h2", "back", "l_shoulder", "front", "r_shoulder") + "," +
+          seam("a1", "front", "l_arm", "sleeve_l", "top_2") + "," +
+          seam("a2", "back", "r_arm", "sleeve_l", "top_1") + "," +
+          seam("a3", "front", "r_arm", "sleeve_r", "top_1") + "," +
+          seam("a4", "back", "l_arm", "sleeve_r", "top_2") + "," +
+          seam("u1", "sleeve_l", "l", "sleeve_l", "r") + "," +
+          seam("u2", "sleeve_r", "l", "sleeve_r", "r") + "]}"),
+      "t");
   EXPECT_NEAR(named(m, "chest"), 1.0, 0.005);
   EXPECT_NEAR(named(m, "waist"), 1.0, 0.005);
   EXPECT_NEAR(named(m, "shoulder"), 0.14, 0.005);

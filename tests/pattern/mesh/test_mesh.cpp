@@ -19,13 +19,15 @@ TEST(Mesh, AreaIsThatOfTheOutline) {
   const Pattern pattern = own(tube_text());
   const PanelMesh mesh = mesh_pattern(pattern, 0.015, "test.json");
   for (std::size_t p = 0; p < pattern.panels.size(); ++p)
-    EXPECT_NEAR(mesh_area(mesh, mesh.panels[p]), outline_area(pattern.panels[p]), 1e-3 * outline_area(pattern.panels[p]));
+    EXPECT_NEAR(mesh_area(mesh, mesh.panels[p]), outline_area(pattern.panels[p]),
+                1e-3 * outline_area(pattern.panels[p]));
 }
 
 TEST(Mesh, AMemoryOfPanelsChangesNothing) {
   MeshMemory memory;
   const auto same = [&](const Pattern& p, double h, double seam_h) {
-    const PanelMesh with = mesh_pattern(p, h, "t", seam_h, &memory), without = mesh_pattern(p, h, "t", seam_h);
+    const PanelMesh with = mesh_pattern(p, h, "t", seam_h, &memory),
+                    without = mesh_pattern(p, h, "t", seam_h);
     EXPECT_EQ(with.pattern, without.pattern);
     EXPECT_EQ(with.triangles, without.triangles);
     EXPECT_EQ(with.findings, without.findings);
@@ -38,7 +40,9 @@ TEST(Mesh, AMemoryOfPanelsChangesNothing) {
   same(pattern, 0.015, 0.006), same(pattern, 0.012, 0.006), same(pattern, 0.012, 0);
 }
 
-TEST(Mesh, AnEdgeLengthFarTooSmallIsRefusedBeforeTheMemoryIsFull) { EXPECT_THROW(mesh_pattern(own(tube_text()), 1e-5, "t"), Error); }
+TEST(Mesh, AnEdgeLengthFarTooSmallIsRefusedBeforeTheMemoryIsFull) {
+  EXPECT_THROW(mesh_pattern(own(tube_text()), 1e-5, "t"), Error);
+}
 
 TEST(Mesh, NoTriangleLiesOnThreeBoundaryVertices) {
   const PanelMesh mesh = mesh_pattern(own(tube_text()), 0.015, "test.json");
@@ -46,11 +50,14 @@ TEST(Mesh, NoTriangleLiesOnThreeBoundaryVertices) {
   for (const PanelInfo& p : mesh.panels)
     for (int v : p.outline) boundary[static_cast<std::size_t>(v)] = 1;
   for (const Triangle& t : mesh.triangles)
-    EXPECT_FALSE(boundary[static_cast<std::size_t>(t[0])] && boundary[static_cast<std::size_t>(t[1])] && boundary[static_cast<std::size_t>(t[2])]);
+    EXPECT_FALSE(boundary[static_cast<std::size_t>(t[0])] &&
+                 boundary[static_cast<std::size_t>(t[1])] &&
+                 boundary[static_cast<std::size_t>(t[2])]);
 }
 
 TEST(Mesh, AnglesStayAboveTwentyFiveDegreesOverSizesAndShapes) {
-  for (double h : {0.005, 0.01, 0.015, 0.03, 0.06}) EXPECT_GT(smallest_angle_deg(mesh_pattern(own(tube_text()), h, "test.json")), 25) << h;
+  for (double h : {0.005, 0.01, 0.015, 0.03, 0.06})
+    EXPECT_GT(smallest_angle_deg(mesh_pattern(own(tube_text()), h, "test.json")), 25) << h;
   for (int k = 0; k < 40; ++k) { // wavy discs with a hole
     std::vector<Vec2> outer, hole;
     const double waves = 2 + k % 5, depth = 0.02 + 0.002 * k;
@@ -63,10 +70,12 @@ TEST(Mesh, AnglesStayAboveTwentyFiveDegreesOverSizesAndShapes) {
       const double a = -2 * 3.14159265358979 * i / 20;
       hole.push_back(0.05 * Vec2(std::cos(a), std::sin(a)));
     }
-    const FlatMesh mesh = triangulate({outer, hole}, SizeField(0.018), std::vector<char>(outer.size() + hole.size(), 0), "disc");
+    const FlatMesh mesh = triangulate({outer, hole}, SizeField(0.018),
+                                      std::vector<char>(outer.size() + hole.size(), 0), "disc");
     double worst = 10;
     for (const Triangle& t : mesh.triangles)
-      worst = std::min(worst, smallest_angle(mesh.points[static_cast<std::size_t>(t[0])], mesh.points[static_cast<std::size_t>(t[1])],
+      worst = std::min(worst, smallest_angle(mesh.points[static_cast<std::size_t>(t[0])],
+                                             mesh.points[static_cast<std::size_t>(t[1])],
                                              mesh.points[static_cast<std::size_t>(t[2])]));
     EXPECT_GT(worst * 180 / 3.14159265358979, 25) << k;
   }
@@ -75,25 +84,32 @@ TEST(Mesh, AnglesStayAboveTwentyFiveDegreesOverSizesAndShapes) {
 TEST(Mesh, StripsOfAnyWidthHaveGoodAngles) {
   for (int k = 0; k < 12; ++k) {
     const double width = 2 + 0.5 * k, bow = 0.3 * (k % 4);
-    const std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "band", "panels": [
+    const std::string text =
+        R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "band", "panels": [
       {"name": "band", "outline": [{"edge": "low", "path": [["M", -20, 0], ["Q", 0, -)" +
-                             std::to_string(bow) + R"(, 20, 0]]}, {"edge": "b", "path": [["L", 20, )" + std::to_string(width) +
-                             R"(]]}, {"edge": "top", "path": [["L", -20, )" + std::to_string(width) + R"(]]}, {"edge": "d", "path": [["L", -20, 0]]}]}]})";
-    EXPECT_GT(smallest_angle_deg(mesh_pattern(own(text), 0.02, "test.json")), 25) << width << " cm, bow " << bow;
+        std::to_string(bow) + R"(, 20, 0]]}, {"edge": "b", "path": [["L", 20, )" +
+        std::to_string(width) + R"(]]}, {"edge": "top", "path": [["L", -20, )" +
+        std::to_string(width) + R"(]]}, {"edge": "d", "path": [["L", -20, 0]]}]}]})";
+    EXPECT_GT(smallest_angle_deg(mesh_pattern(own(text), 0.02, "test.json")), 25)
+        << width << " cm, bow " << bow;
   }
 }
 
 TEST(Mesh, FinerAlongSeamsOnRequestWithGoodAnglesAndMatchingSeams) {
   const Pattern pattern = own(tube_text());
-  const PanelMesh usual = mesh_pattern(pattern, 0.03, "test.json"), fine = mesh_pattern(pattern, 0.03, "test.json", 0.008);
+  const PanelMesh usual = mesh_pattern(pattern, 0.03, "test.json"),
+                  fine = mesh_pattern(pattern, 0.03, "test.json", 0.008);
   EXPECT_GT(smallest_angle_deg(fine), 25);
   EXPECT_GT(fine.seams[0].a.size(), 3 * usual.seams[0].a.size());
   EXPECT_LT(fine.pattern.size(), mesh_pattern(pattern, 0.008, "test.json").pattern.size() / 3);
-  double near = 0, far = 0; // longest edge within 1 cm of the side seams, shortest further than 12 cm from them
+  double near = 0,
+         far =
+             0; // longest edge within 1 cm of the side seams, shortest further than 12 cm from them
   far = 1;
   for (const Triangle& t : fine.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 &a = fine.pattern[static_cast<std::size_t>(t[k])], &b = fine.pattern[static_cast<std::size_t>(t[(k + 1) % 3])];
+      const Vec2 &a = fine.pattern[static_cast<std::size_t>(t[k])],
+                 &b = fine.pattern[static_cast<std::size_t>(t[(k + 1) % 3])];
       const double off = 0.2 - 0.5 * std::abs(a.x() + b.x());
       if (off < 0.01) near = std::max(near, (a - b).norm());
       if (off > 0.12) far = std::min(far, (a - b).norm());
@@ -101,25 +117,30 @@ TEST(Mesh, FinerAlongSeamsOnRequestWithGoodAnglesAndMatchingSeams) {
   EXPECT_LT(near, 0.018);
   EXPECT_GT(far, 0.015);
   for (std::size_t p = 0; p < pattern.panels.size(); ++p)
-    EXPECT_NEAR(mesh_area(fine, fine.panels[p]), outline_area(pattern.panels[p]), 1e-3 * outline_area(pattern.panels[p]));
+    EXPECT_NEAR(mesh_area(fine, fine.panels[p]), outline_area(pattern.panels[p]),
+                1e-3 * outline_area(pattern.panels[p]));
 }
 
 TEST(Mesh, ASharpCornerIsListedAndTheRestIsGood) {
-  const std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "godet", "panels": [
+  const std::string text =
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "godet", "panels": [
     {"name": "godet", "outline": [{"edge": "a", "path": [["M", 0, 0], ["L", 12, 0]]}, {"edge": "b", "path": [["L", 6, 50]]}, {"edge": "c", "path": [["L", 0, 0]]}]}]})";
   const PanelMesh mesh = mesh_pattern(own(text), 0.015, "test.json");
   EXPECT_LT(smallest_angle_deg(mesh), 25);
-  EXPECT_TRUE(std::any_of(mesh.findings.begin(), mesh.findings.end(),
-                          [](const std::string& f) { return f.find("godet: ") == 0 && f.find("below 25 degrees") != std::string::npos; }));
+  EXPECT_TRUE(std::any_of(mesh.findings.begin(), mesh.findings.end(), [](const std::string& f) {
+    return f.find("godet: ") == 0 && f.find("below 25 degrees") != std::string::npos;
+  }));
 }
 
 TEST(Mesh, ANarrowStrapHasTwoRows) {
-  const std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "strap", "panels": [
+  const std::string text =
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "strap", "panels": [
     {"name": "strap", "outline": [{"edge": "a", "path": [["M", 0, 0], ["L", 40, 0]]}, {"edge": "b", "path": [["L", 40, 1.6]]}, {"edge": "c", "path": [["L", 0, 1.6]]}, {"edge": "d", "path": [["L", 0, 0]]}]}]})";
   const PanelMesh mesh = mesh_pattern(own(text), 0.015, "test.json");
   const std::size_t interior = mesh.pattern.size() - mesh.panels[0].outline.size();
   EXPECT_GT(interior, 15u) << "a row of points runs along the middle";
-  for (const Triangle& t : mesh.triangles) EXPECT_GE(std::max({t[0], t[1], t[2]}), static_cast<int>(mesh.panels[0].outline.size()));
+  for (const Triangle& t : mesh.triangles)
+    EXPECT_GE(std::max({t[0], t[1], t[2]}), static_cast<int>(mesh.panels[0].outline.size()));
 }
 
 TEST(Mesh, SameBytesOnEveryRunAndForAnyThreadCount) {
@@ -137,7 +158,8 @@ TEST(Mesh, SameBytesOnEveryRunAndForAnyThreadCount) {
 TEST(Mesh, TenThousandVerticesTakeATenthOfASecondOfCpu) {
   const std::clock_t start = std::clock(); // of CPU, so that a busy machine does not matter
   const PanelMesh mesh = mesh_pattern(own(tube_text()), 0.0074, "test.json");
-  [[maybe_unused]] const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  [[maybe_unused]] const double seconds =
+      static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   EXPECT_GT(mesh.pattern.size(), 9000u);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   EXPECT_LT(seconds, 0.5); // 0.12 s; the bound leaves room for slower ones
@@ -146,7 +168,9 @@ TEST(Mesh, TenThousandVerticesTakeATenthOfASecondOfCpu) {
 
 TEST(Mesh, DocumentReadsBackAsItWasWritten) {
   PanelMesh mesh = mesh_pattern(own(tube_text()), 0.03, "test.json");
-  const std::string path = (std::filesystem::temp_directory_path() / ("sloper_panels_" + std::to_string(::getpid()) + ".json")).string();
+  const std::string path = (std::filesystem::temp_directory_path() /
+                            ("sloper_panels_" + std::to_string(::getpid()) + ".json"))
+                               .string();
   mesh.placement = Placement::BODY, mesh.body_sha256 = "of a skin";
   write_panel_mesh(path, mesh, "test");
   const PanelMesh back = read_panel_mesh(path);

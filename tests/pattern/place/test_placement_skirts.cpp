@@ -12,7 +12,8 @@ Pattern two_box_skirts(double inner, double outer) {
   Pattern both = box_skirt(inner);
   const Pattern other = box_skirt(outer);
   const int panels = static_cast<int>(both.panels.size());
-  for (Panel panel : other.panels) both.panels.push_back(std::move(panel)), both.panels.back().name += "_over";
+  for (Panel panel : other.panels)
+    both.panels.push_back(std::move(panel)), both.panels.back().name += "_over";
   for (Seam seam : other.seams) {
     for (auto* side : {&seam.a, &seam.b})
       for (auto& part : *side) part.panel += panels;
@@ -36,7 +37,8 @@ TEST(Placement, ATightWaistbandStartsAtTheNarrowestPlace) {
   const Pattern pattern = box_skirt(36);
   PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
   place_panels(pattern, body, mesh);
-  EXPECT_NEAR(top_of(mesh), 1.05 + 0.06, 0.015) << "12 cm of cloth lie half above and half below the waist";
+  EXPECT_NEAR(top_of(mesh), 1.05 + 0.06, 0.015)
+      << "12 cm of cloth lie half above and half below the waist";
 }
 
 TEST(Placement, OfTwoSkirtsOneOverTheOtherTheNarrowerSaysWhereTheyHang) {
@@ -50,11 +52,16 @@ TEST(Placement, OfTwoSkirtsOneOverTheOtherTheNarrowerSaysWhereTheyHang) {
 }
 
 TEST(Placement, ACircleSkirtHangsOnTheWaistInFoldsThoughItsSidesAreDrawnLevel) {
-  std::string half = R"({"name": "skirt_front", "outline": [{"edge": "hem", "path": [["M", -50, 0], ["C", -50, -66, 50, -66, 50, 0]]},
+  std::string half =
+      R"({"name": "skirt_front", "outline": [{"edge": "hem", "path": [["M", -50, 0], ["C", -50, -66, 50, -66, 50, 0]]},
     {"edge": "l", "path": [["L", 13, 0]]}, {"edge": "waist", "path": [["C", 13, -17, -13, -17, -13, 0]]}, {"edge": "r", "path": [["L", -50, 0]]}]})";
-  std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "skirt", "panels": [)" + half + ",";
+  std::string text =
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "skirt", "panels": [)" +
+      half + ",";
   half.replace(half.find("front"), 5, "back");
-  text += half + R"(], "seams": [{"name": "a", "a": [{"panel": "skirt_front", "edge": "l"}], "b": [{"panel": "skirt_back", "edge": "r", "from": 1, "to": 0}]},
+  text +=
+      half +
+      R"(], "seams": [{"name": "a", "a": [{"panel": "skirt_front", "edge": "l"}], "b": [{"panel": "skirt_back", "edge": "r", "from": 1, "to": 0}]},
     {"name": "b", "a": [{"panel": "skirt_back", "edge": "l"}], "b": [{"panel": "skirt_front", "edge": "r", "from": 1, "to": 0}]}]})";
   const Pattern pattern = own(text);
   PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
@@ -63,24 +70,33 @@ TEST(Placement, ACircleSkirtHangsOnTheWaistInFoldsThoughItsSidesAreDrawnLevel) {
   EXPECT_NEAR(top_of(mesh), 1.05, 0.15);
   double widest = 0, drawn = 0, placed = 0;
   for (const Vec3& p : mesh.placed) widest = std::max(widest, std::abs(p.x()));
-  EXPECT_LT(widest, 0.45) << "it stays between the arms; laid on a cylinder it reaches out to 0.5 m";
+  EXPECT_LT(widest, 0.45)
+      << "it stays between the arms; laid on a cylinder it reaches out to 0.5 m";
   const auto& hem = mesh.panels[0].outline;
   for (std::size_t i = 0; i < hem.size(); ++i) {
     const int a = hem[i], b = hem[(i + 1) % hem.size()];
-    drawn += (mesh.pattern[a] - mesh.pattern[b]).norm(), placed += (mesh.placed[a] - mesh.placed[b]).norm();
+    drawn += (mesh.pattern[a] - mesh.pattern[b]).norm(),
+        placed += (mesh.placed[a] - mesh.placed[b]).norm();
   }
   EXPECT_NEAR(placed / drawn, 1, 0.1) << "folds take up what is too wide";
 }
 
-/// A skirt of four panels with side seams in two lengths and middle seams that leave each other above the hip, sewn to a waistband.
+/// A skirt of four panels with side seams in two lengths and middle seams that leave each other
+/// above the hip, sewn to a waistband.
 Pattern four_panel_skirt() {
-  std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "skirt", "panels": [)", seams;
+  std::string
+      text =
+          R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "skirt", "panels": [)",
+      seams;
   for (const char* name : {"front_l", "front_r", "back_r", "back_l"}) {
-    const bool left = std::string(name) == "front_l" || std::string(name) == "back_r"; // its side seam is on the right as it is drawn
+    const bool left = std::string(name) == "front_l" ||
+                      std::string(name) == "back_r"; // its side seam is on the right as it is drawn
     const std::string theta = std::string(name).find("front") == 0 ? "45" : "225";
-    text += R"({"name": ")" + std::string(name) + R"(", "place": {"part": "torso", "theta_deg": )" + (left ? "" : "-") + theta + R"(}, "outline": [)";
+    text += R"({"name": ")" + std::string(name) + R"(", "place": {"part": "torso", "theta_deg": )" +
+            (left ? "" : "-") + theta + R"(}, "outline": [)";
     if (left)
-      text += R"({"edge": "hem", "path": [["M", 0, 0], ["L", 28, 0]]}, {"edge": "side", "path": [["L", 26, 36]]}, {"edge": "side_hip", "path": [["L", 20, 56]]},
+      text +=
+          R"({"edge": "hem", "path": [["M", 0, 0], ["L", 28, 0]]}, {"edge": "side", "path": [["L", 26, 36]]}, {"edge": "side_hip", "path": [["L", 20, 56]]},
         {"edge": "waist", "path": [["L", 3, 56]]}, {"edge": "middle_hip", "path": [["L", 0, 36]]}, {"edge": "middle", "path": [["L", 0, 0]]}]},)";
     else
       text +=
@@ -88,18 +104,27 @@ Pattern four_panel_skirt() {
         {"edge": "waist", "path": [["L", -20, 56]]}, {"edge": "side_hip", "path": [["L", -26, 36]]}, {"edge": "side", "path": [["L", -28, 0]]}]},)";
   }
   for (const char* name : {"band_front", "band_back"})
-    text += R"({"name": ")" + std::string(name) + R"(", "place": {"part": "torso", "theta_deg": )" + (std::string(name) == "band_front" ? "0" : "180") +
-            R"(, "anchor": [0, 0], "height": 105}, "outline": [{"edge": "r", "path": [["M", -17, 4], ["L", -17, 0]]}, {"edge": "low_r", "path": [["L", 0, 0]]},
+    text +=
+        R"({"name": ")" + std::string(name) + R"(", "place": {"part": "torso", "theta_deg": )" +
+        (std::string(name) == "band_front" ? "0" : "180") +
+        R"(, "anchor": [0, 0], "height": 105}, "outline": [{"edge": "r", "path": [["M", -17, 4], ["L", -17, 0]]}, {"edge": "low_r", "path": [["L", 0, 0]]},
             {"edge": "low_l", "path": [["L", 17, 0]]}, {"edge": "l", "path": [["L", 17, 4]]}, {"edge": "top", "path": [["L", -17, 4]]}]})" +
-            (std::string(name) == "band_front" ? "," : "");
-  const auto sew = [&](const std::string& a, const std::string& edge_a, const std::string& b, const std::string& edge_b, bool against) {
-    seams += std::string(seams.empty() ? "" : ",") + R"({"name": ")" + a + edge_a + R"(", "a": [{"panel": ")" + a + R"(", "edge": ")" + edge_a +
-             R"("}], "b": [{"panel": ")" + b + R"(", "edge": ")" + edge_b + (against ? R"("}]})" : R"(", "from": 0, "to": 1}]})");
+        (std::string(name) == "band_front" ? "," : "");
+  const auto sew = [&](const std::string& a, const std::string& edge_a, const std::string& b,
+                       const std::string& edge_b, bool against) {
+    seams += std::string(seams.empty() ? "" : ",") + R"({"name": ")" + a + edge_a +
+             R"(", "a": [{"panel": ")" + a + R"(", "edge": ")" + edge_a +
+             R"("}], "b": [{"panel": ")" + b + R"(", "edge": ")" + edge_b +
+             (against ? R"("}]})" : R"(", "from": 0, "to": 1}]})");
   };
-  for (const char* edge : {"side", "side_hip"}) sew("front_l", edge, "back_l", edge, true), sew("front_r", edge, "back_r", edge, true);
-  for (const char* edge : {"middle", "middle_hip"}) sew("front_l", edge, "front_r", edge, true), sew("back_l", edge, "back_r", edge, true);
-  sew("front_l", "waist", "band_front", "low_l", true), sew("front_r", "waist", "band_front", "low_r", true);
-  sew("back_r", "waist", "band_back", "low_l", true), sew("back_l", "waist", "band_back", "low_r", true);
+  for (const char* edge : {"side", "side_hip"})
+    sew("front_l", edge, "back_l", edge, true), sew("front_r", edge, "back_r", edge, true);
+  for (const char* edge : {"middle", "middle_hip"})
+    sew("front_l", edge, "front_r", edge, true), sew("back_l", edge, "back_r", edge, true);
+  sew("front_l", "waist", "band_front", "low_l", true),
+      sew("front_r", "waist", "band_front", "low_r", true);
+  sew("back_r", "waist", "band_back", "low_l", true),
+      sew("back_l", "waist", "band_back", "low_r", true);
   sew("band_front", "l", "band_back", "r", true), sew("band_front", "r", "band_back", "l", true);
   return own(text + R"(], "seams": [)" + seams + "]}");
 }
@@ -117,9 +142,13 @@ TEST(Placement, ASkirtWhoseSideSeamsAreInTwoLengthsHasNoLegsAndItsHalvesHangBoth
   }
 }
 
-/// A skirt of gores as CAD lays pieces: along x, every other one upside down; their names tell nothing.
+/// A skirt of gores as CAD lays pieces: along x, every other one upside down; their names tell
+/// nothing.
 Pattern lying_gores(int n) {
-  std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "gores", "panels": [)", seams;
+  std::string
+      text =
+          R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "gores", "panels": [)",
+      seams;
   for (int k = 0; k < n; ++k) {
     const Eigen::Rotation2Dd turn(k % 2 ? M_PI / 2 : -M_PI / 2);
     const auto point = [&](double x, double y) {
@@ -128,11 +157,15 @@ Pattern lying_gores(int n) {
     };
     const Vec2 grain = turn * Vec2(0, 1);
     const std::string name = "piece " + std::to_string(k);
-    text += std::string(k ? "," : "") + R"({"name": ")" + name + R"(", "grain": [)" + std::to_string(grain.x()) + "," + std::to_string(grain.y()) +
-            R"(], "outline": [{"edge": "hem", "path": [["M", )" + point(-19, 0) + R"(], ["L", )" + point(19, 0) + R"(]]}, {"edge": "a", "path": [["L", )" +
-            point(13, 50) + R"(]]}, {"edge": "top", "path": [["L", )" + point(-13, 50) + R"(]]}, {"edge": "b", "path": [["L", )" + point(-19, 0) + "]]}]}";
-    seams += std::string(k ? "," : "") + R"({"name": "s)" + std::to_string(k) + R"(", "a": [{"panel": ")" + name +
-             R"(", "edge": "a"}], "b": [{"panel": "piece )" + std::to_string((k + 1) % n) + R"(", "edge": "b"}]})";
+    text += std::string(k ? "," : "") + R"({"name": ")" + name + R"(", "grain": [)" +
+            std::to_string(grain.x()) + "," + std::to_string(grain.y()) +
+            R"(], "outline": [{"edge": "hem", "path": [["M", )" + point(-19, 0) + R"(], ["L", )" +
+            point(19, 0) + R"(]]}, {"edge": "a", "path": [["L", )" + point(13, 50) +
+            R"(]]}, {"edge": "top", "path": [["L", )" + point(-13, 50) +
+            R"(]]}, {"edge": "b", "path": [["L", )" + point(-19, 0) + "]]}]}";
+    seams += std::string(k ? "," : "") + R"({"name": "s)" + std::to_string(k) +
+             R"(", "a": [{"panel": ")" + name + R"(", "edge": "a"}], "b": [{"panel": "piece )" +
+             std::to_string((k + 1) % n) + R"(", "edge": "b"}]})";
   }
   return own(text + R"(], "seams": [)" + seams + "]}");
 }
@@ -149,10 +182,12 @@ TEST(Placement, GoresThatLieAlongTheClothStandUprightInARing) {
       double width[2] = {0, 0};
       for (int v : info.outline)
         for (int w : info.outline) {
-          const Vec3 &p = mesh.placed[static_cast<std::size_t>(v)], &q = mesh.placed[static_cast<std::size_t>(w)];
+          const Vec3 &p = mesh.placed[static_cast<std::size_t>(v)],
+                     &q = mesh.placed[static_cast<std::size_t>(w)];
           const Vec3 middle_of = middle(mesh, static_cast<int>(&info - mesh.panels.data()));
           double& most = width[p.y() > middle_of.y()];
-          if ((p.y() > middle_of.y()) == (q.y() > middle_of.y())) most = std::max(most, (p - q).norm());
+          if ((p.y() > middle_of.y()) == (q.y() > middle_of.y()))
+            most = std::max(most, (p - q).norm());
         }
       EXPECT_GT(width[0], width[1]) << info.name;
     }
@@ -160,9 +195,11 @@ TEST(Placement, GoresThatLieAlongTheClothStandUprightInARing) {
 }
 
 TEST(Placement, APanelOfAnOuterLayerLiesOverTheOneThatItIsSewnTo) {
-  std::string text = R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "skirt", "panels": [)" + rectangle("skirt_front", 46, 40) + "," +
-                     rectangle("skirt_back", 46, 40) + "," + rectangle("skirt_overlay_front", 30, 25) +
-                     R"(], "seams": [{"name": "a", "a": [{"panel": "skirt_front", "edge": "l"}], "b": [{"panel": "skirt_back", "edge": "r"}]},
+  std::string text =
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "skirt", "panels": [)" +
+      rectangle("skirt_front", 46, 40) + "," + rectangle("skirt_back", 46, 40) + "," +
+      rectangle("skirt_overlay_front", 30, 25) +
+      R"(], "seams": [{"name": "a", "a": [{"panel": "skirt_front", "edge": "l"}], "b": [{"panel": "skirt_back", "edge": "r"}]},
       {"name": "b", "a": [{"panel": "skirt_back", "edge": "l"}], "b": [{"panel": "skirt_front", "edge": "r"}]},
       {"name": "c", "a": [{"panel": "skirt_front", "edge": "top", "from": 0.2, "to": 0.8}], "b": [{"panel": "skirt_overlay_front", "edge": "top", "from": 0, "to": 1}]}]})";
   const std::string overlay = R"({"name": "skirt_overlay_front", )";
@@ -174,7 +211,8 @@ TEST(Placement, APanelOfAnOuterLayerLiesOverTheOneThatItIsSewnTo) {
   for (const MeshSeam& s : mesh.seams) {
     if (s.name != "c") continue;
     for (std::size_t k = 0; k < s.a.size(); ++k) {
-      const Vec3 &under = mesh.placed[static_cast<std::size_t>(s.a[k])], &over = mesh.placed[static_cast<std::size_t>(s.b[k])];
+      const Vec3 &under = mesh.placed[static_cast<std::size_t>(s.a[k])],
+                 &over = mesh.placed[static_cast<std::size_t>(s.b[k])];
       EXPECT_NEAR((over - under).norm(), 0.012, 0.01);
       EXPECT_GT(over.z(), under.z());
     }
@@ -183,8 +221,13 @@ TEST(Placement, APanelOfAnOuterLayerLiesOverTheOneThatItIsSewnTo) {
 
 TEST(Placement, ASkirtInQuartersIsNoTrousersThoughItsSidesAreDrawnInTwoEdges) {
   DrawnPattern skirt; // the upper part of a side is more than a third of it
-  skirt.quarters({{"hem", 30, -55}, {"side", 25, -20}, {"side_hip", 22, 0}, {"waist", 0, 0}, {"middle_hip", 0, -20}, {"middle", 0, -55}}, {"side", "side_hip"},
-                 {"middle", "middle_hip"});
+  skirt.quarters({{"hem", 30, -55},
+                  {"side", 25, -20},
+                  {"side_hip", 22, 0},
+                  {"waist", 0, 0},
+                  {"middle_hip", 0, -20},
+                  {"middle", 0, -55}},
+                 {"side", "side_hip"}, {"middle", "middle_hip"});
   const Pattern pattern = skirt.pattern();
   PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
   const PlacementReport report = place_panels(pattern, waisted_body(), mesh);

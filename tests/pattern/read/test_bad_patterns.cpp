@@ -14,7 +14,10 @@ namespace {
 
 std::string text_of(const std::string& file) {
   std::ostringstream text;
-  text << std::ifstream(std::filesystem::path(SLOPER_SOURCE_DIR) / "tests" / "pattern" / "bad" / file, std::ios::binary).rdbuf();
+  text << std::ifstream(std::filesystem::path(SLOPER_SOURCE_DIR) / "tests" / "pattern" / "bad" /
+                            file,
+                        std::ios::binary)
+              .rdbuf();
   return text.str();
 }
 
@@ -22,38 +25,48 @@ std::string complaints(const std::string& text) {
   try {
     const Pattern p = own(text);
     std::string all;
-    for (const PatternFinding& f : check_pattern(p)) all += f.severity + ": " + f.rule + ": " + f.place + ": " + f.fact + "\n";
+    for (const PatternFinding& f : check_pattern(p))
+      all += f.severity + ": " + f.rule + ": " + f.place + ": " + f.fact + "\n";
     return all;
   } catch (const Error& e) {
     return e.what();
   }
 }
 
-TEST(BadPatterns, TheSoundOneHasNothingWrong) { EXPECT_EQ(complaints(text_of("sound.pattern.json")), ""); }
+TEST(BadPatterns, TheSoundOneHasNothingWrong) {
+  EXPECT_EQ(complaints(text_of("sound.pattern.json")), "");
+}
 
 /// Each file of the folder has one fault; says.json holds what the complaint has to name.
 TEST(BadPatterns, EachNamesPanelEdgeAndCentimetres) {
   const io::Json says = io::parse_json(text_of("says.json"), "says.json");
   EXPECT_GE(says.size(), 30u);
   std::size_t n_files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SLOPER_SOURCE_DIR) / "tests" / "pattern" / "bad"))
+  for (const auto& entry : std::filesystem::directory_iterator(
+           std::filesystem::path(SLOPER_SOURCE_DIR) / "tests" / "pattern" / "bad"))
     n_files += entry.path().filename().string().find("-") == 2;
   EXPECT_EQ(n_files, says.size()) << "a file of the folder is not looked at";
   for (const auto& [file, words] : says.items()) {
     const std::string said = complaints(text_of(file));
-    for (const auto& word : words) EXPECT_NE(said.find(word.get<std::string>()), std::string::npos) << file << " should say '" << word << "': " << said;
+    for (const auto& word : words)
+      EXPECT_NE(said.find(word.get<std::string>()), std::string::npos)
+          << file << " should say '" << word << "': " << said;
   }
 }
 
 TEST(Check, FindingsGoIntoSarif) {
-  const std::vector<PatternFinding> findings = {{"error", "sewn-twice", "front: top", "2.00 cm are sewn twice"}, {"info", "unsewn-panel", "back", "nothing"}};
+  const std::vector<PatternFinding> findings = {
+      {"error", "sewn-twice", "front: top", "2.00 cm are sewn twice"},
+      {"info", "unsewn-panel", "back", "nothing"}};
   const io::Json log = findings_sarif(findings, "/some/where/p.json", "pattern-mesh");
   EXPECT_EQ(log["version"], "2.1.0");
   const io::Json& run = log["runs"][0];
   EXPECT_EQ(run["tool"]["driver"]["rules"].size(), 2u);
   EXPECT_EQ(run["results"][0]["level"], "error");
   EXPECT_EQ(run["results"][1]["level"], "note");
-  EXPECT_EQ(run["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"], "p.json") << "no absolute paths in documents";
+  EXPECT_EQ(run["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"],
+            "p.json")
+      << "no absolute paths in documents";
 }
 
 TEST(FinishedMeasures, ATubeHasTwoOpeningsAndOneGirth) {
@@ -80,7 +93,8 @@ TEST(BadPatterns, panels_without_any_seam_are_an_error_that_can_be_meshed) {
   pattern = own(tube_text());
   pattern.seams.clear();
   pattern.source_format = "dxf";
-  EXPECT_EQ(check_pattern(pattern).at(0).severity, "warning") << "its seams are guessed when it is meshed";
+  EXPECT_EQ(check_pattern(pattern).at(0).severity, "warning")
+      << "its seams are guessed when it is meshed";
 }
 
 } // namespace

@@ -13,9 +13,13 @@ std::vector<std::string> shared_patterns() {
   std::vector<std::string> files;
   const char* shared = std::getenv("SLOPER_SHARED");
   if (!shared) return files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(shared) / "data/patterns")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(
+           std::filesystem::path(shared) / "data/patterns")) {
     const std::string name = entry.path().string();
-    const auto ends = [&](const std::string& tail) { return name.size() > tail.size() && name.compare(name.size() - tail.size(), tail.size(), tail) == 0; };
+    const auto ends = [&](const std::string& tail) {
+      return name.size() > tail.size() &&
+             name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
+    };
     if (ends("_specification.json") || ends(".sew.json") || ends(".dxf")) files.push_back(name);
   }
   std::sort(files.begin(), files.end());
@@ -33,7 +37,8 @@ TEST(SharedPatterns, AllMeshIntoOrientedManifoldsWithGoodAnglesAndTheRightArea) 
     EXPECT_GE(smallest_angle_deg(mesh), 25);
     for (const MeshSeam& s : mesh.seams) EXPECT_EQ(s.a.size(), s.b.size());
     for (std::size_t p = 0; p < pattern.panels.size(); ++p)
-      EXPECT_NEAR(mesh_area(mesh, mesh.panels[p]) / outline_area(pattern.panels[p]), 1, 1e-3) << mesh.panels[p].name;
+      EXPECT_NEAR(mesh_area(mesh, mesh.panels[p]) / outline_area(pattern.panels[p]), 1, 1e-3)
+          << mesh.panels[p].name;
     const Sewn sewn = sew(mesh);
     EXPECT_EQ(sewn.degenerate, 0);
     EXPECT_EQ(sewn.duplicate_faces, 0);
@@ -55,7 +60,9 @@ TEST(SharedPatterns, SidecarAndTextsSewTheSame) {
     by_sidecar.seams.clear();
     read_sewing_seams(by_sidecar, io::read_json(stem + ".seams.json"), stem + ".seams.json");
     EXPECT_EQ(by_texts.seams.size(), by_sidecar.seams.size()) << file;
-    EXPECT_EQ(sew(mesh_pattern(by_sidecar, 0.02, file)).boundary_loops, sew(mesh_pattern(by_texts, 0.02, file)).boundary_loops) << file;
+    EXPECT_EQ(sew(mesh_pattern(by_sidecar, 0.02, file)).boundary_loops,
+              sew(mesh_pattern(by_texts, 0.02, file)).boundary_loops)
+        << file;
   }
 }
 

@@ -8,12 +8,15 @@ namespace sloper::pattern::test {
 namespace {
 
 std::string one_panel(const std::string& outline, const std::string& unit = "cm") {
-  return R"({"format": "pattern", "version": 1, "length_unit": ")" + unit + R"(", "name": "p", "panels": [{"name": "bib", "outline": [)" + outline + "]}]}";
+  return R"({"format": "pattern", "version": 1, "length_unit": ")" + unit +
+         R"(", "name": "p", "panels": [{"name": "bib", "outline": [)" + outline + "]}]}";
 }
 
-bool has(const std::vector<PatternFinding>& findings, const std::string& rule, const std::string& place, const std::string& fact) {
+bool has(const std::vector<PatternFinding>& findings, const std::string& rule,
+         const std::string& place, const std::string& fact) {
   return std::any_of(findings.begin(), findings.end(), [&](const PatternFinding& f) {
-    return f.rule == rule && f.place.find(place) != std::string::npos && f.fact.find(fact) != std::string::npos;
+    return f.rule == rule && f.place.find(place) != std::string::npos &&
+           f.fact.find(fact) != std::string::npos;
   });
 }
 
@@ -39,8 +42,8 @@ TEST(Check, CrossingOutlineNamesBothEdgesAndThePlace) {
 }
 
 TEST(Check, LengthMismatchIsGivenInCentimetresAndPercent) {
-  const std::string text =
-      tube_text(R"(, {"name": "odd", "a": [{"panel": "front", "edge": "top"}], "b": [{"panel": "back", "edge": "hem", "from": 0.9, "to": 0}]})");
+  const std::string text = tube_text(
+      R"(, {"name": "odd", "a": [{"panel": "front", "edge": "top"}], "b": [{"panel": "back", "edge": "hem", "from": 0.9, "to": 0}]})");
   EXPECT_TRUE(has(check_pattern(own(text)), "length-mismatch", "seam odd", "4.00 cm (11.1 %)"));
 }
 
@@ -51,8 +54,8 @@ TEST(Check, AStatedEaseIsNoMismatch) {
 }
 
 TEST(Check, SeamsSewnFaceToBackAreTold) {
-  const std::string text =
-      tube_text(R"(, {"name": "turned", "a": [{"panel": "front", "edge": "top"}], "b": [{"panel": "back", "edge": "top", "from": 0, "to": 1}]})");
+  const std::string text = tube_text(
+      R"(, {"name": "turned", "a": [{"panel": "front", "edge": "top"}], "b": [{"panel": "back", "edge": "top", "from": 0, "to": 1}]})");
   EXPECT_TRUE(has(check_pattern(own(text)), "face-to-back", "seam turned", "inside"));
 }
 
@@ -70,28 +73,51 @@ TEST(Check, BadPatternsAreRefusedNamingPanelEdgeAndCentimetres) {
           .find("edge 'd' ends 1.50 cm from where 'a' starts"),
       std::string::npos);
   EXPECT_NE(
-      refusal(one_panel(R"({"edge": "a", "path": [["M", 0, 0], ["L", 0, 0]]}, {"edge": "b", "path": [["L", 40, 30]]}, {"edge": "c", "path": [["L", 0, 0]]})"))
+      refusal(
+          one_panel(
+              R"({"edge": "a", "path": [["M", 0, 0], ["L", 0, 0]]}, {"edge": "b", "path": [["L", 40, 30]]}, {"edge": "c", "path": [["L", 0, 0]]})"))
           .find("bib: a"),
       std::string::npos);
-  EXPECT_NE(refusal(one_panel(R"({"edge": "a", "path": [["M", 0, 0], ["L", 40, 0]]}, {"edge": "b", "path": [["L", 0, 0]]})")).find("encloses"),
-            std::string::npos);
   EXPECT_NE(
       refusal(
-          one_panel(R"({"edge": "a", "path": [["M", 0, 0], ["L", 40, 0]]}, {"edge": "b", "path": [["L", 40, 30]]}, {"edge": "c", "path": [["L", 0, 0]]})", "m"))
+          one_panel(
+              R"({"edge": "a", "path": [["M", 0, 0], ["L", 40, 0]]}, {"edge": "b", "path": [["L", 0, 0]]})"))
+          .find("encloses"),
+      std::string::npos);
+  EXPECT_NE(
+      refusal(
+          one_panel(
+              R"({"edge": "a", "path": [["M", 0, 0], ["L", 40, 0]]}, {"edge": "b", "path": [["L", 40, 30]]}, {"edge": "c", "path": [["L", 0, 0]]})",
+              "m"))
           .find("the unit is wrong"),
       std::string::npos);
   EXPECT_NE(
-      refusal(tube_text(R"(, {"name": "x", "a": [{"panel": "frnt", "edge": "top"}], "b": [{"panel": "back", "edge": "top"}]})")).find("did you mean 'front'"),
+      refusal(
+          tube_text(
+              R"(, {"name": "x", "a": [{"panel": "frnt", "edge": "top"}], "b": [{"panel": "back", "edge": "top"}]})"))
+          .find("did you mean 'front'"),
       std::string::npos);
   EXPECT_NE(
-      refusal(tube_text(R"(, {"name": "x", "a": [{"panel": "front", "edge": "topp"}], "b": [{"panel": "back", "edge": "top"}]})")).find("did you mean 'top'"),
+      refusal(
+          tube_text(
+              R"(, {"name": "x", "a": [{"panel": "front", "edge": "topp"}], "b": [{"panel": "back", "edge": "top"}]})"))
+          .find("did you mean 'top'"),
       std::string::npos);
-  EXPECT_NE(refusal(tube_text(R"(, {"name": "x", "a": [{"panel": "front", "edge": "top", "from": 1.4}], "b": [{"panel": "back", "edge": "top"}]})"))
-                .find("fractions from 0 to 1"),
+  EXPECT_NE(
+      refusal(
+          tube_text(
+              R"(, {"name": "x", "a": [{"panel": "front", "edge": "top", "from": 1.4}], "b": [{"panel": "back", "edge": "top"}]})"))
+          .find("fractions from 0 to 1"),
+      std::string::npos);
+  EXPECT_NE(refusal(R"({"format": "pattern", "version": 1, "length_unit": "ell", "panels": []})")
+                .find("unknown unit 'ell'"),
             std::string::npos);
-  EXPECT_NE(refusal(R"({"format": "pattern", "version": 1, "length_unit": "ell", "panels": []})").find("unknown unit 'ell'"), std::string::npos);
-  EXPECT_NE(refusal(R"({"format": "pattern", "version": 2, "length_unit": "cm", "panels": []})").find("newer"), std::string::npos);
-  EXPECT_NE(refusal(R"({"format": "pattern", "version": 1, "length_unit": "cm", "panls": []})").find("did you mean \"panels\""), std::string::npos);
+  EXPECT_NE(refusal(R"({"format": "pattern", "version": 2, "length_unit": "cm", "panels": []})")
+                .find("newer"),
+            std::string::npos);
+  EXPECT_NE(refusal(R"({"format": "pattern", "version": 1, "length_unit": "cm", "panls": []})")
+                .find("did you mean \"panels\""),
+            std::string::npos);
 }
 
 } // namespace

@@ -11,12 +11,14 @@ Pattern unsewn(bool named) {
   std::string text = tube_text();
   Pattern p = own(text.substr(0, text.find("\"seams\"")) + "\"seams\": []}");
   for (Panel& panel : p.panels)
-    for (int e = 0; e < panel.n_edges() && !named; ++e) panel.edge(e).name = "edge" + std::to_string(e);
+    for (int e = 0; e < panel.n_edges() && !named; ++e)
+      panel.edge(e).name = "edge" + std::to_string(e);
   return p;
 }
 
 TEST(Inference, NamesAndLengthsTogetherAreCertain) {
-  const Pattern p = own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "n", "panels": [
+  const Pattern p =
+      own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "n", "panels": [
     {"name": "front_l", "outline": [{"edge": "hem", "path": [["M", 0, 0], ["L", 20, 0]]}, {"edge": "side", "path": [["L", 22, 50]]}, {"edge": "waist", "path": [["L", 0, 52]]}, {"edge": "cf", "path": [["L", 0, 0]]}]},
     {"name": "back_l", "outline": [{"edge": "hem", "path": [["M", 0, 0], ["L", 25, 0]]}, {"edge": "cb", "path": [["L", 25, 55]]}, {"edge": "waist", "path": [["L", 1, 50]]}, {"edge": "side", "path": [["L", 0, 0]]}]}]})");
   const auto guesses = infer_seams(p);

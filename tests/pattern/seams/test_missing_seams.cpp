@@ -11,21 +11,33 @@ namespace {
 /// A skirt in quarters with a closed band; its sides and middles are drawn in two edges.
 Pattern skirt(const std::vector<std::string>& left_out = {}) {
   DrawnPattern drawn;
-  drawn.quarters({{"hem", 30, -55}, {"side", 25, -20}, {"side_hip", 20, 0}, {"waist", 0, 0}, {"middle_hip", 0, -20}, {"middle", 0, -55}}, {"side", "side_hip"},
-                 {"middle", "middle_hip"});
-  const std::vector<DrawnEdge> band = {{"low_a", 0, 0}, {"low_b", 20, 0}, {"end_b", 20, 4}, {"top", -20, 4}, {"end_a", -20, 0}};
+  drawn.quarters({{"hem", 30, -55},
+                  {"side", 25, -20},
+                  {"side_hip", 20, 0},
+                  {"waist", 0, 0},
+                  {"middle_hip", 0, -20},
+                  {"middle", 0, -55}},
+                 {"side", "side_hip"}, {"middle", "middle_hip"});
+  const std::vector<DrawnEdge> band = {
+      {"low_a", 0, 0}, {"low_b", 20, 0}, {"end_b", 20, 4}, {"top", -20, 4}, {"end_a", -20, 0}};
   drawn.panel("band_front", band), drawn.panel("band_back", band);
-  drawn.seam("band_front", "end_a", "band_back", "end_b"), drawn.seam("band_front", "end_b", "band_back", "end_a");
-  drawn.seam("band_front", "low_a", "front_r", "waist"), drawn.seam("band_front", "low_b", "front_l", "waist");
-  drawn.seam("band_back", "low_a", "back_l", "waist"), drawn.seam("band_back", "low_b", "back_r", "waist");
+  drawn.seam("band_front", "end_a", "band_back", "end_b"),
+      drawn.seam("band_front", "end_b", "band_back", "end_a");
+  drawn.seam("band_front", "low_a", "front_r", "waist"),
+      drawn.seam("band_front", "low_b", "front_l", "waist");
+  drawn.seam("band_back", "low_a", "back_l", "waist"),
+      drawn.seam("band_back", "low_b", "back_r", "waist");
   Pattern pattern = drawn.pattern();
-  std::erase_if(pattern.seams, [&](const Seam& s) { return std::find(left_out.begin(), left_out.end(), s.name) != left_out.end(); });
+  std::erase_if(pattern.seams, [&](const Seam& s) {
+    return std::find(left_out.begin(), left_out.end(), s.name) != left_out.end();
+  });
   return pattern;
 }
 
 std::string told(const Pattern& pattern) {
   std::string all;
-  for (const MissingSeam& s : missing_seams(pattern)) all += place_of(pattern, s.a) + " + " + place_of(pattern, s.b) + "; ";
+  for (const MissingSeam& s : missing_seams(pattern))
+    all += place_of(pattern, s.a) + " + " + place_of(pattern, s.b) + "; ";
   return all;
 }
 
@@ -35,7 +47,8 @@ TEST(MissingSeams, AWholeGarmentHasNone) {
 }
 
 TEST(MissingSeams, OneSideOfTwoIsTold) {
-  EXPECT_EQ(told(skirt({"front_lside", "front_lside_hip"})), "front_l: side + back_l: side; front_l: side_hip + back_l: side_hip; ");
+  EXPECT_EQ(told(skirt({"front_lside", "front_lside_hip"})),
+            "front_l: side + back_l: side; front_l: side_hip + back_l: side_hip; ");
   EXPECT_EQ(told(skirt({"band_frontend_a"})), "band_front: end_a + band_back: end_b; ");
   Pattern tube = own(tube_text());
   tube.seams.pop_back();
@@ -43,14 +56,18 @@ TEST(MissingSeams, OneSideOfTwoIsTold) {
 }
 
 TEST(MissingSeams, AStretchLeftOutOfASeamIsTold) {
-  EXPECT_EQ(told(skirt({"front_lmiddle_hip"})), "front_l: middle_hip + front_r: middle_hip; ") << "the band closes it above";
+  EXPECT_EQ(told(skirt({"front_lmiddle_hip"})), "front_l: middle_hip + front_r: middle_hip; ")
+      << "the band closes it above";
 }
 
 TEST(MissingSeams, OpeningsAreNotTold) {
   EXPECT_EQ(told(skirt({"front_lside"})), "") << "a slit";
-  EXPECT_EQ(told(skirt({"front_lside_hip", "band_frontend_b"})), "") << "a placket, through the band";
-  EXPECT_EQ(told(skirt({"front_lmiddle", "front_lmiddle_hip"})), "") << "an open front below a band";
-  EXPECT_EQ(told(skirt({"front_lside", "front_lside_hip", "front_rside", "front_rside_hip"})), "") << "an apron before and behind";
+  EXPECT_EQ(told(skirt({"front_lside_hip", "band_frontend_b"})), "")
+      << "a placket, through the band";
+  EXPECT_EQ(told(skirt({"front_lmiddle", "front_lmiddle_hip"})), "")
+      << "an open front below a band";
+  EXPECT_EQ(told(skirt({"front_lside", "front_lside_hip", "front_rside", "front_rside_hip"})), "")
+      << "an apron before and behind";
   Pattern left_open = skirt();
   left_open.seams[0].open = true;
   EXPECT_EQ(told(left_open), "") << "a closure left undone";
@@ -58,24 +75,42 @@ TEST(MissingSeams, OpeningsAreNotTold) {
 
 TEST(MissingSeams, ADartWhoseMouthIsSewnShutIsTold) {
   DrawnPattern drawn; // the waist of the front has 4 cm more than the band, for a dart
-  drawn.panel("front",
-              {{"hem", 22, -50}, {"side_l", 22, 0}, {"waist_l", 2, 0}, {"leg_a", 0, -12}, {"leg_b", -2, 0}, {"waist_r", -22, 0}, {"side_r", -22, -50}});
-  drawn.panel("band", {{"low_r", 0, 0}, {"low_l", 20, 0}, {"end_l", 20, 4}, {"top", -20, 4}, {"end_r", -20, 0}});
+  drawn.panel("front", {{"hem", 22, -50},
+                        {"side_l", 22, 0},
+                        {"waist_l", 2, 0},
+                        {"leg_a", 0, -12},
+                        {"leg_b", -2, 0},
+                        {"waist_r", -22, 0},
+                        {"side_r", -22, -50}});
+  drawn.panel(
+      "band",
+      {{"low_r", 0, 0}, {"low_l", 20, 0}, {"end_l", 20, 4}, {"top", -20, 4}, {"end_r", -20, 0}});
   drawn.seam("front", "waist_l", "band", "low_l"), drawn.seam("front", "waist_r", "band", "low_r");
   EXPECT_EQ(told(drawn.pattern()), "front: leg_a + front: leg_b; ");
   DrawnPattern neckline; // the same shape between shoulders
-  neckline.panel(
-      "front",
-      {{"hem", 22, -50}, {"side_l", 22, 0}, {"shoulder_l", 2, 0}, {"neck_l", 0, -12}, {"neck_r", -2, 0}, {"shoulder_r", -22, 0}, {"side_r", -22, -50}});
-  neckline.panel("back", {{"hem", 22, -50}, {"side_l", 22, 0}, {"shoulder_l", 2, 0}, {"neck", -2, 0}, {"shoulder_r", -22, 0}, {"side_r", -22, -50}});
+  neckline.panel("front", {{"hem", 22, -50},
+                           {"side_l", 22, 0},
+                           {"shoulder_l", 2, 0},
+                           {"neck_l", 0, -12},
+                           {"neck_r", -2, 0},
+                           {"shoulder_r", -22, 0},
+                           {"side_r", -22, -50}});
+  neckline.panel("back", {{"hem", 22, -50},
+                          {"side_l", 22, 0},
+                          {"shoulder_l", 2, 0},
+                          {"neck", -2, 0},
+                          {"shoulder_r", -22, 0},
+                          {"side_r", -22, -50}});
   for (const auto& [a, b] : {std::pair("_l", "_r"), std::pair("_r", "_l")})
-    for (const std::string edge : {"side", "shoulder"}) neckline.seam("front", edge + a, "back", edge + b);
+    for (const std::string edge : {"side", "shoulder"})
+      neckline.seam("front", edge + a, "back", edge + b);
   EXPECT_EQ(told(neckline.pattern()), "") << "a slashed neckline";
 }
 
 TEST(MissingSeams, ThreeLikePiecesWrappedAroundAreLeftOpen) {
   DrawnPattern wrap;
-  for (const char* name : {"front_l", "back", "front_r"}) wrap.panel(name, {{"hem", 20, -50}, {"a", 20, 0}, {"waist", -20, 0}, {"b", -20, -50}});
+  for (const char* name : {"front_l", "back", "front_r"})
+    wrap.panel(name, {{"hem", 20, -50}, {"a", 20, 0}, {"waist", -20, 0}, {"b", -20, -50}});
   wrap.seam("back", "a", "front_r", "b"), wrap.seam("front_l", "a", "back", "b");
   EXPECT_EQ(told(wrap.pattern()), "");
 }
@@ -90,7 +125,9 @@ std::string findings(const Pattern& pattern, const std::string& rule) {
 
 TEST(Check, AMissingSeamIsAnErrorThatCanBeSewn) {
   const Pattern pattern = skirt({"front_lside", "front_lside_hip"});
-  EXPECT_NE(findings(pattern, "open-seam").find("error: front_l: side: is not sewn to back_l: side"), std::string::npos);
+  EXPECT_NE(
+      findings(pattern, "open-seam").find("error: front_l: side: is not sewn to back_l: side"),
+      std::string::npos);
   EXPECT_NO_THROW(require_sewable(pattern, "t"));
 }
 
@@ -106,11 +143,13 @@ TEST(Check, SizesOfNoPersonNameTheUnitToCheck) {
   EXPECT_EQ(findings(scaled(1), "wrong-unit"), "");
   EXPECT_EQ(findings(scaled(0.5), "wrong-unit"), "") << "a child's";
   EXPECT_EQ(findings(scaled(2.54), "wrong-unit"), "") << "long flounces are larger";
-  EXPECT_EQ(
-      findings(scaled(0.1), "wrong-unit"),
-      "error: front_l: the largest panel measures 3.00 cm by 5.50 cm: no person is so small; in a unit ten times larger it would be 30.00 cm by 55.00 cm: "
-      "check \"length_unit\"\n");
-  EXPECT_NE(findings(scaled(10), "wrong-unit").find("measures 300.00 cm by 550.00 cm: no person is so large"), std::string::npos);
+  EXPECT_EQ(findings(scaled(0.1), "wrong-unit"),
+            "error: front_l: the largest panel measures 3.00 cm by 5.50 cm: no person is so small; "
+            "in a unit ten times larger it would be 30.00 cm by 55.00 cm: "
+            "check \"length_unit\"\n");
+  EXPECT_NE(findings(scaled(10), "wrong-unit")
+                .find("measures 300.00 cm by 550.00 cm: no person is so large"),
+            std::string::npos);
   EXPECT_NO_THROW(require_sewable(scaled(10), "t"));
 }
 

@@ -14,7 +14,8 @@ TEST(Export, OwnJsonReadsBackTheSame) {
   for (std::size_t p = 0; p < back.panels.size(); ++p)
     for (int e = 0; e < back.panels[p].n_edges(); ++e) {
       EXPECT_EQ(back.panels[p].edge(e).name, pattern.panels[p].edge(e).name);
-      EXPECT_NEAR(length(back.panels[p].edge(e).path), length(pattern.panels[p].edge(e).path), 1e-12);
+      EXPECT_NEAR(length(back.panels[p].edge(e).path), length(pattern.panels[p].edge(e).path),
+                  1e-12);
     }
   EXPECT_EQ(back.seams[1].b[0].from, 1);
 }
@@ -44,7 +45,8 @@ TEST(Export, DxfKeepsWhatASeamIsAndWhetherItIsOpen) {
   EXPECT_TRUE(left_out.empty()) << left_out[0];
   ASSERT_EQ(back.seams.size(), 3u);
   const auto named = [&](const std::string& name) {
-    return *std::find_if(back.seams.begin(), back.seams.end(), [&](const Seam& s) { return s.name == name; });
+    return *std::find_if(back.seams.begin(), back.seams.end(),
+                         [&](const Seam& s) { return s.name == name; });
   };
   for (const Seam& s : pattern.seams) {
     EXPECT_EQ(named(s.name).open, s.open) << s.name;
@@ -53,7 +55,9 @@ TEST(Export, DxfKeepsWhatASeamIsAndWhetherItIsOpen) {
   }
   const Panel& front = back.panels[static_cast<std::size_t>(back.find_panel("front"))];
   ASSERT_EQ(front.notches.size(), 2u);
-  EXPECT_EQ(std::count_if(front.notches.begin(), front.notches.end(), [](const Notch& n) { return n.kind == "layer 81"; }), 1);
+  EXPECT_EQ(std::count_if(front.notches.begin(), front.notches.end(),
+                          [](const Notch& n) { return n.kind == "layer 81"; }),
+            1);
 }
 
 TEST(Export, DxfTellsLayersFoldsAndPlaces) {
@@ -80,7 +84,8 @@ TEST(Export, DxfTellsWhatItCannotSay) {
 TEST(Export, SvgNamesEveryEdge) {
   const std::string svg = pattern_svg(own(tube_text()));
   EXPECT_EQ(svg.rfind("<svg", 0), 0u);
-  for (const char* name : {"front", "back", "hem", "side_l", "top", "side_r"}) EXPECT_NE(svg.find(name), std::string::npos) << name;
+  for (const char* name : {"front", "back", "hem", "side_l", "top", "side_r"})
+    EXPECT_NE(svg.find(name), std::string::npos) << name;
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 

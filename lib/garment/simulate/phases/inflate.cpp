@@ -29,7 +29,9 @@ InflatePhase::State InflatePhase::State::read(const io::Node& node) {
   return state;
 }
 
-bool InflatePhase::is_needed(const SimContext& context) const { return context.body.state().scale < 1 && context.cloth.body_contact(); }
+bool InflatePhase::is_needed(const SimContext& context) const {
+  return context.body.state().scale < 1 && context.cloth.body_contact();
+}
 
 void InflatePhase::begin(SimContext& context, bool resumed) {
   m_skin = context.body.collider()->mesh().positions;
@@ -43,7 +45,8 @@ bool InflatePhase::is_done(const SimContext& context) const {
 
 void InflatePhase::move_skin(SimContext& context) {
   const std::vector<Vec3> target = context.body.skin_at(context.body.state().scale);
-  const std::vector<double> room = context.cloth.body_contact()->skin_room(context.cloth.x());
+  const std::vector<double> room =
+      context.cloth.body_contact()->max_safe_skin_displacement(context.cloth.x());
   m_state.skin_lag_m = 0;
   for (std::size_t v = 0; v < m_skin.size(); ++v) {
     const Vec3 displacement = target[v] - m_skin[v];
@@ -66,9 +69,11 @@ PhaseStatus InflatePhase::step(SimContext& context) {
   move_skin(context);
   cloth::BodyContactEffect& contact = *context.cloth.body_contact();
   contact.move_body(m_skin, context.cloth.x());
-  if (m_state.skin_lag_m >= m_state.max_skin_lag_m) contact.refresh(); // some of it had to go through
+  if (m_state.skin_lag_m >= m_state.max_skin_lag_m)
+    contact.refresh(); // some of it had to go through
   context.stepper.advance({.h = STEP_S});
-  if (!context.stepper.stopped() && context.checkpoints->offer()) context.stepper.advance({.h = STEP_S}); // as in begin()
+  if (!context.stepper.stopped() && context.checkpoints->offer())
+    context.stepper.advance({.h = STEP_S}); // as in begin()
   return is_done(context) ? PhaseStatus::DONE : PhaseStatus::CONTINUE;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
-/// Brings a body that was drawn in back to its full size, without passing through cloth that is clear of it.
+/// Brings a body that was drawn in back to its full size, without passing through cloth that is
+/// clear of it.
 ///
-/// Each vertex of the skin moves at most half its clearance per step, then the cloth makes room. Where the cloth is slow the skin may lag, by
-/// MAX_SKIN_LAG and less and less once the rest of the body is back; then it is forced through, and contact pushes the cloth.
+/// Each vertex of the skin moves at most half its clearance per step, then the cloth makes room.
+/// Where the cloth is slow the skin may lag, by MAX_SKIN_LAG and less and less once the rest of the
+/// body is back; then it is forced through, and contact pushes the cloth.
 #include <garment/simulate/phases/phase.hpp>
 #include <io/json_fwd.hpp>
 
@@ -16,7 +18,8 @@ public:
   struct State {
     double max_skin_lag_m = 0; ///< how far skin may stay back
     double skin_lag_m = 0;     ///< how far it does
-    std::vector<Vec3> skin;    ///< #V of the collider by 3, m; only in a checkpoint taken in this phase
+    std::vector<Vec3>
+        skin; ///< #V of the collider by 3, m; only in a checkpoint taken in this phase
 
     void write(io::Json& state) const;
     static State read(const io::Node& state); ///< @throws Error INPUT

@@ -33,14 +33,17 @@ public:
   /// Also where the drape has ended.
   virtual void end(SimContext& /*context*/) {}
 
-  /// How the cloth is built in this phase: with open seams; with weight and friction; with the velocity that it had.
+  /// How the cloth is built in this phase: with open seams; with weight and friction; with the
+  /// velocity that it had.
   virtual bool has_open_seams() const { return false; }
   virtual bool is_loaded(const SimContext& /*context*/) const { return false; }
   virtual bool keeps_velocity() const { return false; }
 };
 
-/// Builds the cloth anew in the middle of a phase, as a run that goes on from a checkpoint does. @param contact  what body contact remembers
-inline void rebuild(SimContext& context, const Phase& phase, const cloth::BodyContactEffect::Memory& contact, bool keep_velocity) {
+/// Builds the cloth anew in the middle of a phase, as a run that goes on from a checkpoint does.
+/// @param contact  what body contact remembers
+inline void rebuild(SimContext& context, const Phase& phase,
+                    const cloth::BodyContactEffect::Memory& contact, bool keep_velocity) {
   context.build_cloth(phase.has_open_seams(), keep_velocity);
   if (phase.is_loaded(context)) context.cloth.add_load();
   if (context.cloth.body_contact()) context.cloth.body_contact()->recall(contact);

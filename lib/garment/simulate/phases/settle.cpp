@@ -10,12 +10,15 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr int UNLOADED_STEPS = 40;       // after sewing, free of weight and friction
-constexpr int MAX_UNTANGLINGS = 8;       // of cloth that crosses itself, half of them before it is at rest
-constexpr int RESOLVE_EVERY = 40;        // steps between looks whether cloth still crosses itself or a few faces are still through the skin
-constexpr int JUDGE_EVERY = 10;          // steps between looks whether the garment can still fit
-constexpr int CALM_STEPS = 3;            // within the tolerances, one after the other: at rest
-constexpr double SUNK = 2e-4;            // m that all cloth together may sink, when what was blocked is released, and be at rest
+constexpr int UNLOADED_STEPS = 40; // after sewing, free of weight and friction
+constexpr int MAX_UNTANGLINGS =
+    8;                            // of cloth that crosses itself, half of them before it is at rest
+constexpr int RESOLVE_EVERY = 40; // steps between looks whether cloth still crosses itself or a few
+                                  // faces are still through the skin
+constexpr int JUDGE_EVERY = 10;   // steps between looks whether the garment can still fit
+constexpr int CALM_STEPS = 3;     // within the tolerances, one after the other: at rest
+constexpr double SUNK =
+    2e-4; // m that all cloth together may sink, when what was blocked is released, and be at rest
 constexpr double NEAR_RESIDUAL = 1;      // weights: below, steps may grow faster
 constexpr double GROWTH = 1.15;          // of the time step while little moves
 constexpr double GROWTH_NEAR_REST = 1.3; // likewise, near rest
@@ -24,7 +27,8 @@ constexpr double SHRINK_HALVED = 0.7;   // after a step that the line search hal
 constexpr double LITTLE_MOVED = 0.003;  // m, of the fastest particle in a step
 constexpr double MUCH_MOVED = 0.01;     // m, likewise
 constexpr double BETTER_RESIDUAL = 0.9; // of the best so far: progress
-constexpr double HUNG_SPEED = 0.02;     // m/s: slower, a skirt hangs, and arms that were held up can come down beside it
+constexpr double HUNG_SPEED =
+    0.02; // m/s: slower, a skirt hangs, and arms that were held up can come down beside it
 constexpr double HUNG_RESIDUAL = 10;    // weights: likewise
 constexpr double LARGEST_STEP_S = 0.2;  // s
 constexpr int PROBE_EVERY = 60;         // steps between looks whether cloth still drifts
@@ -69,14 +73,19 @@ SettlePhase::State SettlePhase::State::read(const io::Node& node, std::size_t n_
     state.dynamic_steps = node.at("free_steps").integer();
     state.velocity = io::read_flat_points(node.at("velocity"));
     for (const std::vector<Vec3>* of_particles : {&state.probe_position, &state.velocity})
-      if (!of_particles->empty() && of_particles->size() != n_particles) node.at("looked_from").fail("does not belong to this garment");
+      if (!of_particles->empty() && of_particles->size() != n_particles)
+        node.at("looked_from").fail("does not belong to this garment");
   }
   return state;
 }
 
-int SettlePhase::unloaded_steps(const SimContext& context) const { return context.disturbed ? UNLOADED_STEPS : 0; }
+int SettlePhase::unloaded_steps(const SimContext& context) const {
+  return context.disturbed ? UNLOADED_STEPS : 0;
+}
 
-bool SettlePhase::is_loaded(const SimContext& context) const { return m_state.step > unloaded_steps(context); }
+bool SettlePhase::is_loaded(const SimContext& context) const {
+  return m_state.step > unloaded_steps(context);
+}
 
 void SettlePhase::begin(SimContext& context, bool resumed) {
   if (resumed) return;
@@ -93,7 +102,8 @@ void SettlePhase::forget_progress() {
   m_state.best_residual = std::numeric_limits<double>::infinity();
 }
 
-/// Particles that a line search blocks for a while may be nails that a skirt hangs by. So rest counts once releasing them moves nothing.
+/// Particles that a line search blocks for a while may be nails that a skirt hangs by. So rest
+/// counts once releasing them moves nothing.
 /// @return whether there is more to wait for
 bool SettlePhase::release_blocked(SimContext& context) {
   const std::vector<Vec3>& x = context.cloth.x();
@@ -101,11 +111,12 @@ bool SettlePhase::release_blocked(SimContext& context) {
   for (const Vec3& p : x) height += p.y() / static_cast<double>(x.size());
   if (m_state.release_height_m && std::abs(height - *m_state.release_height_m) < SUNK) return false;
   m_state.release_height_m = height;
-  return context.cloth.solver().thaw();
+  return context.cloth.solver().release_blocked_particles();
 }
 
-/// A monotone energy descent moves cloth that slides or sways, and has folds to pass, by a tenth of a millimetre a step, for hundreds of steps. With
-/// inertia it arrives within a second of simulated time. So cloth that still drifts makes some steps with inertia.
+/// A monotone energy descent moves cloth that slides or sways, and has folds to pass, by a tenth of
+/// a millimetre a step, for hundreds of steps. With inertia it arrives within a second of simulated
+/// time. So cloth that still drifts makes some steps with inertia.
 void SettlePhase::look_for_drift(SimContext& context) {
   const int k = m_state.step;
   const int unloaded = unloaded_steps(context);
@@ -117,11 +128,14 @@ void SettlePhase::look_for_drift(SimContext& context) {
   m_state.probe_step = k;
   if (m_state.probe_position.empty()) return; // a checkpoint of an older version
   double squares = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) squares += (x[i] - m_state.probe_position[i]).squaredNorm();
+  for (std::size_t i = 0; i < x.size(); ++i)
+    squares += (x[i] - m_state.probe_position[i]).squaredNorm();
   const double drift = std::sqrt(squares / static_cast<double>(x.size()));
-  context.telemetry.reporter.info("settle step " + std::to_string(k) + ": went " + millimetres_text(drift) + " in " + std::to_string(PROBE_STEPS) + " steps");
+  context.telemetry.reporter.info("settle step " + std::to_string(k) + ": went " +
+                                  millimetres_text(drift) + " in " + std::to_string(PROBE_STEPS) +
+                                  " steps");
   if (drift < DRIFTS) return;
-  context.cloth.solver().thaw();
+  context.cloth.solver().release_blocked_particles();
   context.cloth.solver().stop();
   m_state.dynamic_steps = DYNAMIC_STEPS;
   m_state.h = DYNAMIC_STEP_S;
@@ -130,7 +144,8 @@ void SettlePhase::look_for_drift(SimContext& context) {
 void SettlePhase::end_dynamic_step(SimContext& context) {
   --m_state.dynamic_steps;
   const StepController& stepper = context.stepper;
-  const bool arrived = DYNAMIC_STEPS - m_state.dynamic_steps >= LEAST_DYNAMIC_STEPS && stepper.last().largest_move_m < ARRIVED_SPEED * stepper.last_h();
+  const bool arrived = DYNAMIC_STEPS - m_state.dynamic_steps >= LEAST_DYNAMIC_STEPS &&
+                       stepper.last().largest_move_m < ARRIVED_SPEED * stepper.last_h();
   if (!arrived && m_state.dynamic_steps > 0) return;
   context.cloth.solver().stop();
   m_state.dynamic_steps = 0;
@@ -156,13 +171,16 @@ void SettlePhase::adapt_step(SimContext& context) {
   const double least = context.settings.time_step_s;
   double& h = m_state.h;
   if (last.halvings > 0) h = std::max(h * SHRINK_HALVED, least);
-  else if (last.largest_move_m < LITTLE_MOVED) h = std::min(h * (last.residual_force_ratio > NEAR_RESIDUAL ? GROWTH : GROWTH_NEAR_REST), LARGEST_STEP_S);
+  else if (last.largest_move_m < LITTLE_MOVED)
+    h = std::min(h * (last.residual_force_ratio > NEAR_RESIDUAL ? GROWTH : GROWTH_NEAR_REST),
+                 LARGEST_STEP_S);
   else if (last.largest_move_m > MUCH_MOVED) h = std::max(h * SHRINK_MUCH_MOVED, least);
 }
 
 bool SettlePhase::has_stalled(SimContext& context) {
   const double residual = context.stepper.last().residual_force_ratio;
-  if (m_state.step <= unloaded_steps(context) || residual < BETTER_RESIDUAL * m_state.best_residual) {
+  if (m_state.step <= unloaded_steps(context) ||
+      residual < BETTER_RESIDUAL * m_state.best_residual) {
     m_state.best_residual = residual;
     m_state.best_residual_step = m_state.step;
     return false;
@@ -171,7 +189,8 @@ bool SettlePhase::has_stalled(SimContext& context) {
 }
 
 void SettlePhase::judge_fit(SimContext& context) {
-  const Misfit misfit = context.fit.judge(m_state.start_height, context.stepper.last(), context.telemetry.report.steps);
+  const Misfit misfit = context.fit.judge(m_state.start_height, context.stepper.last(),
+                                          context.telemetry.report.steps);
   if (misfit == Misfit::NONE) return;
   context.telemetry.report.misfit = misfit;
   context.stepper.stop(StopReason::MISFIT);
@@ -199,9 +218,11 @@ PhaseStatus SettlePhase::iterate(SimContext& context) {
   const cloth::StepResult& last = context.stepper.last();
   const double speed = last.largest_move_m / m_state.h, residual = last.residual_force_ratio;
   if (k % 20 == 0)
-    context.telemetry.reporter.info("settle step " + std::to_string(k) + ": h " + std::to_string(m_state.h) + " s, speed " + std::to_string(speed) +
-                                    " m/s, residual force " + std::to_string(residual) + " of the weight, at most " +
-                                    std::to_string(last.residual_force_ratio_max) + context.cloth.crossing_text());
+    context.telemetry.reporter.info(
+        "settle step " + std::to_string(k) + ": h " + std::to_string(m_state.h) + " s, speed " +
+        std::to_string(speed) + " m/s, residual force " + std::to_string(residual) +
+        " of the weight, at most " + std::to_string(last.residual_force_ratio_max) +
+        context.cloth.crossing_text());
   context.telemetry.reporter.progress("settle", -1);
   if (dynamic) end_dynamic_step(context);
   else adapt_step(context);
@@ -210,7 +231,8 @@ PhaseStatus SettlePhase::iterate(SimContext& context) {
     return PhaseStatus::STOP;
   }
   m_state.unmoved = last.largest_move_m > 0 ? 0 : m_state.unmoved + 1;
-  const bool stuck = m_state.unmoved >= UNMOVED_STEPS && residual >= context.settings.settle_force_ratio;
+  const bool stuck =
+      m_state.unmoved >= UNMOVED_STEPS && residual >= context.settings.settle_force_ratio;
   const bool looks = k > unloaded && k % RESOLVE_EVERY == 0;
   if ((stuck || looks) && context.resolver.resolve_residual()) {
     restart_calm(context);
@@ -223,12 +245,15 @@ PhaseStatus SettlePhase::iterate(SimContext& context) {
     return PhaseStatus::STOP;
   }
   cloth::SelfContactEffect* self_contact = context.cloth.self_contact();
-  if (looks && self_contact && !self_contact->crossings().empty() && context.resolver.state().untanglings < MAX_UNTANGLINGS / 2)
+  if (looks && self_contact && !self_contact->crossings().empty() &&
+      context.resolver.state().untanglings < MAX_UNTANGLINGS / 2)
     context.resolver.untangle_in_flight();
   if (k > unloaded && k % JUDGE_EVERY == 0) judge_fit(context);
-  const bool still = speed < context.settings.settle_speed_m_s && residual < context.settings.settle_force_ratio;
+  const bool still =
+      speed < context.settings.settle_speed_m_s && residual < context.settings.settle_force_ratio;
   m_state.calm = still && k >= unloaded ? m_state.calm + 1 : 0;
-  if (context.body.state().arms_aside && k > unloaded && speed < HUNG_SPEED && residual < HUNG_RESIDUAL) {
+  if (context.body.state().arms_aside && k > unloaded && speed < HUNG_SPEED &&
+      residual < HUNG_RESIDUAL) {
     let_arms_hang(context);
     restart_calm(context);
     return PhaseStatus::CONTINUE;
@@ -243,15 +268,18 @@ PhaseStatus SettlePhase::conclude(SimContext& context) {
     return PhaseStatus::CONTINUE;
   }
   const cloth::BodyContactEffect* contact = context.cloth.body_contact();
-  if (contact && contact->n_crossing() > 0 && ++m_state.pushed < MAX_PUSH_STEPS) return PhaseStatus::CONTINUE; // pushed harder each step
+  if (contact && contact->n_crossing() > 0 && ++m_state.pushed < MAX_PUSH_STEPS)
+    return PhaseStatus::CONTINUE; // pushed harder each step
   if (context.body.has_coarse_proxy()) {
-    context.telemetry.reporter.info("at rest on the coarser skin after " + std::to_string(m_state.step) + " steps, on to the whole one");
+    context.telemetry.reporter.info("at rest on the coarser skin after " +
+                                    std::to_string(m_state.step) + " steps, on to the whole one");
     drop_coarse_proxy(context);
     m_state.calm = 0;
     return PhaseStatus::CONTINUE;
   }
   cloth::SelfContactEffect* self_contact = context.cloth.self_contact();
-  if (context.resolver.state().untanglings < MAX_UNTANGLINGS && self_contact && !self_contact->find_crossings(context.cloth.x()).empty()) {
+  if (context.resolver.state().untanglings < MAX_UNTANGLINGS && self_contact &&
+      !self_contact->find_crossings(context.cloth.x()).empty()) {
     context.resolver.untangle_in_flight();
     m_state.calm = 0;
     return PhaseStatus::CONTINUE;
@@ -275,11 +303,16 @@ void SettlePhase::let_arms_hang(SimContext& context) {
   const std::vector<Vec3> hung = garment.position;
   std::vector<char> on_arms(hung.size(), 0);
   for (const pattern::PanelInfo& p : garment.panels.panels)
-    for (int v = p.first_vertex; p.part.starts_with("arm") && v < p.first_vertex + p.n_vertices; ++v) on_arms[garment.particle_of[v]] = 1;
+    for (int v = p.first_vertex; p.part.starts_with("arm") && v < p.first_vertex + p.n_vertices;
+         ++v)
+      on_arms[garment.particle_of[v]] = 1;
   const std::size_t moved = bring_under_arms(garment.position, on_arms, *context.body.body(), gap);
   if (moved > 0) {
-    settle_shape(garment.position, hung, garment.particle_triangles(), *context.body.collider(), gap);
-    context.telemetry.add_repair("arms: " + std::to_string(moved) + " particles in forearms or hands or beyond them were brought between those and the body");
+    settle_shape(garment.position, hung, garment.particle_triangles(), *context.body.collider(),
+                 gap);
+    context.telemetry.add_repair(
+        "arms: " + std::to_string(moved) +
+        " particles in forearms or hands or beyond them were brought between those and the body");
     context.resolver.untangle();
     contact = {};
   }

@@ -1,8 +1,9 @@
 #pragma once
 /// Brings the sewn garment to rest.
 ///
-/// A garment whose start is strained first relaxes free of weight and friction, which would keep that strain. Then each step must lower the energy; cloth
-/// that still drifts is let go with its inertia for a while. What stays through the skin or crosses itself is resolved on the way.
+/// A garment whose start is strained first relaxes free of weight and friction, which would keep
+/// that strain. Then each step must lower the energy; cloth that still drifts is let go with its
+/// inertia for a while. What stays through the skin or crosses itself is resolved on the way.
 #include <garment/simulate/phases/phase.hpp>
 #include <io/json_fwd.hpp>
 
@@ -24,11 +25,12 @@ public:
     int best_residual_step = 0;
     double best_residual = std::numeric_limits<double>::infinity(); ///< weights
     std::vector<double> start_height;                               ///< #P, m, where settling began
-    std::optional<double> release_height_m;                         ///< mean height at the last release of particles that a line search blocked
-    int probe_step = 0;                                             ///< when drift was last looked at
-    std::vector<Vec3> probe_position;                               ///< #P by 3, m, some steps before the next look
-    int dynamic_steps = 0;                                          ///< still to go with inertia
-    std::vector<Vec3> velocity;                                     ///< #P by 3, m/s; only in a checkpoint taken within those
+    std::optional<double> release_height_m; ///< mean height at the last release of particles that a
+                                            ///< line search blocked
+    int probe_step = 0;                     ///< when drift was last looked at
+    std::vector<Vec3> probe_position;       ///< #P by 3, m, some steps before the next look
+    int dynamic_steps = 0;                  ///< still to go with inertia
+    std::vector<Vec3> velocity; ///< #P by 3, m/s; only in a checkpoint taken within those
 
     void write(io::Json& state) const;
     /// @throws Error INPUT, where lists do not belong to the garment too

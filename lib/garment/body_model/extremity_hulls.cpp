@@ -1,5 +1,5 @@
 #include <collision/predicates.hpp>
-#include <garment/body_model/covered_skin.hpp>
+#include <garment/body_model/extremity_hulls.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,9 @@ Place place_of(const Vec3& p, const Vec3& root, const Vec3& tip) {
   return {along, (p - root - along * direction).norm()};
 }
 
-bool sees(const std::vector<Vec3>& p, const Triangle& t, int v) { return collision::orientation(p[t[0]], p[t[1]], p[t[2]], p[v]) < 0; }
+bool sees(const std::vector<Vec3>& p, const Triangle& t, int v) {
+  return collision::orientation(p[t[0]], p[t[1]], p[t[2]], p[v]) < 0;
+}
 
 } // namespace
 
@@ -37,10 +39,13 @@ std::vector<Triangle> convex_hull_of(const std::vector<Vec3>& p) {
     if ((p[i] - p[a]).squaredNorm() > (p[b] - p[a]).squaredNorm()) b = i;
   double widest = 0, highest = 0;
   for (int i = 0; i < n; ++i)
-    if (const double area = (p[b] - p[a]).cross(p[i] - p[a]).squaredNorm(); area > widest) widest = area, c = i;
+    if (const double area = (p[b] - p[a]).cross(p[i] - p[a]).squaredNorm(); area > widest)
+      widest = area, c = i;
   if (!(widest > 0)) return {};
   for (int i = 0; i < n; ++i)
-    if (const double volume = std::abs((p[b] - p[a]).cross(p[c] - p[a]).dot(p[i] - p[a])); volume > highest) highest = volume, d = i;
+    if (const double volume = std::abs((p[b] - p[a]).cross(p[c] - p[a]).dot(p[i] - p[a]));
+        volume > highest)
+      highest = volume, d = i;
   if (d < 0 || collision::orientation(p[a], p[b], p[c], p[d]) == 0) return {};
   std::vector<Triangle> hull = {{a, b, c}, {a, c, d}, {a, d, b}, {b, d, c}};
   const int inner[4] = {d, b, c, a};
@@ -65,16 +70,17 @@ std::vector<Triangle> convex_hull_of(const std::vector<Vec3>& p) {
   return hull;
 }
 
-CoveredSkin::CoveredSkin(const body::Body& body, unsigned ends) : m_mesh(body.skin) {
+ExtremityHulls::ExtremityHulls(const body::Body& body, unsigned ends) : m_mesh(body.skin) {
   struct Candidate {
     Ends end;
     body::Part part;
     std::string root, tip;
     double from; // of the way from the root to the tip
   };
-  for (const Candidate& c :
-       {Candidate{HANDS, body::Part::ARM_L, "wrist_l", "hand_tip_l", 0}, Candidate{HANDS, body::Part::ARM_R, "wrist_r", "hand_tip_r", 0},
-        Candidate{FEET, body::Part::LEG_L, "heel_l", "foot_tip_l", BALL}, Candidate{FEET, body::Part::LEG_R, "heel_r", "foot_tip_r", BALL}}) {
+  for (const Candidate& c : {Candidate{HANDS, body::Part::ARM_L, "wrist_l", "hand_tip_l", 0},
+                             Candidate{HANDS, body::Part::ARM_R, "wrist_r", "hand_tip_r", 0},
+                             Candidate{FEET, body::Part::LEG_L, "heel_l", "foot_tip_l", BALL},
+                             Candidate{FEET, body::Part::LEG_R, "heel_r", "foot_tip_r", BALL}}) {
     if (!(ends & c.end) || !body.has_landmark(c.root) || !body.has_landmark(c.tip)) continue;
     Shell shell{c.end, body.landmark(c.root), body.landmark(c.tip)};
     shell.root += c.from * (shell.tip - shell.root);
@@ -89,7 +95,9 @@ CoveredSkin::CoveredSkin(const body::Body& body, unsigned ends) : m_mesh(body.sk
     std::vector<Vec3> points;
     Vec3 middle = Vec3::Zero();
     for (std::size_t v = 0; v < of_end.size(); ++v)
-      if (of_end[v]) source.push_back(static_cast<int>(v)), points.push_back(body.skin.positions[v]), middle += points.back();
+      if (of_end[v])
+        source.push_back(static_cast<int>(v)), points.push_back(body.skin.positions[v]),
+            middle += points.back();
     const std::vector<Triangle> hull = convex_hull_of(points);
     if (hull.empty()) continue;
     middle /= static_cast<double>(points.size());
@@ -101,24 +109,26 @@ CoveredSkin::CoveredSkin(const body::Body& body, unsigned ends) : m_mesh(body.sk
         m_source.push_back(source[v]);
         m_outward.push_back(OFF_THE_SKIN * (points[v] - middle).normalized());
       }
-    for (const Triangle& t : hull) m_mesh.triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
+    for (const Triangle& t : hull)
+      m_mesh.triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
     m_shells.push_back(shell);
   }
   m_mesh.positions = positions(body.skin.positions);
 }
 
-std::vector<Vec3> CoveredSkin::positions(const std::vector<Vec3>& skin) const {
+std::vector<Vec3> ExtremityHulls::positions(const std::vector<Vec3>& skin) const {
   std::vector<Vec3> all = skin;
   for (std::size_t i = 0; i < m_source.size(); ++i) all.push_back(skin[m_source[i]] + m_outward[i]);
   return all;
 }
 
-unsigned CoveredSkin::concerned(const std::vector<Vec3>& points) const {
+unsigned ExtremityHulls::concerned(const std::vector<Vec3>& points) const {
   unsigned ends = 0;
   for (const Shell& shell : m_shells)
     for (const Vec3& p : points) {
       const Place at = place_of(p, shell.root, shell.tip);
-      if (at.along > -0.02 && at.along < 2 * (shell.tip - shell.root).norm() && at.beside < BESIDE) ends |= shell.end;
+      if (at.along > -0.02 && at.along < 2 * (shell.tip - shell.root).norm() && at.beside < BESIDE)
+        ends |= shell.end;
     }
   return ends;
 }

@@ -1,4 +1,4 @@
-#include <garment/retarget/carry.hpp>
+#include <garment/retarget/state_transfer.hpp>
 #include <garment/sewing.hpp>
 
 #include <algorithm>
@@ -9,8 +9,9 @@
 namespace sloper::garment {
 namespace {
 
-constexpr double MEETS = 5e-4;    // m: free edges nearer than this lie on each other
-constexpr double PARTED = 1.2e-3; // m, that each goes back: together more than the thickness at which cloth feels cloth
+constexpr double MEETS = 5e-4; // m: free edges nearer than this lie on each other
+constexpr double PARTED =
+    1.2e-3; // m, that each goes back: together more than the thickness at which cloth feels cloth
 
 /// A panel of the old mesh, and how its drawing lies in the new panel's.
 struct Source {
@@ -25,10 +26,13 @@ const pattern::PanelInfo* panel_named(const pattern::PanelMesh& mesh, const std:
   return nullptr;
 }
 
-bool owns(const pattern::PanelInfo& p, int vertex) { return vertex >= p.first_vertex && vertex < p.first_vertex + p.n_vertices; }
+bool owns(const pattern::PanelInfo& p, int vertex) {
+  return vertex >= p.first_vertex && vertex < p.first_vertex + p.n_vertices;
+}
 
 /// The rigid motion that lays panel b beside panel a along a seam between them.
-bool beside(const pattern::PanelMesh& mesh, const pattern::PanelInfo& a, const pattern::PanelInfo& b, Source& out) {
+bool beside(const pattern::PanelMesh& mesh, const pattern::PanelInfo& a,
+            const pattern::PanelInfo& b, Source& out) {
   std::vector<std::array<int, 2>> pairs;
   for (const pattern::MeshSeam& s : mesh.seams)
     for (std::size_t k = 0; k < s.a.size(); ++k)
@@ -36,11 +40,14 @@ bool beside(const pattern::PanelMesh& mesh, const pattern::PanelInfo& a, const p
       else if (owns(a, s.b[k]) && owns(b, s.a[k])) pairs.push_back({s.b[k], s.a[k]});
   if (pairs.size() < 2) return false;
   Vec2 mean_a = Vec2::Zero(), mean_b = Vec2::Zero();
-  for (const auto& [v, w] : pairs) mean_a += mesh.pattern[static_cast<std::size_t>(v)], mean_b += mesh.pattern[static_cast<std::size_t>(w)];
+  for (const auto& [v, w] : pairs)
+    mean_a += mesh.pattern[static_cast<std::size_t>(v)],
+        mean_b += mesh.pattern[static_cast<std::size_t>(w)];
   mean_a /= static_cast<double>(pairs.size()), mean_b /= static_cast<double>(pairs.size());
   double along = 0, across = 0;
   for (const auto& [v, w] : pairs) {
-    const Vec2 p = mesh.pattern[static_cast<std::size_t>(w)] - mean_b, q = mesh.pattern[static_cast<std::size_t>(v)] - mean_a;
+    const Vec2 p = mesh.pattern[static_cast<std::size_t>(w)] - mean_b,
+               q = mesh.pattern[static_cast<std::size_t>(v)] - mean_a;
     along += p.dot(q), across += p.x() * q.y() - p.y() * q.x();
   }
   out.turn = Eigen::Rotation2Dd(std::atan2(across, along)).toRotationMatrix();
@@ -53,7 +60,8 @@ Vec3 nearest_weights(const std::array<Vec2, 3>& t, const Vec2& p, double& square
   const Vec2 e = t[1] - t[0], f = t[2] - t[0], d = p - t[0];
   const double area = e.x() * f.y() - e.y() * f.x();
   if (std::abs(area) > 1e-18) {
-    const double v = (d.x() * f.y() - d.y() * f.x()) / area, w = (e.x() * d.y() - e.y() * d.x()) / area;
+    const double v = (d.x() * f.y() - d.y() * f.x()) / area,
+                 w = (e.x() * d.y() - e.y() * d.x()) / area;
     if (v >= 0 && w >= 0 && v + w <= 1) {
       squared_distance = 0;
       return {1 - v - w, v, w};
@@ -63,9 +71,11 @@ Vec3 nearest_weights(const std::array<Vec2, 3>& t, const Vec2& p, double& square
   squared_distance = 1e300;
   for (int k = 0; k < 3; ++k) {
     const Vec2 &a = t[static_cast<std::size_t>(k)], &b = t[static_cast<std::size_t>((k + 1) % 3)];
-    const double length = (b - a).squaredNorm(), s = length > 0 ? std::clamp((p - a).dot(b - a) / length, 0.0, 1.0) : 0.0;
+    const double length = (b - a).squaredNorm(),
+                 s = length > 0 ? std::clamp((p - a).dot(b - a) / length, 0.0, 1.0) : 0.0;
     const double off = (a + s * (b - a) - p).squaredNorm();
-    if (off < squared_distance) squared_distance = off, best = Vec3::Zero(), best[k] = 1 - s, best[(k + 1) % 3] = s;
+    if (off < squared_distance)
+      squared_distance = off, best = Vec3::Zero(), best[k] = 1 - s, best[(k + 1) % 3] = s;
   }
   return best;
 }
@@ -73,7 +83,8 @@ Vec3 nearest_weights(const std::array<Vec2, 3>& t, const Vec2& p, double& square
 /// The triangles of a panel by square cells of its drawing.
 class PanelCells {
 public:
-  PanelCells(const pattern::PanelMesh& mesh, const pattern::PanelInfo& panel) : m_low(Vec2::Constant(1e300)), m_cell(std::max(mesh.edge_length, 1e-4)) {
+  PanelCells(const pattern::PanelMesh& mesh, const pattern::PanelInfo& panel)
+      : m_low(Vec2::Constant(1e300)), m_cell(std::max(mesh.edge_length, 1e-4)) {
     Vec2 high = Vec2::Constant(-1e300);
     for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
       const Vec2& p = mesh.pattern[static_cast<std::size_t>(v)];
@@ -89,7 +100,8 @@ public:
         least = least.cwiseMin(p), most = most.cwiseMax(p);
       }
       for (int y = cell_at(least.y()); y <= cell_at(most.y()); ++y)
-        for (int x = cell_at(least.x()); x <= cell_at(most.x()); ++x) m_triangles[index(x, y)].push_back(f);
+        for (int x = cell_at(least.x()); x <= cell_at(most.x()); ++x)
+          m_triangles[index(x, y)].push_back(f);
     }
   }
   /// Those that may hold p, in their order; none outside the panel's box.
@@ -103,23 +115,28 @@ public:
 private:
   static constexpr double MOST_CELLS = 2000; // in a row
   int cell_at(double offset) const { return static_cast<int>(offset / m_cell); }
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(m_nx) + static_cast<std::size_t>(x); }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(m_nx) +
+           static_cast<std::size_t>(x);
+  }
   Vec2 m_low;
   double m_cell;
   int m_nx = 0, m_ny = 0;
   std::vector<std::vector<int>> m_triangles;
 };
 
-/// Where an edit opens cloth, both sides of the opening start in one place, and nothing could tell which is which. Each goes back a little
-/// into its own cloth. Cost: free edges squared.
+/// Where an edit opens cloth, both sides of the opening start in one place, and nothing could tell
+/// which is which. Each goes back a little into its own cloth. Cost: free edges squared.
 void part_free_edges(const std::vector<Triangle>& triangles, std::vector<Vec3>& position) {
   std::vector<Vec3> around(position.size(), Vec3::Zero());
   std::vector<int> count(position.size(), 0);
   for (const Triangle& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = t[k], b = t[(k + 1) % 3];
-      around[static_cast<std::size_t>(a)] += position[static_cast<std::size_t>(b)], ++count[static_cast<std::size_t>(a)];
-      around[static_cast<std::size_t>(b)] += position[static_cast<std::size_t>(a)], ++count[static_cast<std::size_t>(b)];
+      around[static_cast<std::size_t>(a)] += position[static_cast<std::size_t>(b)],
+          ++count[static_cast<std::size_t>(a)];
+      around[static_cast<std::size_t>(b)] += position[static_cast<std::size_t>(a)],
+          ++count[static_cast<std::size_t>(b)];
     }
   const std::vector<std::array<int, 2>> free = free_edges_of(triangles);
   std::set<int> ends;
@@ -130,19 +147,23 @@ void part_free_edges(const std::vector<Triangle>& triangles, std::vector<Vec3>& 
     const Vec3& x = position[v];
     const bool meets = std::any_of(free.begin(), free.end(), [&](const std::array<int, 2>& e) {
       if (e[0] == p || e[1] == p) return false;
-      const Vec3 &a = position[static_cast<std::size_t>(e[0])], along = position[static_cast<std::size_t>(e[1])] - a;
-      const double s = along.squaredNorm() > 0 ? std::clamp((x - a).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0.0;
+      const Vec3 &a = position[static_cast<std::size_t>(e[0])],
+                 along = position[static_cast<std::size_t>(e[1])] - a;
+      const double s = along.squaredNorm() > 0
+                           ? std::clamp((x - a).dot(along) / along.squaredNorm(), 0.0, 1.0)
+                           : 0.0;
       return (x - a - s * along).squaredNorm() < MEETS * MEETS;
     });
     const Vec3 inwards = around[v] / count[v] - x;
-    if (meets && inwards.norm() > 0) moved.push_back({v, x + std::min(PARTED / inwards.norm(), 0.25) * inwards});
+    if (meets && inwards.norm() > 0)
+      moved.push_back({v, x + std::min(PARTED / inwards.norm(), 0.25) * inwards});
   }
   for (const auto& [v, x] : moved) position[v] = x;
 }
 
 } // namespace
 
-void carry_to(Garment& garment, pattern::PanelMesh mesh) {
+void transfer_state(Garment& garment, pattern::PanelMesh mesh) {
   const pattern::PanelMesh& old = garment.panels;
   std::vector<Vec3> position(mesh.pattern.size());
   for (pattern::PanelInfo& panel : mesh.panels) {
@@ -165,28 +186,40 @@ void carry_to(Garment& garment, pattern::PanelMesh mesh) {
       const auto look_at = [&](std::size_t s, const Vec2& p, int f) {
         const Triangle& t = old.triangles[static_cast<std::size_t>(f)];
         double off = 0;
-        const Vec3 w = nearest_weights(
-            {old.pattern[static_cast<std::size_t>(t[0])], old.pattern[static_cast<std::size_t>(t[1])], old.pattern[static_cast<std::size_t>(t[2])]}, p, off);
+        const Vec3 w = nearest_weights({old.pattern[static_cast<std::size_t>(t[0])],
+                                        old.pattern[static_cast<std::size_t>(t[1])],
+                                        old.pattern[static_cast<std::size_t>(t[2])]},
+                                       p, off);
         if (off >= least) return;
         least = off, voted = s;
         Vec3 at = Vec3::Zero();
         for (int k = 0; k < 3; ++k)
-          at += w[k] * garment.position[static_cast<std::size_t>(garment.particle_of[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])])];
+          at += w[k] *
+                garment.position[static_cast<std::size_t>(
+                    garment.particle_of[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])])];
         position[static_cast<std::size_t>(v)] = at;
       };
-      const auto place_in = [&](std::size_t s) { return Vec2(sources[s].turn.transpose() * (mesh.pattern[static_cast<std::size_t>(v)] - sources[s].shift)); };
+      const auto place_in = [&](std::size_t s) {
+        return Vec2(sources[s].turn.transpose() *
+                    (mesh.pattern[static_cast<std::size_t>(v)] - sources[s].shift));
+      };
       for (std::size_t s = 0; s < sources.size() && least > 0; ++s) {
         const Vec2 p = place_in(s);
         const std::vector<int>& near = cells[s].near(p);
         for (std::size_t k = 0; k < near.size() && least > 0; ++k) look_at(s, p, near[k]);
       }
-      for (std::size_t s = 0; s < sources.size() && least > 0; ++s) { // beside all of them: the nearest
+      for (std::size_t s = 0; s < sources.size() && least > 0;
+           ++s) { // beside all of them: the nearest
         const Vec2 p = place_in(s);
-        for (int f = sources[s].panel->first_triangle; f < sources[s].panel->first_triangle + sources[s].panel->n_triangles && least > 0; ++f) look_at(s, p, f);
+        for (int f = sources[s].panel->first_triangle;
+             f < sources[s].panel->first_triangle + sources[s].panel->n_triangles && least > 0; ++f)
+          look_at(s, p, f);
       }
       ++votes[voted];
     }
-    panel.part = sources[static_cast<std::size_t>(std::max_element(votes.begin(), votes.end()) - votes.begin())].panel->part;
+    panel.part = sources[static_cast<std::size_t>(std::max_element(votes.begin(), votes.end()) -
+                                                  votes.begin())]
+                     .panel->part;
   }
   mesh.placed = position;
   garment.panels = std::move(mesh);

@@ -1,5 +1,5 @@
 #include <body/surface/point_grid.hpp>
-#include <body/surface/thin_cloud.hpp>
+#include <body/surface/sparse_cloud.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -12,11 +12,12 @@ namespace sloper::body {
 
 namespace {
 
-constexpr int FILL_ROUNDS = 3, COMPANY = 8;                                   ///< points that a plane is laid through
-constexpr std::array<double, 7> REACH = {1.5, 2.1, 3.0, 4.2, 6.0, 8.5, 12.0}; ///< of the spacing wanted
-constexpr double DENSE = 2.1;                                                 ///< eight points within so many spacings: nothing to add
-constexpr double AGREE = 0.55;                                                ///< cosine of two normals on one side of the body
-constexpr double ALONG = 0.45;                                                ///< sine of the way between two points against the surface
+constexpr int FILL_ROUNDS = 3, COMPANY = 8; ///< points that a plane is laid through
+constexpr std::array<double, 7> REACH = {1.5, 2.1, 3.0, 4.2,
+                                         6.0, 8.5, 12.0}; ///< of the spacing wanted
+constexpr double DENSE = 2.1;  ///< eight points within so many spacings: nothing to add
+constexpr double AGREE = 0.55; ///< cosine of two normals on one side of the body
+constexpr double ALONG = 0.45; ///< sine of the way between two points against the surface
 
 struct Neighbourhood {
   double reach = 0; ///< 0: alone
@@ -62,7 +63,9 @@ std::optional<Vec3> middle_between(const Vec3& p, const Vec3& n, const Vec3& q, 
   const double length = way.norm();
   double agree = n.dot(m);
   if (agree < 0) m = -m, agree = -agree;
-  if (agree < AGREE || std::abs(way.dot(n)) > ALONG * length || std::abs(way.dot(m)) > ALONG * length) return std::nullopt;
+  if (agree < AGREE || std::abs(way.dot(n)) > ALONG * length ||
+      std::abs(way.dot(m)) > ALONG * length)
+    return std::nullopt;
   return Vec3(0.5 * (p + q) - 0.125 * (way.dot(n) * n - way.dot(m) * m));
 }
 
@@ -78,9 +81,13 @@ std::vector<Vec3> fill_thin_cloud(const std::vector<Vec3>& points, double spacin
       if (a.reach <= DENSE * spacing) continue; // dense already, or alone
       for (const int j : a.near) {
         const Neighbourhood& b = around[j];
-        const bool both = b.reach > DENSE * spacing && std::binary_search(b.near.begin(), b.near.end(), static_cast<int>(i));
-        if (b.reach <= 0 || (both && j < static_cast<int>(i)) || (cloud[j] - cloud[i]).squaredNorm() < spacing * spacing) continue;
-        if (const auto middle = middle_between(cloud[i], a.normal, cloud[j], b.normal)) added.push_back(*middle);
+        const bool both = b.reach > DENSE * spacing &&
+                          std::binary_search(b.near.begin(), b.near.end(), static_cast<int>(i));
+        if (b.reach <= 0 || (both && j < static_cast<int>(i)) ||
+            (cloud[j] - cloud[i]).squaredNorm() < spacing * spacing)
+          continue;
+        if (const auto middle = middle_between(cloud[i], a.normal, cloud[j], b.normal))
+          added.push_back(*middle);
       }
     }
     if (added.empty()) break;
@@ -88,7 +95,9 @@ std::vector<Vec3> fill_thin_cloud(const std::vector<Vec3>& points, double spacin
     const double cell = 0.6 * spacing;
     std::vector<std::pair<std::array<long, 3>, int>> order(added.size());
     for (std::size_t i = 0; i < added.size(); ++i)
-      order[i] = {{std::lround(added[i].x() / cell), std::lround(added[i].y() / cell), std::lround(added[i].z() / cell)}, static_cast<int>(i)};
+      order[i] = {{std::lround(added[i].x() / cell), std::lround(added[i].y() / cell),
+                   std::lround(added[i].z() / cell)},
+                  static_cast<int>(i)};
     std::sort(order.begin(), order.end());
     for (std::size_t i = 0; i < order.size(); ++i)
       if (i == 0 || order[i].first != order[i - 1].first) cloud.push_back(added[order[i].second]);

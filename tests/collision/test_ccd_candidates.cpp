@@ -1,4 +1,4 @@
-#include <collision/closing_pairs.hpp>
+#include <collision/ccd_candidates.hpp>
 
 #include <support/shapes.hpp>
 
@@ -22,7 +22,8 @@ Sheets two_sheets(int n) {
   for (int layer = 0; layer < 2; ++layer) {
     const auto first = static_cast<int>(s.x.size());
     for (int r = 0; r <= n; ++r)
-      for (int c = 0; c <= n; ++c) s.x.emplace_back(0.01 * c, 0.012 * layer + 0.003 * random.uniform(-1, 1), 0.01 * r);
+      for (int c = 0; c <= n; ++c)
+        s.x.emplace_back(0.01 * c, 0.012 * layer + 0.003 * random.uniform(-1, 1), 0.01 * r);
     for (int r = 0; r < n; ++r)
       for (int c = 0; c < n; ++c) {
         const int a = first + r * (n + 1) + c, b = a + 1, d = a + n + 1, e = d + 1;
@@ -37,14 +38,16 @@ Sheets two_sheets(int n) {
 std::vector<Vec3> random_motion(const Sheets& s, std::uint64_t seed) {
   Random random(seed);
   std::vector<Vec3> dx(s.x.size());
-  for (Vec3& d : dx) d = 0.01 * Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+  for (Vec3& d : dx)
+    d = 0.01 * Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
   return dx;
 }
 
 std::vector<char> all(const Sheets& s) { return std::vector<char>(s.x.size(), 1); }
 
 /// The least distance of the pair on the way, by trying.
-template<class Distance> double least_on_the_way(const Sheets& s, const std::vector<Vec3>& dx, const Distance& distance) {
+template<class Distance>
+double least_on_the_way(const Sheets& s, const std::vector<Vec3>& dx, const Distance& distance) {
   double least = 1e300;
   for (int k = 0; k <= 20; ++k) {
     std::vector<Vec3> x(s.x.size());
@@ -54,46 +57,59 @@ template<class Distance> double least_on_the_way(const Sheets& s, const std::vec
   return least;
 }
 
-TEST(ClosingPairs, WhatIsNotFoundStaysApart) {
+TEST(CcdCandidates, WhatIsNotFoundStaysApart) {
   const Sheets s = two_sheets(5);
   const Topology topology = make_topology(s.x.size(), s.triangles);
   Random random(8);
   std::vector<Vec3> dx(s.x.size());
-  for (std::size_t i = 0; i < dx.size(); ++i) // the upper sheet falls through the lower, and both drift
-    dx[i] = Vec3(0.05, i < dx.size() / 2 ? 0 : -0.03, 0) + 0.002 * Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-  ClosingPairs closing(s.triangles, topology);
+  for (std::size_t i = 0; i < dx.size();
+       ++i) // the upper sheet falls through the lower, and both drift
+    dx[i] = Vec3(0.05, i < dx.size() / 2 ? 0 : -0.03, 0) +
+            0.002 * Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+  CcdCandidates closing(s.triangles, topology);
   closing.find(s.x, dx, all(s), false);
   EXPECT_FALSE(closing.vertex_face().empty());
   EXPECT_FALSE(closing.edge_edge().empty());
-  const auto listed = [](const auto& pairs, int a, int b) { return std::binary_search(pairs.begin(), pairs.end(), std::array<int, 2>{a, b}); };
-  const auto enough = [](double before) { return 0.99 * std::min((1 - ClosingPairs::SHARE) * before, 1e-4); };
+  const auto listed = [](const auto& pairs, int a, int b) {
+    return std::binary_search(pairs.begin(), pairs.end(), std::array<int, 2>{a, b});
+  };
+  const auto enough = [](double before) {
+    return 0.99 * std::min((1 - CcdCandidates::SHARE) * before, 1e-4);
+  };
   for (int v = 0; v < static_cast<int>(s.x.size()); ++v)
     for (int f = 0; f < static_cast<int>(s.triangles.size()); ++f) {
       const Triangle& t = s.triangles[f];
       if (v == t[0] || v == t[1] || v == t[2] || listed(closing.vertex_face(), v, f)) continue;
-      const auto distance = [&](const std::vector<Vec3>& x) { return std::sqrt(point_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).squared_distance); };
+      const auto distance = [&](const std::vector<Vec3>& x) {
+        return std::sqrt(point_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).squared_distance);
+      };
       ASSERT_GE(least_on_the_way(s, dx, distance), enough(distance(s.x))) << v << " " << f;
     }
   for (int e = 0; e < static_cast<int>(topology.edges.size()); ++e)
     for (int f = e + 1; f < static_cast<int>(topology.edges.size()); ++f) {
       const auto &a = topology.edges[e], &b = topology.edges[f];
-      if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1] || listed(closing.edge_edge(), e, f)) continue;
-      const auto distance = [&](const std::vector<Vec3>& x) { return std::sqrt(edge_edge(x[a[0]], x[a[1]], x[b[0]], x[b[1]]).squared_distance); };
+      if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1] ||
+          listed(closing.edge_edge(), e, f))
+        continue;
+      const auto distance = [&](const std::vector<Vec3>& x) {
+        return std::sqrt(edge_edge(x[a[0]], x[a[1]], x[b[0]], x[b[1]]).squared_distance);
+      };
       ASSERT_GE(least_on_the_way(s, dx, distance), enough(distance(s.x))) << e << " " << f;
     }
 }
 
-TEST(ClosingPairs, WhatMovesTogetherIsNotFound) {
+TEST(CcdCandidates, WhatMovesTogetherIsNotFound) {
   const Sheets s = two_sheets(6);
   const Topology topology = make_topology(s.x.size(), s.triangles);
-  ClosingPairs closing(s.triangles, topology);
+  CcdCandidates closing(s.triangles, topology);
   closing.find(s.x, std::vector<Vec3>(s.x.size(), Vec3(0.3, -1, 0.2)), all(s), false);
   EXPECT_TRUE(closing.vertex_face().empty());
   EXPECT_TRUE(closing.edge_edge().empty());
 }
 
 /// Of the pairs of `every` `some` has those with a marked particle.
-void expect_those_of_marked(const ClosingPairs& some, const ClosingPairs& every, const Sheets& s, const Topology& topology, const std::vector<char>& marked) {
+void expect_those_of_marked(const CcdCandidates& some, const CcdCandidates& every, const Sheets& s,
+                            const Topology& topology, const std::vector<char>& marked) {
   std::vector<std::array<int, 2>> vertex_face, edge_edge;
   for (const auto& [v, f] : every.vertex_face()) {
     const Triangle& t = s.triangles[f];
@@ -109,11 +125,11 @@ void expect_those_of_marked(const ClosingPairs& some, const ClosingPairs& every,
   EXPECT_EQ(some.edge_edge(), edge_edge);
 }
 
-TEST(ClosingPairs, AgainLooksForPairsOfWhatMovesOtherwise) {
+TEST(CcdCandidates, AgainLooksForPairsOfWhatMovesOtherwise) {
   const Sheets s = two_sheets(12);
   const Topology topology = make_topology(s.x.size(), s.triangles);
   std::vector<Vec3> dx = random_motion(s, 10);
-  ClosingPairs closing(s.triangles, topology), fresh(s.triangles, topology);
+  CcdCandidates closing(s.triangles, topology), fresh(s.triangles, topology);
   closing.find(s.x, dx, all(s), false);
   closing.find(s.x, dx, all(s), true);
   EXPECT_TRUE(closing.vertex_face().empty());
@@ -128,23 +144,23 @@ TEST(ClosingPairs, AgainLooksForPairsOfWhatMovesOtherwise) {
   expect_those_of_marked(closing, fresh, s, topology, other);
 }
 
-TEST(ClosingPairs, FindsThePairsOfWhatIsMarked) {
+TEST(CcdCandidates, FindsThePairsOfWhatIsMarked) {
   const Sheets s = two_sheets(12);
   const Topology topology = make_topology(s.x.size(), s.triangles);
   const std::vector<Vec3> dx = random_motion(s, 12);
   std::vector<char> marked(dx.size(), 0);
   for (std::size_t i = 0; i < dx.size(); i += 23) marked[i] = 1;
-  ClosingPairs some(s.triangles, topology), every(s.triangles, topology);
+  CcdCandidates some(s.triangles, topology), every(s.triangles, topology);
   some.find(s.x, dx, marked, false);
   every.find(s.x, dx, all(s), false);
   expect_those_of_marked(some, every, s, topology, marked);
 }
 
-TEST(ClosingPairs, TheSameForAnyNumberOfThreads) {
+TEST(CcdCandidates, TheSameForAnyNumberOfThreads) {
   const Sheets s = two_sheets(30);
   const Topology topology = make_topology(s.x.size(), s.triangles);
   const std::vector<Vec3> dx = random_motion(s, 9);
-  ClosingPairs one(s.triangles, topology), many(s.triangles, topology);
+  CcdCandidates one(s.triangles, topology), many(s.triangles, topology);
   set_thread_count(1);
   one.find(s.x, dx, all(s), false);
   set_thread_count(4);

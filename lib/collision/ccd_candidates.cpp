@@ -1,4 +1,4 @@
-#include <collision/closing_pairs.hpp>
+#include <collision/ccd_candidates.hpp>
 
 #include <collision/chunks.hpp>
 
@@ -18,7 +18,9 @@ struct Moving {
   Float4 low[3], high[3], slow[3], fast[3];
 };
 
-template<std::size_t N> Moving bounds_of(const std::array<int, N>& particles, const std::vector<Vec3>& x, const std::vector<Vec3>& dx) {
+template<std::size_t N>
+Moving bounds_of(const std::array<int, N>& particles, const std::vector<Vec3>& x,
+                 const std::vector<Vec3>& dx) {
   Moving m;
   for (int a = 0; a < 3; ++a) {
     double low = x[particles[0]][a], high = low, slow = dx[particles[0]][a], fast = slow;
@@ -37,20 +39,25 @@ template<std::size_t N> Moving bounds_of(const std::array<int, N>& particles, co
 }
 
 /// Of every node, the children below which a slot is listed: bits by lane.
-template<class Listed> void mark_nodes(const TriangleTree& tree, std::vector<std::uint8_t>& lanes, const Listed& listed) {
+template<class Listed>
+void mark_nodes(const TriangleTree& tree, std::vector<std::uint8_t>& lanes, const Listed& listed) {
   lanes.assign(tree.nodes().size(), 0);
   for (std::size_t index = tree.nodes().size(); index-- > 0;) // children come after their parents
     for (int i = 0; i < 4; ++i) {
       const int child = tree.nodes()[index].child[i];
-      if (child != TriangleTree::EMPTY && (child >= 0 ? lanes[child] != 0 : listed(-2 - child))) lanes[index] |= static_cast<std::uint8_t>(1 << i);
+      if (child != TriangleTree::EMPTY && (child >= 0 ? lanes[child] != 0 : listed(-2 - child)))
+        lanes[index] |= static_cast<std::uint8_t>(1 << i);
     }
 }
 
-/// Calls visit(slot) for every slot >= first that could meet the element if all moved 1 / SHARE times as far.
+/// Calls visit(slot) for every slot >= first that could meet the element if all moved 1 / SHARE
+/// times as far.
 /// @param lanes  null, or those children of every node that are looked at
 template<class Visit>
-void visit_meeting(const TriangleTree& tree, const TriangleTree& motion, const Moving& e, int first, const std::uint8_t* lanes, Visit&& visit) {
-  const Float4 zero = Float4::all(0), stretch = Float4::all(static_cast<float>(1 / ClosingPairs::SHARE));
+void visit_meeting(const TriangleTree& tree, const TriangleTree& motion, const Moving& e, int first,
+                   const std::uint8_t* lanes, Visit&& visit) {
+  const Float4 zero = Float4::all(0),
+               stretch = Float4::all(static_cast<float>(1 / CcdCandidates::SHARE));
   int stack[128], top = 0;
   stack[top++] = 0;
   while (top > 0) {
@@ -58,11 +65,14 @@ void visit_meeting(const TriangleTree& tree, const TriangleTree& motion, const M
     const TriangleTree::Node &node = tree.nodes()[index], &moves = motion.nodes()[index];
     int mask = lanes ? lanes[index] : 15;
     for (int a = 0; a < 3 && mask; ++a) { // the node's way as the element sees it
-      const Float4 back = min(zero, Float4::load(moves.low[a]) - e.fast[a]) * stretch, on = max(zero, Float4::load(moves.high[a]) - e.slow[a]) * stretch;
-      mask &= both_less_equal(Float4::load(node.low[a]) + back, e.high[a], e.low[a], Float4::load(node.high[a]) + on);
+      const Float4 back = min(zero, Float4::load(moves.low[a]) - e.fast[a]) * stretch,
+                   on = max(zero, Float4::load(moves.high[a]) - e.slow[a]) * stretch;
+      mask &= both_less_equal(Float4::load(node.low[a]) + back, e.high[a], e.low[a],
+                              Float4::load(node.high[a]) + on);
     }
     for (int i = 0; i < 4; ++i) {
-      if (!(mask & (1 << i)) || node.child[i] == TriangleTree::EMPTY || node.slot_end[i] <= first) continue;
+      if (!(mask & (1 << i)) || node.child[i] == TriangleTree::EMPTY || node.slot_end[i] <= first)
+        continue;
       if (node.child[i] >= 0) stack[top++] = node.child[i];
       else visit(-2 - node.child[i]);
     }
@@ -70,7 +80,9 @@ void visit_meeting(const TriangleTree& tree, const TriangleTree& motion, const M
 }
 
 /// The farthest that a particle of one element moves against one of the other, squared.
-template<std::size_t N, std::size_t M> double closing2(const std::array<int, N>& a, const std::array<int, M>& b, const std::vector<Vec3>& dx) {
+template<std::size_t N, std::size_t M>
+double closing2(const std::array<int, N>& a, const std::array<int, M>& b,
+                const std::vector<Vec3>& dx) {
   double most = 0;
   for (int i : a)
     for (int j : b) most = std::max(most, (dx[i] - dx[j]).squaredNorm());
@@ -81,7 +93,8 @@ template<std::size_t N, std::size_t M> double closing2(const std::array<int, N>&
 template<class Find> void collect(std::size_t n, Pairs& out, const Find& find) {
   std::vector<Pairs> chunks(n_chunks(n));
   parallel_for(n, SEARCH_GRAIN, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) find(static_cast<int>(i), chunks[begin / SEARCH_GRAIN]);
+    for (std::size_t i = begin; i < end; ++i)
+      find(static_cast<int>(i), chunks[begin / SEARCH_GRAIN]);
   });
   out.clear();
   for (const Pairs& chunk : chunks) out.insert(out.end(), chunk.begin(), chunk.end());
@@ -90,7 +103,7 @@ template<class Find> void collect(std::size_t n, Pairs& out, const Find& find) {
 
 } // namespace
 
-void ClosingPairs::refit(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool again) {
+void CcdCandidates::refit(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool again) {
   if (m_faces.n_slots() == 0 && !m_triangles.empty()) {
     m_faces = TriangleTree(x, m_triangles);
     std::vector<Triangle> flat;
@@ -107,12 +120,15 @@ void ClosingPairs::refit(const std::vector<Vec3>& x, const std::vector<Vec3>& dx
 }
 
 /// Whose pairs are looked for: what is marked or, if that is less, what has changed.
-void ClosingPairs::choose(const std::vector<Vec3>& dx, const std::vector<char>& may_meet, bool again) {
+void CcdCandidates::choose(const std::vector<Vec3>& dx, const std::vector<char>& may_meet,
+                           bool again) {
   m_chosen = may_meet;
   if (again) {
     std::vector<char> changed(dx.size());
     for (std::size_t i = 0; i < dx.size(); ++i) changed[i] = dx[i] != m_last_dx[i];
-    if (std::count(changed.begin(), changed.end(), 1) < std::count(may_meet.begin(), may_meet.end(), 1)) m_chosen = std::move(changed);
+    if (std::count(changed.begin(), changed.end(), 1) <
+        std::count(may_meet.begin(), may_meet.end(), 1))
+      m_chosen = std::move(changed);
   }
   m_last_dx = dx;
   mark_nodes(m_faces, m_chosen_faces, [&](int slot) {
@@ -125,7 +141,8 @@ void ClosingPairs::choose(const std::vector<Vec3>& dx, const std::vector<char>& 
   });
 }
 
-void ClosingPairs::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, const std::vector<char>& may_meet, bool again) {
+void CcdCandidates::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx,
+                         const std::vector<char>& may_meet, bool again) {
   m_vertex_face.clear();
   m_edge_edge.clear();
   if (m_triangles.empty()) return;
@@ -135,25 +152,31 @@ void ClosingPairs::find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx,
   collect(x.size(), m_vertex_face, [&](int v, Pairs& found) {
     if (m_topology.triangles_of_vertex(v).empty() || (!m_chosen[v] && !m_chosen_faces[0])) return;
     const std::array<int, 1> own{v};
-    visit_meeting(m_faces, m_face_motion, bounds_of(own, x, dx), 0, m_chosen[v] ? nullptr : m_chosen_faces.data(), [&](int slot) {
-      const int f = m_faces.triangle_of_slot(slot);
-      const Triangle& t = m_triangles[f];
-      if (v == t[0] || v == t[1] || v == t[2]) return;
-      if (closing2(own, t, dx) > share2 * point_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).squared_distance) found.push_back({v, f});
-    });
+    visit_meeting(m_faces, m_face_motion, bounds_of(own, x, dx), 0,
+                  m_chosen[v] ? nullptr : m_chosen_faces.data(), [&](int slot) {
+                    const int f = m_faces.triangle_of_slot(slot);
+                    const Triangle& t = m_triangles[f];
+                    if (v == t[0] || v == t[1] || v == t[2]) return;
+                    if (closing2(own, t, dx) >
+                        share2 * point_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]).squared_distance)
+                      found.push_back({v, f});
+                  });
   });
   collect(m_topology.edges.size(), m_edge_edge, [&](int slot, Pairs& found) {
     const int e = m_edges.triangle_of_slot(slot);
     const std::array<int, 2>& a = m_topology.edges[e];
     const bool chosen = m_chosen[a[0]] || m_chosen[a[1]];
     if (!chosen && !m_chosen_edges[0]) return;
-    visit_meeting(m_edges, m_edge_motion, bounds_of(a, x, dx), slot + 1, chosen ? nullptr : m_chosen_edges.data(), [&](int other) {
-      const int f = m_edges.triangle_of_slot(other);
-      const std::array<int, 2>& b = m_topology.edges[f];
-      if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) return;
-      if (closing2(a, b, dx) > share2 * collision::edge_edge(x[a[0]], x[a[1]], x[b[0]], x[b[1]]).squared_distance)
-        found.push_back({std::min(e, f), std::max(e, f)});
-    });
+    visit_meeting(
+        m_edges, m_edge_motion, bounds_of(a, x, dx), slot + 1,
+        chosen ? nullptr : m_chosen_edges.data(), [&](int other) {
+          const int f = m_edges.triangle_of_slot(other);
+          const std::array<int, 2>& b = m_topology.edges[f];
+          if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) return;
+          if (closing2(a, b, dx) >
+              share2 * collision::edge_edge(x[a[0]], x[a[1]], x[b[0]], x[b[1]]).squared_distance)
+            found.push_back({std::min(e, f), std::max(e, f)});
+        });
   });
 }
 

@@ -1,18 +1,19 @@
 #pragma once
-/// Hands as mittens, toes as in a sock: the skin that sleeves and trousers meet has each hand, and the front of each foot, inside a convex
-/// shell, so that no hem is caught between fingers or toes. A shell holds all skin beyond the wrist, or of the toes and the ball of the foot, so
-/// cloth outside it is outside of that.
-/// Test: tests/garment/body_model/test_covered_skin.cpp
+/// Hands as mittens, toes as in a sock: the skin that sleeves and trousers meet has each hand, and
+/// the front of each foot, inside a convex shell, so that no hem is caught between fingers or toes.
+/// A shell holds all skin beyond the wrist, or of the toes and the ball of the foot, so cloth
+/// outside it is outside of that. Test: tests/garment/body_model/test_extremity_hulls.cpp
 #include <body/body.hpp>
 
 namespace sloper::garment {
 
-class CoveredSkin {
+class ExtremityHulls {
 public:
   enum Ends : unsigned { HANDS = 1, FEET = 2 };
-  /// Hands and feet whose landmarks were not found stay as they are. Cost O(vertices of an end times shell faces).
+  /// Hands and feet whose landmarks were not found stay as they are. Cost O(vertices of an end
+  /// times shell faces).
   /// @param ends which to cover, of Ends
-  CoveredSkin(const body::Body& body, unsigned ends);
+  ExtremityHulls(const body::Body& body, unsigned ends);
   /// The body's vertices and triangles, then those of the shells, which bury the ends.
   const TriangleMesh& mesh() const { return m_mesh; }
   bool has_shells() const { return !m_shells.empty(); }
@@ -32,7 +33,8 @@ private:
   std::vector<Shell> m_shells;
 };
 
-/// Triangles of the convex hull, counter-clockwise seen from outside; empty when the points lie in a plane. Exact, incremental.
+/// Triangles of the convex hull, counter-clockwise seen from outside; empty when the points lie in
+/// a plane. Exact, incremental.
 std::vector<Triangle> convex_hull_of(const std::vector<Vec3>& points);
 
 } // namespace sloper::garment

@@ -1,4 +1,4 @@
-#include <collision/skin_ways.hpp>
+#include <collision/displacement_bounds.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,29 +16,36 @@ void merge(Box3& box, const Box3& other) {
 
 } // namespace
 
-double SkinWays::farthest(const Box3& ways, const Vec3& carry) {
+double DisplacementBounds::farthest(const Box3& ways, const Vec3& carry) {
   if (ways.empty()) return 0;
   return (carry - ways.low).cwiseAbs().cwiseMax((ways.high - carry).cwiseAbs()).norm();
 }
 
-std::array<int, 3> SkinWays::cube_of(const Vec3& place) const {
+std::array<int, 3> DisplacementBounds::cube_of(const Vec3& place) const {
   std::array<int, 3> cube{};
-  for (int a = 0; a < 3; ++a) cube[a] = static_cast<int>(std::clamp(std::floor((place[a] - m_low[a]) / m_cell), 0.0, m_n[a] - 1.0));
+  for (int a = 0; a < 3; ++a)
+    cube[a] =
+        static_cast<int>(std::clamp(std::floor((place[a] - m_low[a]) / m_cell), 0.0, m_n[a] - 1.0));
   return cube;
 }
 
-void SkinWays::build(const TriangleMesh& skin, const std::vector<Vec3>& way, const Box3& region, double radius) {
+void DisplacementBounds::build(const TriangleMesh& skin, const std::vector<Vec3>& way,
+                               const Box3& region, double radius) {
   m_all = {};
   m_low = region.low;
   m_cell = std::max(CELL, 0.5 * radius);
   const auto across = [&](int a) { return std::max(1.0, std::ceil(region.size()[a] / m_cell)); };
   while (across(0) * across(1) * across(2) > MOST_CUBES) m_cell *= 1.25;
   for (int a = 0; a < 3; ++a) m_n[a] = static_cast<int>(across(a));
-  m_cube.assign(static_cast<std::size_t>(m_n[0]) * static_cast<std::size_t>(m_n[1]) * static_cast<std::size_t>(m_n[2]), Box3{});
+  m_cube.assign(static_cast<std::size_t>(m_n[0]) * static_cast<std::size_t>(m_n[1]) *
+                    static_cast<std::size_t>(m_n[2]),
+                Box3{});
   for (const Triangle& t : skin.triangles) {
     Box3 place, ways;
     for (int v : t) place.add(skin.positions[v]);
-    if (!((place.low.array() <= region.high.array()).all() && (place.high.array() >= region.low.array()).all())) continue;
+    if (!((place.low.array() <= region.high.array()).all() &&
+          (place.high.array() >= region.low.array()).all()))
+      continue;
     for (int v : t) ways.add(way[v]);
     merge(m_all, ways);
     const std::array<int, 3> first = cube_of(place.low), last = cube_of(place.high);
@@ -48,7 +55,8 @@ void SkinWays::build(const TriangleMesh& skin, const std::vector<Vec3>& way, con
   }
 }
 
-double SkinWays::longest_against(const Vec3& carry, const Vec3& place, double radius) const {
+double DisplacementBounds::max_relative_displacement(const Vec3& carry, const Vec3& place,
+                                                     double radius) const {
   if (m_all.empty()) return 0;
   const Vec3 around = Vec3::Constant(radius);
   const std::array<int, 3> first = cube_of(place - around), last = cube_of(place + around);

@@ -1,0 +1,57 @@
+#pragma once
+/// Which elements of a cloth a displacement may bring together: a pair counts when its elements
+/// move against each other by more than a share of the distance between them. What moves together
+/// does not count, however fast it is.
+///
+/// Two trees of one shape, one over the positions and one over the displacements, bound both at
+/// every node: an element that moves like all below a node is not led astray by the node's speed.
+/// Test: tests/collision/test_ccd_candidates.cpp
+#include <collision/topology.hpp>
+#include <collision/triangle_tree.hpp>
+#include <cstdint>
+namespace sloper::collision {
+
+class CcdCandidates {
+public:
+  /// A pair may close this share of its distance before it counts.
+  static constexpr double SHARE = 0.9;
+
+  /// Both outlive this.
+  CcdCandidates(const std::vector<Triangle>& triangles, const Topology& topology)
+      : m_triangles(triangles), m_topology(topology) {}
+
+  /// Every pair that straight motion from x to x + dx, or the same part of it for all, could close
+  /// by more than SHARE of its distance and to within 0.1 mm. Pairs that share a particle never
+  /// count.
+  /// @param x, dx  #particles by 3, m
+  /// @param may_meet  #particles: pairs of which no particle is marked cannot meet, and need not be
+  /// found
+  /// @param again  x is that of the last call: pairs need not be found of which no particle's
+  /// displacement is another one than in that call Cost: about that of a search for pairs in
+  /// contact if all are marked, else in proportion to those marked or, again, to what has changed.
+  void find(const std::vector<Vec3>& x, const std::vector<Vec3>& dx,
+            const std::vector<char>& may_meet, bool again);
+
+  const std::vector<std::array<int, 2>>& vertex_face() const {
+    return m_vertex_face;
+  } ///< vertex, triangle; sorted
+  const std::vector<std::array<int, 2>>& edge_edge() const {
+    return m_edge_edge;
+  } ///< edges of the topology, the lower first; sorted
+
+private:
+  void refit(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, bool again);
+  void choose(const std::vector<Vec3>& dx, const std::vector<char>& may_meet, bool again);
+
+  const std::vector<Triangle>& m_triangles;
+  const Topology& m_topology;
+  TriangleTree m_faces, m_face_motion, m_edges,
+      m_edge_motion; ///< the motion trees hold displacements where the others hold positions
+  std::vector<Vec3> m_last_dx; // of the last call
+  std::vector<char> m_chosen;  // #particles: pairs with one of them are looked for
+  std::vector<std::uint8_t> m_chosen_faces,
+      m_chosen_edges; // by node of the trees, a bit for each child
+  std::vector<std::array<int, 2>> m_vertex_face, m_edge_edge;
+};
+
+} // namespace sloper::collision
