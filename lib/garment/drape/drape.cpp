@@ -1,11 +1,14 @@
 #include <base/error.hpp>
 #include <garment/drape/drape.hpp>
+#include <garment/levels/drape_levels.hpp>
 #include <garment/simulate/session.hpp>
 
 namespace sloper::garment {
 
 DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings& settings,
                   Reporter& reporter, const DrapeRequest& request) {
+  if (settings.levels > 1 && garment.particle_of.empty())
+    return drape_through_levels(garment, body, settings, reporter, request);
   return DrapeSession({.garment = garment, .body = body, .request = request}, settings, reporter)
       .run();
 }

@@ -40,6 +40,7 @@ const std::vector<Knob>& knobs() {
       {"settle_force_ratio", 1e-6, 10, &S::settle_force_ratio, nullptr},
       {"gravity_m_s2", 0, 100, &S::gravity_m_s2, nullptr},
       {"max_steps", 1, 1e6, nullptr, &S::max_steps},
+      {"levels", 1, 2, nullptr, &S::levels},
       {"max_seconds", 0, 1e6, &S::max_seconds, nullptr},
   };
   return table;

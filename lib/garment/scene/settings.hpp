@@ -30,6 +30,10 @@ struct DrapeSettings {
   double settle_force_ratio = 0.2; ///< residual force over a particle's weight
   double gravity_m_s2 = 9.80665;
   int max_steps = 1500;
+  /// Meshes that panels are draped through (levels/drape_levels.hpp): 1 the given one alone; 2 they
+  /// are sewn on one with edges of 48 mm first. Where that is not possible, 1 is taken, and the
+  /// report says why.
+  int levels = 1;
   double max_seconds = 0;       ///< wall clock, 0 = no limit
   std::string effects = "auto"; ///< "auto" or a list
   std::string accuracy = "standard";

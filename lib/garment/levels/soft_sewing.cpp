@@ -1,0 +1,181 @@
+#include <base/units.hpp>
+#include <cloth/contact/soft_body_contact.hpp>
+#include <cloth/forces/bending.hpp>
+#include <cloth/forces/edge_spring.hpp>
+#include <cloth/forces/gravity.hpp>
+#include <cloth/forces/half_space.hpp>
+#include <cloth/forces/sewing_spring.hpp>
+#include <cloth/forces/shear.hpp>
+#include <cloth/solver/implicit_step.hpp>
+#include <garment/levels/soft_sewing.hpp>
+#include <garment/sewing.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sloper::garment {
+
+namespace {
+
+// All steps are counted: nothing here depends on how far the cloth has come. Chosen on three
+// garments (T-shirt, long sleeves, trousers).
+constexpr int SEWING_STEPS = 60;
+constexpr double SOFT_STEP_S = 0.1; // of the overdamped flow
+constexpr double SOFT_MOVE = 0.02;  // m, of the fastest particle in a step
+constexpr double BOARD = 1000;    // times the fabric's bending, while seams close; with 100 panels
+                                  // buckle: spread of 24 mm in place of none
+constexpr double FIRST_PULL = 10; // of a stitch at its reach, in weights of a particle
+constexpr double LAST_PULL = 20;  // N, likewise
+constexpr int PULL_GROWS_FROM = 15, PULL_GROWS_TO = 50;
+constexpr double STITCH_REACH = 0.05; // m: the pull does not grow beyond this gap
+constexpr double DRAWN_IN = 0.7;      // of the body's thickness, until the panels are around it
+constexpr int INFLATE_FROM = 30, INFLATE_TO = 45;
+constexpr double SEWING_REACH = 0.012;     // m: a chord of 48 mm lies 6 mm below an arm's skin
+constexpr double SEWING_STIFFNESS = 5e5;   // N/m3
+constexpr double RELAXING_STIFFNESS = 3e5; // N/m3
+constexpr double CREEP = 0.5;              // of it, along the skin
+constexpr double SEWING_TOLERANCE =
+    1e-4; // relative residual; 1e-3 left 11 mm of spread once, exact solves gain nothing more
+constexpr double SIDE_STIFFNESS = 200; // N/m of a particle
+constexpr double SIDE_GAP = 0.004;     // m: how far legs are kept from the middle
+constexpr double LONG_EDGE = 0.024;    // m: with shorter ones contact on particles alone will do
+
+double share_of_way(int k, int from, int to) {
+  return std::clamp(static_cast<double>(k - from) / (to - from), 0.0, 1.0);
+}
+
+double mean_weight(const cloth::ClothMesh& mesh) {
+  return std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0) * units::GRAVITY /
+         static_cast<double>(mesh.n_particles);
+}
+
+/// Which trouser leg each particle belongs to: 1 left, 2 right, 0 none, and none where both are
+/// joined.
+std::vector<char> leg_sides(const Garment& garment) {
+  std::vector<char> side(garment.position.size(), 0), joins(garment.position.size(), 0);
+  for (const pattern::PanelInfo& p : garment.panels.panels) {
+    const char now = p.part == "leg_l" ? 1 : p.part == "leg_r" ? 2 : 0;
+    for (int v = p.first_vertex; now && v < p.first_vertex + p.n_vertices; ++v) {
+      const auto i = static_cast<std::size_t>(garment.particle_of[static_cast<std::size_t>(v)]);
+      joins[i] = static_cast<char>(joins[i] || (side[i] && side[i] != now));
+      side[i] = now;
+    }
+  }
+  for (const auto& [a, b] : open_stitches(garment))
+    if (side[static_cast<std::size_t>(a)] != side[static_cast<std::size_t>(b)])
+      joins[static_cast<std::size_t>(a)] = joins[static_cast<std::size_t>(b)] = 1;
+  for (std::size_t i = 0; i < side.size(); ++i)
+    if (joins[i]) side[i] = 0;
+  return side;
+}
+
+/// Cloth in the middle of its way, by steps without a line search.
+class SoftCloth {
+public:
+  SoftCloth(Garment& garment, CollisionBody& body, double reach, double stiffness, double drag,
+            double tolerance)
+      : m_garment(garment), m_start(garment.position), m_mesh(cloth_mesh_of(garment)),
+        m_hinges(m_mesh.hinges), m_velocity(garment.position.size(), Vec3::Zero()),
+        m_solver(m_mesh, garment.position, m_velocity) {
+    m_solver.emplace<cloth::EdgeSpringEffect>(m_mesh);
+    m_solver.emplace<cloth::ShearEffect>(m_mesh);
+    m_solver.emplace<cloth::BendingEffect>(m_mesh);
+    const cloth::SoftBodyContactOptions contact{.reach_m = reach,
+                                                .stiffness_n_m3 = stiffness,
+                                                .drag = drag,
+                                                .on_edges = garment.panels.edge_length > LONG_EDGE};
+    if (body.collider())
+      m_contact =
+          &m_solver.emplace<cloth::SoftBodyContactEffect>(m_mesh, *body.collider(), contact);
+    keep_legs_apart();
+    m_options.h = SOFT_STEP_S;
+    m_options.cg_tolerance = tolerance;
+    m_options.largest_move_m = SOFT_MOVE;
+  }
+  cloth::ClothSolver& solver() { return m_solver; }
+  const cloth::ClothMesh& mesh() const { return m_mesh; }
+  cloth::SoftBodyContactEffect* contact() { return m_contact; } ///< null without a body
+  void set_bending(double times) {
+    for (std::size_t e = 0; e < m_hinges.size(); ++e)
+      m_mesh.hinges[e].stiffness = times * m_hinges[e].stiffness;
+  }
+  /// @return false where it is not finite: the garment is as it came
+  bool step() {
+    if (m_solver.step(m_options).finite) return true;
+    m_garment.position = m_start;
+    return false;
+  }
+
+private:
+  void keep_legs_apart() {
+    const std::vector<char> side = leg_sides(m_garment);
+    std::vector<int> left, right;
+    for (std::size_t i = 0; i < side.size(); ++i) {
+      if (side[i] == 1) left.push_back(static_cast<int>(i));
+      if (side[i] == 2) right.push_back(static_cast<int>(i));
+    }
+    if (left.empty() || right.empty()) return;
+    const Vec3 to_left = Vec3::UnitX(), offset = SIDE_GAP * to_left;
+    m_solver.emplace<cloth::HalfSpaceEffect>(std::move(left), offset, to_left, SIDE_STIFFNESS);
+    m_solver.emplace<cloth::HalfSpaceEffect>(std::move(right), -offset, -to_left, SIDE_STIFFNESS);
+  }
+
+  Garment& m_garment;
+  const std::vector<Vec3> m_start;
+  cloth::ClothMesh m_mesh;
+  const std::vector<cloth::Hinge> m_hinges;
+  std::vector<Vec3> m_velocity;
+  cloth::ClothSolver m_solver;
+  cloth::SoftBodyContactEffect* m_contact = nullptr;
+  cloth::StepOptions m_options;
+};
+
+} // namespace
+
+SoftSewing sew_softly(Garment& garment, CollisionBody& body, Reporter& reporter) {
+  unsew(garment);
+  if (body.collider()) body.draw_in(DRAWN_IN);
+  SoftCloth cloth(garment, body, SEWING_REACH, SEWING_STIFFNESS, 0, SEWING_TOLERANCE);
+  auto& stitches =
+      cloth.solver().emplace<cloth::SewingSpringEffect>(open_stitches(garment), 1.0, STITCH_REACH);
+  cloth.set_bending(BOARD);
+  const double first_pull = FIRST_PULL * mean_weight(cloth.mesh());
+  SoftSewing result;
+  for (int k = 0; k < SEWING_STEPS && !reporter.stop_requested(); ++k) {
+    reporter.progress("sew", 0.4 * k / SEWING_STEPS);
+    const double pull = first_pull * std::pow(LAST_PULL / first_pull,
+                                              share_of_way(k, PULL_GROWS_FROM, PULL_GROWS_TO));
+    stitches.set_stiffness(pull / STITCH_REACH);
+    const double scale = DRAWN_IN + (1 - DRAWN_IN) * share_of_way(k, INFLATE_FROM, INFLATE_TO);
+    if (cloth.contact() && scale > body.state().scale) {
+      cloth.contact()->body_moved((scale - body.state().scale) * body.reach());
+      body.draw_in(scale);
+    }
+    result.finite = cloth.step();
+    if (!result.finite) break;
+    ++result.steps;
+  }
+  if (body.collider() && body.state().scale < 1) body.draw_in(1);
+  result.widest_gap_m = stitches.widest(garment.position).length;
+  const std::vector<Vec3> sewn = garment.position;
+  weld(garment, sewn);
+  return result;
+}
+
+bool relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxing& how,
+                  double gravity_m_s2, Reporter& reporter) {
+  SoftCloth cloth(garment, body, how.reach_m, RELAXING_STIFFNESS, CREEP, how.cg_tolerance);
+  cloth.solver().emplace<cloth::GravityEffect>(cloth.mesh(), Vec3(0, -gravity_m_s2, 0));
+  for (int k = 0; k < how.steps && !reporter.stop_requested(); ++k) {
+    reporter.progress("relax", -1);
+    cloth.set_bending(std::pow(how.bending, 1 - share_of_way(k, 0, (how.steps + 1) / 2)));
+    if (cloth.contact())
+      cloth.contact()->set_reach(how.reach_m + (how.last_reach_m - how.reach_m) *
+                                                   share_of_way(k, 0, how.steps - 1));
+    if (!cloth.step()) return false;
+  }
+  return true;
+}
+
+} // namespace sloper::garment

@@ -1,0 +1,136 @@
+/// Panels draped through a coarse mesh: how cloth is sewn there so that starts that differ a little
+/// end alike, and how it comes to the given mesh.
+#include <base/progress.hpp>
+#include <body/body_json.hpp>
+#include <garment/drape/drape.hpp>
+#include <garment/levels/drape_levels.hpp>
+#include <garment/levels/finer_mesh.hpp>
+#include <garment/levels/soft_sewing.hpp>
+#include <garment/scene/scene.hpp>
+#include <gtest/gtest.h>
+#include <io/json.hpp>
+#include <pattern/mesh/mesh_pattern.hpp>
+#include <pattern/read/read_pattern.hpp>
+#include <support/drape_scene.hpp>
+
+#include <algorithm>
+
+using namespace sloper;
+using namespace sloper::garment;
+
+namespace {
+
+/// Two pieces, 40 x 30 cm, sewn at their sides: one of them with a curved hem.
+pattern::PanelMesh two_pieces(double edge) {
+  const std::string text =
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "two", "panels": [
+    {"name": "front", "outline": [{"edge": "hem", "path": [["M", -20, 0], ["Q", 0, -6, 20, 0]]}, {"edge": "left", "path": [["L", 20, 30]]},
+      {"edge": "top", "path": [["L", -20, 30]]}, {"edge": "right", "path": [["L", -20, 0]]}]},
+    {"name": "back", "outline": [{"edge": "hem", "path": [["M", -20, 0], ["L", 20, 0]]}, {"edge": "left", "path": [["L", 20, 30]]},
+      {"edge": "top", "path": [["L", -20, 30]]}, {"edge": "right", "path": [["L", -20, 0]]}]}],
+    "seams": [{"name": "left", "a": [{"panel": "front", "edge": "left"}], "b": [{"panel": "back", "edge": "right", "reversed": true}]},
+              {"name": "right", "a": [{"panel": "front", "edge": "right"}], "b": [{"panel": "back", "edge": "left", "reversed": true}]}]})";
+  const pattern::Pattern source = pattern::read_pattern_json(io::parse_json(text, "two"), "two");
+  pattern::PanelMesh mesh = pattern::mesh_pattern(source, edge, "two");
+  mesh.source = std::make_shared<pattern::Pattern>(source);
+  for (const pattern::PanelInfo& panel : mesh.panels)
+    for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
+      const Vec2& p = mesh.pattern[static_cast<std::size_t>(v)];
+      const bool front = panel.name == "front";
+      mesh.placed[static_cast<std::size_t>(v)] =
+          Vec3(front ? p.x() : -p.x(), 0.7 + p.y(), front ? 0.25 : -0.25);
+    }
+  return mesh;
+}
+
+double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).norm());
+  return largest;
+}
+
+} // namespace
+
+TEST(FinerMesh, interpolation_keeps_flat_panels_also_beyond_the_coarse_outline) {
+  const pattern::PanelMesh coarse = two_pieces(0.06), fine = two_pieces(0.015);
+  EXPECT_LT(largest_difference(interpolate(coarse, coarse.placed, fine), fine.placed), 1e-12);
+}
+
+TEST(FinerMesh, a_mesh_interpolated_to_itself_is_the_same) {
+  const pattern::PanelMesh mesh = two_pieces(0.03);
+  EXPECT_LT(largest_difference(interpolate(mesh, mesh.placed, mesh), mesh.placed), 1e-12);
+}
+
+TEST(FinerMesh, cloth_around_a_cylinder_is_rounder_than_its_coarse_triangles) {
+  const double radius = 0.8 / (2 * M_PI); // m: both pieces go around it
+  Garment coarse;
+  coarse.panels = two_pieces(0.06);
+  const auto around = [&](const pattern::PanelMesh& mesh) {
+    std::vector<Vec3> x(mesh.pattern.size());
+    for (const pattern::PanelInfo& panel : mesh.panels)
+      for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
+        const Vec2& p = mesh.pattern[static_cast<std::size_t>(v)];
+        const double angle = p.x() / radius + (panel.name == "front" ? 0 : M_PI);
+        x[static_cast<std::size_t>(v)] =
+            Vec3(radius * std::sin(angle), p.y(), radius * std::cos(angle));
+      }
+    return x;
+  };
+  const std::vector<Vec3> corners = around(coarse.panels);
+  unsew(coarse);
+  coarse.position = corners;
+  weld(coarse, corners);
+  const pattern::PanelMesh mesh = two_pieces(0.015);
+  const Garment fine = on_finer_mesh(coarse, mesh);
+  const std::vector<Vec3> flat = interpolate(coarse.panels, corners, mesh), truth = around(mesh);
+  const auto off = [&](const auto& at) {
+    double sum = 0;
+    for (std::size_t v = 0; v < truth.size(); ++v)
+      sum += std::abs(std::hypot(at(v).x(), at(v).z()) - radius);
+    return sum / static_cast<double>(truth.size());
+  };
+  const double rounded = off(
+      [&](std::size_t v) { return fine.position[static_cast<std::size_t>(fine.particle_of[v])]; });
+  EXPECT_LT(rounded, 0.6 * off([&](std::size_t v) { return flat[v]; }));
+  EXPECT_LT(fine.position.size(), mesh.pattern.size()) << "what is sewn stays sewn";
+}
+
+TEST(SoftSewing, starts_a_micrometre_apart_end_nearer_to_each_other) {
+  CollisionBody nothing(nullptr, 0, silent_reporter());
+  std::array<Garment, 2> ends;
+  double apart = 0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    ends[k].panels = two_pieces(0.048);
+    if (k == 1)
+      for (std::size_t v = 0; v < ends[k].panels.placed.size(); ++v)
+        ends[k].panels.placed[v].z() += v % 3 == 0 ? 1e-6 : 0;
+    const SoftSewing sewing = sew_softly(ends[k], nothing, silent_reporter());
+    EXPECT_TRUE(sewing.finite);
+    EXPECT_LT(sewing.widest_gap_m, 0.002);
+  }
+  apart = largest_difference(ends[0].position, ends[1].position);
+  EXPECT_LT(apart, 1e-6);
+}
+
+TEST(DrapeLevels, panels_without_their_pattern_are_draped_on_their_own_mesh_to_the_same_bytes) {
+  const body::Body pillar = make_pillar();
+  Garment once = make_skirt(0.76, 0.28, 0.03), through = once;
+  DrapeSettings settings = preset_settings("draft");
+  drape(once, &pillar, settings, silent_reporter());
+  settings.levels = 2;
+  const DrapeReport report = drape(through, &pillar, settings, silent_reporter());
+  EXPECT_EQ(largest_difference(once.position, through.position), 0);
+  ASSERT_FALSE(report.repairs.empty());
+  EXPECT_EQ(report.repairs.front(),
+            "draped on the given mesh alone: the panels do not name their pattern");
+}
+
+TEST(DrapeLevels, a_body_without_bones_is_no_error) {
+  const body::Body pillar = make_pillar();
+  Garment garment;
+  garment.panels = two_pieces(0.03);
+  DrapeSettings settings = preset_settings("draft");
+  settings.levels = 2;
+  const DrapeReport report = drape(garment, &pillar, settings, silent_reporter());
+  EXPECT_TRUE(report.converged) << stop_text(report);
+}
