@@ -44,7 +44,8 @@ int check(const cli::Tool& tool, const pattern::Pattern& source, const Options& 
     document["findings"].push_back(
         {{"severity", f.severity}, {"rule", f.rule}, {"place", f.place}, {"fact", f.fact}});
     bad = bad || f.severity == "error";
-    sewable = sewable && !pattern::forbids_sewing(f);
+    sewable = sewable && !pattern::forbids_sewing(f) &&
+              f.rule != "wrong-unit"; // what is metres too large takes minutes to measure
   }
   if (sewable) { // what the finished garment measures
     const pattern::FinishedMeasures measures = pattern::finished_measures(source, o.pattern);
@@ -159,6 +160,7 @@ int run(cli::Tool& tool, const Options& o) {
     mesh.findings.push_back(f.place + ": " + f.fact);
     tool.reporter().warning(mesh.findings.back());
   }
+  std::vector<std::string> impossible;
   if (o.body.empty()) pattern::lay_flat(source, mesh);
   else {
     mesh.body_sha256 = body::skin_sha256(o.body);
@@ -169,11 +171,18 @@ int run(cli::Tool& tool, const Options& o) {
                               " vertices lie in the body, " + std::to_string(r.faces_through) +
                               " faces go through its skin");
     if (r.is_guess) tool.reporter().warning(mesh.findings.back());
+    impossible = r.impossible;
+    mesh.findings.insert(mesh.findings.end(), impossible.begin(), impossible.end());
     tool.reporter().info("seam gap at the start: mean " + pattern::centimetres(r.seam_gap_mean) +
                          ", largest " + pattern::centimetres(r.seam_gap_max));
   }
   for (const std::string& finding : mesh.findings) tool.reporter().info(finding);
   pattern::write_panel_mesh(o.output, mesh, tool.name());
+  if (!impossible.empty())
+    throw Error(
+        ErrorKind::FAILED, o.pattern, "", "the panels cannot start so: " + impossible.front(),
+        "name the pieces for what they are, or say where they go with a hint (\"place\"); " +
+            o.output + " shows where they lie");
   return 0;
 }
 

@@ -82,6 +82,29 @@ void append_text(std::string& out, const Json& value, int indent, const std::str
   }
 }
 
+/// The word around a byte, counted from 1, and the column at which it begins.
+std::pair<std::string, std::size_t> word_at(const std::string& text, std::size_t byte) {
+  const auto in_word = [&](std::size_t at) {
+    return std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '-' ||
+           text[at] == '+';
+  };
+  std::size_t begin = std::min(byte > 0 ? byte - 1 : 0, text.size());
+  std::size_t end = begin;
+  while (begin > 0 && in_word(begin - 1)) --begin;
+  while (end < text.size() && in_word(end)) ++end;
+  const std::size_t line_end = begin > 0 ? text.rfind('\n', begin - 1) : std::string::npos;
+  return {text.substr(begin, end - begin),
+          line_end == std::string::npos ? begin + 1 : begin - line_end};
+}
+
+/// What other programs write for numbers that are not finite.
+bool is_no_number(std::string word) {
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.erase(0, 1);
+  return word == "nan" || word == "inf" || word == "infinity";
+}
+
 } // namespace
 
 Json parse_json(const std::string& text, const std::string& name) {
@@ -99,6 +122,9 @@ Json parse_json(const std::string& text, const std::string& name) {
         throw input_error(
             name, "line " + std::to_string(line), "is a mesh where a JSON document belongs",
             "give the .json that was written with it; of a scan, scan-landmarks makes one");
+    if (const auto [word, column] = word_at(text, e.byte); is_no_number(word))
+      throw input_error(name, "line " + std::to_string(line) + ", column " + std::to_string(column),
+                        "'" + word + "' is no number", "give a finite one");
     throw input_error(name, "line " + std::to_string(line), "not valid JSON",
                       "check that the file is complete and is a JSON document");
   } catch (const Json::out_of_range&) {

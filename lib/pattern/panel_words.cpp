@@ -45,6 +45,16 @@ Words words_of(const std::string& name) {
   return words;
 }
 
+Words words_of(const Pattern& pattern, std::size_t k) {
+  const Panel& panel = pattern.panels[k];
+  Words words = words_of(panel.name);
+  if (pattern.source_format != "dxf") return words;
+  const bool side_told = name_suggests_front(words) || says_back(words);
+  for (const std::string& word : words_of(panel.label))
+    if (!side_told || (!name_suggests_front({word}) && !says_back({word}))) words.insert(word);
+  return words;
+}
+
 bool any_of(const Words& words, std::initializer_list<const char*> wanted) {
   return std::any_of(wanted.begin(), wanted.end(),
                      [&](const char* w) { return words.count(w) != 0; });
@@ -57,9 +67,22 @@ bool any_begins(const Words& words, std::initializer_list<const char*> starts) {
   return false;
 }
 
+bool any_ends(const Words& words, std::initializer_list<const char*> ends) {
+  for (const std::string& w : words)
+    for (const std::string end : ends)
+      if (w.size() > end.size() && w.compare(w.size() - end.size(), end.size(), end) == 0)
+        return true;
+  return false;
+}
+
 bool says_sleeve(const Words& words) {
-  return any_begins(words, {"sleeve", "slv", "manche", "manga", "manica", "rukav", "rekaw", "mouw",
-                            "aermel", "rmel"}) ||
+  for (const std::string& w : words) // FULLSLEEVE; but not SLEEVELESS
+    if (const std::size_t at = w.find("sleeve");
+        at != std::string::npos && w.compare(at, 10, "sleeveless") != 0)
+      return true;
+  return any_ends(words, {"slv", "sl"}) ||
+         any_begins(words, {"slv", "manche", "manga", "manica", "rukav", "rekaw", "mouw", "aermel",
+                            "rmel"}) ||
          any_of(words, {"sl"});
 }
 bool says_cuff(const Words& words) { return any_begins(words, {"cuff", "mansch"}); }
@@ -69,7 +92,8 @@ bool says_neck(const Words& words) {
          any_of(words, {"col"});
 }
 bool says_legs(const Words& words) {
-  return any_begins(words, {"leg", "pant", "trouser", "short", "jean", "hose", "pantal"});
+  if (any_begins(words, {"leg", "pant", "trouser", "jean", "hose", "pantal"})) return true;
+  return any_begins(words, {"short"}) && !says_sleeve(words); // a short sleeve is none
 }
 bool says_skirt(const Words& words) {
   return any_begins(words, {"skirt", "gore", "waist", "rock", "jupe", "falda", "gonna"}) ||
@@ -78,12 +102,12 @@ bool says_skirt(const Words& words) {
 bool name_suggests_front(const Words& words) {
   return any_begins(words, {"front", "frt", "ftorso", "fbodice", "vorder", "devant", "delanter",
                             "davanti"}) ||
-         any_of(words, {"f", "cf", "fr"});
+         any_of(words, {"f", "cf", "fr"}) || any_ends(words, {"fr"});
 }
 bool says_back(const Words& words) {
   return any_begins(words, {"back", "bck", "rear", "bk", "btorso", "bbodice", "rueck", "hinter",
                             "espalda", "traser", "dietro", "yoke"}) ||
-         any_of(words, {"b", "cb", "dos"});
+         any_of(words, {"b", "cb", "dos"}) || any_ends(words, {"bk"});
 }
 bool says_left(const Words& words) {
   return any_of(words, {"l", "left", "lft", "links", "linke", "linker", "gauche", "izquierda"});

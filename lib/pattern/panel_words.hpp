@@ -1,5 +1,7 @@
 #pragma once
 /// What the name of a piece says about it.
+#include <pattern/pattern.hpp>
+
 #include <initializer_list>
 #include <set>
 #include <string>
@@ -11,9 +13,15 @@ using Words = std::set<std::string>;
 /// Lower-case words of a name: "skirtFront_L2" is skirt, front, l. Of a Chinese, Japanese or Korean
 /// one the English words that its parts stand for.
 Words words_of(const std::string& name);
+/// What a panel is called: its name, and of a DXF what its maker calls the kind of piece ("SLEEVE
+/// SHORT") where the name is a code. A side that the name tells counts more than that of the kind.
+Words words_of(const Pattern& pattern, std::size_t panel);
 bool any_of(const Words& words, std::initializer_list<const char*> wanted);
 /// Whether some word begins with one of these.
 bool any_begins(const Words& words, std::initializer_list<const char*> starts);
+/// Whether some longer word ends with one of these: codes of pieces are written as one word with
+/// the style's, REGTEEBK.
+bool any_ends(const Words& words, std::initializer_list<const char*> ends);
 
 /// What pieces are called in the languages that patterns come in; in ASCII, as many files have
 /// them.

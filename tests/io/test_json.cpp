@@ -35,6 +35,13 @@ static std::string complaint(const std::function<void()>& deed, ErrorKind kind =
   return {};
 }
 
+TEST(Json, names_what_is_no_number_with_line_and_column) {
+  EXPECT_TRUE(has(complaint("{\n \"a\": [1, NaN]}"), "line 2, column 11: 'NaN' is no number"));
+  EXPECT_TRUE(has(complaint("[1, nan]"), "line 1, column 5: 'nan'"));
+  EXPECT_TRUE(has(complaint("[-Infinity]"), "line 1, column 2: '-Infinity'"));
+  EXPECT_TRUE(has(complaint("[1, x]"), "not valid JSON"));
+}
+
 TEST(Json, refuses_a_key_that_stands_twice_in_one_object_and_names_it) {
   EXPECT_TRUE(has(complaint(R"({"a": 1, "bcd": 2, "a": 3})"), "\"a\""));
   EXPECT_TRUE(has(complaint(R"({"x": [{"k": 1, "k": 1}]})"), "\"k\""));

@@ -1,6 +1,7 @@
 #include <base/units.hpp>
 #include <pattern/layout/gore_row.hpp>
 #include <pattern/layout/leg_layout.hpp>
+#include <pattern/roles/leg_roles.hpp>
 #include <pattern/surfaces/section_ring.hpp>
 
 #include <algorithm>
@@ -20,6 +21,7 @@ constexpr double FLARE = 0.06; // m by which a seam's sides leave each other in 
 constexpr double UPRIGHT =
     0.5; // up per across: a seam between panels of one side that leans more is no upright one
 constexpr double SIDE_SEAM = 0.8; // the same between front and back, where shoulders slope
+constexpr double FLATTEST = 0.2;  // the same of a seam that lies at the sides of both panels
 constexpr double TALLEST = 5;     // m: no person's
 constexpr double LONG =
     0.15; // of the lower panel's height: what is shorter is a shoulder or a detail
@@ -182,7 +184,9 @@ private:
           extent[end] = high - low;
         }
         const double steep = m_roles[k].side == m_roles[q].side ? UPRIGHT : SIDE_SEAM;
-        if (extent[0].y() < steep * extent[0].x() || extent[1].y() < steep * extent[1].x())
+        const double least_rise = at_their_sides(m_mesh, m_roles, k, q, seam) ? FLATTEST : steep;
+        if (extent[0].y() < least_rise * extent[0].x() ||
+            extent[1].y() < least_rise * extent[1].x())
           continue;
         double right = 0;
         for (const auto& s : seam) right += rightness(k, uv(k, s[0]));

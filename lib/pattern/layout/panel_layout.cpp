@@ -1,4 +1,5 @@
 #include <pattern/layout/panel_layout.hpp>
+#include <pattern/roles/leg_roles.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -93,9 +94,12 @@ private:
 
   bool upright(std::size_t p, std::size_t q) const {
     Vec2 along = Vec2::Zero();
-    for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q)))
+    bool sides = true;
+    for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q))) {
       along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
-    return !goes_level(along);
+      sides = sides && at_their_sides(m_mesh, m_roles, p, q, seam);
+    }
+    return sides || !goes_level(along);
   }
 
   /// Panels side by side that were attached one to the other, the first of them to a panel whose u
@@ -155,7 +159,7 @@ private:
           along += (at(p, seam.back()[0]) - at(p, seam.front()[0])).cwiseAbs();
           for (const auto& s : seam) open = std::min(open, at(q, s[1]).y() - at(p, s[0]).y());
         }
-        if (!goes_level(along) || along.x() < 0.05) continue; // no seam, an upright or a small one
+        if (along.x() < 0.05 || upright(p, q)) continue; // no seam, an upright or a small one
         const double clearance = m_roles[p].side == m_roles[q].side
                                      ? column_clearance(p, q)
                                      : bounds(q)[0].y() - bounds(p)[1].y();
@@ -193,16 +197,14 @@ private:
 
   /// Puts panel p where its seams with q ask for.
   void attach(std::size_t p, std::size_t q) {
-    Vec2 own = Vec2::Zero(), other = Vec2::Zero(), along = Vec2::Zero();
+    Vec2 own = Vec2::Zero(), other = Vec2::Zero();
     int n = 0;
     for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q))) {
       for (const auto& s : seam) own += at(p, s[0]), other += at(q, s[1]), ++n;
-      const Vec2 d = at(p, seam.back()[0]) - at(p, seam.front()[0]);
-      along += d.cwiseAbs();
     }
-    const bool same_side = m_roles[p].side == m_roles[q].side;
+    const bool level = !upright(p, q), same_side = m_roles[p].side == m_roles[q].side;
     m_spots[p].offset += (other - own) / std::max(n, 1);
-    if (same_side && goes_level(along)) m_spots[p].offset.x() += off_its_row(p);
+    if (same_side && level) m_spots[p].offset.x() += off_its_row(p);
     m_done[p] = true;
     if (!same_side) {
       m_spots[p].offset.x() = 0;
@@ -211,9 +213,8 @@ private:
     }
     m_block[p] = m_block[q];
     m_u_known[p] = m_u_known[q];
-    if (!same_layer(p, q)) return; // it lies over the other, seam on seam
-    const std::size_t axis =
-        goes_level(along) ? 1 : 0; // a level seam parts them in v, an upright one in u
+    if (!same_layer(p, q)) return;          // it lies over the other, seam on seam
+    const std::size_t axis = level ? 1 : 0; // a level seam parts them in v, an upright one in u
     const Vec2 mine = middle_of(p), theirs = middle_of(q);
     part(p, q, static_cast<long>(axis),
          mine[static_cast<long>(axis)] >= theirs[static_cast<long>(axis)] ? 1 : -1);

@@ -80,7 +80,7 @@ bool Placer::hangs_on_shoulders(double top) const {
       if (other.side != Side::BACK || other.part == "lower_body") continue;
       for (const auto& seam : m_graph.between(static_cast<int>(k), q)) { // a level seam at the top
         const Vec2 a = uv(k, seam.front()[0]), b = uv(k, seam.back()[0]);
-        if (std::abs(a.x() - b.x()) > 1.2 * std::abs(a.y() - b.y()) &&
+        if (std::abs(a.x() - b.x()) > std::abs(a.y() - b.y()) &&
             std::min(a.y(), b.y()) > top - MOST_YOKE)
           return true;
       }

@@ -42,6 +42,7 @@ PlacementReport Placer::run() {
     m_mesh.panels[k].part =
         m_roles[k].part.empty() ? region_name(m_roles[k].region) : m_roles[k].part;
   measure_gaps(report);
+  find_impossible(report);
   report.is_guess = m_roles.size() > 1 && find_untold() == static_cast<int>(m_roles.size());
   return report;
 }
@@ -51,16 +52,17 @@ int Placer::find_untold() {
   int count = 0;
   for (std::size_t k = 0; k < m_roles.size(); ++k) {
     const Panel& panel = m_pattern.panels[k];
-    if (panel.hint.rigid || !panel.hint.part.empty() || m_roles[k].side != Side::FRONT ||
-        says_anything(words_of(panel.name)))
+    if (panel.hint.rigid || !panel.hint.part.empty() || m_roles[k].side == Side::RING ||
+        says_anything(words_of(m_pattern, k)))
       continue;
     names += (count++ ? ", " : "") + panel.name;
   }
   if (count > 0)
     m_mesh.findings.push_back("start: nothing tells where " + names +
                               (count > 1 ? " go" : " goes") +
-                              ": taken for the front; words like front, back, sleeve, cuff, "
-                              "collar, skirt or trousers in a name tell, or a hint");
+                              ": taken for the front, or for front and back where they are sewn to "
+                              "each other at both sides; words like front, back, sleeve, "
+                              "cuff, collar, skirt or trousers in a name tell, or a hint");
   return count;
 }
 
@@ -180,6 +182,34 @@ PlacementReport Placer::push_free() {
                               " vertices inside the body, " + std::to_string(report.faces_through) +
                               " faces through its skin");
   return report;
+}
+
+void Placer::find_impossible(PlacementReport& report) const {
+  constexpr double WIDEST_GAP = 1, BELOW_FLOOR = 0.3,
+                   ABOVE_HEAD = 0.3; // m; flounces of long skirts start a little below the floor
+  for (const PanelInfo& info : m_mesh.panels) {
+    double low = 1e300, high = -1e300;
+    for (int v : info.outline) {
+      const double y = m_mesh.placed[static_cast<std::size_t>(v)].y();
+      low = std::min(low, y), high = std::max(high, y);
+    }
+    if (high < -BELOW_FLOOR)
+      report.impossible.push_back(info.name + " starts below the floor, down to " +
+                                  centimetres(low));
+    if (low > m_space.stature() + ABOVE_HEAD)
+      report.impossible.push_back(info.name + " starts above the head, at " + centimetres(low));
+  }
+  for (const MeshSeam& s : m_mesh.seams) {
+    double sum = 0;
+    for (std::size_t k = 0; k < s.a.size(); ++k)
+      sum += (m_mesh.placed[static_cast<std::size_t>(s.a[k])] -
+              m_mesh.placed[static_cast<std::size_t>(s.b[k])])
+                 .norm();
+    const double gap = sum / static_cast<double>(s.a.size());
+    if (gap > WIDEST_GAP)
+      report.impossible.push_back("the sides of seam " + s.name + " start " + centimetres(gap) +
+                                  " apart");
+  }
 }
 
 void Placer::measure_gaps(PlacementReport& report) const {

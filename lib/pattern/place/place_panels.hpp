@@ -13,6 +13,8 @@ struct PlacementReport {
   int vertices_inside = 0; ///< of the body
   int faces_through = 0;   ///< that cross the skin
   double seam_gap_mean = 0, seam_gap_max = 0; ///< m
+  std::vector<std::string> impossible; ///< what cannot be meant, in words: a panel below the floor
+                                       ///< or above the head, a seam a metre open
   bool is_guess = false; ///< of no panel is it told where it goes: all are taken for fronts, and
                          ///< the last finding says so
 };

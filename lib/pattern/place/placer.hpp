@@ -66,6 +66,7 @@ private:
   /// panels of one side outwards, and grows the gap of groups that meet the body.
   PlacementReport push_free();
   void measure_gaps(PlacementReport& report) const;
+  void find_impossible(PlacementReport& report) const;
   /// Names panels of which neither name nor hint nor seams tell where they go, in the findings;
   /// their number.
   int find_untold();

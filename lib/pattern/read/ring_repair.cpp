@@ -14,8 +14,9 @@ constexpr double OVERSHOOT = 1e-3;                 // m: a shorter slit is none
 constexpr double SAME_POINT = 2e-4;                // m
 const double FOLDS_BACK = units::radians(3);       // between the way out and the way back
 const double OVERSHOOT_ANGLE = units::radians(15); // the same of an overshoot, which rounding bends
-constexpr double SYMMETRIC = 0.003;                // m
-constexpr double ON_FOLD = 1e-3;                   // m
+const double LEAVES = units::radians(30);
+constexpr double SYMMETRIC = 0.003; // m
+constexpr double ON_FOLD = 1e-3;    // m
 
 double wedge(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -25,14 +26,22 @@ std::array<Vec2, 2> bounds_of(const PointRing& ring) {
   return b;
 }
 
-/// Whether the outline turns back at b on its way from a to c, within a slit's depth.
-bool turns_back(const Vec2& a, const Vec2& b, const Vec2& c) {
-  const Vec2 in = a - b, out = c - b;
+double angle_between(const Vec2& a, const Vec2& b) {
+  return std::abs(std::atan2(wedge(a, b), a.dot(b)));
+}
+
+/// Whether the outline turns back at point k, within a slit's depth, and leaves the slit around a
+/// corner: the legs of a dart go on.
+bool turns_back(const PointRing& ring, std::size_t k) {
+  const std::size_t n = ring.size();
+  const auto at = [&](std::size_t steps) { return ring[(k + n + steps) % n]; };
+  const Vec2 in = at(n - 1) - at(0), out = at(1) - at(0);
   const double depth = std::min(in.norm(), out.norm());
   if (!(depth < DEEPEST_SLIT)) return false;
   if (depth < 1e-9) return true;
-  const double angle = std::abs(std::atan2(wedge(in, out), in.dot(out)));
-  return angle < (depth < OVERSHOOT ? OVERSHOOT_ANGLE : FOLDS_BACK);
+  const Vec2 leaves = in.norm() < out.norm() ? Vec2(at(n - 2) - at(n - 1)) : Vec2(at(2) - at(1));
+  if (angle_between(in.norm() < out.norm() ? in : out, leaves) < LEAVES) return false;
+  return angle_between(in, out) < (depth < OVERSHOOT ? OVERSHOOT_ANGLE : FOLDS_BACK);
 }
 
 /// Point where the lines of two sides meet, or the middle of their ends where they are all but one
@@ -49,7 +58,7 @@ std::vector<Vec2> take_slits_off(PointRing& ring) {
   std::vector<Vec2> slits;
   for (std::size_t k = 0; k < ring.size() && ring.size() > 3;) {
     const std::size_t n = ring.size(), before = (k + n - 1) % n, after = (k + 1) % n;
-    if (!turns_back(ring[before], ring[k], ring[after])) {
+    if (!turns_back(ring, k)) {
       ++k;
       continue;
     }

@@ -51,7 +51,7 @@ private:
     double back[2];
     for (std::size_t i : {0, 1}) {
       const std::size_t k = tubes[i];
-      const Words words = words_of(m_pattern.panels[k].name);
+      const Words words = words_of(m_pattern, k);
       back[i] = 0;
       for (const auto& seam : between(k, tubes[1 - i]))
         for (std::size_t s = 0; s + 1 < seam.size(); ++s) {
@@ -103,7 +103,7 @@ private:
     std::vector<std::size_t> tubes;
     for (std::size_t k = 0; k < count(); ++k) {
       if (m_roles[k].region != Region::TRUNK || m_roles[k].side == Side::RING) continue;
-      bool tube = says_legs(words_of(m_pattern.panels[k].name));
+      bool tube = says_legs(words_of(m_pattern, k));
       for (int q : m_graph.neighbours(static_cast<int>(k))) {
         if (m_roles[static_cast<std::size_t>(q)].side == m_roles[k].side) continue;
         tube = tube || long_seams(k, static_cast<std::size_t>(q)) >= 2;
@@ -168,6 +168,25 @@ private:
 
 } // namespace
 
+bool at_their_sides(const PanelMesh& mesh, const std::vector<PanelRole>& roles, std::size_t k,
+                    std::size_t q, const std::vector<std::array<int, 2>>& seam) {
+  double out[2];
+  for (const std::size_t end : {0, 1}) {
+    const std::size_t panel = end == 0 ? k : q;
+    const auto at = [&](int vertex) {
+      return Vec2(roles[panel].turn * mesh.pattern[static_cast<std::size_t>(vertex)]);
+    };
+    Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300), sum = Vec2::Zero();
+    for (int v : mesh.panels[panel].outline) low = low.cwiseMin(at(v)), high = high.cwiseMax(at(v));
+    for (const auto& stitch : seam) sum += at(stitch[end]);
+    const Vec2 off =
+        (sum / static_cast<double>(seam.size()) - 0.5 * (low + high)).cwiseQuotient(high - low);
+    if (!(std::abs(off.x()) > 1.2 * std::abs(off.y()))) return false;
+    out[end] = off.x();
+  }
+  return out[0] * out[1] < 0 || roles[k].side != roles[q].side; // one's left is the other's right
+}
+
 bool upright_seam(const PanelMesh& mesh, const SeamGraph& graph,
                   const std::vector<PanelRole>& roles, std::size_t k, std::size_t q) {
   for (const auto& seam : graph.between(static_cast<int>(k), static_cast<int>(q))) {
@@ -176,7 +195,8 @@ bool upright_seam(const PanelMesh& mesh, const SeamGraph& graph,
       const Vec2 p = roles[k].turn * mesh.pattern[static_cast<std::size_t>(s[0])];
       low = low.cwiseMin(p), high = high.cwiseMax(p);
     }
-    if (high.y() > low.y() && !goes_level(high - low)) return true;
+    if (high.y() > low.y() && (!goes_level(high - low) || at_their_sides(mesh, roles, k, q, seam)))
+      return true;
   }
   return false;
 }

@@ -6,7 +6,13 @@
 
 namespace sloper::pattern {
 
-/// A seam between the two panels that rises more than it goes across.
+/// Whether a seam (as SeamGraph::between(k, q) has it) lies at the side of both panels: farther out
+/// from the middle, for their width, than up or down, for their height. The sides of gores do,
+/// however flat they lean; waists and shoulders do not.
+bool at_their_sides(const PanelMesh& mesh, const std::vector<PanelRole>& roles, std::size_t k,
+                    std::size_t q, const std::vector<std::array<int, 2>>& seam);
+
+/// A seam between the two panels that rises more than it goes across, or lies at their sides.
 bool upright_seam(const PanelMesh& mesh, const SeamGraph& graph,
                   const std::vector<PanelRole>& roles, std::size_t k, std::size_t q);
 

@@ -18,11 +18,12 @@ public:
   std::vector<PanelRole> run() {
     const std::size_t n = m_roles.size();
     m_known.assign(n, false);
-    for (std::size_t k = 0; k < n; ++k) m_words.push_back(words_of(m_pattern.panels[k].name));
+    for (std::size_t k = 0; k < n; ++k) m_words.push_back(words_of(m_pattern, k));
     for (std::size_t k = 0; k < n; ++k) by_hint(k);
     for (std::size_t k = 0; k < n; ++k)
       if (!m_known[k]) by_name(k);
     necks_by_height();
+    face_each_other();
     turn_trunk_panels(m_pattern, m_mesh, m_graph, m_roles);
     for (std::size_t k = 0; k < n; ++k) arm_side(k);
     for (std::size_t k = 0; k < n; ++k) rings(k);
@@ -128,8 +129,14 @@ private:
     role.du.reset(), role.dv.reset();
   }
 
-  /// Whether a level seam at its top joins the panel to one of the other side.
+  /// Whether level seams at its top join the panel to one of the other side, over more than a
+  /// remnant of a side seam that does not meet.
   bool has_shoulder(std::size_t k) const {
+    constexpr double REMNANT =
+        0.1; // of the panel's width, both shoulders together; straps have more
+    if (m_roles[k].part == "lower_body")
+      return false; // the sides of a circle skirt are drawn level
+    double level = 0;
     double low = 1e300, high = -1e300;
     for (int v : m_mesh.panels[k].outline)
       low = std::min(low, turned(k, v).y()), high = std::max(high, turned(k, v).y());
@@ -140,10 +147,10 @@ private:
         const Vec2 a = turned(k, seam.front()[0]), b = turned(k, seam.back()[0]);
         if (std::abs(a.x() - b.x()) > std::abs(a.y() - b.y()) &&
             std::min(a.y(), b.y()) > low + 0.75 * (high - low))
-          return true;
+          level += (a - b).norm();
       }
     }
-    return false;
+    return level > REMNANT * width(k);
   }
   Vec2 turned(std::size_t k, int vertex) const {
     return m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(vertex)];
@@ -196,6 +203,46 @@ private:
       role.region = Region::NECK, role.side = Side::RING, role.theta = units::PI;
     else role.part = legs || says_cuff(words) ? "lower_body" : "torso";
     role.theta = role.region == Region::NECK || role.side == Side::BACK ? units::PI : 0;
+  }
+
+  /// Two panels of which nothing tells the side, sewn to each other at both of their sides: the
+  /// larger one, with the higher neck or the fuller seat, is the back.
+  void face_each_other() {
+    constexpr double ACROSS = 0.5; // of the width, between seams at both sides
+    for (std::size_t p = 0; p < m_roles.size(); ++p)
+      for (std::size_t q = p + 1; q < m_roles.size(); ++q) {
+        if (!tells_no_side(p) || !tells_no_side(q) || m_roles[p].side != Side::FRONT ||
+            m_roles[q].side != Side::FRONT)
+          continue;
+        double apart = 0;
+        const auto seams = m_graph.between(static_cast<int>(p), static_cast<int>(q));
+        for (const auto& a : seams)
+          for (const auto& b : seams) apart = std::max(apart, (middle_of(a) - middle_of(b)).norm());
+        if (apart < ACROSS * width(p)) continue;
+        const std::size_t back = area(p) > area(q) ? p : q;
+        m_roles[back].side = Side::BACK, m_roles[back].theta = units::PI;
+      }
+  }
+  bool tells_no_side(std::size_t k) const {
+    const PlacementHint& hint = m_pattern.panels[k].hint;
+    return m_roles[k].region == Region::TRUNK && !hint.rigid && hint.part.empty() &&
+           !says_anything(m_words[k]);
+  }
+  /// Of a seam, on the panel that comes first in its stitches.
+  Vec2 middle_of(const std::vector<std::array<int, 2>>& seam) const {
+    Vec2 sum = Vec2::Zero();
+    for (const auto& s : seam) sum += m_mesh.pattern[static_cast<std::size_t>(s[0])];
+    return sum / static_cast<double>(seam.size());
+  }
+  double area(std::size_t k) const {
+    const auto& outline = m_mesh.panels[k].outline;
+    double sum = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Vec2 &a = m_mesh.pattern[static_cast<std::size_t>(outline[i])],
+                 &b = m_mesh.pattern[static_cast<std::size_t>(outline[(i + 1) % outline.size()])];
+      sum += 0.5 * (a.x() * b.y() - a.y() * b.x());
+    }
+    return std::abs(sum);
   }
 
   /// Cuffs belong to sleeves, unless they are sewn to other panels only: to trousers.

@@ -1,9 +1,11 @@
 #include <base/units.hpp>
 #include <pattern/panel_words.hpp>
+#include <pattern/roles/leg_roles.hpp>
 #include <pattern/roles/panel_turn.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace sloper::pattern {
 namespace {
@@ -74,16 +76,18 @@ private:
     for (int q : m_graph.neighbours(static_cast<int>(k))) {
       const std::size_t o = static_cast<std::size_t>(q);
       if (!m_known[o] || m_roles[o].region != Region::TRUNK) continue;
-      for (const auto& seam : m_graph.between(static_cast<int>(k), q))
+      for (const auto& seam : m_graph.between(static_cast<int>(k), q)) {
+        const bool at_sides = at_their_sides(m_mesh, m_roles, k, o, seam);
         for (std::size_t i = 0; i + 1 < seam.size(); ++i)
           visit(o, Vec2(at(seam[i + 1][0]) - at(seam[i][0])),
-                Vec2(at(seam[i + 1][1]) - at(seam[i][1])));
+                Vec2(at(seam[i + 1][1]) - at(seam[i][1])), at_sides);
+      }
     }
   }
 
   double seam_length(std::size_t k) const {
     double sum = 0;
-    seams_to_known(k, [&](std::size_t, const Vec2& own, const Vec2&) { sum += own.norm(); });
+    seams_to_known(k, [&](std::size_t, const Vec2& own, const Vec2&, bool) { sum += own.norm(); });
     return sum;
   }
 
@@ -102,7 +106,7 @@ private:
   }
 
   bool side_known(std::size_t k) const {
-    const Words words = words_of(m_pattern.panels[k].name);
+    const Words words = words_of(m_pattern, k);
     return m_pattern.panels[k].hint.rigid || !m_pattern.panels[k].hint.part.empty() ||
            name_suggests_front(words) || says_back(words);
   }
@@ -113,12 +117,12 @@ private:
     std::vector<double> score(turns.size(), 0);
     double total = 0;
     const bool known = side_known(k);
-    seams_to_known(k, [&](std::size_t o, const Vec2& own, const Vec2& other) {
+    seams_to_known(k, [&](std::size_t o, const Vec2& own, const Vec2& other, bool at_sides) {
       const Vec2 b = m_roles[o].turn * other;
       const double length = std::sqrt(own.norm() * b.norm());
       if (!(length > 0)) return;
       total += length;
-      const bool level = goes_level(b),
+      const bool level = goes_level(b) && !at_sides,
                  ring = m_roles[k].side == Side::RING || m_roles[o].side == Side::RING;
       const bool over =
           level && !ring &&
@@ -166,6 +170,36 @@ private:
     return true;
   }
 
+  /// How much speaks for a turn that has shoulder seams at the top and the hem below, m: level
+  /// seams with another panel in the upper quarter, less those in the lower one; 0 where there are
+  /// no such seams, or nothing free and level at the other end that is wider.
+  double shoulders_up(std::size_t k, const Turn& turn) const {
+    constexpr double ZONE = 0.25; // of the panel's height
+    if (m_roles[k].part != "torso") return 0;
+    const auto& outline = m_mesh.panels[k].outline;
+    double low = 1e300, high = -1e300;
+    for (int v : outline)
+      low = std::min(low, (turn * at(v)).y()), high = std::max(high, (turn * at(v)).y());
+    std::map<int, bool> sewn;
+    double seams = 0, hem = 0;
+    for (int q : m_graph.neighbours(static_cast<int>(k)))
+      for (const auto& seam : m_graph.between(static_cast<int>(k), q)) {
+        for (const auto& s : seam) sewn[s[0]] = true;
+        if (m_roles[static_cast<std::size_t>(q)].region != Region::TRUNK) continue;
+        const Vec2 a = turn * at(seam.front()[0]), b = turn * at(seam.back()[0]);
+        if (goes_level(b - a) && std::min(a.y(), b.y()) > high - ZONE * (high - low))
+          seams += std::abs(b.x() - a.x());
+      }
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const int v = outline[i], w = outline[(i + 1) % outline.size()];
+      const Vec2 a = turn * at(v), b = turn * at(w);
+      if (!(sewn.count(v) && sewn.count(w)) && goes_level(b - a) &&
+          std::max(a.y(), b.y()) < low + ZONE * (high - low))
+        hem += std::abs(b.x() - a.x());
+    }
+    return seams > 0 && hem > seams ? seams : 0;
+  }
+
   /// Upright as drawn, else along its grain with what is longest and free below.
   void stand(std::size_t k) {
     const std::vector<Turn> turns = candidates(k);
@@ -173,6 +207,10 @@ private:
     if (std::abs(grain.y()) >= DRAWN_UPRIGHT ||
         std::abs(std::abs(grain.x()) - std::abs(grain.y())) < 0.05) {
       m_roles[k].turn = turns[0];
+      return;
+    }
+    if (const double up = shoulders_up(k, turns[1]) - shoulders_up(k, turns[2]); up != 0) {
+      m_roles[k].turn = up > 0 ? turns[1] : turns[2];
       return;
     }
     std::vector<char> sewn(m_mesh.pattern.size(), 0);

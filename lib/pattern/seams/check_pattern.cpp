@@ -20,7 +20,8 @@ constexpr double LEAST = 0.12;   // m: a garment whose largest panel is smaller 
                                  // unit than it states, or is a doll's
 constexpr double MOST = 12; // m2, a panel's height times its width: a full circle to the floor has
                             // 10, a long flounce less
-constexpr double UNIT_STEP = 10; // from mm to cm, the commonest mistake
+constexpr double MOST_GATHERED = 20; // to 1: tulle is gathered by 5 to 1 at most
+constexpr double UNIT_STEP = 10;     // from mm to cm, the commonest mistake
 
 struct Sampled {
   std::vector<Vec2> points;
@@ -126,7 +127,8 @@ private:
   std::string unit_key() const {
     if (m_pattern.source_format == "pattern") return "\"length_unit\"";
     if (m_pattern.source_format == "garmentcode") return "\"units_in_meter\" in \"properties\"";
-    if (m_pattern.source_format == "dxf") return "the text \"Units\", or $INSUNITS";
+    if (m_pattern.source_format == "dxf")
+      return "the text \"Units\", or $INSUNITS, or state it with --unit";
     return "that lengths are in millimetres, as the format asks for";
   }
 
@@ -265,6 +267,14 @@ private:
 
   void check_seam(const Seam& seam) {
     const double a = side_length(m_pattern, seam.a), b = side_length(m_pattern, seam.b);
+    if (std::max(a, b) > MOST_GATHERED * std::min(a, b)) {
+      add("error", "impossible-gather", "seam " + seam.name,
+          place_of(m_pattern, seam.a[0]) + " is " + centimetres(a) + ", " +
+              place_of(m_pattern, seam.b[0]) + " is " + centimetres(b) +
+              ": no cloth is gathered by more than 20 to 1; sew other edges together, or a part of "
+              "the longer one");
+      return;
+    }
     const double difference = std::abs(a - b), ratio = difference / std::max(std::min(a, b), 1e-9);
     if (difference > 0.003 && ratio > 0.02 && seam.kind != "gather" && seam.ease.empty()) {
       char text[200];

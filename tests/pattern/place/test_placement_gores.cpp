@@ -2,6 +2,7 @@
 #include <support/placement_patterns.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <pattern/place/place_panels.hpp>
 
@@ -159,6 +160,21 @@ TEST(PlacementOfGores, AFlareInTheMiddleOfTheBackAloneIsClosedToo) {
   EXPECT_EQ(skirt.report.crossings + skirt.report.vertices_inside + skirt.report.faces_through, 0);
   EXPECT_LT(skirt.gaps("skirt_back").back(), 0.03);
   EXPECT_NEAR(skirt.middle_of("skirt_front").x(), 0, 0.01);
+}
+
+TEST(PlacementGores, GoresStandBesideEachOtherHoweverFlatTheirSidesLean) {
+  for (const double hem : {60.0, 100.0, 120.0, 150.0}) { // of each of four, under a waist of 18 cm
+    SCOPED_TRACE(hem);
+    const Placed skirt = place(gored_skirt(4, {{0, 9}, {34, 0.5 * hem}}));
+    EXPECT_TRUE(skirt.report.impossible.empty());
+    double low = 1e300, high = -1e300;
+    for (const std::string& gore : gore_names(4)) {
+      const Vec2 y = skirt.heights(gore);
+      low = std::min(low, y.x()), high = std::max(high, y.y());
+    }
+    EXPECT_LT(high - low, 0.01 * std::hypot(0.5 * hem - 9, 34) + 0.1)
+        << "in one row, no taller than its sides are long";
+  }
 }
 
 /// Front and back of six gores and, above them, one piece on each side that is sewn to three of

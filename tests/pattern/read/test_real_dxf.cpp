@@ -145,6 +145,11 @@ TEST(RealDxf, SlitsInTheCutLineAreNotches) {
   ASSERT_EQ(p.panels[0].notches.size(), 1u);
   const ArcLength arc(p.panels[0].edge(p.panels[0].notches[0].edge).path);
   EXPECT_LT((arc.at(p.panels[0].notches[0].at * arc.length()) - Vec2(0.4, 0.2)).norm(), 1e-3);
+  // The tip of a narrow dart turns back too.
+  const Points dart = {{0, 0},   {190, 0}, {199.5, 190}, {200, 200}, {200.5, 190},
+                       {210, 0}, {400, 0}, {400, 300},   {0, 300}};
+  EXPECT_NEAR(outline_area(read_dxf(file(block("FRONT", polyline(dart))), "p.dxf").panels[0]),
+              0.12 - 0.5 * 0.02 * 0.19 - 0.5 * 0.001 * 0.2, 1e-5);
   const Points over = {{0.1, 0}, {400, 0}, {400, 300}, {0, 300}, {0, 0}, {0.2, 0}};
   const Pattern closed = read_dxf(file(block("FRONT", polyline(over))), "p.dxf");
   EXPECT_NEAR(outline_area(closed.panels[0]), 0.12, 1e-6);

@@ -65,6 +65,18 @@ TEST(Check, SharpSpikesAreTold) {
   EXPECT_TRUE(has(check_pattern(own(spike)), "sharp-spike", "bib: a", "at (20.00, 60.00) cm"));
 }
 
+TEST(Check, SidesThatDifferByTwentyTimesAreNoGather) {
+  const auto seam = [](double to) {
+    return R"(, {"name": "x", "kind": "gather", "a": [{"panel": "front", "edge": "top", "from": 0, "to": )" +
+           std::to_string(to) +
+           R"(}], "b": [{"panel": "back", "edge": "top", "from": 1, "to": 0}]})";
+  };
+  EXPECT_TRUE(
+      has(check_pattern(own(tube_text(seam(0.01)))), "impossible-gather", "seam x", "0.40 cm"));
+  EXPECT_THROW(require_sewable(own(tube_text(seam(0.01))), "t"), Error);
+  EXPECT_NO_THROW(require_sewable(own(tube_text(seam(0.25))), "t"));
+}
+
 TEST(Check, BadPatternsAreRefusedNamingPanelEdgeAndCentimetres) {
   EXPECT_NE(
       refusal(

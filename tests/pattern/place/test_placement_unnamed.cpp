@@ -1,0 +1,125 @@
+/// Pieces of which names tell little: codes, kinds, turns and what is sewn to what say the rest.
+#include <support/placement_patterns.hpp>
+
+#include <gtest/gtest.h>
+#include <pattern/panel_words.hpp>
+#include <pattern/place/place_panels.hpp>
+
+namespace sloper::pattern::test {
+namespace {
+
+/// A tank's front or back; upright, or lying along x with its hem at x = 0, as AccuMark writes
+/// pieces.
+std::string tank(const std::string& name, double neck, bool lying) {
+  const std::vector<std::pair<const char*, Vec2>> corners = {
+      {"hem", {23, 0}},          {"side_l", {21.5, 40}},     {"armhole_l", {11, 62}},
+      {"shoulder_l", {7, 65}},   {"neck_l", {0, neck}},      {"neck_r", {-7, 65}},
+      {"shoulder_r", {-11, 62}}, {"armhole_r", {-21.5, 40}}, {"side_r", {-23, 0}}};
+  const auto point = [&](const Vec2& p) {
+    const Vec2 q = lying ? Vec2(p.y(), -p.x()) : p;
+    return std::to_string(q.x()) + ", " + std::to_string(q.y());
+  };
+  std::string outline = R"({"edge": "hem", "path": [["M", )" + point(corners.back().second) +
+                        R"(], ["L", )" + point(corners[0].second) + "]]}";
+  for (std::size_t k = 1; k < corners.size(); ++k)
+    outline += std::string(R"(, {"edge": ")") + corners[k].first + R"(", "path": [["L", )" +
+               point(corners[k].second) + "]]}";
+  return R"({"name": ")" + name + R"(", "grain": )" + (lying ? "[1, 0]" : "[0, 1]") +
+         R"(, "outline": [)" + outline + "]}";
+}
+
+Pattern two_panel_top(const std::string& front, const std::string& back, bool lying) {
+  std::string seams;
+  for (const char* edge : {"side", "shoulder"})
+    for (const char* side : {"l", "r"}) {
+      const std::string other = side == std::string("l") ? "r" : "l";
+      seams += std::string(seams.empty() ? "" : ", ") + R"({"name": ")" + edge + side +
+               R"(", "a": [{"panel": ")" + front + R"(", "edge": ")" + edge + "_" + side +
+               R"("}], "b": [{"panel": ")" + back + R"(", "edge": ")" + edge + "_" + other +
+               R"(", "from": 1, "to": 0}]})";
+    }
+  return own(
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "tank", "panels": [)" +
+      tank(front, 43, lying) + ", " + tank(back, 60, lying) + R"(], "seams": [)" + seams + "]}");
+}
+
+/// Height of the middle of the points within 3 cm of a pattern height, m.
+double height_at(const PanelMesh& mesh, std::size_t panel, double at, bool lying) {
+  double sum = 0, n = 0;
+  for (int v : mesh.panels[panel].outline) {
+    const Vec2& p = mesh.pattern[static_cast<std::size_t>(v)];
+    if (std::abs((lying ? p.x() : p.y()) - at) < 0.03)
+      sum += mesh.placed[static_cast<std::size_t>(v)].y(), ++n;
+  }
+  return sum / n;
+}
+
+TEST(PlacementUnnamed, ALyingTankHangsOnTheShouldersWithItsHemDown) {
+  for (const bool lying : {true, false}) {
+    SCOPED_TRACE(lying);
+    const Pattern pattern = two_panel_top("TANK_FRONT", "TANK_BACK", lying);
+    PanelMesh mesh = mesh_pattern(pattern, 0.03, "t");
+    const body::Body body = stick_body(25, 1);
+    const PlacementReport report = place_panels(pattern, body, mesh);
+    EXPECT_EQ(report.crossings + report.vertices_inside, 0);
+    for (std::size_t k : {0, 1}) {
+      EXPECT_NEAR(height_at(mesh, k, 0.65, lying) - height_at(mesh, k, 0, lying), 0.65, 0.03);
+      EXPECT_GT(height_at(mesh, k, 0.65, lying), 1.3);
+    }
+  }
+}
+
+TEST(PlacementUnnamed, OfTwoPanelsSewnTogetherAtBothSidesTheLargerIsTheBack) {
+  const Pattern pattern = two_panel_top("37", "11", false);
+  PanelMesh mesh = mesh_pattern(pattern, 0.03, "t");
+  place_panels(pattern, stick_body(25, 1), mesh);
+  EXPECT_GT(middle(mesh, 0).z(), 0.05) << "the lower neck is in front";
+  EXPECT_LT(middle(mesh, 1).z(), -0.05);
+}
+
+TEST(PlacementUnnamed, WhatCannotBeMeantIsTold) {
+  Pattern pattern = two_panel_top("front", "back", false);
+  pattern.panels.push_back(pattern.panels[0]);
+  pattern.panels.back().name = "front_low";
+  for (std::size_t k = 0; k < 3; ++k) { // the third, which nothing is sewn to, far below
+    Mat4 placed = Mat4::Identity();
+    if (k == 1)
+      placed.topLeftCorner<3, 3>() = Eigen::AngleAxisd(M_PI, Vec3::UnitY()).toRotationMatrix();
+    placed(1, 3) = k == 2 ? -3 : 0.8, placed(2, 3) = k == 1 ? -0.3 : 0.3;
+    pattern.panels[k].hint.rigid = placed;
+  }
+  PanelMesh mesh = mesh_pattern(pattern, 0.03, "t");
+  const PlacementReport report = place_panels(pattern, stick_body(25, 1), mesh);
+  ASSERT_FALSE(report.impossible.empty());
+  EXPECT_NE(report.impossible.front().find("front_low starts below the floor"), std::string::npos)
+      << report.impossible.front();
+}
+
+TEST(PlacementUnnamed, NamesAreReadAsPatternMakersWriteThem) {
+  for (const char* name :
+       {"SHORT SLEEVE", "SLEEVE SHORT", "SHORTSLEEVE", "FULLSLEEVE", "GMH1006FSL"}) {
+    EXPECT_TRUE(says_sleeve(words_of(name))) << name;
+    EXPECT_FALSE(says_legs(words_of(name))) << name;
+  }
+  EXPECT_FALSE(says_sleeve(words_of("sleeveless_front")));
+  EXPECT_TRUE(says_legs(words_of("shorts_l")));
+  EXPECT_TRUE(says_back(words_of("REGULAR TEEBK")));
+  EXPECT_TRUE(name_suggests_front(words_of("REGULAR TEEFR")));
+}
+
+TEST(PlacementUnnamed, TheKindOfPieceTellsWhereACodeDoesNot) {
+  Pattern pattern;
+  pattern.source_format = "dxf";
+  pattern.panels.resize(3);
+  pattern.panels[0].name = "GMX1006S18X", pattern.panels[0].label = "SLEEVE SHORT";
+  pattern.panels[1].name = "GLX0924S16_NEW_BK",
+  pattern.panels[1].label = "FRONT"; // copied from the front, as it happens
+  pattern.panels[2].name = "Y12", pattern.panels[2].label = "BACK";
+  EXPECT_TRUE(says_sleeve(words_of(pattern, 0)));
+  EXPECT_TRUE(says_back(words_of(pattern, 1)));
+  EXPECT_FALSE(name_suggests_front(words_of(pattern, 1)));
+  EXPECT_TRUE(says_back(words_of(pattern, 2)));
+}
+
+} // namespace
+} // namespace sloper::pattern::test
