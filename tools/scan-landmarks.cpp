@@ -19,7 +19,7 @@ struct Options {
   std::string scan, output, rules, corrections, features, parts, csv, skeleton, vit, garmentcode,
       pose;
   std::string unit = "auto", up = "auto";
-  double pose_fps = 30;
+  double pose_fps = 30, metres_per_unit = 0, stature_m = 0;
   int jitter = -1;
   bool explain = false, anonymise = false, torso_only = false;
 };
@@ -80,6 +80,8 @@ void tell_findings(cli::Tool& tool, const body::Body& body) {
 int run(cli::Tool& tool, const Options& o) {
   body::ScanOptions options;
   options.unit = o.unit;
+  options.metres_per_unit = o.metres_per_unit;
+  options.stature_m = o.stature_m;
   options.up = o.up;
   options.jitter = o.jitter;
   options.torso_only = o.torso_only;
@@ -113,6 +115,15 @@ int run(cli::Tool& tool, const Options& o) {
   if (o.explain)
     for (const std::string& line : measured.trail) std::fprintf(stderr, "%s\n", line.c_str());
   tell_findings(tool, measured.body);
+  if (!measured.doubts.empty()) {
+    std::string doubts;
+    for (const body::Finding& doubt : measured.doubts)
+      doubts += (doubts.empty() ? "" : "; ") + doubt.place + ": " + doubt.what;
+    throw Error(ErrorKind::FAILED, o.scan, "",
+                "this is no standing person as the rules know one: " + doubts,
+                "the result is written to " + o.output +
+                    ", marked in scan.findings; do not use it unseen");
+  }
   if (measured.missing.empty()) return 0;
   std::string names;
   for (const std::string& name : measured.missing) names += (names.empty() ? "" : ", ") + name;
@@ -132,7 +143,13 @@ int main(int argc, char** argv) {
       .required()
       .check(cli::input_file());
   tool.option("--unit", o.unit, "unit of the scan's coordinates (default: auto, from the stature)")
-      .check(cli::one_of({"auto", "m", "cm", "mm", "inch"}));
+      .check(cli::one_of({"auto", "m", "cm", "mm", "dm", "inch", "foot"}));
+  tool.option("--scale", o.metres_per_unit,
+              "metres in a unit of the scan's coordinates, in place of --unit")
+      .check(cli::finite_in(1e-9, 1e9, "m"));
+  tool.option("--stature", o.stature_m,
+              "the person's stature as the scan stands, in place of --unit: for what has no unit")
+      .check(cli::finite_in(0.5, 2.5, "m"));
   tool.option("--up", o.up,
               "axis along which the body stands, taken as it is (default: auto, the vertical is "
               "told from the body)")

@@ -6,6 +6,7 @@
 #include <body/ingest/upright.hpp>
 #include <body/ingest/vertical.hpp>
 #include <body/landmarks/crotch.hpp>
+#include <body/landmarks/gate.hpp>
 #include <body/measure_scan.hpp>
 #include <body/part_labels.hpp>
 #include <body/skin_profile.hpp>
@@ -117,30 +118,23 @@ void add_holes(Body& body, const std::vector<Hole>& holes, const Vec3& origin) {
   }
 }
 
-/// Which unit was taken and how sure that is: the statures that other units would give.
+/// Which unit was taken and how sure that is: the next guess where it is not much less likely, and
+/// statures that few people have.
 void add_unit_finding(Body& body, bool given) {
-  const std::pair<const char*, double> units[] = {
-      {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"inch", 0.0254}};
-  double own = 1;
-  for (const auto& [name, metres] : units)
-    if (body.scan.unit == name) own = metres;
+  constexpr double SMALL = 1.3, TALL = 2.1; // m
   char text[160];
-  std::snprintf(text, sizeof text, "unit %s, %s: %.2f m tall", body.scan.unit.c_str(),
-                given ? "as given" : "guessed", body.scan.stature_m);
-  std::string what = text;
-  bool doubt = false;
-  for (const auto& [name, metres] : units) {
-    const double other = body.scan.stature_m / own * metres;
-    if (body.scan.unit == name || other < 0.5 || other > 2.5) continue;
-    std::snprintf(text, sizeof text, "%s %.2f m in %s", doubt ? "," : "; it would be", other, name);
-    what += text;
-    doubt = true;
-  }
-  if (!doubt) what += "; no other unit gives a person";
-  body.scan.findings.push_back(
-      {doubt && !given && (body.scan.stature_m < 1.3 || body.scan.stature_m > 2.2) ? "warning"
-                                                                                   : "info",
-       what, "scan"});
+  std::snprintf(text, sizeof text, "unit %s%s: %.2f m tall", body.scan.unit.c_str(),
+                given ? ", as given" : ", guessed", body.scan.stature_m);
+  std::string what = text, other;
+  for (const LengthUnit& unit : LENGTH_UNITS)
+    if (!given && body.scan.unit == unit.name) other = other_guess(body.scan.stature_m, unit);
+  if (!other.empty())
+    what += "; it may as well be " + other + ": give --unit, --scale or --stature";
+  const bool is_doubtful =
+      !given && (!other.empty() || body.scan.stature_m < SMALL || body.scan.stature_m > TALL);
+  if (is_doubtful && other.empty())
+    what += ", as few people are: give --unit, --scale or --stature if that is wrong";
+  body.scan.findings.push_back({is_doubtful ? "warning" : "info", what, "scan"});
 }
 
 void shift(Body& body, const Vec3& by) {
@@ -324,7 +318,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
     if (torso.is_cut[v]) sorted.is_body[v] = 0;
   const TriangleMesh& scan = is_torso ? torso.scan : given;
   const std::vector<Vec3> shape = points_of_body(scan, sorted.is_body, SHAPE_POINTS);
-  CanonicalFrame frame = guess_frame(scan, sorted, shape, options.unit, file);
+  CanonicalFrame frame = guess_frame(
+      scan, sorted, shape, {options.stature_m, options.metres_per_unit, options.unit}, file);
   // the same body gets the same vertical however it lies in its file; a floor, or a user, knows
   // better
   if (options.up == "auto" && !is_torso && (upright || !sorted.has_floor))
@@ -402,9 +397,20 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   build_frames(body);
   build_bones(body);
   phases.done("parts and frames");
-  add_unit_finding(body, options.unit != "auto");
+  add_unit_finding(body,
+                   options.unit != "auto" || options.metres_per_unit > 0 || options.stature_m > 0);
   add_findings(body, sorted, skin);
   add_holes(body, skin.holes, origin);
+  char likeness[120];
+  std::snprintf(likeness, sizeof likeness,
+                "shape: %.2f standard deviations from the bodies learned from",
+                options.corrections->unlikeness(result.features));
+  result.trail.push_back(likeness);
+  if (!is_torso)
+    for (const Finding& doubt : doubts_of(body, options.corrections->unlikeness(result.features))) {
+      body.scan.findings.push_back(doubt);
+      if (doubt.severity == "error") result.doubts.push_back(doubt);
+    }
   for (const char* name : ESSENTIAL)
     if (!body.has_landmark(name) && !(is_torso && may_lack(name))) {
       result.missing.push_back(name);

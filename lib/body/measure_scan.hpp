@@ -7,8 +7,10 @@
 namespace sloper::body {
 
 struct ScanOptions {
-  std::string unit = "auto"; ///< auto, m, cm, mm, inch
-  std::string up = "auto";   ///< auto, x, y, z
+  std::string unit = "auto";  ///< auto, m, cm, mm, dm, inch, foot
+  double metres_per_unit = 0; ///< of the scan's coordinates, in place of a unit; 0: not given
+  double stature_m = 0;    ///< of the person as the scan stands, in place of a unit; 0: not given
+  std::string up = "auto"; ///< auto, x, y, z
   bool torso_only =
       false; ///< a scan without legs is taken too: what it shows is found, the rest is not
   Rules rules = Rules::standard();
@@ -19,9 +21,11 @@ struct ScanOptions {
 
 struct MeasuredScan {
   Body body;
-  std::vector<Part> vertex_part;    ///< one per vertex of the scan, in its order
-  std::vector<std::string> trail;   ///< the decision path, for --explain
-  ShapeFeatures features;           ///< what the corrections looked at
+  std::vector<Part> vertex_part;  ///< one per vertex of the scan, in its order
+  std::vector<std::string> trail; ///< the decision path, for --explain
+  ShapeFeatures features;         ///< what the corrections looked at
+  std::vector<Finding>
+      doubts; ///< what is no standing person's, each an error in body.scan.findings too
   std::vector<std::string> missing; ///< essential landmarks that were not found
 };
 

@@ -12,7 +12,8 @@ namespace {
 /// Walks one OBJ text line by line without copying.
 class Parser {
 public:
-  Parser(std::string_view text, const std::string& name) : m_text(text), m_name(name) {}
+  Parser(std::string_view text, const std::string& name, bool keep_texture)
+      : m_text(text), m_name(name), m_keep_texture(keep_texture) {}
 
   ObjMesh run() {
     if (m_text.substr(0, 3) == "\xEF\xBB\xBF")
@@ -57,7 +58,7 @@ private:
       const auto slash = corner.find('/');
       const int v = index(corner.substr(0, slash), m_mesh.positions.size());
       int t = -1;
-      if (slash != std::string_view::npos) {
+      if (slash != std::string_view::npos && m_keep_texture) {
         const std::string_view rest = corner.substr(slash + 1);
         const std::string_view part = rest.substr(0, rest.find('/'));
         if (!part.empty()) t = index(part, m_mesh.texture.size());
@@ -119,7 +120,7 @@ private:
   std::string_view m_text, m_line;
   std::string m_name;
   std::size_t m_at = 0, m_number = 0;
-  bool m_has_texture = false;
+  bool m_keep_texture = true, m_has_texture = false;
   ObjMesh m_mesh;
 };
 
@@ -139,8 +140,8 @@ void append_index(std::string& out, char before, int from_zero) {
 
 } // namespace
 
-ObjMesh parse_obj(std::string_view text, const std::string& name) {
-  return Parser(text, name).run();
+ObjMesh parse_obj(std::string_view text, const std::string& name, bool keep_texture) {
+  return Parser(text, name, keep_texture).run();
 }
 
 ObjMesh read_obj(const std::string& path) {

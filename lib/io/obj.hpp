@@ -24,7 +24,9 @@ struct ObjMesh {
 /// bytes; read_obj() also a file without a vertex.
 /// @throws Error INPUT naming file and line. Cost: one pass, about 25 ms per 10 MB.
 ObjMesh read_obj(const std::string& path);
-ObjMesh parse_obj(std::string_view text, const std::string& name);
+/// @param keep_texture false: vt is not read, and faces may name vt and vn that the file lacks, as
+/// programs write for scans without a texture
+ObjMesh parse_obj(std::string_view text, const std::string& name, bool keep_texture = true);
 
 /// OBJ text with shortest round-trip numbers; faces `f v/vt` when texture_triangles is filled, else
 /// `f v`.

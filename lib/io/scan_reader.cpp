@@ -363,7 +363,7 @@ Scan read_scan(const std::string& path) {
   scan.format = format_of(path, bytes);
   scan.sha256 = sha256(bytes);
   if (scan.format == "obj") {
-    ObjMesh obj = parse_obj(bytes, path);
+    ObjMesh obj = parse_obj(bytes, path, false);
     scan.mesh.positions = std::move(obj.positions);
     scan.mesh.triangles = std::move(obj.triangles);
   } else if (scan.format == "ply") scan.mesh = parse_ply(bytes, path);

@@ -13,46 +13,56 @@ namespace {
 
 constexpr double MIN_STATURE = 0.5, MAX_STATURE = 2.5; ///< m
 
-struct Unit {
-  const char* name;
-  double metres;
-};
-constexpr Unit UNITS[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"inch", 0.0254}};
-
 std::string number_text(const char* format, double x) {
   char text[64];
   std::snprintf(text, sizeof text, format, x);
   return text;
 }
 
-Unit guess_unit(double height, const std::string& wanted, const std::string& file) {
-  const auto named = std::find_if(std::begin(UNITS), std::end(UNITS),
-                                  [&](const Unit& u) { return wanted == u.name; });
-  if (wanted != "auto" && named == std::end(UNITS))
-    throw Error(ErrorKind::USAGE, "", "unit", "'" + wanted + "' is none",
-                "give auto, m, cm, mm or inch");
-  for (const Unit& unit : UNITS) {
-    if (wanted != "auto" && wanted != unit.name) continue;
+/// How unlikely a person of this stature is, and a file in this unit: distance from the usual
+/// stature, factors of e, and for what is rare a penalty.
+double unlikeliness(const LengthUnit& unit, double stature) {
+  constexpr double USUAL = 1.68, TALL = 2.1, TOO_TALL = 0.5;
+  return std::abs(std::log(stature / USUAL)) + unit.rare + (stature > TALL ? TOO_TALL : 0.0);
+}
+
+std::vector<LengthUnit> likely_units(double height) {
+  std::vector<LengthUnit> likely;
+  for (const LengthUnit& unit : LENGTH_UNITS)
+    if (const double stature = height * unit.metres;
+        stature >= MIN_STATURE && stature <= MAX_STATURE)
+      likely.push_back(unit);
+  std::stable_sort(likely.begin(), likely.end(), [&](const LengthUnit& a, const LengthUnit& b) {
+    return unlikeliness(a, height * a.metres) < unlikeliness(b, height * b.metres);
+  });
+  return likely;
+}
+
+LengthUnit choose_unit(double height, const SizeOptions& size, const std::string& file) {
+  auto within = [&](const LengthUnit& unit, const char* option) {
     const double stature = height * unit.metres;
-    if (stature >= MIN_STATURE && stature <= MAX_STATURE) {
-      if (wanted == "auto" && std::string(unit.name) == "cm" &&
-          stature < 1.0) { // 26 to 98 inches would be 26 to 98 cm
-        const double in_inches = height * UNITS[3].metres;
-        if (in_inches > 1.3 && in_inches < 2.2) return UNITS[3];
-      }
-      return unit;
-    }
+    if (stature >= MIN_STATURE && stature <= MAX_STATURE) return unit;
+    throw input_error(
+        file, "", "the body would be " + number_text("%.3g", stature) + " m tall in " + unit.name,
+        std::string("a person is 0.5 to 2.5 m; give another ") + option);
+  };
+  if (size.stature_m > 0) return within({"given stature", size.stature_m / height, 0}, "--stature");
+  if (size.metres_per_unit > 0) return within({"given scale", size.metres_per_unit, 0}, "--scale");
+  if (size.unit != "auto") {
+    const auto named = std::find_if(std::begin(LENGTH_UNITS), std::end(LENGTH_UNITS),
+                                    [&](const LengthUnit& u) { return size.unit == u.name; });
+    if (named == std::end(LENGTH_UNITS))
+      throw Error(ErrorKind::USAGE, "", "unit", "'" + size.unit + "' is none",
+                  "give auto, m, cm, mm, dm, inch or foot");
+    return within(*named, "--unit");
   }
-  if (wanted != "auto") {
-    const double stature = height * named->metres;
+  const std::vector<LengthUnit> likely = likely_units(height);
+  if (likely.empty())
     throw input_error(file, "",
-                      "the body would be " + number_text("%.3g", stature) + " m tall in " + wanted,
-                      "a person is 0.5 to 2.5 m; give another --unit");
-  }
-  throw input_error(file, "",
-                    "the body is " + number_text("%.4g", height) +
-                        " units tall, which is no person in m, cm, mm or inch",
-                    "scale the scan to a known unit");
+                      "the body is " + number_text("%.4g", height) +
+                          " units tall, which is no person in m, cm, mm, dm, inch or foot",
+                      "give its --stature in metres, or its --scale in metres for a unit");
+  return likely.front();
 }
 
 /// Angle of the longer axis of a trunk layer, doubled so that opposite directions add up; length is
@@ -92,6 +102,15 @@ Vec2 leg_line(const std::vector<std::vector<Vec2>>& layers, int first, int last,
 
 } // namespace
 
+std::string other_guess(double stature_m, const LengthUnit& own) {
+  constexpr double NEAR = 0.6; // factors of e, as unlikeliness() has them
+  const std::vector<LengthUnit> likely = likely_units(stature_m / own.metres);
+  if (likely.size() < 2 || likely.front().metres != own.metres) return "";
+  const double other = stature_m / own.metres * likely[1].metres;
+  if (unlikeliness(likely[1], other) > unlikeliness(own, stature_m) + NEAR) return "";
+  return number_text("%.2f m in ", other) + likely[1].name;
+}
+
 Mat4 turn_and_shift(double angle, const Vec3& shift) {
   const double c = std::cos(angle), s = std::sin(angle);
   Mat4 m = Mat4::Identity();
@@ -116,7 +135,7 @@ void refine_heading(std::vector<Vec3> points, CanonicalFrame& frame) {
 }
 
 CanonicalFrame guess_frame(const TriangleMesh& scan, const SegmentedScan& sorted,
-                           const std::vector<Vec3>& shape, const std::string& unit,
+                           const std::vector<Vec3>& shape, const SizeOptions& size,
                            const std::string& file) {
   CanonicalFrame frame;
   const double height = sorted.high - sorted.low;
@@ -131,7 +150,7 @@ CanonicalFrame guess_frame(const TriangleMesh& scan, const SegmentedScan& sorted
   if (sorted.second_share > 0.5)
     throw input_error(file, "", "two bodies stand in this scan",
                       "cut the scan so that one person is left");
-  const Unit chosen = guess_unit(height, unit, file);
+  const LengthUnit chosen = choose_unit(height, size, file);
   frame.unit = chosen.name;
   const double stature = height * chosen.metres;
   frame.stature_m = stature;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double REAR_FLAT = 0.002; ///< m
 constexpr double STRAIGHT =
-    0.17; ///< bend of an elbow that tells nothing: 10 degrees, as the length of bend_at()
+    0.26; ///< bend of an elbow that tells nothing: 15 degrees, as the length of bend_at()
 
 /// The skin straight above (x, z), below the head.
 std::optional<Vec3> top_of_shoulder(const TriangleMesh& skin, double stature, double x, double z) {
@@ -170,7 +170,7 @@ std::optional<Vec2> elbow_by_bend(const ArmTrace& arm, double s, double around) 
 /// The direction in which the elbow's point lies: the outer side of the bend, of a straight arm the
 /// rear.
 Vec3 elbow_faces(const ArmTrace& arm, double along, double s) {
-  constexpr double WHOLLY = 0.35; // 20 degrees
+  constexpr double WHOLLY = 0.42; // 24 degrees
   const Vec3 bend = bend_at(arm, along, s);
   const double share = std::clamp((bend.norm() - STRAIGHT) / (WHOLLY - STRAIGHT), 0.0, 1.0);
   return ((1 - share) * -Vec3::UnitZ() + share * bend.normalized()).normalized();

@@ -142,11 +142,10 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules) {
   arm.pit_hidden = !arm.axilla || arm.axilla->y() < rules.number("axilla.lowest") * s ||
                    std::abs(arm.axilla->x()) > rules.number("axilla.widest") * s;
   if (arm.pit_hidden) {
-    const bool estimates_energy_error =
+    const bool is_near =
         arm.axilla && std::abs(arm.axilla->x()) <= rules.number("axilla.widest") * s;
     arm.axilla =
-        Vec3(sign * (estimates_energy_error ? 0.5 * (std::abs(arm.axilla->x()) + aside) : aside),
-             height, depth);
+        Vec3(sign * (is_near ? 0.5 * (std::abs(arm.axilla->x()) + aside) : aside), height, depth);
   }
   arm.axilla_front = *arm.axilla + Vec3(-sign * 0.0021 * s, 0.22 * radius, 0.75 * radius);
   arm.axilla_back = *arm.axilla + Vec3(-sign * 0.0035 * s, 0.16 * radius, -1.2 * radius);

@@ -99,7 +99,12 @@ bool is_nipple_pair(const Finder& f) {
     const Vec3& p = f.figure.nipple[side]->p;
     const auto foremost = foremost_place(f, {p.y() - 0.03 * f.s, p.y() + 0.03 * f.s},
                                          half_front(side, 0.002, 0.14 * f.s), 1, PEAKED);
-    if (foremost && p.z() < foremost->p.z() - f.number("bust.bump_behind") * f.s) return false;
+    // a clear bump is believed farther back: a stout trunk leans, and its belly or the middle of
+    // its chest is foremost
+    const double clear =
+        std::clamp(std::min(l->height, r->height) / f.number("bust.bump") - 1, 0.0, 1.0);
+    if (foremost && p.z() < foremost->p.z() - (1 + 2 * clear) * f.number("bust.bump_behind") * f.s)
+      return false;
   }
   return true;
 }
@@ -186,7 +191,10 @@ void find_bust(const Finder& f, double pit) {
   for (int side = 0; side < 2; ++side) {
     if (!points->value[side]) continue;
     const std::string suffix = side_suffix(side);
-    const std::optional<Vec3> point = f.corrected("bust_point", suffix, *points->value[side], true);
+    const bool is_seen = points->rule->name == "bump_of_chest"; // what is seen is not corrected
+    const std::optional<Vec3> point =
+        is_seen ? points->value[side]
+                : f.corrected("bust_point", suffix, *points->value[side], true);
     f.put("bust_point" + suffix, *point, 2, *points->rule);
     f.find("bust_prominent", suffix, 2,
            {{"foremost_of_chest", [&] {
@@ -288,7 +296,8 @@ std::optional<double> find_navel(const Finder& f) {
         }},
        {"trunk_ratio", [&] { return std::optional(Vec2(0, expected)); }}});
   if (!place) return std::nullopt;
-  const double navel = place->value.y() + f.correction("omphalion").y();
+  const double navel =
+      place->value.y() + (place->rule->name == "dimple" ? 0.0 : f.correction("omphalion").y());
   // the tape and the truth lie on the belly's surface beside the dimple, not at its bottom
   if (const auto p = front_at(f, place->value.x(), navel, 0.006 * s))
     f.put("omphalion", *p, 2, *place->rule);

@@ -1,5 +1,6 @@
 #include <base/error.hpp>
 #include <gtest/gtest.h>
+#include <io/obj.hpp>
 #include <io/scan_reader.hpp>
 
 #include <cstdio>
@@ -88,6 +89,13 @@ TEST(ScanReader, a_header_that_promises_too_much_is_refused_before_memory_is_tak
   const std::uint32_t many = 0xffffffffu;
   std::memcpy(stl.data() + 80, &many, 4);
   complaint([&] { parse_stl(stl, "a.stl"); });
+}
+
+TEST(ScanReader, an_obj_is_read_whose_faces_name_texture_and_normals_that_it_lacks) {
+  const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1/1 2/2/2 3/3/3\n";
+  EXPECT_EQ(parse_obj(text, "a.obj", false).triangles.size(), 1u);
+  complaint([&] { parse_obj(text, "a.obj"); }); // one of our own must be whole
+  complaint([] { parse_obj("v 0 0 0\nf 1/1/1 2/2/2 3/3/3\n", "a.obj", false); });
 }
 
 TEST(ScanReader, stl_is_read_as_text_and_binary) {

@@ -155,12 +155,12 @@ TEST(bind, levels_go_to_their_like) {
 }
 
 TEST(bind, a_waist_whose_places_lie_the_other_way_round_is_met_between_them) {
-  const body::Body from = measured("f-165-a"), to = measured("f-172-t");
+  body::Body from = measured("f-165-a"), to = measured("f-172-t");
   const auto height = [](const body::Body& body, const char* level) {
     return body.levels.at(level).y;
   };
-  ASSERT_GT(height(from, "waist_girth_min"), height(from, "waist_semantic") + 0.015);
-  ASSERT_LT(height(to, "waist_girth_min"), height(to, "waist_semantic") - 0.015);
+  from.levels.at("waist_semantic").y = height(from, "waist_girth_min") - 0.02;
+  to.levels.at("waist_semantic").y = height(to, "waist_girth_min") + 0.02;
   Garment g = skin_shirt(from);
   bind_garment(g, from);
   const std::vector<Vec3> placed = place_garment(g, to, Waist::OF_ALL);

@@ -1,0 +1,93 @@
+/// Who stands is measured, however the arms are held; who does not is told so.
+#include <support/figures.hpp>
+
+#include <body/pose.hpp>
+#include <gtest/gtest.h>
+
+using namespace sloper;
+using namespace sloper::body;
+
+namespace {
+
+Eigen::Quaterniond turn(double degrees, const Vec3& axis) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(degrees * 3.14159265358979 / 180, axis));
+}
+
+/// A mannequin measured, with its joints turned.
+struct Posed {
+  Body before;
+  TriangleMesh skin;
+};
+
+Posed posed(const std::map<std::string, Eigen::Quaterniond>& turns) {
+  Posed result{test::measure(test::mannequin("m-178-a").mesh).body, {}};
+  Pose pose;
+  pose.turn = turns;
+  result.skin = result.before.skin;
+  result.skin.positions = posed_skin(result.before, skin_weights(result.before), pose);
+  return result;
+}
+
+} // namespace
+
+TEST(Gate, who_stands_is_no_doubt) {
+  for (const char* name : {"f-165-a", "m-185-t", "f-165-plus", "m-170-stout"}) {
+    const MeasuredScan measured = test::measure(test::mannequin(name).mesh);
+    EXPECT_TRUE(measured.doubts.empty())
+        << name << ": " << (measured.doubts.empty() ? "" : measured.doubts.front().what);
+  }
+}
+
+TEST(Gate, who_squats_is_told_so) {
+  const Posed squat = posed({{"thigh_l", turn(-60, Vec3::UnitX())},
+                             {"thigh_r", turn(-60, Vec3::UnitX())},
+                             {"shin_l", turn(75, Vec3::UnitX())},
+                             {"shin_r", turn(75, Vec3::UnitX())}});
+  EXPECT_FALSE(test::measure(squat.skin).doubts.empty());
+}
+
+TEST(Parts, a_hand_is_arm_where_the_elbow_is_bent) {
+  const Posed bent =
+      posed({{"forearm_l", turn(-50, Vec3::UnitX())}, {"forearm_r", turn(-35, Vec3::UnitX())}});
+  const MeasuredScan measured = test::measure(bent.skin);
+  ASSERT_EQ(measured.body.face_part.size(), bent.before.face_part.size());
+  std::size_t agree = 0, hands = 0, hands_agree = 0;
+  const double wrist = 0.06;
+  for (std::size_t t = 0; t < bent.skin.triangles.size(); ++t) {
+    const bool same = measured.body.face_part[t] == bent.before.face_part[t];
+    agree += same;
+    const Vec3& p = bent.before.skin.positions[bent.before.skin.triangles[t][0]];
+    for (const char* tip : {"hand_tip_l", "hand_tip_r"})
+      if ((p - bent.before.landmark(tip)).norm() < wrist) ++hands, hands_agree += same;
+  }
+  EXPECT_EQ(hands_agree, hands);
+  EXPECT_GT(static_cast<double>(agree), 0.98 * static_cast<double>(bent.skin.triangles.size()));
+}
+
+TEST(Size, is_the_likeliest_of_units_and_stature_and_is_told_where_it_is_doubtful) {
+  const TriangleMesh& mesh = test::mannequin("f-165-a").mesh; // 1.65 m
+  auto unit_finding = [](const Body& body) {
+    for (const Finding& finding : body.scan.findings)
+      if (finding.what.rfind("unit ", 0) == 0) return finding;
+    return Finding{};
+  };
+  const Body decimetres =
+      test::measure(test::moved(mesh, 12.5 * Eigen::Matrix3d::Identity(), Vec3::Zero())).body;
+  EXPECT_EQ(decimetres.scan.unit, "dm"); // 20.6 units: no adult of 52 cm in inches
+  EXPECT_NEAR(decimetres.scan.stature_m, 2.06, 0.02);
+  const Body giant =
+      test::measure(test::moved(mesh, 1.45 * Eigen::Matrix3d::Identity(), Vec3::Zero())).body;
+  EXPECT_EQ(unit_finding(giant).severity, "warning");
+  EXPECT_EQ(unit_finding(test::measure(mesh).body).severity, "info");
+  ScanOptions given;
+  given.stature_m = 1.7;
+  EXPECT_NEAR(
+      test::measure(test::moved(mesh, 7.7 * Eigen::Matrix3d::Identity(), Vec3::Zero()), given)
+          .body.scan.stature_m,
+      1.7, 0.005);
+  given.stature_m = 0;
+  given.metres_per_unit = 0.5;
+  EXPECT_NEAR(test::measure(test::moved(mesh, 2 * Eigen::Matrix3d::Identity(), Vec3::Zero()), given)
+                  .body.scan.stature_m,
+              1.65, 0.01);
+}
