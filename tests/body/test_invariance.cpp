@@ -111,13 +111,13 @@ TEST(Invariance, scaling_by_a_tenth_moves_no_landmark_by_more_than_5_mm) {
 }
 
 // the corrections look at the whole shape, and holes that are closed change it a little everywhere
-TEST(Invariance, dropping_one_face_in_twenty_or_in_five_moves_no_landmark_by_more_than_9_mm) {
+TEST(Invariance, dropping_one_face_in_twenty_or_in_five_moves_no_landmark_by_more_than_8_mm) {
   for (const Figure& figure : figures())
     for (const double share : {0.05, 0.2}) {
       TriangleMesh scan = figure.mesh;
       Random random(3);
       std::erase_if(scan.triangles, [&](const Triangle&) { return random.uniform() < share; });
-      expect_unmoved(figure, scan, Eigen::Matrix3d::Identity(), Vec3::Zero(), 1, 0.009);
+      expect_unmoved(figure, scan, Eigen::Matrix3d::Identity(), Vec3::Zero(), 1, 0.008);
     }
 }
 
