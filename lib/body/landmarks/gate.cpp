@@ -9,7 +9,7 @@ namespace sloper::body {
 
 namespace {
 
-/// Bounds of what a standing person shows. Of 136 bodies that the rules were not tuned to, of both
+/// Bounds of what a standing person shows. Of 136 bodies, 40 of them learned from, of both
 /// sexes, 17 to 42 kg/m2, in natural, A and T stances and as scanners deliver them, all passed but
 /// one, whose neck girth of 0.373 of the stature has widened its bounds.
 struct Bounds {

@@ -14,30 +14,6 @@ constexpr unsigned ALL_ENDS = ExtremityHulls::HANDS | ExtremityHulls::FEET;
 
 } // namespace
 
-void CollisionBody::State::write(io::Json& state) const {
-  state["covered"] = covered;
-  state["whole_skin"] = full_skin;
-  state["shrunk"] = shrunk;
-  state["arms_aside"] = arms_aside;
-  state["scale"] = scale;
-}
-
-CollisionBody::State CollisionBody::State::read(const io::Node& node) {
-  State state;
-  int covered = 0;
-  if (node.has("covered")) covered = node.at("covered").integer();
-  else if (node.at("mitten").boolean())
-    covered = static_cast<int>(ExtremityHulls::HANDS); // older ones: hands alone
-  if (covered < 0 || covered > static_cast<int>(ALL_ENDS))
-    node.at("covered").fail("has unknown bits");
-  state.covered = static_cast<unsigned>(covered);
-  state.full_skin = node.has("whole_skin") && node.at("whole_skin").boolean();
-  state.shrunk = node.at("shrunk").boolean();
-  state.arms_aside = node.has("arms_aside") && node.at("arms_aside").boolean();
-  state.scale = node.at("scale").number();
-  return state;
-}
-
 CollisionBody::CollisionBody(const body::Body* body, double coarse_tolerance_m, Reporter& reporter)
     : m_body(body), m_coarse_tolerance(coarse_tolerance_m), m_reporter(reporter) {}
 

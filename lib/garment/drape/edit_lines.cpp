@@ -55,4 +55,9 @@ EditLines::Taken EditLines::take(const std::string& line, const pattern::Pattern
   return {count, std::move(next), std::move(document)};
 }
 
+void EditLines::log_taken(const Taken& taken) {
+  for (const io::Json& edit : taken.document["edits"]) m_log["edits"].push_back(edit);
+  m_log["length_unit"] = taken.document["length_unit"];
+}
+
 } // namespace sloper::garment

@@ -30,6 +30,10 @@ public:
   /// Reads the next line. @param pattern  to be edited   @throws Error INPUT for what is no edit of
   /// it; then nothing changed
   Taken take(const std::string& line, const pattern::Pattern& pattern);
+  /// Adds what was taken, once the garment has it, to the log.
+  void log_taken(const Taken& taken);
+  /// The edits so far, as a document that pattern-mesh --edits replays.
+  const io::Json& log() const { return m_log; }
   bool ended() const { return m_ended; }
   std::optional<Finish> finish() const { return m_finish; } ///< as asked for
 
@@ -39,6 +43,8 @@ private:
   bool m_has_body;
   int m_line = 0;
   io::Json m_head;
+  io::Json m_log = {
+      {"format", "edits"}, {"version", 1}, {"length_unit", "m"}, {"edits", io::Json::array()}};
   bool m_ended = false;
   std::optional<Finish> m_finish;
 };

@@ -17,15 +17,10 @@ constexpr int IDLE_MS = 20;              // between looks for a line, while at r
 constexpr int CALM_STEPS = 3;            // within the tolerances of rest, one after the other
 constexpr double LARGEST_MOVE = 0.02;    // m, of a particle in one frame
 constexpr double ANSWER_TOLERANCE = 0.1; // relative residual; see FOLLOW_ANSWER_ITERATIONS
-constexpr double BUSY_S =
-    1; // after an edit: the next one is likely to come, and waits for the step it comes into
+constexpr double BUSY_S = 1; // after an edit: the next one is likely, and waits for a step's end
 constexpr int BUSY_ITERATIONS = 6; // at most, of those steps
 
 using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point t) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - t).count();
-}
 
 /// A session that goes on for as long as edits come.
 class LiveEdit {
@@ -34,10 +29,7 @@ public:
            const FollowSession& source, Reporter& reporter)
       : m_garment(garment), m_body(body), m_settings(settings), m_source(source),
         m_reporter(reporter), m_live(garment), m_lines(body != nullptr),
-        m_session({.garment = garment, .body = body}, settings, reporter) {
-    m_log = {
-        {"format", "edits"}, {"version", 1}, {"length_unit", "m"}, {"edits", io::Json::array()}};
-  }
+        m_session({.garment = garment, .body = body}, settings, reporter) {}
 
   FollowReport run() {
     m_session.start_live(true);
@@ -50,7 +42,7 @@ public:
       if (!m_session.stopped() && m_reporter.stop_requested()) m_session.interrupt();
     }
     finish();
-    m_report.log = m_log;
+    m_report.log = m_lines.log();
     return std::move(m_report);
   }
 
@@ -108,8 +100,7 @@ private:
       if (taken.edits == 0) return;
       same_mesh = m_live.adopt(std::move(*taken.next));
       if (same_mesh) m_session.replace_rest_shape();
-      for (const io::Json& edit : taken.document["edits"]) m_log["edits"].push_back(edit);
-      m_log["length_unit"] = taken.document["length_unit"];
+      m_lines.log_taken(taken);
       m_report.edits += static_cast<int>(taken.edits);
     } catch (const Error& e) {
       m_report.refused.push_back(e.what());
@@ -179,7 +170,7 @@ private:
   }
 
   void note_latency(FollowFrame& f, Clock::time_point arrived, std::clock_t cpu) {
-    f.latency_ms = milliseconds_since(arrived);
+    f.latency_ms = std::chrono::duration<double, std::milli>(Clock::now() - arrived).count();
     f.cpu_ms = 1e3 * static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
     m_report.latency_ms.push_back(f.latency_ms);
     m_report.cpu_ms.push_back(f.cpu_ms);
@@ -194,7 +185,6 @@ private:
   EditLines m_lines;
   DrapeSession m_session;
   FollowReport m_report;
-  io::Json m_log;
   int m_calm = 0;
   bool m_at_rest = false;
   Clock::time_point m_edited = Clock::now() - std::chrono::hours(1); // the last edit

@@ -29,22 +29,6 @@ double median(std::vector<double> values) {
 
 } // namespace
 
-io::Json FitMonitor::State::to_json() const {
-  return {{"strains", strains},
-          {"least_strain", least_strain},
-          {"strain_fell_at", strain_fell_at},
-          {"slip_m", slip}};
-}
-
-FitMonitor::State FitMonitor::State::read(const io::Node& node) {
-  State state;
-  state.strains = io::read_numbers(node.at("strains"));
-  state.least_strain = node.at("least_strain").number();
-  state.strain_fell_at = node.at("strain_fell_at").integer();
-  state.slip = node.at("slip_m").number();
-  return state;
-}
-
 bool FitMonitor::is_calm(const cloth::StepResult& last) const {
   const std::vector<double>& strains = m_state.strains;
   if (strains.size() < 3) return false;

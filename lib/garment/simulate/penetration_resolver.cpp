@@ -21,18 +21,6 @@ constexpr double PART_REACH = 0.3;      // m: deeper cloth has no way out along 
 
 } // namespace
 
-void PenetrationResolver::State::write(io::Json& state) const {
-  state["untanglings"] = untanglings;
-  state["partings"] = partings;
-}
-
-PenetrationResolver::State PenetrationResolver::State::read(const io::Node& node) {
-  State state;
-  state.untanglings = node.at("untanglings").integer();
-  state.partings = node.at("partings").integer();
-  return state;
-}
-
 PenetrationResolver::PenetrationResolver(SimulatedCloth& cloth, CollisionBody& body,
                                          Telemetry& telemetry)
     : m_cloth(cloth), m_body(body), m_telemetry(telemetry) {}

@@ -15,49 +15,7 @@ constexpr double LEFT_AT_REST = 0.025; // likewise, where all is as slow as at r
 constexpr double ROUGH = 0.01;         // relative residual; who asks for less means it
 constexpr double SEW_TOLERANCE = 0.05; // relative residual of a step while sewing
 
-io::Json step_json(const cloth::StepResult& s) {
-  return {{"cg_iterations", s.cg.iterations},
-          {"cg_residual", s.cg.residual},
-          {"largest_move_m", s.largest_move_m},
-          {"halvings", s.halvings},
-          {"residual_force_ratio", s.residual_force_ratio},
-          {"residual_force_ratio_max", s.residual_force_ratio_max},
-          {"held", s.held}};
-}
-
-cloth::StepResult read_step(const io::Node& node) {
-  cloth::StepResult s;
-  s.cg.iterations = node.at("cg_iterations").integer();
-  s.cg.residual = node.at("cg_residual").number();
-  s.largest_move_m = node.at("largest_move_m").number();
-  s.halvings = node.at("halvings").integer();
-  s.residual_force_ratio = node.at("residual_force_ratio").number();
-  s.residual_force_ratio_max = node.at("residual_force_ratio_max").number();
-  s.held = static_cast<std::size_t>(std::max(0, node.at("held").integer()));
-  return s;
-}
-
 } // namespace
-
-void StepController::State::write(io::Json& state) const {
-  state["last"] = step_json(last);
-  state["last_h"] = last_h;
-  state["cg_iterations"] = cg_iterations;
-  state["solves"] = solves;
-  state["rejected"] = rejected;
-}
-
-StepController::State StepController::State::read(const io::Node& node) {
-  State state;
-  state.last = read_step(node.at("last"));
-  state.last_h = node.at("last_h").number();
-  state.cg_iterations = io::read_integers(node.at("cg_iterations"));
-  state.solves = node.has("solves")
-                     ? node.at("solves").integer()
-                     : static_cast<int>(state.cg_iterations.size()); // older ones: one a step
-  state.rejected = io::read_strings(node.at("rejected"));
-  return state;
-}
 
 StepController::StepController(SimulatedCloth& cloth, const DrapeSettings& settings,
                                Telemetry& telemetry)

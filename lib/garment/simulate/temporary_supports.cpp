@@ -34,22 +34,6 @@ void grow(std::vector<char>& marked, const std::vector<Triangle>& triangles, int
 
 } // namespace
 
-void TemporarySupports::State::write(io::Json& state) const {
-  state["held"] = io::flat_points(held);
-  state["tucks"] = tangles;
-}
-
-TemporarySupports::State TemporarySupports::State::read(const io::Node& node,
-                                                        std::size_t n_particles) {
-  State state;
-  if (node.has("held")) state.held = io::read_flat_points(node.at("held"));
-  if (node.has("tucks")) state.tangles = io::read_integers(node.at("tucks"));
-  for (int i : state.tangles)
-    if (i < 0 || static_cast<std::size_t>(i) >= n_particles)
-      node.at("tucks").fail("does not belong to this garment");
-  return state;
-}
-
 TemporarySupports::TemporarySupports(SimulatedCloth& cloth, const DrapeSettings& settings,
                                      PenetrationResolver& resolver, Telemetry& telemetry)
     : m_cloth(cloth), m_settings(settings), m_resolver(resolver), m_telemetry(telemetry) {}

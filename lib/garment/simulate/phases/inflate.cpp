@@ -15,20 +15,6 @@ constexpr double STEP_S = 1.0 / 30;
 
 } // namespace
 
-void InflatePhase::State::write(io::Json& state) const {
-  state["latest"] = max_skin_lag_m;
-  state["farthest"] = skin_lag_m;
-  state["skin"] = io::flat_points(skin);
-}
-
-InflatePhase::State InflatePhase::State::read(const io::Node& node) {
-  State state;
-  state.max_skin_lag_m = node.at("latest").number();
-  state.skin_lag_m = node.at("farthest").number();
-  state.skin = io::read_flat_points(node.at("skin"));
-  return state;
-}
-
 bool InflatePhase::is_needed(const SimContext& context) const {
   return context.body.state().scale < 1 && context.cloth.body_contact();
 }

@@ -33,46 +33,6 @@ void RestClock::note(const std::vector<Vec3>& x, double frame_s) {
 
 bool RestClock::is_at_rest() const { return !m_from.empty() && m_s >= REST_S; }
 
-io::Json MovePhase::State::to_json() const {
-  return {{"frame", frame},
-          {"over", over},
-          {"velocity", io::flat_points(velocity)},
-          {"parts", parts},
-          {"forced", forced},
-          {"noted", noted},
-          {"forced_frames", forced_frames},
-          {"asleep_frames", asleep_frames},
-          {"bad_frames", bad_frames},
-          {"most", most},
-          {"largest_way_m", largest_way_m},
-          {"simulated_s", simulated_s},
-          {"wall_s", wall_s},
-          {"elapsed_s", elapsed_s}};
-}
-
-MovePhase::State MovePhase::State::read(const io::Node& node) {
-  State state;
-  if (node.at("frame").integer() < 1) node.at("frame").fail("expected a number above zero");
-  state.frame = static_cast<std::size_t>(node.at("frame").integer());
-  state.over = node.at("over").boolean();
-  state.velocity = io::read_flat_points(node.at("velocity"));
-  state.parts = node.at("parts").integer();
-  state.forced = node.at("forced").integer();
-  state.noted = node.at("noted").integer();
-  state.forced_frames = node.at("forced_frames").integer();
-  if (node.has("asleep_frames"))
-    state.asleep_frames = node.at("asleep_frames").integer(); // older ones have none
-  for (std::size_t i = 0; i < 3; ++i) {
-    state.bad_frames[i] = node.at("bad_frames").at(i).integer();
-    state.most[i] = node.at("most").at(i).integer();
-  }
-  state.largest_way_m = node.at("largest_way_m").number();
-  state.simulated_s = node.at("simulated_s").number();
-  state.wall_s = node.at("wall_s").number();
-  state.elapsed_s = node.at("elapsed_s").number();
-  return state;
-}
-
 bool MovePhase::is_needed(const SimContext& context) const {
   return m_moves && !m_state.over && context.cloth.body_contact();
 }

@@ -42,43 +42,6 @@ constexpr double ARRIVED_SPEED = 0.005;  // m/s of the fastest particle
 
 } // namespace
 
-void SettlePhase::State::write(io::Json& state) const {
-  state["h"] = h;
-  state["calm"] = calm;
-  state["unmoved"] = unmoved;
-  state["pushed"] = pushed;
-  state["best_at"] = best_residual_step;
-  if (best_residual < std::numeric_limits<double>::infinity()) state["best"] = best_residual;
-  state["start_height"] = start_height;
-  if (release_height_m) state["thawed_at"] = *release_height_m;
-  state["looked_at"] = probe_step;
-  state["looked_from"] = io::flat_points(probe_position);
-  state["free_steps"] = dynamic_steps;
-  state["velocity"] = io::flat_points(velocity);
-}
-
-SettlePhase::State SettlePhase::State::read(const io::Node& node, std::size_t n_particles) {
-  State state;
-  state.h = node.at("h").number();
-  state.calm = node.at("calm").integer();
-  state.pushed = node.at("pushed").integer();
-  state.best_residual_step = node.at("best_at").integer();
-  if (node.has("unmoved")) state.unmoved = node.at("unmoved").integer();
-  if (node.has("best")) state.best_residual = node.at("best").number();
-  state.start_height = io::read_numbers(node.at("start_height"));
-  if (node.has("thawed_at")) state.release_height_m = node.at("thawed_at").number();
-  if (node.has("looked_at")) { // older ones: from here on
-    state.probe_step = node.at("looked_at").integer();
-    state.probe_position = io::read_flat_points(node.at("looked_from"));
-    state.dynamic_steps = node.at("free_steps").integer();
-    state.velocity = io::read_flat_points(node.at("velocity"));
-    for (const std::vector<Vec3>* of_particles : {&state.probe_position, &state.velocity})
-      if (!of_particles->empty() && of_particles->size() != n_particles)
-        node.at("looked_from").fail("does not belong to this garment");
-  }
-  return state;
-}
-
 int SettlePhase::unloaded_steps(const SimContext& context) const {
   return context.disturbed ? UNLOADED_STEPS : 0;
 }

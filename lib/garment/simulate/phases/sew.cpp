@@ -26,20 +26,6 @@ constexpr double SEW_PROGRESS = 0.4; // of the progress bar
 
 } // namespace
 
-void SewPhase::State::write(io::Json& state) const {
-  state["pull"] = pull;
-  state["pull_changed"] = pull_changed;
-  state["gaps"] = gaps;
-}
-
-SewPhase::State SewPhase::State::read(const io::Node& node) {
-  State state;
-  state.pull = node.at("pull").number();
-  state.pull_changed = node.at("pull_changed").integer();
-  state.gaps = io::read_numbers(node.at("gaps"));
-  return state;
-}
-
 bool SewPhase::is_needed(const SimContext& context) const {
   return context.cloth.is_active("sewing");
 }
