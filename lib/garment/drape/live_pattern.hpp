@@ -1,6 +1,7 @@
 #pragma once
 /// The pattern of a draped garment while it is edited: the garment's panels keep their mesh as long
 /// as it can follow, and get another one else.
+#include <body/body.hpp>
 #include <garment/garment.hpp>
 #include <pattern/edit/edits.hpp>
 #include <pattern/mesh/mesh_pattern.hpp>
