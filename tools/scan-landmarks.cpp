@@ -163,9 +163,9 @@ int main(int argc, char** argv) {
       .check(cli::finite_in(0, 100, ""));
   tool.option("--rules", o.rules, "landmark rules to use in place of the built-in numbers")
       .check(cli::input_file());
-  tool.option(
-          "--corrections", o.corrections,
-          "learned corrections to use in place of the built-in ones (scripts/derive-corrections)")
+  tool.option("--corrections", o.corrections,
+              "learned corrections of landmarks (scripts/derive-corrections makes them; none are "
+              "built in)")
       .check(cli::input_file());
   tool.option("--features", o.features, "write what the corrections look at, as a table")
       .check(cli::output_file());

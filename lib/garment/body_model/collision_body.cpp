@@ -10,8 +10,6 @@ constexpr std::size_t DENSE_SKIN = 60000; // triangles: with less, a coarser ski
 constexpr double ROUGHEST =
     4; // of the tolerance: what a noisy scan is given, which at less has no triangle to spare
 
-constexpr unsigned ALL_ENDS = ExtremityHulls::HANDS | ExtremityHulls::FEET;
-
 } // namespace
 
 CollisionBody::CollisionBody(const body::Body* body, double coarse_tolerance_m, Reporter& reporter)
@@ -49,7 +47,7 @@ void CollisionBody::restore(const State& state, const Garment& garment) {
 }
 
 unsigned CollisionBody::ends_near(const std::vector<Vec3>& points) const {
-  return ExtremityHulls(*m_body, ALL_ENDS).concerned(points);
+  return ExtremityHulls(*m_body, ExtremityHulls::ALL_ENDS).concerned(points);
 }
 
 void CollisionBody::use_full_skin() {

@@ -1,8 +1,8 @@
 #pragma once
 /// The body as cloth meets it: its skin, or what stands for the skin for a while. Hands and feet
-/// may be convex hulls (covered_skin.hpp), a dense skin a coarser one (coarse_skin.hpp), the whole
-/// body may be drawn in towards its bones (body_shrink.hpp), and forearms may be out of the way
-/// (under_arms.hpp). All of it ends before a drape is audited: the audit is of the skin itself.
+/// may be convex hulls (extremity_hulls.hpp), a dense skin a coarser one (coarse_skin.hpp), the
+/// whole body may be drawn in towards its bones (body_shrink.hpp), and forearms may be out of the
+/// way (under_arms.hpp). All of it ends before a drape is audited: the audit is of the skin itself.
 #include <base/progress.hpp>
 #include <body/body.hpp>
 #include <collision/body_collider.hpp>

@@ -10,6 +10,7 @@ namespace sloper::garment {
 class ExtremityHulls {
 public:
   enum Ends : unsigned { HANDS = 1, FEET = 2 };
+  static constexpr unsigned ALL_ENDS = HANDS | FEET;
   /// Hands and feet whose landmarks were not found stay as they are. Cost O(vertices of an end
   /// times shell faces).
   /// @param ends which to cover, of Ends

@@ -1,3 +1,4 @@
+#include <base/statistics.hpp>
 #include <garment/fit/cloth_strain.hpp>
 #include <garment/simulate/fit_monitor.hpp>
 #include <io/json.hpp>
@@ -21,12 +22,6 @@ constexpr int STRAINED_STEPS =
     80; // of a tight garment that never gets calm, without a strain less by STRAIN_FALLS: it stays
 constexpr double STRAIN_FALLS = 0.97;
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 } // namespace
 
 bool FitMonitor::is_calm(const cloth::StepResult& last) const {
@@ -44,7 +39,7 @@ bool FitMonitor::slides(const std::vector<double>& start_height) {
   const std::vector<Vec3>& x = m_cloth.x();
   std::vector<double> sunk;
   for (std::size_t i = 0; i < x.size(); ++i) sunk.push_back(start_height[i] - x[i].y());
-  const double slip = median(std::move(sunk));
+  const double slip = upper_median(sunk);
   const bool beyond = slip > m_bounds.slip_m && slip >= m_state.slip;
   m_state.slip = slip;
   return beyond;

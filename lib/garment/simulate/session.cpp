@@ -151,16 +151,20 @@ DrapeReport DrapeSession::run() {
   return finish();
 }
 
+/// The whole phase, for clients that lead the session themselves.
+void DrapeSession::inflate_now() {
+  if (!m_inflate.is_needed(m_context)) return;
+  enter(INFLATE_INDEX, false);
+  while (m_inflate.step(m_context) == PhaseStatus::CONTINUE) {}
+  leave();
+}
+
 void DrapeSession::start_live(bool loaded) {
   m_begun = true;
   m_context.cloth.choose_effects();
   start_outside_body(false);
   m_context.build_cloth(false);
-  if (m_inflate.is_needed(m_context)) {
-    enter(INFLATE_INDEX, false);
-    while (m_inflate.step(m_context) == PhaseStatus::CONTINUE) {}
-    leave();
-  }
+  inflate_now();
   if (loaded) m_context.cloth.add_load();
 }
 
@@ -205,11 +209,7 @@ void DrapeSession::push_apart(int max_push_steps) {
   m_context.cloth.choose_effects();
   start_outside_body(false);
   close_seams();
-  if (m_inflate.is_needed(m_context)) {
-    enter(INFLATE_INDEX, false);
-    while (m_inflate.step(m_context) == PhaseStatus::CONTINUE) {}
-    leave();
-  }
+  inflate_now();
   const StepRequest request{.h = m_context.settings.time_step_s};
   for (int k = 0; k < max_push_steps && !stopped(); ++k) {
     const cloth::BodyContactEffect* contact = m_context.cloth.body_contact();

@@ -94,6 +94,7 @@ private:
   void start_outside_body(bool unsewn);
   void shrink_body_out_of_cloth();
   void close_seams();
+  void inflate_now();
   void enter(std::size_t index, bool resumed);
   void leave();
   bool advance_to_next_phase();

@@ -10,8 +10,6 @@ namespace sloper::garment {
 
 namespace {
 
-constexpr unsigned ALL_EXTREMITIES = ExtremityHulls::HANDS | ExtremityHulls::FEET;
-
 io::Json step_json(const cloth::StepResult& s) {
   return {{"cg_iterations", s.cg.iterations},
           {"cg_residual", s.cg.residual},
@@ -50,7 +48,7 @@ CollisionBody::State CollisionBody::State::read(const io::Node& node) {
   if (node.has("covered")) covered = node.at("covered").integer();
   else if (node.at("mitten").boolean())
     covered = static_cast<int>(ExtremityHulls::HANDS); // older ones: hands alone
-  if (covered < 0 || covered > static_cast<int>(ALL_EXTREMITIES))
+  if (covered < 0 || covered > static_cast<int>(ExtremityHulls::ALL_ENDS))
     node.at("covered").fail("has unknown bits");
   state.covered = static_cast<unsigned>(covered);
   state.full_skin = node.has("whole_skin") && node.at("whole_skin").boolean();

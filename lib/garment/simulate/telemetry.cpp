@@ -1,8 +1,8 @@
+#include <base/text.hpp>
 #include <garment/simulate/telemetry.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace sloper::garment {
 
@@ -41,11 +41,7 @@ PhaseTimer::PhaseTimer(Telemetry& telemetry, std::string name)
   telemetry.reporter.info(m_name + " ...");
 }
 
-std::string place_text(const Vec3& p) {
-  char text[64];
-  std::snprintf(text, sizeof text, "(%.3f, %.3f, %.3f) m", p.x(), p.y(), p.z());
-  return text;
-}
+std::string place_text(const Vec3& p) { return sloper::place_text(p.x(), p.y(), p.z()) + " m"; }
 
 std::string millimetres_text(double m) {
   const long tenths = std::lround(m * 1e4);
