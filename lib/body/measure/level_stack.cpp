@@ -228,7 +228,9 @@ void LevelStack::follow_legs() {
         for (const Vec2& q : *piece) {
           if (q.y() <= deepest) continue;
           lowest = std::min(lowest, q.y());
-          if (q.y() < high && favoured(q) < best) best = favoured(q), m_crotch_point.y() = q.x();
+          // as low as makes no difference counts, also just above where the legs are one
+          if (q.y() < high + favour && favoured(q) < best)
+            best = favoured(q), m_crotch_point.y() = q.x();
         }
       }
   }
