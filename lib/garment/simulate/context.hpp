@@ -55,6 +55,7 @@ struct SimContext {
   CheckpointSink* checkpoints = nullptr;
   bool disturbed = false; ///< the start is strained, by sewing, by a body that was drawn in or by
                           ///< StartFacts: it first relaxes without load
+  bool only_clear = false; ///< DrapeRequest::only_clear
 };
 
 } // namespace sloper::garment

@@ -213,10 +213,11 @@ PhaseStatus SettlePhase::iterate(SimContext& context) {
     context.resolver.untangle_in_flight();
   if (k > unloaded && k % JUDGE_EVERY == 0) judge_fit(context);
   const bool still =
-      speed < context.settings.settle_speed_m_s && residual < context.settings.settle_force_ratio;
+      context.only_clear || (speed < context.settings.settle_speed_m_s &&
+                             residual < context.settings.settle_force_ratio);
   m_state.calm = still && k >= unloaded ? m_state.calm + 1 : 0;
-  if (context.body.state().arms_aside && k > unloaded && speed < HUNG_SPEED &&
-      residual < HUNG_RESIDUAL) {
+  const bool hangs = context.only_clear || (speed < HUNG_SPEED && residual < HUNG_RESIDUAL);
+  if (context.body.state().arms_aside && k > unloaded && hangs) {
     let_arms_hang(context);
     restart_calm(context);
     return PhaseStatus::CONTINUE;
