@@ -59,8 +59,7 @@ private:
     }
     const DrapeCheckpoint& from = *m_from;
     m_from = nullptr;
-    if (from.levels)
-      return resume_through_levels(from, garment, m_body, m_reporter, m_checkpoints);
+    if (from.levels) return resume_through_levels(from, garment, m_body, m_reporter, m_checkpoints);
     return DrapeSession(inputs, from, m_reporter).run();
   }
 

@@ -11,6 +11,7 @@ namespace sloper::garment {
 namespace {
 
 constexpr const char* FIRST_RUNG = "draft";
+const std::string ON_GIVEN_MESH = "draped on the given mesh alone: ";
 
 bool is_clean(const DrapeReport& report) {
   return report.quality.value("faces_through_body", 0) == 0 &&
@@ -70,24 +71,16 @@ private:
 
   void start() {
     m_at.rung = FIRST_RUNG;
-    std::string why = refusal_of_levels(m_garment, m_body, m_at.settings);
-    if (why.empty()) {
-      why = sew_on_coarse_mesh(m_garment, *m_body, m_at.settings, m_reporter, m_at.before);
-      if (why.empty()) {
-        m_at.before.levels.meshes = 2;
-        return;
-      }
-      m_at.before.repairs.push_back("sewn on the given mesh: " + why);
-    }
-    sew_on_given_mesh(why);
+    m_at.before.levels.meshes = 2;
+    const std::string why =
+        sew_on_coarse_mesh(m_garment, *m_body, m_at.settings, m_reporter, m_at.before);
+    if (!why.empty()) sew_on_given_mesh(why);
   }
 
   void sew_on_given_mesh(const std::string& why) {
-    m_reporter.info("draped on the given mesh alone: " + why);
-    if (!m_garment.particle_of.empty()) {
-      m_at.before.repairs.push_back("draped on the given mesh alone: " + why);
-      take_apart(m_garment);
-    }
+    m_reporter.info(ON_GIVEN_MESH + why);
+    m_at.before.repairs.push_back(ON_GIVEN_MESH + why);
+    take_apart(m_garment);
     m_at.before.levels.meshes = 1;
     m_at.before.levels.why = why;
     m_at.on_given_mesh = true;
@@ -100,9 +93,7 @@ private:
       DrapeReport report = run_session();
       add_earlier(m_at.before, report);
       report.levels = m_at.before.levels;
-      const bool stopped = !report.converged && report.stop_reason != StopReason::NONE &&
-                           report.stop_reason != StopReason::AT_REST_UNCLEAN;
-      if (m_at.rung == m_at.settings.accuracy || stopped) return report;
+      if (is_last() || !report.converged) return report; // what is not clear now seldom becomes so
       report.wall_s = elapsed();
       m_at.before = std::move(report);
       m_at.rung = rung_after(m_at.rung);
@@ -116,7 +107,7 @@ private:
     DrapeRequest request = m_request;
     request.only_clear = first;
     request.start.around_body = first;
-    request.audit = is_last();
+    request.audit = first || is_last();
     const SessionInputs inputs{.garment = m_garment, .body = m_body, .request = request};
     if (!m_from) return DrapeSession(inputs, settings_of_rung(), m_reporter).run();
     const DrapeCheckpoint& from = *m_from;
@@ -164,6 +155,14 @@ private:
 DrapeReport drape_through_levels(Garment& garment, const body::Body* body,
                                  const DrapeSettings& settings, Reporter& reporter,
                                  const DrapeRequest& request) {
+  if (const std::string why = refusal_of_levels(garment, body, settings); !why.empty()) {
+    reporter.info(ON_GIVEN_MESH + why);
+    DrapeReport report =
+        DrapeSession({.garment = garment, .body = body, .request = request}, settings, reporter)
+            .run();
+    report.levels = {.meshes = 1, .why = why};
+    return report;
+  }
   LevelsProgress at;
   at.settings = settings;
   return LevelsDrape(garment, body, std::move(at), nullptr, reporter, request).run();

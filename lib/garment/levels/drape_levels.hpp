@@ -17,8 +17,8 @@ namespace sloper::garment {
 
 /// drape() of placed panels. Where refusal_of_levels() says so, and where the coarse way fails or
 /// ends in crossings, they are sewn on the given mesh alone, as with DrapeSettings::levels = 1, and
-/// DrapeReport::levels says why. `phases` has "sew coarse" and "carry to the mesh" besides those of
-/// a session from a sewn start.
+/// DrapeReport::levels says why; what failed is in `repairs` too. `phases` has "sew coarse" and
+/// "carry to the mesh" besides those of a session from a sewn start.
 /// @param garment  in: placed panels, particle_of empty; out: the state reached
 DrapeReport drape_through_levels(Garment& garment, const body::Body* body,
                                  const DrapeSettings& settings, Reporter& reporter,

@@ -167,7 +167,7 @@ SoftSewing sew_softly(Garment& garment, CollisionBody& body, Reporter& reporter)
 }
 
 SoftRelaxed relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxing& how,
-                  double gravity_m_s2, Reporter& reporter) {
+                         double gravity_m_s2, Reporter& reporter) {
   SoftCloth cloth(garment, body, how.reach_m, RELAXING_STIFFNESS, CREEP, how.cg_tolerance);
   cloth.solver().emplace<cloth::GravityEffect>(cloth.mesh(), Vec3(0, -gravity_m_s2, 0));
   for (int k = 0; k < how.steps && !reporter.stop_requested(); ++k) {

@@ -44,6 +44,6 @@ struct SoftRelaxed {
 /// Lets sewn cloth come near its rest under its weight. It creeps on the skin as if it stuck to it,
 /// since friction would decide.
 SoftRelaxed relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxing& how,
-                  double gravity_m_s2, Reporter& reporter);
+                         double gravity_m_s2, Reporter& reporter);
 
 } // namespace sloper::garment

@@ -201,7 +201,7 @@ LevelsProgress read_levels(const Node& node) {
   l.settings = read_settings(node.at("settings"));
   l.rung = node.at("rung").string();
   const std::vector<std::string> names = accuracy_names();
-  if (std::find(names.begin(), names.end(), l.rung) == names.end())
+  if (!l.rung.empty() && std::find(names.begin(), names.end(), l.rung) == names.end())
     node.at("rung").fail("is no preset");
   l.on_given_mesh = node.at("on_given_mesh").boolean();
   l.before = read_progress(node.at("before"), node.at("settings"));

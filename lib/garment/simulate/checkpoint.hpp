@@ -50,10 +50,11 @@ struct LayersProgress {
 /// How far a drape through levels of mesh (levels/drape_levels.hpp) has come between the drapes
 /// that it is made of. Where the panels were placed is the garment's.
 struct LevelsProgress {
-  DrapeSettings settings;      ///< of the whole; those of a preset on the way are others
-  std::string rung;            ///< the preset that the present drape brings to rest
-  bool on_given_mesh = false;  ///< the coarse mesh did not do: sewn on the given one
-  DrapeReport before;          ///< steps, seconds, effects, phases and repairs until then
+  DrapeSettings settings; ///< of the whole; those of a preset on the way are others
+  std::string rung; ///< the preset that the present drape brings to rest; empty: all are done, and
+                    ///< the body moves
+  bool on_given_mesh = false; ///< the coarse mesh did not do: sewn on the given one
+  DrapeReport before;         ///< steps, seconds, effects, phases and repairs until then
 };
 
 /// A drape interrupted: what checkpoint files hold. The report has what it had come to: steps,

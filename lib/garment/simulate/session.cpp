@@ -299,8 +299,8 @@ void DrapeSession::restore(const DrapeCheckpoint& from) {
   from.check_body(m_context.body.body(), "");
   // The body stands still while a garment of several is alone, and while levels of mesh are gone
   // through.
-  if (!from.levels &&
-      (!from.layers || from.layers->alone == from.layers->garments.size()))
+  const bool on_a_rung = from.levels && !from.levels->rung.empty();
+  if (!on_a_rung && (!from.layers || from.layers->alone == from.layers->garments.size()))
     from.check_moves(m_move.moves());
   DrapeReport& report = m_context.telemetry.report;
   report.steps = m_checkpoint_step = from.report.steps;
