@@ -184,7 +184,7 @@ void read_seams(const Node& node, pattern::PanelMesh& mesh) {
                            s.at("length_b_m").number(),
                            s.has("open") && s.at("open").boolean()};
     if (seam.a.size() != seam.b.size() || seam.a.size() < 2)
-      s.fail("the two runs of the seam need as many vertices, two or more");
+      s.fail("the two runs of the seam need the same number of vertices, two or more");
     mesh.seams.push_back(std::move(seam));
   }
 }
