@@ -37,6 +37,7 @@ man:
 accuracy:
 	@scripts/build release programs
 	@scripts/accuracy --build build --write
+	@scripts/figures
 
 fuzz:
 	@scripts/fuzz
@@ -62,7 +63,7 @@ validation:
 hard:
 	@scripts/build release run-hard
 	@[ ! build/tests/hard/run-hard -nt build/hard-runs ] || rm -f build/hard-runs
-	@build/tests/hard/run-hard --jobs $(shell nproc) --kept build/hard-runs --table docs/hard-cases.md
+	@build/tests/hard/run-hard --jobs $(shell nproc) --kept build/hard-runs --table docs/hard-cases.md; status=$$?; scripts/figures; exit $$status
 
 # 10,000 random scenes; what fails is made small and kept in build/soak. FROM and COUNT choose a slice.
 FROM ?= 0
@@ -87,6 +88,7 @@ accuracy-cost:
 	@scripts/build release scan-landmarks pattern-mesh drape make-mannequin make-pattern
 	@for scene in $(SCENES); do scripts/accuracy-cost $$scene || exit; done
 	@scripts/accuracy-cost --gather docs $(SCENES)
+	@scripts/figures
 
 # The presets again from the measured front, into lib/garment/scene/preset_table.hpp: the cheapest settings within each preset's error on all scenes.
 presets:

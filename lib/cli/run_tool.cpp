@@ -323,7 +323,7 @@ static std::string plain_words(const std::string& text, const std::vector<Exampl
     return text.substr(0, twice) + " is given more than once; give it once";
   if (missing == std::string::npos || missing + 12 != text.size()) return text;
   return text.substr(0, missing) + " is missing" +
-         (examples.empty() ? "" : "; say for example " + examples.front().command_line);
+         (examples.empty() ? "" : "; example: " + examples.front().command_line);
 }
 
 static int parse_and_run(CLI::App& app, const std::vector<std::string>& words,
@@ -334,9 +334,8 @@ static int parse_and_run(CLI::App& app, const std::vector<std::string>& words,
   } catch (const CLI::ExtrasError&) {
     std::string extra;
     for (const std::string& word : app.remaining()) extra += (extra.empty() ? "" : ", ") + word;
-    throw usage_error(
-        "no place for " + extra +
-        (examples.empty() ? "" : "; say for example " + examples.front().command_line));
+    throw usage_error("unexpected argument " + extra +
+                      (examples.empty() ? "" : "; example: " + examples.front().command_line));
   } catch (const CLI::ParseError& error) {
     throw usage_error(plain_words(error.what(), examples));
   }
