@@ -1,5 +1,5 @@
 # Thin: every target is one command that can be typed by hand. `make` builds the programs into build/tools/ and build/samples/, `make test` the tests too.
-.PHONY: all pictures package test demo population check sanitize install format man bench bench-rivals validation figure4 accuracy fuzz hard soak accuracy-cost presets compare-builds clean
+.PHONY: all pictures package test demo population check sanitize install format man bench bench-rivals validation figure4 accuracy fuzz hard soak accuracy-cost presets compare-builds nightly clean
 
 all:
 	@scripts/build release programs
@@ -37,6 +37,7 @@ man:
 accuracy:
 	@scripts/build release programs
 	@scripts/accuracy --build build --write
+	@scripts/figures
 
 fuzz:
 	@scripts/fuzz
@@ -62,7 +63,7 @@ validation:
 hard:
 	@scripts/build release run-hard
 	@[ ! build/tests/hard/run-hard -nt build/hard-runs ] || rm -f build/hard-runs
-	@build/tests/hard/run-hard --jobs $(shell nproc) --kept build/hard-runs --table docs/hard-cases.md
+	@build/tests/hard/run-hard --jobs $(shell nproc) --kept build/hard-runs --table docs/hard-cases.md; status=$$?; scripts/figures; exit $$status
 
 # 10,000 random scenes; what fails is made small and kept in build/soak. FROM and COUNT choose a slice.
 FROM ?= 0
@@ -70,6 +71,10 @@ COUNT ?= 10000
 soak:
 	@scripts/build release run-soak
 	@build/tests/hard/run-soak --from $(FROM) --count $(COUNT) --out build/soak
+
+# What .ci/run has no time for: sanitizers whole, fuzzing, hard cases, soak, builds compared, clang-tidy, validation, packages, a population.
+nightly:
+	@scripts/nightly
 
 # The hard cases' final states in builds by other compilers, compared.
 compare-builds:
@@ -86,6 +91,7 @@ accuracy-cost:
 	@for scene in $(SCENES); do scripts/accuracy-cost $$scene || exit; done
 	@scripts/accuracy-cost --gather docs $(SCENES)
 	@scripts/accuracy-from-panels --starts $(STARTS) $(if $(BODY),--body $(BODY)) --into docs/accuracy-cost.md shirt skirt trousers $(GARMENTS)
+	@scripts/figures
 
 # The presets again from the measured front, into lib/garment/scene/preset_table.hpp: the cheapest settings within each preset's error on all scenes.
 presets:

@@ -30,10 +30,12 @@ install(FILES ${PROJECT_BINARY_DIR}/sloper.pc DESTINATION ${CMAKE_INSTALL_LIBDIR
 file(GLOB_RECURSE schemas CONFIGURE_DEPENDS lib/*.schema.json)
 install(FILES ${schemas} DESTINATION ${CMAKE_INSTALL_DATADIR}/sloper/schemas)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md" PATTERN "*.svg")
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(DIRECTORY samples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/sloper/samples USE_SOURCE_PERMISSIONS
   PATTERN generator EXCLUDE PATTERN library EXCLUDE PATTERN "*.cpp" EXCLUDE PATTERN CMakeLists.txt EXCLUDE)
 install(DIRECTORY samples/library DESTINATION ${CMAKE_INSTALL_DATADIR}/sloper/samples)
+install(DIRECTORY scripts/batch DESTINATION ${CMAKE_INSTALL_LIBDIR}/sloper FILES_MATCHING PATTERN "*.py") # of retarget-batch
 foreach(script compare-drape retarget-batch)
   if(EXISTS ${PROJECT_SOURCE_DIR}/scripts/${script})
     install(PROGRAMS scripts/${script} DESTINATION ${CMAKE_INSTALL_LIBDIR}/sloper)

@@ -175,12 +175,13 @@ void check_options(const Options& o) {
   cli::refuse_together(over, {follow, max_error});
   for (const cli::Given& one : {follow, untangle})
     if (one.second && o.from.empty())
-      throw Error(ErrorKind::USAGE, "", one.first, "there is no garment to go on from",
+      throw Error(ErrorKind::USAGE, "", one.first, "needs a garment to start from",
                   "give --from shirt.json");
   if (o.follow.empty() && !o.edit_log.empty())
-    throw Error(ErrorKind::USAGE, "", "--edit-log", "no edits are followed", "give --follow too");
+    throw Error(ErrorKind::USAGE, "", "--edit-log", "needs --follow", "give --follow too");
   if (o.follow.empty() && o.motion.empty() && !o.frames.empty())
-    throw Error(ErrorKind::USAGE, "", "--frames", "nothing moves", "give --follow or --motion too");
+    throw Error(ErrorKind::USAGE, "", "--frames", "nothing moves, so there are no frames",
+                "give --follow or --motion too");
 }
 
 /// @param below  garments that will lie below this one
@@ -215,7 +216,7 @@ int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment,
   if (outcome.refused_lines > 0)
     tool.reporter().warning(
         std::to_string(outcome.refused_lines) +
-        (outcome.refused_lines == 1 ? " line was no edit" : " lines were no edits") +
+        (outcome.refused_lines == 1 ? " line was not an edit" : " lines were not edits") +
         " of this pattern and changed nothing");
   if (document.contains("accuracy") && report.converged &&
       !document["accuracy"]["met"].get<bool>()) {
@@ -252,7 +253,8 @@ int resume(cli::Tool& tool, const Options& o) {
                               {"--motion-fps", o.motion_fps > 0}};
   for (const auto& [name, is_given] : given)
     if (is_given)
-      throw Error(ErrorKind::USAGE, "", name, "is settled by the checkpoint", "leave it out");
+      throw Error(ErrorKind::USAGE, "", name,
+                  "cannot be changed when resuming; the checkpoint fixes it", "leave it out");
   const garment::DrapeCheckpoint checkpoint = garment::read_checkpoint(o.from);
   check_over_output(o, checkpoint.layers ? checkpoint.layers->garments.size() - 1 : 0);
   io::Json inputs = io::Json::array({garment::input_entry(o.from)});
@@ -295,8 +297,7 @@ int run(cli::Tool& tool, Options& o) {
     throw Error(ErrorKind::USAGE, "", "--motion", "there is no body to move",
                 "give --body body.json");
   if (!o.over.empty() && o.body.empty())
-    throw Error(ErrorKind::USAGE, "", "--over", "there is no body that layers could lie on",
-                "give --body body.json");
+    throw Error(ErrorKind::USAGE, "", "--over", "layers need a body", "give --body body.json");
 
   garment::Garment garment;
   const std::string& source = o.from.empty() ? o.panels : o.from;

@@ -80,7 +80,7 @@ void write_pattern(cli::Tool& tool, const pattern::Pattern& source, const std::s
     for (const std::string& line : left_out) tool.reporter().warning(line);
   } else if (ends(".json")) io::write_json(path, pattern::pattern_json(source, tool.name()));
   else
-    throw Error(ErrorKind::USAGE, path, "", "no pattern format has this ending",
+    throw Error(ErrorKind::USAGE, path, "", "the file name does not end in a pattern format",
                 "name a .json, .dxf or .svg file");
 }
 
@@ -127,7 +127,7 @@ int run(cli::Tool& tool, const Options& o) {
   if (!o.edits.empty()) edits = io::read_json(o.edits);
   if (!o.undo.empty()) {
     if (o.edits.empty())
-      throw Error(ErrorKind::USAGE, o.undo, "", "there are no edits to take back",
+      throw Error(ErrorKind::USAGE, o.undo, "", "no edits to take back were given",
                   "give --edits too");
     io::write_json(o.undo, pattern::inverse_edits(source, edits, o.edits, tool.name()));
   }
@@ -141,7 +141,7 @@ int run(cli::Tool& tool, const Options& o) {
       !o.unsewn && !guess_seams(tool, source))
     return 1;
   if (o.output.empty())
-    throw Error(ErrorKind::USAGE, "", "", "--output is missing", "say for example -o panels.json");
+    throw Error(ErrorKind::USAGE, "", "", "--output is missing", "for example -o panels.json");
   pattern::require_sewable(source, o.pattern);
   pattern::PanelMesh mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern, o.seam_length);
   if (!o.edits.empty()) {
@@ -150,7 +150,7 @@ int run(cli::Tool& tool, const Options& o) {
     pattern::require_sewable(source, o.pattern);
     if (!pattern::follow_edits(before, source, mesh, LEAST_ANGLE)) {
       mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern, o.seam_length);
-      mesh.findings.push_back("the edits ask for another mesh: vertex ids are new");
+      mesh.findings.push_back("the edits need another mesh: vertex ids are new");
       tool.reporter().warning(mesh.findings.back());
     }
   }

@@ -179,7 +179,7 @@ bool wants_ply(const Options& o) {
   if (o.values.empty()) return false;
   if (o.map == "none" || o.map == "parts")
     throw Error(ErrorKind::USAGE, "", "--values", "needs a map with numbers",
-                "say for example --map strain");
+                "for example --map strain");
   const std::string ending = io::ending_of(o.values);
   if (ending == ".ply") return true;
   if (ending == ".csv" || o.values == "-" || o.values.rfind("/dev/", 0) == 0) return false;
@@ -237,7 +237,7 @@ int run_render(cli::Tool& tool, const Options& o) {
   const bool values_as_ply = wants_ply(o);
   if (o.as == "files" && (o.output == "-" || o.output.rfind("/dev/", 0) == 0))
     throw Error(ErrorKind::USAGE, "", "--as files", "needs a file name to number",
-                "say for example -o turn.png");
+                "for example -o turn.png");
   render::DrawOptions options = drawing_options(o);
   auto views = views_of(o);
   const render::Show show = render::parse_show(o.show);
@@ -261,7 +261,7 @@ int run_render(cli::Tool& tool, const Options& o) {
     io::write_file(o.values, values_as_ply ? render::values_ply(scene, legend)
                                            : render::values_csv(scene, legend));
   std::vector<render::DrawMesh> meshes = scene.meshes; // the scene keeps its panels' own vertices
-  for (render::DrawMesh& mesh : meshes) render::smooth_cloth(mesh);
+  render::smooth_cloth(meshes);
   if (render::is_export(o.output)) {
     const std::optional<render::Rig> rig = render::make_rig(scene, meshes);
     const render::Print print{options.print, options.print_size};
@@ -331,7 +331,7 @@ int main(int argc, char** argv) {
           "ask for several views, or give --sheet");
     if (options.compare) return run_compare(options);
     if (options.output.empty())
-      throw Error(ErrorKind::USAGE, "", "", "--output is missing", "say for example -o shirt.png");
+      throw Error(ErrorKind::USAGE, "", "", "--output is missing", "for example -o shirt.png");
     return options.sheet ? run_sheet(options) : run_render(tool, options);
   });
 }

@@ -120,9 +120,9 @@ int run(cli::Tool& tool, const Options& o) {
     for (const body::Finding& doubt : measured.doubts)
       doubts += (doubts.empty() ? "" : "; ") + doubt.place + ": " + doubt.what;
     throw Error(ErrorKind::FAILED, o.scan, "",
-                "this is no standing person as the rules know one: " + doubts,
+                "this does not look like a person standing upright: " + doubts,
                 "the result is written to " + o.output +
-                    ", marked in scan.findings; do not use it unseen");
+                    ", with these findings; look at it before you use it");
   }
   if (measured.missing.empty()) return 0;
   std::string names;

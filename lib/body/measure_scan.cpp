@@ -186,7 +186,7 @@ std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::
   for (const ArmTrace& arm : arms) {
     if (arm.sections.empty()) {
       trail.push_back(std::string("arm ") + (arm.left ? "left" : "right") +
-                      ": cannot be told from the trunk");
+                      ": cannot be separated from the trunk");
       continue;
     }
     char line[200];

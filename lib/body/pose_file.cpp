@@ -133,7 +133,7 @@ Bvh parse(std::string_view text, const std::string& name) {
                                       "Xrotation", "Yrotation", "Zrotation"};
         const std::string_view channel = words.must();
         const auto* it = std::find(std::begin(names), std::end(names), channel);
-        if (it == std::end(names)) words.fail(quoted(channel) + " is no BVH channel");
+        if (it == std::end(names)) words.fail(quoted(channel) + " is not a BVH channel");
         bvh.joints[open.back()].channels.push_back(static_cast<int>(it - std::begin(names)));
       }
       bvh.joints[open.back()].first_channel = bvh.n_channels;

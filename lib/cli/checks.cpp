@@ -61,8 +61,9 @@ Check document_file() {
     if (path == "-")
       return "the document has a mesh beside it and cannot go to standard output; name a file";
     if (path.ends_with(".obj"))
-      return path + " names a mesh, where the document is asked for; say " +
-             path.substr(0, path.size() - 4) + ".json, the mesh comes beside it";
+      return path +
+             " is the name of a mesh; name the document: " + path.substr(0, path.size() - 4) +
+             ".json, the mesh is written beside it";
     return "";
   };
   return {"output_file", "FILE", check};
@@ -77,7 +78,7 @@ Check one_of(const std::vector<std::string>& words) {
       if (word == text) return {};
       list += (list.empty() ? "" : ", ") + word;
     }
-    return "'" + text + "' is none of " + list + did_you_mean(text, words);
+    return "'" + text + "' is not one of " + list + did_you_mean(text, words);
   };
   return {"one_of", joined, check};
 }
@@ -86,7 +87,7 @@ void refuse_together(const Given& one, std::initializer_list<Given> others) {
   if (!one.second) return;
   for (const auto& [name, given] : others)
     if (given)
-      throw Error(ErrorKind::USAGE, "", one.first, std::string("does not go with ") + name,
+      throw Error(ErrorKind::USAGE, "", one.first, std::string("cannot be combined with ") + name,
                   "leave one of them out");
 }
 

@@ -103,7 +103,7 @@ std::string completion(const ToolDescription& tool, const std::string& shell) {
   if (shell == "zsh") return zsh(tool);
   if (shell == "fish") return fish(tool);
   throw Error(ErrorKind::USAGE, "", "",
-              "--generate-completion: '" + shell + "' is none of bash, zsh, fish");
+              "--generate-completion: '" + shell + "' is not one of bash, zsh, fish");
 }
 
 } // namespace sloper::cli

@@ -69,6 +69,9 @@ std::string man_page(const ToolDescription& tool) {
                             "render-png", "make-pattern", "make-mannequin"})
     if (tool.name != other)
       others += (others.empty() ? "" : ", ") + ("\\fB" + roff(other)) + "\\fR(1)";
+  for (const char* document :
+       {"body.json", "panels.json", "garment.json", "report.json", "fit.json"})
+    others += ", \\fB" + roff(document) + "\\fR(5)";
   return out + others + "\n";
 }
 

@@ -35,7 +35,7 @@ std::optional<PreparedSkin> SkinCache::read(const std::string& key, const Triang
   } catch (const Error&) { // not ours to read: as if it had never been
   }
   m_reporter->info(known ? "body known from " + file
-                         : file + " is damaged or cannot be read; the body is prepared anew");
+                         : file + " is damaged or cannot be read; the body is prepared again");
   return known;
 }
 
@@ -50,7 +50,7 @@ void SkinCache::write(const std::string& key, const PreparedSkin& prepared) {
     m_reporter->info("body kept in " + file);
   } catch (const Error& e) {
     m_writable = false;
-    m_reporter->warning(std::string("nothing is kept of the prepared body: ") + e.what());
+    m_reporter->warning(std::string("could not write the body cache: ") + e.what());
   }
 }
 

@@ -16,7 +16,9 @@ template<class Points> void check_finite(const Points& points, const char* what)
 void check_range(const std::vector<int>& indices, std::size_t count, const std::string& what) {
   for (std::size_t i = 0; i < indices.size(); ++i)
     if (indices[i] < 0 || static_cast<std::size_t>(indices[i]) >= count)
-      throw input_error("", what + " " + std::to_string(i), "names a point that is not there");
+      throw input_error("", what + " " + std::to_string(i),
+                        "index " + std::to_string(indices[i]) + " is out of range: there are " +
+                            std::to_string(count));
 }
 
 void check_count(std::size_t has, std::size_t wants, const char* what) {
@@ -34,7 +36,9 @@ void check_garment(const Garment& garment) {
   for (std::size_t f = 0; f < panels.triangles.size(); ++f)
     for (const int v : panels.triangles[f])
       if (v < 0 || static_cast<std::size_t>(v) >= n)
-        throw input_error("", "triangle " + std::to_string(f), "names a point that is not there");
+        throw input_error("", "triangle " + std::to_string(f),
+                          "vertex index " + std::to_string(v) + " is out of range: there are " +
+                              std::to_string(n));
   for (const pattern::MeshSeam& seam : panels.seams) {
     check_range(seam.a, n, "seam " + seam.name + ", stitch");
     check_range(seam.b, n, "seam " + seam.name + ", stitch");

@@ -106,8 +106,8 @@ std::vector<int> read_indices(const Node& node, int end) {
   for (std::size_t i = 0; i < node.size(); ++i) {
     list.push_back(node.at(i).integer());
     if (list.back() < 0 || list.back() >= end)
-      node.at(i).fail("the index is not among the " + std::to_string(end) +
-                      " panel vertices of the mesh");
+      node.at(i).fail("the index is out of range: the mesh has " + std::to_string(end) +
+                      " panel vertices");
   }
   return list;
 }
@@ -137,7 +137,7 @@ void read_panels(const Node& node, pattern::PanelMesh& mesh) {
     panel.first_triangle = triangle;
     panel.n_triangles = count(p.at("triangles"));
     if (panel.n_vertices > n_vertices - vertex || panel.n_triangles > n_triangles - triangle)
-      p.fail("the panels hold more than the mesh");
+      p.fail("the panels have more vertices or triangles than the mesh");
     panel.grain = p.at("grain").vec2();
     if (std::abs(panel.grain.norm() - 1) > 1e-6)
       p.at("grain").fail("the grain is not a unit direction");
@@ -150,11 +150,11 @@ void read_panels(const Node& node, pattern::PanelMesh& mesh) {
     for (int f = panel.first_triangle; f < triangle; ++f)
       for (const int v : mesh.triangles[f])
         if (v < panel.first_vertex || v >= vertex)
-          p.fail("triangle " + std::to_string(f) + " reaches into another panel");
+          p.fail("triangle " + std::to_string(f) + " has a vertex of another panel");
     mesh.panels.push_back(std::move(panel));
   }
   if (vertex != n_vertices || triangle != n_triangles)
-    node.fail("the panels hold fewer vertices or triangles than the mesh",
+    node.fail("the panels have fewer vertices or triangles than the mesh",
               "document and OBJ belong to different garments");
 }
 
@@ -184,7 +184,7 @@ void read_seams(const Node& node, pattern::PanelMesh& mesh) {
                            s.at("length_b_m").number(),
                            s.has("open") && s.at("open").boolean()};
     if (seam.a.size() != seam.b.size() || seam.a.size() < 2)
-      s.fail("the two runs of the seam do not pair up");
+      s.fail("the two runs of the seam need the same number of vertices, two or more");
     mesh.seams.push_back(std::move(seam));
   }
 }
@@ -215,7 +215,7 @@ std::vector<std::array<double, 3>> read_rest_scale(const Node& node, std::size_t
     if (row.size() != 4) row.fail("expected [triangle, factor, factor, factor]");
     const int f = row.at(std::size_t{0}).integer();
     if (f < 0 || static_cast<std::size_t>(f) >= n_triangles)
-      row.fail("names a triangle that the mesh does not have");
+      row.fail("refers to a triangle that the mesh does not have");
     for (std::size_t e = 0; e < 3; ++e) scale[f][e] = positive(row.at(e + 1));
   }
   return scale;
@@ -248,7 +248,7 @@ Bind read_bind(const Node& node, std::size_t n_particles) {
       const BindWeight w{row.at(i).integer(), positive(row.at(i + 1)), row.at(i + 2).number(),
                          row.at(i + 3).number(), row.at(i + 4).number()};
       if (w.frame < 0 || static_cast<std::size_t>(w.frame) >= bind.frames.size())
-        row.fail("names a frame that is not listed");
+        row.fail("refers to a frame that is not listed");
       sum += w.weight;
       weights.push_back(w);
     }

@@ -36,7 +36,7 @@ std::vector<std::string> body_findings(const Garment& garment, const Start& star
 std::vector<std::string> start_findings(const Garment& garment, const Start& start) {
   std::vector<std::string> findings = body_findings(garment, start);
   if (garment.panels.seams.empty() && garment.panels.panels.size() > 1)
-    findings.push_back(io::file_name(start.file) + " has no seam: nothing holds its " +
+    findings.push_back(io::file_name(start.file) + " has no seams: nothing holds its " +
                        std::to_string(garment.panels.panels.size()) + " panels together");
   return findings;
 }

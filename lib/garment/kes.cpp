@@ -115,7 +115,7 @@ public:
     if (r.ec != std::errc() || r.ptr != plain.data() + plain.size() || !std::isfinite(value) ||
         value < 0)
       throw input_error(m_file, "line " + std::to_string(line),
-                        "\"" + text + "\" is not a number from 0 on");
+                        "\"" + text + "\" is not a number of 0 or more");
     return value;
   }
 
@@ -222,7 +222,7 @@ Material read_kes(const std::string& path) {
     names.push_back(row[0]); // one fabric per row
     if (!wanted.empty() && row[0] != wanted) continue;
     if (!chosen.empty())
-      throw input_error(file, "line " + std::to_string(number), "a second fabric",
+      throw input_error(file, "line " + std::to_string(number), "the file has more than one fabric",
                         "pick one with " + file + "#NAME");
     chosen = row[0];
     for (std::size_t c = 1; c < row.size() && c < header.size(); ++c) {
@@ -239,9 +239,9 @@ Material read_kes(const std::string& path) {
   }
   if (!values["B"].given() || !values["W"].given())
     throw input_error(file, "",
-                      values["W"].given() ? "there is no bending rigidity (B)"
-                                          : "there is no weight (W)",
-                      "see the layouts in the manual of drape");
+                      values["W"].given() ? "the bending rigidity (B) is missing"
+                                          : "the weight (W) is missing",
+                      "see Materials in the manual page drape(1)");
   Material m;
   m.name = chosen.empty() ? io::file_name(file) : chosen;
   m.density_kg_m2 = values["W"].mean();

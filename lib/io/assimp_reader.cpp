@@ -73,7 +73,7 @@ TriangleMesh import(const std::string& path, std::string& complaint) {
       if (face.mNumIndices != 3) continue; // points and lines
       if (*std::max_element(face.mIndices, face.mIndices + 3) >= part.mNumVertices) {
         complaint = "face " + std::to_string(f) + " of mesh " + std::to_string(m) +
-                    " has a vertex that is not there";
+                    " refers to a vertex that does not exist";
         return mesh;
       }
       mesh.triangles.push_back(
@@ -139,8 +139,8 @@ TriangleMesh read_with_assimp(const std::string& path, const std::string& extens
   if (!whole && WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
     throw input_error(path, "", "was not read within " + std::to_string(LONGEST_S) + " s", next);
   if (!whole)
-    throw input_error(path, "",
-                      "is so broken that it crashes what reads " + extension + " (assimp)", next);
+    throw input_error(path, "", "is damaged: it crashes the reader of " + extension + " (assimp)",
+                      next);
   if (!complaint.empty())
     throw input_error(path, "", "cannot be read as " + extension + ": " + complaint, next);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)

@@ -23,7 +23,7 @@ public:
     else if (event == Json::parse_event_t::key &&
              !m_keys.back().insert(parsed.get<std::string>()).second)
       throw input_error(m_name, "",
-                        "the key \"" + parsed.get<std::string>() + "\" stands twice in one object",
+                        "the key \"" + parsed.get<std::string>() + "\" appears twice in one object",
                         "remove one of them");
     return true;
   }
@@ -120,15 +120,15 @@ Json parse_json(const std::string& text, const std::string& name) {
     for (const char* ending : {".obj", ".ply", ".stl", ".3ds", ".xyz"})
       if (name.size() > 4 && name.compare(name.size() - 4, 4, ending) == 0)
         throw input_error(
-            name, "line " + std::to_string(line), "is a mesh where a JSON document belongs",
-            "give the .json that was written with it; of a scan, scan-landmarks makes one");
+            name, "line " + std::to_string(line), "is a mesh, not a JSON document",
+            "give the .json that was written with it; for a scan, make one with scan-landmarks");
     if (const auto [word, column] = word_at(text, e.byte); is_no_number(word))
       throw input_error(name, "line " + std::to_string(line) + ", column " + std::to_string(column),
-                        "'" + word + "' is no number", "give a finite one");
+                        "'" + word + "' is not a number", "give a finite number");
     throw input_error(name, "line " + std::to_string(line), "not valid JSON",
                       "check that the file is complete and is a JSON document");
   } catch (const Json::out_of_range&) {
-    throw input_error(name, "", "a number is too large to be stored");
+    throw input_error(name, "", "a number is too large for double precision");
   }
   return value;
 }
@@ -317,7 +317,7 @@ std::string file_beside(const Node& name) {
   const std::string path = path_beside(name.file(), name.string());
   if (!std::filesystem::exists(path))
     name.fail("there is no " + path,
-              "keep it beside the document under this name, or run again what wrote both");
+              "keep it beside the document under this name, or write both again");
   return path;
 }
 

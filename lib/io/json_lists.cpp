@@ -11,7 +11,7 @@ Json flat_points(const std::vector<Vec3>& points) {
 }
 
 std::vector<Vec3> read_flat_points(const Node& node) {
-  if (node.size() % 3 != 0) node.fail("is no list of points");
+  if (node.size() % 3 != 0) node.fail("the number of coordinates is not a multiple of three");
   std::vector<Vec3> points(node.size() / 3);
   for (std::size_t i = 0; i < node.size(); ++i)
     points[i / 3][static_cast<int>(i % 3)] = node.at(i).number();

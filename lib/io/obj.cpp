@@ -83,8 +83,8 @@ private:
       fail("\"" + std::string(text) + "\" is not an index");
     if (i < 0) i += static_cast<long>(size) + 1;
     if (i < 1 || i > static_cast<long>(size))
-      fail("the face names " + std::string(text) + ", but only " + std::to_string(size) +
-           " stand above it");
+      fail("the face refers to " + std::string(text) + ", but only " + std::to_string(size) +
+           " are defined above it");
     return static_cast<int>(i - 1);
   }
 
@@ -147,7 +147,7 @@ ObjMesh parse_obj(std::string_view text, const std::string& name, bool keep_text
 ObjMesh read_obj(const std::string& path) {
   ObjMesh mesh = parse_obj(read_file(path), path);
   if (mesh.positions.empty())
-    throw input_error(path, "", "has no vertices", "the file is empty or no OBJ");
+    throw input_error(path, "", "has no vertices", "the file is empty or not an OBJ");
   return mesh;
 }
 

@@ -94,7 +94,7 @@ public:
     for (const Triangle& t : m_mesh.triangles)
       for (int v : t)
         if (v < 0 || v >= static_cast<int>(m_mesh.positions.size()))
-          fail("face", "names vertex " + std::to_string(v) + ", but there are only " +
+          fail("face", "refers to vertex " + std::to_string(v) + ", but there are only " +
                            std::to_string(m_mesh.positions.size()));
     return std::move(m_mesh);
   }
@@ -131,11 +131,11 @@ private:
         double count = -1;
         const bool is_count = parse_number(next_word(line), count) && count >= 0 &&
                               count <= static_cast<double>(MAX_ELEMENTS); // false for nan
-        if (!is_count) fail(m_lines.place(), "not a count of elements");
+        if (!is_count) fail(m_lines.place(), "the number of elements is not a whole number");
         element.count = static_cast<std::size_t>(count);
         m_elements.push_back(element);
       } else if (key == "property") {
-        if (m_elements.empty()) fail(m_lines.place(), "a property without an element");
+        if (m_elements.empty()) fail(m_lines.place(), "a property comes before any element");
         PlyProperty property;
         std::string_view word = next_word(line);
         if (word == "list") {
@@ -213,7 +213,8 @@ private:
         }
         const double count = value(property.count_type, line);
         if (!(count >= 0 && count <= 100000))
-          fail(element.name + " " + std::to_string(i), "not a count of corners");
+          fail(element.name + " " + std::to_string(i),
+               "the number of corners is not a whole number");
         const bool corner_list =
             is_face && (property.name == "vertex_indices" || property.name == "vertex_index");
         corners.clear();

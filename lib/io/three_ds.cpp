@@ -30,7 +30,7 @@ public:
 
   TriangleMesh run() {
     if (m_bytes.size() < HEADER || read<std::uint16_t>(0) != MAIN)
-      fail(0, "does not begin as a 3DS file does");
+      fail(0, "does not begin with the main chunk of a 3DS file");
     read_chunks(0, m_bytes.size(), 0);
     return std::move(m_mesh);
   }
@@ -45,13 +45,13 @@ private:
   }
 
   void read_chunks(std::size_t at, std::size_t end, int depth) {
-    if (depth > DEPTH) fail(at, "chunks lie in each other as in no 3DS file");
+    if (depth > DEPTH) fail(at, "chunks are nested too deeply for a 3DS file");
     while (at + HEADER <= end) {
       const auto kind = read<std::uint16_t>(at);
       const std::size_t length = read<std::uint32_t>(at + 2);
       if (length < HEADER) fail(at, "a chunk is shorter than its own header");
       if (at + length > end)
-        fail(at, "a chunk ends behind what holds it", "the copy is probably truncated");
+        fail(at, "a chunk extends past the end of its parent", "the copy is probably truncated");
       const std::size_t inside = at + HEADER, close = at + length;
       if (kind == MAIN || kind == EDITOR) read_chunks(inside, close, depth + 1);
       else if (kind == OBJECT) read_object(inside, close, depth);
@@ -93,7 +93,7 @@ private:
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t v = read<std::uint16_t>(at + 2 + 8 * f + 2 * k);
         if (v >= vertices)
-          fail(at + 2 + 8 * f, "a face names vertex " + std::to_string(v) +
+          fail(at + 2 + 8 * f, "a face refers to vertex " + std::to_string(v) +
                                    ", but there are only " + std::to_string(vertices));
         t[k] = m_first + static_cast<int>(v);
       }

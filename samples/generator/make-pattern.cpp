@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
   tool.formats("body documents (version 1)", "pattern documents (version 1)");
   return tool.run(argc, argv, [&] {
     if (!body.empty() && !preset.empty())
-      throw Error(ErrorKind::USAGE, "", "--body", "does not go with --preset",
+      throw Error(ErrorKind::USAGE, "", "--body", "cannot be combined with --preset",
                   "leave one of them out");
     samples::Measures measures;
     if (!body.empty()) measures = samples::measures_from_body(io::read_json(body), body);

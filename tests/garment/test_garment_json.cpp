@@ -144,7 +144,8 @@ TEST_F(GarmentJson, DamagedDocumentsAreRefusedWithTheirPlace) {
             std::string::npos);
   EXPECT_NE(refusal("a.json", "\"a\": [1, 2]", "\"a\": [1, 99]").find("/seams/0/a/1"),
             std::string::npos);
-  EXPECT_NE(refusal("a.json", "\"a\": [1, 2]", "\"a\": [1]").find("pair up"), std::string::npos);
+  EXPECT_NE(refusal("a.json", "\"a\": [1, 2]", "\"a\": [1]").find("same number of vertices"),
+            std::string::npos);
   EXPECT_NE(refusal("a.json", "\"grain\": [0, 1]", "\"grain\": [0, 0]").find("grain"),
             std::string::npos);
   EXPECT_NE(refusal("a.json", "[0, 0.75", "[0, 0.5").find("sum to one"), std::string::npos);

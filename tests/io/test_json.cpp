@@ -36,7 +36,7 @@ static std::string complaint(const std::function<void()>& deed, ErrorKind kind =
 }
 
 TEST(Json, names_what_is_no_number_with_line_and_column) {
-  EXPECT_TRUE(has(complaint("{\n \"a\": [1, NaN]}"), "line 2, column 11: 'NaN' is no number"));
+  EXPECT_TRUE(has(complaint("{\n \"a\": [1, NaN]}"), "line 2, column 11: 'NaN' is not a number"));
   EXPECT_TRUE(has(complaint("[1, nan]"), "line 1, column 5: 'nan'"));
   EXPECT_TRUE(has(complaint("[-Infinity]"), "line 1, column 2: '-Infinity'"));
   EXPECT_TRUE(has(complaint("[1, x]"), "not valid JSON"));

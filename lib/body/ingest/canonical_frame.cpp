@@ -52,16 +52,17 @@ LengthUnit choose_unit(double height, const SizeOptions& size, const std::string
     const auto named = std::find_if(std::begin(LENGTH_UNITS), std::end(LENGTH_UNITS),
                                     [&](const LengthUnit& u) { return size.unit == u.name; });
     if (named == std::end(LENGTH_UNITS))
-      throw Error(ErrorKind::USAGE, "", "unit", "'" + size.unit + "' is none",
+      throw Error(ErrorKind::USAGE, "", "unit", "'" + size.unit + "' is not a unit",
                   "give auto, m, cm, mm, dm, inch or foot");
     return within(*named, "--unit");
   }
   const std::vector<LengthUnit> likely = likely_units(height);
   if (likely.empty())
-    throw input_error(file, "",
-                      "the body is " + number_text("%.4g", height) +
-                          " units tall, which is no person in m, cm, mm, dm, inch or foot",
-                      "give its --stature in metres, or its --scale in metres for a unit");
+    throw input_error(
+        file, "",
+        "the body is " + number_text("%.4g", height) +
+            " units tall, which is not a person's size in m, cm, mm, dm, inch or foot",
+        "give its --stature in metres, or its --scale in metres for a unit");
   return likely.front();
 }
 

@@ -320,7 +320,7 @@ CompletedTorso complete_torso(const TriangleMesh& scan, const std::string& up_ax
     made.stature = s;
     return made;
   }
-  throw input_error(file, "", "less of a trunk than the chest is in this scan",
+  throw input_error(file, "", "the scan ends above the waist",
                     "a torso scan must reach down to the waist");
 }
 

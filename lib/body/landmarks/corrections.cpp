@@ -43,12 +43,12 @@ Corrections Corrections::parse(const std::string& text, const std::string& name)
   if (features.size() == 0) return corrections;
   if (features.size() != known.size())
     features.fail("are not those of this program",
-                  "derive the corrections anew: scripts/derive-corrections");
+                  "derive the corrections again: scripts/derive-corrections");
   for (std::size_t k = 0; k < known.size(); ++k) {
     const io::Node feature = features.at(k);
     if (feature.at(std::size_t{0}).string() != known[k])
       feature.fail("is not \"" + known[k] + "\"",
-                   "derive the corrections anew: scripts/derive-corrections");
+                   "derive the corrections again: scripts/derive-corrections");
     corrections.m_features.push_back({feature.at(1).number(), feature.at(2).number()});
   }
   const io::Node points = root.at("points");

@@ -85,7 +85,7 @@ void ask_head(Gate& gate, double s) {
   gate.within("the crown above the neck", crown.y() / s, HEAD, "head_tip");
   if (const double aside = std::hypot(crown.x(), crown.z()) / s; aside > CROWN_ASIDE)
     gate.fail(
-        with_number("the highest point is %.2f of the stature beside the neck: it is no crown",
+        with_number("the highest point is %.2f of the stature beside the neck: it is not the crown",
                     aside),
         "head_tip");
 }

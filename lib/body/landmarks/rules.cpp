@@ -98,7 +98,7 @@ void merge_tree(Tree& tree, const io::Node& table, bool may_add) {
       for (const auto& [name, rules] : tree) names.push_back(name);
       unknown(list, "the tree has no place", place, names);
     }
-    if (!list.is_array()) list.fail("is no list of rules");
+    if (!list.is_array()) list.fail("is not a list of rules");
     std::vector<RuleChoice> rules;
     for (std::size_t i = 0; i < list.size(); ++i) {
       const RuleChoice rule = read_choice(list.at(i), place, may_add ? nullptr : &known->second);

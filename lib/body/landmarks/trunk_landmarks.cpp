@@ -360,9 +360,10 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
     if (belly->spread_m > f.number("abdomen.unsure") * s) {
       landmark.confidence *= 0.5;
       char text[160];
-      std::snprintf(text, sizeof text,
-                    "the belly is flat: its foremost place is anywhere between %.3f and %.3f m",
-                    belly->low, belly->high);
+      std::snprintf(
+          text, sizeof text,
+          "the belly is flat: the level of its front is ambiguous, between %.3f and %.3f m",
+          belly->low, belly->high);
       f.body.scan.findings.push_back({"info", text, "abdomen"});
     }
   }

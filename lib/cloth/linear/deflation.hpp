@@ -18,8 +18,8 @@ namespace sloper::cloth {
 
 class Deflation {
 public:
-  static constexpr std::size_t MOST = 4; ///< ways; with 2 a skirt took a fifth longer to rest, with
-                                         ///< 6, 8 and 12 as long (means over 18 starts)
+  /// Vectors of the basis. More save nothing: docs/decisions/linear-solver.md
+  static constexpr std::size_t MOST = 4;
 
   /// Keeps a solution as the newest basis vector, in place of the oldest.
   /// @param x  #rows, any scale; zero and non-finite vectors are ignored by prepare()

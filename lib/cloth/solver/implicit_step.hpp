@@ -29,33 +29,30 @@ struct StepOptions {
   /// with damping, each with a line search (backward Euler; Kane et al. 2000), until its gradient
   /// is a hundredth of a particle's weight, root mean square.
   int newton_iterations = 1;
-  /// With inertia and without line_search: a step of one solve that would gain of that potential,
-  /// damping aside, is made again, in up to GUARD_SOLVES. What makes cloth burst that turns fast is
-  /// not there then; other steps cost two looks at the energy more. Not where cloth crosses
-  /// something: the push out of it is meant to gain.
+  /// With inertia and without line_search: a step of one solve that would raise that potential,
+  /// damping aside, is solved again, up to GUARD_SOLVES times, so that cloth that turns fast does
+  /// not burst. Other steps cost two evaluations of the energy more. Not where cloth crosses
+  /// something: there contact is meant to push it out.
   bool guard_energy = false;
   static constexpr int GUARD_SOLVES = 8;
-  /// Halves the step until the energy falls, doubles it while it falls on, halves one that takes
-  /// back the last; else no motion. Where it halves, particles that limits hold, and without
-  /// momentum those with ten times the force of nearly all others, stay in place for up to 16
-  /// steps. Off: limits that cut half an edge shorten all. With it solves begin with the ways of
-  /// the last ones (Deflation): on the way to rest these lead on, and take a third to a half of the
-  /// iterations away, and steps with them; in motion they gain nothing.
+  /// Halves the step until the energy falls, doubles it while the energy goes on falling, and
+  /// halves a step that takes back the last one; where no step lowers the energy, nothing moves.
+  /// Where it halves, particles that limits hold, and without momentum those with ten times the
+  /// force of nearly all others, are blocked for up to 16 steps. Solves start from the recycling
+  /// basis (Deflation). If false: a limit that cuts a displacement by half an edge shortens all of
+  /// them. Measured: docs/decisions/rest-by-energy-descent.md
   bool line_search = false;
-  /// With line_search: a share of the last step's way goes on top (O'Donoghue and Candes 2015), and
-  /// a step may end as high as the highest of the last 20 energies (Grippo et al. 1986); where
-  /// these only go up and down, each step must fall for 10 steps. Pays where the energy alone
-  /// bounds the steps, with h far above 0.2 s: there a skirt of 3000 particles comes to rest in
-  /// half the steps (290 instead of 552, means of jittered starts), squares of 1000 that fold in
-  /// 0.9 of them (sums over six; singly 0.6 to 1.3), squares of 2300 in 1.1. Not for garments that
-  /// friction holds: momentum carries cloth over it, on a slope of 40 degrees up to 1.27 of the
-  /// friction that should hold it, and where tied cloth is left out of it, nothing is gained.
+  /// With line_search: adds a share of the last displacement (O'Donoghue and Candes 2015), and a
+  /// step may end as high as the highest of the last 20 energies (Grippo et al. 1986); where these
+  /// only oscillate, each step must fall for 10 steps. Halves the number of steps where the energy
+  /// alone bounds them, with h far above 0.2 s. Not for garments that friction holds: momentum
+  /// carries cloth over it. Measured: docs/decisions/rest-by-energy-descent.md
   bool momentum = false;
   /// With line_search: near equilibrium, at 95 % of the forces below a mean weight, use the full
   /// (indefinite) Hessian with conjugate gradients that end at a trust radius of a fifth of an edge
   /// (Steihaug 1983), instead of the projected one. Where cloth has buckled the negative parts are
-  /// about as large as the positive ones, and steps without them are short. Pays from 10,000
-  /// particles on; at 3000 a tenth fewer steps take as long.
+  /// about as large as the positive ones, and steps without them are short. Saves time from 10,000
+  /// particles on.
   bool full_hessian_near_rest = false;
   double largest_move_m = 0.05; ///< no particle moves farther in one step
 };

@@ -25,8 +25,8 @@ DrapeReport resume_drape(const std::string& file, Garment& garment, const body::
   const DrapeCheckpoint from = read_checkpoint(file);
   if (from.motion || from.layers)
     throw input_error(file, "",
-                      from.motion ? "is of a run in motion"
-                                  : "is of a run with garments over each other");
+                      from.motion ? "is a checkpoint of a run with --motion"
+                                  : "is a checkpoint of a run with --over");
   from.check_body(body, garment.body_sha256);
   return resume_drape(from, garment, body, reporter, Checkpoints{.file = next_file});
 }

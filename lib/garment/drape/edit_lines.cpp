@@ -12,7 +12,7 @@ void EditLines::take_end(const io::Node& node) {
   }
   const std::string finish = node.at("finish").string();
   if (finish != "warm" && finish != "replay" && finish != "cold")
-    node.fail("there is no finish '" + finish + "'", "known are warm, replay and cold");
+    node.fail("unknown finish '" + finish + "'", "known are warm, replay and cold");
   if (finish == "cold" && !m_has_body)
     node.fail("without a body the panels cannot be placed for a cold finish",
               "give --body, or finish warm");
@@ -30,7 +30,7 @@ EditLines::Taken EditLines::take(const std::string& line, const pattern::Pattern
                       R"(write an edit such as {"edit": "scale", ...} on one line)");
   io::Json json = io::parse_json(line, place);
   const io::Node node(json, place);
-  if (!node.is_object()) node.fail("a line is a head or an edit");
+  if (!node.is_object()) node.fail("each line must be a JSON object: the header or one edit");
   io::Json document = m_head;
   if (node.has("format")) {
     m_head = json;
@@ -43,7 +43,7 @@ EditLines::Taken EditLines::take(const std::string& line, const pattern::Pattern
       return {};
     }
     if (m_head.is_null())
-      node.fail("there is no head line before the first edit",
+      node.fail("the header line is missing before the first edit",
                 R"(begin with {"format": "edits", "version": 1, "length_unit": "cm"})");
     document["edits"].push_back(json);
   }

@@ -214,12 +214,13 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
       (slips || !std::isfinite(report.slip_borne_m))) { // it has slid off all of them, or may have
     report.fits = false;
     report.verdict = FitVerdict::TOO_LARGE;
-    report.reason = slips ? slides_down : "goes round no girth of the body";
+    report.reason = slips ? slides_down : "does not go around any girth of the body";
     return;
   }
   report.verdict = worst ? worst->verdict : FitVerdict::OK; // an apron goes round none
   report.reason =
-      worst ? worst->reason : "goes round no girth of the body: strain and slip alone were judged";
+      worst ? worst->reason
+            : "does not go around any girth of the body: only strain and slip were judged";
   const bool certain = report.convergence_m == 0 || !unfit.empty();
   if (certain) judge_strain(policy, report);
   if (certain && report.verdict <= FitVerdict::TOO_LARGE && slips) {
@@ -315,7 +316,7 @@ FitReport fit_garment(const Garment& garment, const body::Body& body,
     add(measure_edge(cloth, body, hem, report.convergence_m, why), hem.name + " edge");
   for (const auto& [name, girth] : body.girths)
     if (!measured.count(name))
-      report.left_out.emplace_back(name, "where it was measured is not told by the body document");
+      report.left_out.emplace_back(name, "the body document does not say where it was measured");
   if (placed) report.slip_borne_m = slip_borne(policy, report.lines, body, report);
   conclude(policy, unfit, report);
   return report;

@@ -302,7 +302,7 @@ std::optional<EdgeLine> edge_line(const Garment& garment, const body::Body& body
   edge.line = line_of(garment, loop);
   const double round = 2 * units::PI * place.normal.norm() /
                        (edge.line.lying * edge.line.lying); // 4 pi area / length^2: 1 for a circle
-  if (!(round > LEAST_ROUND)) return why = "its edge goes round nothing", std::nullopt;
+  if (!(round > LEAST_ROUND)) return why = "its edge does not go around the body", std::nullopt;
   place.normal = (place.normal.y() < 0 ? Vec3(-place.normal) : place.normal).normalized();
   const bool of_limb = kind->parts.size() == 1;
   if (!of_limb && place.normal.y() < STEEPEST)

@@ -43,7 +43,7 @@ const pattern::PanelInfo& panel_of_name(const pattern::PanelMesh& mesh, const st
   for (const pattern::PanelInfo& p : mesh.panels)
     if (p.name == name) return p;
   throw input_error("", "panel " + name, "is not in the coarser mesh of the same pattern",
-                    "mesh the pattern anew");
+                    "mesh the pattern again");
 }
 
 /// Looks at the last triangle first: neighbours come one after the other. Cost: vertices of one

@@ -169,8 +169,8 @@ void set_knob(DrapeSettings& settings, const std::string& name, double value) {
     words.emplace_back(k.name);
     names += (names.empty() ? "" : ", ") + words.back();
   }
-  throw Error(ErrorKind::USAGE, "", name, "is no knob" + did_you_mean(name, words),
-              "knobs are " + names);
+  throw Error(ErrorKind::USAGE, "", name, "is not a setting" + did_you_mean(name, words),
+              "settings are " + names);
 }
 
 void set_knob(DrapeSettings& settings, const std::string& name, const io::Node& value) {

@@ -75,7 +75,7 @@ BodyMoves moves_of_files(const body::Body& body, const std::string& first_file, 
   std::size_t count = 0;
   while (std::filesystem::exists(numbered(first_file, first + count))) ++count;
   if (count == 0)
-    throw input_error(first_file, "", "there is no such file",
+    throw input_error(first_file, "", "the file does not exist",
                       "write the sequence with scan-landmarks --pose motion.bvh");
   BodyMoves moves;
   moves.frame_s = frame_s;

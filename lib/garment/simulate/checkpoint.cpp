@@ -57,7 +57,7 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   DrapeState s;
   const std::string phase = node.at("phase").string();
   const auto found = std::find(std::begin(PHASES), std::end(PHASES), phase);
-  if (found == std::end(PHASES)) node.at("phase").fail("is no phase of a drape");
+  if (found == std::end(PHASES)) node.at("phase").fail("is not a phase of a drape");
   s.phase = static_cast<DrapePhase>(found - std::begin(PHASES));
   s.disturbed = node.at("disturbed").boolean();
   s.body = CollisionBody::State::read(node);
@@ -70,7 +70,7 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   s.settle = SettlePhase::State::read(node, n_particles);
   s.sew.step = s.settle.step = node.at("step").integer();
   if (s.phase == DrapePhase::SEW && static_cast<int>(s.sew.gaps.size()) != s.sew.step)
-    node.at("gaps").fail("is not one number for each step");
+    node.at("gaps").fail("must have one number for each step");
   if (s.phase == DrapePhase::SETTLE && s.settle.start_height.size() != n_particles)
     node.at("start_height").fail("does not belong to this garment");
   if (node.has("motion") || s.phase == DrapePhase::MOVE)
@@ -179,10 +179,10 @@ LayersProgress read_layers(const Node& node, std::size_t n_particles) {
   }
   const int alone = node.at("alone").integer();
   if (l.garments.empty() || alone < 0 || static_cast<std::size_t>(alone) > l.garments.size())
-    node.at("alone").fail("is none of the garments");
+    node.at("alone").fail("is not the index of one of the garments");
   l.alone = static_cast<std::size_t>(alone);
   if (l.alone == l.garments.size() && n != n_particles)
-    garments.fail("are not the garments that are draped together");
+    garments.fail("do not match the garments of the checkpoint");
   l.alone_s = node.at("alone_s").number();
   l.repairs = io::read_strings(node.at("repairs"));
   return l;
@@ -257,7 +257,7 @@ DrapeCheckpoint read_checkpoint(const std::string& path) {
     c.motion = {root.at("motion").at("sha256").string(), root.at("motion").at("fps").number()};
     if (!(c.motion->fps > 0)) root.at("motion").at("fps").fail("expected a number above zero");
   } else if (c.state.move.frame > 0) {
-    root.at("state").at("motion").fail("is of a motion that the checkpoint does not name");
+    root.at("state").at("motion").fail("belongs to a motion that the checkpoint does not name");
   }
   if (root.has("layers")) c.layers = read_layers(root.at("layers"), c.garment.position.size());
   if (root.has("levels")) c.levels = read_levels(root.at("levels"));
@@ -268,7 +268,7 @@ void DrapeCheckpoint::check_moves(const BodyMoves* moves) const {
   if (motion.has_value() == (moves != nullptr) && (!moves || state.move.frame <= moves->n_frames))
     return;
   throw input_error(file, "",
-                    motion ? "is of a run in another motion" : "was written without --motion",
+                    motion ? "was written with another motion" : "was written without --motion",
                     "give the same --motion as before");
 }
 

@@ -54,9 +54,9 @@ std::string stop_text(const DrapeReport& report) {
   case StopReason::INTERRUPTED: return "stopped by the user";
   case StopReason::NOT_FINITE: return "diverged";
   case StopReason::STALLED:
-    return "no nearer to rest in " + std::to_string(STALLED_STEPS) + " steps";
+    return "the residual has not improved for " + std::to_string(STALLED_STEPS) + " steps";
   case StopReason::STUCK:
-    return "stuck: nothing could move in " + std::to_string(UNMOVED_STEPS) + " steps";
+    return "stuck: nothing could move for " + std::to_string(UNMOVED_STEPS) + " steps";
   case StopReason::MISFIT: return "the garment " + misfit_text(report.misfit) + " too far to fit";
   case StopReason::NOTHING_CROSSED: return "nothing crossed";
   case StopReason::NOTHING_CROSSES: return "nothing crosses any more";

@@ -49,7 +49,7 @@ CollisionBody::State CollisionBody::State::read(const io::Node& node) {
   else if (node.at("mitten").boolean())
     covered = static_cast<int>(ExtremityHulls::HANDS); // older ones: hands alone
   if (covered < 0 || covered > static_cast<int>(ExtremityHulls::ALL_ENDS))
-    node.at("covered").fail("has unknown bits");
+    node.at("covered").fail("has unknown bits; the checkpoint is damaged or of a newer version");
   state.covered = static_cast<unsigned>(covered);
   state.full_skin = node.has("whole_skin") && node.at("whole_skin").boolean();
   state.shrunk = node.at("shrunk").boolean();

@@ -1,4 +1,5 @@
 /// Edits of darts: add-dart (into an edge, or a fisheye inside a panel) and rotate-dart.
+#include <base/text.hpp>
 #include <io/json.hpp>
 #include <pattern/edit/edit_tools.hpp>
 #include <pattern/read/outline_json.hpp>
@@ -33,12 +34,13 @@ void add_dart(Pattern& pattern, const io::Node& node, double unit) {
   const Panel panel = pattern.panels[static_cast<std::size_t>(index)];
   const double width = node.at("width").number() * unit;
   if (!(width > 1e-3))
-    node.at("width").fail("a dart of " + centimetres(width) + " is none", "give more than 0.1 cm");
+    node.at("width").fail("the dart is too narrow (" + centimetres(width) + ")",
+                          "give more than 0.1 cm");
   std::string name = node.string("name", panel.name + "-dart");
   for (int k = 2; std::any_of(pattern.seams.begin(), pattern.seams.end(),
                               [&](const Seam& s) { return s.name == name; });
        ++k) {
-    if (node.has("name")) node.at("name").fail("there is a seam '" + name + "' already");
+    if (node.has("name")) node.at("name").fail("seam '" + name + "' already exists");
     name = panel.name + "-dart" + std::to_string(k);
   }
   const std::string leg_a = free_edge_name(panel, name + "_a"),
@@ -49,7 +51,7 @@ void add_dart(Pattern& pattern, const io::Node& node, double unit) {
     const Vec2 center = node.at("center").vec2() * unit,
                way = node.has("along") ? node.at("along").vec2() : Vec2(0, 1);
     if (!(half > width) || !(way.norm() > 0))
-      node.at("length").fail("a fisheye dart is longer than it is wide",
+      node.at("length").fail("a fisheye dart must be longer than it is wide",
                              "give its length along the middle");
     const Vec2 u = way.normalized(), v(-u.y(), u.x());
     const Vec2 corner[4] = {
@@ -57,7 +59,7 @@ void add_dart(Pattern& pattern, const io::Node& node, double unit) {
         snapped(Vec2(center + half * u)), snapped(Vec2(center - 0.5 * width * v))};
     for (const Vec2& c : corner)
       if (!inside(panel, c))
-        node.at("center").fail("the dart leaves panel " + panel.name,
+        node.at("center").fail("the dart extends beyond panel " + panel.name,
                                "move its center, or make it smaller");
     Rebuilt out = rebuilt(panel, pieces, all_holes(panel));
     const int first = out.panel.n_edges(); // clockwise: left side up, right side down
@@ -75,9 +77,9 @@ void add_dart(Pattern& pattern, const io::Node& node, double unit) {
   const double total = length(panel.edge(static_cast<int>(k)).path), at = fraction(node, "at");
   const double from = at - 0.5 * width / total, to = at + 0.5 * width / total;
   if (from * total < AT_CORNER || (1 - to) * total < AT_CORNER)
-    node.at("at").fail("a dart of " + centimetres(width) + " at " + std::to_string(at) + " of " +
+    node.at("at").fail("a dart of " + centimetres(width) + " at " + decimals(at, 3) + " of " +
                            panel.edge(static_cast<int>(k)).name + " (" + centimetres(total) +
-                           ") goes past its end",
+                           ") extends past the end of the edge",
                        "move it inwards");
   const Vec2 tip = snapped(Vec2(node.at("tip").vec2() * unit));
   if (!inside(panel, tip)) node.at("tip").fail("the tip lies outside of panel " + panel.name);
@@ -104,14 +106,14 @@ void rotate_dart(Pattern& pattern, const io::Node& node) {
                                  [&](const Seam& s) { return s.name == name; });
   if (seam == pattern.seams.end()) node.at("dart").fail("there is no seam '" + name + "'");
   if (seam->a.size() != 1 || seam->b.size() != 1 || seam->a[0].panel != seam->b[0].panel)
-    node.at("dart").fail("seam " + name + " is no dart");
+    node.at("dart").fail("seam " + name + " is not a dart");
   const int index = seam->a[0].panel;
   const Panel panel = pattern.panels[static_cast<std::size_t>(index)];
   const int n = static_cast<int>(panel.loops[0].size());
   int leg = seam->a[0].edge, second = seam->b[0].edge;
   if ((second + 1) % n == leg) std::swap(leg, second);
   if (leg >= n || second >= n || (leg + 1) % n != second)
-    node.at("dart").fail("seam " + name + " is no edge dart",
+    node.at("dart").fail("seam " + name + " is not a dart at an edge",
                          "only darts that end in the outline can be rotated");
   std::vector<Piece> pieces = pieces_of(panel);
   const Piece one = pieces[static_cast<std::size_t>(leg)],
@@ -133,7 +135,7 @@ void rotate_dart(Pattern& pattern, const io::Node& node) {
   };
   const std::size_t first = find(leg), last = (first + 1) % pieces.size(),
                     after = (last + 1) % pieces.size();
-  if (opening == first || opening == after) node.at("at").fail("the dart opens there already");
+  if (opening == first || opening == after) node.at("at").fail("the dart already opens there");
   std::vector<Piece> turned = walk(pieces, after, opening), still = walk(pieces, opening, first);
   // The shorter part of the outline between dart and opening turns about the tip until the legs
   // meet.

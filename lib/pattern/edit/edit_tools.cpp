@@ -1,3 +1,4 @@
+#include <base/text.hpp>
 #include <io/json.hpp>
 #include <pattern/edit/edit_tools.hpp>
 #include <pattern/read/outline_json.hpp>
@@ -90,7 +91,7 @@ int outer_edge(const Panel& panel, const io::Node& node, const char* key) {
 double fraction(const io::Node& node, const char* key) {
   const double at = node.at(key).number();
   if (!(at >= 0 && at <= 1))
-    node.at(key).fail(std::to_string(at) + " is no place on an edge",
+    node.at(key).fail(decimals(at, 3) + " is not a place on an edge",
                       "give a fraction from 0 to 1");
   return at;
 }
@@ -183,7 +184,7 @@ void replace_panel(Pattern& pattern, int p, std::vector<Rebuilt> panels, const i
         runs.insert(runs.end(), parts.begin(), parts.end());
       }
       if (runs.empty())
-        node.fail("nothing would be left of a side of seam " + seam.name,
+        node.fail("one side of seam " + seam.name + " would become empty",
                   "take out the seam first, or cut elsewhere");
       *side = std::move(runs);
     }

@@ -80,7 +80,7 @@ void split_panel(Pattern& pattern, const io::Node& node, double unit) {
   for (const std::string& name : names)
     if (name.empty() || names[0] == names[1] ||
         (pattern.find_panel(name) >= 0 && name != panel.name))
-      node.fail("the name '" + name + "' is taken", "give two free names");
+      node.fail("the name '" + name + "' is already in use", "give two free names");
   const std::string cut = free_edge_name(panel, "cut");
   const Vec2 a0 = start_of(one.front()), a1 = end_of(one.back());
   one.push_back(straight(cut, a1, a0)), two.push_back(straight(cut, a0, a1));
@@ -91,7 +91,7 @@ void split_panel(Pattern& pattern, const io::Node& node, double unit) {
       for (const Segment& s : e.path)
         for (double t : {0.0, 0.5}) n_left += side(s.at(t), from, to - from) > 0, ++n;
     if (n_left != 0 && n_left != n)
-      node.fail("the line goes through a hole of " + panel.name, "cut beside it");
+      node.fail("the line crosses a hole of " + panel.name, "cut beside it");
     holes[n_left ? 0 : 1].push_back(h);
   }
   std::vector<Rebuilt> both = {rebuilt(panel, one, holes[0]), rebuilt(panel, two, holes[1])};
@@ -122,7 +122,8 @@ void add_point(Pattern& pattern, const io::Node& node) {
   const Panel panel = pattern.panels[static_cast<std::size_t>(index)];
   const std::size_t k = static_cast<std::size_t>(outer_edge(panel, node, "edge"));
   const double at = fraction(node, "at"), total = length(panel.edge(static_cast<int>(k)).path);
-  if (std::min(at, 1 - at) * total < AT_CORNER) node.at("at").fail("there is a corner already");
+  if (std::min(at, 1 - at) * total < AT_CORNER)
+    node.at("at").fail("the edge already has a corner there");
   std::vector<Piece> pieces = pieces_of(panel);
   corner_at(pieces, k, at);
   if (node.has("names"))
@@ -148,7 +149,8 @@ void join_panels(Pattern& pattern, const io::Node& node) {
     node.at("seam").fail("seam " + name + " joins panel " +
                          pattern.panels[static_cast<std::size_t>(a.panel)].name + " to itself");
   if ((a.from < a.to) == (b.from < b.to))
-    node.at("seam").fail("seam " + name + " joins an outside to an inside");
+    node.at("seam").fail("seam " + name +
+                         " joins the outside of one panel to the inside of the other");
   const Panel p = pattern.panels[static_cast<std::size_t>(a.panel)],
               q = pattern.panels[static_cast<std::size_t>(b.panel)];
   if (a.edge >= static_cast<int>(p.loops[0].size()) ||
@@ -158,7 +160,7 @@ void join_panels(Pattern& pattern, const io::Node& node) {
   // q turns and moves so that its edge lies on p's, the other way round.
   const Vec2 da = pa.back().p[3] - pa.front().p[0], db = pb.front().p[0] - pb.back().p[3];
   if (!(da.norm() > 1e-6 && db.norm() > 1e-6))
-    node.at("seam").fail("the edges of seam " + name + " end where they start");
+    node.at("seam").fail("the edges of seam " + name + " are closed curves and cannot be joined");
   const double angle = std::atan2(da.y(), da.x()) - std::atan2(db.y(), db.x());
   const Eigen::Matrix2d turn = std::abs(std::remainder(angle, 2 * units::PI)) < 1e-9
                                    ? Eigen::Matrix2d(Eigen::Matrix2d::Identity())
@@ -180,7 +182,7 @@ void join_panels(Pattern& pattern, const io::Node& node) {
   Panel out = p;
   out.name = node.string("name", p.name);
   if (out.name != p.name && out.name != q.name && pattern.find_panel(out.name) >= 0)
-    node.at("name").fail("the name '" + out.name + "' is taken");
+    node.at("name").fail("the name '" + out.name + "' is already in use");
   std::vector<int> new_p(static_cast<std::size_t>(p.n_edges()), -1),
       new_q(static_cast<std::size_t>(q.n_edges()), -1);
   out.loops.assign(1, {});

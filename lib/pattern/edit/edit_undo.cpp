@@ -74,7 +74,7 @@ Path path_from(const io::Node& segments) {
   Path path;
   for (std::size_t s = 0; s < segments.size(); ++s) {
     const io::Node numbers = segments.at(s);
-    if (numbers.size() != 9) numbers.fail("a segment has 9 numbers");
+    if (numbers.size() != 9) numbers.fail("a segment needs 9 numbers");
     Segment segment;
     segment.line = numbers.at(0).number() != 0;
     for (std::size_t i = 0; i < 4; ++i)
@@ -112,7 +112,7 @@ Panel panel_from(const io::Node& node) {
     const Notch n{notches.at(k).at("edge").integer(), notches.at(k).at("at").number(),
                   notches.at(k).string("kind", "")};
     if (n.edge < 0 || n.edge >= p.n_edges())
-      notches.at(k).fail("there is no edge " + std::to_string(n.edge));
+      notches.at(k).fail("edge " + std::to_string(n.edge) + " does not exist");
     p.notches.push_back(n);
   }
   if (node.has("lines")) {
@@ -129,11 +129,11 @@ Panel panel_from(const io::Node& node) {
       for (std::size_t e = 0; e < item.at("edges").size(); ++e) {
         pleat.edges.push_back(item.at("edges").at(e).integer());
         if (pleat.edges.back() < 0 || pleat.edges.back() >= p.n_edges())
-          item.fail("pleat " + pleat.name + " is sewn along an edge that is not there");
+          item.fail("pleat " + pleat.name + " is sewn along an edge that does not exist");
       }
       for (int line : {pleat.fold, pleat.target})
         if (line < 0 || line >= static_cast<int>(p.lines.size()))
-          item.fail("pleat " + pleat.name + " folds along a line that is not there");
+          item.fail("pleat " + pleat.name + " folds along a line that does not exist");
       p.pleats.push_back(std::move(pleat));
     }
   }
@@ -144,7 +144,7 @@ Panel panel_from(const io::Node& node) {
   if (hint.has("height")) p.hint.height = hint.at("height").number();
   if (hint.has("rigid")) {
     Mat4 m;
-    if (hint.at("rigid").size() != 16) hint.at("rigid").fail("a placement has 16 numbers");
+    if (hint.at("rigid").size() != 16) hint.at("rigid").fail("a placement needs 16 numbers");
     for (long k = 0; k < 16; ++k)
       m(k / 4, k % 4) = hint.at("rigid").at(static_cast<std::size_t>(k)).number();
     p.hint.rigid = m;
@@ -247,7 +247,7 @@ void restore(Pattern& pattern, const io::Node& node) {
         if (run.panel < 0 || run.panel >= static_cast<int>(panels.size()) || run.edge < 0 ||
             run.edge >= panels[static_cast<std::size_t>(run.panel)].n_edges() ||
             !(run.from >= 0 && run.from <= 1 && run.to >= 0 && run.to <= 1))
-          node.fail("seam " + seam.name + " runs along an edge that is not there");
+          node.fail("seam " + seam.name + " runs along an edge that does not exist");
     }
   pattern.panels = std::move(panels), pattern.seams = std::move(seams);
 }

@@ -1,3 +1,4 @@
+#include <base/text.hpp>
 #include <io/json.hpp>
 #include <pattern/edit/edit_tools.hpp>
 #include <pattern/edit/edits.hpp>
@@ -115,7 +116,7 @@ void move_inward(const io::Node& node, Panel& panel, int edge, double by) {
   const Vec2 chord = place.edge().path.back().p[3] - place.edge().path.front().p[0];
   if (chord.norm() < 1e-6)
     node.fail("edge " + place.edge().name +
-              " ends where it starts and has no direction to move in");
+              " is a closed curve, so it has no direction to move in");
   const Vec2 move = snapped(Vec2(Vec2(-chord.y(), chord.x()).normalized() * by));
   drag(place.edge().path, move, 1, 1);
   if (place.loop->size() > 1)
@@ -142,21 +143,21 @@ void open_seam(Pattern& pattern, const io::Node& node, bool open) {
     node.at("seam").fail(seam.name + " is a " + seam.kind + " and cannot be opened",
                          "name a seam or a closure");
   if (seam.open == open)
-    node.at("seam").fail("seam " + seam.name + " is " + (open ? "open" : "closed") + " already");
+    node.at("seam").fail("seam " + seam.name + " is already " + (open ? "open" : "closed"));
   seam.open = open;
 }
 
 double factor(const io::Node& node, const char* key) {
   const double f = node.number(key, 1);
   if (!(f > 0.05 && f < 20))
-    node.at(key).fail("a factor of " + std::to_string(f) + " is no edit", "give 0.05 to 20");
+    node.at(key).fail("factor " + decimals(f, 3) + " is out of range", "give 0.05 to 20");
   return f;
 }
 
 double positive_length(const io::Node& node, double unit) {
   const double length = node.at("length").number() * unit;
   if (!(length > 1e-4))
-    node.at("length").fail("a length of " + centimetres(length) + " is no length",
+    node.at("length").fail("the length is too short (" + centimetres(length) + ")",
                            "give more than 0.01 cm");
   return length;
 }
@@ -173,7 +174,7 @@ void move_point(Pattern& pattern, const io::Node& node, double unit) {
   Panel& p = edited_panel(pattern, node);
   const std::string end = node.string("end", "start");
   if (end != "start" && end != "end")
-    node.at("end").fail("'" + end + "' is no end of an edge", "give start or end");
+    node.at("end").fail("'" + end + "' is not an end of an edge", "give start or end");
   const Vec2 by = snapped(Vec2(node.at("by").vec2() * unit)), none(0, 0);
   move_ends(place_of_edge(p, edited_edge(p, node)), end == "start" ? by : none,
             end == "end" ? by : none);
@@ -253,7 +254,8 @@ void set_lengths(Pattern& pattern, const io::Node& node, double unit) {
 void lengthen(Pattern& pattern, const io::Node& node, double unit, double way) {
   node.allow_only({"edit", "panel", "at", "along", "by"});
   const Vec2 at = node.at("at").vec2() * unit, direction = node.at("along").vec2();
-  if (!(direction.norm() > 0)) node.at("along").fail("there is no direction");
+  if (!(direction.norm() > 0))
+    node.at("along").fail("the vector has no length, so it gives no direction");
   const Vec2 along = direction.normalized(),
              by = snapped(Vec2(along * node.at("by").number() * unit * way));
   map_panel(edited_panel(pattern, node),
@@ -302,18 +304,20 @@ void add_tape(Panel& p, const io::Node& node, double unit) {
   for (const Segment& s : tape.path)
     for (const Vec2& q : s.p)
       if (!((low - q).maxCoeff() < 0.1 && (q - high).maxCoeff() < 0.1))
-        node.at("curve").fail("the tape leaves panel " + p.name, "draw it inside");
+        node.at("curve").fail("the tape extends beyond panel " + p.name, "draw it inside");
   if (!(pattern::length(tape.path) > 0.005))
-    node.at("curve").fail("a tape of " + centimetres(pattern::length(tape.path)) + " is none");
+    node.at("curve").fail("the tape is too short (" + centimetres(pattern::length(tape.path)) + ")",
+                          "draw at least 0.5 cm");
   if (!(tape.width > 0 && tape.width < 1))
-    node.at("width").fail("a width of " + centimetres(tape.width) + " is none");
+    node.at("width").fail("a tape " + centimetres(tape.width) + " wide is out of range",
+                          "give a width above 0 and below 100 cm");
   const auto taken = [&](const std::string& name) {
     return std::any_of(p.lines.begin(), p.lines.end(),
                        [&](const InnerLine& l) { return l.name == name; });
   };
   tape.name = node.string("name", "tape");
   if (node.has("name") && taken(tape.name))
-    node.at("name").fail("panel " + p.name + " has a line '" + tape.name + "' already");
+    node.at("name").fail("panel " + p.name + " already has a line '" + tape.name + "'");
   for (int k = 2; taken(tape.name); ++k) tape.name = "tape" + std::to_string(k);
   p.lines.push_back(std::move(tape));
 }
@@ -324,7 +328,8 @@ void shrink_strip(Panel& p, const io::Node& node, double unit) {
   strip.allow_only({"from", "to"});
   const Vec2 from = strip.at("from").vec2() * unit, way = strip.at("to").vec2() * unit - from;
   const double width = way.norm(), f = factor(node, "factor");
-  if (!(width > 1e-4)) strip.fail("a strip of " + centimetres(width) + " is none");
+  if (!(width > 1e-4))
+    strip.fail("the strip is too narrow (" + centimetres(width) + ")", "give more than 0.01 cm");
   const Vec2 along = way / width, c = from + 0.5 * way;
   map_panel(p, [&](const Vec2& q) {
     const double s = (q - c).dot(along), inside = std::clamp(s, -0.5 * width, 0.5 * width);
@@ -408,8 +413,8 @@ void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file
                            "write \"format\": \"edits\"");
   root.allow_only({"format", "version", "generator", "length_unit", "edits"});
   if (root.integer("version", 1) > 1)
-    root.at("version").fail("the version is newer than this program knows",
-                            "update, or write version 1");
+    root.at("version").fail("the version is newer than version 1, the newest this program reads",
+                            "update Sloper, or write version 1");
   const double unit = unit_of(root.at("length_unit"));
   const auto onto_grid =
       [&] { // after each edit, so that a log in one piece and in many gives the same
@@ -433,7 +438,7 @@ void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file
       for (const PanelEdge& e : p.loops[0]) loop.push_back(e.path);
       if (const double area = signed_area(loop); !(area > 0))
         edits.at(k).fail("panel " + p.name +
-                         " is turned inside out: its outline now goes clockwise around " +
+                         " is turned inside out: its outline now runs clockwise around " +
                          std::to_string(std::lround(std::min(1e9, -1e4 * area))) + " cm2");
       if (const auto fault = fault_of(p))
         edits.at(k).fail("panel " + p.name + (fault->place.empty() ? "" : ": " + fault->place) +

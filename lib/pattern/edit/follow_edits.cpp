@@ -161,7 +161,8 @@ MeshFollower::MeshFollower(const Pattern& before, const PanelMesh& mesh)
   m_state->before = before, m_state->original = mesh.pattern;
   m_state->panels = std::vector<FollowedPanel>(mesh.panels.size());
   if (before.panels.size() != mesh.panels.size())
-    throw input_error("", "pattern", "the mesh is of another pattern", "mesh the pattern again");
+    throw input_error("", "pattern", "the mesh was made from another pattern",
+                      "mesh the pattern again");
   for (std::size_t p = 0; p < mesh.panels.size(); ++p)
     prepare(m_state->panels[p], before.panels[p], mesh.panels[p], mesh);
 }

@@ -65,7 +65,7 @@ void check_apart(const Panel& panel, const std::vector<Stretch>& stretches,
       const double metres = overlap * pattern::length(panel.edge(a.edge).path);
       if (metres > 1e-4)
         fail(file, panel, *b.pleat,
-             "overlaps pleat " + a.pleat->name + " by " + centimetres(metres) + " of edge " +
+             "overlaps pleat " + a.pleat->name + " by " + centimetres(metres) + " on edge " +
                  panel.edge(a.edge).name,
              "a pleat takes one and a half times the distance of its lines");
     }
@@ -164,7 +164,7 @@ void fold_panel(Pattern& pattern, int p, const std::string& file) {
                     side->end());
         if (side->empty())
           throw input_error(file, "seam " + seam.name,
-                            "pleat " + s.pleat->name + " leaves nothing of one side to sew",
+                            "pleat " + s.pleat->name + " covers all of one side of the seam",
                             "sew the upper layer");
       }
     const std::vector<Run> under = pieces(s, s.target, s.middle),
@@ -173,7 +173,8 @@ void fold_panel(Pattern& pattern, int p, const std::string& file) {
       if (side->size() != 1)
         throw input_error(
             file, pattern.panels[static_cast<std::size_t>(p)].name + ": pleat " + s.pleat->name,
-            "another line ends between its lines", "let no line end on the cloth of a pleat");
+            "another line ends between its lines",
+            "move the end of that line off the cloth of the pleat");
     pattern.seams.push_back({s.pleat->name + "-under", "pleat", under, upper, ""});
     pattern.seams.push_back({s.pleat->name + "-back", "pleat", back, upper, ""});
   }

@@ -58,11 +58,11 @@ int Placer::find_untold() {
     names += (count++ ? ", " : "") + panel.name;
   }
   if (count > 0)
-    m_mesh.findings.push_back("start: nothing tells where " + names +
-                              (count > 1 ? " go" : " goes") +
+    m_mesh.findings.push_back("start: nothing says where " + names +
+                              (count > 1 ? " belong" : " belongs") +
                               ": taken for the front, or for front and back where they are sewn to "
-                              "each other at both sides; words like front, back, sleeve, "
-                              "cuff, collar, skirt or trousers in a name tell, or a hint");
+                              "each other at both sides; put a word such as front, back, sleeve, "
+                              "cuff, collar, skirt or trousers into the name, or give a hint");
   return count;
 }
 

@@ -24,7 +24,7 @@ std::vector<bool> named(const Pattern& pattern, const std::vector<std::string>& 
     if (found) continue;
     std::string list;
     for (const Panel& panel : pattern.panels) list += (list.empty() ? "" : ", ") + panel.name;
-    throw input_error(file, name, "there is no piece of this name", "its pieces are " + list);
+    throw input_error(file, name, "no piece has this name", "its pieces are " + list);
   }
   return out;
 }
@@ -54,7 +54,8 @@ void remove_panels(Pattern& pattern, const std::vector<bool>& remove) {
         whole = whole && run.panel >= 0;
       }
     if (whole) seams.push_back(std::move(seam));
-    else pattern.findings.push_back("seam " + seam.name + " goes with a piece that is left out");
+    else
+      pattern.findings.push_back("seam " + seam.name + " is left out with a piece that it joins");
   }
   pattern.seams = std::move(seams);
 }

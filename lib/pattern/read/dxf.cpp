@@ -166,9 +166,9 @@ private:
                                    find_value(pick->texts, "Size") + " is taken");
     }
     if (!m_choice.size.empty() && known.empty() && !m_choice.rules)
-      throw input_error(m_file, "",
-                        "size '" + m_choice.size + "' is asked for, but the file holds one size",
-                        "give its grade rule table too");
+      throw input_error(
+          m_file, "", "size '" + m_choice.size + "' was asked for, but the file has only one size",
+          "give its grade rule table too");
     return out;
   }
 
@@ -279,7 +279,7 @@ private:
     }
     if (outer.empty() && !cut.empty()) {
       outer = cut, sewn = false;
-      m_pattern.findings.push_back(panel.name + ": no sew line; the cut line is taken as it");
+      m_pattern.findings.push_back(panel.name + ": no sew line; the cut line is used in its place");
     }
     if (outer.empty()) {
       m_pattern.findings.push_back("block " + block.name +
@@ -345,7 +345,7 @@ private:
     const bool wanted = m_choice.sewn.empty() || m_choice.sewn.count(name) > 0;
     if (notes.mirrored < 1 || m_states_seams || (alike && !limb) || !wanted) {
       m_pattern.findings.push_back(drawn.name + ": to be cut " + std::to_string(notes.copies) +
-                                   " times; one is taken");
+                                   " times; one copy is used");
       return;
     }
     Panel image = mirror_image(drawn);
@@ -403,7 +403,7 @@ private:
         distance_to_path(panel.edge(e).path, middle) < 1e-3)
       return e;
     m_pattern.findings.push_back(
-        panel.name + ": its mirror line lies on no straight edge; the piece is taken as whole");
+        panel.name + ": its mirror line is not on a straight edge; the piece is taken as whole");
     return -1;
   }
 
@@ -418,7 +418,7 @@ private:
       sewn.push_back({t, panel.edge(t->edge).name});
     if (!unfold(panel, fold, "", "_mirror")) {
       m_pattern.findings.push_back(
-          panel.name + ": its mirror line lies on no straight edge; the piece is taken as whole");
+          panel.name + ": its mirror line is not on a straight edge; the piece is taken as whole");
       return;
     }
     for (auto& [text, name] : sewn) text->edge = panel.find_edge(name);
@@ -458,7 +458,7 @@ Pattern read_dxf(const std::string& text, const std::string& file, const DxfChoi
     dxf.blocks = pieces_of_drawing(dxf);
     if (dxf.blocks.empty())
       throw input_error(file, "",
-                        "there are no blocks, and the lines of the drawing close to no outline",
+                        "there are no blocks, and the lines of the drawing form no closed outline",
                         "give an AAMA or ASTM DXF, one block per piece");
   }
   return PieceReader(dxf, choice, file).run();

@@ -56,7 +56,7 @@ public:
     const std::string_view digits = trimmed(code_line);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), code);
     if (error != std::errc() || end != digits.data() + digits.size())
-      fail("'" + utf8(digits.substr(0, 40)) + "' is no group code");
+      fail("'" + utf8(digits.substr(0, 40)) + "' is not a group code");
     std::string_view value_line;
     if (!line(value_line)) fail("the file ends within a group");
     value = trimmed(value_line);
@@ -68,14 +68,14 @@ public:
     if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
     if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(x))
-      fail(std::string("'").append(utf8(value.substr(0, 40))).append("' is no number"));
+      fail(std::string("'").append(utf8(value.substr(0, 40))).append("' is not a number"));
     return x;
   }
   /// For flags and counts, which DXF keeps in 16 bits; some programs write them as 70.0.
   int whole() const {
     const double x = number();
     if (!(std::abs(x) <= 1e6))
-      fail(std::string("'").append(utf8(value.substr(0, 40))).append("' is no flag or count"));
+      fail(std::string("'").append(utf8(value.substr(0, 40))).append("' is not a flag or count"));
     return static_cast<int>(x);
   }
   [[noreturn]] void fail(const std::string& fact) const {
@@ -125,7 +125,7 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
     for (const auto& list : {entity.x, entity.y, {entity.x2, entity.y2}})
       for (double x : list)
         if ((block || section == "ENTITIES") && !(std::abs(x) <= FARTHEST))
-          tags.fail("a coordinate is out of all bounds");
+          tags.fail("a coordinate is far out of range");
     const auto point = [&](std::size_t k) {
       return Vec2(entity.x[k], k < entity.y.size() ? entity.y[k] : 0.0);
     };
@@ -195,7 +195,7 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
   const bool flat = std::none_of(out.blocks.begin(), out.blocks.end(),
                                  [](const DxfBlock& b) { return !b.lines.empty(); });
   if (!any || (flat && out.loose.lines.empty()))
-    throw input_error(file, "", "there are no blocks, so no pieces",
+    throw input_error(file, "", "there are no blocks, so there are no pieces",
                       "give an AAMA or ASTM DXF, one block per piece");
   if (flat) out.blocks.clear();
   return out;

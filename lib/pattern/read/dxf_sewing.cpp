@@ -18,7 +18,7 @@ void DxfSewing::read(const std::string& text, Panel& panel, int index, int edge,
   if (what != "SEW" || !(words >> seam >> side >> order >> direction >> run)) return;
   panel.edge(edge).name = run;
   if ((side != "a" && side != "b") || (direction != "+" && direction != "-"))
-    throw input_error(file, panel.name, "'" + text + "' is no sewing text",
+    throw input_error(file, panel.name, "'" + text + "' is not a sewing text",
                       "write SEW <seam> <a|b> <order> <+|-> <run>");
   if (std::find(m_order.begin(), m_order.end(), seam) == m_order.end()) m_order.push_back(seam);
   Said& said = m_seams[seam];

@@ -94,8 +94,8 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
         "rotations are taken as Rz Ry Rx, as Garment-Pattern-Generator writes them");
   const bool placed = tells_placement(panels);
   if (!placed)
-    pattern.findings.push_back("all panels are placed in one plane, so their placement is taken "
-                               "for none: names and seams tell where they go");
+    pattern.findings.push_back("all panels are placed in one plane, so the placement is "
+                               "ignored: names and seams decide where they go");
   for (const std::string& name : panels.keys()) {
     const io::Node node = panels.at(name), vertices = node.at("vertices"), edges = node.at("edges");
     Panel panel;
@@ -141,7 +141,7 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
     if (against.back()) {
       reverse_sense(panel.loops[0]);
       pattern.findings.push_back(name + ": placed with its outside towards the body, so its "
-                                        "outline is taken the other way round");
+                                        "outline is reversed");
     }
     pattern.panels.push_back(std::move(panel));
   }
@@ -160,10 +160,10 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
         const std::string panel_name = item.at("panel").string();
         const int panel = pattern.find_panel(panel_name), edge = item.at("edge").integer();
         if (panel < 0)
-          item.fail("stitch " + std::to_string(k) + " names panel '" + panel_name +
+          item.fail("stitch " + std::to_string(k) + " refers to panel '" + panel_name +
                     "', which does not exist");
         if (edge < 0 || edge >= pattern.panels[static_cast<std::size_t>(panel)].n_edges())
-          item.fail("stitch " + std::to_string(k) + " names edge " + std::to_string(edge) +
+          item.fail("stitch " + std::to_string(k) + " refers to edge " + std::to_string(edge) +
                     " of panel " + panel_name + ", which has " +
                     std::to_string(pattern.panels[static_cast<std::size_t>(panel)].n_edges()));
         if (item.has("right_wrong"))

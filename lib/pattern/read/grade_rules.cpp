@@ -1,4 +1,5 @@
 #include <base/error.hpp>
+#include <base/text.hpp>
 #include <base/units.hpp>
 #include <pattern/read/grade_rules.hpp>
 
@@ -65,7 +66,7 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
     const char* begin = word.data() + (word[0] == '+');
     const auto [end, error] = std::from_chars(begin, word.data() + word.size(), x);
     if (error != std::errc() || end != word.data() + word.size() || !(std::abs(x) <= LARGEST_MOVE))
-      fail(line_number, "'" + word + "' is no number, or out of all bounds", "give x,y pairs");
+      fail(line_number, "'" + word + "' is not a number, or far out of range", "give x,y pairs");
     numbers.push_back(x);
   };
   std::istringstream lines(text);
@@ -88,11 +89,12 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
     else if (key == "RULE") {
       finish();
       if (words.size() < 2 || upper_case(words[0]) != "DELTA")
-        fail(line_number, "'" + value + "' is no rule", "write RULE: DELTA <number>");
+        fail(line_number, "'" + value + "' is not a rule", "write RULE: DELTA <number>");
       const auto [end, error] =
           std::from_chars(words[1].data(), words[1].data() + words[1].size(), number_of_rule);
       if (error != std::errc() || end != words[1].data() + words[1].size() || number_of_rule <= 0)
-        fail(line_number, "'" + words[1] + "' is no rule number", "give a positive whole number");
+        fail(line_number, "'" + words[1] + "' is not a rule number",
+             "give a positive whole number");
       first_line = line_number;
       for (std::size_t k = 2; k < words.size(); ++k)
         add_number(words[k]); // PolyPattern writes them on the line of their rule
@@ -111,7 +113,7 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
   for (const auto& [number, moves] : rules.moves)
     if (const double off = moves[static_cast<std::size_t>(rules.sample)].norm(); off > 1e-6)
       throw input_error(file, "rule " + std::to_string(number),
-                        "moves the sample size by " + std::to_string(off * 100) + " cm",
+                        "moves the sample size by " + sloper::centimetres(off, 2),
                         "count the moves from the sample size, which itself stays");
   return rules;
 }

@@ -35,7 +35,7 @@ Path read_path(const io::Node& node, double unit, const Vec2* start) {
     };
     const Vec2 to = point(count - 2);
     if (what == "M") {
-      if (k != 0) item.fail("M stands first or not at all");
+      if (k != 0) item.fail("M is allowed only at the start of a path");
       at = to;
       continue;
     }
@@ -52,7 +52,7 @@ Path read_path(const io::Node& node, double unit, const Vec2* start) {
     }
     at = to;
   }
-  if (path.empty()) node.fail("the path goes nowhere", "give at least one L, Q, C or A");
+  if (path.empty()) node.fail("the path has no segments", "give at least one L, Q, C or A");
   return path;
 }
 

@@ -1,5 +1,6 @@
 /// Our own pattern format, a file that people write: every unknown key is an error. Its schema is
 /// pattern.schema.json beside this file.
+#include <base/text.hpp>
 #include <base/units.hpp>
 #include <io/json.hpp>
 #include <pattern/read/outline_json.hpp>
@@ -49,7 +50,8 @@ void read_place(const io::Node& node, Panel& panel, double unit) {
   if (node.has("rigid")) {
     const io::Node rigid = node.at("rigid");
     if (rigid.size() != 12)
-      rigid.fail("is no rigid motion", "give three rows of four numbers: a rotation and a shift");
+      rigid.fail("is not a rigid motion",
+                 "give three rows of four numbers: a rotation and a shift");
     Mat4 m = Mat4::Identity();
     for (std::size_t k = 0; k < 12; ++k)
       m(static_cast<long>(k / 4), static_cast<long>(k % 4)) =
@@ -57,7 +59,7 @@ void read_place(const io::Node& node, Panel& panel, double unit) {
     if (!((m.topLeftCorner<3, 3>() * m.topLeftCorner<3, 3>().transpose() - Mat3::Identity())
               .cwiseAbs()
               .maxCoeff() < 1e-6))
-      rigid.fail("its first three columns are no rotation");
+      rigid.fail("the first three columns are not a rotation");
     panel.hint.rigid = m;
   }
 }
@@ -78,10 +80,10 @@ void read_lines(const io::Node& node, Panel& panel, double unit) {
     InnerLine line{item.at("name").string(), item.string("kind", "mark"),
                    read_path(item.at("path"), unit, nullptr)};
     if (line.kind != "mark" && line.kind != "fold" && line.kind != "tape")
-      item.at("kind").fail("'" + line.kind + "' is no kind of line", "give mark, fold or tape");
+      item.at("kind").fail("'" + line.kind + "' is not a kind of line", "give mark, fold or tape");
     line.factor = item.number("factor", 1), line.width = item.number("width", 0.01 / unit) * unit;
     if (!(line.factor >= 0.05 && line.factor <= 20))
-      item.at("factor").fail("a factor of " + std::to_string(line.factor) + " is none",
+      item.at("factor").fail("factor " + decimals(line.factor, 3) + " is out of range",
                              "give 0.05 to 20");
     if (!(line.width > 0)) item.at("width").fail("the tape has no width");
     if (!(length(line.path) > 1e-3))
@@ -104,9 +106,9 @@ void read_pleats(const io::Node& node, Panel& panel) {
     pleat.target = line_named(panel, item.at("target"));
     pleat.name = item.string("name", panel.name + "-" +
                                          panel.lines[static_cast<std::size_t>(pleat.fold)].name);
-    if (pleat.fold == pleat.target) item.fail("pleat " + pleat.name + " brings a line to itself");
+    if (pleat.fold == pleat.target) item.fail("pleat " + pleat.name + " folds a line onto itself");
     const io::Node edges = item.at("edges");
-    if (edges.size() == 0) edges.fail("pleat " + pleat.name + " is sewn along no edge");
+    if (edges.size() == 0) edges.fail("pleat " + pleat.name + " is not sewn along any edge");
     for (std::size_t e = 0; e < edges.size(); ++e)
       pleat.edges.push_back(edge_named(panel, edges.at(e)));
     panel.pleats.push_back(std::move(pleat));
@@ -160,7 +162,7 @@ void read_panel(const io::Node& node, Pattern& pattern, double unit) {
       notch.allow_only({"edge", "at", "kind"});
       const double at = notch.at("at").number();
       if (at < 0 || at > 1)
-        notch.fail("a notch lies at " + std::to_string(at) + " of its edge",
+        notch.fail("a notch is at " + decimals(at, 3) + " of its edge",
                    "give a fraction from 0 to 1");
       panel.notches.push_back(
           {edge_named(panel, notch.at("edge")), at, notch.string("kind", "slit")});
@@ -183,7 +185,7 @@ std::vector<Run> read_side(const io::Node& node, const Pattern& pattern, bool ag
     run.from = item.number("from", against ? 1 : 0), run.to = item.number("to", against ? 0 : 1);
     for (double f : {run.from, run.to})
       if (f < 0 || f > 1)
-        item.fail("a run goes from " + std::to_string(run.from) + " to " + std::to_string(run.to) +
+        item.fail("a run extends from " + decimals(run.from, 3) + " to " + decimals(run.to, 3) +
                       " of its edge",
                   "give fractions from 0 to 1");
     if (run.from == run.to) item.fail("a run has no length");
@@ -199,8 +201,8 @@ Pattern read_pattern_json(const io::Json& json, const std::string& file) {
   root.allow_only({"format", "version", "generator", "length_unit", "name", "panels", "seams"});
   if (root.integer("version", 1) > 1)
     root.at("version").fail("version " + std::to_string(root.at("version").integer()) +
-                                " is newer than this program knows",
-                            "update, or write version 1");
+                                " is newer than version 1, the newest this program reads",
+                            "update Sloper, or write version 1");
   if (!root.has("length_unit"))
     root.fail("has no \"length_unit\"", "add for example \"length_unit\": \"cm\"");
   const double unit = unit_of(root.at("length_unit"));

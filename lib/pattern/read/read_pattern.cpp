@@ -1,3 +1,4 @@
+#include <base/text.hpp>
 #include <io/files.hpp>
 #include <io/json.hpp>
 #include <pattern/read/choose_pieces.hpp>
@@ -29,29 +30,29 @@ std::optional<PanelFault> fault_of(const Panel& panel) {
   for (std::size_t l = 0; l < panel.loops.size(); ++l)
     for (const PanelEdge& e : panel.loops[l]) {
       if (!finite_path(e.path))
-        return PanelFault{e.name, "a coordinate is no finite number", "write it anew"};
+        return PanelFault{e.name, "a coordinate is not a finite number", "write the file again"};
       for (const Segment& s : e.path) {
         if (l == 0) low = low.cwiseMin(s.p[0]), high = high.cwiseMax(s.p[0]);
         for (const Vec2& p : {s.p[1], s.p[2]})
           if (const double off = (p - s.p[0]).norm(); !s.line && !(off <= FARTHEST_CONTROL))
             return PanelFault{
-                e.name, "a control point of the curve lies " + centimetres(off) + " from its start",
+                e.name, "a control point of the curve is " + centimetres(off) + " from its start",
                 "check its coordinates and their unit"};
       }
     }
   const double size = (high - low).maxCoeff();
   for (const InnerLine& line : panel.lines) {
     if (!finite_path(line.path))
-      return PanelFault{line.name, "a coordinate is no finite number", "write it anew"};
+      return PanelFault{line.name, "a coordinate is not a finite number", "write the file again"};
     for (const Segment& s : line.path)
       for (const Vec2& p : s.p)
         if (const double off = std::max((low - p).maxCoeff(), (p - high).maxCoeff());
             !(off <= size))
-          return PanelFault{line.name, "the line leaves the panel by " + centimetres(off),
+          return PanelFault{line.name, "the line extends beyond the panel by " + centimetres(off),
                             "draw it inside"};
   }
   if (std::abs(static_cast<double>(panel.layer)) > HIGHEST_LAYER)
-    return PanelFault{"layer", std::to_string(panel.layer) + " is no layer",
+    return PanelFault{"layer", std::to_string(panel.layer) + " is not a layer",
                       "number layers from 0, the innermost"};
   if (!(size <= LARGEST_PANEL))
     return PanelFault{"", "the panel measures " + centimetres(size),
@@ -83,21 +84,22 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
       const double area = signed_area(paths);
       if (!(std::abs(area) >= 1e-6))
         throw input_error(file, panel.name,
-                          "the outline encloses " + std::to_string(std::abs(area) * 1e4) + " cm2",
+                          "the outline encloses only " + decimals(std::abs(area) * 1e4, 4) + " cm2",
                           "give the panel an area");
       if ((area > 0) == (l == 0)) continue;
       if (l > 0)
         throw input_error(file, panel.name,
                           "hole " + std::to_string(l) + " is drawn counter-clockwise",
                           "draw holes clockwise");
-      pattern.findings.push_back(panel.name +
-                                 ": drawn clockwise, so taken as seen from inside and turned over");
+      pattern.findings.push_back(
+          panel.name + ": drawn clockwise, so it is taken as seen from inside and turned over");
       for (std::size_t h = 1; h < panel.loops.size(); ++h) {
         std::vector<Path> hole;
         for (const PanelEdge& e : panel.loops[h]) hole.push_back(e.path);
         if (signed_area(hole) < 0)
           throw input_error(file, panel.name,
-                            "hole " + std::to_string(h) + " runs in the sense of the outline");
+                            "hole " + std::to_string(h) +
+                                " runs in the same direction as the outline");
       }
       // The sense is the message: mirror the drawing, keep the order of edges and the direction of
       // runs.
@@ -156,14 +158,13 @@ Pattern read_by_format(const io::Json& json, const std::string& path) {
   if (format == "pattern") return read_pattern_json(json, path);
   if (format == "sewing-spec") return read_sewing_spec(json, path);
   if (format == "panels" || format == "garment")
-    throw input_error(path, "/format", "is a \"" + format + "\" document, which is meshed already",
+    throw input_error(path, "/format", "is a \"" + format + "\" document, which is already meshed",
                       "give the pattern that it was made from");
   if (json.is_object() && json.contains("pattern")) return read_garmentcode(json, path);
   if (json.is_object() && json.contains("PatternList"))
     throw input_error(path, "", "is a pattern of CLO in its own JSON, whose outlines are not read",
                       "export it from CLO as DXF (AAMA or ASTM) and give that");
-  throw input_error(path, "/format", "'" + format + "' is no pattern format that is known",
-                    READABLE);
+  throw input_error(path, "/format", "'" + format + "' is not a known pattern format", READABLE);
 }
 
 } // namespace

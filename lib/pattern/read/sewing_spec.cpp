@@ -22,7 +22,7 @@ std::vector<Run> read_side(const io::Node& node, const Pattern& pattern) {
       item.at("dir").fail("the direction is '" + direction + "'", "give + or -");
     if (direction == "-") std::swap(run.from, run.to);
     if (run.from < 0 || run.from > 1 || run.to < 0 || run.to > 1 || run.from == run.to)
-      item.fail("the range is no stretch of the run", "give two fractions from 0 to 1");
+      item.fail("the range is empty or outside of the run", "give two fractions from 0 to 1");
     side.push_back(run);
   }
   if (side.empty()) node.fail("a side of the seam is empty");

@@ -117,7 +117,7 @@ private:
       return centimetres(by * largest.x()) + " by " + centimetres(by * largest.y());
     };
     add("error", "wrong-unit", which->name,
-        "the largest panel measures " + extent(1) + ": no person is so " +
+        "the largest panel measures " + extent(1) + ": nobody is that " +
             (small ? "small" : "large") + "; in a unit ten times " +
             (small ? "larger" : "smaller") + " it would be " + extent(factor) + ": check " +
             unit_key());
@@ -135,11 +135,10 @@ private:
   void check_missing() {
     for (const MissingSeam& s : missing_seams(m_pattern))
       add("error", "open-seam", place_of(m_pattern, s.a),
-          "is not sewn to " + place_of(m_pattern, s.b) + ", as it seems to be meant: " + s.why +
-              "; add the seam" +
-              (m_pattern.source_format == "pattern"
-                   ? ", with \"open\": true where it shall stay open"
-                   : ""));
+          "is not sewn to " + place_of(m_pattern, s.b) +
+              ", though it seems to belong there: " + s.why + "; add the seam" +
+              (m_pattern.source_format == "pattern" ? ", with \"open\": true if it is to stay open"
+                                                    : ""));
   }
 
   void check_outline(const Panel& panel) {
@@ -271,8 +270,9 @@ private:
       add("error", "impossible-gather", "seam " + seam.name,
           place_of(m_pattern, seam.a[0]) + " is " + centimetres(a) + ", " +
               place_of(m_pattern, seam.b[0]) + " is " + centimetres(b) +
-              ": no cloth is gathered by more than 20 to 1; sew other edges together, or a part of "
-              "the longer one");
+              ": cloth cannot be gathered by more than 20 to 1; sew other edges together, or a "
+              "part "
+              "of the longer one");
       return;
     }
     const double difference = std::abs(a - b), ratio = difference / std::max(std::min(a, b), 1e-9);

@@ -34,7 +34,7 @@ case_a_drape_with_no_body_nor_panels_is_a_usage_error() {
   run 2 "$program" --panels panels.json --over "$data/skirt.json" -o out.json
   says "give --body"
   run 2 "$program" a.body.json panels.json -o out.json
-  says "no place for a.body.json, panels.json; say for example drape --body"
+  says "unexpected argument a.body.json, panels.json; example: drape --body"
   mkdir lone && cp a.body.json lone/
   run 3 "$program" --body lone/a.body.json --panels panels.json -o out.json
   says "lone/a.body.json: /mesh: there is no lone/a.body.obj"
@@ -100,7 +100,7 @@ case_layers_killed_dead_go_on_to_the_same_bytes() {
   local when=('"alone": 1' '"alone": 2' '"alone": 2')
   survives_kills
   run 2 "$program" --from run.checkpoint --body a.body.json --over "$data/skirt.json" -o run.json
-  says "is settled by the checkpoint"
+  says "cannot be changed when resuming; the checkpoint fixes it"
   run 2 "$program" --from run.checkpoint --body a.body.json --over-output 1.json --over-output 2.json -o run.json
   says "--over-output"
   run 3 "$program" --from run.checkpoint --body "$data/b.body.json" -o run.json
@@ -120,7 +120,7 @@ case_a_motion_killed_dead_goes_on_to_the_same_bytes() {
   [[ $(wc -l < whole-frames/frames.jsonl) -ge 9 ]] || fail "no motion took place"
   diff -rq whole-frames run-frames || fail "other frames"
   run 2 "$program" --from run.checkpoint --body a.body.json --motion skins/s.0001.obj --motion-fps 25 -o run.json
-  says "is settled by the checkpoint"
+  says "cannot be changed when resuming; the checkpoint fixes it"
   run 3 "$program" --from run.checkpoint --body a.body.json -o run.json
   says "give the same --motion as before"
   cp a.body.obj skins/s.0003.obj

@@ -6,7 +6,7 @@ command_line=(--edge-length 0.05 --body a.body.json -o out.json skirt.pattern.js
 case_what_is_no_pattern_is_told_with_a_next_step() {
   run 0 "$program" -q --edge-length 0.05 -o panels.json skirt.pattern.json
   run 3 "$program" -o out.json panels.json
-  says 'is a "panels" document, which is meshed already; give the pattern that it was made from'
+  says 'is a "panels" document, which is already meshed; give the pattern that it was made from'
   echo hello > hello.txt
   run 3 "$program" -o out.json hello.txt
   says "is neither JSON nor a text DXF; give a pattern JSON"
@@ -43,7 +43,7 @@ case_names_that_tell_nothing_are_warned_of() {
            {"name": "b", "a": [{"panel": "P2", "edge": "l"}], "b": [{"panel": "P1", "edge": "r"}]}]}
 EOF
   run 0 "$program" --edge-length 0.05 --body a.body.json -o out.json tube.json
-  says "nothing tells where P1, P2 go"
+  says "nothing says where P1, P2 belong"
 }
 
 case_sides_that_differ_in_length_are_sewn_with_a_warning() {
@@ -68,10 +68,10 @@ PY
 case_a_size_of_no_person_is_meshed_with_a_warning() {
   sed 's/"length_unit": "cm"/"length_unit": "mm"/' skirt.pattern.json > small.json
   run 1 "$program" --check small.json
-  grep -q 'error: wrong-unit: .* no person is so small; .* check "length_unit"' stdout || fail "not told"
+  grep -q 'error: wrong-unit: .* nobody is that small; .* check "length_unit"' stdout || fail "not told"
   run 0 "$program" --edge-length 0.005 -o out.json small.json
-  says "no person is so small"
-  grep -q "no person is so small" out.json || fail "no finding"
+  says "nobody is that small"
+  grep -q "nobody is that small" out.json || fail "no finding"
 }
 
 case_a_missing_seam_is_meshed_with_a_warning() {
@@ -85,6 +85,6 @@ EOF
   run 1 "$program" --check open.json
   [[ $(grep -c 'error: open-seam: front_l: side' stdout) -eq 2 ]] || fail "not both edges are told"
   run 0 "$program" --edge-length 0.05 -o out.json open.json
-  says "front_l: side: is not sewn to back_l: side, as it seems to be meant"
+  says "front_l: side: is not sewn to back_l: side, though it seems to belong there"
   grep -q "is not sewn to back_l: side" out.json || fail "no finding"
 }

@@ -17,7 +17,7 @@ case_a_scan_is_never_written_over() {
 
 case_a_document_is_not_named_as_a_mesh() {
   run 2 "$program" -o out.obj a.ply
-  says "out.obj names a mesh, where the document is asked for; say out.json"
+  says "out.obj is the name of a mesh; name the document: out.json"
   [[ ! -e out.obj && ! -e out.obj.obj ]] || fail "something was written"
 }
 

@@ -256,7 +256,7 @@ TEST(fit, what_has_slid_off_all_girths_is_told_as_sliding_down) {
   EXPECT_FALSE(slid.fits);
   EXPECT_EQ(slid.reason.rfind("slides down by 300", 0), 0u) << slid.reason;
   EXPECT_EQ(fit_garment(trousers, body, skin, standard_fit_policy(), nullptr).reason,
-            "goes round no girth of the body");
+            "does not go around any girth of the body");
 }
 
 TEST(fit, what_goes_round_no_girth_and_stays_where_it_was_placed_fits) { // an apron
@@ -268,7 +268,8 @@ TEST(fit, what_goes_round_no_girth_and_stays_where_it_was_placed_fits) { // an a
                                       standard_fit_policy(), &placed);
   EXPECT_TRUE(lying.rows.empty());
   EXPECT_TRUE(lying.fits) << lying.reason;
-  EXPECT_EQ(lying.reason, "goes round no girth of the body: strain and slip alone were judged");
+  EXPECT_EQ(lying.reason,
+            "does not go around any girth of the body: only strain and slip were judged");
 }
 
 TEST(fit, sleeves_and_legs_are_covered_to_where_they_end) {

@@ -113,7 +113,7 @@ TEST(EditTopology, WhatCannotBeSplitIsSaid) {
                 .find("in 0 places"),
             std::string::npos);
   EXPECT_NE(message(p, R"({"edit": "split", "panel": "front", "from": [-30, 46], "to": [30, 46]})")
-                .find("through a hole"),
+                .find("crosses a hole"),
             std::string::npos);
   EXPECT_NE(message(p, R"({"edit": "join", "seam": "right"})").find("does not join one whole edge"),
             std::string::npos);
@@ -148,7 +148,7 @@ TEST(EditTopology, ADartTakesItsWidthFromTheEdgeAndIsSewn) {
       message(
           before,
           R"({"edit": "add-dart", "panel": "front", "edge": "side_l", "at": 0.99, "width": 4, "tip": [8, 42]})")
-          .find("goes past its end"),
+          .find("extends past the end of the edge"),
       std::string::npos);
   EXPECT_NE(
       message(
@@ -195,7 +195,7 @@ TEST(EditTopology, AFisheyeDartIsAHoleSewnShut) {
       message(
           own(tube_text()),
           R"({"edit": "add-dart", "panel": "back", "center": [19.5, 30], "length": 20, "width": 3})")
-          .find("leaves panel back"),
+          .find("extends beyond panel back"),
       std::string::npos);
 }
 

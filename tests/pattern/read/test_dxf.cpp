@@ -75,7 +75,7 @@ TEST(GradeRules, WhatIsWrongIsNamed) {
             std::string::npos);
   EXPECT_NE(message([&] {
               read_dxf(graded_block(), "p.dxf", {"40", nullptr});
-            }).find("holds one size"),
+            }).find("has only one size"),
             std::string::npos);
   std::string text = RUL;
   text.replace(text.find("20.0,5.0"), 8, "20.0");
@@ -181,7 +181,7 @@ TEST(Dxf, PiecesToBeCutTwiceAreSaid) {
     const Pattern p = read_dxf(
         file(block("a", polyline("14", box(400, 300)) + text_entity("1", 0, 0, words))), "p.dxf");
     EXPECT_TRUE(std::any_of(p.findings.begin(), p.findings.end(), [](const std::string& f) {
-      return f == "a: to be cut 2 times; one is taken";
+      return f == "a: to be cut 2 times; one copy is used";
     })) << words;
   }
   EXPECT_EQ(read_dxf(file(block("a", polyline("14", box(400, 300)) +

@@ -118,7 +118,7 @@ TEST(GarmentCode, OpenOutlinesAndMissingEdgesAreRefusedWithPanelAndCentimetres) 
     read_garmentcode(io::parse_json(text, "spec.json"), "spec.json");
     FAIL();
   } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("names edge 9 of panel back, which has 4"),
+    EXPECT_NE(std::string(e.what()).find("refers to edge 9 of panel back, which has 4"),
               std::string::npos)
         << e.what();
   }
@@ -228,7 +228,7 @@ TEST(Readers, NumbersBeyondAllBoundsAreRefusedWithTheirPlace) {
               std::string::npos)
         << far;
   }
-  EXPECT_NE(fact(panel(R"(["L", 40, 0])", R"(, "layer": -2000000000)")).find("is no layer"),
+  EXPECT_NE(fact(panel(R"(["L", 40, 0])", R"(, "layer": -2000000000)")).find("is not a layer"),
             std::string::npos);
 }
 

@@ -203,7 +203,7 @@ TEST(RealDxf, AFlatDrawingHasAPieceForEachOutline) {
              "p.dxf");
     FAIL();
   } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("close to no outline"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("form no closed outline"), std::string::npos) << e.what();
   }
 }
 

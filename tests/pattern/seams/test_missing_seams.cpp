@@ -144,11 +144,11 @@ TEST(Check, SizesOfNoPersonNameTheUnitToCheck) {
   EXPECT_EQ(findings(scaled(0.5), "wrong-unit"), "") << "a child's";
   EXPECT_EQ(findings(scaled(2.54), "wrong-unit"), "") << "long flounces are larger";
   EXPECT_EQ(findings(scaled(0.1), "wrong-unit"),
-            "error: front_l: the largest panel measures 3.00 cm by 5.50 cm: no person is so small; "
+            "error: front_l: the largest panel measures 3.00 cm by 5.50 cm: nobody is that small; "
             "in a unit ten times larger it would be 30.00 cm by 55.00 cm: "
             "check \"length_unit\"\n");
   EXPECT_NE(findings(scaled(10), "wrong-unit")
-                .find("measures 300.00 cm by 550.00 cm: no person is so large"),
+                .find("measures 300.00 cm by 550.00 cm: nobody is that large"),
             std::string::npos);
   EXPECT_NO_THROW(require_sewable(scaled(10), "t"));
 }
