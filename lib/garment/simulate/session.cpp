@@ -108,6 +108,10 @@ void DrapeSession::start_outside_body(bool unsewn) {
 
 void DrapeSession::close_seams() {
   m_context.resolver.untangle();
+  if (m_start.around_body && m_context.body.collider()) { // cloth drawn apart may be in the body
+    const std::size_t violations = m_context.resolver.count_in_body();
+    if (violations > 0) m_context.resolver.resolve_initial(violations);
+  }
   m_context.build_cloth(false);
 }
 

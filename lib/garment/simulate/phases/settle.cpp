@@ -13,6 +13,8 @@ namespace {
 constexpr int UNLOADED_STEPS = 40; // after sewing, free of weight and friction
 constexpr int MAX_UNTANGLINGS =
     8; // of cloth that crosses itself, half of them before it is at rest
+constexpr int RESOLVE_EVERY_CLEARING =
+    8;                              // with DrapeRequest::only_clear, in place of RESOLVE_EVERY
 constexpr int MAX_CLEAR_STEPS = 30; // with DrapeRequest::only_clear, in place of MAX_PUSH_STEPS
 constexpr int RESOLVE_EVERY = 40; // steps between looks whether cloth still crosses itself or a few
                                   // faces are still through the skin
@@ -197,7 +199,8 @@ PhaseStatus SettlePhase::iterate(SimContext& context) {
   m_state.unmoved = last.largest_move_m > 0 ? 0 : m_state.unmoved + 1;
   const bool stuck =
       m_state.unmoved >= UNMOVED_STEPS && residual >= context.settings.settle_force_ratio;
-  const bool looks = k > unloaded && k % RESOLVE_EVERY == 0;
+  const int resolve_every = context.only_clear ? RESOLVE_EVERY_CLEARING : RESOLVE_EVERY;
+  const bool looks = k > unloaded && k % resolve_every == 0;
   if ((stuck || looks) && context.resolver.resolve_residual()) {
     restart_calm(context);
     m_state.unmoved = 0;
