@@ -1,5 +1,5 @@
 # Thin: every target is one command that can be typed by hand. `make` builds the programs into build/tools/ and build/samples/, `make test` the tests too.
-.PHONY: all pictures package test demo population check sanitize install format man bench bench-rivals validation figure4 accuracy fuzz hard soak accuracy-cost presets compare-builds clean
+.PHONY: all pictures package test demo population check sanitize install format man bench bench-rivals validation figure4 accuracy fuzz hard soak accuracy-cost presets compare-builds nightly clean
 
 all:
 	@scripts/build release programs
@@ -71,6 +71,10 @@ COUNT ?= 10000
 soak:
 	@scripts/build release run-soak
 	@build/tests/hard/run-soak --from $(FROM) --count $(COUNT) --out build/soak
+
+# What .ci/run has no time for: sanitizers whole, fuzzing, hard cases, soak, builds compared, clang-tidy, validation, packages, a population.
+nightly:
+	@scripts/nightly
 
 # The hard cases' final states in builds by other compilers, compared.
 compare-builds:

@@ -35,6 +35,7 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(DIRECTORY samples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/sloper/samples USE_SOURCE_PERMISSIONS
   PATTERN generator EXCLUDE PATTERN library EXCLUDE PATTERN "*.cpp" EXCLUDE PATTERN CMakeLists.txt EXCLUDE)
 install(DIRECTORY samples/library DESTINATION ${CMAKE_INSTALL_DATADIR}/sloper/samples)
+install(DIRECTORY scripts/batch DESTINATION ${CMAKE_INSTALL_LIBDIR}/sloper FILES_MATCHING PATTERN "*.py") # of retarget-batch
 foreach(script compare-drape retarget-batch)
   if(EXISTS ${PROJECT_SOURCE_DIR}/scripts/${script})
     install(PROGRAMS scripts/${script} DESTINATION ${CMAKE_INSTALL_LIBDIR}/sloper)

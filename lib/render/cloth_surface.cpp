@@ -1,3 +1,4 @@
+#include <render/cloth_clearance.hpp>
 #include <render/scene.hpp>
 
 #include <algorithm>
@@ -28,6 +29,7 @@ int mid_vertex(DrawMesh& mesh, int a, int b) {
   const double most = curved.dot(n) < 0 ? MOST_IN : MOST_OUT, length = curved.norm();
   if (length > most) curved *= most / length;
   mesh.positions.push_back(flat + curved);
+  mesh.flat.push_back(0.5 * (mesh.flat[a] + mesh.flat[b]));
   mesh.normals.push_back(n);
   mesh.colors.push_back(Vec3(0.5 * (mesh.colors[a] + mesh.colors[b])));
   mesh.uv.push_back(Vec2(0.5 * (mesh.uv[a] + mesh.uv[b])));
@@ -60,6 +62,7 @@ void split(DrawMesh& mesh) {
     finer.push_back({x, y, z});
   }
   mesh.triangles = std::move(finer);
+  mesh.pieces *= 4;
   std::vector<std::array<int, 2>> lines;
   std::vector<char> is_hem;
   for (std::size_t k = 0; k < mesh.lines.size(); ++k) {
@@ -114,9 +117,20 @@ void measure_borders(DrawMesh& mesh) {
   }
 }
 
-/// A strip along each free border, turned inwards: the edge of the fabric.
-void add_rim(DrawMesh& mesh) {
-  const double thickness = std::max(mesh.thickness, LEAST_RIM);
+/// The two triangles of the strip along a border: from a to b, turned inwards by `thickness` (m).
+std::array<std::array<Vec3, 3>, 2> rim_corners(const DrawMesh& mesh, int a, int b,
+                                               double thickness) {
+  const Vec3 &p = mesh.positions[a], &q = mesh.positions[b];
+  const Vec3 below_p = p - thickness * mesh.normals[a], below_q = q - thickness * mesh.normals[b];
+  return {{{p, q, below_q}, {p, below_q, below_p}}};
+}
+
+double rim_thickness(const DrawMesh& mesh) { return std::max(mesh.thickness, LEAST_RIM); }
+
+/// A strip along each free border: the edge of the fabric.
+/// @param left_out  by line: there is no room for one
+void add_rim(DrawMesh& mesh, const std::vector<char>& left_out) {
+  const double thickness = rim_thickness(mesh);
   std::unordered_map<int, int> inner;
   auto copy = [&](int v) {
     const auto [found, is_new] = inner.try_emplace(v, static_cast<int>(mesh.positions.size()));
@@ -136,26 +150,58 @@ void add_rim(DrawMesh& mesh) {
     return found->second;
   };
   for (std::size_t k = 0; k < mesh.lines.size(); ++k) {
-    if (!mesh.is_hem[k]) continue;
+    if (!mesh.is_hem[k] || left_out[k]) continue;
     const int a = mesh.lines[k][0], b = mesh.lines[k][1], c = copy(a), d = copy(b);
     mesh.triangles.push_back({a, b, d});
     mesh.triangles.push_back({a, d, c});
   }
 }
 
+/// By mesh and line: a rim there would cross cloth, skin or another rim.
+std::vector<std::vector<char>> rims_without_room(const std::vector<DrawMesh>& meshes,
+                                                 const ClothClearance& clearance) {
+  std::vector<std::vector<char>> left_out(meshes.size());
+  std::vector<RimTriangle> rims;
+  std::vector<std::array<int, 2>> from; // mesh and line
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const DrawMesh& mesh = meshes[m];
+    left_out[m].resize(mesh.lines.size());
+    if (mesh.flat.empty()) continue;
+    for (std::size_t k = 0; k < mesh.lines.size(); ++k) {
+      if (!mesh.is_hem[k]) continue;
+      const auto [a, b] = mesh.lines[k];
+      const auto corners = rim_corners(mesh, a, b, rim_thickness(mesh));
+      rims.push_back({static_cast<int>(m), {a, b}, {a, b}, corners[0]});
+      rims.push_back({static_cast<int>(m), {a, b}, {a, a}, corners[1]});
+      from.insert(from.end(), 2, {static_cast<int>(m), static_cast<int>(k)});
+    }
+  }
+  const std::vector<char> crosses = clearance.crossing_rims(rims);
+  for (std::size_t i = 0; i < crosses.size(); ++i)
+    if (crosses[i]) left_out[from[i][0]][from[i][1]] = 1;
+  return left_out;
+}
+
 } // namespace
 
-void smooth_cloth(DrawMesh& mesh) {
-  if (!mesh.is_cloth || mesh.triangles.empty() || mesh.uv.empty()) return;
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles)
-    sum += (mesh.positions[t[1]] - mesh.positions[t[0]]).norm();
-  double edge = sum / static_cast<double>(mesh.triangles.size());
-  for (int round = 0; round < 3 && edge > FINE && mesh.triangles.size() * 4 <= MOST_TRIANGLES;
-       ++round, edge *= 0.5)
-    split(mesh);
-  measure_borders(mesh);
-  add_rim(mesh);
+void smooth_cloth(std::vector<DrawMesh>& meshes) {
+  for (DrawMesh& mesh : meshes) {
+    if (!mesh.is_cloth || mesh.triangles.empty() || mesh.uv.empty()) continue;
+    mesh.flat = mesh.positions;
+    double sum = 0;
+    for (const Triangle& t : mesh.triangles)
+      sum += (mesh.positions[t[1]] - mesh.positions[t[0]]).norm();
+    double edge = sum / static_cast<double>(mesh.triangles.size());
+    for (int round = 0; round < 3 && edge > FINE && mesh.triangles.size() * 4 <= MOST_TRIANGLES;
+         ++round, edge *= 0.5)
+      split(mesh);
+    measure_borders(mesh);
+  }
+  ClothClearance clearance(meshes);
+  clearance.keep_clear(meshes);
+  const std::vector<std::vector<char>> left_out = rims_without_room(meshes, clearance);
+  for (std::size_t m = 0; m < meshes.size(); ++m)
+    if (!meshes[m].flat.empty()) add_rim(meshes[m], left_out[m]);
 }
 
 } // namespace sloper::render

@@ -17,8 +17,11 @@ inline constexpr double NO_VALUE = -1e9;
 struct DrawMesh {
   std::string name;            ///< of its file, without folder and ending
   std::vector<Vec3> positions; ///< m
-  std::vector<Vec3> normals;   ///< unit; smooth over welded seams
-  std::vector<Vec3> colors;    ///< linear RGB, 0..1
+  /// Cloth that was made smooth: where the vertex lies on the draped triangles, m; else empty.
+  std::vector<Vec3> flat;
+  int pieces = 1; ///< triangles into which each draped triangle was cut; they follow each other
+  std::vector<Vec3> normals; ///< unit; smooth over welded seams
+  std::vector<Vec3> colors;  ///< linear RGB, 0..1
   std::vector<Triangle> triangles;
   std::vector<std::array<int, 2>> lines;  ///< borders of panels, drawn darker
   std::vector<char> is_hem;               ///< by line: a free border, not a seam
@@ -57,11 +60,14 @@ Scene read_scene(const std::vector<std::string>& paths);
 /// A garment as it is drawn: one vertex per panel vertex, normals over welded seams.
 DrawMesh cloth_mesh(const garment::Garment& garment);
 
-/// Cloth made smooth for drawing: triangles are cut in four along curved patches (Phong
-/// tessellation, Boubekeur and Alexa 2008) until edges are finer than about 6 mm or the mesh has
-/// 200,000 triangles; free borders get a rim as thick as the fabric. What the mesh holds per vertex
-/// is carried along linearly, border distances are taken anew.
-void smooth_cloth(DrawMesh& mesh);
+/// Makes the cloth among the meshes smooth for drawing: triangles are cut in four along curved
+/// patches (Phong tessellation, Boubekeur and Alexa 2008) until edges are finer than about 6 mm or
+/// a mesh has 200,000 triangles; free borders get a rim as thick as the fabric. What a mesh holds
+/// per vertex is interpolated linearly; border distances are measured anew.
+///
+/// The smooth surface passes neither through a mesh that is no cloth nor through cloth, where the
+/// draped triangles do not: it lies nearer to those there (see ClothClearance).
+void smooth_cloth(std::vector<DrawMesh>& meshes);
 
 /// How cloth is coloured: each panel its own colour, or each garment one.
 enum class ClothColors { PANELS, GARMENTS };

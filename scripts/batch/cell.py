@@ -1,20 +1,26 @@
 """One body or one cell, made in a folder of its own that is renamed into place when it is whole. A failed cell is a result too."""
+import contextlib
+import glob
 import gzip
 import io
-import json
 import os
-import resource
 import shlex
 import shutil
+import signal
 import subprocess
 import tarfile
+import threading
 import time
 
 from . import plan as planning
+from .engines import PROGRESS
+
+CANNOT_WRITE = 5  # exit status of the programs: the disk's fault, not the cell's
 
 
-def work_folder(out, key):
-    path = os.path.join(out, "work", f"{key}.{os.uname().nodename}.{os.getpid()}")
+def work_folder(parent, key):
+    """A new folder of this process in PARENT/work, on the disk to which it is renamed."""
+    path = os.path.join(parent, "work", f"{key}.{os.uname().nodename}.{os.getpid()}")
     shutil.rmtree(path, ignore_errors=True)
     os.makedirs(path)
     return path
@@ -37,30 +43,47 @@ def put_in_place(folder, target):
 
 def run(command, timeout_s, folder):
     """Exit code (or "time out", "signal 9"), last line of stderr, and {wall_s, cpu_s, peak_mb}."""
-    start, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
+    start = time.monotonic()
     environment = dict(os.environ, LC_ALL="C.UTF-8")
-    try:
-        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=timeout_s, cwd=folder, env=environment)
-        code = done.returncode if done.returncode >= 0 else f"signal {-done.returncode}"
-        lines = done.stderr.decode(errors="replace").strip().splitlines()
-    except subprocess.TimeoutExpired:
+    late = threading.Event()
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, cwd=folder, env=environment)
+
+    def stop():
+        late.set()
+        process.kill()
+
+    timer = threading.Timer(timeout_s, stop)
+    timer.start()
+    with process.stderr:
+        lines = process.stderr.read().decode(errors="replace").strip().splitlines()
+    _, ended, used = os.wait4(process.pid, 0)  # the use of this one child
+    timer.cancel()
+    code = process.returncode = os.waitstatus_to_exitcode(ended)
+    if late.is_set() and code == -signal.SIGKILL:
         code, lines = "time out", []
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    cost = {"wall_s": round(time.monotonic() - start, 3), "cpu_s": round(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, 3),
-            "peak_mb": round(after.ru_maxrss / 1024, 1)}
+    elif code < 0:
+        code = f"signal {-code}"
+    cost = {"wall_s": round(time.monotonic() - start, 3), "cpu_s": round(used.ru_utime + used.ru_stime, 3), "peak_mb": round(used.ru_maxrss / 1024, 1)}
     message = lines[-1] if lines else ""
     for path in [folder, *(os.path.dirname(word) for word in command[1:] if word.startswith("/"))]:
         message = message.replace(path + "/", "")
     return code, message, cost
 
 
-def make_body(out, plan, key):
-    body = plan["bodies"][key]
-    target = os.path.join(plan["cache"], key)
+def refuse_full_disk(code, message):
+    """What cannot be written is not a result: the cell stays missing and is made when there is room."""
+    if code == CANNOT_WRITE:
+        raise OSError(f"cannot write: {message}")
+
+
+def make_body(plan, number):
+    """The body document of one scan, below the cache; what it says is in its status.json."""
+    body = plan.scan(number)
+    target = os.path.join(plan.cache, body["key"])
     if os.path.exists(os.path.join(target, "status.json")):
         return
-    os.makedirs(plan["cache"], exist_ok=True)
-    folder = work_folder(out, key)
+    os.makedirs(plan.cache, exist_ok=True)
+    folder = work_folder(plan.cache, body["key"])
     if body["is_body"]:
         shutil.copy(body["scan"], os.path.join(folder, "body.json"))
         shutil.copy(os.path.splitext(body["scan"])[0] + ".obj", os.path.join(folder, "body.obj"))
@@ -70,8 +93,10 @@ def make_body(out, plan, key):
         document["mesh"] = "body.obj"
         planning.write_json(os.path.join(folder, "body.json"), document)
     else:
-        command = [plan["programs"]["scan-landmarks"]["path"], "--threads", "1", "--unit", plan["settings"]["unit"], "--up", plan["settings"]["up"], "-o", "body.json", body["scan"]]
-        code, message, _ = run(command, plan["settings"]["timeout_s"], folder)
+        settings = plan.settings
+        command = [plan.programs["scan-landmarks"]["path"], "--threads", "1", "--unit", settings["unit"], "--up", settings["up"], "-o", "body.json", body["scan"]]
+        code, message, _ = run(command, settings["timeout_s"], folder)
+        refuse_full_disk(code, message)
     planning.write_json(os.path.join(folder, "status.json"), {"exit": code, "message": message, "usable": os.path.exists(os.path.join(folder, "body.json"))})
     put_in_place(folder, target)
 
@@ -126,20 +151,22 @@ def optional_json(path):
         return None
 
 
-def make_cell(out, plan, key):
-    cell, settings, tools = plan["cells"][key], plan["settings"], plan["programs"]
-    target = os.path.join(out, "cells", key)
+def make_cell(plan, number):
+    """One garment on one scan, below OUT/cells. Nothing is done where it is there."""
+    cell, settings, tools = plan.cell(number), plan.settings, plan.programs
+    target = plan.folder(cell["key"])
     if os.path.exists(os.path.join(target, "status.json")):
         return
-    make_body(out, plan, cell["body"])
-    body_folder = os.path.join(plan["cache"], cell["body"])
+    scan_number = number // len(plan.garments)
+    make_body(plan, scan_number)
+    body_folder = os.path.join(plan.cache, cell["body"])
     body_status = planning.read_json(os.path.join(body_folder, "status.json"))
-    folder = work_folder(out, key)
+    folder = work_folder(plan.out, cell["key"])
     status = {k: cell[k] for k in ("name", "garment", "size", "scan")}
     versions = [tools[p]["version"] for p in ("scan-landmarks", "retarget-garment")]
     if not body_status["usable"]:
         status.update(exit=body_status["exit"], cause="bad scan", message=body_status["message"], dressed=False)
-        scan = plan["bodies"][cell["body"]]["scan"]
+        scan = plan.scan(scan_number)["scan"]
         name = os.path.basename(scan)
         write_bundle(os.path.join(folder, "failure.repro.tgz"), {name: scan}, ["scan-landmarks", "--unit", settings["unit"], "--up", settings["up"], "-o", "body.json", name],
                      body_status["exit"], body_status["message"], versions)
@@ -149,9 +176,10 @@ def make_cell(out, plan, key):
     options = ["--mode", settings["mode"], "--accuracy", settings["accuracy"]]
     for assignment in settings["set"]:
         options += ["--set", assignment]
-    command = [tools["retarget-garment"]["path"], "--threads", "1", "--cache", plan["skins"], "--garment", cell["garment_file"], "--to", os.path.join(body_folder, "body.json"), *options,
+    command = [tools["retarget-garment"]["path"], "--threads", "1", "--cache", plan.skins, "--garment", cell["garment_file"], "--to", os.path.join(body_folder, "body.json"), *options,
                *(["--policy", settings["policy"]] if settings["policy"] else []), "--fit", "fit.json", "--fit-page", "fit.html", "--report", "report.json", "-o", "garment.json"]
     code, message, cost = run(command, settings["timeout_s"], folder)
+    refuse_full_disk(code, message)
     fit, report = optional_json(os.path.join(folder, "fit.json")), optional_json(os.path.join(folder, "report.json"))
     cause = cause_of(code, fit, report)
     status.update(exit=code, cause=cause, message=message, dressed=cause == "dressed")
@@ -173,10 +201,29 @@ def make_cell(out, plan, key):
     if settings["pictures"] and os.path.exists(os.path.join(folder, "garment.json")):
         run([tools["render-png"]["path"], "--threads", "1", "--size", "240x360", "-o", "thumbnail.png", os.path.join(body_folder, "body.json"), "garment.json"], 60, folder)
     # What differs from run to run stands apart from the results.
-    times = os.path.join(out, "timings", key)
+    times = os.path.join(plan.out, "timings", plan.place(cell["key"]))
     os.makedirs(times, exist_ok=True)
     if report:
         os.replace(os.path.join(folder, "report.json"), os.path.join(times, "report.json"))
     planning.write_json(os.path.join(times, "timing.json"), {"name": cell["name"], "cause": cause, "host": os.uname().nodename, "steps": (report or {}).get("steps"), **cost})
     planning.write_json(os.path.join(folder, "status.json"), status)
     put_in_place(folder, target)
+
+
+def make_slice(plan, kind, first, last):
+    """Bodies or cells first to last, last excluded. A full disk ends a slice with one line and exit status 5; what is made stays."""
+    try:
+        for number in range(first, last):
+            if kind == "bodies":
+                make_body(plan, number)
+            elif not plan.is_made(number):
+                make_cell(plan, number)
+                with contextlib.suppress(OSError), open(os.path.join(plan.out, "work", PROGRESS), "ab") as file:
+                    file.write(b".")
+    except OSError as error:
+        for parent in (plan.out, plan.cache):
+            for left in glob.glob(os.path.join(parent, "work", f"*.{os.uname().nodename}.{os.getpid()}")):
+                shutil.rmtree(left, ignore_errors=True)
+        print(f"retarget-batch: {kind} {first} to {last - 1}: {error}; they are made when the batch is started again", flush=True)
+        return CANNOT_WRITE
+    return 0

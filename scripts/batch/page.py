@@ -1,10 +1,22 @@
-"""The population page: how many are dressed, how they fit, the worst first. One HTML file and the cells' pictures; no network."""
+"""The population page: how many are dressed, how they fit, the worst first. One HTML file and the cells' pictures; no network.
+
+Of up to SMALL cells the page holds each one. Of more it holds counts, quantiles and the WORST cells; the others stand in
+tables of ROWS rows below OUT/page, which it loads when they are asked for.
+"""
+import array
+import heapq
 import html
 import json
 import math
 import os
+import shutil
 
 from . import plan as planning
+
+SMALL = 2000
+WORST = 500
+PICTURES = 200
+ROWS = 1000
 
 GOOD = ("dressed",)
 REFUSED = ("does not fit", "cannot go on")
@@ -48,17 +60,6 @@ def wilson(good, n, z=1.96):
     p, zz = good / n, z * z
     middle, half = (p + zz / (2 * n)) / (1 + zz / n), z / (1 + zz / n) * math.sqrt(p * (1 - p) / n + zz / (4 * n * n))
     return max(0.0, middle - half), min(1.0, middle + half)
-
-
-def summary(statuses):
-    """Counts; `rate` is dressed of those that the fit does not refuse."""
-    count = {}
-    for status in statuses:
-        count[status["cause"]] = count.get(status["cause"], 0) + 1
-    dressed, refused = sum(count.get(c, 0) for c in GOOD), sum(count.get(c, 0) for c in REFUSED)
-    tried = len(statuses) - refused
-    low, high = wilson(dressed, tried)
-    return {"cells": len(statuses), "dressed": dressed, "refused": refused, "tried": tried, "rate": dressed / tried if tried else None, "low": low, "high": high, "causes": count}
 
 
 def best_sizes(statuses):
@@ -116,73 +117,255 @@ def heat_map(garment, statuses):
     return text + "</tbody></table></div>"
 
 
-def write_page(out, plan, statuses):
-    """population.html in `out`; statuses by key."""
-    listed = [dict(statuses[key], key=key) for key in plan["cells"] if key in statuses]
-    figures = summary(listed)
-    page = HEAD + f"<h1>{counted(figures['cells'], 'cell')}: {counted(len({s['garment'] + s['size'] for s in listed}), 'garment')} on {counted(len({s['scan'] for s in listed}), 'scan')}</h1>\n<div class=figures>"
+def read_status(plan, number):
+    try:
+        return planning.read_json(os.path.join(plan.folder(plan.key(number)), "status.json"))
+    except FileNotFoundError:
+        return None
+
+
+class Totals:
+    """What is summed up over a batch, one cell after the other in the order of their numbers."""
+
+    def __init__(self, plan):
+        self.causes = [None] * plan.cell_count  # the texts are shared
+        self.names = {}
+        self.garments, self.scans = set(), set()
+
+    def add(self, number, status):
+        self.causes[number] = self.names.setdefault(status["cause"], status["cause"])
+        self.garments.add(status["garment"] + status["size"])
+        self.scans.add(status["scan"])
+
+    def figures(self):
+        """Counts; `rate` is dressed of those that the fit does not refuse."""
+        count = {}
+        for cause in self.causes:
+            if cause is not None:
+                count[cause] = count.get(cause, 0) + 1
+        cells, dressed, refused = sum(count.values()), sum(count.get(c, 0) for c in GOOD), sum(count.get(c, 0) for c in REFUSED)
+        tried = cells - refused
+        low, high = wilson(dressed, tried)
+        return {"cells": cells, "dressed": dressed, "refused": refused, "tried": tried, "rate": dressed / tried if tried else None, "low": low, "high": high, "causes": count}
+
+
+def figures_html(totals, figures, missing):
+    text = f"<h1>{counted(figures['cells'], 'cell')}: {counted(len(totals.garments), 'garment')} on {counted(len(totals.scans), 'scan')}</h1>\n<div class=figures>"
     if figures["rate"] is not None:
-        page += f"<div><b class=ok>{100 * figures['rate']:.1f} %</b>dressed of {figures['tried']} that may fit<br><span class=pale>95 %: {100 * figures['low']:.1f} to {100 * figures['high']:.1f} %</span></div>"
+        text += f"<div><b class=ok>{100 * figures['rate']:.1f} %</b>dressed of {figures['tried']} that may fit<br><span class=pale>95 %: {100 * figures['low']:.1f} to {100 * figures['high']:.1f} %</span></div>"
     for cause, n in sorted(figures["causes"].items(), key=lambda item: (-item[1], item[0])):
-        page += f'<div><b class="{css_class(cause)}">{n}</b>{html.escape(cause)}</div>'
-    page += "</div>\n"
-    missing = len(plan["cells"]) - len(listed)
+        text += f'<div><b class="{css_class(cause)}">{n}</b>{html.escape(cause)}</div>'
+    text += "</div>\n"
     if missing:
-        page += f'<p class=bad>{missing} cells are missing; start the batch again to make them.</p>\n'
-    listed.sort(key=badness)
-    page += "<h2>All cells, worst first</h2><div class=wide><table class=sorts><thead><tr><th>garment<th>size<th>scan<th>outcome<th>margin cm<th>strain p99 %<th>CPU s<th>why</tr></thead><tbody>\n"
-    for s in listed:
-        margin = f'<td class=n data-v="{s["margin_cm"]:.3f}">{s["margin_cm"]:.1f}</td>' if s.get("margin_cm") is not None else '<td data-v="-999"></td>'
-        strain = f'<td class=n data-v="{s["strain_p99"]:.4f}">{100 * s["strain_p99"]:.1f}</td>' if s.get("strain_p99") is not None else "<td></td>"
-        why = html.escape(s.get("reason") or (s.get("message", "") if not s["dressed"] else ""))
-        if css_class(s["cause"]) == "bad":
-            why += f' <a href="cells/{s["key"]}/failure.repro.tgz">failure bundle</a>'
-        elif "margin_cm" in s:
-            why += f' <a href="cells/{s["key"]}/fit.html">fit</a>'
-        page += (f'<tr><td>{html.escape(s["garment"])}<td>{html.escape(s["size"])}<td>{html.escape(s["scan"])}<td class="{css_class(s["cause"])}">{html.escape(s["cause"])}</td>'
-                 f'{margin}{strain}<td class=n data-key="{s["key"]}"></td><td class=words>{why}</td></tr>\n')
-    page += "</tbody></table></div>\n"
-    best = best_sizes(listed)
-    if best:
-        page += "<h2>Best size</h2><div class=wide><table class=sorts><thead><tr><th>garment<th>scan<th>size<th>margin cm<th>least at<th>next best</tr></thead><tbody>\n"
-        for (garment, scan), (size, margin, at, second) in sorted(best.items()):
-            page += (f"<tr><td>{html.escape(garment)}<td>{html.escape(scan)}<td>" + (html.escape(size) if size else "<span class=no>none fits</span>")
-                     + (f'<td class=n>{margin:.1f}' if margin is not None else "<td>") + f"<td>{html.escape(at.replace('_', ' '))}<td>{html.escape(second)}</tr>\n")
-        page += "</tbody></table></div>\n"
-    page += "<h2>Ease in % of the girth</h2>\n"
-    groups = {}
-    for s in listed:
-        groups.setdefault(s["garment"] + ("@" + s["size"] if s["size"] else ""), []).append(s)
-    for garment, members in sorted(groups.items()):
-        page += heat_map(garment, members)
-    shown = [s for s in listed if os.path.exists(os.path.join(out, "cells", s["key"], "thumbnail.png"))]
-    if shown:
-        page += "\n<h2>Pictures, worst first</h2><div class=cells>\n"
-        for s in shown:
-            page += (f'<figure class="{css_class(s["cause"])}"><img loading=lazy width=240 height=360 alt="{html.escape(s["name"])}" src="cells/{s["key"]}/thumbnail.png">'
-                     f'<figcaption>{html.escape(s["name"])}<br><span class="{css_class(s["cause"])}">{html.escape(s["cause"])}</span></figcaption></figure>\n')
-        page += "</div>\n"
-    page += '<script src="timings.js"></script>\n' + SCRIPT
-    temporary = os.path.join(out, f"population.html.{os.getpid()}.tmp")
+        text += f"<p class=bad>{missing} cells are missing; start the batch again to make them.</p>\n"
+    return text
+
+
+CELLS_HEAD = "<div class=wide><table class=sorts><thead><tr><th>garment<th>size<th>scan<th>outcome<th>margin cm<th>strain p99 %<th>CPU s<th>why</tr></thead><tbody>\n"
+
+
+def why_html(s):
+    why = html.escape(s.get("reason") or (s.get("message", "") if not s["dressed"] else ""))
+    if css_class(s["cause"]) == "bad":
+        return why + f' <a href="cells/{s["place"]}/failure.repro.tgz">failure bundle</a>'
+    return why + (f' <a href="cells/{s["place"]}/fit.html">fit</a>' if "margin_cm" in s else "")
+
+
+def row_html(s):
+    margin = f'<td class=n data-v="{s["margin_cm"]:.3f}">{s["margin_cm"]:.1f}</td>' if s.get("margin_cm") is not None else '<td data-v="-999"></td>'
+    strain = f'<td class=n data-v="{s["strain_p99"]:.4f}">{100 * s["strain_p99"]:.1f}</td>' if s.get("strain_p99") is not None else "<td></td>"
+    return (f'<tr><td>{html.escape(s["garment"])}<td>{html.escape(s["size"])}<td>{html.escape(s["scan"])}<td class="{css_class(s["cause"])}">{html.escape(s["cause"])}</td>'
+            f'{margin}{strain}<td class=n data-key="{s["key"]}"></td><td class=words>{why_html(s)}</td></tr>\n')
+
+
+def best_row_html(garment, scan, best):
+    size, margin, at, second = best
+    return (f"<tr><td>{html.escape(garment)}<td>{html.escape(scan)}<td>" + (html.escape(size) if size else "<span class=no>none fits</span>")
+            + (f"<td class=n>{margin:.1f}" if margin is not None else "<td>") + f"<td>{html.escape(at.replace('_', ' '))}<td>{html.escape(second)}</tr>\n")
+
+
+def pictures_html(out, statuses):
+    shown = [s for s in statuses if os.path.exists(os.path.join(out, "cells", s["place"], "thumbnail.png"))]
+    if not shown:
+        return ""
+    text = "\n<h2>Pictures, worst first</h2><div class=cells>\n"
+    for s in shown:
+        text += (f'<figure class="{css_class(s["cause"])}"><img loading=lazy width=240 height=360 alt="{html.escape(s["name"])}" src="cells/{s["place"]}/thumbnail.png">'
+                 f'<figcaption>{html.escape(s["name"])}<br><span class="{css_class(s["cause"])}">{html.escape(s["cause"])}</span></figcaption></figure>\n')
+    return text + "</div>\n"
+
+
+class SmallPage:
+    """Every cell on one page."""
+
+    def __init__(self, plan):
+        self.plan, self.listed = plan, []
+
+    def add(self, status):
+        self.listed.append(status)
+
+    def body(self):
+        listed = sorted(self.listed, key=badness)
+        text = "<h2>All cells, worst first</h2>" + CELLS_HEAD + "".join(map(row_html, listed)) + "</tbody></table></div>\n"
+        best = best_sizes(listed)
+        if best:
+            text += "<h2>Best size</h2><div class=wide><table class=sorts><thead><tr><th>garment<th>scan<th>size<th>margin cm<th>least at<th>next best</tr></thead><tbody>\n"
+            text += "".join(best_row_html(garment, scan, of) for (garment, scan), of in sorted(best.items())) + "</tbody></table></div>\n"
+        text += "<h2>Ease in % of the girth</h2>\n"
+        groups = {}
+        for s in listed:
+            groups.setdefault(s["garment"] + ("@" + s["size"] if s["size"] else ""), []).append(s)
+        text += "".join(heat_map(garment, members) for garment, members in sorted(groups.items()))
+        return text + pictures_html(self.plan.out, listed) + '<script src="timings.js"></script>\n'
+
+
+class Worst:
+    """Orders a heap so that its first is the least bad."""
+
+    def __init__(self, status):
+        self.status, self.key = status, badness(status)
+
+    def __lt__(self, other):
+        return self.key > other.key
+
+
+class LargePage:
+    """Counts and quantiles on the page; rows in files of their own."""
+
+    def __init__(self, plan):
+        self.plan = plan
+        self.folder = os.path.join(plan.out, "page")
+        shutil.rmtree(self.folder, ignore_errors=True)
+        os.makedirs(self.folder)
+        self.worst, self.rows, self.files, self.of = [], {}, {}, {}
+        self.scan, self.group, self.sizes = None, [], {}
+
+    def add(self, s):
+        name = s["garment"] + ("@" + s["size"] if s["size"] else "")
+        heapq.heappush(self.worst, Worst(s))
+        if len(self.worst) > WORST:
+            heapq.heappop(self.worst)
+        of = self.of.setdefault(name, {"causes": {}, "margin": array.array("f"), "ease": {}, "cpu_s": 0.0})
+        of["causes"][s["cause"]] = of["causes"].get(s["cause"], 0) + 1
+        of["cpu_s"] += s.get("cpu_s") or 0
+        if s.get("margin_cm") is not None:
+            of["margin"].append(s["margin_cm"])
+        for girth, percent in s.get("ease_percent", {}).items():
+            if not girth.endswith("_r"):
+                of["ease"].setdefault(girth, array.array("f")).append(percent)
+        self.row(name, row_html(s).replace(f'data-key="{s["key"]}">', f'data-v="{s["cpu_s"]}">{s["cpu_s"]:.1f}' if s.get("cpu_s") is not None else ">"))
+        if s["size"]:
+            if s["scan"] != self.scan:
+                self.end_scan()
+                self.scan = s["scan"]
+            self.group.append(s)
+
+    def end_scan(self):
+        for (garment, scan), best in sorted(best_sizes(self.group).items()):
+            counts = self.sizes.setdefault(garment, {})
+            counts[best[0]] = counts.get(best[0], 0) + 1
+            self.row(f"best size of {garment}", best_row_html(garment, scan, best))
+        self.group = []
+
+    def row(self, table, text):
+        rows = self.rows.setdefault(table, [])
+        rows.append(text)
+        if len(rows) == ROWS:
+            self.flush(table)
+
+    def flush(self, table):
+        if not self.rows.get(table):
+            return
+        index, parts = self.files.setdefault(table, (len(self.files), []))
+        name = f"{index}.{len(parts)}.js"
+        parts.append(len(self.rows[table]))
+        planning.write_text(os.path.join(self.folder, name), f"rows({json.dumps(''.join(self.rows[table]))})\n")
+        self.rows[table] = []
+
+    def table_html(self, table):
+        index, parts = self.files[table]
+        return f'<button data-table="{index}" data-parts="{len(parts)}">{counted(sum(parts), "row")}</button>'
+
+    def body(self):
+        self.end_scan()
+        for table in list(self.rows):
+            self.flush(table)
+        text = "<h2>Garments</h2><div class=wide><table class=sorts><thead><tr><th>garment<th>cells<th>dressed %<th>refused %<th>failed %<th>margin cm: 10 %<th>half<th>90 %<th>CPU s, mean<th>cells</tr></thead><tbody>\n"
+        for name, of in sorted(self.of.items()):
+            n = sum(of["causes"].values())
+            shares = [100 * sum(k for c, k in of["causes"].items() if css_class(c) == kind) / n for kind in ("ok", "no", "bad")]
+            text += (f"<tr><td>{html.escape(name)}<td class=n>{n}" + "".join(f"<td class=n>{v:.1f}" for v in shares)
+                     + "".join(f"<td class=n>{v}" for v in quantiles(of["margin"], "{:.1f}")) + f"<td class=n>{of['cpu_s'] / n:.1f}<td>{self.table_html(name)}</tr>\n")
+        text += "</tbody></table></div>\n<div id=rows></div>\n"
+        if self.sizes:
+            text += "<h2>Best size</h2><div class=wide><table class=sorts><thead><tr><th>garment<th>size<th>scans<th>%<th>scans</tr></thead><tbody>\n"
+            for garment, counts in sorted(self.sizes.items()):
+                for size, n in sorted(counts.items()):
+                    shown = html.escape(size) if size else "<span class=no>none fits</span>"
+                    text += f"<tr><td>{html.escape(garment)}<td>{shown}<td class=n>{n}<td class=n>{100 * n / sum(counts.values()):.1f}<td>{self.table_html(f'best size of {garment}')}</tr>\n"
+            text += "</tbody></table></div>\n"
+        text += "<h2>Ease in % of the girth: 10 %, half and 90 % of the scans</h2><div class=wide><table class=sorts><thead><tr><th>garment<th>girth<th>scans<th>10 %<th>half<th>90 %</tr></thead><tbody>\n"
+        for name, of in sorted(self.of.items()):
+            for girth, values in sorted(of["ease"].items()):
+                text += (f"<tr><td>{html.escape(name)}<td>{html.escape(girth.replace('_', ' '))}<td class=n>{len(values)}"
+                         + "".join(f'<td class=n style="background:{heat_colour(float(v))}">{v}' for v in quantiles(values, "{:.0f}")) + "</tr>\n")
+        worst = sorted((w.status for w in self.worst), key=badness)
+        text += f"</tbody></table></div>\n<h2>The worst {len(worst)} cells</h2>" + CELLS_HEAD + "".join(map(row_html, worst)) + "</tbody></table></div>\n"
+        timings = json.dumps({s["key"]: s["cpu_s"] for s in worst if s.get("cpu_s") is not None})
+        return text + pictures_html(self.plan.out, worst[:PICTURES]) + f"<script>window.TIMINGS={timings}</script>\n" + ON_DEMAND
+
+
+ON_DEMAND = """<script>
+const place=document.getElementById("rows"),loaded=[];window.rows=text=>loaded.push(text);
+const head="<tr><th>garment<th>size<th>scan<th>outcome<th>margin cm<th>strain p99 %<th>CPU s<th>why</tr>",bestHead="<tr><th>garment<th>scan<th>size<th>margin cm<th>least at<th>next best</tr>";
+function show(index,part,parts){const s=document.createElement("script");loaded.length=0;s.src=`page/${index}.${part}.js`;s.onload=()=>{
+const wide=loaded[0].split("</tr>")[0].split("<td").length>8;
+place.innerHTML=`<h2>Rows ${part+1} of ${parts}</h2><p>${part>0?"<button id=back>back</button> ":""}${part+1<parts?"<button id=on>on</button>":""}</p><div class=wide><table><thead>${wide?head:bestHead}</thead><tbody>${loaded[0]}</tbody></table></div>`;
+const b=document.getElementById("back"),o=document.getElementById("on");if(b)b.onclick=()=>show(index,part-1,parts);if(o)o.onclick=()=>show(index,part+1,parts);place.scrollIntoView();s.remove()};
+document.body.append(s)}
+document.addEventListener("click",e=>{const b=e.target.closest("[data-table]");if(b)show(b.dataset.table,0,Number(b.dataset.parts))});
+</script>
+"""
+
+
+def quantiles(values, shape):
+    """10, 50 and 90 % as texts; empty ones where there is no value."""
+    if not values:
+        return [""] * 3
+    ordered = sorted(values)
+    return [shape.format(ordered[round(q * (len(ordered) - 1))]) for q in (0.1, 0.5, 0.9)]
+
+
+def summarise(plan):
+    """Reads what each cell says, once; writes manifest.json, population.html, timings.csv and timings.js. Returns (figures, count of missing cells)."""
+    out = plan.out
+    small = plan.cell_count <= SMALL
+    totals, page = Totals(plan), (SmallPage if small else LargePage)(plan)
+    seconds = {}
+    csv = os.path.join(out, "timings.csv")
+    temporary = f"{csv}.{os.getpid()}.tmp"
     with open(temporary, "w") as file:
-        file.write(page)
-    os.replace(temporary, os.path.join(out, "population.html"))
-    return figures
-
-
-def write_timings(out, plan):
-    """timings.csv and timings.js, which differ from run to run, and the seconds of the cells by key."""
-    seconds, lines = {}, ["cell,cause,cpu_s,wall_s,peak_mb,steps,host"]
-    for key in sorted(plan["cells"], key=lambda k: plan["cells"][k]["name"]):
-        try:
-            t = planning.read_json(os.path.join(out, "timings", key, "timing.json"))
-        except (OSError, ValueError):
-            continue
-        seconds[key] = t["cpu_s"]
-        lines.append(f'"{t["name"]}",{t["cause"]},{t["cpu_s"]},{t["wall_s"]},{t["peak_mb"]},{t["steps"] or ""},{t["host"]}')
-    for name, text in (("timings.csv", "\n".join(lines) + "\n"), ("timings.js", "window.TIMINGS=" + json.dumps(seconds) + ";\n")):
-        temporary = os.path.join(out, f"{name}.{os.getpid()}.tmp")
-        with open(temporary, "w") as file:
-            file.write(text)
-        os.replace(temporary, os.path.join(out, name))
-    return seconds
+        file.write("cell,cause,cpu_s,wall_s,peak_mb,steps,host\n")
+        for number in range(plan.cell_count):
+            status = read_status(plan, number)
+            if status is None:
+                continue
+            status["key"] = plan.key(number)
+            status["place"] = plan.place(status["key"])
+            try:
+                t = planning.read_json(os.path.join(out, "timings", status["place"], "timing.json"))
+                status["cpu_s"] = t["cpu_s"]
+                file.write(f'"{t["name"]}",{t["cause"]},{t["cpu_s"]},{t["wall_s"]},{t["peak_mb"]},{t["steps"] or ""},{t["host"]}\n')
+                if small:
+                    seconds[status["key"]] = t["cpu_s"]
+            except (OSError, ValueError):
+                pass
+            totals.add(number, status)
+            page.add(status)
+    os.replace(temporary, csv)
+    planning.write_text(os.path.join(out, "timings.js"), "window.TIMINGS=" + json.dumps(seconds) + ";\n")
+    planning.write_manifest(os.path.join(out, "manifest.json"), plan, totals.causes)
+    figures = totals.figures()
+    missing = plan.cell_count - figures["cells"]
+    planning.write_text(os.path.join(out, "population.html"), HEAD + figures_html(totals, figures, missing) + page.body() + SCRIPT)
+    return figures, missing

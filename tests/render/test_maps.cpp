@@ -7,6 +7,7 @@
 #include <render/pattern_view.hpp>
 #include <render/show.hpp>
 #include <render/srgb.hpp>
+#include <support/sheet.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -14,37 +15,10 @@
 
 using namespace sloper;
 using namespace sloper::render;
+using sloper::support::flat;
+using sloper::support::make_sheet;
 
 namespace {
-
-/// One rectangular panel of n x n squares, 0.3 m wide, warp along y; `place` says where a pattern
-/// point is.
-template<class F> garment::Garment make_sheet(int n, F&& place) {
-  garment::Garment g;
-  pattern::PanelInfo panel;
-  panel.name = "sheet";
-  panel.n_vertices = (n + 1) * (n + 1);
-  panel.n_triangles = 2 * n * n;
-  g.panels.panels.push_back(panel);
-  for (int r = 0; r <= n; ++r)
-    for (int c = 0; c <= n; ++c) {
-      const double s = static_cast<double>(c) / n, t = static_cast<double>(r) / n;
-      g.panels.pattern.emplace_back(0.3 * s, 0.3 * t);
-      g.panels.ids.push_back({0, s, t});
-      g.particle_of.push_back(static_cast<int>(g.particle_of.size()));
-      g.position.push_back(place(g.panels.pattern.back()));
-    }
-  g.panels.placed = g.position;
-  for (int r = 0; r < n; ++r)
-    for (int c = 0; c < n; ++c) {
-      const int a = r * (n + 1) + c, b = a + 1, d = a + n + 1, e = d + 1;
-      g.panels.triangles.push_back({a, b, e});
-      g.panels.triangles.push_back({a, e, d});
-    }
-  return g;
-}
-
-Vec3 flat(const Vec2& p) { return {p.x(), 1 + p.y(), 0}; }
 
 Scene scene_of(std::vector<garment::Garment> garments) {
   Scene scene;
@@ -265,35 +239,6 @@ TEST(Maps, the_values_ply_holds_the_value_of_each_vertex) {
     std::memcpy(&value, bytes.data() + data + v * 31 + 27, sizeof value);
     EXPECT_NEAR(value, 5, 1e-4);
   }
-}
-
-TEST(Cloth, smoothing_keeps_flat_cloth_flat_and_hems_at_its_border) {
-  garment::Garment g = make_sheet(6, flat);
-  DrawMesh mesh = cloth_mesh(g);
-  const std::size_t before = mesh.triangles.size();
-  smooth_cloth(mesh);
-  EXPECT_GT(mesh.triangles.size(), 16 * before);
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    EXPECT_LE(std::abs(mesh.positions[v].z()), 0.0013); // the rim is as thick as cloth
-    const Vec2 p = mesh.uv[v];
-    const double border = std::min({p.x(), p.y(), 0.3 - p.x(), 0.3 - p.y()});
-    EXPECT_NEAR(mesh.hem[v], std::min(border, BORDER_REACH), 1e-9);
-    EXPECT_EQ(mesh.seam[v], BORDER_REACH);
-  }
-}
-
-TEST(Cloth, smoothing_brings_a_coarse_cylinder_nearer_to_round) {
-  garment::Garment g = make_sheet(8, [](const Vec2& p) {
-    return Vec3(0.1 * std::sin(p.x() / 0.1), p.y(), 0.1 * std::cos(p.x() / 0.1));
-  });
-  DrawMesh mesh = cloth_mesh(g);
-  smooth_cloth(mesh);
-  double worst = 0;
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-    if (mesh.hem[v] > 0.015)
-      worst =
-          std::max(worst, std::abs(std::hypot(mesh.positions[v].x(), mesh.positions[v].z()) - 0.1));
-  EXPECT_LT(worst, 0.0009); // chords alone miss by 1.8 mm
 }
 
 TEST(PatternView, panels_do_not_overlap_and_none_is_turned) {

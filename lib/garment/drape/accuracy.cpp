@@ -14,31 +14,6 @@ namespace {
 /// measured, rounded up.
 constexpr double NEXT_COSTS = 0.5;
 
-/// Sums what the presets took; the state, the quality and the settings are those of the last.
-void add_to(DrapeReport& all, DrapeReport last) {
-  last.steps += all.steps;
-  last.simulated_s += all.simulated_s;
-  last.wall_s += all.wall_s;
-  for (EffectReport& e : last.effects)
-    for (const EffectReport& before : all.effects)
-      if (before.name == e.name) {
-        e.calls += before.calls;
-        e.wall_s += before.wall_s;
-        if (before.active && !e.active) { // sewing ends with the first preset
-          e.active = true;
-          e.why = before.why;
-        }
-      }
-  for (const auto& [name, wall] : all.phases) {
-    const auto same = std::find_if(last.phases.begin(), last.phases.end(),
-                                   [&, n = name](const auto& p) { return p.first == n; });
-    if (same != last.phases.end()) same->second += wall;
-    else last.phases.emplace_back(name, wall);
-  }
-  last.repairs.insert(last.repairs.begin(), all.repairs.begin(), all.repairs.end());
-  all = std::move(last);
-}
-
 } // namespace
 
 AccuracyReport drape_to_goal(Garment& garment, const body::Body* body, const AccuracyGoal& goal,
@@ -72,8 +47,11 @@ AccuracyReport drape_to_goal(Garment& garment, const body::Body* body, const Acc
       break;
     }
     const bool converged = now.converged;
-    if (k == 0) report.drape = std::move(now);
-    else add_to(report.drape, std::move(now));
+    if (k > 0) {
+      now.levels = report.drape.levels;
+      add_earlier(report.drape, now);
+    }
+    report.drape = std::move(now);
     if (!before.empty() && before.size() == garment.position.size()) {
       double sum = 0, largest = 0;
       for (std::size_t i = 0; i < before.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <base/error.hpp>
 #include <collision/skin_cache.hpp>
+#include <garment/levels/drape_levels.hpp>
 #include <garment/simulate/audit.hpp>
 #include <garment/simulate/session.hpp>
 #include <io/json.hpp>
@@ -51,9 +52,14 @@ private:
                                .moves = moves,
                                .on_frame = m_on_frame,
                                .request = {.checkpoints = m_checkpoints, .start = start}};
-    if (!m_from) return DrapeSession(inputs, settings, m_reporter).run();
+    if (!m_from) {
+      if (settings.levels > 1 && garment.particle_of.empty())
+        return drape_through_levels(garment, m_body, settings, m_reporter, inputs.request);
+      return DrapeSession(inputs, settings, m_reporter).run();
+    }
     const DrapeCheckpoint& from = *m_from;
     m_from = nullptr;
+    if (from.levels) return resume_through_levels(from, garment, m_body, m_reporter, m_checkpoints);
     return DrapeSession(inputs, from, m_reporter).run();
   }
 

@@ -1,7 +1,27 @@
 #include <garment/drape/motion.hpp>
+#include <garment/levels/coarse_way.hpp>
+#include <garment/levels/drape_levels.hpp>
 #include <garment/simulate/session.hpp>
 
 namespace sloper::garment {
+
+namespace {
+
+/// Cloth that came to rest through levels of mesh then moves with the body. What came before is
+/// part of the report, and of checkpoints.
+DrapeReport go_on_in_motion(DrapeReport rest, SessionInputs inputs, const DrapeSettings& settings,
+                            Reporter& reporter) {
+  if (!rest.converged && rest.stop_reason != StopReason::AT_REST_UNCLEAN) return rest;
+  LevelsProgress at{.settings = settings, .rung = "", .on_given_mesh = false, .before = {}};
+  at.before = rest;
+  inputs.request.checkpoints.levels = &at;
+  DrapeReport report = DrapeSession(inputs, settings, reporter).run();
+  add_earlier(rest, report);
+  report.levels = rest.levels;
+  return report;
+}
+
+} // namespace
 
 DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const BodyMoves& moves,
                             const DrapeSettings& settings, const OnMotionFrame& on_frame,
@@ -9,7 +29,11 @@ DrapeReport drape_in_motion(Garment& garment, const body::Body& body, const Body
   SessionInputs inputs{
       .garment = garment, .body = &body, .moves = &moves, .on_frame = on_frame, .request = request};
   if (!inputs.request.checkpoints.motion) inputs.request.checkpoints.motion = moves.input();
-  return DrapeSession(inputs, settings, reporter).run();
+  const bool through_levels = settings.levels > 1 && garment.particle_of.empty() &&
+                              refusal_of_levels(garment, &body, settings).empty();
+  if (!through_levels) return DrapeSession(inputs, settings, reporter).run();
+  DrapeReport rest = drape_through_levels(garment, &body, settings, reporter, inputs.request);
+  return go_on_in_motion(std::move(rest), inputs, settings, reporter);
 }
 
 DrapeReport resume_in_motion(const DrapeCheckpoint& from, Garment& garment, const body::Body& body,
@@ -21,7 +45,20 @@ DrapeReport resume_in_motion(const DrapeCheckpoint& from, Garment& garment, cons
                        .on_frame = on_frame,
                        .request = {.checkpoints = checkpoints}};
   inputs.request.checkpoints.motion = from.motion;
-  return DrapeSession(inputs, from, reporter).run();
+  if (!from.levels) return DrapeSession(inputs, from, reporter).run();
+  if (!from.levels->rung.empty()) {
+    from.check_moves(&moves);
+    DrapeReport rest = resume_through_levels(from, garment, &body, reporter, checkpoints);
+    inputs.request.bounds = from.bounds;
+    inputs.request.checkpoints.renew = true;
+    inputs.request.checkpoints.every_steps = from.every_steps;
+    return go_on_in_motion(std::move(rest), inputs, from.levels->settings, reporter);
+  }
+  inputs.request.checkpoints.levels = &*from.levels;
+  DrapeReport report = DrapeSession(inputs, from, reporter).run();
+  add_earlier(from.levels->before, report);
+  report.levels = from.levels->before.levels;
+  return report;
 }
 
 } // namespace sloper::garment

@@ -29,7 +29,7 @@ constexpr double FIRST_PULL = 10; // of a stitch at its reach, in weights of a p
 constexpr double LAST_PULL = 20;  // N, likewise
 constexpr int PULL_GROWS_FROM = 15, PULL_GROWS_TO = 50;
 constexpr double STITCH_REACH = 0.05; // m: the pull does not grow beyond this gap
-constexpr double DRAWN_IN = 0.7;      // of the body's thickness, until the panels are around it
+constexpr double DRAWN_IN = 0.35;
 constexpr int INFLATE_FROM = 30, INFLATE_TO = 45;
 constexpr double SEWING_REACH = 0.012;     // m: a chord of 48 mm lies 6 mm below an arm's skin
 constexpr double SEWING_STIFFNESS = 5e5;   // N/m3
@@ -102,10 +102,12 @@ public:
   }
   /// @return false where it is not finite: the garment is as it came
   bool step() {
-    if (m_solver.step(m_options).finite) return true;
+    m_last = m_solver.step(m_options);
+    if (m_last.finite) return true;
     m_garment.position = m_start;
     return false;
   }
+  const cloth::StepResult& last() const { return m_last; }
 
 private:
   void keep_legs_apart() {
@@ -129,6 +131,7 @@ private:
   cloth::ClothSolver m_solver;
   cloth::SoftBodyContactEffect* m_contact = nullptr;
   cloth::StepOptions m_options;
+  cloth::StepResult m_last;
 };
 
 } // namespace
@@ -163,8 +166,8 @@ SoftSewing sew_softly(Garment& garment, CollisionBody& body, Reporter& reporter)
   return result;
 }
 
-bool relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxing& how,
-                  double gravity_m_s2, Reporter& reporter) {
+SoftRelaxed relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxing& how,
+                         double gravity_m_s2, Reporter& reporter) {
   SoftCloth cloth(garment, body, how.reach_m, RELAXING_STIFFNESS, CREEP, how.cg_tolerance);
   cloth.solver().emplace<cloth::GravityEffect>(cloth.mesh(), Vec3(0, -gravity_m_s2, 0));
   for (int k = 0; k < how.steps && !reporter.stop_requested(); ++k) {
@@ -173,9 +176,9 @@ bool relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxing& how
     if (cloth.contact())
       cloth.contact()->set_reach(how.reach_m + (how.last_reach_m - how.reach_m) *
                                                    share_of_way(k, 0, how.steps - 1));
-    if (!cloth.step()) return false;
+    if (!cloth.step()) return {.finite = false};
   }
-  return true;
+  return {.residual_force_ratio = cloth.last().residual_force_ratio};
 }
 
 } // namespace sloper::garment

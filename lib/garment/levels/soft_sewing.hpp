@@ -36,10 +36,14 @@ struct SoftRelaxing {
   double cg_tolerance = 1e-4;                   ///< relative residual of a solve
 };
 
+struct SoftRelaxed {
+  bool finite = true;              ///< false: the garment is as it came
+  double residual_force_ratio = 0; ///< StepResult's, of the last step
+};
+
 /// Lets sewn cloth come near its rest under its weight. It creeps on the skin as if it stuck to it,
 /// since friction would decide.
-/// @return whether all positions are finite; else the garment is as it came
-bool relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxing& how,
-                  double gravity_m_s2, Reporter& reporter);
+SoftRelaxed relax_softly(Garment& garment, CollisionBody& body, const SoftRelaxing& how,
+                         double gravity_m_s2, Reporter& reporter);
 
 } // namespace sloper::garment

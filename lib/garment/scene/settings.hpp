@@ -33,7 +33,7 @@ struct DrapeSettings {
   /// Meshes that panels are draped through (levels/drape_levels.hpp): 1 the given one alone; 2 they
   /// are sewn on one with edges of 48 mm first. Where that is not possible, 1 is taken, and the
   /// report says why.
-  int levels = 1;
+  int levels = 2;
   double max_seconds = 0;       ///< wall clock, 0 = no limit
   std::string effects = "auto"; ///< "auto" or a list
   std::string accuracy = "standard";

@@ -188,6 +188,35 @@ LayersProgress read_layers(const Node& node, std::size_t n_particles) {
   return l;
 }
 
+Json levels_json(const LevelsProgress& l) {
+  return {{"settings", settings_json(l.settings)},
+          {"rung", l.rung},
+          {"on_given_mesh", l.on_given_mesh},
+          {"before", progress_json(l.before)},
+          {"meshes", mesh_levels_json(l.before.levels)}};
+}
+
+LevelsProgress read_levels(const Node& node) {
+  LevelsProgress l;
+  l.settings = read_settings(node.at("settings"));
+  l.rung = node.at("rung").string();
+  const std::vector<std::string> names = accuracy_names();
+  if (!l.rung.empty() && std::find(names.begin(), names.end(), l.rung) == names.end())
+    node.at("rung").fail("is no preset");
+  l.on_given_mesh = node.at("on_given_mesh").boolean();
+  l.before = read_progress(node.at("before"), node.at("settings"));
+  MeshLevels& levels = l.before.levels;
+  const Node meshes = node.at("meshes");
+  levels.meshes = meshes.at("meshes").integer();
+  levels.why = meshes.string("why", "");
+  if (!meshes.has("coarse")) return l;
+  const Node coarse = meshes.at("coarse");
+  levels.coarse_edge_m = coarse.at("edge_m").number();
+  levels.coarse_particles = coarse.at("particles").integer();
+  levels.coarse_residual_force_ratio = coarse.at("residual_force_ratio").number();
+  return l;
+}
+
 } // namespace
 
 int DrapeState::step() const { return phase == DrapePhase::SEW ? sew.step : settle.step; }
@@ -202,6 +231,7 @@ void write_checkpoint(const std::string& path, const DrapeCheckpoint& c) {
   document["state"] = state_json(c.state);
   if (c.motion) document["motion"] = {{"sha256", c.motion->sha256}, {"fps", c.motion->fps}};
   if (c.layers) document["layers"] = layers_json(*c.layers);
+  if (c.levels) document["levels"] = levels_json(*c.levels);
   put_garment(document, c.garment);
   io::write_json(path, document);
 }
@@ -230,6 +260,7 @@ DrapeCheckpoint read_checkpoint(const std::string& path) {
     root.at("state").at("motion").fail("belongs to a motion that the checkpoint does not name");
   }
   if (root.has("layers")) c.layers = read_layers(root.at("layers"), c.garment.position.size());
+  if (root.has("levels")) c.levels = read_levels(root.at("levels"));
   return c;
 }
 

@@ -47,6 +47,16 @@ struct LayersProgress {
   double alone_s = 0;               ///< wall seconds of the drapes alone that are done
 };
 
+/// How far a drape through levels of mesh (levels/drape_levels.hpp) has come between the drapes
+/// that it is made of. Where the panels were placed is the garment's.
+struct LevelsProgress {
+  DrapeSettings settings; ///< of the whole; those of a preset on the way are others
+  std::string rung; ///< the preset that the present drape brings to rest; empty: all are done, and
+                    ///< the body moves
+  bool on_given_mesh = false; ///< the coarse mesh did not do: sewn on the given one
+  DrapeReport before;         ///< steps, seconds, effects, phases and repairs until then
+};
+
 /// A drape interrupted: what checkpoint files hold. The report has what it had come to: steps,
 /// seconds, effects, phases, repairs, settings.
 struct DrapeCheckpoint {
@@ -58,6 +68,7 @@ struct DrapeCheckpoint {
   bool has_body = false;
   std::optional<MotionInput> motion;    ///< of a drape in motion
   std::optional<LayersProgress> layers; ///< garment, state and report are of one of its drapes
+  std::optional<LevelsProgress> levels; ///< likewise
   std::string file;                     ///< where it was read, for messages
 
   /// @param body  that is given now, or null   @param body_sha256  of its skin; empty: trusted

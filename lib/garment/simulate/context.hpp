@@ -53,8 +53,9 @@ struct SimContext {
   TemporarySupports supports;
   FitMonitor fit;
   CheckpointSink* checkpoints = nullptr;
-  bool disturbed = false; ///< the start is strained, by sewing, by a body that was drawn in or by
-                          ///< StartFacts: it first relaxes without load
+  bool disturbed = false;  ///< the start is strained, by sewing, by a body that was drawn in or by
+                           ///< StartFacts: it first relaxes without load
+  bool only_clear = false; ///< DrapeRequest::only_clear
 };
 
 } // namespace sloper::garment

@@ -43,6 +43,8 @@ std::string stop_text(const DrapeReport& report) {
   switch (report.stop_reason) {
   case StopReason::NONE: return "";
   case StopReason::AT_REST: return "at rest";
+  case StopReason::AT_REST_COARSE:
+    return "at rest on a coarser mesh, carried to the given one and cleared there";
   case StopReason::AT_REST_UNCLEAN: return unclean_text(report.quality);
   case StopReason::AT_REST_AFTER_UNCLEAN_FRAMES:
     return unclean_frames_text(report.quality["motion"]);
@@ -63,6 +65,42 @@ std::string stop_text(const DrapeReport& report) {
   case StopReason::NOT_DRAPED: return "not draped: the garment " + report.stop_detail;
   }
   return "";
+}
+
+void add_earlier(const DrapeReport& earlier, DrapeReport& report) {
+  report.steps += earlier.steps;
+  report.simulated_s += earlier.simulated_s;
+  report.wall_s += earlier.wall_s;
+  for (const EffectReport& before : earlier.effects) {
+    const auto same = std::find_if(report.effects.begin(), report.effects.end(),
+                                   [&](const EffectReport& e) { return e.name == before.name; });
+    if (same == report.effects.end()) continue;
+    same->calls += before.calls;
+    same->wall_s += before.wall_s;
+    if (before.active && !same->active) { // as sewing, which ends with the first drape
+      same->active = true;
+      same->why = before.why;
+    }
+  }
+  std::vector<std::pair<std::string, double>> phases = earlier.phases;
+  for (const auto& [name, wall] : report.phases) {
+    const auto same = std::find_if(phases.begin(), phases.end(),
+                                   [&, n = name](const auto& p) { return p.first == n; });
+    if (same != phases.end()) same->second += wall;
+    else phases.emplace_back(name, wall);
+  }
+  report.phases = std::move(phases);
+  report.repairs.insert(report.repairs.begin(), earlier.repairs.begin(), earlier.repairs.end());
+}
+
+io::Json mesh_levels_json(const MeshLevels& levels) {
+  io::Json out = {{"meshes", levels.meshes}};
+  if (!levels.why.empty()) out["why"] = levels.why;
+  if (levels.coarse_particles > 0)
+    out["coarse"] = {{"edge_m", levels.coarse_edge_m},
+                     {"particles", levels.coarse_particles},
+                     {"residual_force_ratio", levels.coarse_residual_force_ratio}};
+  return out;
 }
 
 std::string strict_hash(const Garment& garment) {
@@ -105,6 +143,7 @@ io::Json report_json(const DrapeReport& report, const std::string& tool) {
   out["solver"] = report.solver;
   out["quality"] = report.quality;
   out["repairs"] = report.repairs;
+  if (report.levels.meshes > 0) out["levels"] = mesh_levels_json(report.levels);
   out["settings"] = settings_json(report.settings);
   return out;
 }

@@ -12,6 +12,15 @@
 
 namespace sloper::garment {
 
+/// Which meshes panels were draped through (levels/drape_levels.hpp).
+struct MeshLevels {
+  int meshes = 0;           ///< 0: it did not begin with panels; 1: the given one alone
+  std::string why;          ///< the coarse mesh had no part, or none in the result
+  double coarse_edge_m = 0; ///< of the coarse mesh
+  int coarse_particles = 0;
+  double coarse_residual_force_ratio = 0; ///< where the cloth was left there, in weights
+};
+
 struct DrapeReport {
   bool converged = false;
   StopReason stop_reason = StopReason::NONE; ///< stop_text() puts it into words
@@ -24,8 +33,16 @@ struct DrapeReport {
   io::Json solver;  ///< as report.json has it: conjugate gradients, residual, rejected steps
   io::Json quality; ///< as report.json has it: what the audit found
   std::vector<std::string> repairs;
+  MeshLevels levels;
   DrapeSettings settings;
 };
+
+/// Adds what an earlier drape of the same garment took: steps, seconds, phases, calls and seconds
+/// of effects, repairs. Where it ended and how well stays that of `report`.
+void add_earlier(const DrapeReport& earlier, DrapeReport& report);
+
+/// report.json's `levels`.
+io::Json mesh_levels_json(const MeshLevels& levels);
 
 /// The sentence that report.json has as `stop_reason`: made of the reason, and of `quality` and
 /// `stop_detail` where counts belong to it.

@@ -21,6 +21,7 @@ struct MotionInput {
 };
 
 struct LayersProgress; ///< checkpoint.hpp
+struct LevelsProgress; ///< checkpoint.hpp
 
 /// Where a drape notes its state now and then, so that it can go on from there after it was killed.
 struct Checkpoints {
@@ -30,6 +31,8 @@ struct Checkpoints {
   std::optional<MotionInput> motion = {}; ///< of a drape in motion; drape_in_motion() and
                                           ///< drape_layers() fill it in where it is not given
   const LayersProgress* layers = nullptr; ///< set by drape_layers(): of the drapes around this one
+  const LevelsProgress* levels =
+      nullptr; ///< set by drape_through_levels(): of the drapes before this one
 };
 
 /// What the caller knows of the garment's start and no drape can see.
@@ -40,6 +43,10 @@ struct StartFacts {
   /// The cloth is strained by how it was put there, by tucking one layer below another
   /// (drape_layers()): it first relaxes free of weight and friction, which would keep that strain.
   bool relax_first = false;
+  /// The cloth comes from a coarser mesh, around the body and at most just in it
+  /// (drape_through_levels()): the body is never drawn in, which would undo how the cloth hangs.
+  /// What cannot be moved out of the skin at the start is left to contact.
+  bool around_body = false;
 };
 
 /// What a drape may be given beside the garment, the body and the settings.
@@ -50,6 +57,12 @@ struct DrapeRequest {
   /// than without.
   Checkpoints checkpoints = {};
   StartFacts start = {};
+  /// Ends as soon as nothing crosses body or cloth, however fast the cloth moves: for a state that
+  /// was brought to rest on a coarser mesh.
+  bool only_clear = false;
+  /// Looks for what is unclean at the end. Off: only where it does not come to rest; another drape
+  /// follows.
+  bool audit = true;
 };
 
 } // namespace sloper::garment

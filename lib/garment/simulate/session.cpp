@@ -30,20 +30,23 @@ std::size_t plan_index(const DrapeState& state) {
 DrapeSession::DrapeSession(const SessionInputs& inputs, const DrapeSettings& settings,
                            Reporter& reporter)
     : m_context(inputs.garment, inputs.body, settings, inputs.request.bounds, reporter),
-      m_start(inputs.request.start), m_checkpoints(inputs.request.checkpoints),
+      m_start(inputs.request.start), m_audits(inputs.request.audit),
+      m_checkpoints(inputs.request.checkpoints),
       m_move(inputs.moves, inputs.on_frame), m_plan{&m_sew, &m_inflate, &m_settle, &m_move,
                                                     &m_settle} {
   m_context.checkpoints = this;
+  m_context.only_clear = inputs.request.only_clear;
 }
 
 DrapeSession::DrapeSession(const SessionInputs& inputs, const DrapeCheckpoint& from,
                            Reporter& reporter)
     : m_context(inputs.garment = from.garment, inputs.body, from.report.settings, from.bounds,
                 reporter),
-      m_checkpoints(inputs.request.checkpoints),
+      m_audits(inputs.request.audit), m_checkpoints(inputs.request.checkpoints),
       m_move(inputs.moves, inputs.on_frame), m_plan{&m_sew, &m_inflate, &m_settle, &m_move,
                                                     &m_settle} {
   m_context.checkpoints = this;
+  m_context.only_clear = inputs.request.only_clear;
   restore(from);
 }
 
@@ -72,13 +75,19 @@ void DrapeSession::start_outside_body(bool unsewn) {
   const PhaseTimer timer(m_context.telemetry, "prepare body");
   const Garment& garment = m_context.cloth.garment();
   const bool sewn_on_legs = unsewn && !placed_on(garment, "leg").empty();
-  if (unsewn && m_context.cloth.is_active("body_contact")) body.find_arms_aside(garment);
+  if ((unsewn || m_start.around_body) && m_context.cloth.is_active("body_contact"))
+    body.find_arms_aside(garment);
   body.prepare(body.ends_near(garment.position) |
                (body.state().arms_aside ? ExtremityHulls::HANDS : 0u));
   body.put_arms_aside();
   const std::size_t violations = m_context.resolver.count_in_body();
   if (violations == 0 && sewn_on_legs) body.draw_in(SEW_LEG_SCALE);
   if (violations == 0 || (!unsewn && m_context.resolver.resolve_initial(violations))) return;
+  if (m_start.around_body) {
+    m_context.telemetry.add_repair("start: " + std::to_string(violations) +
+                                   " vertices or faces in the body, left to contact");
+    return;
+  }
   double best = 1;
   std::size_t least = violations;
   for (double scale : SHRINK_SCALES) {
@@ -256,8 +265,10 @@ void DrapeSession::take_checkpoint() {
                                .has_body = m_context.body.body() != nullptr,
                                .motion = m_checkpoints.motion,
                                .layers = {},
+                               .levels = {},
                                .file = {}};
     if (m_checkpoints.layers) checkpoint.layers = *m_checkpoints.layers;
+    if (m_checkpoints.levels) checkpoint.levels = *m_checkpoints.levels;
     write_checkpoint(m_checkpoints.file, checkpoint);
   }
   rebuild(m_context, *m_phase, state.contact, m_phase->keeps_velocity());
@@ -286,8 +297,10 @@ DrapeState DrapeSession::save() const {
 void DrapeSession::restore(const DrapeCheckpoint& from) {
   const DrapeState& state = from.state;
   from.check_body(m_context.body.body(), "");
-  // The body stands still while a garment of several is alone.
-  if (!from.layers || from.layers->alone == from.layers->garments.size())
+  // The body stands still while a garment of several is alone, and while levels of mesh are gone
+  // through.
+  const bool on_a_rung = from.levels && !from.levels->rung.empty();
+  if (!on_a_rung && (!from.layers || from.layers->alone == from.layers->garments.size()))
     from.check_moves(m_move.moves());
   DrapeReport& report = m_context.telemetry.report;
   report.steps = m_checkpoint_step = from.report.steps;

@@ -103,6 +103,7 @@ private:
 
   SimContext m_context;
   StartFacts m_start;
+  bool m_audits; // DrapeRequest::audit
   Checkpoints m_checkpoints;
   int m_checkpoint_step = 0; // of all steps, where the last one was
   SewPhase m_sew;

@@ -54,12 +54,11 @@ DrapeReport DrapeSession::finish() {
   DrapeReport& report = m_context.telemetry.report;
   Garment& garment = m_context.cloth.garment();
   m_context.cloth.tear_down();
-  {
+  if (m_audits || !report.converged) {
     const PhaseTimer timer(m_context.telemetry, "audit");
     m_context.body.use_full_skin(); // what stood for it was only a means
     write_quality(audit(garment, m_context.body.collider()));
     write_solver_report();
-    garment.converged = report.converged;
     if (m_move.moves()) {
       report.quality["motion"] = m_move.report();
       if (report.converged && m_move.bad_frames() > 0) {
@@ -67,8 +66,9 @@ DrapeReport DrapeSession::finish() {
         report.stop_reason = StopReason::AT_REST_AFTER_UNCLEAN_FRAMES;
       }
     }
-    garment.offset_m = m_context.settings.contact_gap_m;
   }
+  garment.converged = report.converged;
+  garment.offset_m = m_context.settings.contact_gap_m;
   report.wall_s = elapsed();
   return std::move(report);
 }

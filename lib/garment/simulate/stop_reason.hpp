@@ -7,6 +7,7 @@ namespace sloper::garment {
 enum class StopReason {
   NONE,            ///< it has not ended, or the caller ended it
   AT_REST,         ///< forces, speed and shape are within their tolerances
+  AT_REST_COARSE,  ///< at rest on a coarser mesh, and clear of body and cloth on the given one
   AT_REST_UNCLEAN, ///< at rest, but the audit found cloth in the body or through itself
   AT_REST_AFTER_UNCLEAN_FRAMES, ///< likewise in frames of a motion before
   AT_REST_STRETCHED,            ///< at rest, but stretched beyond what the fabric bears: see

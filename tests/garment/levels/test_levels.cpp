@@ -1,13 +1,16 @@
 /// Panels draped through a coarse mesh: how cloth is sewn there so that starts that differ a little
 /// end alike, and how it comes to the given mesh.
+#include <base/parallel.hpp>
 #include <base/progress.hpp>
 #include <body/body_json.hpp>
 #include <garment/drape/drape.hpp>
+#include <garment/levels/coarse_way.hpp>
 #include <garment/levels/drape_levels.hpp>
 #include <garment/levels/finer_mesh.hpp>
 #include <garment/levels/soft_sewing.hpp>
 #include <garment/scene/scene.hpp>
 #include <garment/sewing.hpp>
+#include <garment/simulate/checkpoint.hpp>
 #include <gtest/gtest.h>
 #include <io/json.hpp>
 #include <pattern/mesh/mesh_pattern.hpp>
@@ -15,22 +18,28 @@
 #include <support/drape_scene.hpp>
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
+#include <unistd.h>
 
 using namespace sloper;
 using namespace sloper::garment;
 
 namespace {
 
-/// Two pieces, 40 x 30 cm, sewn at their sides: one of them with a curved hem.
-pattern::PanelMesh two_pieces(double edge) {
-  const std::string text =
+/// Two pieces, 40 x 30 cm or narrower, sewn at their sides: one of them with a curved hem.
+/// @param half  of their width, cm
+pattern::PanelMesh two_pieces(double edge, double half = 20) {
+  std::string text =
       R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "two", "panels": [
-    {"name": "front", "outline": [{"edge": "hem", "path": [["M", -20, 0], ["Q", 0, -6, 20, 0]]}, {"edge": "left", "path": [["L", 20, 30]]},
-      {"edge": "top", "path": [["L", -20, 30]]}, {"edge": "right", "path": [["L", -20, 0]]}]},
-    {"name": "back", "outline": [{"edge": "hem", "path": [["M", -20, 0], ["L", 20, 0]]}, {"edge": "left", "path": [["L", 20, 30]]},
-      {"edge": "top", "path": [["L", -20, 30]]}, {"edge": "right", "path": [["L", -20, 0]]}]}],
+    {"name": "front", "outline": [{"edge": "hem", "path": [["M", -HALF, 0], ["Q", 0, -6, HALF, 0]]}, {"edge": "left", "path": [["L", HALF, 30]]},
+      {"edge": "top", "path": [["L", -HALF, 30]]}, {"edge": "right", "path": [["L", -HALF, 0]]}]},
+    {"name": "back", "outline": [{"edge": "hem", "path": [["M", -HALF, 0], ["L", HALF, 0]]}, {"edge": "left", "path": [["L", HALF, 30]]},
+      {"edge": "top", "path": [["L", -HALF, 30]]}, {"edge": "right", "path": [["L", -HALF, 0]]}]}],
     "seams": [{"name": "left", "a": [{"panel": "front", "edge": "left"}], "b": [{"panel": "back", "edge": "right"}]},
               {"name": "right", "a": [{"panel": "front", "edge": "right"}], "b": [{"panel": "back", "edge": "left"}]}]})";
+  for (std::size_t at; (at = text.find("HALF")) != std::string::npos;)
+    text.replace(at, 4, std::to_string(half));
   const pattern::Pattern source = pattern::read_pattern_json(io::parse_json(text, "two"), "two");
   pattern::PanelMesh mesh = pattern::mesh_pattern(source, edge, "two");
   mesh.source = std::make_shared<pattern::Pattern>(source);
@@ -116,13 +125,14 @@ TEST(DrapeLevels, panels_without_their_pattern_are_draped_on_their_own_mesh_to_t
   Garment once = make_skirt(0.76, 0.28, 0.03), through = once;
   DrapeSettings settings = preset_settings("draft");
   settings.max_steps = 20;
+  settings.levels = 1;
   drape(once, &pillar, settings, silent_reporter());
   settings.levels = 2;
   const DrapeReport report = drape(through, &pillar, settings, silent_reporter());
   EXPECT_EQ(largest_difference(once.position, through.position), 0);
-  ASSERT_FALSE(report.repairs.empty());
-  EXPECT_EQ(report.repairs.front(),
-            "draped on the given mesh alone: the panels do not name their pattern");
+  EXPECT_EQ(report.levels.meshes, 1);
+  EXPECT_EQ(report.levels.why, "the panels do not name their pattern");
+  EXPECT_TRUE(report.repairs.empty());
 }
 
 TEST(DrapeLevels, a_body_without_bones_is_no_error) {
@@ -130,10 +140,109 @@ TEST(DrapeLevels, a_body_without_bones_is_no_error) {
   Garment garment;
   garment.panels = two_pieces(0.03);
   DrapeSettings settings = preset_settings("draft");
-  settings.levels = 2;
   settings.max_steps = 3;
   const DrapeReport report = drape(garment, &pillar, settings, silent_reporter());
-  ASSERT_FALSE(report.repairs.empty());
-  EXPECT_TRUE(report.repairs.front().starts_with("draped on the given mesh alone: "))
-      << report.repairs.front();
+  EXPECT_EQ(report.levels.meshes, 1);
+  EXPECT_FALSE(report.levels.why.empty());
+}
+
+/// A skirt of two pieces around a pillar that can be drawn in.
+struct Tube {
+  body::Body body = make_pillar();
+  Garment garment;
+
+  explicit Tube(double edge = 0.03) {
+    body.landmarks["hip_center"].p = Vec3(0, 0.2, 0);
+    body.landmarks["neck_center"].p = Vec3(0, 1.2, 0);
+    garment.panels = two_pieces(edge, 18.2);
+  }
+  DrapeReport drape_to(const std::string& accuracy, const DrapeRequest& request = {},
+                       Reporter& reporter = silent_reporter()) {
+    return drape(garment, &body, preset_settings(accuracy), reporter, request);
+  }
+};
+
+TEST(DrapeLevels, draft_ends_where_the_coarse_rest_is_clear_and_finer_presets_go_on_from_there) {
+  Tube draft, standard;
+  const DrapeReport report = draft.drape_to("draft");
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.stop_reason, StopReason::AT_REST_COARSE) << stop_text(report);
+  EXPECT_EQ(report.levels.meshes, 2) << report.levels.why;
+  EXPECT_GT(report.levels.coarse_particles, 50);
+  EXPECT_EQ(report.settings.accuracy, "draft");
+  EXPECT_EQ(report.quality["faces_through_body"], 0);
+  EXPECT_EQ(standard.drape_to("standard").stop_reason, StopReason::AT_REST);
+  Garment on = draft.garment;
+  const DrapeReport climbed =
+      drape(on, &draft.body, preset_settings("standard"), silent_reporter());
+  EXPECT_TRUE(climbed.converged);
+  EXPECT_EQ(largest_difference(on.position, standard.garment.position), 0) << "the same ladder";
+}
+
+TEST(DrapeLevels, small_changes_make_small_changes) {
+  Tube first, jittered, threads, finer(0.03 * 0.99);
+  for (std::size_t v = 0; v < jittered.garment.panels.placed.size(); ++v)
+    jittered.garment.panels.placed[v].z() += v % 3 == 0 ? 1e-6 : 0;
+  EXPECT_TRUE(first.drape_to("standard").converged);
+  EXPECT_TRUE(jittered.drape_to("standard").converged);
+  EXPECT_TRUE(finer.drape_to("standard").converged);
+  set_thread_count(2);
+  EXPECT_TRUE(threads.drape_to("standard").converged);
+  set_thread_count(1);
+  EXPECT_EQ(largest_difference(first.garment.position, threads.garment.position), 0);
+  const auto of_vertices = [](const Garment& g) {
+    std::vector<Vec3> x;
+    for (int particle : g.particle_of) x.push_back(g.position[static_cast<std::size_t>(particle)]);
+    return x;
+  };
+  const auto rms = [](const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]).squaredNorm();
+    return std::sqrt(sum / static_cast<double>(a.size()));
+  };
+  EXPECT_LT(rms(of_vertices(first.garment), of_vertices(jittered.garment)), 0.001);
+  const std::vector<Vec3> seen =
+      interpolate(finer.garment.panels, of_vertices(finer.garment), first.garment.panels);
+  EXPECT_LT(rms(of_vertices(first.garment), seen), 0.004) << "edges 1 % shorter";
+}
+
+TEST(DrapeLevels, killed_on_any_rung_it_goes_on_to_the_bytes_of_one_that_was_not) {
+  class Killer : public Reporter {
+  public:
+    explicit Killer(int at) : m_at(at) {}
+    bool stop_requested() const override { return ++m_asked > m_at; }
+    int asked() const { return m_asked; }
+
+  private:
+    int m_at;
+    mutable int m_asked = 0;
+  };
+  const std::string file = (std::filesystem::temp_directory_path() /
+                            ("sloper-levels-" + std::to_string(::getpid()) + ".json"))
+                               .string();
+  Killer nobody(1 << 30);
+  Tube whole;
+  const DrapeReport undisturbed = whole.drape_to("fine", {.checkpoints = {file, 3}}, nobody);
+  EXPECT_TRUE(undisturbed.converged) << stop_text(undisturbed);
+  std::set<std::string> rungs;
+  for (int left : {2, 10, 25, 40}) {
+    Tube killed;
+    Killer killer(nobody.asked() - left);
+    killed.drape_to("fine", {.checkpoints = {file, 3}}, killer);
+    const DrapeCheckpoint c = read_checkpoint(file);
+    ASSERT_TRUE(c.levels);
+    rungs.insert(c.levels->rung);
+    Garment resumed;
+    set_thread_count(1 + left % 2);
+    const DrapeReport report = resume_drape(file, resumed, &killed.body, silent_reporter());
+    set_thread_count(1);
+    EXPECT_EQ(largest_difference(resumed.position, whole.garment.position), 0) << left;
+    EXPECT_EQ(report.steps, undisturbed.steps);
+    EXPECT_EQ(report.repairs, undisturbed.repairs);
+    EXPECT_EQ(report.quality, undisturbed.quality);
+    EXPECT_EQ(report.levels.coarse_particles, undisturbed.levels.coarse_particles);
+    EXPECT_EQ(report.settings.accuracy, "fine");
+  }
+  EXPECT_GT(rungs.size(), 1U);
+  std::filesystem::remove(file);
 }

@@ -21,7 +21,7 @@ bool InflatePhase::is_needed(const SimContext& context) const {
 
 void InflatePhase::begin(SimContext& context, bool resumed) {
   m_skin = context.body.collider()->mesh().positions;
-  if (!resumed) m_state = {.max_skin_lag_m = MAX_SKIN_LAG_M};
+  if (!resumed) m_state = {.max_skin_lag_m = MAX_SKIN_LAG_M, .skin = {}};
   context.stepper.advance({.h = STEP_S}); // contact knows how far skin may move from its last step
 }
 

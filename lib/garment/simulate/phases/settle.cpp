@@ -13,6 +13,7 @@ namespace {
 constexpr int UNLOADED_STEPS = 40; // after sewing, free of weight and friction
 constexpr int MAX_UNTANGLINGS =
     8;                            // of cloth that crosses itself, half of them before it is at rest
+constexpr int MAX_CLEAR_STEPS = 30; // with DrapeRequest::only_clear, in place of MAX_PUSH_STEPS
 constexpr int RESOLVE_EVERY = 40; // steps between looks whether cloth still crosses itself or a few
                                   // faces are still through the skin
 constexpr int JUDGE_EVERY = 10;   // steps between looks whether the garment can still fit
@@ -212,11 +213,11 @@ PhaseStatus SettlePhase::iterate(SimContext& context) {
       context.resolver.state().untanglings < MAX_UNTANGLINGS / 2)
     context.resolver.untangle_in_flight();
   if (k > unloaded && k % JUDGE_EVERY == 0) judge_fit(context);
-  const bool still =
-      speed < context.settings.settle_speed_m_s && residual < context.settings.settle_force_ratio;
+  const bool still = context.only_clear || (speed < context.settings.settle_speed_m_s &&
+                                            residual < context.settings.settle_force_ratio);
   m_state.calm = still && k >= unloaded ? m_state.calm + 1 : 0;
-  if (context.body.state().arms_aside && k > unloaded && speed < HUNG_SPEED &&
-      residual < HUNG_RESIDUAL) {
+  const bool hangs = context.only_clear || (speed < HUNG_SPEED && residual < HUNG_RESIDUAL);
+  if (context.body.state().arms_aside && k > unloaded && hangs) {
     let_arms_hang(context);
     restart_calm(context);
     return PhaseStatus::CONTINUE;
@@ -231,7 +232,8 @@ PhaseStatus SettlePhase::conclude(SimContext& context) {
     return PhaseStatus::CONTINUE;
   }
   const cloth::BodyContactEffect* contact = context.cloth.body_contact();
-  if (contact && contact->n_crossing() > 0 && ++m_state.pushed < MAX_PUSH_STEPS)
+  const int push_steps = context.only_clear ? MAX_CLEAR_STEPS : MAX_PUSH_STEPS;
+  if (contact && contact->n_crossing() > 0 && ++m_state.pushed < push_steps)
     return PhaseStatus::CONTINUE; // pushed harder each step
   if (context.body.has_coarse_proxy()) {
     context.telemetry.reporter.info("at rest on the coarser skin after " +

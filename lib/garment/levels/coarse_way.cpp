@@ -1,0 +1,158 @@
+#include <base/error.hpp>
+#include <collision/topology.hpp>
+#include <garment/levels/coarse_way.hpp>
+#include <garment/levels/finer_mesh.hpp>
+#include <garment/levels/soft_sewing.hpp>
+#include <garment/simulate/telemetry.hpp>
+#include <pattern/mesh/mesh_pattern.hpp>
+#include <pattern/pattern.hpp>
+
+#include <chrono>
+
+namespace sloper::garment {
+
+namespace {
+
+constexpr double COARSE_EDGE = 0.048; // m: 300 to 700 particles of a shirt or trousers
+constexpr double MOST_EDGE =
+    0.03; // m, of the given mesh: with longer ones the coarse mesh saves nothing
+constexpr double SOFT_SKIN_TOLERANCE =
+    1e-3; // m: by how much a dense skin may be simplified for soft contact
+constexpr double WIDEST_GAP = 0.03; // m of a stitch after sewing: beyond, the coarse way has
+                                    // failed. Three garments end at 6 to 9 mm
+constexpr SoftRelaxing COARSE_RELAXING = {};
+constexpr SoftRelaxing FINE_RELAXING = {
+    .steps = 15, .bending = 10, .reach_m = 0.008, .last_reach_m = 0.006, .cg_tolerance = 1e-2};
+constexpr int CLEARING_ROUNDS = 6;
+constexpr double CLEARANCE = 1.1;      // times the contact gap
+constexpr double CLEARING_REACH = 0.1; // m
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Particles and faces that are nearer to the skin than the gap go out along its normal.
+void clear_of_skin(Garment& garment, const collision::BodyCollider& skin, double gap) {
+  const std::vector<Triangle> triangles = garment.particle_triangles();
+  const collision::Topology topology = collision::make_topology(garment.position.size(), triangles);
+  std::vector<int> hint(garment.position.size(), -1);
+  for (int round = 0; round < CLEARING_ROUNDS; ++round) {
+    std::vector<Vec3> out(garment.position.size(), Vec3::Zero());
+    bool any = false;
+    const auto push = [&](std::size_t i, const Vec3& by) {
+      any = true;
+      if (by.squaredNorm() > out[i].squaredNorm()) out[i] = by;
+    };
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const collision::SignedDistance d =
+          skin.signed_distance(garment.position[i], CLEARING_REACH, hint[i]);
+      hint[i] = d.triangle;
+      if (d.triangle >= 0 && d.distance < gap) push(i, (gap - d.distance) * d.normal);
+    }
+    for (const collision::FaceContact& c :
+         skin.face_contacts(garment.position, triangles, topology, gap)) {
+      if (c.distance >= gap) continue;
+      const Triangle& t = triangles[static_cast<std::size_t>(c.triangle)];
+      for (std::size_t k = 0; k < 3; ++k)
+        push(static_cast<std::size_t>(t[k]), c.barycentric[static_cast<int>(k)] /
+                                                 c.barycentric.squaredNorm() * (gap - c.distance) *
+                                                 c.normal);
+    }
+    if (!any) return;
+    for (std::size_t i = 0; i < out.size(); ++i) garment.position[i] += out[i];
+  }
+}
+
+/// The coarse mesh of the pattern, placed as the given panels are.
+pattern::PanelMesh coarse_panels(const pattern::PanelMesh& given) {
+  pattern::PanelMesh coarse =
+      pattern::mesh_pattern(*given.source, COARSE_EDGE, "the pattern of the panels", 0);
+  coarse.placed = interpolate(given, given.placed, coarse);
+  coarse.placement = given.placement;
+  coarse.body_sha256 = given.body_sha256;
+  for (pattern::PanelInfo& panel : coarse.panels)
+    for (const pattern::PanelInfo& same : given.panels)
+      if (same.name == panel.name) panel.part = same.part;
+  for (pattern::MeshSeam& seam : coarse.seams)
+    for (const pattern::MeshSeam& same : given.seams)
+      if (same.name == seam.name) seam.open = same.open;
+  return coarse;
+}
+
+/// The body as coarse cloth meets it: forearms are out of the way of what is sewn around the lower
+/// body, as they are where the given mesh is sewn.
+void prepare(CollisionBody& body, const Garment& garment) {
+  body.find_arms_aside(garment);
+  body.prepare(body.ends_near(garment.panels.placed) |
+               (body.state().arms_aside ? ExtremityHulls::HANDS : 0u));
+  body.put_arms_aside();
+}
+
+/// @return why it failed; empty: the garment is sewn and near its rest, on the coarse mesh
+std::string sew(Garment& cloth, CollisionBody& body, const DrapeSettings& settings,
+                Reporter& reporter, DrapeReport& report) {
+  const SoftSewing sewing = sew_softly(cloth, body, reporter);
+  report.steps += sewing.steps;
+  if (!sewing.finite) return "coarse cloth diverged";
+  if (sewing.widest_gap_m > WIDEST_GAP)
+    return "a seam of the coarse mesh stayed open by " + millimetres_text(sewing.widest_gap_m);
+  const SoftRelaxed relaxed =
+      relax_softly(cloth, body, COARSE_RELAXING, settings.gravity_m_s2, reporter);
+  if (!relaxed.finite) return "coarse cloth diverged";
+  report.steps += COARSE_RELAXING.steps;
+  report.levels.coarse_edge_m = COARSE_EDGE;
+  report.levels.coarse_particles = static_cast<int>(cloth.position.size());
+  report.levels.coarse_residual_force_ratio = relaxed.residual_force_ratio;
+  return "";
+}
+
+} // namespace
+
+std::string sew_on_coarse_mesh(Garment& garment, const body::Body& body,
+                               const DrapeSettings& settings, Reporter& reporter,
+                               DrapeReport& report) {
+  const pattern::PanelMesh given = garment.panels;
+  Garment cloth = garment;
+  CollisionBody met(&body, SOFT_SKIN_TOLERANCE, reporter);
+  const auto began = Clock::now();
+  try {
+    cloth.panels = coarse_panels(given);
+    prepare(met, garment);
+    if (const std::string why = sew(cloth, met, settings, reporter, report); !why.empty())
+      return why;
+  } catch (const Error& e) { // a pattern too narrow for coarse triangles, a body without bones
+    if (e.kind() != ErrorKind::INPUT) throw;
+    return e.fact();
+  }
+  report.phases.emplace_back("sew coarse", seconds_since(began));
+  const auto carried = Clock::now();
+  Garment fine = on_finer_mesh(cloth, given);
+  if (!relax_softly(fine, met, FINE_RELAXING, settings.gravity_m_s2, reporter).finite)
+    return "cloth diverged on the given mesh";
+  report.steps += FINE_RELAXING.steps;
+  clear_of_skin(fine, *met.collider(), CLEARANCE * settings.contact_gap_m);
+  report.phases.emplace_back("carry to the mesh", seconds_since(carried));
+  garment = std::move(fine);
+  return "";
+}
+
+std::string refusal_of_levels(const Garment& garment, const body::Body* body,
+                              const DrapeSettings& settings) {
+  if (!garment.panels.source) return "the panels do not name their pattern";
+  if (garment.panels.edge_length > MOST_EDGE) return "their mesh is coarse";
+  if (!body || body->skin.triangles.empty()) return "there is no body";
+  if (garment.panels.seams.empty()) return "nothing is sewn";
+  if (!garment.scene.empty()) return "the scene adds effects";
+  for (const pattern::Panel& panel : garment.panels.source->panels)
+    if (!panel.pleats.empty()) return "pleats are folded on their own mesh";
+  if (!garment.rest_scale.empty()) return "rest lengths were edited";
+  if (!settings.effects.starts_with("auto") || settings.effects.find("-") != std::string::npos)
+    return "effects were chosen by hand";
+  if (garment.panels.placed.size() != garment.panels.pattern.size())
+    return "the panels are not placed";
+  return "";
+}
+
+} // namespace sloper::garment

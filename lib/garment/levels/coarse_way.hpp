@@ -1,0 +1,30 @@
+#pragma once
+/// From placed panels to cloth around the body, by way of a coarse mesh of their pattern: sewn and
+/// relaxed there (soft_sewing.hpp), carried to the given mesh (finer_mesh.hpp), smoothed and moved
+/// off the skin. Test: tests/garment/levels/test_levels.cpp
+#include <base/progress.hpp>
+#include <body/body.hpp>
+#include <garment/garment.hpp>
+#include <garment/scene/settings.hpp>
+#include <garment/simulate/report.hpp>
+
+#include <string>
+
+namespace sloper::garment {
+
+/// Why these panels are not sewn on a coarse mesh; empty: they are. Asks for the pattern that they
+/// were made from, edges of at most 30 mm, a body, a garment without scene effects, pleats and
+/// edited rest lengths, and effects "auto" with none switched off.
+std::string refusal_of_levels(const Garment& garment, const body::Body* body,
+                              const DrapeSettings& settings);
+
+/// @param garment  in: placed panels; out: sewn, on the given mesh, around the body and near its
+/// rest. Few faces may still cross body or cloth. Forearms in the way of it may be inside cloth
+/// (CollisionBody::find_arms_aside()).
+/// @param report  in and out: steps, phases, levels
+/// @return why it failed, and the garment is as it came; empty: done
+std::string sew_on_coarse_mesh(Garment& garment, const body::Body& body,
+                               const DrapeSettings& settings, Reporter& reporter,
+                               DrapeReport& report);
+
+} // namespace sloper::garment
