@@ -12,7 +12,7 @@ namespace {
 
 constexpr int UNLOADED_STEPS = 40; // after sewing, free of weight and friction
 constexpr int MAX_UNTANGLINGS =
-    8;                            // of cloth that crosses itself, half of them before it is at rest
+    8; // of cloth that crosses itself, half of them before it is at rest
 constexpr int MAX_CLEAR_STEPS = 30; // with DrapeRequest::only_clear, in place of MAX_PUSH_STEPS
 constexpr int RESOLVE_EVERY = 40; // steps between looks whether cloth still crosses itself or a few
                                   // faces are still through the skin
