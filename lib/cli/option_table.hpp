@@ -48,6 +48,9 @@ std::string upper(std::string text); ///< its letters a to z as capitals, in any
 
 std::string help_text(const ToolDescription& tool);
 std::string man_page(const ToolDescription& tool); ///< groff, section 1
+/// JSON for programs: name, summary, usage, what is read and written, operands and options with
+/// value, choices, range and whether they are required or repeat, exit statuses, examples.
+std::string json_usage(const ToolDescription& tool);
 std::string completion(const ToolDescription& tool,
                        const std::string& shell); ///< shell: bash, zsh or fish
 

@@ -35,8 +35,8 @@ struct Tool::Impl {
   std::vector<Example> examples;
   ToolReporter reporter;
   bool no_progress = false;
-  bool version_asked = false,
-       man_asked = false; ///< declared for the table; check_words() answers them
+  bool version_asked = false, man_asked = false,
+       json_usage_asked = false; ///< declared for the table; check_words() answers them
   std::string shell_asked;
   int threads = -1; ///< -1: not given
   Impl(const std::string& n, const std::string& s) : name(n), summary(s), app(s, n), reporter(n) {}
@@ -73,6 +73,10 @@ Tool::Tool(const std::string& name, const std::string& summary)
   m.app
       .add_flag("--no-progress", m.no_progress,
                 "no progress line (there is none when stderr is not a terminal)")
+      ->group(common);
+  m.app
+      .add_flag("--json-usage", m.json_usage_asked,
+                "this help as JSON, for programs: options, values, ranges, exit statuses")
       ->group(common);
   CLI::Option* threads = m.app.add_option("--threads", m.threads,
                                           "threads, 0 for all processors; results do not depend on "
@@ -122,7 +126,8 @@ static Error unknown_option(const CLI::App& app, const std::string& given) {
 /// What the command line asks for besides the tool's work: the first of these that is named wins
 /// over all other options.
 struct Request {
-  std::string option; ///< "help", "version", "generate-man", "generate-completion" or empty
+  std::string option; ///< "help", "version", "json-usage", "generate-man", "generate-completion" or
+                      ///< empty
   std::string value;
 };
 
@@ -134,7 +139,8 @@ static Request check_words(const CLI::App& app, const std::vector<std::string>& 
   auto note = [&](const CLI::Option* option, const std::string& value) {
     if (!request.option.empty() || option->get_lnames().empty()) return;
     const std::string& name = option->get_lnames().front();
-    for (const char* special : {"help", "version", "generate-man", "generate-completion"})
+    for (const char* special :
+         {"help", "version", "json-usage", "generate-man", "generate-completion"})
       if (name == special) request = {name, value};
   };
   std::string failure;
@@ -310,6 +316,7 @@ static std::string version_text(const ToolDescription& tool) {
 static std::string answer_request(const Request& request, const ToolDescription& tool) {
   if (request.option == "help") return help_text(tool);
   if (request.option == "version") return version_text(tool);
+  if (request.option == "json-usage") return json_usage(tool);
   if (request.option == "generate-man") return man_page(tool);
   return completion(tool, request.value);
 }
