@@ -81,13 +81,16 @@ compare-builds:
 	@scripts/setup --check || true
 	@scripts/compare-builds
 
-# What accuracy costs: tables and plots of three samples, gathered in docs/accuracy-cost.md.
+# What accuracy costs: whole drapes from panels of samples and of GARMENTS (pattern files, on the scan BODY), from STARTS that differ by a micrometre;
+# then tables and plots of three samples, from one sewn start. Gathered in docs/accuracy-cost.md.
 SCENES ?= skirt shirt trousers
+STARTS ?= 5
 accuracy-cost:
 	@scripts/setup --check gnuplot-nox
 	@scripts/build release scan-landmarks pattern-mesh drape make-mannequin make-pattern
 	@for scene in $(SCENES); do scripts/accuracy-cost $$scene || exit; done
 	@scripts/accuracy-cost --gather docs $(SCENES)
+	@scripts/accuracy-from-panels --starts $(STARTS) $(if $(BODY),--body $(BODY)) --into docs/accuracy-cost.md shirt skirt trousers $(GARMENTS)
 	@scripts/figures
 
 # The presets again from the measured front, into lib/garment/scene/preset_table.hpp: the cheapest settings within each preset's error on all scenes.

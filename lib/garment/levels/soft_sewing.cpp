@@ -29,10 +29,13 @@ constexpr double FIRST_PULL = 10; // of a stitch at its reach, in weights of a p
 constexpr double LAST_PULL = 20;  // N, likewise
 constexpr int PULL_GROWS_FROM = 15, PULL_GROWS_TO = 50;
 constexpr double STITCH_REACH = 0.05; // m: the pull does not grow beyond this gap
-constexpr double DRAWN_IN = 0.35;
+constexpr double DRAWN_IN = 0.35; // of the body's thickness, until the panels are around it; with
+                                  // 0.7 sleeves met hands on their way: spread of 5 mm in 5 starts
 constexpr int INFLATE_FROM = 30, INFLATE_TO = 45;
-constexpr double SEWING_REACH = 0.012;     // m: a chord of 48 mm lies 6 mm below an arm's skin
-constexpr double SEWING_STIFFNESS = 5e5;   // N/m3
+constexpr double SEWING_REACH = 0.012;   // m: a chord of 48 mm lies 6 mm below an arm's skin
+constexpr double SEWING_STIFFNESS = 5e5; // N/m3
+constexpr double SEWING_CREEP =
+    0.1; // of it, along the skin: without, a skirt as wide as the hip slides up to the waist
 constexpr double RELAXING_STIFFNESS = 3e5; // N/m3
 constexpr double CREEP = 0.5;              // of it, along the skin
 constexpr double SEWING_TOLERANCE =
@@ -139,7 +142,7 @@ private:
 SoftSewing sew_softly(Garment& garment, CollisionBody& body, Reporter& reporter) {
   unsew(garment);
   if (body.collider()) body.draw_in(DRAWN_IN);
-  SoftCloth cloth(garment, body, SEWING_REACH, SEWING_STIFFNESS, 0, SEWING_TOLERANCE);
+  SoftCloth cloth(garment, body, SEWING_REACH, SEWING_STIFFNESS, SEWING_CREEP, SEWING_TOLERANCE);
   auto& stitches =
       cloth.solver().emplace<cloth::SewingSpringEffect>(open_stitches(garment), 1.0, STITCH_REACH);
   cloth.set_bending(BOARD);

@@ -80,7 +80,7 @@ private:
   std::unique_ptr<State> m_state;
 };
 
-/// MeshFollower, once.
+/// MeshFollower, once; the mesh then names `after` as its pattern.
 bool follow_edits(const Pattern& before, const Pattern& after, PanelMesh& mesh,
                   double least_angle_deg);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace sloper::pattern {
 
@@ -229,7 +230,9 @@ bool MeshFollower::follow(const Pattern& after, PanelMesh& mesh, double least_an
 bool follow_edits(const Pattern& before, const Pattern& after, PanelMesh& mesh,
                   double least_angle_deg) {
   if (!same_edges(before, after)) return false;
-  return MeshFollower(before, mesh).follow(after, mesh, least_angle_deg);
+  if (!MeshFollower(before, mesh).follow(after, mesh, least_angle_deg)) return false;
+  mesh.source = std::make_shared<Pattern>(after);
+  return true;
 }
 
 } // namespace sloper::pattern

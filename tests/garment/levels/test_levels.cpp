@@ -224,7 +224,7 @@ TEST(DrapeLevels, killed_on_any_rung_it_goes_on_to_the_bytes_of_one_that_was_not
   Tube whole;
   const DrapeReport undisturbed = whole.drape_to("fine", {.checkpoints = {file, 3}}, nobody);
   EXPECT_TRUE(undisturbed.converged) << stop_text(undisturbed);
-  std::set<std::string> rungs;
+  std::set<std::string> rungs; // where it was killed
   for (int left : {2, 10, 25, 40}) {
     Tube killed;
     Killer killer(nobody.asked() - left);
@@ -232,6 +232,8 @@ TEST(DrapeLevels, killed_on_any_rung_it_goes_on_to_the_bytes_of_one_that_was_not
     const DrapeCheckpoint c = read_checkpoint(file);
     ASSERT_TRUE(c.levels);
     rungs.insert(c.levels->rung);
+    SCOPED_TRACE(c.levels->rung + ", killed " + std::to_string(left) + " of " +
+                 std::to_string(nobody.asked()) + " before its end");
     Garment resumed;
     set_thread_count(1 + left % 2);
     const DrapeReport report = resume_drape(file, resumed, &killed.body, silent_reporter());

@@ -3,8 +3,10 @@
 
 #include <base/error.hpp>
 #include <gtest/gtest.h>
+#include <io/json.hpp>
 #include <pattern/edit/edits.hpp>
 #include <pattern/mesh/triangulate.hpp>
+#include <pattern/write/export_pattern.hpp>
 
 namespace sloper::pattern::test {
 namespace {
@@ -78,6 +80,9 @@ TEST(Edits, AMeshFollowsWithItsIdsAndTriangles) {
   PanelMesh mesh = mesh_pattern(before, 0.015, "t");
   const PanelMesh old = mesh;
   ASSERT_TRUE(follow_edits(before, after, mesh, 15));
+  ASSERT_TRUE(mesh.source);
+  EXPECT_EQ(pattern_json(*mesh.source, "test"), pattern_json(after, "test"))
+      << "the mesh names the pattern that it is of now";
   EXPECT_EQ(mesh.triangles, old.triangles);
   for (std::size_t v = 0; v < mesh.ids.size(); ++v) EXPECT_EQ(mesh.ids[v].t, old.ids[v].t);
   for (std::size_t p = 0; p < 2; ++p)
