@@ -36,10 +36,10 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.option("--body", o.body, "body.json from scan-landmarks").check(cli::input_file());
   tool.option("--panels", o.panels, "panels.json from pattern-mesh").check(cli::input_file());
   tool.option("--from", o.from,
-              "go on from a garment that drape or retarget-garment wrote, or from a checkpoint")
+              "start from a garment that drape or retarget-garment wrote, or from a checkpoint")
       .check(cli::input_file());
   tool.option("--over", o.over,
-              "a draped garment that this one goes over; repeated from the skin outwards. Inner "
+              "a draped garment below this one; repeat it from the skin outwards. Inner "
               "cloth is tucked in where it lies outside, then all "
               "come to rest together")
       .check(cli::input_file());
@@ -63,8 +63,8 @@ void add_options(cli::Tool& tool, Options& o) {
               "draft, and standard when there is time for it")
       .check(cli::finite_in(0, 1e6, "s"));
   tool.option("--max-error-mm", o.max_error_mm,
-              "go on from preset to preset until the cloth is nearer than this to where the finest "
-              "would bring it, root mean square; exit 4 when none does")
+              "use finer and finer presets until the cloth is nearer than this to where the finest "
+              "would bring it, root mean square; exit 4 when none is")
       .check(cli::finite_in(1e-3, 1e3, "mm"));
   tool.option("--report", o.report,
               "write report.json: convergence, effects with calls and time, quality, settings")
@@ -76,7 +76,7 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.option("--motion", o.motion,
               "then move the body: a BVH motion, or the first of a numbered sequence of skins "
               "(body.0001.obj, from scan-landmarks --pose); the cloth "
-              "moves with it and comes to rest in the last pose")
+              "follows and comes to rest in the last pose")
       .check(cli::input_file());
   tool.option("--motion-fps", o.motion_fps,
               "with --motion: frames a second kept of a BVH motion, and those of a sequence of "
@@ -92,15 +92,16 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.flag("--untangle-only", o.untangle_only,
             "with --from: only draw crossing cloth apart and out of the body, and drape nothing; "
             "exit 4 where crossings remain");
-  tool.option("--checkpoint", o.checkpoint,
-              "note the state in this file now and then; after a crash, --from FILE with the same "
-              "--body and --motion goes on from there to the same bytes")
+  tool.option(
+          "--checkpoint", o.checkpoint,
+          "save the state in this file every --checkpoint-steps; after a crash, --from FILE with "
+          "the same --body and --motion resumes and ends in the same bytes")
       .check(cli::output_file());
   tool.option("--checkpoint-steps", o.checkpoint_steps,
               "steps from one checkpoint to the next; part of the result (default: 100)")
       .check(cli::finite_in(1, 1e6, "steps"));
   tool.option("--cache", o.cache,
-              "keep what is found out about a body in this folder, for later runs that meet it: "
+              "keep prepared bodies in this folder for later runs on the same body: "
               "the same result, sooner")
       .type_name("DIR");
   tool.option("-o,--output", o.output, "shirt.json; shirt.obj is written beside it")

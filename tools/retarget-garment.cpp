@@ -64,7 +64,7 @@ void add_options(cli::Tool& tool, Options& o) {
               "stop after this wall time, s, with the best state so far (exit 4)")
       .check(cli::finite_in(0, 1e6, "s"));
   tool.option("--cache", o.cache,
-              "keep what is found out about a body in this folder, for later runs that meet it: "
+              "keep prepared bodies in this folder for later runs on the same body: "
               "the same result, sooner")
       .type_name("DIR");
   tool.flag("--no-drape", o.no_drape, "only place the garment by its coordinates, without a drape");
