@@ -13,9 +13,10 @@ namespace {
 constexpr int UNLOADED_STEPS = 40; // after sewing, free of weight and friction
 constexpr int MAX_UNTANGLINGS =
     8; // of cloth that crosses itself, half of them before it is at rest
-constexpr int RESOLVE_EVERY_CLEARING =
-    8;                              // with DrapeRequest::only_clear, in place of RESOLVE_EVERY
-constexpr int MAX_CLEAR_STEPS = 30; // with DrapeRequest::only_clear, in place of MAX_PUSH_STEPS
+// With DrapeRequest::only_clear, in place of those without CLEARING:
+constexpr int MAX_UNTANGLINGS_CLEARING = 2;
+constexpr int RESOLVE_EVERY_CLEARING = 8;
+constexpr int MAX_PUSH_STEPS_CLEARING = 30;
 constexpr int RESOLVE_EVERY = 40; // steps between looks whether cloth still crosses itself or a few
                                   // faces are still through the skin
 constexpr int JUDGE_EVERY = 10;   // steps between looks whether the garment can still fit
@@ -235,7 +236,7 @@ PhaseStatus SettlePhase::conclude(SimContext& context) {
     return PhaseStatus::CONTINUE;
   }
   const cloth::BodyContactEffect* contact = context.cloth.body_contact();
-  const int push_steps = context.only_clear ? MAX_CLEAR_STEPS : MAX_PUSH_STEPS;
+  const int push_steps = context.only_clear ? MAX_PUSH_STEPS_CLEARING : MAX_PUSH_STEPS;
   if (contact && contact->n_crossing() > 0 && ++m_state.pushed < push_steps)
     return PhaseStatus::CONTINUE; // pushed harder each step
   if (context.body.has_coarse_proxy()) {
@@ -246,7 +247,8 @@ PhaseStatus SettlePhase::conclude(SimContext& context) {
     return PhaseStatus::CONTINUE;
   }
   cloth::SelfContactEffect* self_contact = context.cloth.self_contact();
-  if (context.resolver.state().untanglings < MAX_UNTANGLINGS && self_contact &&
+  const int untanglings = context.only_clear ? MAX_UNTANGLINGS_CLEARING : MAX_UNTANGLINGS;
+  if (context.resolver.state().untanglings < untanglings && self_contact &&
       !self_contact->find_crossings(context.cloth.x()).empty()) {
     context.resolver.untangle_in_flight();
     m_state.calm = 0;
