@@ -94,11 +94,14 @@ bool guess_seams(cli::Tool& tool, pattern::Pattern& source) {
       source.seams.push_back(g.seam);
       source.findings.push_back("seam " + g.seam.name + " is guessed");
     }
-  if (document["questions"].empty() && !source.seams.empty()) return true;
+  const std::vector<std::string> apart = pattern::panels_apart(source);
+  if (document["questions"].empty() && !source.seams.empty() && apart.empty()) return true;
   std::cout << io::to_text(document);
   tool.reporter().warning("the file states no seams: " + std::to_string(source.seams.size()) +
                           " are guessed, " + std::to_string(document["questions"].size()) +
-                          " edges are open; answer the questions on standard output and give them "
+                          " questions are open" +
+                          (apart.empty() ? "" : ", nothing is found for " + apart.front()) +
+                          "; answer the questions on standard output and give them "
                           "as --sewing, or take the pieces --unsewn");
   return false;
 }

@@ -43,20 +43,33 @@ PlacementReport Placer::run() {
         m_roles[k].part.empty() ? region_name(m_roles[k].region) : m_roles[k].part;
   measure_gaps(report);
   find_impossible(report);
-  report.is_guess = m_roles.size() > 1 && find_untold() == static_cast<int>(m_roles.size());
+  const int untold = find_untold();
+  report.is_guess =
+      m_roles.size() > 1 &&
+      (untold == static_cast<int>(m_roles.size()) ||
+       std::all_of(m_roles.begin(), m_roles.end(), [](const PanelRole& r) { return r.by_shape; }));
   return report;
 }
 
 int Placer::find_untold() {
-  std::string names;
+  std::string names, shaped;
   int count = 0;
   for (std::size_t k = 0; k < m_roles.size(); ++k) {
     const Panel& panel = m_pattern.panels[k];
+    if (m_roles[k].by_shape) {
+      shaped += (shaped.empty() ? "" : ", ") + panel.name + " (" + m_mesh.panels[k].part +
+                (m_roles[k].side == Side::FRONT  ? ", front"
+                 : m_roles[k].side == Side::BACK ? ", back"
+                                                 : "") +
+                ")";
+      continue;
+    }
     if (panel.hint.rigid || !panel.hint.part.empty() || m_roles[k].side == Side::RING ||
         says_anything(words_of(m_pattern, k)))
       continue;
     names += (count++ ? ", " : "") + panel.name;
   }
+  if (!shaped.empty()) m_mesh.findings.push_back("start: placed by their shapes: " + shaped);
   if (count > 0)
     m_mesh.findings.push_back("start: nothing says where " + names +
                               (count > 1 ? " belong" : " belongs") +

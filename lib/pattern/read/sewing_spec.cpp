@@ -31,8 +31,7 @@ std::vector<Run> read_side(const io::Node& node, const Pattern& pattern) {
 
 } // namespace
 
-void read_sewing_seams(Pattern& pattern, const io::Json& json, const std::string& file) {
-  const io::Node root(json, file), seams = root.at("seams");
+static void read_seams(Pattern& pattern, const io::Node& seams) {
   for (std::size_t k = 0; k < seams.size(); ++k) {
     const io::Node node = seams.at(k);
     Seam seam;
@@ -41,7 +40,12 @@ void read_sewing_seams(Pattern& pattern, const io::Json& json, const std::string
     seam.open = node.boolean("open", false);
     seam.a = read_side(node.at("a"), pattern), seam.b = read_side(node.at("b"), pattern);
     pattern.seams.push_back(std::move(seam));
+    if (node.has("and")) read_seams(pattern, node.at("and")); // its mirror image
   }
+}
+
+void read_sewing_seams(Pattern& pattern, const io::Json& json, const std::string& file) {
+  read_seams(pattern, io::Node(json, file).at("seams"));
 }
 
 Pattern read_sewing_spec(const io::Json& json, const std::string& file) {

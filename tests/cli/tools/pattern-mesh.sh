@@ -43,7 +43,7 @@ case_names_that_tell_nothing_are_warned_of() {
            {"name": "b", "a": [{"panel": "P2", "edge": "l"}], "b": [{"panel": "P1", "edge": "r"}]}]}
 EOF
   run 0 "$program" --edge-length 0.05 --body a.body.json -o out.json tube.json
-  says "nothing says where P1, P2 belong"
+  says "placed by their shapes: P1 (lower_body, front), P2 (lower_body, back)"
 }
 
 case_sides_that_differ_in_length_are_sewn_with_a_warning() {

@@ -256,12 +256,12 @@ TEST(Placement, WhereNoNameTellsWhereAPieceGoesThatIsFound) {
   PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
   EXPECT_TRUE(place_panels(pattern, waisted_body(), mesh).is_guess);
   ASSERT_FALSE(mesh.findings.empty());
-  EXPECT_EQ(mesh.findings.back().rfind("start: nothing says where P1, P2 belong", 0), 0u)
+  EXPECT_EQ(mesh.findings.back().rfind("start: placed by their shapes: P1 (lower_body", 0), 0u)
       << mesh.findings.back();
   pattern.panels[1].name = "rear";
   mesh = mesh_pattern(pattern, 0.02, "t");
   EXPECT_FALSE(place_panels(pattern, waisted_body(), mesh).is_guess);
-  EXPECT_EQ(mesh.findings.back().rfind("start: nothing says where P1 belongs", 0), 0u)
+  EXPECT_EQ(mesh.findings.back().rfind("start: placed by their shapes: P1 (lower_body", 0), 0u)
       << mesh.findings.back();
 }
 

@@ -4,6 +4,8 @@
 #include <io/json.hpp>
 #include <pattern/seams/infer_seams.hpp>
 
+#include <set>
+
 namespace sloper::pattern::test {
 namespace {
 
@@ -32,52 +34,132 @@ TEST(Inference, NamesAndLengthsTogetherAreCertain) {
   EXPECT_EQ(answered.seams.size(), 1u);
 }
 
-TEST(Inference, AmbiguousEdgesBecomeQuestions) {
+TEST(Inference, WhatIsAskedHasTwoAnswersAtMostAndNoEdgeIsSewnTwice) {
   const Pattern p = unsewn(false);
-  const io::Json doc = sewing_questions(p, infer_seams(p), "test");
-  EXPECT_GT(doc["questions"].size(), 0u);
-  EXPECT_GE(doc["questions"][0]["candidates"].size(), 1u);
+  const std::vector<SeamGuess> all = infer_seams(p);
+  const io::Json doc = sewing_questions(p, all, "test");
+  for (const io::Json& question : doc["questions"]) {
+    EXPECT_GE(question["candidates"].size(), 1u);
+    EXPECT_LE(question["candidates"].size(), 2u);
+  }
+  EXPECT_GT(doc["questions"].size() + doc["seams"].size(), 0u);
+  std::set<std::pair<int, int>> sewn;
+  for (const SeamGuess& g : all)
+    for (const auto* side : {&g.seam.a, &g.seam.b})
+      for (const pattern::Run& run : *side)
+        EXPECT_TRUE(sewn.insert({run.panel, run.edge}).second) << g.seam.name;
 }
 
-/// The only panel's outline from corners, cm.
-Pattern one_outline(const std::string& name, const std::vector<Vec2>& corners) {
-  std::string outline;
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vec2 &from = corners[k], &to = corners[(k + 1) % corners.size()];
-    const std::string end =
-        R"(["L", )" + std::to_string(to.x()) + ", " + std::to_string(to.y()) + "]";
-    outline +=
-        std::string(k ? ", " : "") + R"({"edge": "edge)" + std::to_string(k) + R"(", "path": [)" +
-        (k ? ""
-           : R"(["M", )" + std::to_string(from.x()) + ", " + std::to_string(from.y()) + "], ") +
-        end + "]}";
+TEST(Inference, AnAnswerTellsTheMirrorImageToo) {
+  Pattern p = unsewn(false);
+  const io::Json doc = {{"format", "sewing-seams"},
+                        {"version", 1},
+                        {"seams",
+                         {{{"name", "s"},
+                           {"a", {{{"panel", "front"}, {"run", "edge1"}}}},
+                           {"b", {{{"panel", "back"}, {"run", "edge3"}, {"dir", "-"}}}},
+                           {"and",
+                            {{{"name", "t"},
+                              {"a", {{{"panel", "back"}, {"run", "edge1"}}}},
+                              {"b", {{{"panel", "front"}, {"run", "edge3"}, {"dir", "-"}}}}}}}}}}};
+  read_sewing_seams(p, doc, "answer.json");
+  ASSERT_EQ(p.seams.size(), 2u);
+  EXPECT_EQ(p.seams[1].name, "t");
+}
+
+struct Outline {
+  std::string name;
+  std::vector<Vec2> corners; ///< cm
+};
+
+Pattern outlines(const std::vector<Outline>& panels) {
+  std::string text;
+  for (const Outline& panel : panels) {
+    std::string outline;
+    for (std::size_t k = 0; k < panel.corners.size(); ++k) {
+      const Vec2 &from = panel.corners[k], &to = panel.corners[(k + 1) % panel.corners.size()];
+      const std::string start =
+          k ? "" : R"(["M", )" + std::to_string(from.x()) + ", " + std::to_string(from.y()) + "], ";
+      outline += std::string(k ? ", " : "") + R"({"edge": "edge)" + std::to_string(k) +
+                 R"(", "path": [)" + start + R"(["L", )" + std::to_string(to.x()) + ", " +
+                 std::to_string(to.y()) + "]]}";
+    }
+    text += std::string(text.empty() ? "" : ", ") + R"({"name": ")" + panel.name +
+            R"(", "outline": [)" + outline + "]}";
   }
   return own(
-      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "n", "panels": [{"name": ")" +
-      name + R"(", "outline": [)" + outline + "]}]}");
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "n", "panels": [)" +
+      text + "]}");
 }
 
-bool guesses(const Pattern& p, int a, int b) {
-  const auto all = infer_seams(p);
-  return std::any_of(all.begin(), all.end(), [&](const SeamGuess& g) {
-    return g.seam.a[0].edge == a && g.seam.b[0].edge == b;
-  });
+bool guesses(const Pattern& p, int panel, int a, int other, int b) {
+  for (const SeamGuess& g : infer_seams(p)) {
+    const pattern::Run &x = g.seam.a[0], &y = g.seam.b[0];
+    if ((x.panel == panel && x.edge == a && y.panel == other && y.edge == b) ||
+        (y.panel == panel && y.edge == a && x.panel == other && x.edge == b))
+      return true;
+  }
+  return false;
 }
 
-TEST(Inference, ADartIsADeepReflexCorner) {
-  EXPECT_FALSE(guesses(
-      one_outline("front", {{-20, 0}, {0, 0}, {20, 0}, {20, 60}, {0, 60}, {-20, 60}}), 0, 1))
-      << "a hem with a point at its middle";
-  EXPECT_TRUE(guesses(
-      one_outline("front", {{-20, 0}, {-1, 0}, {0, 12}, {1, 0}, {20, 0}, {20, 60}, {-20, 60}}), 1,
-      2));
+TEST(Inference, ASkirtIsSewnAtItsSidesWithItsDartsAndNotAcrossItsHem) {
+  // Half way round each, with a point in the middle of the hem and two darts at the back's waist.
+  const Pattern skirt = outlines({{"a", {{-28, 0}, {0, 0}, {28, 0}, {23, 60}, {-23, 60}}},
+                                  {"b",
+                                   {{-28, 0},
+                                    {28, 0},
+                                    {23, 60},
+                                    {11.5, 60.2},
+                                    {10, 48},
+                                    {8.5, 60.2},
+                                    {-8.5, 60.2},
+                                    {-10, 48},
+                                    {-11.5, 60.2},
+                                    {-23, 60}}}});
+  EXPECT_TRUE(guesses(skirt, 0, 2, 1, 9)) << "its left side";
+  EXPECT_TRUE(guesses(skirt, 0, 4, 1, 1)) << "its right side";
+  EXPECT_TRUE(guesses(skirt, 1, 3, 1, 4)) << "a dart";
+  EXPECT_TRUE(guesses(skirt, 1, 6, 1, 7)) << "the other dart";
+  EXPECT_FALSE(guesses(skirt, 0, 0, 0, 1)) << "the halves of the hem";
 }
 
-TEST(Inference, ASleeveClosesOnItself) {
-  const std::vector<Vec2> sleeve = {{-15, 0}, {15, 0}, {18, 12}, {0, 26}, {-18, 12}};
-  EXPECT_TRUE(guesses(one_outline("SHORT SLEEVE", sleeve), 1, 4));
-  EXPECT_FALSE(guesses(one_outline("front", sleeve), 1, 4))
-      << "a front's two sides are sewn to a back";
+TEST(Inference, FrontAndBackOfATunicMeetAtSidesAndShoulders) {
+  const Pattern tunic = outlines({{"a",
+                                   {{-24, 0},
+                                    {24, 0},
+                                    {24, 45},
+                                    {19, 50},
+                                    {18, 68},
+                                    {9, 71},
+                                    {0, 62},
+                                    {-9, 71},
+                                    {-18, 68},
+                                    {-19, 50},
+                                    {-24, 45}}},
+                                  {"b",
+                                   {{-24, 0},
+                                    {24, 0},
+                                    {24, 45},
+                                    {19, 50},
+                                    {18, 68},
+                                    {9, 71},
+                                    {0, 69},
+                                    {-9, 71},
+                                    {-18, 68},
+                                    {-19, 50},
+                                    {-24, 45}}}});
+  EXPECT_TRUE(guesses(tunic, 0, 1, 1, 10)) << "a side";
+  EXPECT_TRUE(guesses(tunic, 0, 4, 1, 7)) << "a shoulder";
+  EXPECT_FALSE(guesses(tunic, 0, 5, 0, 6)) << "the neck";
+  EXPECT_FALSE(guesses(tunic, 0, 0, 1, 0)) << "the hems";
+}
+
+TEST(Inference, PanelsThatNothingJoinsToTheOthersAreNamed) {
+  Pattern p = own(tube_text());
+  EXPECT_TRUE(panels_apart(p).empty());
+  p.panels.push_back(p.panels[0]);
+  p.panels.back().name = "band";
+  EXPECT_EQ(panels_apart(p), std::vector<std::string>{"band"});
 }
 
 TEST(Inference, HemsAreNeverSewn) {

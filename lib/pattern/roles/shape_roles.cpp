@@ -1,0 +1,138 @@
+#include <io/json.hpp>
+#include <pattern/roles/shape_roles.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::pattern {
+
+extern const char* const ROLE_MODEL; // role_model.json, made a source by CMake
+
+namespace {
+
+constexpr double AT_THE_SIDE = 0.25; // of a panel's width, from its middle
+constexpr double CLEAR_VOTE = 0.2;   // of all that is cast
+
+using Parts = std::vector<std::array<double, SHAPE_PARTS>>;
+
+/// Panels whose faces are known relative to each other.
+class Faces {
+public:
+  explicit Faces(std::size_t n) : m_parent(n), m_turned(n, false) {
+    for (std::size_t k = 0; k < n; ++k) m_parent[k] = k;
+  }
+  std::pair<std::size_t, bool> root(std::size_t k) const {
+    bool turned = false;
+    while (m_parent[k] != k) turned = turned != m_turned[k], k = m_parent[k];
+    return {k, turned};
+  }
+  void join(std::size_t a, std::size_t b, bool opposite) {
+    const auto [p, ta] = root(a);
+    const auto [q, tb] = root(b);
+    if (p != q) m_parent[q] = p, m_turned[q] = (ta != tb) != opposite;
+  }
+
+private:
+  std::vector<std::size_t> m_parent;
+  std::vector<bool> m_turned;
+};
+
+Parts look(const ShapeWitness& witness, const std::vector<SeamTrees>& trees, const Parts* before) {
+  Parts out(witness.count());
+  for (std::size_t k = 0; k < witness.count(); ++k) {
+    const Evidence evidence = before ? witness.panel(k, *before) : witness.panel(k);
+    double most = -1e300, sum = 0;
+    for (std::size_t c = 0; c < SHAPE_PARTS; ++c)
+      out[k][c] = trees[c](evidence), most = std::max(most, out[k][c]);
+    for (double& x : out[k]) x = std::exp(x - most), sum += x;
+    for (double& x : out[k]) x /= sum;
+  }
+  return out;
+}
+
+} // namespace
+
+const RoleModel& role_model() {
+  static const RoleModel model = [] {
+    const io::Json json = io::Json::parse(ROLE_MODEL);
+    RoleModel out;
+    for (std::size_t look : {0, 1})
+      for (const io::Json& trees : json.at("parts").at(look))
+        out.parts[look].push_back(read_trees(trees));
+    out.back = read_trees(json.at("back")), out.same_face = read_trees(json.at("same_face"));
+    return out;
+  }();
+  return model;
+}
+
+void tell_sides(const ShapeWitness& witness, const RoleModel& model, const Parts& parts,
+                std::vector<ShapeRole>& roles) {
+  const std::size_t n = witness.count();
+  std::vector<std::size_t> own;
+  for (const ShapeRole& role : roles) own.push_back(role.part);
+  std::vector<std::pair<double, std::size_t>> order;
+  std::vector<double> same;
+  for (const auto& l : witness.links()) {
+    same.push_back(model.same_face(witness.link(l, own)));
+    order.push_back({-std::abs(same.back()), same.size() - 1});
+  }
+  std::sort(order.begin(), order.end());
+  Faces faces(n);
+  for (const auto& [cost, k] : order) {
+    const auto& l = witness.links()[k];
+    faces.join(l.a, l.b, same[k] < 0);
+  }
+  std::vector<double> back(n, 0); // log-odds, summed at the roots
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto [root, turned] = faces.root(k);
+    back[root] += (turned ? -1 : 1) * model.back(witness.panel(k, parts));
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto [root, turned] = faces.root(k);
+    roles[k].back = (back[root] > 0) != turned;
+  }
+  // Seen from outside, a front's right half is the wearer's left; a back's is the right.
+  const auto hand = [&](std::size_t k, double x) {
+    return (x > 0.5 ? 1 : -1) * (roles[k].back ? -1 : 1);
+  };
+  // In the middle a half is sewn to the other one of its face, at the side to one of the other.
+  std::vector<double> votes(n, 0), cast(n, 0);
+  for (const auto& l : witness.links()) {
+    if (own[l.a] == 1 || own[l.a] != own[l.b]) continue;
+    const double weight = l.middle ? 10 : roles[l.a].back == roles[l.b].back ? 3 : -1;
+    if (!l.middle && std::min(std::abs(l.x_a - 0.5), std::abs(l.x_b - 0.5)) < AT_THE_SIDE) continue;
+    votes[l.a] -= weight * l.length * hand(l.a, l.x_a),
+        votes[l.b] -= weight * l.length * hand(l.b, l.x_b);
+    for (std::size_t k : {l.a, l.b}) cast[k] += std::abs(weight) * l.length;
+  }
+  for (std::size_t k = 0; k < n; ++k)
+    if (std::abs(votes[k]) > CLEAR_VOTE * cast[k] && !witness.symmetric(k))
+      roles[k].hand = votes[k] > 0 ? 1 : -1;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& l : witness.links())
+      for (const bool turn : {false, true}) {
+        const std::size_t a = turn ? l.b : l.a, b = turn ? l.a : l.b;
+        if (l.middle || roles[b].hand != 0) continue;
+        if (roles[a].hand != 0 && (own[b] == own[a] || own[b] == 1) && (own[b] != 3))
+          roles[b].hand = roles[a].hand, changed = true;
+        else if (roles[a].hand == 0 && own[b] == 1 && own[a] != 1 && witness.symmetric(a))
+          roles[b].hand = hand(a, turn ? l.x_b : l.x_a), changed = true;
+      }
+  }
+}
+
+std::vector<ShapeRole> shape_roles(const Pattern& pattern, const RoleModel& model) {
+  const ShapeWitness witness(pattern);
+  Parts parts = look(witness, model.parts[0], nullptr);
+  parts = look(witness, model.parts[1], &parts);
+  std::vector<ShapeRole> roles(witness.count());
+  for (std::size_t k = 0; k < roles.size(); ++k) {
+    const auto best = std::max_element(parts[k].begin(), parts[k].end());
+    roles[k].part = static_cast<std::size_t>(best - parts[k].begin()), roles[k].sure = *best;
+  }
+  tell_sides(witness, model, parts, roles);
+  return roles;
+}
+
+} // namespace sloper::pattern

@@ -1,0 +1,171 @@
+/// Fits role_model.json to specifications whose names tell where panels go.
+///
+///   fit_role_model MODEL.json SPECIFICATION...
+///
+/// Those whose path has "keep" in it are not learned from but reported on.
+#include "boosting.hpp"
+
+#include <pattern/read/read_pattern.hpp>
+#include <pattern/roles/shape_roles.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+using namespace sloper;
+using namespace sloper::pattern;
+using namespace sloper::pattern::fit;
+
+namespace {
+
+constexpr std::size_t FOLDS = 4;
+using Parts = std::vector<std::array<double, SHAPE_PARTS>>;
+
+struct Truth {
+  std::size_t part;
+  int face = 0, hand = 0; ///< 1 back, -1 front; 1 left, -1 right; 0 not told
+};
+
+bool has(const std::string& name, const char* word) { return name.find(word) != std::string::npos; }
+bool ends(const std::string& name, const std::string& tail) {
+  return name.size() >= tail.size() &&
+         name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
+}
+
+Truth told(const std::string& n) {
+  Truth t{3};
+  t.hand = has(n, "left") || has(n, "_l_") || ends(n, "_l")    ? 1
+           : has(n, "right") || has(n, "_r_") || ends(n, "_r") ? -1
+                                                               : 0;
+  t.face = has(n, "front") || has(n, "ftorso") || ends(n, "_f") || has(n, "_f_")  ? -1
+           : has(n, "back") || has(n, "btorso") || ends(n, "_b") || has(n, "_b_") ? 1
+                                                                                  : 0;
+  if (has(n, "collar") || has(n, "hood")) t.part = 2;
+  else if (has(n, "sleeve") || n.rfind("sl_", 0) == 0) t.part = 1;
+  else if (has(n, "torso")) t.part = 0;
+  else if (n.rfind("pant", 0) == 0) t.part = 4;
+  else t.hand = 0;
+  return t;
+}
+
+struct Garment {
+  std::string path;
+  bool kept = false;
+  std::vector<std::string> names;
+  std::vector<Truth> truth;
+  Pattern pattern;
+  std::unique_ptr<ShapeWitness> witness;
+  Parts parts;
+};
+
+SeamTrees learn(const std::vector<Sample>& samples, const Boosting& how) {
+  std::vector<const Sample*> list;
+  for (const Sample& s : samples) list.push_back(&s);
+  return boost(list, CLUES, how);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::cerr << "usage: fit_role_model MODEL.json SPECIFICATION...\n";
+    return 2;
+  }
+  std::vector<std::unique_ptr<Garment>> all;
+  for (int k = 2; k < argc; ++k) {
+    auto g = std::make_unique<Garment>();
+    g->path = argv[k], g->kept = g->path.find("keep") != std::string::npos;
+    g->pattern = read_pattern(argv[k], PatternChoice{});
+    if (g->pattern.seams.empty()) continue;
+    for (Panel& panel : g->pattern.panels) {
+      g->names.push_back(panel.name), g->truth.push_back(told(panel.name));
+      panel.hint = {}, panel.label.clear();
+    }
+    g->witness = std::make_unique<ShapeWitness>(g->pattern);
+    all.push_back(std::move(g));
+  }
+  RoleModel model;
+  Boosting how;
+  how.trees = 60, how.depth = 3;
+  for (std::size_t look : {0, 1}) {
+    std::vector<std::vector<SeamTrees>> trees(FOLDS + 1);
+    for (std::size_t fold = 0; fold <= FOLDS; ++fold)
+      for (std::size_t c = 0; c < SHAPE_PARTS; ++c) {
+        std::vector<Sample> samples;
+        for (std::size_t g = 0; g < all.size(); ++g)
+          for (std::size_t k = 0; k < all[g]->names.size() && !all[g]->kept && g % FOLDS != fold;
+               ++k)
+            samples.push_back(
+                {{},
+                 look ? all[g]->witness->panel(k, all[g]->parts) : all[g]->witness->panel(k),
+                 all[g]->truth[k].part == c,
+                 1});
+        trees[fold].push_back(learn(samples, how));
+      }
+    for (std::size_t g = 0; g < all.size(); ++g) {
+      const auto& own = trees[all[g]->kept ? FOLDS : g % FOLDS];
+      Parts now(all[g]->names.size());
+      for (std::size_t k = 0; k < now.size(); ++k) {
+        const Evidence e =
+            look ? all[g]->witness->panel(k, all[g]->parts) : all[g]->witness->panel(k);
+        double sum = 0;
+        for (std::size_t c = 0; c < SHAPE_PARTS; ++c) sum += now[k][c] = std::exp(own[c](e));
+        for (double& x : now[k]) x /= sum;
+      }
+      all[g]->parts = std::move(now);
+    }
+    model.parts[look] = trees[FOLDS];
+  }
+  std::vector<Sample> backs, faces;
+  for (const auto& g : all) {
+    if (g->kept) continue;
+    std::vector<std::size_t> parts;
+    for (const Truth& t : g->truth) parts.push_back(t.part);
+    for (std::size_t k = 0; k < g->names.size(); ++k)
+      if (g->truth[k].face != 0)
+        backs.push_back({{}, g->witness->panel(k, g->parts), g->truth[k].face > 0, 1});
+    for (const auto& l : g->witness->links())
+      if (g->truth[l.a].face * g->truth[l.b].face != 0)
+        faces.push_back(
+            {{}, g->witness->link(l, parts), g->truth[l.a].face == g->truth[l.b].face, 1});
+  }
+  model.back = learn(backs, how), model.same_face = learn(faces, how);
+  std::size_t panels = 0, parts = 0, right = 0, whole = 0, garments = 0;
+  for (const auto& g : all) {
+    if (!g->kept) continue;
+    const std::vector<ShapeRole> roles = shape_roles(g->pattern, model);
+    std::string wrong;
+    for (std::size_t k = 0; k < roles.size(); ++k) {
+      const Truth& t = g->truth[k];
+      const bool part = roles[k].part == t.part,
+                 side = (t.face == 0 || (t.face > 0) == roles[k].back) &&
+                        (t.hand == 0 || t.hand == roles[k].hand || t.part == 2);
+      ++panels, parts += part, right += part && (side || t.part == 2);
+      if (!part || !(side || t.part == 2))
+        wrong += " " + g->names[k] + "=" + SHAPE_PART_NAMES[roles[k].part] +
+                 (roles[k].back ? " back" : " front") +
+                 (roles[k].hand > 0   ? " left"
+                  : roles[k].hand < 0 ? " right"
+                                      : "");
+    }
+    ++garments, whole += wrong.empty();
+    if (!wrong.empty()) std::printf("%s:%s\n", g->path.c_str(), wrong.c_str());
+  }
+  std::printf("%zu panels: part right %.3f, side too %.3f; %zu of %zu garments wholly\n", panels,
+              static_cast<double>(parts) / static_cast<double>(panels),
+              static_cast<double>(right) / static_cast<double>(panels), whole, garments);
+  std::ofstream out(argv[1]);
+  out << "{\"parts\": [";
+  for (std::size_t look : {0, 1}) {
+    out << (look ? ",\n[" : "[");
+    for (std::size_t c = 0; c < SHAPE_PARTS; ++c)
+      out << (c ? ",\n" : "") << trees_text(model.parts[look][c]);
+    out << "]";
+  }
+  out << "],\n\"back\": " << trees_text(model.back)
+      << ",\n\"same_face\": " << trees_text(model.same_face) << "}\n";
+  return out ? 0 : 5;
+}
