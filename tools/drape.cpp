@@ -8,6 +8,7 @@
 #include <garment/garment_json.hpp>
 #include <garment/inputs.hpp>
 #include <garment/kes.hpp>
+#include <garment/redrape/spread.hpp>
 #include <garment/scene/scene.hpp>
 #include <garment/simulate/checkpoint.hpp>
 #include <io/json.hpp>
@@ -22,11 +23,12 @@ namespace {
 
 struct Options {
   std::string scene, body, panels, from, accuracy, effects, material, report, output, cache,
-      checkpoint, follow, frames, edit_log, motion;
-  std::vector<std::string> set, over, over_output;
+      checkpoint, follow, frames, edit_log, motion, spread;
+  std::vector<std::string> set, over, over_output, jitter;
   int checkpoint_steps = 100;
   double max_seconds = 0, max_error_mm = 0, motion_fps = 0;
   bool untangle_only = false;
+  int redrapes = 0, seed = 1;
 };
 
 void add_options(cli::Tool& tool, Options& o) {
@@ -92,6 +94,20 @@ void add_options(cli::Tool& tool, Options& o) {
   tool.flag("--untangle-only", o.untangle_only,
             "with --from: only draw crossing cloth apart and out of the body, and drape nothing; "
             "exit 4 where crossings remain");
+  tool.option("--redrapes", o.redrapes,
+              "drape so many times from starts that differ as a person's hands do; the drape "
+              "written is the one nearest to all others, with the spread of each place")
+      .check(cli::finite_in(2, 1000, "drapes"));
+  tool.option("--jitter", o.jitter,
+              "with --redrapes: how far starts differ: turn_deg (1.1), offset_mm (3), order_mm (2: "
+              "what part of the cloth comes down first)")
+      .type_name("NAME=VALUE");
+  tool.option("--seed", o.seed, "with --redrapes: of the starts (default: 1)")
+      .check(cli::finite_in(0, 1e9, ""));
+  tool.option("--spread", o.spread,
+              "with --redrapes: write spread.json, mean and standard deviation of girths, ease, "
+              "hems, strain, folds and shadow, for scripts/compare-drape --spread")
+      .check(cli::output_file());
   tool.option(
           "--checkpoint", o.checkpoint,
           "save the state in this file every --checkpoint-steps; after a crash, --from FILE with "
@@ -122,6 +138,9 @@ void add_options(cli::Tool& tool, Options& o) {
                "let the body walk, cloth frame by frame");
   tool.example("drape --from shirt.json --body body.json --untangle-only -o clean.json",
                "free a garment of crossings and leave the rest of it as it is");
+  tool.example("drape --body body.json --panels panels.json --redrapes 10 --spread spread.json -o "
+               "shirt.json",
+               "ten drapes: the middle one, and how far they differ");
   tool.example("drape --from run.checkpoint.json --body body.json -o shirt.json",
                "go on where a run with --checkpoint run.checkpoint.json was killed");
   tool.example("drape --from shirt.json --body body.json --accuracy fine -o shirt-fine.json",
@@ -174,6 +193,14 @@ void check_options(const Options& o) {
   cli::refuse_together(untangle, {follow, over, checkpoint, max_error});
   cli::refuse_together(checkpoint, {follow, max_error});
   cli::refuse_together(over, {follow, max_error});
+  const cli::Given redrapes{"--redrapes", o.redrapes > 0};
+  cli::refuse_together(redrapes, {follow, over, checkpoint, max_error, untangle, motion});
+  for (const cli::Given& with :
+       {cli::Given{"--jitter", !o.jitter.empty()}, cli::Given{"--spread", !o.spread.empty()},
+        cli::Given{"--seed", o.seed != 1}})
+    if (with.second && !redrapes.second)
+      throw Error(ErrorKind::USAGE, "", with.first, "the garment is draped once",
+                  "give --redrapes too");
   for (const cli::Given& one : {follow, untangle})
     if (one.second && o.from.empty())
       throw Error(ErrorKind::USAGE, "", one.first, "needs a garment to start from",
@@ -233,6 +260,31 @@ int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment,
   return static_cast<int>(ErrorKind::FAILED);
 }
 
+/// Drapes again and again; the garment becomes the drape that is nearest to all others.
+garment::DrapeOutcome redrape(cli::Tool& tool, const Options& o, garment::Garment& garment,
+                              const body::Body* body, const garment::DrapeSettings& settings) {
+  garment::RedrapeRequest request;
+  request.count = o.redrapes;
+  request.seed = static_cast<std::uint64_t>(o.seed);
+  for (const std::string& assignment : o.jitter) garment::set_jitter(request.jitter, assignment);
+  garment::RedrapeSet set = garment::redrape(garment, body, settings, request, tool.reporter());
+  const garment::Spread spread = garment::measure_spread(set, body);
+  if (!o.spread.empty())
+    io::write_json(o.spread, garment::spread_json(spread, request, tool.name()));
+  const auto medoid = static_cast<std::size_t>(spread.medoid);
+  garment = std::move(set.garments[medoid]);
+  garment::keep_spread(spread, garment);
+  garment::DrapeOutcome outcome;
+  outcome.report = std::move(set.reports[medoid]);
+  outcome.document = garment::report_json(outcome.report, tool.name());
+  outcome.document["redrapes"] = garment::redrape_costs(set);
+  if (spread.at_rest < spread.count)
+    tool.reporter().warning(std::to_string(spread.count - spread.at_rest) + " of " +
+                            std::to_string(spread.count) +
+                            " drapes did not come to rest and do not count");
+  return outcome;
+}
+
 body::Body read_body(cli::Tool& tool, const Options& o) {
   body::Body body = body::read_body(o.body);
   body.skin_cache = std::make_shared<collision::SkinCache>(o.cache, tool.reporter());
@@ -249,6 +301,7 @@ int resume(cli::Tool& tool, const Options& o) {
                               {"--over", !o.over.empty()},
                               {"--max-error-mm", o.max_error_mm > 0},
                               {"--max-seconds", o.max_seconds > 0},
+                              {"--redrapes", o.redrapes > 0},
                               {"--follow", !o.follow.empty()},
                               {"--untangle-only", o.untangle_only},
                               {"--motion-fps", o.motion_fps > 0}};
@@ -309,6 +362,7 @@ int run(cli::Tool& tool, Options& o) {
   io::Json inputs = io::Json::array({garment::input_entry(source)});
   garment::apply_scene(scene, garment);
   if (!o.material.empty()) garment.materials[""] = garment::material_from(o.material);
+  garment::apply_interfacing(scene, garment);
 
   std::vector<garment::Garment> layers;
   for (const std::string& path : o.over) layers.push_back(garment::read_garment(path));
@@ -329,8 +383,10 @@ int run(cli::Tool& tool, Options& o) {
   if (!o.motion.empty()) inputs.push_back(garment::input_entry(o.motion));
   for (const std::string& path : o.over) inputs.push_back(garment::input_entry(path));
   garment::DrapeOutcome outcome =
-      garment::do_drape(job_of(tool, o, scene, settings), garment, layers,
-                        o.body.empty() ? nullptr : &body, settings, std::cout, tool.reporter());
+      o.redrapes > 0 ? redrape(tool, o, garment, o.body.empty() ? nullptr : &body, settings)
+                     : garment::do_drape(job_of(tool, o, scene, settings), garment, layers,
+                                         o.body.empty() ? nullptr : &body, settings, std::cout,
+                                         tool.reporter());
   if (!o.untangle_only)
     garment::judge_stretch(garment, outcome, {source, o.body, skin, !o.from.empty()}, before,
                            findings, tool.reporter());

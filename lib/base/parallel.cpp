@@ -1,12 +1,11 @@
 #include <base/parallel.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <mutex>
 #include <thread>
-#if defined(__SANITIZE_THREAD__)
-#include <atomic>
-#else
+#if !defined(__SANITIZE_THREAD__)
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -85,6 +84,29 @@ void spread_chunks(std::size_t n, std::size_t grain, ChunkWork work, const void*
     }
   });
   if (failure) std::rethrow_exception(failure);
+}
+
+void run_alone(std::size_t n, const std::function<void(std::size_t)>& work) {
+  const int threads = thread_count();
+  std::atomic<std::size_t> next{0};
+  std::vector<std::exception_ptr> failure(n);
+  const auto take = [&] {
+    for (std::size_t k; (k = next++) < n;) {
+      try {
+        work(k);
+      } catch (...) {
+        failure[k] = std::current_exception();
+      }
+    }
+  };
+  set_thread_count(1);
+  std::vector<std::thread> others;
+  for (int t = 1; t < threads && t < static_cast<int>(n); ++t) others.emplace_back(take);
+  take();
+  for (std::thread& t : others) t.join();
+  set_thread_count(threads);
+  for (const std::exception_ptr& f : failure)
+    if (f) std::rethrow_exception(f);
 }
 
 } // namespace sloper

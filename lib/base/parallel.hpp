@@ -1,6 +1,7 @@
 #pragma once
 /// Loops over threads whose result does not depend on the number of threads.
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <vector>
 namespace sloper {
@@ -43,5 +44,10 @@ double parallel_sum(std::size_t n, std::size_t grain, std::vector<double>& part,
   for (double p : part) sum += p;
   return sum;
 }
+
+/// Calls work(k) for each k below n, thread_count() at once, each on one thread alone: loops inside
+/// do not spread. For long tasks that share nothing. Not from within a parallel loop. What the
+/// lowest k throws is passed on, after all have ended.
+void run_alone(std::size_t n, const std::function<void(std::size_t)>& work);
 
 } // namespace sloper

@@ -46,6 +46,8 @@ void add_hinge(ClothMesh& mesh, const EdgeUse& first, const EdgeUse& second) {
   hinge.particle = {first.i, first.j, s.particle[(first.corner + 2) % 3],
                     t.particle[(second.corner + 2) % 3]};
   if (hinge.particle[2] == hinge.particle[3]) return;
+  hinge.triangle = {first.triangle, second.triangle};
+  hinge.corner = {first.corner, second.corner};
   // Cotangents at the two ends of the edge, each in its own triangle's flat shape: a seam has two.
   auto cotangents = [&](const RestTriangle& r, const EdgeUse& use) {
     const int from = use.corner, to = (use.corner + 1) % 3, apex = (use.corner + 2) % 3;

@@ -27,6 +27,10 @@ struct Hinge {
   std::array<double, 4>
       coefficient;  ///< of the curvature vector sum_k c_k x_k, 1/m (Bergou et al. 2006)
   double stiffness; ///< N m times the weight of the hinge: E = 1/2 stiffness |sum_k c_k x_k|^2
+  std::array<int, 2> triangle{-1, -1}; ///< whose opposite particles are 2 and 3
+  std::array<int, 2> corner{0, 0};     ///< by triangle: the edge runs from this corner to the next
+  bool pressed = false;                ///< a fold: no moment over it
+  double firmness = 0; ///< N m as `stiffness`, beside it: of a crease that was pressed in
 };
 
 struct ClothMesh {
@@ -36,6 +40,7 @@ struct ClothMesh {
   std::vector<std::array<int, 2>> edges; ///< each once, sorted
   std::vector<EdgeSpring> springs;       ///< one per edge, in the order of `edges`
   std::vector<Hinge> hinges;             ///< interior edges
+  double bend_scale = 1;    ///< factor on the rigidity of plates (cloth/bending_plates.hpp)
   std::vector<double> mass; ///< #P, kg; a third of the area density of every triangle around
   std::vector<double> area; ///< #P, m2
   std::vector<double> shortest_edge; ///< #P, m: shortest rest edge around

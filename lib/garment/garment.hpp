@@ -37,6 +37,18 @@ struct Bind {
   bool empty() const { return particles.empty(); }
 };
 
+/// How differently a garment comes to rest from starts that differ as a person's hands do
+/// (redrape/spread.hpp): standard deviations over `count` drapes.
+struct Redrapes {
+  struct Row {
+    double ease_m = 0, strain = 0, gap_m = 0;
+  };
+  int count = 0;                        ///< 0: it was draped once
+  std::vector<double> spread_m;         ///< #P: of the place of each particle
+  std::map<std::string, Row> girths;    ///< by row of a fit report
+  std::map<std::string, double> hems_m; ///< of the height of each hem
+};
+
 struct Garment {
   pattern::PanelMesh panels;    ///< vertices, triangles and seams; `pattern` is vt
   std::vector<int> particle_of; ///< #V: particle of each panel vertex; welded vertices share one
@@ -46,6 +58,7 @@ struct Garment {
                                                  ///< -> k+1 of each triangle (edits)
   SceneEffects scene;                            ///< pins, elastic bands, wind ...: empty for most
   Bind bind;
+  Redrapes redrapes;
   double offset_m = 0.002; ///< contact gap to the skin that the drape kept
   bool converged = false;
   std::string body_sha256; ///< of the body.obj it was draped on, or empty

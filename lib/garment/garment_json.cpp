@@ -1,4 +1,5 @@
 #include <garment/garment_json.hpp>
+#include <garment/material_json.hpp>
 #include <garment/scene/scene_effects_json.hpp>
 
 #include <base/version.hpp>
@@ -21,7 +22,7 @@ using io::Node;
 constexpr double WEIGHT_SUM_TOLERANCE =
     1e-6; ///< binding weights are written in full, so this only catches damage
 
-/// Keys and fields of a material; one table for reading and writing.
+/// Keys and fields of a material, for reading; material_json() writes them.
 constexpr std::pair<const char*, double Material::*> MATERIAL_NUMBERS[] = {
     {"density_kg_m2", &Material::density_kg_m2},
     {"stretch_warp_n_m", &Material::stretch_warp_n_m},
@@ -33,6 +34,13 @@ constexpr std::pair<const char*, double Material::*> MATERIAL_NUMBERS[] = {
     {"damping_s", &Material::damping_s},
     {"thickness_m", &Material::thickness_m},
     {"poisson", &Material::poisson},
+};
+/// Those that are 0 where a document has none.
+constexpr std::pair<const char*, double Material::*> MATERIAL_EXTRAS[] = {
+    {"bend_warp_n_m", &Material::bend_warp_n_m},
+    {"bend_weft_n_m", &Material::bend_weft_n_m},
+    {"bend_bias_n_m", &Material::bend_bias_n_m},
+    {"bend_soft_share", &Material::bend_soft_share},
 };
 
 Json panel_json(const pattern::PanelInfo& panel) {
@@ -57,14 +65,6 @@ Json seam_json(const pattern::MeshSeam& seam) {
   j["a"] = Json(seam.a);
   j["b"] = Json(seam.b);
   if (seam.open) j["open"] = true;
-  return j;
-}
-
-Json material_json(const Material& material) {
-  Json j;
-  j["name"] = material.name;
-  for (const auto& [key, field] : MATERIAL_NUMBERS) j[key] = material.*field;
-  j["source"] = material.source;
   return j;
 }
 
@@ -97,6 +97,19 @@ Json bind_json(const Bind& bind) {
         row.push_back(value);
     j["particles"].push_back(row);
   }
+  return j;
+}
+
+Json redrapes_json(const Garment& garment) {
+  const Redrapes& r = garment.redrapes;
+  Json j;
+  j["count"] = r.count;
+  if (r.spread_m.size() == garment.position.size()) j["spread_m"] = r.spread_m;
+  j["girths"] = Json::object();
+  for (const auto& [name, row] : r.girths)
+    j["girths"][name] = {{"ease_m", row.ease_m}, {"strain", row.strain}, {"gap_m", row.gap_m}};
+  j["hems_m"] = Json::object();
+  for (const auto& [name, sd] : r.hems_m) j["hems_m"][name] = sd;
   return j;
 }
 
@@ -199,6 +212,13 @@ std::map<std::string, Material> read_materials(const Node& node) {
       material.*field = m.number(name, material.*field);
       if (material.*field < 0) m.at(name).fail("a material property is negative");
     }
+    for (const auto& [name, field] : MATERIAL_EXTRAS) {
+      material.*field = m.number(name, 0);
+      if (material.*field < 0) m.at(name).fail("a material property is negative");
+    }
+    if (material.bend_soft_share > 1) m.at("bend_soft_share").fail("is more than all of it");
+    if (m.has("bend_soft_radius_m"))
+      material.bend_soft_radius_m = positive(m.at("bend_soft_radius_m"));
     if (m.has("density_kg_m2")) positive(m.at("density_kg_m2"));
     material.source = m.string("source", "");
     materials[key] = material;
@@ -307,6 +327,33 @@ void check_whole(const Garment& garment) {
   if (!whole) throw Error(ErrorKind::INTERNAL, "", "", "a garment to be written is not whole");
 }
 
+double not_negative(const Node& node) {
+  const double x = node.number();
+  if (x < 0) node.fail("a spread is negative");
+  return x;
+}
+
+Redrapes read_redrapes(const Node& node, std::size_t n_particles) {
+  Redrapes out;
+  out.count = count(node.at("count"));
+  if (node.has("spread_m")) {
+    const Node spread = node.at("spread_m");
+    if (spread.size() != n_particles) spread.fail("is not one number for each particle");
+    for (std::size_t i = 0; i < n_particles; ++i)
+      out.spread_m.push_back(not_negative(spread.at(i)));
+  }
+  if (node.has("girths"))
+    for (const std::string& name : node.at("girths").keys()) {
+      const Node row = node.at("girths").at(name);
+      out.girths[name] = {not_negative(row.at("ease_m")), not_negative(row.at("strain")),
+                          not_negative(row.at("gap_m"))};
+    }
+  if (node.has("hems_m"))
+    for (const std::string& name : node.at("hems_m").keys())
+      out.hems_m[name] = not_negative(node.at("hems_m").at(name));
+  return out;
+}
+
 } // namespace
 
 Garment read_garment(const std::string& path) {
@@ -345,6 +392,8 @@ Garment garment_from(const io::Node& root, const io::ObjMesh& mesh, const std::s
   }
   if (root.has("scene")) garment.scene = read_scene_effects(root.at("scene"));
   if (root.has("bind")) garment.bind = read_bind(root.at("bind"), garment.position.size());
+  if (root.has("redrapes"))
+    garment.redrapes = read_redrapes(root.at("redrapes"), garment.position.size());
   return garment;
 }
 
@@ -393,6 +442,7 @@ GarmentText garment_text(const Garment& garment, const std::string& mesh_name,
   document["vertex_ids"] = {{"s", s}, {"t", t}};
   if (!garment.scene.empty()) document["scene"] = scene_effects_json(garment.scene);
   if (!garment.bind.empty()) document["bind"] = bind_json(garment.bind);
+  if (garment.redrapes.count > 0) document["redrapes"] = redrapes_json(garment);
   return {std::move(document), io::obj_text(obj, "garment of " + generator_stamp(tool))};
 }
 

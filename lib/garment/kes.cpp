@@ -1,9 +1,11 @@
 #include <base/error.hpp>
 #include <base/units.hpp>
+#include <cloth/bending_plates.hpp>
 #include <garment/kes.hpp>
+#include <garment/material_json.hpp>
 #include <garment/materials.hpp>
 #include <io/files.hpp>
-#include <io/json_fwd.hpp>
+#include <io/json.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -17,6 +19,7 @@ namespace {
 constexpr double GF_CM = 0.980665;  // 1 gf/cm in N/m
 constexpr double FULL_LOAD = 500;   // gf/cm: end of the KES-F1 tensile test
 constexpr double WEARING_LOAD = 50; // N/m
+constexpr double FAST_SHEAR = 123;  // N/m times per cent: De Boos and Tester 1994
 constexpr double DEGREES = 180 / units::PI;
 
 struct Unit {
@@ -44,6 +47,13 @@ constexpr Unit UNITS[] = {
     {"E100", "%", 1e-2},
     {"LT", "", 1},
     {"LT", "-", 1},
+    {"C", "mm", 1e-3},
+    {"C", "cm", 1e-2},
+    {"C", "m", 1},
+    {"L", "mm", 1e-3},
+    {"L", "cm", 1e-2},
+    {"L", "m", 1},
+    {"EB5", "%", 1e-2},
     {"MIU", "", 1},
     {"MIU", "-", 1},
     {"T0", "mm", 1e-3},
@@ -54,6 +64,7 @@ constexpr Unit UNITS[] = {
 /// One measured property, SI; NaN where it was not given. Mean values fill both directions.
 struct Value {
   double warp = NAN, weft = NAN;
+  double bias = NAN; ///< at 45 degrees, where it was given as such
   double mean() const {
     return std::isnan(warp) ? weft : std::isnan(weft) ? warp : 0.5 * (warp + weft);
   }
@@ -123,7 +134,7 @@ private:
   std::string m_file;
 };
 
-/// "B-1 (gf.cm2/cm)" to property, direction ('1', '2' or 'm') and unit.
+/// "B-1 (gf.cm2/cm)" to property, direction ('1', '2', '3' or 'm') and unit.
 struct Heading {
   std::string property, unit;
   char direction = 'm';
@@ -142,7 +153,12 @@ Heading heading(const std::string& cell) {
                                           {"-warp", '1'},
                                           {" weft", '2'},
                                           {"_weft", '2'},
-                                          {"-weft", '2'}}) {
+                                          {"-weft", '2'},
+                                          {"-3", '3'},
+                                          {"_3", '3'},
+                                          {" bias", '3'},
+                                          {"_bias", '3'},
+                                          {"-bias", '3'}}) {
     const std::string end = ending;
     if (name.size() <= end.size() || lower(name.substr(name.size() - end.size())) != end) continue;
     h.direction = direction;
@@ -156,8 +172,44 @@ Heading heading(const std::string& cell) {
 
 void put(Values& values, const Heading& h, double si) {
   Value& v = values[h.property];
+  if (h.direction == '3') {
+    v.bias = si;
+    return;
+  }
   if (h.direction != '2') v.warp = si;
   if (h.direction != '1') v.weft = si;
+}
+
+/// B from bending lengths, where it was not measured itself: W g C^3, with C = L / 2 of an
+/// overhang.
+void bend_by_lengths(Values& values) {
+  const double weight = values["W"].mean() * units::GRAVITY;
+  auto fill = [&](double Value::*direction) {
+    double length = values["C"].*direction;
+    if (std::isnan(length)) length = 0.5 * (values["L"].*direction);
+    if (std::isnan(values["B"].*direction))
+      values["B"].*direction = weight * length * length * length;
+  };
+  const bool bias_was_measured = !std::isnan(values["B"].bias);
+  for (double Value::*direction : {&Value::warp, &Value::weft, &Value::bias}) fill(direction);
+  Value& b = values["B"];
+  if (!bias_was_measured && b.bias > 0 && b.warp > 0 && b.weft > 0)
+    b.bias = std::max(cloth::bias_of_strip(b.warp, b.weft, b.bias),
+                      cloth::least_bias_rigidity(b.warp, b.weft));
+}
+
+/// Rigidities by direction, where what was measured differs.
+void set_bending(const std::string& file, const Value& b, Material& m) {
+  m.bend_n_m = b.mean();
+  const bool differ = b.warp > 0 && b.weft > 0 && b.warp != b.weft;
+  if (!differ && !(b.bias > 0)) return;
+  m.bend_warp_n_m = std::isnan(b.warp) ? b.weft : b.warp;
+  m.bend_weft_n_m = std::isnan(b.weft) ? b.warp : b.weft;
+  if (!(b.bias > 0)) return;
+  m.bend_bias_n_m = b.bias;
+  if (b.bias < cloth::least_bias_rigidity(m.bend_warp_n_m, m.bend_weft_n_m))
+    throw input_error(file, "", "the bias bends more easily than warp and weft allow",
+                      "measure the strip at 45 degrees again");
 }
 
 /// Tension per width at unit strain, secant at WEARING_LOAD; 0 when nothing was measured.
@@ -211,6 +263,7 @@ Material read_kes(const std::string& path) {
         const std::string column = lower(header[c]);
         const char d = column == "warp"                        ? '1'
                        : column == "weft"                      ? '2'
+                       : column == "bias"                      ? '3'
                        : column == "mean" || column == "value" ? 'm'
                                                                : ' ';
         if (d == ' ' || row[c].empty() || (d == 'm' && values.count(h.property))) continue;
@@ -237,16 +290,18 @@ Material read_kes(const std::string& path) {
     throw input_error(file, "fabric \"" + wanted + "\"", "is not in the file",
                       list.empty() ? "" : "there are " + list);
   }
+  bend_by_lengths(values);
   if (!values["B"].given() || !values["W"].given())
     throw input_error(file, "",
-                      values["W"].given() ? "the bending rigidity (B) is missing"
+                      values["W"].given() ? "the bending rigidity (B) or length (C, L) is missing"
                                           : "the weight (W) is missing",
                       "see Materials in the manual page drape(1)");
   Material m;
   m.name = chosen.empty() ? io::file_name(file) : chosen;
   m.density_kg_m2 = values["W"].mean();
-  m.bend_n_m = values["B"].mean();
+  set_bending(file, values["B"], m);
   if (values["G"].given()) m.shear_n_m = values["G"].mean();
+  else if (values["EB5"].mean() > 0) m.shear_n_m = FAST_SHEAR / (100 * values["EB5"].mean());
   const double warp = stretch(values["EMT"].warp, values["LT"].warp, values, &Value::warp);
   const double weft = stretch(values["EMT"].weft, values["LT"].weft, values, &Value::weft);
   if (warp > 0) m.stretch_warp_n_m = warp;
@@ -262,6 +317,7 @@ Material material_from(const std::string& name_or_path) {
   const std::string file = name_or_path.substr(0, name_or_path.rfind('#'));
   if (file.size() > 4 && lower(file.substr(file.size() - 4)) == ".csv")
     return read_kes(name_or_path);
+  if (io::ending_of(name_or_path) == ".json") return read_material_file(name_or_path);
   return material_preset(name_or_path);
 }
 

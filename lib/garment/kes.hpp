@@ -8,8 +8,16 @@
 ///   `fabric,W,B-1,B-2,G-1,G-2,EMT-1,EMT-2,LT-1,LT-2,MIU,T0`, 1 = warp, 2 = weft
 /// Units may be given in the unit column or in brackets behind a header's name; without one those
 /// of KES-F hold:
-///   W mg/cm2, B gf.cm2/cm, G gf/cm.deg, EMT %, T0 mm; FAST: E5, E20, E100 %, B uN.m, G N/m, W
-///   g/m2.
+///   W mg/cm2, B gf.cm2/cm, G gf/cm.deg, EMT %, T0 mm; FAST: E5, E20, E100, EB5 %, C mm, B uN.m,
+///   G N/m, W g/m2; the cantilever of the kitchen table: L mm, the length that hangs over until its
+///   end lies 41.5 degrees below the edge.
+/// A third direction, bias (`bias` as a column, `-3` or `bias` behind a heading), holds B, C and L
+/// at 45 degrees.
+///
+/// Bending: B as measured; else from the bending length, B = W g C^3 with C = L / 2 at 41.5 degrees
+/// (Peirce 1930; BS 3356, FAST-2), along the bias less the strip's twist (bias_of_strip()). Where
+/// warp and weft differ, or the bias is given, the fabric bends by direction. Shear without G: 123
+/// N/m over EB5 in per cent (FAST-3, bias extension under 5 gf/cm).
 ///
 /// Stretch: the KES-F curve F = Fm (e/EMT)^p has the measured work where p = 2/LT - 1, Fm = 500
 /// gf/cm; its secant at 50 N/m, a load that garments carry, is the stiffness. FAST: the secant at
@@ -22,7 +30,8 @@ namespace sloper::garment {
 /// @throws Error INPUT with line: not a number, unit not known, no bending or no weight
 Material read_kes(const std::string& path);
 
-/// A preset's name, or a path that ends in .csv (or .csv#NAME). @throws Error INPUT
+/// A preset's name, or a path that ends in .csv (or .csv#NAME) or, a material's, .json. @throws
+/// Error INPUT
 Material material_from(const std::string& name_or_path);
 
 } // namespace sloper::garment

@@ -5,7 +5,7 @@
 namespace sloper::garment {
 
 /// All presets, by name. "table1" is Table 1 of Sul et al. 2010 as printed (5-10 times too heavy
-/// and far too stiff for cotton).
+/// and far too stiff for cotton). "NAME-orthotropic" is NAME with its mean rigidity by direction.
 const std::vector<Material>& material_presets();
 /// @throws Error INPUT naming the presets
 const Material& material_preset(const std::string& name);

@@ -104,8 +104,10 @@ static void press_pleats(const Garment& garment, cloth::ClothMesh& mesh) {
   for (cloth::Hinge& hinge : mesh.hinges)
     if (std::binary_search(folds.begin(), folds.end(),
                            std::array{std::min(hinge.particle[0], hinge.particle[1]),
-                                      std::max(hinge.particle[0], hinge.particle[1])}))
+                                      std::max(hinge.particle[0], hinge.particle[1])})) {
       hinge.stiffness = 0;
+      hinge.pressed = true;
+    }
 }
 
 cloth::ClothMesh cloth_mesh_of(const Garment& garment) {

@@ -77,6 +77,15 @@ std::vector<double> gaps(const Garment& g, const collision::BodyCollider& body) 
   return by_vertex;
 }
 
+std::vector<double> spread_values(const Garment& g) {
+  if (g.redrapes.spread_m.empty())
+    throw Error(ErrorKind::USAGE, "", "--map spread", "needs a garment that was draped repeatedly",
+                "write it with drape --redrapes");
+  std::vector<double> by_vertex;
+  for (int p : g.particle_of) by_vertex.push_back(1000 * g.redrapes.spread_m[p]);
+  return by_vertex;
+}
+
 std::vector<double> pressure_values(const Garment& g, const collision::BodyCollider& body,
                                     std::vector<garment::Weighted>& by_area) {
   const std::vector<garment::TriangleStrain> strains = garment::triangle_strains(g, g.position);
@@ -192,6 +201,10 @@ void choose_scale(Map map, double most, Legend& legend) {
     legend.title = "difference", legend.unit = "mm",
     legend.high = choose_range(most, {0.8, 1.6, 4, 8, 16, 40, 80, 160, 400, 800});
     break;
+  case Map::SPREAD:
+    legend.title = "spread of re-drapes", legend.unit = "mm",
+    legend.high = choose_range(most, {0.8, 1.6, 4, 8, 16, 40, 80, 160});
+    break;
   case Map::LIMIT:
     legend.title = "share of strain limit", legend.unit = "%",
     legend.high = choose_range(most, {8, 16, 40, 80, 160, 400, 1600});
@@ -232,9 +245,9 @@ void color_parts(Scene& scene) {
 } // namespace
 
 const std::vector<std::string>& map_names() {
-  static const std::vector<std::string> names = {"none", "strain",      "warp",       "weft",
-                                                 "bias", "limit",       "gap",        "pressure",
-                                                 "ease", "penetration", "difference", "parts"};
+  static const std::vector<std::string> names = {
+      "none",     "strain", "warp",        "weft",       "bias",  "limit", "gap",
+      "pressure", "ease",   "penetration", "difference", "parts", "spread"};
   return names;
 }
 
@@ -285,6 +298,8 @@ Legend apply_map(Scene& scene, Map map, double limit) {
     scene.garment_mesh.pop_back();
     for (int* mesh : {&scene.garment_mesh[0], &scene.body_mesh})
       if (*mesh > hidden) --*mesh;
+  } else if (map == Map::SPREAD) {
+    for (const Garment& g : scene.garments) values.push_back(spread_values(g));
   } else if (map == Map::STRAIN || map == Map::WARP || map == Map::WEFT || map == Map::BIAS ||
              map == Map::LIMIT) {
     for (const Garment& g : scene.garments) values.push_back(strain_values(g, map, by_area));

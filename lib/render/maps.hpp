@@ -11,7 +11,8 @@ namespace sloper::render {
 /// what is shortened has none. GAP: distance to the skin, mm. PENETRATION: depth inside the skin,
 /// mm. PRESSURE: contact pressure by Laplace's law, Pa. EASE: garment girth - body girth, cm, of
 /// the trunk levels, linear in height between them; none on sleeves. DIFFERENCE: distance of two
-/// drapes of one pattern at equal stable ids, mm; shown on the first one. PARTS: the body's parts.
+/// drapes of one pattern at equal stable ids, mm; shown on the first one. SPREAD: standard
+/// deviation of a place over re-drapes (drape --redrapes), mm. PARTS: the body's parts.
 enum class Map {
   NONE,
   STRAIN,
@@ -24,7 +25,8 @@ enum class Map {
   EASE,
   PENETRATION,
   DIFFERENCE,
-  PARTS
+  PARTS,
+  SPREAD
 };
 /// "none", "strain", "warp" ... in the order of Map.
 const std::vector<std::string>& map_names();

@@ -4,6 +4,7 @@
 /// master curve, that of the heavy elastica. Reference values: the boundary-value problem theta'' =
 /// -Gamma (1 - s) cos(theta), theta(0) = 0, theta'(1) = 0, solved here by shooting.
 #include "at_rest.hpp"
+#include "elastica.hpp"
 #include "figures.hpp"
 
 #include <Eigen/LU>
@@ -23,42 +24,6 @@ using namespace sloper;
 using namespace sloper::cloth;
 
 namespace {
-
-/// H/W of the heavy elastica, shot from the free end: theta(1) = tip, theta'(1) = 0, until theta(0)
-/// = 0.
-double reference(double gamma) {
-  double h = 0, w = 0;
-  auto shoot = [&](double tip) { // returns theta at the clamp
-    const int n = 20000;
-    const double ds = 1.0 / n;
-    double theta = tip, d = 0; // d: along r = 1 - s, the length from the free end
-    h = w = 0;
-    for (int i = 0; i < n; ++i) {
-      const double r = i * ds;
-      auto f = [&](double at, double angle) {
-        return -gamma * at * std::cos(angle);
-      }; // theta'' = gamma r cos(theta), theta downwards
-      const double k1 = d, l1 = f(r, theta), k2 = d + 0.5 * ds * l1,
-                   l2 = f(r + 0.5 * ds, theta + 0.5 * ds * k1), k3 = d + 0.5 * ds * l2,
-                   l3 = f(r + 0.5 * ds, theta + 0.5 * ds * k2), k4 = d + ds * l3,
-                   l4 = f(r + ds, theta + ds * k3);
-      const double next = theta + ds / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-      w += 0.5 * ds * (std::cos(theta) + std::cos(next));
-      h += 0.5 * ds * (std::sin(theta) + std::sin(next));
-      theta = next;
-      d += ds / 6 * (l1 + 2 * l2 + 2 * l3 + l4);
-      if (theta < -0.1) return theta;
-    }
-    return theta;
-  };
-  double low = 0, high = 0.5 * M_PI;
-  for (int k = 0; k < 60; ++k) {
-    const double mid = 0.5 * (low + high);
-    (shoot(mid) < 0 ? low : high) = mid;
-  }
-  shoot(high);
-  return h / w;
-}
 
 /// A beam clamped at s = 0 and hinged on its own line at s = 1, shortened by eps: theta'' = -N
 /// sin(theta) + T cos(theta) (B = L = 1), theta(0) = 0, theta'(1) = 0, no lateral distance between
@@ -160,7 +125,7 @@ const std::vector<double> ALL = {1, 3, 10, 30, 100};
 void expect_curve(BentModel model, int n, int m, double rigidity,
                   const std::vector<double>& gammas) {
   for (double gamma : gammas) {
-    const double exact = reference(gamma), ours = cantilever(gamma, n, m, rigidity, model);
+    const double exact = elastica_ratio(gamma), ours = cantilever(gamma, n, m, rigidity, model);
     plot_point("elastica",
                BENT_MODEL_NAMES[static_cast<int>(model)] +
                    std::string(rigidity < 1 ? ", strip" : ""),
@@ -180,17 +145,17 @@ constexpr double STRIP = 1 - 1.0 / 9;
 
 TEST(Elastica, the_references_agree_with_an_independent_solver) {
   for (double gamma = 0.7; gamma < 150; gamma *= 1.2)
-    plot_point("elastica", "Romero et al. 2021", gamma, reference(gamma));
+    plot_point("elastica", "Romero et al. 2021", gamma, elastica_ratio(gamma));
   for (double eps = 0.02; eps < 0.36; eps += 0.02)
     plot_point("stick-slip", "Romero et al. 2021", eps, buckled(eps).friction);
-  EXPECT_NEAR(reference(0.01), 0.01 / 8, 1e-7); // a beam under its own weight: w L^4 / 8 B
+  EXPECT_NEAR(elastica_ratio(0.01), 0.01 / 8, 1e-7); // a beam under its own weight: w L^4 / 8 B
   const char* shared = std::getenv("SLOPER_SHARED");
   if (!shared) GTEST_SKIP() << "SLOPER_SHARED is not set";
   const std::string path = std::string(shared) + "/check/elastica.json";
   const io::Json json = io::read_json(path);
   for (const auto& row : json.at("cantilever"))
     if (row.at(0) == 1 || row.at(0) == 10 || row.at(0) == 100) {
-      EXPECT_NEAR(reference(row.at(0)), row.at(1), 3e-4 * row.at(1).get<double>())
+      EXPECT_NEAR(elastica_ratio(row.at(0)), row.at(1), 3e-4 * row.at(1).get<double>())
           << "Gamma " << row.at(0);
     }
   for (const auto& row : json.at("stick"))

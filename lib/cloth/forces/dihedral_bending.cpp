@@ -10,34 +10,28 @@ namespace {
 /// Shorter than this (relative to the edge squared) a triangle's normal has no direction.
 constexpr double FLATTEST = 1e-6;
 
-struct Angle {
-  double value = 0;
-  Vec3 gradient[4] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-};
+} // namespace
 
-/// False where a triangle has collapsed.
-bool measure(const Hinge& hinge, const std::vector<Vec3>& x, Angle& angle, bool with_gradient) {
+HingeAngle measure_hinge(const Hinge& hinge, const std::vector<Vec3>& x, bool with_gradient) {
+  HingeAngle angle;
   const Vec3 &x0 = x[hinge.particle[0]], &x1 = x[hinge.particle[1]], &x2 = x[hinge.particle[2]],
              &x3 = x[hinge.particle[3]];
   const Vec3 e = x1 - x0, a = e.cross(x2 - x0), b = (x3 - x0).cross(e);
   const double length = e.norm(), least = FLATTEST * length * length;
-  if (!(a.norm() > least) || !(b.norm() > least)) return false;
+  if (!(a.norm() > least) || !(b.norm() > least)) return angle;
+  angle.defined = true;
   angle.value = std::atan2(a.cross(b).dot(e) / length, a.dot(b));
-  if (!with_gradient) return true;
+  if (!with_gradient) return angle;
   const Vec3 ga = a / a.squaredNorm(), gb = b / b.squaredNorm();
   angle.gradient[2] = -length * ga;
   angle.gradient[3] = -length * gb;
   angle.gradient[0] = ((x1 - x2).dot(e) * ga + (x1 - x3).dot(e) * gb) / length;
   angle.gradient[1] = ((x2 - x0).dot(e) * ga + (x3 - x0).dot(e) * gb) / length;
-  return true;
+  return angle;
 }
 
-} // namespace
-
 double hinge_angle(const Hinge& hinge, const std::vector<Vec3>& x) {
-  Angle angle;
-  measure(hinge, x, angle, false);
-  return angle.value;
+  return measure_hinge(hinge, x, false).value;
 }
 
 DihedralBendingEffect::DihedralBendingEffect(const ClothMesh& mesh, std::vector<double> rest_angle)
@@ -48,7 +42,7 @@ DihedralBendingEffect::DihedralBendingEffect(const ClothMesh& mesh, std::vector<
                                   std::max(h.particle[0], h.particle[1])};
     const auto found = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), edge);
     const double length = mesh.springs[found - mesh.edges.begin()].rest_length;
-    m_stiffness.push_back(h.stiffness * length *
+    m_stiffness.push_back((h.stiffness + h.firmness) * length *
                           length); // |sum c_k x_k| = |e| theta for small theta
   }
 }
@@ -63,8 +57,8 @@ void DihedralBendingEffect::declare(Couplings& couplings) const {
 double DihedralBendingEffect::energy(const std::vector<Vec3>& x) const {
   double sum = 0;
   for (std::size_t h = 0; h < m_mesh.hinges.size(); ++h) {
-    Angle angle;
-    if (!measure(m_mesh.hinges[h], x, angle, false)) continue;
+    const HingeAngle angle = measure_hinge(m_mesh.hinges[h], x, false);
+    if (!angle.defined) continue;
     const double off = angle.value - m_rest_angle[h];
     sum += 0.5 * m_stiffness[h] * off * off;
   }
@@ -75,8 +69,8 @@ void DihedralBendingEffect::add(StepContext& c) {
   const double damping = m_mesh.fabrics.empty() ? 0 : m_mesh.fabrics[0].damping_s / c.h;
   for (std::size_t h = 0; h < m_mesh.hinges.size(); ++h) {
     const Hinge& hinge = m_mesh.hinges[h];
-    Angle angle;
-    if (!measure(hinge, c.x, angle, true)) continue;
+    const HingeAngle angle = measure_hinge(hinge, c.x, true);
+    if (!angle.defined) continue;
     const double moment = m_stiffness[h] * (angle.value - m_rest_angle[h]),
                  k = m_stiffness[h] * (1 + damping);
     int at = 0;

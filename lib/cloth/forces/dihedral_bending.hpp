@@ -12,6 +12,14 @@ namespace sloper::cloth {
 /// particles 0, 1.
 double hinge_angle(const Hinge& hinge, const std::vector<Vec3>& x);
 
+/// The angle, and its gradient with the hinge's particles, 1/m.
+struct HingeAngle {
+  double value = 0;
+  std::array<Vec3, 4> gradient{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  bool defined = false; ///< false where a triangle has collapsed: all is 0 then
+};
+HingeAngle measure_hinge(const Hinge& hinge, const std::vector<Vec3>& x, bool with_gradient);
+
 class DihedralBendingEffect : public Effect {
 public:
   /// @param rest_angle  #hinges or empty (all flat), rad, in the sign of hinge_angle()

@@ -131,6 +131,11 @@ Garment merge_layers(const std::vector<Garment>& garments) {
     add(g.scene.attachments, all.scene.attachments, of_run);
     add(g.scene.creases, all.scene.creases, of_run);
     add(g.scene.weights, all.scene.weights, of_run);
+    for (SceneClosure closure : g.scene.closures) {
+      closure.run.panel.insert(0, prefix);
+      closure.with.panel.insert(0, prefix);
+      all.scene.closures.push_back(std::move(closure));
+    }
     for (const pattern::PanelInfo& info :
          g.panels.panels) // a shrink without a panel is of all panels of its garment
       for (SceneShrink s : g.scene.shrink) {

@@ -250,6 +250,22 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
   }
 }
 
+/// What draping the same garment again changes belongs to the uncertainty.
+void add_redrape_spread(const Redrapes& redrapes, FitReport& report) {
+  for (FitRow& row : report.rows) {
+    const auto found = redrapes.girths.find(row.name);
+    if (found == redrapes.girths.end()) continue;
+    const Redrapes::Row& sd = found->second;
+    row.garment_uncertainty_m = std::hypot(row.garment_uncertainty_m, sd.ease_m);
+    row.ease_uncertainty_m = std::hypot(row.ease_uncertainty_m, sd.ease_m);
+    row.strain_uncertainty = std::hypot(row.strain_uncertainty, sd.strain);
+    row.gap_uncertainty_m = std::hypot(row.gap_uncertainty_m, sd.gap_m);
+  }
+  for (FitHem& hem : report.lines.hems)
+    if (const auto found = redrapes.hems_m.find(hem.name); found != redrapes.hems_m.end())
+      hem.uncertainty_m = std::hypot(hem.uncertainty_m, found->second);
+}
+
 } // namespace
 
 FitReport fit_garment(const Garment& garment, const body::Body& body,
@@ -317,6 +333,7 @@ FitReport fit_garment(const Garment& garment, const body::Body& body,
   for (const auto& [name, girth] : body.girths)
     if (!measured.count(name))
       report.left_out.emplace_back(name, "the body document does not say where it was measured");
+  add_redrape_spread(garment.redrapes, report);
   if (placed) report.slip_borne_m = slip_borne(policy, report.lines, body, report);
   conclude(policy, unfit, report);
   return report;

@@ -11,6 +11,7 @@
 /// girth its spread, or what the next level tells of its slope; of the garment's the change within
 /// the error of the level's height and the chord's shortfall against its arc; of strain the change
 /// when half the band is taken; of the gap the sagitta of an edge; of pressure as of the strain. A
+/// garment that was draped again and again (Garment::redrapes) adds its standard deviations. A
 /// drape that did not come to rest adds `convergence_m` to lengths and gaps, and its strain and
 /// slip decide nothing (only the ease of its girths does), unless it was ended for them.
 #include <body/body.hpp>

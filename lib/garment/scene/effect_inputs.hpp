@@ -41,6 +41,14 @@ struct SceneShrink {
 struct SceneCrease {
   PanelRun run;
   double angle_rad = 0; ///< rest angle; positive folds the panel away from its outside
+  double firmness = 1;  ///< times the bending of the cloth beside it: how well it was pressed
+};
+
+/// Buttons, snaps or a zip: points of two runs that are held together once the garment is sewn.
+struct SceneClosure {
+  PanelRun run, with; ///< point by point, from `from` to `to` of both
+  int count = 0;      ///< of buttons, evenly from end to end; 0: a zip, at each vertex of `run`
+  double stiffness_n_m = 2000; ///< of each
 };
 
 /// Weights sewn to a garment: a chain in a hem, lead in a curtain, beads, buttons.
@@ -59,13 +67,14 @@ struct SceneEffects {
   std::vector<SceneShrink> shrink;
   std::vector<SceneCrease> creases;
   std::vector<SceneWeight> weights;
+  std::vector<SceneClosure> closures;
   bool air = false; ///< air takes part, still or moving
   Vec3 wind_m_s = Vec3::Zero();
   double pressure_pa = 0; ///< on the inner side
   bool empty() const {
     return membrane.empty() && bending.empty() && pins.empty() && bands.empty() &&
-           attachments.empty() && shrink.empty() && creases.empty() && weights.empty() && !air &&
-           pressure_pa == 0;
+           attachments.empty() && shrink.empty() && creases.empty() && weights.empty() &&
+           closures.empty() && !air && pressure_pa == 0;
   }
 };
 

@@ -1,7 +1,7 @@
 #include <garment/scene/effect_registry.hpp>
 
 /// One line an effect, in the order of the report: NAME has its specification in
-/// garment/effects/NAME.cpp.
+/// garment/effects/NAME.cpp, the models of bending in garment/effects/bending/NAME.cpp.
 #define SLOPER_EFFECTS(EFFECT) \
   EFFECT(edge_springs)         \
   EFFECT(triangle_stretch)     \
@@ -9,12 +9,14 @@
   EFFECT(shear)                \
   EFFECT(bending)              \
   EFFECT(dihedral_bending)     \
+  EFFECT(orthotropic_bending)  \
   EFFECT(damping)              \
   EFFECT(sewing)               \
   EFFECT(gravity)              \
   EFFECT(weights)              \
   EFFECT(pins)                 \
   EFFECT(attachments)          \
+  EFFECT(closures)             \
   EFFECT(elastic_bands)        \
   EFFECT(wind)                 \
   EFFECT(pressure)             \

@@ -24,6 +24,7 @@ struct EffectFacts {
   bool has_shear, has_bending, has_damping, has_friction; ///< some fabric of the garment does
   bool is_fem, is_triangles; ///< the model of stretch that the scene asks for; else springs
   bool is_dihedral;          ///< the model of bending that the scene asks for
+  bool is_directional;       ///< some fabric bends by direction, or softens as it bends
 };
 
 struct EffectChoice {

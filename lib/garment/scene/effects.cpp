@@ -1,4 +1,5 @@
 #include <base/error.hpp>
+#include <cloth/bending_plates.hpp>
 #include <garment/materials.hpp>
 #include <garment/scene/effect_registry.hpp>
 #include <garment/scene/effects.hpp>
@@ -85,11 +86,13 @@ static EffectFacts facts_of(const Garment& garment, const body::Body* body,
                     .has_friction = false,
                     .is_fem = scene.membrane == "fem",
                     .is_triangles = false,
-                    .is_dihedral = false};
+                    .is_dihedral = false,
+                    .is_directional = false};
   for (const pattern::PanelInfo& panel : garment.panels.panels) {
     const Material& m = material_of(garment, panel.material);
     facts.has_shear |= m.shear_n_m > 0;
     facts.has_bending |= m.bend_n_m > 0;
+    facts.is_directional |= cloth::bends_by_direction(m);
     facts.has_damping |= m.damping_s > 0;
     facts.has_friction |= m.friction_body > 0 || m.friction_self > 0;
   }

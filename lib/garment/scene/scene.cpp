@@ -1,6 +1,7 @@
 #include <base/error.hpp>
-#include <garment/kes.hpp>
+#include <garment/material_json.hpp>
 #include <garment/materials.hpp>
+#include <garment/scene/panel_runs.hpp>
 #include <garment/scene/preset_table.hpp>
 #include <garment/scene/scene.hpp>
 #include <garment/scene/scene_effects_json.hpp>
@@ -46,50 +47,15 @@ const std::vector<Knob>& knobs() {
   return table;
 }
 
-Material read_material(const io::Node& node) {
-  if (node.is_string()) {
-    try {
-      const std::string name = node.string();
-      return material_from(
-          name.find(".csv") == std::string::npos ? name : io::path_beside(node.file(), name));
-    } catch (const Error& e) {
-      node.fail(e.fact());
-    }
-  }
-  node.allow_only({"preset", "density_kg_m2", "stretch_warp_n_m", "stretch_weft_n_m", "shear_n_m",
-                   "bend_n_m", "friction_body", "friction_self", "damping_s", "thickness_m",
-                   "poisson", "source"});
-  Material m = material_preset(node.string("preset", material_presets().front().name));
-  auto read = [&](const char* key, double& value, double low, double high) {
-    if (!node.has(key)) return;
-    value = node.at(key).number();
-    if (value < low || value > high)
-      node.at(key).fail("is out of range",
-                        "give a value from " + std::to_string(low) + " to " + std::to_string(high));
-  };
-  read("density_kg_m2", m.density_kg_m2, 1e-3, 100);
-  read("stretch_warp_n_m", m.stretch_warp_n_m, 1e-3, 1e9);
-  read("stretch_weft_n_m", m.stretch_weft_n_m, 1e-3, 1e9);
-  read("shear_n_m", m.shear_n_m, 0, 1e9);
-  read("bend_n_m", m.bend_n_m, 0, 1e3);
-  read("friction_body", m.friction_body, 0, 10);
-  read("friction_self", m.friction_self, 0, 10);
-  read("damping_s", m.damping_s, 0, 10);
-  read("thickness_m", m.thickness_m, 0, 0.05);
-  read("poisson", m.poisson, 0, 0.95);
-  m.source = node.string("source", m.source);
-  return m;
-}
-
 } // namespace
 
 Scene read_scene(const std::string& path) {
   const io::Json document = io::read_document(path, "scene", SCENE_VERSION);
   const io::Node root(document, path);
-  root.allow_only({"format",   "version",  "generator", "length_unit", "body",
-                   "panels",   "accuracy", "effects",   "materials",   "settings",
-                   "membrane", "bending",  "pins",      "bands",       "attachments",
-                   "shrink",   "creases",  "weights",   "wind_m_s",    "pressure_pa"});
+  root.allow_only({"format",   "version",     "generator",   "length_unit", "body",       "panels",
+                   "accuracy", "effects",     "materials",   "settings",    "membrane",   "bending",
+                   "pins",     "bands",       "attachments", "shrink",      "creases",    "weights",
+                   "wind_m_s", "pressure_pa", "closures",    "roll_lines",  "interfacing"});
   Scene scene;
   if (root.has("body")) scene.body = io::path_beside(path, root.at("body").string());
   if (root.has("panels")) scene.panels = io::path_beside(path, root.at("panels").string());
@@ -105,6 +71,16 @@ Scene read_scene(const std::string& path) {
   if (root.has("materials"))
     for (const std::string& name : root.at("materials").keys())
       scene.materials[name == "default" ? "" : name] = read_material(root.at("materials").at(name));
+  if (root.has("interfacing"))
+    for (std::size_t k = 0; k < root.at("interfacing").size(); ++k) {
+      const io::Node item = root.at("interfacing").at(k);
+      item.allow_only({"panels", "material", "bond", "side"});
+      Scene::Interfacing interfacing;
+      for (std::size_t p = 0; p < item.at("panels").size(); ++p)
+        interfacing.panels.push_back(item.at("panels").at(p).string());
+      interfacing.layer = read_cloth_layer(item);
+      scene.interfacing.push_back(std::move(interfacing));
+    }
   if (root.has("settings"))
     for (const std::string& name : root.at("settings").keys()) {
       const io::Node value = root.at("settings").at(name);
@@ -126,11 +102,35 @@ void apply_scene(const Scene& scene, Garment& garment) {
   if (!from.attachments.empty()) to.attachments = from.attachments;
   if (!from.shrink.empty()) to.shrink = from.shrink;
   if (!from.creases.empty()) to.creases = from.creases;
+  if (!from.weights.empty()) to.weights = from.weights;
+  if (!from.closures.empty()) to.closures = from.closures;
   if (from.air) {
     to.air = true;
     to.wind_m_s = from.wind_m_s;
   }
   if (from.pressure_pa != 0) to.pressure_pa = from.pressure_pa;
+}
+
+void apply_interfacing(const Scene& scene, Garment& garment) {
+  for (const Scene::Interfacing& interfacing : scene.interfacing)
+    for (const std::string& name : interfacing.panels) {
+      const std::string wanted =
+          panel_named(garment, name).name; // or it is said that there is none
+      for (pattern::PanelInfo& panel : garment.panels.panels) {
+        if (panel.name != wanted) continue;
+        const Material material =
+            layered(material_of(garment, panel.material), {interfacing.layer});
+        std::string key = material.name;
+        const auto is_another = [&] { // two fabrics of one name
+          const auto there = garment.materials.find(key);
+          return there != garment.materials.end() &&
+                 material_json(there->second) != material_json(material);
+        };
+        while (is_another()) key += "'";
+        panel.material = key;
+        garment.materials[key] = material;
+      }
+    }
 }
 
 std::vector<std::string> accuracy_names() {

@@ -1,7 +1,7 @@
 #pragma once
 /// What a drape is asked for: accuracy presets, knobs by name, and the scene document that people
 /// write.
-#include <garment/garment.hpp>
+#include <garment/composite.hpp>
 #include <garment/scene/effect_report.hpp>
 #include <garment/scene/settings.hpp>
 #include <io/json_fwd.hpp>
@@ -22,6 +22,12 @@ struct Scene {
       materials; ///< by panel material name; "" is the garment's default
   std::vector<std::pair<std::string, double>> settings; ///< knob, value; checked by set_knob
   SceneEffects extras;                                  ///< pins, elastic bands, wind ...
+  /// "interfacing": layers that are put on some panels, whatever these are of.
+  struct Interfacing {
+    std::vector<std::string> panels;
+    ClothLayer layer;
+  };
+  std::vector<Interfacing> interfacing;
 };
 
 /// @throws Error INPUT
@@ -30,6 +36,11 @@ Scene read_scene(const std::string& path);
 /// Gives the garment the scene's materials and effects; what the scene does not name stays as it
 /// is.
 void apply_scene(const Scene& scene, Garment& garment);
+
+/// Puts the scene's interfacing on its panels, once all materials are known: each gets a material
+/// of its own, layered() on the one that it had, under a name such as "cotton-poplin+fusible".
+/// @throws Error INPUT for a panel that is not there
+void apply_interfacing(const Scene& scene, Garment& garment);
 
 /// The settings of a preset: draft, standard, fine, reference. @throws Error USAGE
 DrapeSettings preset_settings(const std::string& accuracy);

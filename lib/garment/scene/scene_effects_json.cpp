@@ -12,6 +12,9 @@ using io::Json;
 using io::Node;
 
 constexpr double DEGREE = units::PI / 180;
+/// A collar folded over to its outside and pressed: nearly back on itself, held there by its seams
+/// and pressing as by a cord. A crease's angle has the other sign.
+constexpr double ROLL_ANGLE = 165, ROLL_FIRMNESS = 30;
 
 double in_range(const Node& node, const char* key, double fallback, double low, double high) {
   if (!node.has(key)) return fallback;
@@ -120,8 +123,27 @@ SceneEffects read_scene_effects(const Node& node) {
     return s;
   });
   read_list(node, "creases", scene.creases, [](const Node& n) {
-    n.allow_only({"panel", "from", "to", "angle_deg"});
-    return SceneCrease{read_run(n), in_range(n, "angle_deg", 0, -175, 175) * DEGREE};
+    n.allow_only({"panel", "from", "to", "angle_deg", "firmness"});
+    return SceneCrease{read_run(n), in_range(n, "angle_deg", 0, -175, 175) * DEGREE,
+                       in_range(n, "firmness", 1, 1, 1000)};
+  });
+  read_list(node, "roll_lines", scene.creases, [](const Node& n) {
+    n.allow_only({"panel", "from", "to", "angle_deg", "firmness"});
+    return SceneCrease{read_run(n), -in_range(n, "angle_deg", ROLL_ANGLE, -175, 175) * DEGREE,
+                       in_range(n, "firmness", ROLL_FIRMNESS, 1, 1000)};
+  });
+  read_list(node, "closures", scene.closures, [](const Node& n) {
+    n.allow_only({"kind", "panel", "from", "to", "with", "count", "stiffness_n_m"});
+    SceneClosure closure;
+    closure.run = read_run(n);
+    const Node with = n.at("with");
+    with.allow_only({"panel", "from", "to"});
+    closure.with = read_run(with);
+    const std::string kind = one_of(n, "kind", {"buttons", "zip"});
+    if (kind == "zip" && n.has("count")) n.at("count").fail("a zip is not counted");
+    if (kind != "zip") closure.count = static_cast<int>(in_range(n, "count", 5, 1, 200));
+    closure.stiffness_n_m = in_range(n, "stiffness_n_m", closure.stiffness_n_m, 1, 1e6);
+    return closure;
   });
   read_list(node, "weights", scene.weights, [](const Node& n) {
     n.allow_only({"panel", "at", "from", "to", "mass_kg"});
@@ -173,11 +195,21 @@ Json scene_effects_json(const SceneEffects& scene) {
   write_list(out, "creases", scene.creases, [](const SceneCrease& crease) {
     Json j = run_json(crease.run);
     j["angle_deg"] = crease.angle_rad / DEGREE;
+    if (crease.firmness != 1) j["firmness"] = crease.firmness;
     return j;
   });
   write_list(out, "weights", scene.weights, [](const SceneWeight& weight) {
     Json j = run_json(weight.run);
     j["mass_kg"] = weight.mass_kg;
+    return j;
+  });
+  write_list(out, "closures", scene.closures, [](const SceneClosure& closure) {
+    Json j;
+    j["kind"] = closure.count > 0 ? "buttons" : "zip";
+    j.update(run_json(closure.run));
+    j["with"] = run_json(closure.with);
+    if (closure.count > 0) j["count"] = closure.count;
+    j["stiffness_n_m"] = closure.stiffness_n_m;
     return j;
   });
   if (scene.air) out["wind_m_s"] = io::to_json(scene.wind_m_s);

@@ -7,8 +7,10 @@
 ///   line "attachments": [{PLACE, "anchor_m": [x, y, z] or "landmark": NAME, "rest_length_m",
 ///   "stiffness_n_m"}] "shrink":      [{"panel", "from": [s, t], "to": [s, t], "warp", "weft"}] b_v
 ///   and b_u; no panel: all, no region: the whole panel "creases":     [{PLACE, "angle_deg"}] rest
-///   angle, positive folds away from the outside "wind_m_s": [x, y, z]; [0, 0, 0] is still air
-///   "pressure_pa": number
+///   angle, positive folds away from the outside; "roll_lines": the same, 165 degrees and firm;
+///   "closures":
+///   [{"kind": "buttons" | "zip", "panel", "from", "to", "with": PLACE, "count", "stiffness_n_m"}];
+///   "wind_m_s": [x, y, z]; [0, 0, 0] is still air "pressure_pa": number
 /// PLACE is "panel" with "at": [s, t], or with "from" and "to" for a line.
 #include <garment/scene/effect_inputs.hpp>
 #include <io/json_fwd.hpp>

@@ -40,8 +40,10 @@ void SimulatedCloth::build(bool open_seams, bool keep_velocity) {
     m_solver->set_preconditioner(std::make_unique<cloth::Factorisation>());
   m_loaded = false;
   prepare_mesh(*m_mesh, m_garment, m_telemetry.report.effects);
-  if (open_seams)
+  if (open_seams) {
     for (cloth::Hinge& hinge : m_mesh->hinges) hinge.stiffness *= SEW_BENDING;
+    m_mesh->bend_scale = SEW_BENDING;
+  }
   for (EffectStage stage :
        {EffectStage::FABRIC, EffectStage::MODEL, EffectStage::SCENE, EffectStage::CONTACT})
     add_stage(stage);

@@ -198,3 +198,35 @@ case_strain_that_sewing_left_evens_out_in_a_tight_shirt() {
 }
 
 case_a_cache_changes_no_byte() { a_cache_changes_no_byte; }
+
+case_redrapes_are_the_same_bytes_for_any_threads_and_say_what_they_cannot_do() {
+  local threads
+  for threads in 1 2 3; do
+    run 4 "$program" --threads "$threads" --redrapes 3 --jitter turn_deg=2 --spread spread.json "${command_line[@]}"
+    says "3 of 3 drapes did not come to rest"
+    mkdir -p first
+    for file in out.json out.obj spread.json; do
+      [[ -e first/$file ]] || cp "$file" first/
+      cmp "$file" "first/$file" || fail "other bytes in $file with --threads $threads"
+    done
+  done
+  run 2 "$program" --redrapes 1 "${command_line[@]}"
+  run 2 "$program" --redrapes 3 --jitter twist=1 "${command_line[@]}"
+  says "is not NAME=VALUE"
+  run 2 "$program" --spread spread.json "${command_line[@]}"
+  says "give --redrapes too"
+  run 2 "$program" --redrapes 3 --max-error-mm 1 --body a.body.json --panels panels.json -o other.json
+  [[ ! -e other.json ]] || fail "an output was written"
+}
+
+case_interfacing_is_of_panels_that_are_there() {
+  echo '{"format": "scene", "version": 1, "interfacing": [{"panels": ["collar"], "material": "fusible", "bond": 1}]}' > scene.json
+  run 3 "$program" --scene scene.json "${command_line[@]}"
+  says collar
+  local panel
+  panel=$(grep -oE '"name": "[a-z_0-9]+"' panels.json | sed -n '2s/.*: //p' | tr -d '"')
+  echo "{\"format\": \"scene\", \"version\": 1, \"interfacing\": [{\"panels\": [\"$panel\"], \"material\": \"fusible\", \"bond\": 1}]}" > scene.json
+  run 4 "$program" --scene scene.json --report report.json "${command_line[@]}"
+  grep -q '"cotton-poplin+fusible"' out.json || fail "no panel is interfaced"
+  grep -A2 orthotropic_bending report.json | grep -q '"active": true' || fail "it does not bend as it is fused"
+}

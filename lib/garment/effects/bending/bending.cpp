@@ -7,6 +7,7 @@ namespace {
 
 EffectChoice choose_bending(const EffectFacts& facts) {
   if (!facts.has_bending) return {false, "no fabric has bending rigidity"};
+  if (facts.is_directional) return {false, "orthotropic bending takes its place"};
   if (facts.is_dihedral) return {false, "dihedral bending takes its place"};
   return {true, "a fabric has bending rigidity"};
 }

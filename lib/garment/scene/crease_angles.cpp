@@ -1,15 +1,30 @@
-#include <cloth/forces/dihedral_bending.hpp>
-#include <garment/scene/effect_spec.hpp>
+#include <garment/scene/crease_angles.hpp>
 #include <garment/scene/panel_runs.hpp>
 
 namespace sloper::garment {
 
-namespace {
+static bool runs_along(const cloth::Hinge& hinge, const std::vector<int>& run) {
+  for (std::size_t k = 0; k + 1 < run.size(); ++k)
+    if ((hinge.particle[0] == run[k] && hinge.particle[1] == run[k + 1]) ||
+        (hinge.particle[1] == run[k] && hinge.particle[0] == run[k + 1]))
+      return true;
+  return false;
+}
 
-/// Rest angle of each hinge, in the sign of its own order of particles.
-std::vector<double> rest_angles_of(const cloth::ClothMesh& mesh, const Garment& garment) {
+void firm_creases(cloth::ClothMesh& mesh, const Garment& garment) {
+  for (const SceneCrease& crease : garment.scene.creases) {
+    if (!(crease.firmness > 1)) continue;
+    const std::vector<int> run = run_particles(garment, crease.run);
+    for (cloth::Hinge& hinge : mesh.hinges)
+      if (runs_along(hinge, run)) hinge.firmness = (crease.firmness - 1) * hinge.stiffness;
+  }
+}
+
+std::vector<double> crease_angles(const cloth::ClothMesh& mesh, const Garment& garment,
+                                  bool open_seams) {
   std::vector<double> rest(mesh.hinges.size(), 0);
   for (const SceneCrease& crease : garment.scene.creases) {
+    if (open_seams && crease.firmness > 1) continue;
     const std::vector<int> run = run_particles(garment, crease.run);
     for (std::size_t h = 0; h < mesh.hinges.size(); ++h) {
       const cloth::Hinge& hinge = mesh.hinges[h];
@@ -30,27 +45,6 @@ std::vector<double> rest_angles_of(const cloth::ClothMesh& mesh, const Garment& 
     }
   }
   return rest;
-}
-
-EffectChoice choose_dihedral_bending(const EffectFacts& facts) {
-  if (facts.is_dihedral)
-    return {true, facts.scene.creases.empty() ? "the scene chose it" : "the scene has creases"};
-  return {false, facts.has_bending ? "there is no crease" : "no fabric has bending rigidity"};
-}
-
-void add_dihedral_bending(EffectBuild& build) {
-  build.solver.emplace<cloth::DihedralBendingEffect>(build.mesh,
-                                                     rest_angles_of(build.mesh, build.garment));
-}
-
-} // namespace
-
-EffectSpec dihedral_bending_effect() {
-  return {.name = "dihedral_bending",
-          .stage = EffectStage::MODEL,
-          .model = EffectModel::BENDING,
-          .choose = choose_dihedral_bending,
-          .add = add_dihedral_bending};
 }
 
 } // namespace sloper::garment

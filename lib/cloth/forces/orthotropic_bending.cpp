@@ -1,0 +1,227 @@
+#include <cloth/forces/dihedral_bending.hpp>
+#include <cloth/forces/orthotropic_bending.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sloper::cloth {
+
+namespace {
+
+/// Index of `value` in `list`, where it is added if it is not there.
+Eigen::Index place_of(std::vector<int>& list, int value) {
+  const auto found = std::find(list.begin(), list.end(), value);
+  if (found != list.end()) return found - list.begin();
+  list.push_back(value);
+  return static_cast<Eigen::Index>(list.size()) - 1;
+}
+
+} // namespace
+
+OrthotropicBendingEffect::OrthotropicBendingEffect(const ClothMesh& mesh,
+                                                   std::optional<std::vector<double>> rest_angle)
+    : m_mesh(mesh), m_plates(make_bending_plates(mesh)), m_rest_angle(std::move(rest_angle)) {
+  std::vector<Pair> pairs;
+  for (const BendingPlate& plate : m_plates) {
+    Stencil s;
+    for (int h : plate.hinge)
+      for (int p : mesh.hinges[h].particle) place_of(s.particle, p);
+    const auto m = static_cast<Eigen::Index>(plate.hinge.size()),
+               n = static_cast<Eigen::Index>(s.particle.size());
+    s.coefficient = Eigen::MatrixXd::Zero(m, n);
+    for (Eigen::Index e = 0; e < m; ++e)
+      for (int k = 0; k < 4; ++k) {
+        const Hinge& hinge = mesh.hinges[plate.hinge[e]];
+        s.coefficient(e, place_of(s.particle, hinge.particle[k])) += hinge.coefficient[k];
+      }
+    s.stiffness = s.coefficient.transpose() * plate.stiffness * s.coefficient;
+    if (!m_rest_angle && plate.soft_share <= 0)
+      for (Eigen::Index a = 0; a < n; ++a)
+        for (Eigen::Index b = a; b < n; ++b)
+          pairs.push_back({std::min(s.particle[a], s.particle[b]),
+                           std::max(s.particle[a], s.particle[b]), s.stiffness(a, b)});
+    m_stencils.push_back(std::move(s));
+  }
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    return std::tie(a.i, a.j) < std::tie(b.i, b.j);
+  });
+  for (const Pair& p : pairs)
+    if (!m_pairs.empty() && m_pairs.back().i == p.i && m_pairs.back().j == p.j)
+      m_pairs.back().stiffness += p.stiffness;
+    else m_pairs.push_back(p);
+  if (!m_rest_angle) return;
+  m_rest_angle->resize(mesh.hinges.size(), 0);
+  for (const Hinge& h : mesh.hinges) {
+    const std::array<int, 2> edge{std::min(h.particle[0], h.particle[1]),
+                                  std::max(h.particle[0], h.particle[1])};
+    const auto found = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), edge);
+    const double length = mesh.springs[found - mesh.edges.begin()].rest_length;
+    const bool forward = mesh.triangles[h.triangle[0]].particle[h.corner[0]] == h.particle[0];
+    m_signed_length.push_back(forward ? length : -length);
+  }
+}
+
+void OrthotropicBendingEffect::declare(Couplings& couplings) const {
+  auto& pairs = m_rest_angle ? couplings.full : couplings.isotropic;
+  if (m_rest_angle)
+    for (const Hinge& hinge : m_mesh.hinges)
+      for (int a = 0; a < 4; ++a)
+        for (int b = a + 1; b < 4; ++b) pairs.push_back({hinge.particle[a], hinge.particle[b]});
+  for (const Pair& p : m_pairs)
+    if (p.i != p.j) pairs.push_back({p.i, p.j});
+  for (std::size_t k = 0; k < m_plates.size(); ++k) {
+    if (!m_rest_angle && is_constant(k)) continue;
+    const std::vector<int>& particle = m_stencils[k].particle;
+    for (std::size_t a = 0; a < particle.size(); ++a)
+      for (std::size_t b = a + 1; b < particle.size(); ++b)
+        pairs.push_back({particle[a], particle[b]});
+  }
+}
+
+void OrthotropicBendingEffect::bind(const BlockMatrix& matrix) {
+  if (m_rest_angle) m_hinge_slots = find_hinge_slots(m_mesh, matrix);
+  m_pair_slots.clear();
+  for (const Pair& p : m_pairs) m_pair_slots.push_back(p.i == p.j ? -1 : matrix.slot(p.i, p.j));
+  for (std::size_t k = 0; k < m_plates.size(); ++k) {
+    Stencil& s = m_stencils[k];
+    s.slot.clear();
+    if (!m_rest_angle && is_constant(k)) continue;
+    for (std::size_t a = 0; a < s.particle.size(); ++a)
+      for (std::size_t b = a + 1; b < s.particle.size(); ++b)
+        s.slot.push_back(matrix.slot(s.particle[a], s.particle[b]));
+  }
+}
+
+double OrthotropicBendingEffect::energy(const std::vector<Vec3>& x) const {
+  if (m_rest_angle) return m_mesh.bend_scale * energy_of_angles(x);
+  double sum = 0;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> q;
+  for (std::size_t k = 0; k < m_plates.size(); ++k) {
+    const Stencil& s = m_stencils[k];
+    q.setZero(s.coefficient.rows(), 3);
+    for (Eigen::Index a = 0; a < s.coefficient.cols(); ++a)
+      q += s.coefficient.col(a) * x[s.particle[a]].transpose();
+    sum += m_plates[k].energy((m_plates[k].stiffness * q).cwiseProduct(q).sum());
+  }
+  return m_mesh.bend_scale * sum;
+}
+
+void OrthotropicBendingEffect::add(StepContext& c) {
+  const double damping = m_mesh.fabrics.empty() ? 0 : m_mesh.fabrics[0].damping_s / c.h;
+  if (m_rest_angle) {
+    add_angles(c, damping);
+    return;
+  }
+  const double scale = m_mesh.bend_scale;
+  for (std::size_t e = 0; e < m_pairs.size(); ++e) {
+    const Pair& p = m_pairs[e];
+    const double k = scale * p.stiffness;
+    if (p.i == p.j) {
+      c.force[p.i] -= k * c.x[p.i];
+      c.stiffness.add_isotropic_diagonal(p.i, k * (1 + damping));
+      continue;
+    }
+    c.force[p.i] -= k * c.x[p.j];
+    c.force[p.j] -= k * c.x[p.i];
+    c.stiffness.add_isotropic(m_pair_slots[e], k * (1 + damping));
+  }
+  for (std::size_t k = 0; k < m_plates.size(); ++k)
+    if (!is_constant(k)) add_plate(c, k, damping);
+}
+
+void OrthotropicBendingEffect::add_plate(StepContext& c, std::size_t plate, double damping) {
+  const Stencil& s = m_stencils[plate];
+  const auto n = static_cast<Eigen::Index>(s.particle.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 3> x(n, 3);
+  for (Eigen::Index a = 0; a < n; ++a)
+    x.row(a) = (c.x[s.particle[a]] - c.x[s.particle[0]]).transpose();
+  const Eigen::Matrix<double, Eigen::Dynamic, 3> force = s.stiffness * x;
+  const double secant = m_mesh.bend_scale * m_plates[plate].secant(force.cwiseProduct(x).sum());
+  std::size_t at = 0;
+  for (Eigen::Index a = 0; a < n; ++a) {
+    c.force[s.particle[a]] -= secant * force.row(a).transpose();
+    const double k = secant * (1 + damping);
+    c.stiffness.add_isotropic_diagonal(s.particle[a], k * s.stiffness(a, a));
+    for (Eigen::Index b = a + 1; b < n; ++b)
+      c.stiffness.add_isotropic(s.slot[at++], k * s.stiffness(a, b));
+  }
+}
+
+double OrthotropicBendingEffect::energy_of_angles(const std::vector<Vec3>& x) const {
+  std::vector<double> q(m_mesh.hinges.size());
+  for (std::size_t h = 0; h < q.size(); ++h)
+    q[h] = turning(h, measure_hinge(m_mesh.hinges[h], x, false));
+  double sum = 0;
+  for (const BendingPlate& plate : m_plates) {
+    double s = 0;
+    for (std::size_t a = 0; a < plate.hinge.size(); ++a)
+      for (std::size_t b = 0; b < plate.hinge.size(); ++b)
+        s += plate.stiffness(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) *
+             q[plate.hinge[a]] * q[plate.hinge[b]];
+    sum += plate.energy(s);
+  }
+  for (std::size_t h = 0; h < q.size(); ++h) sum += 0.5 * m_mesh.hinges[h].firmness * q[h] * q[h];
+  return sum;
+}
+
+void OrthotropicBendingEffect::add_angles(StepContext& c, double damping) {
+  std::vector<HingeAngle> angle(m_mesh.hinges.size());
+  for (std::size_t h = 0; h < angle.size(); ++h)
+    angle[h] = measure_hinge(m_mesh.hinges[h], c.x, true);
+  for (std::size_t k = 0; k < m_plates.size(); ++k) {
+    const BendingPlate& plate = m_plates[k];
+    const Stencil& s = m_stencils[k];
+    const auto m = static_cast<Eigen::Index>(plate.hinge.size()),
+               n = static_cast<Eigen::Index>(s.particle.size());
+    Eigen::VectorXd q(m);
+    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(m, 3 * n);
+    for (Eigen::Index e = 0; e < m; ++e) {
+      const int h = plate.hinge[e];
+      q[e] = turning(h, angle[h]);
+      for (int i = 0; i < 4; ++i) {
+        const auto at =
+            std::find(s.particle.begin(), s.particle.end(), m_mesh.hinges[h].particle[i]);
+        jacobian.block<1, 3>(e, 3 * (at - s.particle.begin())) +=
+            m_signed_length[h] * angle[h].gradient[i].transpose();
+      }
+    }
+    const Eigen::VectorXd moments = plate.stiffness * q;
+    const double secant = m_mesh.bend_scale * plate.secant(q.dot(moments));
+    const Eigen::VectorXd force = jacobian.transpose() * moments;
+    const Eigen::MatrixXd stiffness =
+        secant * (1 + damping) * jacobian.transpose() * plate.stiffness * jacobian;
+    std::size_t at = 0;
+    for (Eigen::Index a = 0; a < n; ++a) {
+      c.force[s.particle[a]] -= secant * force.segment<3>(3 * a);
+      c.stiffness.add_diagonal(s.particle[a], stiffness.block<3, 3>(3 * a, 3 * a));
+      for (Eigen::Index b = a + 1; b < n; ++b, ++at) {
+        const bool upper = s.particle[a] < s.particle[b];
+        c.stiffness.add_off_diagonal(s.slot[at], upper ? Mat3(stiffness.block<3, 3>(3 * a, 3 * b))
+                                                       : Mat3(stiffness.block<3, 3>(3 * b, 3 * a)));
+      }
+    }
+  }
+  for (std::size_t h = 0; h < angle.size(); ++h)
+    if (m_mesh.hinges[h].firmness > 0) add_firmness(c, h, angle[h], damping);
+}
+
+void OrthotropicBendingEffect::add_firmness(StepContext& c, std::size_t h, const HingeAngle& angle,
+                                            double damping) {
+  const Hinge& hinge = m_mesh.hinges[h];
+  const double firmness = m_mesh.bend_scale * hinge.firmness,
+               moment = firmness * m_signed_length[h] * turning(h, angle),
+               k = firmness * m_signed_length[h] * m_signed_length[h] * (1 + damping);
+  int at = 0;
+  for (int a = 0; a < 4; ++a) {
+    c.force[hinge.particle[a]] -= moment * angle.gradient[a];
+    c.stiffness.add_diagonal(hinge.particle[a],
+                             k * angle.gradient[a] * angle.gradient[a].transpose());
+    for (int b = a + 1; b < 4; ++b, ++at) {
+      const bool upper = hinge.particle[a] < hinge.particle[b];
+      const Vec3 &first = angle.gradient[upper ? a : b], &second = angle.gradient[upper ? b : a];
+      c.stiffness.add_off_diagonal(m_hinge_slots[h][at], k * first * second.transpose());
+    }
+  }
+}
+
+} // namespace sloper::cloth

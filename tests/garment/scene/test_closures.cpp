@@ -1,0 +1,120 @@
+/// Buttons, zips and roll lines.
+#include <support/force_checks.hpp>
+#include <support/hung_sheet.hpp>
+#include <support/scratch_folder.hpp>
+
+#include <cloth/forces/closures.hpp>
+#include <garment/drape/drape.hpp>
+#include <garment/materials.hpp>
+#include <garment/scene/scene.hpp>
+#include <garment/scene/scene_effects_json.hpp>
+#include <gtest/gtest.h>
+#include <io/files.hpp>
+#include <io/json.hpp>
+
+using namespace sloper;
+using namespace sloper::garment;
+
+namespace {
+
+SceneEffects parsed(const std::string& text) {
+  const io::Json json = io::parse_json(text, "scene.json");
+  return read_scene_effects(io::Node(json, "scene.json"));
+}
+
+const EffectReport& effect(const DrapeReport& report, const std::string& name) {
+  for (const EffectReport& e : report.effects)
+    if (e.name == name) return e;
+  throw std::runtime_error(name);
+}
+
+} // namespace
+
+TEST(Closures, force_is_minus_energy_gradient_within_reach_and_beyond) {
+  const cloth::Grid g = cloth::make_grid(3, 0.1);
+  cloth::ClosuresEffect near({{0, 4, 0.068, 500}, {1, 5, 0.066, 800}}), far({{0, 8, 0.02, 500}}),
+      slack({{0, 4, 0.2, 500}});
+  const auto x = cloth::jittered(g.x, 0.001, 3);
+  cloth::expect_gradient(near, g.mesh, x);
+  cloth::expect_gradient(far, g.mesh, x);
+  cloth::expect_rigid_motion_invariance(near, g.mesh, x);
+  cloth::expect_jacobian(near, g.mesh, x, 1e-5);
+  EXPECT_EQ(slack.energy(x), 0) << "it pushed";
+}
+
+TEST(Closures, are_read_written_and_refused_where_they_mean_nothing) {
+  const SceneEffects scene = parsed(
+      R"({"closures": [{"panel": "a", "from": [0, 0], "to": [0, 1], "count": 7, "with": {"panel": "b", "from": [1, 0], "to": [1, 1]}},
+                       {"kind": "zip", "panel": "a", "from": [0, 0], "to": [1, 0], "with": {"panel": "b", "from": [0, 0], "to": [1, 0]}}],
+          "roll_lines": [{"panel": "collar", "from": [0, 0.5], "to": [1, 0.5]}]})");
+  ASSERT_EQ(scene.closures.size(), 2u);
+  EXPECT_EQ(scene.closures[0].count, 7);
+  EXPECT_EQ(scene.closures[0].with.panel, "b");
+  EXPECT_EQ(scene.closures[1].count, 0);
+  ASSERT_EQ(scene.creases.size(), 1u);
+  EXPECT_NEAR(scene.creases[0].angle_rad, -165 * M_PI / 180, 1e-12);
+  const io::Json out = scene_effects_json(scene);
+  const SceneEffects again = read_scene_effects(io::Node(out, "again"));
+  EXPECT_EQ(scene_effects_json(again), out);
+  EXPECT_THROW(parsed(R"({"closures": [{"panel": "a", "from": [0, 0], "to": [0, 1]}]})"), Error);
+  EXPECT_THROW(
+      parsed(
+          R"({"closures": [{"kind": "zip", "count": 3, "panel": "a", "from": [0, 0], "to": [0, 1], "with": {"panel": "b", "from": [0, 0], "to": [0, 1]}}]})"),
+      Error);
+}
+
+TEST(Scene, what_it_says_of_weights_and_closures_reaches_the_garment) {
+  // Weights of a scene file were read and never applied.
+  const test::ScratchFolder folder;
+  io::write_file(
+      folder / "scene.json",
+      R"({"format": "scene", "version": 1, "weights": [{"panel": "sheet", "from": [0, 0], "to": [1, 0], "mass_kg": 0.05}],
+          "closures": [{"panel": "sheet", "from": [0, 0], "to": [0, 1], "with": {"panel": "sheet", "from": [1, 0], "to": [1, 1]}}]})");
+  Garment g = hung_sheet(4, 4, 0.05);
+  apply_scene(read_scene(folder / "scene.json"), g);
+  EXPECT_EQ(g.scene.weights.size(), 1u);
+  EXPECT_EQ(g.scene.closures.size(), 1u);
+}
+
+TEST(Closures, buttons_close_a_sheet_to_a_tube_and_cost_nothing_where_there_are_none) {
+  Garment open = hung_sheet(12, 10, 0.02);
+  open.scene.pins.push_back({{"sheet", Vec2(0.5, 1), Vec2(0.5, 1)}, false, Vec3::Zero(), 1e4});
+  Garment closed = open;
+  closed.scene.closures.push_back(
+      {{"sheet", Vec2(0, 0), Vec2(0, 1)}, {"sheet", Vec2(1, 0), Vec2(1, 1)}, 4, 2000});
+  const DrapeSettings settings = preset_settings("draft");
+  const DrapeReport without = drape(open, nullptr, settings, silent_reporter()),
+                    with = drape(closed, nullptr, settings, silent_reporter());
+  EXPECT_FALSE(effect(without, "closures").active);
+  EXPECT_EQ(effect(without, "closures").calls, 0);
+  EXPECT_GT(effect(with, "closures").calls, 0);
+  for (int row : {0, 10}) { // the outermost buttons
+    const Vec3 &a = closed.position[closed.particle_of[row * 13]],
+               &b = closed.position[closed.particle_of[row * 13 + 12]];
+    EXPECT_LT((a - b).norm(), 2 * settings.self_thickness_m + 0.002) << "row " << row;
+  }
+  EXPECT_TRUE(with.converged);
+}
+
+TEST(RollLine, folds_a_standing_collar_over) {
+  // A strip of 6 cm stands on its seam; its roll line runs 2 cm above that.
+  for (const char* cloth : {"cotton-poplin", "cotton-poplin-orthotropic"}) {
+    Garment collar = hung_sheet(24, 6, 0.01, 0.0005);
+    collar.materials[""] = material_preset(cloth);
+    for (double t : {0.0, 1.0 / 6})
+      collar.scene.pins.push_back({{"sheet", Vec2(0, t), Vec2(1, t)}, false, Vec3::Zero(), 1e4});
+    const auto roll = parsed(
+        R"({"roll_lines": [{"panel": "sheet", "from": [0, 0.33333333], "to": [1, 0.33333333]}]})");
+    collar.scene.creases = roll.creases;
+    const DrapeReport report = drape(collar, nullptr, preset_settings("draft"), silent_reporter());
+    double top = 0, front = 0;
+    for (int c = 0; c <= 24; ++c) {
+      const Vec3& p = collar.position[collar.particle_of[6 * 25 + c]];
+      top += p.y() / 25;
+      front += p.z() / 25;
+    }
+    EXPECT_TRUE(report.converged) << cloth;
+    EXPECT_LT(top, 1.02 - 0.02) << cloth << ": the fall does not lie below the roll line";
+    EXPECT_GT(front, 0) << cloth << ": it does not fold to the outside";
+  }
+}
