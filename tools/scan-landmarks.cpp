@@ -137,9 +137,10 @@ int main(int argc, char** argv) {
   cli::Tool tool("scan-landmarks",
                  "Find landmarks, levels, girths, parts and frames on a raw body scan");
   Options o;
-  tool.option("SCAN", o.scan,
-              "scan of one standing person: OBJ, PLY, STL, 3DS or XYZ, mesh or bare points; glTF, "
-              "FBX, Collada, OFF, X3D through assimp")
+  tool.option(
+          "SCAN", o.scan,
+          "scan of one standing person: OBJ, PLY, STL, 3DS, XYZ or PCD, mesh or bare points; glTF, "
+          "FBX, Collada, OFF, X3D through assimp")
       .required()
       .check(cli::input_file());
   tool.option("--unit", o.unit, "unit of the scan's coordinates (default: auto, from the stature)")
@@ -164,8 +165,8 @@ int main(int argc, char** argv) {
   tool.option("--rules", o.rules, "landmark rules to use in place of the built-in numbers")
       .check(cli::input_file());
   tool.option("--corrections", o.corrections,
-              "learned corrections of landmarks (scripts/derive-corrections makes them; none are "
-              "built in)")
+              "learned corrections of landmarks in place of those built in "
+              "(scripts/derive-corrections makes them)")
       .check(cli::input_file());
   tool.option("--features", o.features, "write what the corrections look at, as a table")
       .check(cli::output_file());
@@ -202,7 +203,7 @@ int main(int argc, char** argv) {
                "measure a scan in millimetres and label its vertices");
   tool.example("scan-landmarks --pose walk.bvh -o body.json scan.obj",
                "also write the body walking: body.0001.obj, body.0002.obj, ...");
-  tool.formats("OBJ, PLY, STL, 3DS, XYZ, glTF, FBX, Collada, OFF, X3D",
+  tool.formats("OBJ, PLY, STL, 3DS, XYZ, PCD, glTF, FBX, Collada, OFF, X3D",
                "body.json (version 1), OBJ");
   return tool.run(argc, argv, [&] { return run(tool, o); });
 }

@@ -7,6 +7,7 @@
 #include <body/ingest/vertical.hpp>
 #include <body/landmarks/crotch.hpp>
 #include <body/landmarks/gate.hpp>
+#include <body/landmarks/second_opinion.hpp>
 #include <body/measure_scan.hpp>
 #include <body/part_labels.hpp>
 #include <body/skin_profile.hpp>
@@ -135,6 +136,21 @@ void add_unit_finding(Body& body, bool given) {
   if (is_doubtful && other.empty())
     what += ", as few people are: give --unit, --scale or --stature if that is wrong";
   body.scan.findings.push_back({is_doubtful ? "warning" : "info", what, "scan"});
+}
+
+/// How far the shape is from the bodies learned from, for --explain.
+void describe_likeness(const Corrections& corrections, MeasuredScan& result) {
+  char text[160];
+  std::snprintf(text, sizeof text, "shape: %.2f standard deviations from the bodies learned from",
+                corrections.unlikeness(result.features));
+  result.trail.emplace_back(text);
+  std::string line = "shape: distance from each make of bodies";
+  for (const double d : corrections.distances(result.features)) {
+    std::snprintf(text, sizeof text, " %.2f", d);
+    line += text;
+  }
+  std::snprintf(text, sizeof text, ", alike to %.2f", corrections.likeness(result.features));
+  result.trail.push_back(line + text);
 }
 
 void shift(Body& body, const Vec3& by) {
@@ -353,6 +369,11 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   reporter.progress("rules", -1);
   const std::vector<Part> skin_part =
       apply_rules(input, body, result.trail, &phases, result.features);
+  if (!is_torso) {
+    const std::vector<Finding> opinions =
+        second_opinions(body, *options.corrections, result.features, result.trail);
+    body.scan.findings.insert(body.scan.findings.end(), opinions.begin(), opinions.end());
+  }
   phases.done("rules");
   const int jitter = options.jitter >= 0                                 ? options.jitter
                      : body.skin.triangles.size() < MOST_FACES_TO_JITTER ? STANDARD_JITTER
@@ -401,11 +422,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
                    options.unit != "auto" || options.metres_per_unit > 0 || options.stature_m > 0);
   add_findings(body, sorted, skin);
   add_holes(body, skin.holes, origin);
-  char likeness[120];
-  std::snprintf(likeness, sizeof likeness,
-                "shape: %.2f standard deviations from the bodies learned from",
-                options.corrections->unlikeness(result.features));
-  result.trail.push_back(likeness);
+  describe_likeness(*options.corrections, result);
   if (!is_torso)
     for (const Finding& doubt : doubts_of(body, options.corrections->unlikeness(result.features))) {
       body.scan.findings.push_back(doubt);

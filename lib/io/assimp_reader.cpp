@@ -48,38 +48,86 @@ bool read_all(int from, void* data, std::size_t size) {
   return true;
 }
 
+/// Nodes by their names, with what takes each into the scene.
+void gather_nodes(const aiNode& node, const aiMatrix4x4& above,
+                  std::vector<std::pair<const aiNode*, aiMatrix4x4>>& nodes) {
+  nodes.emplace_back(&node, above * node.mTransformation);
+  const aiMatrix4x4 own = nodes.back().second;
+  for (unsigned k = 0; k < node.mNumChildren; ++k) gather_nodes(*node.mChildren[k], own, nodes);
+}
+
+/// Where the vertices of a mesh that hangs at a node with the transform `own` are in the scene. A
+/// mesh with a skin is where its joints put it, whatever its own node says (glTF 2.0, 3.7.3.2):
+/// x = sum_j w_j G_j B_j v, with G_j of the joint's node and B_j its inverse bind matrix.
+std::vector<aiVector3D> placed(const aiMesh& mesh, const aiMatrix4x4& own,
+                               const std::map<std::string, aiMatrix4x4>& joints) {
+  std::vector<aiVector3D> positions(mesh.mNumVertices, aiVector3D(0, 0, 0));
+  std::vector<ai_real> weight(mesh.mNumVertices, 0);
+  for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+    const aiBone& bone = *mesh.mBones[b];
+    const auto joint = joints.find(bone.mName.C_Str());
+    if (joint == joints.end()) continue;
+    const aiMatrix4x4 moves = joint->second * bone.mOffsetMatrix;
+    for (unsigned k = 0; k < bone.mNumWeights; ++k) {
+      const aiVertexWeight& of = bone.mWeights[k];
+      if (of.mVertexId >= mesh.mNumVertices) continue;
+      positions[of.mVertexId] += of.mWeight * (moves * mesh.mVertices[of.mVertexId]);
+      weight[of.mVertexId] += of.mWeight;
+    }
+  }
+  for (unsigned v = 0; v < mesh.mNumVertices; ++v)
+    if (weight[v] > 0) positions[v] /= weight[v];
+    else positions[v] = own * mesh.mVertices[v];
+  return positions;
+}
+
+/// Adds a mesh at its place; false, with a complaint, where it is broken.
+bool add_mesh(const aiMesh& part, const std::vector<aiVector3D>& positions, bool mirrored,
+              std::map<std::array<double, 3>, int>& known, TriangleMesh& mesh,
+              std::string& complaint) {
+  std::vector<int> index;
+  for (const aiVector3D& at : positions) {
+    const std::array<double, 3> p{at.x, at.y, at.z};
+    const auto [place, is_new] = known.emplace(p, static_cast<int>(mesh.positions.size()));
+    if (is_new) mesh.positions.emplace_back(p[0], p[1], p[2]);
+    index.push_back(place->second);
+  }
+  for (unsigned f = 0; f < part.mNumFaces; ++f) {
+    const aiFace& face = part.mFaces[f];
+    if (face.mNumIndices != 3) continue; // points and lines
+    if (*std::max_element(face.mIndices, face.mIndices + 3) >= part.mNumVertices) {
+      complaint = "face " + std::to_string(f) + " refers to a vertex that does not exist";
+      return false;
+    }
+    Triangle t = {index[face.mIndices[0]], index[face.mIndices[1]], index[face.mIndices[2]]};
+    if (mirrored) std::swap(t[1], t[2]);
+    mesh.triangles.push_back(t);
+  }
+  return true;
+}
+
 TriangleMesh import(const std::string& path, std::string& complaint) {
   TriangleMesh mesh;
   Assimp::Importer importer;
-  const aiScene* scene =
-      importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
-  if (!scene || scene->mNumMeshes == 0) {
+  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+  if (!scene || scene->mNumMeshes == 0 || !scene->mRootNode) {
     complaint = importer.GetErrorString();
     if (complaint.empty()) complaint = "it holds no mesh";
     return mesh;
   }
+  std::vector<std::pair<const aiNode*, aiMatrix4x4>> nodes;
+  gather_nodes(*scene->mRootNode, aiMatrix4x4(), nodes);
+  std::map<std::string, aiMatrix4x4> joints;
+  for (const auto& [node, own] : nodes) joints.emplace(node->mName.C_Str(), own);
   std::map<std::array<double, 3>, int> known;
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
-    const aiMesh& part = *scene->mMeshes[m];
-    std::vector<int> index;
-    for (unsigned v = 0; v < part.mNumVertices; ++v) {
-      const std::array<double, 3> p{part.mVertices[v].x, part.mVertices[v].y, part.mVertices[v].z};
-      const auto [at, is_new] = known.emplace(p, static_cast<int>(mesh.positions.size()));
-      if (is_new) mesh.positions.emplace_back(p[0], p[1], p[2]);
-      index.push_back(at->second);
+  for (const auto& [node, own] : nodes)
+    for (unsigned k = 0; k < node->mNumMeshes; ++k) {
+      if (node->mMeshes[k] >= scene->mNumMeshes) continue;
+      const aiMesh& part = *scene->mMeshes[node->mMeshes[k]];
+      const bool mirrored = part.mNumBones == 0 && aiMatrix4x4(own).Determinant() < 0;
+      if (!add_mesh(part, placed(part, own, joints), mirrored, known, mesh, complaint)) return mesh;
     }
-    for (unsigned f = 0; f < part.mNumFaces; ++f) {
-      const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices != 3) continue; // points and lines
-      if (*std::max_element(face.mIndices, face.mIndices + 3) >= part.mNumVertices) {
-        complaint = "face " + std::to_string(f) + " of mesh " + std::to_string(m) +
-                    " refers to a vertex that does not exist";
-        return mesh;
-      }
-      mesh.triangles.push_back(
-          {index[face.mIndices[0]], index[face.mIndices[1]], index[face.mIndices[2]]});
-    }
-  }
+  if (mesh.positions.empty()) complaint = "no node of its scene holds a mesh";
   return mesh;
 }
 

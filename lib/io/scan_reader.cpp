@@ -2,6 +2,7 @@
 #include <io/assimp_reader.hpp>
 #include <io/files.hpp>
 #include <io/obj.hpp>
+#include <io/pcd.hpp>
 #include <io/scan_reader.hpp>
 
 #include <algorithm>
@@ -331,7 +332,7 @@ TriangleMesh parse_xyz(std::string_view bytes, const std::string& name) {
 namespace {
 
 constexpr const char* EXPECTED =
-    "expected a scan in OBJ, PLY, STL, 3DS, XYZ, glTF, FBX, Collada, OFF or X3D";
+    "expected a scan in OBJ, PLY, STL, 3DS, XYZ, PCD, glTF, FBX, Collada, OFF or X3D";
 
 /// By the extension, or by the first bytes where that says nothing.
 std::string format_of(const std::string& path, std::string_view bytes) {
@@ -342,7 +343,7 @@ std::string format_of(const std::string& path, std::string_view bytes) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const char* points : {"asc", "txt", "pts", "csv"})
     if (extension == points) return "xyz";
-  for (const char* ours : {"obj", "ply", "stl", "3ds", "xyz"})
+  for (const char* ours : {"obj", "ply", "stl", "3ds", "xyz", "pcd"})
     if (extension == ours) return extension;
   if (is_read_by_assimp(extension)) return extension;
   const std::string_view head = bytes.substr(0, 4000);
@@ -351,6 +352,7 @@ std::string format_of(const std::string& path, std::string_view bytes) {
     throw input_error(path, "", "is a JSON document, not a scan",
                       std::string(EXPECTED) + "; a document's mesh is the .obj beside it");
   if (head.substr(0, 3) == "ply") return "ply";
+  if (head.substr(0, 6) == "# .PCD") return "pcd";
   if (head.find("\nv ") != std::string_view::npos || head.substr(0, 2) == "v ") return "obj";
   return head.substr(0, 5) == "solid" ? "stl" : "xyz";
 }
@@ -371,6 +373,7 @@ Scan read_scan(const std::string& path) {
   else if (scan.format == "stl") scan.mesh = parse_stl(bytes, path);
   else if (scan.format == "3ds") scan.mesh = parse_3ds(bytes, path);
   else if (scan.format == "xyz") scan.mesh = parse_xyz(bytes, path);
+  else if (scan.format == "pcd") scan.mesh = parse_pcd(bytes, path);
   else scan.mesh = read_with_assimp(path, scan.format);
   if (scan.mesh.positions.empty()) throw input_error(path, "", "holds no vertices", EXPECTED);
   return scan;

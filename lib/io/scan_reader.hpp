@@ -1,13 +1,15 @@
 #pragma once
-/// Raw scans in: OBJ, PLY, STL, 3DS and XYZ by readers of our own that keep the file's vertices,
-/// other formats through assimp. No unit, no axis, no meaning: that is the business of body/.
+/// Raw scans in: OBJ, PLY, STL, 3DS, XYZ and PCD by readers of our own that keep the file's
+/// vertices, other formats through assimp. No unit, no axis, no meaning: that is the business of
+/// body/.
 #include <geometry/triangle_mesh.hpp>
 #include <string>
 #include <string_view>
 namespace sloper::io {
 
 struct Scan {
-  std::string format; ///< "obj", "ply", "stl", "3ds", "xyz", or the extension that assimp reads
+  std::string
+      format; ///< "obj", "ply", "stl", "3ds", "xyz", "pcd", or the extension that assimp reads
   std::string sha256; ///< of the file's bytes
   /// But for assimp (assimp_reader.hpp): positions in the file's own order and count and its own
   /// unit; triangles may be empty (bare points). STL has no shared vertices: its positions are the

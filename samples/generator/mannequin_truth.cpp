@@ -144,9 +144,10 @@ private:
     const double z = back.z() + 0.32 * (front.z() - back.z());
     const Vec3 side = exit_point(m_field, Vec3(0.046 * h, 0.80 * h, z), Vec3::UnitY());
     pair("neck_side", side, "medium");
-    pair("acromion",
-         exit_point(m_field, m_body.shoulder_joint, Vec3(0.60 - 0.85 * m_body.lift, 0.80, -0.10)),
-         "medium");
+    // The acromion is bone: it goes with the shoulder girdle, which turns as the arm rises and
+    // takes the joint inwards, and not with the skin. It lies under the skin above.
+    const Vec3 bone = m_body.shoulder_joint + Vec3(0.021 + 0.005 * m_body.lift, 0, -0.0036) * h;
+    pair("acromion", exit_point(m_field, bone, Vec3::UnitY()), "medium");
     pair("olecranon", exit_point(m_field, m_body.elbow, -Vec3::UnitZ()), "medium");
     // Neck base: the ring on the skin through front, side and back neck point.
     const MonotoneCurve height({0, 0.5 * units::PI, units::PI}, {yf, side.y(), yb});

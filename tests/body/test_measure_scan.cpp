@@ -343,7 +343,7 @@ TEST(MeasureScan, two_people_are_refused) {
 TEST(MeasureScan, a_stature_that_no_unit_explains_is_refused) {
   expect_refused(test::moved(test::mannequin("f-165-a").mesh, 0.03 * Eigen::Matrix3d::Identity(),
                              Vec3::Zero()),
-                 "no person in m, cm, mm");
+                 "not a person's size in m, cm, mm");
   ScanOptions options;
   options.unit = "mm";
   EXPECT_THROW(measure(test::mannequin("f-165-a").mesh, options), Error);
@@ -380,4 +380,36 @@ TEST(MeasureScan, each_wide_hole_is_told_with_its_place) {
               f.what.find(std::string("near ") + name) != std::string::npos && f.place[0] == '(';
     EXPECT_EQ(told, 1) << name;
   }
+}
+
+/// A pattern has one shoulder: 9 cm apart before from hanging to level arms.
+TEST(MeasureScan, the_acromia_of_one_person_stay_where_they_are_as_the_arms_rise) {
+  double least = 1e300, most = 0;
+  for (const double degrees : {25.0, 45.0, 88.0}) {
+    samples::Mannequin person = samples::preset("f-165-a");
+    person.arm_deg = degrees;
+    const Body body = measure(samples::make_mannequin(person).mesh).body;
+    const double breadth = (body.landmark("acromion_l") - body.landmark("acromion_r")).norm();
+    least = std::min(least, breadth), most = std::max(most, breadth);
+  }
+  EXPECT_LT(most - least, 0.02);
+  EXPECT_NEAR(least, 0.39, 0.025);
+}
+
+/// A bulge of 4 cm at the groin, as a man's underwear has one, is no belly.
+TEST(MeasureScan, the_abdomen_lies_above_the_groin) {
+  TriangleMesh mesh = test::mannequin("m-178-a").mesh;
+  const Body plain = measure(mesh).body;
+  const Vec3 crotch = test::in_scan(plain, "crotch");
+  const double height = crotch.y() + 0.045;
+  double front = -1e300;
+  for (const Vec3& p : mesh.positions)
+    if (std::abs(p.y() - height) < 0.01 && std::abs(p.x()) < 0.03) front = std::max(front, p.z());
+  for (Vec3& p : mesh.positions)
+    if (p.z() >= front - 0.07)
+      p.z() +=
+          0.045 * std::exp(-std::pow(p.x() / 0.035, 2) - std::pow((p.y() - height) / 0.035, 2));
+  const Body body = measure(mesh).body;
+  EXPECT_GT(body.landmark("abdomen_front").y(), crotch.y() + 0.1);
+  EXPECT_NEAR(body.levels.at("abdomen").girth_m, plain.levels.at("abdomen").girth_m, 0.02);
 }

@@ -222,7 +222,7 @@ TEST(Bvh, a_broken_file_is_refused_by_line_and_fact) {
       {whole.substr(0, whole.size() - 20), "ends early"},
       {"HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 nan\n", "not a finite number"},
       {"not a bvh", "HIERARCHY"},
-      {"HIERARCHY\nROOT A\n{\nOFFSET 0 0 0\nCHANNELS 1 Wrotation\n}\n", "no BVH channel"}};
+      {"HIERARCHY\nROOT A\n{\nOFFSET 0 0 0\nCHANNELS 1 Wrotation\n}\n", "not a BVH channel"}};
   for (const auto& [text, fact] : cases) {
     try {
       parse_bvh(text, "walk.bvh", figure(), 0);

@@ -3,6 +3,7 @@
 #include <base/error.hpp>
 #include <io/json.hpp>
 #include <io/obj.hpp>
+#include <io/pcd.hpp>
 #include <io/scan_reader.hpp>
 
 #include <cstdlib>
@@ -33,6 +34,7 @@ void read_scan_bytes(std::string_view bytes) {
     } else if (kind == 'p') must_be_sound(io::parse_ply(bytes, "fuzz.ply"));
     else if (kind == 's') must_be_sound(io::parse_stl(bytes, "fuzz.stl"));
     else if (kind == '3') must_be_sound(io::parse_3ds(bytes, "fuzz.3ds"));
+    else if (kind == 'd') must_be_sound(io::parse_pcd(bytes, "fuzz.pcd"));
     else must_be_sound(io::parse_xyz(bytes, "fuzz.xyz"));
   } catch (const Error& e) {
     if (e.kind() != ErrorKind::INPUT) std::abort();

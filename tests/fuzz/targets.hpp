@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 namespace sloper::fuzz {
-/// The first byte picks the format: o OBJ, p PLY, s STL, x XYZ, 3 3DS; the rest is the file.
+/// The first byte picks the format: o OBJ, p PLY, s STL, x XYZ, 3 3DS, d PCD; the rest is the file.
 void read_scan_bytes(std::string_view bytes);
 /// A JSON document; what we write of it, we read again.
 void read_json_bytes(std::string_view bytes);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace sloper::body {
 
@@ -80,6 +81,48 @@ std::optional<double> elbow_by_girth(const ArmTrace& arm, double s, double wrist
       .middle; // of what is about as steep: sections lie centimetres apart
 }
 
+/// The gap of one arm closes lower than the other's: what rests on it is believed less.
+void tell_lifted_pit(const Finder& f, const ArmTrace& arm, const std::string& suffix) {
+  constexpr double TOLD = 0.005, DOUBTED = 0.6; // m, of the confidence
+  f.also("axilla" + suffix, f.at("axilla" + suffix) - Vec3(0, arm.lifted_m, 0));
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "the gap to the trunk closes %.0f mm lower than the other arm's lets expect: the "
+                "arm pit is put higher",
+                1000 * arm.lifted_m);
+  f.explain("axilla" + suffix + ": " + text);
+  if (arm.lifted_m < TOLD) return;
+  f.body.scan.findings.push_back({"warning", text, "axilla" + suffix});
+  for (const char* name : {"axilla", "axilla_front", "axilla_back"})
+    f.body.landmarks[name + suffix].confidence *= DOUBTED;
+}
+
+struct Aside {
+  double middle, half; ///< m
+};
+
+/// How far the acromia are from the middle by the trunk alone, which no stance of the arms changes:
+/// a + b female + c breadth of the waist + d breadth of the chest, all shares of stature.
+std::optional<Aside> acromion_by_trunk(const Finder& f) {
+  constexpr double TOP = 0.755; // of stature, about the arm pits
+  const double s = f.s;
+  if (!f.levels.crotch()) return std::nullopt;
+  double breadth[2], middle = 0;
+  for (int k = 0; k < 2; ++k) { // both below the arm pits; where an arm touches neither tells
+    const double y = *f.levels.crotch() + (k == 0 ? 0.625 : 0.75) * (TOP * s - *f.levels.crotch());
+    const auto& loop = f.levels.trunk_at(y);
+    if (!loop) return std::nullopt;
+    breadth[k] = loop->size().x() / s;
+    middle += 0.5 * loop->center().x();
+  }
+  const double half = f.number("acromion.aside") +
+                      f.number("acromion.aside_of_waist") * breadth[0] +
+                      f.number("acromion.aside_of_chest") * breadth[1];
+  if (half < f.number("acromion.least_aside") || half > f.number("acromion.most_aside"))
+    return std::nullopt; // arms that hang on the trunk are in its outline
+  return Aside{middle, half * s};
+}
+
 /// Axilla and its folds, shoulder joint and acromion. @return the joint, which the rest of the arm
 /// is measured from
 Vec3 find_shoulder(const Finder& f, int side) {
@@ -107,6 +150,7 @@ Vec3 find_shoulder(const Finder& f, int side) {
           {"warning", "the arm pit is hidden, its place is estimated", "axilla" + suffix});
     f.find("axilla_front", suffix, 2, {{"beside_arm_pit", [&] { return arm.axilla_front; }}});
     f.find("axilla_back", suffix, 2, {{"beside_arm_pit", [&] { return arm.axilla_back; }}});
+    if (arm.lifted_m > 0) tell_lifted_pit(f, arm, suffix);
   } else
     f.body.scan.findings.push_back(
         {"warning",
@@ -117,9 +161,8 @@ Vec3 find_shoulder(const Finder& f, int side) {
   auto by_pit = [&]() -> std::optional<Vec3> {
     if (!arm.axilla) return std::nullopt;
     // a raised arm draws the pit outward from under the joint
-    const double slide =
-        f.number("shoulder_joint.pit_slide") * std::clamp((raised - 45) / 45, 0.0, 1.0) -
-        f.number("shoulder_joint.pit_inside");
+    const double slide = f.number("shoulder_joint.pit_slide_per_degree") * raised -
+                         f.number("shoulder_joint.pit_inside");
     Vec3 joint(arm.axilla->x() - outward * slide * s, 0, by_axis.z());
     const auto top = top_of_shoulder(skin, s, joint.x(), joint.z() - 0.01 * s);
     if (!top) return std::nullopt;
@@ -134,14 +177,22 @@ Vec3 find_shoulder(const Finder& f, int side) {
         0.5; // it rests on where pits usually are
   f.also("shoulder_joint" + suffix, by_axis);
   const Vec3 joint = found ? f.at("shoulder_joint" + suffix) : by_axis;
-  const double lateral =
-      f.number("acromion.outward") - f.number("acromion.outward_per_degree") * raised;
+  const double depth = joint.z() - f.number("acromion.behind_joint") * s,
+               by_joint = joint.x() + outward * f.number("acromion.outward") * s;
   f.find("acromion", suffix, 2,
-         {{"above_shoulder_joint", [&] {
-             return top_of_shoulder(skin, s, joint.x() + outward * lateral * s,
-                                    joint.z() - f.number("acromion.behind_joint") * s);
-           }}});
-  return joint;
+         {{"beside_trunk_and_joint",
+           [&]() -> std::optional<Vec3> {
+             const auto aside = acromion_by_trunk(f);
+             if (!aside) return std::nullopt;
+             const double w = f.number("acromion.joint_weight");
+             return top_of_shoulder(
+                 skin, s, w * by_joint + (1 - w) * (aside->middle + outward * aside->half), depth);
+           }},
+          {"above_shoulder_joint", [&] { return top_of_shoulder(skin, s, by_joint, depth); }}});
+  if (const auto p = top_of_shoulder(skin, s, by_joint, depth)) f.also("acromion" + suffix, *p);
+  // of a scan with many closed holes the offset learned for the joint changes: the rest of the arm
+  // is measured from where the rule found it
+  return by_pit().value_or(by_axis);
 }
 
 /// How far the arm's centre line is bent at `along`: towards the bend's outer side, twice the sine
@@ -267,14 +318,16 @@ void find_arm_landmarks(const Finder& f) {
              }}});
     const double by_ratio = 0.5 * (f.number("hand.of_stature") * s +
                                    f.number("hand.of_arm") * (joint - arm.tip).norm());
-    const auto hand = f.choose<double>("wrist", "wrist" + suffix,
-                                       {{"least_girth_after_hand",
-                                         [&]() -> std::optional<double> {
-                                           const auto least = wrist_by_girth(arm, f);
-                                           if (!least) return std::nullopt;
-                                           return *least - f.number("wrist.before_least_girth") * s;
-                                         }},
-                                        {"arm_ratio", [&] { return std::optional(by_ratio); }}});
+    const auto hand =
+        f.choose<double>("wrist", "wrist" + suffix,
+                         {{"least_girth_after_hand",
+                           [&]() -> std::optional<double> {
+                             const auto least = wrist_by_girth(arm, f);
+                             if (!least || *least > by_ratio + f.number("wrist.longest_hand") * s)
+                               return std::nullopt;
+                             return *least - f.number("wrist.before_least_girth") * s;
+                           }},
+                          {"arm_ratio", [&] { return std::optional(by_ratio); }}});
     if (!hand) continue;
     const double reach = (joint - arm.tip).norm();
     if (hand->rule->name != "arm_ratio" || reach >= f.number("hand.least_arm") * s) {

@@ -150,7 +150,8 @@ void find_head_landmarks(const Finder& f) {
         }},
        {"height_ratio", [&] { return Height(front_ratio); }}});
   if (!front_y) return;
-  const double front_at = front_y->value + f.correction("neck_front").y();
+  const double front_at =
+      f.more_likely("neck_front", front_y->value + f.correction("neck_front").y());
   const Height by_throat =
       hollow ? Height(front_y->value + f.number("neck_back.above_front") * s) : std::nullopt;
   const Height by_turn = turn ? Height(*turn - f.number("neck_side.above_back") * s) : std::nullopt;
@@ -169,7 +170,7 @@ void find_head_landmarks(const Finder& f) {
                                          }},
                                         {"height_ratio", [&] { return Height(back_ratio); }}});
   if (!back_y) return;
-  const double back_at = back_y->value + f.correction("neck_back").y();
+  const double back_at = f.more_likely("neck_back", back_y->value + f.correction("neck_back").y());
   const auto back = midline(f.levels, back_at, x, 0.008 * s),
              front = midline(f.levels, front_at, x, 0.006 * s);
   if (!back || !front) {

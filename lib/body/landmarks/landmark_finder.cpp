@@ -2,6 +2,8 @@
 #include <body/landmarks/landmark_finder.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 namespace sloper::body {
 
@@ -50,6 +52,24 @@ Vec3 Finder::correction(const std::string& place, const std::string& suffix) con
   Vec3 offset = s * corrections.offset(place, shape, side);
   if (side == 1) offset.x() = -offset.x();
   return offset;
+}
+
+double Finder::by_population(const std::string& place, double otherwise) const {
+  const auto expected = corrections.expected(place, shape, -1);
+  return expected ? expected->height * s : otherwise;
+}
+
+double Finder::more_likely(const std::string& place, double y) const {
+  const auto expected = corrections.expected(place, shape, -1);
+  if (!expected) return y;
+  const double off = y / s - expected->height;
+  if (std::abs(off) < Corrections::DISAGREE * expected->sd) return y;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%s: by the rest of the body, which lets expect it %.0f mm %s than its rule",
+                place.c_str(), 1000 * s * std::abs(off), off > 0 ? "lower" : "higher");
+  explain(text);
+  return expected->height * s;
 }
 
 Vec3 Finder::corrected(const std::string& place, const std::string& suffix, const Vec3& p,

@@ -73,6 +73,12 @@ struct Finder {
   /// What the population says of a landmark that a rule found, m in the body frame; zero where
   /// nothing was learned of it.
   Vec3 correction(const std::string& place, const std::string& suffix = "") const;
+  /// Height, m, at which the rest of the body lets expect a landmark; `otherwise` for a body unlike
+  /// those learned from.
+  double by_population(const std::string& place, double otherwise) const;
+  /// The likelier of a rule's height `y`, m, and of that which the rest of the body lets expect:
+  /// where they are farther apart than Corrections::DISAGREE allows, the latter, told in the trail.
+  double more_likely(const std::string& place, double y) const;
   /// `p` with its correction; `on_skin`: the nearest skin to that.
   Vec3 corrected(const std::string& place, const std::string& suffix, const Vec3& p,
                  bool on_skin) const;

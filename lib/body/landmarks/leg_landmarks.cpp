@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 namespace sloper::body {
@@ -12,6 +13,7 @@ namespace {
 constexpr double HOLLOW_BELOW = 0.05,
                  HOLLOW_ABOVE = 0.065; ///< of stature about the knee by the leg's length: of 40
                                        ///< bodies its error is 12 mm (sd), at most 65
+constexpr double EITHER = 0.6;         ///< of the confidence: a second place is as low
 constexpr double LEG_FLAT = 0.001;     ///< m: as far out as makes no difference
 
 /// Height of the hollow behind the knee: where the back of the leg comes furthest forward.
@@ -152,6 +154,16 @@ void find_leg_landmarks(const Finder& f) {
               {{"leg_sections_merge", [&] { return when(false); }},
                {"below_buttocks", [&] { return when(true); }}}))
     return;
+  if (const auto& other = f.levels.other_crotch(); other && !f.crotch_moved) {
+    f.also("crotch", *other);
+    f.body.landmarks["crotch"].confidence *= EITHER;
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "the skin between the legs is as low %.0f mm farther %s: the crotch may be there",
+                  1000 * std::abs(other->z() - crotch.z()),
+                  other->z() < crotch.z() ? "back" : "forward");
+    f.body.scan.findings.push_back({"info", text, "crotch"});
+  }
   for (int side = 0; side < 2; ++side) find_leg(f, side);
   if (f.has("hip_joint_l") && f.has("hip_joint_r"))
     f.find("hip_center", "", 2,

@@ -70,6 +70,9 @@ void find_level(const Finder& f, const std::string& name, std::initializer_list<
   f.body.levels[name].rule = chosen->rule->name;
 }
 
+/// Of stature: a belly's upper end may stand out before the chest by this much; of 24 men by 0.002
+/// or by more than 0.005, which is another place.
+constexpr double BELLY_BEFORE = 0.0035;
 constexpr double PEAKED = 0.00018; // of stature: as far out as the top of what has one
 
 std::optional<Vec3> place_of(const std::optional<Foremost>& foremost) {
@@ -141,7 +144,8 @@ void find_bust(const Finder& f, double pit) {
   const double s = f.s, crotch = f.at("crotch").y(), trunk = f.at("neck_back").y() - crotch;
   const double by_trunk = crotch + f.number("bust.of_trunk") * trunk,
                by_pit = pit - f.number("bust.below_pit") * s;
-  const double expected = pit > 0 ? 0.5 * (by_trunk + by_pit) : by_trunk;
+  const double expected =
+      f.by_population("bust_point", pit > 0 ? 0.5 * (by_trunk + by_pit) : by_trunk);
   using Found = std::optional<BothSides>;
   const auto points = f.choose<BothSides>(
       "bust_point", "bust_point",
@@ -200,7 +204,7 @@ void find_bust(const Finder& f, double pit) {
            {{"foremost_of_chest", [&] {
                return place_of(foremost_place(f, {point->y() - 0.024 * s, point->y() + 0.06 * s},
                                               half_front(side, 0.002, 0.14 * s), 1, PEAKED,
-                                              0.0015));
+                                              BELLY_BEFORE));
              }}});
     if (const auto p =
             front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected, 0.006 * s))
@@ -277,7 +281,8 @@ void find_waist_minima(const Finder& f, double top, double bottom) {
 /// Navel: a dimple near the middle, or the proportion. @return its height
 std::optional<double> find_navel(const Finder& f) {
   const double s = f.s, crotch = f.at("crotch").y(), trunk = f.at("neck_back").y() - crotch;
-  const double expected = crotch + f.number("omphalion.of_trunk") * trunk;
+  const double expected =
+      f.by_population("omphalion", crotch + f.number("omphalion.of_trunk") * trunk);
   const auto& dimple = f.figure.navel;
   const auto place = f.choose<Vec2>(
       "omphalion", "omphalion",
@@ -348,16 +353,37 @@ double find_waist(const Finder& f, const std::optional<double>& navel, double pi
 void find_seat_and_belly(const Finder& f, double crotch, double waist) {
   const double s = f.s;
   std::optional<Foremost> belly;
+  std::optional<Vec3> rival; // as far out, far from where bellies are foremost
   auto foremost = [&]() -> std::optional<Vec3> {
-    belly = foremost_place(f, {crotch + 0.010, waist}, {-0.1 * s, 0.1 * s}, 1,
-                           f.number("abdomen.flat"), 0);
+    belly = foremost_place(f, {crotch + f.number("abdomen.above_crotch") * s, waist},
+                           {-0.1 * s, 0.1 * s}, 1, f.number("abdomen.flat"), 0);
+    if (!belly) return std::nullopt;
+    const double usual = f.number("abdomen.usual") * (waist - crotch),
+                 near = 0.5 * (waist - crotch);
+    if (const auto other =
+            foremost_place(f, {crotch + usual - 0.4 * near, crotch + usual + 0.4 * near},
+                           {-0.1 * s, 0.1 * s}, 1, f.number("abdomen.flat"), 0);
+        other && std::abs(other->p.y() - belly->p.y()) > f.number("abdomen.apart") * s &&
+        other->p.z() > belly->p.z() - f.number("abdomen.as_far") * s) {
+      rival = belly->p;
+      belly = other;
+    }
     return place_of(belly);
   };
   if (f.find("abdomen_front", "", 2, {{"foremost_below_waist", foremost}})) {
     put_level(f, "abdomen", belly->p.y(), "abdomen_front");
     Landmark& landmark = f.body.landmarks["abdomen_front"];
     landmark.spread_m = std::max(landmark.spread_m, belly->spread_m);
-    if (belly->spread_m > f.number("abdomen.unsure") * s) {
+    if (rival) {
+      f.also("abdomen_front", *rival);
+      landmark.confidence *= 0.5;
+      char text[160];
+      std::snprintf(text, sizeof text, "the belly is flat: it is as far out at %.3f m, %.0f mm %s",
+                    rival->y(), 1000 * std::abs(rival->y() - belly->p.y()),
+                    rival->y() > belly->p.y() ? "higher" : "lower");
+      f.body.scan.findings.push_back({"info", text, "abdomen"});
+    }
+    if (!rival && belly->spread_m > f.number("abdomen.unsure") * s) {
       landmark.confidence *= 0.5;
       char text[160];
       std::snprintf(

@@ -26,6 +26,7 @@ struct ArmTrace {
   std::optional<Vec3> axilla;   ///< roof of the arm pit
   bool pit_hidden = false; ///< no gap closes where an arm pit can be: it is placed by proportion
   std::optional<Vec3> axilla_front, axilla_back;
+  double lifted_m = 0;       ///< by which pit and folds were lifted towards those of the other arm
   std::optional<Vec3> merge; ///< where, going up, the level sections of arm and trunk become one
   /// Point of the centre line at `along` m from the tip, carried on straight beyond its ends.
   Vec3 at(double along) const;

@@ -19,6 +19,8 @@ constexpr double FAVOUR = 0.0010;
 constexpr double CROTCH_REACH = 0.052;
 constexpr double ONE_PLACE = 0.02;    ///< of stature: what is as low twice as far off is another
                                       ///< place, and the crotch is not between them
+constexpr double GRAZED = 0.002;      ///< of stature: skin lower by this shows a thigh
+constexpr double ASIDE = 0.0012;      ///< of stature between planes beside the middle
 constexpr double NECK = 0.08;         ///< of stature beside the middle plane: the neck is in it
 constexpr double MIN_LEG_AREA = 6e-4; ///< of stature squared, below it a loop at the calf is no leg
 
@@ -64,6 +66,21 @@ Loop half_of(const Loop& loop, double middle, double sign) {
   }
   measure_loop(half);
   return half;
+}
+
+/// Walking along an outline has the body on the left.
+bool faces_down(const std::array<Vec2, 2>& piece) { return piece[1].x() > piece[0].x(); }
+
+/// Whether another piece of an outline that faces down lies above the middle of this one.
+bool is_below_another(const std::array<Vec2, 2>& piece,
+                      const std::vector<std::array<Vec2, 2>>& pieces) {
+  constexpr double CLEAR = 1e-4; // m
+  const Vec2 q = 0.5 * (piece[0] + piece[1]);
+  return std::any_of(pieces.begin(), pieces.end(), [&](const std::array<Vec2, 2>& other) {
+    const auto& [a, b] = other;
+    if (!faces_down(other) || q.x() <= a.x() || q.x() >= b.x()) return false;
+    return a.y() + (q.x() - a.x()) / (b.x() - a.x()) * (b.y() - a.y()) > q.y() + CLEAR;
+  });
 }
 
 } // namespace
@@ -200,53 +217,81 @@ void LevelStack::follow_legs() {
   if (low_z <= high_z) m_crotch_point.y() = 0.5 * (low_z + high_z);
   // the skin between the legs may hang a little below the saddle: its lowest point in the middle
   // plane is the crotch
+  settle_crotch(low, high, middle, 0.5 * (left.centroid.y() + right.centroid.y()));
+}
+
+/// The trunk's underside in the plane x = `plane`, as far as it may be the crotch.
+/// @param near the triangles to look at
+/// @param between depth of the middle of the legs
+LevelStack::Underside LevelStack::underside(double plane, double low, double high, double between,
+                                            const std::vector<int>& near) const {
+  const double favour = FAVOUR + 2 * m_roughness;
+  Underside under{plane, high, 1e300, m_crotch_point.y(), {}};
+  std::vector<std::array<Vec2, 2>> pieces, outline;
+  for (const Loop& loop : cut(*m_skin, {Vec3(plane, 0, 0), Vec3::UnitZ(), Vec3::UnitY()}, &near)) {
+    // the trunk's outline, however deep it hangs; what does not reach up into the trunk is a thigh
+    // that crosses the middle
+    const double deepest =
+        low - (loop.high.y() > high + 0.02 * m_stature ? 0.02 : 0.006) * m_stature;
+    for (const auto& segment : loop.segments) {
+      if (const auto piece = clipped(segment, 1, deepest, high + 0.02 * m_stature))
+        outline.push_back(*piece);
+      if (const auto piece = clipped(segment, 1, deepest, high + LEVEL + m_roughness + favour)) {
+        const double middle_z = 0.5 * ((*piece)[0].x() + (*piece)[1].x());
+        if (std::abs(middle_z - between) <= CROTCH_REACH * m_stature) pieces.push_back(*piece);
+      }
+    }
+  }
+  for (const auto& piece : pieces) {
+    if (is_below_another(piece, outline)) continue; // a thigh that reaches into the other
+    under.bottom.push_back(piece);
+    for (const Vec2& q : piece) {
+      under.lowest = std::min(under.lowest, q.y());
+      // as low as makes no difference counts, also just above where the legs are one
+      if (q.y() < high + favour && favoured(q, between) < under.best)
+        under.best = favoured(q, between), under.z = q.x();
+    }
+  }
+  return under;
+}
+
+/// Height of a place (z, y), less towards where crotches usually are: half a degree or roughness
+/// makes either end the lower one.
+double LevelStack::favoured(const Vec2& q, double between) const {
+  return q.y() - (FAVOUR + 2 * m_roughness) *
+                     std::clamp((q.x() - between) / (CROTCH_BEFORE_LEGS * m_stature), 0.0, 1.0);
+}
+
+void LevelStack::settle_crotch(double low, double high, double middle, double between) {
   std::vector<int> near;
   for (std::size_t f = 0; f < m_skin->triangles.size(); ++f) {
     const double y = m_skin->positions[m_skin->triangles[f][0]].y();
     if (y > low - 0.04 * m_stature && y < low + 0.04 * m_stature)
       near.push_back(static_cast<int>(f));
   }
-  const double between = 0.5 * (left.centroid.y() + right.centroid.y()),
-               favour = FAVOUR + 2 * m_roughness;
-  auto favoured = [&](const Vec2& q) { // its height, less towards where crotches usually are: half
-                                       // a degree or roughness makes either end the lower one
-    return q.y() -
-           favour * std::clamp((q.x() - between) / (CROTCH_BEFORE_LEGS * m_stature), 0.0, 1.0);
-  };
-  double lowest = high, best = 1e300;
-  std::vector<std::array<Vec2, 2>> bottom;
-  for (const Loop& loop : cut(*m_skin, {Vec3(middle, 0, 0), Vec3::UnitZ(), Vec3::UnitY()}, &near)) {
-    // the trunk's outline, however deep it hangs; what does not reach up into the trunk is a thigh
-    // that crosses the middle
-    const double deepest =
-        low - (loop.high.y() > high + 0.02 * m_stature ? 0.02 : 0.006) * m_stature;
-    for (const auto& segment : loop.segments)
-      if (const auto piece = clipped(segment, 1, deepest, high + LEVEL + m_roughness + favour)) {
-        const double middle_z = 0.5 * ((*piece)[0].x() + (*piece)[1].x());
-        if (std::abs(middle_z - between) > CROTCH_REACH * m_stature) continue;
-        bottom.push_back(*piece);
-        for (const Vec2& q : *piece) {
-          if (q.y() <= deepest) continue;
-          lowest = std::min(lowest, q.y());
-          // as low as makes no difference counts, also just above where the legs are one
-          if (q.y() < high + favour && favoured(q) < best)
-            best = favoured(q), m_crotch_point.y() = q.x();
-        }
-      }
-  }
-  m_crotch = std::min(low, lowest);
+  Underside under = underside(middle, low, high, between, near);
+  // across, the skin between the legs is an arch: a plane in which it is clearly lower than beside
+  // runs along a thigh that touches the other
+  if (under.lowest < low - GRAZED * m_stature)
+    for (const double aside : {-2.0, -1.0, 1.0, 2.0}) {
+      Underside beside = underside(middle + aside * ASIDE * m_stature, low, high, between, near);
+      if (beside.lowest > under.lowest + GRAZED * m_stature) under = std::move(beside);
+    }
+  m_crotch = std::min(low, under.lowest);
+  m_crotch_point = Vec2(under.plane, under.z);
   // the skin there is nearly level from front to back: on a rough scan the lowest point is anywhere
   // on it, its middle is not
-  double sum = 0, weight = 0;
-  const double lowest_z = m_crotch_point.y();
-  for (const auto& segment : bottom)
+  double sum = 0, weight = 0, other = 1e300;
+  for (const auto& segment : under.bottom)
     for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
       const Vec2 q = (1 - t) * segment[0] + t * segment[1];
-      const double share =
-          std::clamp(2 - std::abs(q.x() - lowest_z) / (ONE_PLACE * m_stature), 0.0, 1.0);
-      const double w = share * std::max(0.0, best + LEVEL + m_roughness - favoured(q)) *
+      const double off = std::abs(q.x() - under.z) / (ONE_PLACE * m_stature);
+      const double w = std::clamp(2 - off, 0.0, 1.0) *
+                       std::max(0.0, under.best + LEVEL + m_roughness - favoured(q, between)) *
                        std::abs(segment[1].x() - segment[0].x());
       sum += w * q.x(), weight += w;
+      if (off > 2 && q.y() < std::min(other, under.lowest + FAVOUR + LEVEL + m_roughness))
+        other = q.y(), m_other_crotch = Vec3(under.plane, q.y(), q.x());
     }
   if (weight > 0) m_crotch_point.y() = sum / weight;
 }

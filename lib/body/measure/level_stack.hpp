@@ -40,12 +40,24 @@ public:
   /// are never apart.
   std::optional<double> crotch() const { return m_crotch; }
   Vec2 crotch_point() const { return m_crotch_point; } ///< (x, z) where they meet
+  /// A place before or behind that is as low within what the vertical is known to: either may be
+  /// the crotch. Empty where there is none.
+  const std::optional<Vec3>& other_crotch() const { return m_other_crotch; }
 
   /// Puts the crotch elsewhere, where the scan does not show it: legs are cut apart in the middle
   /// plane up to there.
   void move_crotch(double y, double z);
 
 private:
+  struct Underside {
+    double plane = 0, lowest = 0; ///< x of the cut, height of its lowest place, m
+    double best = 0, z = 0;       ///< favoured() height and depth of the place that is the crotch
+    std::vector<std::array<Vec2, 2>> bottom; ///< (z, y)
+  };
+  Underside underside(double plane, double low, double high, double between,
+                      const std::vector<int>& near) const;
+  double favoured(const Vec2& q, double between) const;
+  void settle_crotch(double low, double high, double middle, double between);
   void follow_legs();
   void follow_trunk();
   int trunk_of(const std::vector<Loop>& loops, const Loop& from) const;
@@ -57,6 +69,7 @@ private:
       m_trunk_at; ///< cuts made before: several rules ask for the same heights
   std::optional<double> m_crotch;
   Vec2 m_crotch_point = Vec2::Zero();
+  std::optional<Vec3> m_other_crotch;
 };
 
 } // namespace sloper::body

@@ -292,13 +292,15 @@ std::vector<Hole> holes_of(const TriangleMesh& mesh, const std::vector<HalfEdge>
   return holes;
 }
 
-bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double widest) {
+bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double widest, double low,
+                double high) {
   const std::vector<std::vector<int>> loops = border_loops(border_of(mesh, list));
   if (loops.empty()) return false;
   for (const std::vector<int>& loop : loops) {
     Box3 box;
     for (const int v : loop) box.add(mesh.positions[v]);
-    if (box.size().norm() > widest && loop.size() > FEW_EDGES) return false;
+    const bool at_an_end = box.high.y() < low || box.low.y() > high;
+    if (box.size().norm() > widest && loop.size() > FEW_EDGES && !at_an_end) return false;
   }
   std::vector<Vec3> normal(mesh.positions.size(), Vec3::Zero());
   for (const Triangle& t : mesh.triangles) {

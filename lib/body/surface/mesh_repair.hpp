@@ -44,9 +44,12 @@ struct Hole {
 /// `most` of them.
 std::vector<Hole> holes_of(const TriangleMesh& mesh, const std::vector<HalfEdge>& list,
                            double least, std::size_t most);
-/// Closes every hole with a fan around its middle. @return false, with the mesh untouched, where
-/// one is wider than `widest`, m, and more than a few edges long, or where the border does not
-/// close
-bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double widest);
+/// Closes every hole with a fan around its middle.
+/// @param widest m; holes that lie wholly below `low` or above `high` may be of any width: soles
+/// and a crown that were cut off are as good as flat
+/// @return false, with the mesh untouched, where a hole is wider and more than a few edges long, or
+/// where the border does not close
+bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double widest, double low,
+                double high);
 
 } // namespace sloper::body

@@ -19,8 +19,9 @@ constexpr double SAMPLE = 1.0 / 260; ///< of stature: spacing of the samples
 constexpr double LEAST_HOLE = 0.006; ///< of stature: narrower holes are told as a number only
 constexpr std::size_t MOST_HOLES = 12;
 constexpr double MAX_BORDER_SHARE = 1e-3; ///< of all edges: more open edges and the skin is rebuilt
-constexpr double SMALL_HOLE = 0.035;      ///< of stature: a hole that a fan closes well enough
-constexpr double MAX_NOISE = 0.45e-3;     ///< m
+constexpr double SOLES = 0.025, CROWN = 0.9; ///< of stature: holes lower or higher are cuts
+constexpr double SMALL_HOLE = 0.035;         ///< of stature: a hole that a fan closes well enough
+constexpr double MAX_NOISE = 0.45e-3;        ///< m
 /// ... or this share of the edges: between vertices that far apart a smooth body bends by as much,
 /// which is no noise.
 constexpr double MAX_NOISE_TO_EDGE = 0.055;
@@ -201,7 +202,8 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
       const double widest =
           skin.border_edges <= MAX_BORDER_SHARE * edges ? 1e300 : SMALL_HOLE * stature;
       const int open = skin.border_edges;
-      if (skin.border_edges < 0.5 * edges && fill_holes(skin.mesh, list, widest)) {
+      if (skin.border_edges < 0.5 * edges &&
+          fill_holes(skin.mesh, list, widest, SOLES * stature, CROWN * stature)) {
         filled = true;
         keep(count_edges(half_edges(skin.mesh)));
         skin.findings.push_back(

@@ -1,6 +1,7 @@
 #include <base/error.hpp>
 #include <gtest/gtest.h>
 #include <io/obj.hpp>
+#include <io/pcd.hpp>
 #include <io/scan_reader.hpp>
 
 #include <cstdio>
@@ -215,6 +216,99 @@ TEST(ScanReader, a_broken_3ds_is_refused) {
   std::string nested;
   for (int k = 0; k < 2000; ++k) nested = chunk(0x4D4D, nested);
   complaint([&] { parse_3ds(nested, "a.3ds"); });
+}
+
+namespace {
+
+std::string pcd_head(int points, const std::string& data) {
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 "
+         "4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH " +
+         std::to_string(points) + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
+         std::to_string(points) + "\nDATA " + data + "\n";
+}
+
+/// The same as LZF holds it that found nothing to shorten but a run of eight zero bytes.
+std::string lzf_with_a_run(const std::string& plain, std::size_t run_at) {
+  auto literal = [](const std::string& bytes) {
+    std::string out;
+    for (std::size_t at = 0; at < bytes.size(); at += 32) {
+      const std::string part = bytes.substr(at, 32);
+      out += static_cast<char>(part.size() - 1) + part;
+    }
+    return out;
+  };
+  // a zero byte, then seven more from one byte back
+  return literal(plain.substr(0, run_at + 1)) + std::string("\xa0\x00", 2) +
+         literal(plain.substr(run_at + 8));
+}
+
+} // namespace
+
+TEST(ScanReader, pcd_is_read_as_text_binary_and_compressed) {
+  const float nothing = std::nanf("");
+  const TriangleMesh text =
+      parse_pcd(pcd_head(3, "ascii") + "1 2 3 7\nnan nan nan 0\n-4 5.5 6e-1 8\n", "a.pcd");
+  ASSERT_EQ(text.positions.size(), 2u); // an organised cloud has places where nothing was seen
+  EXPECT_EQ(text.positions[1], Vec3(-4, 5.5, 0.6));
+  const std::string points =
+      raw<float>({1, 2, 3, 7}) + raw<float>({nothing, 0, 0, 0}) + raw<float>({-4, 5.5f, 0.5f, 8});
+  const TriangleMesh binary = parse_pcd(pcd_head(3, "binary") + points, "a.pcd");
+  ASSERT_EQ(binary.positions.size(), 2u);
+  EXPECT_EQ(binary.positions[1], Vec3(-4, 5.5, 0.5));
+  // all x, then all y, all z and all colours, which are eight zero bytes
+  const std::string by_field = raw<float>({1, -4, 2, 5.5f, 3, 0.5f}) + raw<float>({0, 0});
+  const std::string packed = lzf_with_a_run(by_field, 24);
+  const std::string sizes = raw<std::uint32_t>(
+      {static_cast<std::uint32_t>(packed.size()), static_cast<std::uint32_t>(by_field.size())});
+  const std::string file = pcd_head(2, "binary_compressed") + sizes + packed;
+  const TriangleMesh compressed = parse_pcd(file, "a.pcd");
+  ASSERT_EQ(compressed.positions.size(), 2u);
+  EXPECT_EQ(compressed.positions[1], Vec3(-4, 5.5, 0.5));
+}
+
+TEST(ScanReader, a_broken_pcd_is_refused_with_place_and_reason) {
+  const std::string points = raw<float>({1, 2, 3, 7, -4, 5.5f, 0.5f, 8});
+  auto told = [](const std::string& bytes) {
+    return complaint([&] { parse_pcd(bytes, "a.pcd"); });
+  };
+  EXPECT_NE(told(pcd_head(3, "binary") + points).find("truncated"), std::string::npos);
+  EXPECT_NE(told(pcd_head(2, "ascii") + "1 2 3 7\n").find("ends early"), std::string::npos);
+  EXPECT_NE(told(pcd_head(1, "ascii") + "1 2 x 7\n").find("line 12"), std::string::npos);
+  EXPECT_NE(told(pcd_head(1, "zipped")).find("binary_compressed is read"), std::string::npos);
+  EXPECT_NE(told("VERSION 0.7\nFIELDS x y\nSIZE 4 4\nTYPE F F\nPOINTS 1\nDATA ascii\n1 2\n")
+                .find("no x, y and z"),
+            std::string::npos);
+  const std::string lies = pcd_head(2, "binary_compressed");
+  told(lies + raw<std::uint32_t>({4, 32}) + std::string("\xff\xff\xff\xff", 4));
+  told(lies + raw<std::uint32_t>({1, 4000000000u}) + "x");
+  told(lies + raw<std::uint32_t>({100, 32}) + "x");
+  told(pcd_head(99999999, "binary"));
+}
+
+TEST(ScanReader, a_skinned_gltf_is_read_in_the_pose_of_its_joints) {
+  const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::uint8_t joints[12] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  const float weights[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+  // the inverse bind matrix undoes the scale above the joint, and the joint stands 2 up
+  const float inverse[16] = {100, 0, 0, 0, 0, 100, 0, 0, 0, 0, 100, 0, 0, 0, 0, 1};
+  std::string bytes(reinterpret_cast<const char*>(corners), sizeof corners);
+  bytes.append(reinterpret_cast<const char*>(joints), sizeof joints);
+  bytes.append(reinterpret_cast<const char*>(weights), sizeof weights);
+  bytes.append(reinterpret_cast<const char*>(inverse), sizeof inverse);
+  const Beside buffer("skinned.bin", bytes);
+  const Beside gltf(
+      "skinned.gltf",
+      R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"scale": [0.01, 0.01, 0.01], "children": [1, 2]}, {"mesh": 0, "skin": 0},
+    {"name": "hips", "translation": [0, 200, 0]}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2}}]}],
+    "skins": [{"joints": [2], "inverseBindMatrices": 3}], "buffers": [{"uri": "skinned.bin", "byteLength": 160}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 12}, {"buffer": 0, "byteOffset": 48, "byteLength": 48},
+    {"buffer": 0, "byteOffset": 96, "byteLength": 64}], "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0],
+    "max": [1, 1, 0]}, {"bufferView": 1, "componentType": 5121, "count": 3, "type": "VEC4"}, {"bufferView": 2, "componentType": 5126, "count": 3,
+    "type": "VEC4"}, {"bufferView": 3, "componentType": 5126, "count": 1, "type": "MAT4"}]})");
+  const TriangleMesh mesh = read_scan(gltf.path).mesh;
+  ASSERT_EQ(mesh.positions.size(), 3u);
+  EXPECT_LT((mesh.positions[1] - Vec3(1, 2, 0)).norm(), 1e-5);
+  EXPECT_LT((mesh.positions[2] - Vec3(0, 3, 0)).norm(), 1e-5);
 }
 
 TEST(ScanReader, a_missing_file_is_bad_input) {

@@ -52,10 +52,11 @@ TriangleMesh legs(double top) {
   return mesh;
 }
 
-/// Legs under a trunk whose lower side is lowest in front and behind, there by `lower` more.
-TriangleMesh two_lowest_places(double lower) {
-  TriangleMesh mesh = legs(0.82);
-  const std::vector<Vec2> side = {{0, 1.4},  {-0.12, 1.4}, {-0.1, 0.8 - lower},
+/// Legs, as high as `top`, under a trunk whose lower side is lowest in front and, at the depth
+/// `behind`, there by `lower` more.
+TriangleMesh two_lowest_places(double lower, double behind = -0.1, double top = 0.82) {
+  TriangleMesh mesh = legs(top);
+  const std::vector<Vec2> side = {{0, 1.4},  {-0.12, 1.4}, {behind, 0.8 - lower},
                                   {0, 0.81}, {0.06, 0.8},  {0.12, 1.4}}; // z, y
   append(mesh, prism(side, Vec3::UnitZ(), Vec3::UnitY(), -Vec3::UnitX(), 0.17));
   return mesh;
@@ -86,6 +87,17 @@ TEST(LevelStack, crotch_that_is_as_low_behind_lies_in_front) {
   EXPECT_NEAR(*back.crotch(), 0.7985, 1e-6);
   EXPECT_NEAR(front.crotch_point().y(), 0.06, 0.005);
   EXPECT_NEAR(back.crotch_point().y(), -0.1, 0.005);
+}
+
+/// A lean of half a degree puts the place in front just above the height at which the legs are one:
+/// one of twelve bodies had its crotch 132 mm too far back.
+TEST(LevelStack, crotch_in_front_may_lie_just_above_where_the_legs_become_one) {
+  constexpr double MERGED = 0.7998; // below the place in front (0.8), above the one behind (0.7997)
+  const TriangleMesh skin = two_lowest_places(0.0003, -0.05, MERGED);
+  const LevelStack levels(skin, STATURE, 0.005);
+  ASSERT_TRUE(levels.crotch());
+  EXPECT_NEAR(*levels.crotch(), 0.7997, 1e-4); // where the legs become one is bisected
+  EXPECT_NEAR(levels.crotch_point().y(), 0.06, 0.005);
 }
 
 /// The skin from a level arm to the trunk's side runs along the lines that look for the gap between

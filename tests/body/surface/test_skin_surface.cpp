@@ -50,6 +50,22 @@ TEST(Skin, of_a_mesh_with_turned_and_doubled_faces_is_whole_again) {
   EXPECT_NEAR(test::volume(skin.mesh), volume, 1e-9);
 }
 
+/// The whole skin was rebuilt for such cuts, and lost the ends of fingers and toes.
+TEST(Skin, of_a_mesh_without_soles_and_crown_keeps_its_own_faces) {
+  TriangleMesh mesh = test::mannequin("m-178-a").mesh;
+  const std::size_t whole = mesh.triangles.size();
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    double low = 1e300, high = -1e300;
+    for (const int v : t)
+      low = std::min(low, mesh.positions[v].y()), high = std::max(high, mesh.positions[v].y());
+    return low < 0.012 || high > 1.70;
+  });
+  ASSERT_LT(mesh.triangles.size(), whole - 100);
+  const SkinSurface skin = make_skin(mesh.positions, mesh.triangles, all(mesh), 1.70);
+  EXPECT_FALSE(skin.rebuilt);
+  EXPECT_TRUE(test::is_closed_and_oriented(skin.mesh));
+}
+
 TEST(Skin, of_bare_noisy_points_is_a_closed_surface_near_them) {
   const TriangleMesh& clean = test::mannequin("f-165-a").mesh;
   const TriangleMesh noisy = test::with_noise(clean, 0.0015, 3);

@@ -1,0 +1,93 @@
+/// What a population says: of bodies alike alone, and no more than it has seen.
+#include <base/error.hpp>
+#include <body/landmarks/corrections.hpp>
+#include <body/landmarks/second_opinion.hpp>
+#include <gtest/gtest.h>
+
+using namespace sloper;
+using namespace sloper::body;
+
+namespace {
+
+/// A document over the program's features in which the first one counts alone; two makes, of which
+/// the second stands 20 deviations off.
+std::string document(const std::string& points) {
+  const std::size_t n = shape_feature_names().size();
+  auto row = [&](const std::string& first) {
+    std::string text = "[" + first;
+    for (std::size_t k = 1; k < n; ++k) text += ",0";
+    return text + "]";
+  };
+  std::string text = R"({"format": "landmark-corrections", "version": 1, "features": [)";
+  for (std::size_t k = 0; k < n; ++k)
+    text += std::string(k ? "," : "") + "[\"" + shape_feature_names()[k] + "\", 0, 1]";
+  text += R"(], "makes": [{"name": "a", "limit": 1, "mean": )" + row("0") +
+          R"(}, {"name": "b", "limit": 1, "mean": )" + row("20000") +
+          R"(}], "basis": [{"sd": 1, "direction": )" + row("1000") +
+          R"(}], "outside": 1, "points": {)" + points +
+          "}, \"expected\": {\"knee\": {\"sd\": 500, \"y\": [28000, " + row("1000").substr(1) +
+          "}}}";
+  return text;
+}
+
+std::string weights(const std::string& bias, const std::string& first) {
+  std::string text = "[" + bias + "," + first;
+  for (std::size_t k = 1; k < shape_feature_names().size(); ++k) text += ",0";
+  return text + "]";
+}
+
+ShapeFeatures shape(double first) {
+  ShapeFeatures features;
+  for (auto& side : features.side) {
+    side.assign(shape_feature_names().size(), 0);
+    side[0] = first;
+  }
+  return features;
+}
+
+} // namespace
+
+TEST(Corrections, hold_for_bodies_alike_fade_out_and_are_bounded) {
+  const Corrections learned =
+      Corrections::parse(document("\"knee\": {\"makes\": [0], \"x\": " + weights("100", "200") +
+                                  ", \"y\": " + weights("9000", "0") + "}"),
+                         "test");
+  EXPECT_NEAR(learned.offset("knee", shape(1), 0).x(), 0.003, 1e-12);
+  EXPECT_NEAR(learned.offset("knee", shape(1), 0).y(), 0.03, 1e-12); // no more than that
+  EXPECT_NEAR(learned.offset("knee", shape(1.1), 0).y(), 0.015, 1e-9);
+  EXPECT_EQ(learned.offset("knee", shape(1.3), 0), Vec3(Vec3::Zero()));
+  EXPECT_EQ(learned.offset("knee", shape(6), 0), Vec3(Vec3::Zero()));
+  EXPECT_EQ(learned.offset("elbow", shape(0), 0), Vec3(Vec3::Zero()));
+  EXPECT_EQ(learned.likeness(shape(0)), 1);
+  EXPECT_EQ(Corrections::none().likeness(shape(0)), 0);
+}
+
+TEST(Corrections, of_another_make_say_nothing) {
+  const Corrections learned = Corrections::parse(
+      document("\"knee\": {\"makes\": [1], \"x\": " + weights("100", "0") + "}"), "test");
+  EXPECT_EQ(learned.offset("knee", shape(0), 0), Vec3(Vec3::Zero()));
+}
+
+TEST(Corrections, a_document_that_does_not_say_which_bodies_are_alike_is_refused) {
+  std::string text = document("\"knee\": {\"x\": " + weights("100", "0") + "}");
+  const std::size_t from = text.find("\"makes\": [{"), to = text.find("\"outside\"");
+  text.erase(from, to - from);
+  EXPECT_THROW(Corrections::parse(text, "test"), Error);
+}
+
+TEST(SecondOpinion, names_what_the_rest_of_the_body_contradicts) {
+  const Corrections learned = Corrections::parse(document(""), "test");
+  Body body;
+  body.scan.stature_m = 2;
+  std::vector<std::string> trail;
+  for (const double off : {0.0, 0.02, 0.06}) { // a deviation is 1 cm: 0, 2 and 6 of them
+    body.landmarks["knee_l"] = {Vec3(0, 0.57 + off, 0), 2, "leg_ratio", 0.6, 0.01, {}};
+    const auto doubts = second_opinions(body, learned, shape(0.5), trail);
+    EXPECT_EQ(doubts.size(), off > 0.05 ? 1u : 0u) << off;
+    EXPECT_LE(body.landmarks["knee_l"].confidence, 0.6);
+    EXPECT_GE(body.landmarks["knee_l"].confidence, 0.17);
+  }
+  EXPECT_EQ(trail.size(), 3u);
+  EXPECT_TRUE(second_opinions(body, learned, shape(5), trail).empty()); // another kind of body
+  EXPECT_EQ(trail.size(), 3u);
+}
