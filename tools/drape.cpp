@@ -7,7 +7,7 @@
 #include <garment/fit/stretch.hpp>
 #include <garment/garment_json.hpp>
 #include <garment/inputs.hpp>
-#include <garment/kes.hpp>
+#include <garment/material_json.hpp>
 #include <garment/redrape/spread.hpp>
 #include <garment/scene/scene.hpp>
 #include <garment/simulate/checkpoint.hpp>

@@ -2,7 +2,7 @@
 #include <cli/run_tool.hpp>
 #include <garment/drapemeter/material_fit.hpp>
 #include <garment/drapemeter/silhouette.hpp>
-#include <garment/kes.hpp>
+#include <garment/material_json.hpp>
 #include <io/files.hpp>
 #include <io/json.hpp>
 

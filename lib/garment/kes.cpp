@@ -2,7 +2,6 @@
 #include <base/units.hpp>
 #include <cloth/bending_plates.hpp>
 #include <garment/kes.hpp>
-#include <garment/material_json.hpp>
 #include <garment/materials.hpp>
 #include <io/files.hpp>
 #include <io/json.hpp>
@@ -311,14 +310,6 @@ Material read_kes(const std::string& path) {
   else if (values["T"].given()) m.thickness_m = values["T"].mean();
   m.source = "measured: " + io::file_name(file);
   return m;
-}
-
-Material material_from(const std::string& name_or_path) {
-  const std::string file = name_or_path.substr(0, name_or_path.rfind('#'));
-  if (file.size() > 4 && lower(file.substr(file.size() - 4)) == ".csv")
-    return read_kes(name_or_path);
-  if (io::ending_of(name_or_path) == ".json") return read_material_file(name_or_path);
-  return material_preset(name_or_path);
 }
 
 } // namespace sloper::garment

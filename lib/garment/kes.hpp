@@ -30,8 +30,4 @@ namespace sloper::garment {
 /// @throws Error INPUT with line: not a number, unit not known, no bending or no weight
 Material read_kes(const std::string& path);
 
-/// A preset's name, or a path that ends in .csv (or .csv#NAME) or, a material's, .json. @throws
-/// Error INPUT
-Material material_from(const std::string& name_or_path);
-
 } // namespace sloper::garment

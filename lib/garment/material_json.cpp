@@ -4,6 +4,7 @@
 #include <garment/kes.hpp>
 #include <garment/material_json.hpp>
 #include <garment/materials.hpp>
+#include <io/files.hpp>
 #include <io/json.hpp>
 
 namespace sloper::garment {
@@ -158,6 +159,13 @@ io::Json material_json(const Material& material) {
   if (material.bend_soft_share > 0) j[SOFT_RADIUS.name] = material.bend_soft_radius_m;
   j["source"] = material.source;
   return j;
+}
+
+Material material_from(const std::string& name_or_path) {
+  const std::string file = name_or_path.substr(0, name_or_path.rfind('#'));
+  if (io::ending_of(file) == ".csv") return read_kes(name_or_path);
+  if (io::ending_of(name_or_path) == ".json") return read_material_file(name_or_path);
+  return material_preset(name_or_path);
 }
 
 } // namespace sloper::garment

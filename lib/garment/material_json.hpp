@@ -15,6 +15,9 @@ Material read_material(const io::Node& node);
 /// A document {"format": "material", ...}: the object of read_material(), with "name". What
 /// material-fit says of its uncertainty is passed over. @throws Error INPUT
 Material read_material_file(const std::string& path);
+/// A preset's name, or a path that ends in .csv (or .csv#NAME) or, a material's, .json. @throws
+/// Error INPUT
+Material material_from(const std::string& name_or_path);
 /// A layer of cloth: "material", "bond" 0..1, "side" inside or outside. The caller checks the keys.
 ClothLayer read_cloth_layer(const io::Node& node);
 /// The numbers of a material, as read_material() takes them.

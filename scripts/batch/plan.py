@@ -9,7 +9,7 @@ import json
 import os
 import subprocess
 
-SCAN_SUFFIXES = (".obj", ".ply", ".stl", ".3ds", ".xyz")
+SCAN_SUFFIXES = (".obj", ".ply", ".stl", ".3ds", ".xyz", ".pcd", ".glb", ".gltf", ".fbx", ".dae", ".off")
 PROGRAMS = ("scan-landmarks", "retarget-garment", "render-png")
 SCANS_A_FILE = 1000
 FLAT_CELLS = 4096  # a batch of more cells than this keeps them in 256 folders

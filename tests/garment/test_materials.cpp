@@ -4,7 +4,6 @@
 #include <cloth/bending_plates.hpp>
 #include <garment/composite.hpp>
 #include <garment/garment_json.hpp>
-#include <garment/kes.hpp>
 #include <garment/material_json.hpp>
 #include <garment/materials.hpp>
 #include <gtest/gtest.h>

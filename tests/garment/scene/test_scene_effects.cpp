@@ -9,6 +9,7 @@
 #include <cloth/solver/implicit_step.hpp>
 #include <garment/garment_json.hpp>
 #include <garment/kes.hpp>
+#include <garment/material_json.hpp>
 #include <garment/materials.hpp>
 #include <garment/scene/effects.hpp>
 #include <garment/scene/panel_runs.hpp>
