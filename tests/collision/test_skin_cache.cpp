@@ -79,7 +79,7 @@ TEST(SkinCache, WritesAnewWhatIsDamaged) {
     EXPECT_EQ(counts.prepared, 1);
     EXPECT_EQ(counts.written, 1);
     EXPECT_EQ(heard.n_warnings, 0);
-    EXPECT_TRUE(has(heard.infos, "prepared anew"));
+    EXPECT_TRUE(has(heard.infos, "prepared again"));
     EXPECT_EQ(get(file), whole);
   }
 }

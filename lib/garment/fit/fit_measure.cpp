@@ -263,17 +263,17 @@ std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& pla
   };
   take_strain(within(BAND), within(0.5 * BAND), row);
   // How the girth changes within the error of the height, and how much wider it opens: openings
-  // whose sides lie flatter than 45 degrees are a hem that crosses the level, and the bridges over
-  // them cut through the body.
+  // whose sides lie flatter than 45 degrees, above the level and below it, are a hem that crosses
+  // it, and the bridges over them cut through the body. An arm pit just above the level opens on
+  // one side alone.
   const bool cut_open =
       row.open && (line->chains.size() == 1 || !ends_at_left_out(garment, use, *line));
-  double change = 0, widens = 0;
+  double change = 0, widens = std::numeric_limits<double>::infinity();
   for (const double shift : {-place.height_error_m, place.height_error_m}) {
     std::string ignored;
     const auto moved = line_around(garment, use, place, shift, ignored);
     if (moved) change = std::max(change, std::abs(moved->rest - row.rest_m));
-    widens = std::max(widens, moved ? std::abs(moved->bridged - line->bridged)
-                                    : std::numeric_limits<double>::infinity());
+    if (moved) widens = std::min(widens, std::abs(moved->bridged - line->bridged));
   }
   if (cut_open && widens > 2 * place.height_error_m * static_cast<double>(line->chains.size()))
     return why = "a hem crosses it", std::nullopt;

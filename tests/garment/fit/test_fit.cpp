@@ -36,6 +36,13 @@ const FitRow* row(const FitReport& report, const std::string& name) {
   return nullptr;
 }
 
+/// Why a girth was left out, for messages.
+std::string left_out(const FitReport& report, const std::string& name) {
+  for (const auto& [girth, why] : report.left_out)
+    if (girth == name) return name + ": " + why;
+  return name;
+}
+
 std::string policy_file(const std::string& text) {
   const std::string path = testing::TempDir() + "policy.json";
   std::ofstream(path) << R"({"format": "fit-policy", "version": 1, )" << text << "}";
@@ -80,7 +87,7 @@ TEST(fit, ease_is_the_gap_times_two_pi_on_a_garment_made_from_the_skin) {
   const Dressed d = dressed(measured("f-165-a"), skin_shirt(measured("f-165-a"), 0.01));
   for (const char* name : {"waist_semantic", "bust", "upper_arm_l"}) {
     const FitRow* r = row(d.report, name);
-    ASSERT_TRUE(r) << name;
+    ASSERT_TRUE(r) << left_out(d.report, name);
     // A line at constant distance from a convex one is longer by 2 pi times it; the skin itself is
     // not quite convex.
     EXPECT_NEAR(r->ease_m, 2 * M_PI * 0.01, 0.02) << name;
