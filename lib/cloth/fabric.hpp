@@ -19,7 +19,7 @@ struct Fabric {
   /// 0..1: share of the rigidity that is lost as the cloth curves sharply (friction between yarns
   /// is overcome); 0: linear.
   double bend_soft_share = 0;
-  double bend_soft_radius_m = 0.01; ///< m: radius of curvature at which the loss is under way
+  double bend_soft_radius_m = 0.01; ///< m: radius of curvature around which the fabric softens
 };
 
 } // namespace sloper::cloth

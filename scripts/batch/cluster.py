@@ -59,11 +59,8 @@ def sbatch(arguments):
 
 def processors_of(slurm_options):
     """CPUs of a task as the user asks for them."""
-    words = [word for option in slurm_options for word in option.replace("=", " ").split()]
-    for i, word in enumerate(words[:-1]):
-        if word in ("--cpus-per-task", "-c") and words[i + 1].isdigit():
-            return int(words[i + 1])
-    return 1
+    found = re.search(r"(?:^|\s)(?:--cpus-per-task[= ]|-c\s*)(\d+)", " ".join(slurm_options))
+    return int(found.group(1)) if found else 1
 
 
 def submit(plan, missing, options, script, name):

@@ -77,7 +77,7 @@ struct Finder {
   /// those learned from.
   double by_population(const std::string& place, double otherwise) const;
   /// The likelier of a rule's height `y`, m, and of that which the rest of the body lets expect:
-  /// where they are farther apart than Corrections::DISAGREE allows, the latter, told in the trail.
+  /// where they are farther apart than Corrections::DISAGREE allows, the latter; the trail says so.
   double more_likely(const std::string& place, double y) const;
   /// `p` with its correction; `on_skin`: the nearest skin to that.
   Vec3 corrected(const std::string& place, const std::string& suffix, const Vec3& p,

@@ -1,6 +1,6 @@
 #pragma once
-/// What the rest of the body says of a landmark: where the two disagree by more than the bodies
-/// that were learned from do, one of them is wrong, and that is told.
+/// Compares the height of a landmark with the one that the rest of the body predicts. Where they
+/// differ by more than on the bodies that were learned from, one is wrong, and a warning says so.
 #include <body/body.hpp>
 #include <body/landmarks/corrections.hpp>
 namespace sloper::body {

@@ -65,6 +65,22 @@ double DihedralBendingEffect::energy(const std::vector<Vec3>& x) const {
   return sum;
 }
 
+void add_hinge(StepContext& c, const Hinge& hinge, const HingeSlots& slots, const HingeAngle& angle,
+               double moment, double k) {
+  int at = 0;
+  for (int a = 0; a < 4; ++a) {
+    c.force[hinge.particle[a]] -= moment * angle.gradient[a];
+    c.stiffness.add_diagonal(hinge.particle[a],
+                             k * angle.gradient[a] * angle.gradient[a].transpose());
+    for (int b = a + 1; b < 4; ++b, ++at) {
+      const bool upper = hinge.particle[a] < hinge.particle[b];
+      const Vec3& first = angle.gradient[upper ? a : b];
+      const Vec3& second = angle.gradient[upper ? b : a];
+      c.stiffness.add_off_diagonal(slots[at], k * first * second.transpose());
+    }
+  }
+}
+
 void DihedralBendingEffect::add(StepContext& c) {
   const double damping = m_mesh.fabrics.empty() ? 0 : m_mesh.fabrics[0].damping_s / c.h;
   for (std::size_t h = 0; h < m_mesh.hinges.size(); ++h) {
@@ -73,17 +89,7 @@ void DihedralBendingEffect::add(StepContext& c) {
     if (!angle.defined) continue;
     const double moment = m_stiffness[h] * (angle.value - m_rest_angle[h]),
                  k = m_stiffness[h] * (1 + damping);
-    int at = 0;
-    for (int a = 0; a < 4; ++a) {
-      c.force[hinge.particle[a]] -= moment * angle.gradient[a];
-      c.stiffness.add_diagonal(hinge.particle[a],
-                               k * angle.gradient[a] * angle.gradient[a].transpose());
-      for (int b = a + 1; b < 4; ++b, ++at) {
-        const bool upper = hinge.particle[a] < hinge.particle[b];
-        const Vec3 &first = angle.gradient[upper ? a : b], &second = angle.gradient[upper ? b : a];
-        c.stiffness.add_off_diagonal(m_slots[h][at], k * first * second.transpose());
-      }
-    }
+    add_hinge(c, hinge, m_slots[h], angle, moment, k);
   }
 }
 

@@ -20,6 +20,12 @@ struct HingeAngle {
 };
 HingeAngle measure_hinge(const Hinge& hinge, const std::vector<Vec3>& x, bool with_gradient);
 
+/// Adds to force and stiffness what a hinge with the energy E(theta) does.
+/// @param angle with gradient   @param moment dE/dtheta, N m   @param k d2E/dtheta2 with its
+/// damping, N m: the stiffness gets k dtheta dtheta^T
+void add_hinge(StepContext& c, const Hinge& hinge, const HingeSlots& slots, const HingeAngle& angle,
+               double moment, double k);
+
 class DihedralBendingEffect : public Effect {
 public:
   /// @param rest_angle  #hinges or empty (all flat), rad, in the sign of hinge_angle()

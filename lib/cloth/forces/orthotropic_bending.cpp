@@ -211,17 +211,7 @@ void OrthotropicBendingEffect::add_firmness(StepContext& c, std::size_t h, const
   const double firmness = m_mesh.bend_scale * hinge.firmness,
                moment = firmness * m_signed_length[h] * turning(h, angle),
                k = firmness * m_signed_length[h] * m_signed_length[h] * (1 + damping);
-  int at = 0;
-  for (int a = 0; a < 4; ++a) {
-    c.force[hinge.particle[a]] -= moment * angle.gradient[a];
-    c.stiffness.add_diagonal(hinge.particle[a],
-                             k * angle.gradient[a] * angle.gradient[a].transpose());
-    for (int b = a + 1; b < 4; ++b, ++at) {
-      const bool upper = hinge.particle[a] < hinge.particle[b];
-      const Vec3 &first = angle.gradient[upper ? a : b], &second = angle.gradient[upper ? b : a];
-      c.stiffness.add_off_diagonal(m_hinge_slots[h][at], k * first * second.transpose());
-    }
-  }
+  add_hinge(c, hinge, m_hinge_slots[h], angle, moment, k);
 }
 
 } // namespace sloper::cloth

@@ -1,5 +1,5 @@
 #include <garment/drape/motion.hpp>
-#include <garment/levels/coarse_way.hpp>
+#include <garment/levels/coarse_start.hpp>
 #include <garment/levels/drape_levels.hpp>
 #include <garment/simulate/session.hpp>
 

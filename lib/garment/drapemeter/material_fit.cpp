@@ -140,8 +140,10 @@ void set_directions(MaterialFit& fit) {
     m.bend_bias_n_m = least;
     fit.cannot_tell.push_back("bias: softer than warp and weft allow; the softest is taken");
   }
-  fit.mean = FittedValue{m.bend_n_m,
-                         0.5 * std::hypot(warp ? warp->sd : weft->sd, weft ? weft->sd : warp->sd)};
+  // One direction that stands for both is known no better by being counted twice.
+  const double mean_sd =
+      warp && weft ? 0.5 * std::hypot(warp->sd, weft->sd) : (warp ? warp : weft)->sd;
+  fit.mean = FittedValue{m.bend_n_m, mean_sd};
 }
 
 class DrapeFit {

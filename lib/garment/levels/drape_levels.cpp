@@ -1,4 +1,4 @@
-#include <garment/levels/coarse_way.hpp>
+#include <garment/levels/coarse_start.hpp>
 #include <garment/levels/drape_levels.hpp>
 #include <garment/scene/scene.hpp>
 #include <garment/simulate/session.hpp>

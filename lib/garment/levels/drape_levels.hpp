@@ -1,6 +1,6 @@
 #pragma once
 /// Panels draped through two meshes of their pattern: sewn on a coarse one where that is cheap and
-/// contracts small differences, carried to the given one (coarse_way.hpp), and brought to rest
+/// contracts small differences, carried to the given one (coarse_start.hpp), and brought to rest
 /// there, preset by preset: `draft` ends as soon as the carried cloth is clear of body and cloth,
 /// and each finer preset goes on from where the one before comes to rest, so that what they differ
 /// by is the error of the coarser one. Measured: docs/decisions/drape-through-levels.md. Test:
@@ -15,7 +15,7 @@
 
 namespace sloper::garment {
 
-/// drape() of placed panels. Where refusal_of_levels() says so, and where the coarse way fails or
+/// drape() of placed panels. Where refusal_of_levels() says so, and where the coarse mesh fails or
 /// ends in crossings, they are sewn on the given mesh alone, as with DrapeSettings::levels = 1, and
 /// DrapeReport::levels says why; what failed is in `repairs` too. `phases` has "sew coarse" and
 /// "carry to the mesh" besides those of a session from a sewn start.

@@ -46,8 +46,10 @@ private:
                         a.name == "centre" || a.name == "center";
     if (a.hand * b.hand < 0 && !middle) return SeamWitness::IMPOSSIBLE;
     double odds = 0;
-    if (!a.name.empty() && !b.name.empty())
-      odds += a.name != b.name ? OTHER_NAME : rim(a.name) ? 0 : SAME_NAME;
+    if (!a.name.empty() && !b.name.empty()) {
+      if (a.name != b.name) odds += OTHER_NAME;
+      else if (!rim(a.name)) odds += SAME_NAME;
+    }
     const Words &own = words(a), &other = words(b);
     const bool adjacent =
         a.loop_begin == b.loop_begin && (a.last() == before(b) || b.last() == before(a));

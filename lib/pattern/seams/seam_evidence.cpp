@@ -152,7 +152,9 @@ bool SeamWitness::look(std::size_t i, std::size_t j, Evidence& evidence) const {
       adjacent ? 1 + bin(inside, {60, 100, 150, 178, 182, 210, 250, 290, 310, 325, 340, 350}) : 0);
   set(Clue::SLOPE, unordered(slope_of(a), slope_of(b)));
   const auto place = [&](const SeamSide& s) {
-    return slope_of(s) < 2 ? 0 : s.place.y() < 0.15 ? 1 : s.place.y() < 0.85 ? 2 : 3;
+    if (slope_of(s) < 2) return 0;
+    if (s.place.y() < 0.15) return 1;
+    return s.place.y() < 0.85 ? 2 : 3;
   };
   set(Clue::PLACES, unordered(place(a), place(b)));
   set(Clue::HEIGHTS, bin(std::abs(a.place.y() - b.place.y()),
@@ -182,7 +184,8 @@ bool SeamWitness::look(std::size_t i, std::size_t j, Evidence& evidence) const {
       for (std::size_t k = 0; k < a.notches.size(); ++k)
         worst = std::max(worst,
                          std::abs(a.notches[k] - (b.length - b.notches[b.notches.size() - 1 - k])));
-      notches = worst < 0.004 ? 3 : worst < 0.015 ? 2 : 1;
+      if (worst < 0.004) notches = 3;
+      else if (worst < 0.015) notches = 2;
     }
   }
   set(Clue::NOTCHES, notches);

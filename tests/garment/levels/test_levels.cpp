@@ -4,7 +4,7 @@
 #include <base/progress.hpp>
 #include <body/body_json.hpp>
 #include <garment/drape/drape.hpp>
-#include <garment/levels/coarse_way.hpp>
+#include <garment/levels/coarse_start.hpp>
 #include <garment/levels/drape_levels.hpp>
 #include <garment/levels/finer_mesh.hpp>
 #include <garment/levels/soft_sewing.hpp>

@@ -1,6 +1,6 @@
 #include <base/error.hpp>
 #include <collision/topology.hpp>
-#include <garment/levels/coarse_way.hpp>
+#include <garment/levels/coarse_start.hpp>
 #include <garment/levels/finer_mesh.hpp>
 #include <garment/levels/soft_sewing.hpp>
 #include <garment/simulate/telemetry.hpp>
@@ -19,7 +19,7 @@ constexpr double MOST_EDGE =
 constexpr double SOFT_SKIN_TOLERANCE =
     1e-3; // m: by how much a dense skin may be simplified for soft contact
 constexpr double WIDEST_GAP =
-    0.015; // m of a stitch after sewing: beyond, the coarse way fails later, in crossings. Eight
+    0.015; // m of a stitch after sewing: beyond, carried cloth fails later, in crossings. Eight
            // garments that came clear ended at 5 to 11 mm, a shirt that did not at 20
 constexpr SoftRelaxing COARSE_RELAXING = {};
 constexpr SoftRelaxing FINE_RELAXING = {
