@@ -17,7 +17,10 @@ constexpr double STRAIGHT_ON = 25; // degrees: CAD files cut sides up at corners
 // Log-odds of the judge. On 65 specifications kept from learning 875 of the 880 pairs above the
 // first were right (scripts/seam-inference).
 constexpr double CERTAIN = 4.6, WORTH_ASKING = -1, WORTH_A_WORD = -4;
-constexpr double GATHERED = 0.08;                                 // logarithm of lengths
+constexpr double GATHERED = 0.08;    // logarithm of lengths
+constexpr double SAME_LENGTH = 0.03; // logarithm: the two sides of a sleeve's seam
+// Log-odds. The model learned from sleeves of two pieces; those of CAD files are mostly of one.
+constexpr double SLEEVE_CLOSES = 6;
 constexpr double SAME_NAME = 5, OTHER_NAME = -1.5, UNLIKELY = -4; // log-odds
 
 double probability(double odds) { return 1 / (1 + std::exp(-odds)); }
@@ -54,10 +57,17 @@ private:
     const bool adjacent =
         a.loop_begin == b.loop_begin && (a.last() == before(b) || b.last() == before(a));
     if (a.panel == b.panel && !adjacent && says_anything(own) && !around(own)) odds += UNLIKELY;
+    const bool is_half = name_suggests_front(own) || says_back(own);
+    if (is_tube(a, b) && says_sleeve(own) && !is_half) odds += SLEEVE_CLOSES;
     if (a.panel != b.panel && says_sleeve(own) && says_sleeve(other) &&
         says_left(own) != says_left(other))
       odds += UNLIKELY;
     return odds;
+  }
+  /// Two sides of one panel, equally long, on either side of a third: the panel may be a tube.
+  static bool is_tube(const SeamSide& a, const SeamSide& b) {
+    const bool flank = a.after == b.before || b.after == a.before;
+    return a.panel == b.panel && flank && std::abs(std::log(a.length / b.length)) < SAME_LENGTH;
   }
   const Words& words(const SeamSide& side) const {
     return m_words[static_cast<std::size_t>(side.panel)];

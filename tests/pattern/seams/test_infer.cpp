@@ -167,5 +167,20 @@ TEST(Inference, HemsAreNeverSewn) {
   for (const SeamGuess& g : infer_seams(p)) EXPECT_EQ(g.seam.name.find("hem"), std::string::npos);
 }
 
+TEST(Inference, SleevesOfATShirtCloseOnThemselves) {
+  const std::vector<Vec2> sleeve = {{-15, 0}, {15, 0}, {18, 12}, {0, 26}, {-18, 12}};
+  const std::vector<Vec2> front = {{-25, 0}, {25, 0},  {25, 42},  {20, 64}, {9, 68},
+                                   {0, 58},  {-9, 68}, {-20, 64}, {-25, 42}};
+  std::vector<Vec2> back = front;
+  back[5].y() = 66;
+  const Pattern shirt =
+      outlines({{"front", front}, {"back", back}, {"sleeve 1", sleeve}, {"sleeve 2", sleeve}});
+  EXPECT_TRUE(guesses(shirt, 2, 1, 2, 4));
+  EXPECT_TRUE(guesses(shirt, 3, 1, 3, 4));
+  EXPECT_FALSE(guesses(shirt, 0, 1, 0, 8)) << "a front's two sides are sewn to a back";
+  EXPECT_TRUE(guesses(outlines({{"SHORT SLEEVE", sleeve}}), 0, 1, 0, 4));
+  EXPECT_FALSE(guesses(outlines({{"front", sleeve}}), 0, 1, 0, 4));
+}
+
 } // namespace
 } // namespace sloper::pattern::test
