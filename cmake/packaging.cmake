@@ -9,7 +9,7 @@ foreach(module ${modules})
 endforeach()
 install(TARGETS ${targets} EXPORT sloper ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/sloper COMPONENT development)
 foreach(module ${modules})
-  install(DIRECTORY lib/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sloper COMPONENT development FILES_MATCHING PATTERN "*.hpp")
+  install(DIRECTORY include/sloper/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sloper COMPONENT development FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 install(EXPORT sloper NAMESPACE sloper:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sloper COMPONENT development)
 configure_package_config_file(cmake/sloperConfig.cmake.in ${PROJECT_BINARY_DIR}/sloperConfig.cmake

@@ -1,19 +1,19 @@
 /// drape: placed panels or a kept garment to cloth at rest on a body.
-#include <body/body_json.hpp>
-#include <cli/run_tool.hpp>
-#include <collision/skin_cache.hpp>
-#include <garment/bind/bind.hpp>
-#include <garment/drape/drape_job.hpp>
-#include <garment/fit/stretch.hpp>
-#include <garment/garment_json.hpp>
-#include <garment/inputs.hpp>
-#include <garment/material_json.hpp>
-#include <garment/redrape/spread.hpp>
-#include <garment/scene/scene.hpp>
-#include <garment/simulate/checkpoint.hpp>
-#include <io/json.hpp>
-#include <pattern/mesh/folds.hpp>
-#include <pattern/panel_mesh_json.hpp>
+#include <sloper/body/body_json.hpp>
+#include <sloper/cli/run_tool.hpp>
+#include <sloper/collision/skin_cache.hpp>
+#include <sloper/garment/bind/bind.hpp>
+#include <sloper/garment/drape/drape_job.hpp>
+#include <sloper/garment/fit/stretch.hpp>
+#include <sloper/garment/garment_json.hpp>
+#include <sloper/garment/inputs.hpp>
+#include <sloper/garment/material_json.hpp>
+#include <sloper/garment/redrape/spread.hpp>
+#include <sloper/garment/scene/scene.hpp>
+#include <sloper/garment/simulate/checkpoint.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
+#include <sloper/pattern/panel_mesh_json.hpp>
 
 #include <iostream>
 

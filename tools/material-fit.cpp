@@ -1,10 +1,10 @@
 /// material-fit: cheap tests of a fabric to a material that drape takes.
-#include <cli/run_tool.hpp>
-#include <garment/drapemeter/material_fit.hpp>
-#include <garment/drapemeter/silhouette.hpp>
-#include <garment/material_json.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
+#include <sloper/cli/run_tool.hpp>
+#include <sloper/garment/drapemeter/material_fit.hpp>
+#include <sloper/garment/drapemeter/silhouette.hpp>
+#include <sloper/garment/material_json.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
 
 #include <charconv>
 #include <cmath>

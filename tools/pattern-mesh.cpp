@@ -1,19 +1,19 @@
 /// pattern-mesh: a sewing pattern to meshed, placed panels.
-#include <base/progress.hpp>
-#include <base/units.hpp>
-#include <body/body_json.hpp>
-#include <cli/run_tool.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
-#include <pattern/edit/edits.hpp>
-#include <pattern/measure/finished_measures.hpp>
-#include <pattern/mesh/mesh_pattern.hpp>
-#include <pattern/panel_mesh_json.hpp>
-#include <pattern/place/place_panels.hpp>
-#include <pattern/read/read_pattern.hpp>
-#include <pattern/seams/check_pattern.hpp>
-#include <pattern/seams/infer_seams.hpp>
-#include <pattern/write/export_pattern.hpp>
+#include <sloper/base/progress.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/body/body_json.hpp>
+#include <sloper/cli/run_tool.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/edit/edits.hpp>
+#include <sloper/pattern/measure/finished_measures.hpp>
+#include <sloper/pattern/mesh/mesh_pattern.hpp>
+#include <sloper/pattern/panel_mesh_json.hpp>
+#include <sloper/pattern/place/place_panels.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
+#include <sloper/pattern/seams/check_pattern.hpp>
+#include <sloper/pattern/seams/infer_seams.hpp>
+#include <sloper/pattern/write/export_pattern.hpp>
 
 #include <iostream>
 #include <sstream>

@@ -1,16 +1,16 @@
 /// render-png: pictures of bodies, panels and garments without a display.
-#include <base/text.hpp>
-#include <base/units.hpp>
-#include <base/version.hpp>
-#include <cli/run_tool.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
-#include <render/draw.hpp>
-#include <render/export.hpp>
-#include <render/overlay.hpp>
-#include <render/pattern_view.hpp>
-#include <render/show.hpp>
-#include <render/words.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/base/version.hpp>
+#include <sloper/cli/run_tool.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/render/draw.hpp>
+#include <sloper/render/export.hpp>
+#include <sloper/render/overlay.hpp>
+#include <sloper/render/pattern_view.hpp>
+#include <sloper/render/show.hpp>
+#include <sloper/render/words.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,19 +1,19 @@
 /// retarget-garment: a draped garment on another body, and how it fits there.
-#include <body/body_json.hpp>
-#include <cli/run_tool.hpp>
-#include <collision/skin_cache.hpp>
-#include <garment/bind/bind.hpp>
-#include <garment/drape/drape.hpp>
-#include <garment/fit/fit.hpp>
-#include <garment/fit/stretch.hpp>
-#include <garment/garment_json.hpp>
-#include <garment/inputs.hpp>
-#include <garment/retarget/retarget.hpp>
-#include <garment/retarget/retarget_pattern.hpp>
-#include <garment/scene/scene.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
-#include <pattern/write/export_pattern.hpp>
+#include <sloper/body/body_json.hpp>
+#include <sloper/cli/run_tool.hpp>
+#include <sloper/collision/skin_cache.hpp>
+#include <sloper/garment/bind/bind.hpp>
+#include <sloper/garment/drape/drape.hpp>
+#include <sloper/garment/fit/fit.hpp>
+#include <sloper/garment/fit/stretch.hpp>
+#include <sloper/garment/garment_json.hpp>
+#include <sloper/garment/inputs.hpp>
+#include <sloper/garment/retarget/retarget.hpp>
+#include <sloper/garment/retarget/retarget_pattern.hpp>
+#include <sloper/garment/scene/scene.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/write/export_pattern.hpp>
 
 using namespace sloper;
 

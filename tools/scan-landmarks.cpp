@@ -1,11 +1,11 @@
 /// scan-landmarks: a raw 3D body scan to landmarks, levels, girths, parts, frames and a skin.
-#include <body/body_json.hpp>
-#include <body/export/exports.hpp>
-#include <body/measure_scan.hpp>
-#include <cli/run_tool.hpp>
-#include <io/files.hpp>
-#include <io/json_fwd.hpp>
-#include <io/scan_reader.hpp>
+#include <sloper/body/body_json.hpp>
+#include <sloper/body/export/exports.hpp>
+#include <sloper/body/measure_scan.hpp>
+#include <sloper/cli/run_tool.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json_fwd.hpp>
+#include <sloper/io/scan_reader.hpp>
 
 #include <chrono>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <base/error.hpp>
+#include <sloper/base/error.hpp>
 
 #include <algorithm>
 #include <vector>

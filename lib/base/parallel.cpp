@@ -1,4 +1,4 @@
-#include <base/parallel.hpp>
+#include <sloper/base/parallel.hpp>
 
 #include <algorithm>
 #include <atomic>

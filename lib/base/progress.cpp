@@ -1,4 +1,4 @@
-#include <base/progress.hpp>
+#include <sloper/base/progress.hpp>
 namespace sloper {
 Reporter& silent_reporter() {
   static Reporter silent;

@@ -1,6 +1,6 @@
-#include <base/error.hpp>
-#include <base/units.hpp>
-#include <body/body.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/body/body.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include <base/error.hpp>
-#include <base/version.hpp>
-#include <body/body_json.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
-#include <io/obj.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/version.hpp>
+#include <sloper/body/body_json.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/obj.hpp>
 
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,4 @@
 #include <Eigen/Geometry>
-#include <base/random.hpp>
-#include <base/units.hpp>
 #include <body/ingest/canonical_frame.hpp>
 #include <body/ingest/torso_only.hpp>
 #include <body/ingest/upright.hpp>
@@ -8,12 +6,14 @@
 #include <body/landmarks/crotch.hpp>
 #include <body/landmarks/gate.hpp>
 #include <body/landmarks/second_opinion.hpp>
-#include <body/measure_scan.hpp>
 #include <body/part_labels.hpp>
 #include <body/skin_profile.hpp>
 #include <body/surface/skin_surface.hpp>
 #include <body/surface/touching_skin.hpp>
-#include <io/json_fwd.hpp>
+#include <sloper/base/random.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/body/measure_scan.hpp>
+#include <sloper/io/json_fwd.hpp>
 
 #include <algorithm>
 #include <chrono>

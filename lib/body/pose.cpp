@@ -1,8 +1,8 @@
-#include <base/error.hpp>
-#include <base/units.hpp>
-#include <body/pose.hpp>
 #include <body/skin_profile.hpp>
 #include <body/surface/point_grid.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/body/pose.hpp>
 
 #include <algorithm>
 #include <cmath>

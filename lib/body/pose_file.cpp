@@ -1,9 +1,9 @@
-#include <base/error.hpp>
-#include <base/units.hpp>
-#include <body/pose_file.hpp>
-#include <geometry/rotation.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/body/pose_file.hpp>
+#include <sloper/geometry/rotation.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <charconv>

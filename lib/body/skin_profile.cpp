@@ -1,6 +1,6 @@
-#include <base/units.hpp>
-#include <body/measure/section.hpp>
 #include <body/skin_profile.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/body/measure/section.hpp>
 
 #include <algorithm>
 #include <cmath>

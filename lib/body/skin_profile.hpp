@@ -1,7 +1,7 @@
 #pragma once
 /// Part frames (the paper's Table 2) with the skin radius R(theta, z) around each axis, and the
 /// bones.
-#include <body/body.hpp>
+#include <sloper/body/body.hpp>
 namespace sloper::body {
 
 /// Frames of head, torso, arms, legs and the joint "lower_body", from the landmarks that were

@@ -1,6 +1,6 @@
-#include <base/error.hpp>
-#include <body/measure/geodesic.hpp>
-#include <body/pose.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/body/measure/geodesic.hpp>
+#include <sloper/body/pose.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <base/error.hpp>
-#include <cli/options.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/cli/options.hpp>
 
 #include <sys/stat.h>
 

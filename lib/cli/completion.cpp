@@ -1,5 +1,5 @@
-#include <base/error.hpp>
 #include <cli/option_table.hpp>
+#include <sloper/base/error.hpp>
 
 namespace sloper::cli {
 

@@ -1,5 +1,5 @@
-#include <base/version.hpp>
 #include <cli/option_table.hpp>
+#include <sloper/base/version.hpp>
 
 namespace sloper::cli {
 

@@ -1,8 +1,8 @@
-#include <cli/options.hpp>
+#include <sloper/cli/options.hpp>
 
 #include <CLI/CLI.hpp>
-#include <base/text.hpp>
 #include <cli/option_table.hpp>
+#include <sloper/base/text.hpp>
 
 namespace sloper::cli {
 

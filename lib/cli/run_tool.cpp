@@ -1,12 +1,12 @@
-#include <cli/run_tool.hpp>
+#include <sloper/cli/run_tool.hpp>
 
 #include <CLI/CLI.hpp>
-#include <base/parallel.hpp>
-#include <base/version.hpp>
 #include <cli/option_table.hpp>
 #include <cli/tool_reporter.hpp>
-#include <io/files.hpp>
-#include <io/json_fwd.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/base/version.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json_fwd.hpp>
 
 #include <sched.h>
 #include <sys/resource.h>

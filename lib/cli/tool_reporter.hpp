@@ -1,8 +1,8 @@
 #pragma once
 /// How a tool speaks: warnings and details to stderr, a progress line on a terminal only, Ctrl-C as
 /// a stop flag.
-#include <base/progress.hpp>
 #include <chrono>
+#include <sloper/base/progress.hpp>
 #include <string>
 
 namespace sloper::cli {

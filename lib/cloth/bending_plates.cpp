@@ -1,4 +1,4 @@
-#include <cloth/bending_plates.hpp>
+#include <sloper/cloth/bending_plates.hpp>
 
 #include <algorithm>
 #include <cmath>

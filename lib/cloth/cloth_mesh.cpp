@@ -1,6 +1,6 @@
-#include <base/error.hpp>
-#include <cloth/cloth_mesh.hpp>
-#include <geometry/triangle_mesh.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/cloth/cloth_mesh.hpp>
+#include <sloper/geometry/triangle_mesh.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include <collision/body_collider.hpp>
+#include <sloper/collision/body_collider.hpp>
 
-#include <base/parallel.hpp>
+#include <sloper/base/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <collision/intersections.hpp>
+#include <sloper/collision/intersections.hpp>
 
 namespace sloper::collision {
 

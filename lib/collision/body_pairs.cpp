@@ -1,6 +1,6 @@
 /// BodyCollider::near_pairs(): which elements of a cloth are near which elements of the skin.
-#include <collision/body_collider.hpp>
-#include <collision/chunks.hpp>
+#include <sloper/collision/body_collider.hpp>
+#include <sloper/collision/chunks.hpp>
 
 #include <algorithm>
 #include <bit>

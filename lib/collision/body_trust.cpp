@@ -1,7 +1,7 @@
 /// BodyCollider: which way the skin faces, and where its pseudonormals can be believed.
-#include <base/parallel.hpp>
-#include <collision/body_collider.hpp>
-#include <collision/intersections.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/collision/body_collider.hpp>
+#include <sloper/collision/intersections.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include <collision/ccd_candidates.hpp>
+#include <sloper/collision/ccd_candidates.hpp>
 
-#include <collision/chunks.hpp>
+#include <sloper/collision/chunks.hpp>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <collision/displacement_bounds.hpp>
+#include <sloper/collision/displacement_bounds.hpp>
 
 #include <algorithm>
 #include <cmath>

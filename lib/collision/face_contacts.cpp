@@ -1,6 +1,6 @@
 /// BodyCollider::face_contacts(): contacts that cloth vertices alone do not see.
-#include <collision/body_collider.hpp>
-#include <collision/chunks.hpp>
+#include <sloper/collision/body_collider.hpp>
+#include <sloper/collision/chunks.hpp>
 
 #include <algorithm>
 #include <cmath>

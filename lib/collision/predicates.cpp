@@ -1,4 +1,4 @@
-#include <collision/predicates.hpp>
+#include <sloper/collision/predicates.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include <collision/prepared_skin.hpp>
+#include <sloper/collision/prepared_skin.hpp>
 
-#include <io/files.hpp>
+#include <sloper/io/files.hpp>
 
 #include <algorithm>
 #include <cstdint>

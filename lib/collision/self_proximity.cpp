@@ -1,6 +1,6 @@
-#include <collision/self_proximity.hpp>
+#include <sloper/collision/self_proximity.hpp>
 
-#include <collision/chunks.hpp>
+#include <sloper/collision/chunks.hpp>
 
 #include <algorithm>
 #include <bit>

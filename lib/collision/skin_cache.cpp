@@ -1,7 +1,7 @@
-#include <collision/skin_cache.hpp>
+#include <sloper/collision/skin_cache.hpp>
 
-#include <base/error.hpp>
-#include <io/files.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/files.hpp>
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include <collision/topology.hpp>
+#include <sloper/collision/topology.hpp>
 
 #include <algorithm>
 

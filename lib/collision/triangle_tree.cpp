@@ -1,7 +1,7 @@
-#include <collision/triangle_tree.hpp>
+#include <sloper/collision/triangle_tree.hpp>
 
-#include <base/error.hpp>
-#include <base/parallel.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>

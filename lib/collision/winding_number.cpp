@@ -1,6 +1,6 @@
-#include <collision/winding_number.hpp>
+#include <sloper/collision/winding_number.hpp>
 
-#include <base/units.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <cloth/bending_plates.hpp>
-#include <garment/composite.hpp>
+#include <sloper/cloth/bending_plates.hpp>
+#include <sloper/garment/composite.hpp>
 
 namespace sloper::garment {
 

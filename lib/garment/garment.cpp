@@ -1,5 +1,5 @@
-#include <base/error.hpp>
-#include <garment/garment.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/garment/garment.hpp>
 
 #include <cmath>
 

@@ -1,13 +1,13 @@
-#include <garment/garment_json.hpp>
-#include <garment/material_json.hpp>
 #include <garment/scene/scene_effects_json.hpp>
+#include <sloper/garment/garment_json.hpp>
+#include <sloper/garment/material_json.hpp>
 
-#include <base/version.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
-#include <io/obj.hpp>
-#include <pattern/read/read_pattern.hpp>
-#include <pattern/write/export_pattern.hpp>
+#include <sloper/base/version.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/obj.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
+#include <sloper/pattern/write/export_pattern.hpp>
 
 #include <cmath>
 #include <utility>

@@ -1,6 +1,6 @@
-#include <garment/inputs.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
+#include <sloper/garment/inputs.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
 
 namespace sloper::garment {
 

@@ -1,10 +1,10 @@
-#include <base/error.hpp>
-#include <base/units.hpp>
-#include <cloth/bending_plates.hpp>
 #include <garment/kes.hpp>
-#include <garment/materials.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/cloth/bending_plates.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -22,7 +22,7 @@
 /// Stretch: the KES-F curve F = Fm (e/EMT)^p has the measured work where p = 2/LT - 1, Fm = 500
 /// gf/cm; its secant at 50 N/m, a load that garments carry, is the stiffness. FAST: the secant at
 /// the load nearest to 50 N/m that is given.
-#include <garment/garment.hpp>
+#include <sloper/garment/garment.hpp>
 
 namespace sloper::garment {
 

@@ -1,11 +1,11 @@
-#include <base/error.hpp>
-#include <cloth/bending_plates.hpp>
-#include <garment/composite.hpp>
 #include <garment/kes.hpp>
-#include <garment/material_json.hpp>
-#include <garment/materials.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/cloth/bending_plates.hpp>
+#include <sloper/garment/composite.hpp>
+#include <sloper/garment/material_json.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
 
 namespace sloper::garment {
 

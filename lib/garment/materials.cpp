@@ -1,5 +1,5 @@
-#include <base/error.hpp>
-#include <garment/materials.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/garment/materials.hpp>
 
 #include <algorithm>
 #include <map>

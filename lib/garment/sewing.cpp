@@ -1,8 +1,8 @@
-#include <base/error.hpp>
-#include <garment/materials.hpp>
-#include <garment/sewing.hpp>
-#include <geometry/disjoint_sets.hpp>
-#include <pattern/mesh/folds.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/garment/sewing.hpp>
+#include <sloper/geometry/disjoint_sets.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
 
 #include <algorithm>
 #include <numeric>

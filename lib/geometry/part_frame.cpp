@@ -1,4 +1,4 @@
-#include <geometry/part_frame.hpp>
+#include <sloper/geometry/part_frame.hpp>
 
 #include <cmath>
 

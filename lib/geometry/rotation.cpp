@@ -1,6 +1,6 @@
-#include <geometry/rotation.hpp>
+#include <sloper/geometry/rotation.hpp>
 
-#include <base/units.hpp>
+#include <sloper/base/units.hpp>
 
 #include <Eigen/SVD>
 #include <algorithm>

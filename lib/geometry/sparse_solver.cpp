@@ -1,4 +1,4 @@
-#include <geometry/sparse_solver.hpp>
+#include <sloper/geometry/sparse_solver.hpp>
 
 #include <Eigen/SparseCholesky>
 

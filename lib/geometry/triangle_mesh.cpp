@@ -1,5 +1,5 @@
-#include <geometry/disjoint_sets.hpp>
-#include <geometry/triangle_mesh.hpp>
+#include <sloper/geometry/disjoint_sets.hpp>
+#include <sloper/geometry/triangle_mesh.hpp>
 
 #include <algorithm>
 #include <cmath>

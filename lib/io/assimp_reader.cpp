@@ -1,5 +1,5 @@
-#include <base/error.hpp>
 #include <io/assimp_reader.hpp>
+#include <sloper/base/error.hpp>
 
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>

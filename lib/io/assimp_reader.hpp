@@ -1,6 +1,6 @@
 #pragma once
 /// Scans in formats that others keep alive: glTF, FBX, Collada, OFF, X3D and VRML through assimp.
-#include <geometry/triangle_mesh.hpp>
+#include <sloper/geometry/triangle_mesh.hpp>
 #include <string>
 
 namespace sloper::io {

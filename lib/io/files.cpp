@@ -1,5 +1,5 @@
-#include <base/error.hpp>
-#include <io/files.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/files.hpp>
 
 #include <fcntl.h>
 #include <openssl/evp.h>

@@ -1,6 +1,6 @@
-#include <base/version.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
+#include <sloper/base/version.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <cctype>

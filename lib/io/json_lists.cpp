@@ -1,5 +1,5 @@
-#include <io/json.hpp>
-#include <io/json_lists.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/json_lists.hpp>
 
 namespace sloper::io {
 

@@ -1,5 +1,5 @@
-#include <base/error.hpp>
-#include <io/line_follower.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/line_follower.hpp>
 
 #include <fcntl.h>
 #include <poll.h>

@@ -1,6 +1,6 @@
-#include <base/error.hpp>
-#include <io/files.hpp>
-#include <io/obj.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/obj.hpp>
 
 #include <charconv>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <base/error.hpp>
 #include <io/pcd.hpp>
+#include <sloper/base/error.hpp>
 
 #include <array>
 #include <charconv>

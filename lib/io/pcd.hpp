@@ -1,6 +1,6 @@
 #pragma once
 /// Point clouds of the Point Cloud Library: PCD 0.7, ascii, binary and binary_compressed.
-#include <geometry/triangle_mesh.hpp>
+#include <sloper/geometry/triangle_mesh.hpp>
 #include <string>
 #include <string_view>
 namespace sloper::io {

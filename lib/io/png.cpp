@@ -1,6 +1,6 @@
-#include <base/error.hpp>
-#include <io/files.hpp>
-#include <io/png.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/png.hpp>
 
 #include <cmath>
 #include <csetjmp>

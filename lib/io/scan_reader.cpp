@@ -1,9 +1,9 @@
-#include <base/error.hpp>
 #include <io/assimp_reader.hpp>
-#include <io/files.hpp>
-#include <io/obj.hpp>
 #include <io/pcd.hpp>
-#include <io/scan_reader.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/obj.hpp>
+#include <sloper/io/scan_reader.hpp>
 
 #include <algorithm>
 #include <bit>

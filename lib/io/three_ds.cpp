@@ -1,5 +1,5 @@
-#include <base/error.hpp>
-#include <io/scan_reader.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/scan_reader.hpp>
 
 #include <bit>
 #include <cstdint>

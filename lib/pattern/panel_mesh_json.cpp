@@ -1,9 +1,9 @@
-#include <base/version.hpp>
-#include <io/json.hpp>
-#include <io/obj.hpp>
-#include <pattern/panel_mesh_json.hpp>
-#include <pattern/read/read_pattern.hpp>
-#include <pattern/write/export_pattern.hpp>
+#include <sloper/base/version.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/obj.hpp>
+#include <sloper/pattern/panel_mesh_json.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
+#include <sloper/pattern/write/export_pattern.hpp>
 
 #include <cmath>
 

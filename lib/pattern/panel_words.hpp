@@ -1,6 +1,6 @@
 #pragma once
 /// What the name of a piece says about it.
-#include <pattern/pattern.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 #include <initializer_list>
 #include <set>

@@ -1,5 +1,5 @@
-#include <base/units.hpp>
-#include <pattern/path.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/pattern/path.hpp>
 
 #include <algorithm>
 #include <cmath>

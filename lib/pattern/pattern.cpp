@@ -1,5 +1,5 @@
-#include <base/text.hpp>
-#include <pattern/pattern.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 #include <algorithm>
 

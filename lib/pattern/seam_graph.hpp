@@ -1,6 +1,6 @@
 #pragma once
 /// Which panels of a mesh are sewn to each other, and along which stitches.
-#include <pattern/panel_mesh.hpp>
+#include <sloper/pattern/panel_mesh.hpp>
 
 #include <array>
 #include <cstddef>

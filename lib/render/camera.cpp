@@ -1,8 +1,8 @@
-#include <base/error.hpp>
-#include <base/text.hpp>
-#include <base/units.hpp>
-#include <io/json.hpp>
-#include <render/camera.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/render/camera.hpp>
 
 #include <Eigen/Geometry>
 #include <algorithm>

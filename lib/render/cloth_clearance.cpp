@@ -1,7 +1,7 @@
-#include <collision/chunks.hpp>
-#include <collision/intersections.hpp>
-#include <collision/predicates.hpp>
 #include <render/cloth_clearance.hpp>
+#include <sloper/collision/chunks.hpp>
+#include <sloper/collision/intersections.hpp>
+#include <sloper/collision/predicates.hpp>
 
 #include <algorithm>
 #include <unordered_map>

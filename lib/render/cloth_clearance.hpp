@@ -3,8 +3,8 @@
 /// cloth. Touching counts as crossing. Triangles that share a vertex, or a place where panels are
 /// sewn together, do not cross. Results are the same whatever the number of threads.
 /// Test: tests/render/test_cloth_surface.cpp
-#include <collision/triangle_tree.hpp>
-#include <render/scene.hpp>
+#include <sloper/collision/triangle_tree.hpp>
+#include <sloper/render/scene.hpp>
 
 namespace sloper::render {
 

@@ -1,5 +1,5 @@
 #include <render/cloth_clearance.hpp>
-#include <render/scene.hpp>
+#include <sloper/render/scene.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include <base/error.hpp>
-#include <base/parallel.hpp>
-#include <render/context.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/render/context.hpp>
 
 #ifdef SLOPER_HAVE_OSMESA
 #include <GL/osmesa.h>

@@ -1,5 +1,5 @@
-#include <base/error.hpp>
-#include <render/maps.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/render/maps.hpp>
 
 #include <algorithm>
 #include <cmath>

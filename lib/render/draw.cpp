@@ -1,9 +1,9 @@
-#include <base/error.hpp>
-#include <base/units.hpp>
-#include <render/draw.hpp>
 #include <render/gl.hpp>
-#include <render/maps.hpp>
 #include <render/occlusion.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/render/draw.hpp>
+#include <sloper/render/maps.hpp>
 
 #include <algorithm>
 #include <array>

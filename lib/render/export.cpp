@@ -1,9 +1,9 @@
-#include <base/error.hpp>
-#include <base/version.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
-#include <render/export.hpp>
 #include <render/srgb.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/version.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/render/export.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -1,5 +1,5 @@
-#include <base/error.hpp>
 #include <render/gl.hpp>
+#include <sloper/base/error.hpp>
 
 namespace sloper::render {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The OpenGL functions that drawing uses, looked up in a context; and a program made of two
 /// shaders.
-#include <render/context.hpp>
+#include <sloper/render/context.hpp>
 
 #include <GL/glcorearb.h>
 namespace sloper::render {

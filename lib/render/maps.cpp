@@ -1,8 +1,8 @@
-#include <base/error.hpp>
-#include <garment/fit/cloth_strain.hpp>
-#include <garment/fit/fit.hpp>
-#include <garment/materials.hpp>
-#include <render/maps.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/garment/fit/cloth_strain.hpp>
+#include <sloper/garment/fit/fit.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/render/maps.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -1,5 +1,5 @@
-#include <base/parallel.hpp>
 #include <render/occlusion.hpp>
+#include <sloper/base/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>

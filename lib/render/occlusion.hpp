@@ -5,7 +5,7 @@
 /// Depth pictures of the scene from many directions, drawn by the processor over a thinned copy of
 /// the meshes; a vertex is lit from a direction when nothing there is nearer. No OpenGL: every back
 /// end draws the same light.
-#include <render/scene.hpp>
+#include <sloper/render/scene.hpp>
 namespace sloper::render {
 
 class Occlusion {

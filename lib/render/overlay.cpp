@@ -1,7 +1,7 @@
-#include <base/error.hpp>
-#include <base/text.hpp>
-#include <render/overlay.hpp>
 #include <render/srgb.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/render/overlay.hpp>
 
 #include <ft2build.h>
 #include FT_FREETYPE_H

@@ -1,8 +1,8 @@
-#include <base/error.hpp>
-#include <base/text.hpp>
-#include <render/overlay.hpp>
-#include <render/pattern_view.hpp>
-#include <render/show.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/render/overlay.hpp>
+#include <sloper/render/pattern_view.hpp>
+#include <sloper/render/show.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include <base/error.hpp>
-#include <base/parallel.hpp>
-#include <body/pose.hpp>
-#include <render/rig.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/body/pose.hpp>
+#include <sloper/render/rig.hpp>
 
 #include <algorithm>
 #include <cmath>

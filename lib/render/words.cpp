@@ -1,8 +1,8 @@
-#include <base/error.hpp>
-#include <base/text.hpp>
-#include <garment/materials.hpp>
-#include <io/json_fwd.hpp>
-#include <render/words.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/io/json_fwd.hpp>
+#include <sloper/render/words.hpp>
 
 #include <algorithm>
 #include <cmath>

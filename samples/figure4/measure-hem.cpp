@@ -1,14 +1,14 @@
 /// measure-hem SHIRT.json...: one line per draped garment, tab separated: girth, shadow, turning
 /// and waviness of its lowest edge, strain.
 #include <algorithm>
-#include <base/error.hpp>
-#include <base/units.hpp>
 #include <cmath>
 #include <complex>
 #include <cstdio>
-#include <garment/garment_json.hpp>
-#include <garment/sewing.hpp>
 #include <map>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/garment/garment_json.hpp>
+#include <sloper/garment/sewing.hpp>
 
 using namespace sloper;
 

@@ -1,7 +1,7 @@
 #include "body_field.hpp"
 #include <algorithm>
-#include <base/units.hpp>
 #include <cmath>
+#include <sloper/base/units.hpp>
 namespace sloper::samples {
 namespace {
 using units::radians;

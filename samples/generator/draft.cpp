@@ -1,8 +1,8 @@
 #include "draft.hpp"
 #include <algorithm>
-#include <base/error.hpp>
 #include <cmath>
 #include <cstdio>
+#include <sloper/base/error.hpp>
 namespace sloper::samples {
 namespace {
 

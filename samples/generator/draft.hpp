@@ -5,8 +5,8 @@
 /// from outside, so a front panel's +x is the wearer's left and a back panel's +x the wearer's
 /// right. Outlines run counter-clockwise.
 #include <functional>
-#include <geometry/types.hpp>
 #include <map>
+#include <sloper/geometry/types.hpp>
 #include <string>
 #include <vector>
 namespace sloper::samples {

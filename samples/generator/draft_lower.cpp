@@ -8,8 +8,8 @@
 /// crotch line, as in the classic trouser block (for one, Aldrich, Metric Pattern Cutting);
 /// coefficients are our own. Metres; y = 0 is the waist.
 #include "draft.hpp"
-#include <base/error.hpp>
 #include <cmath>
+#include <sloper/base/error.hpp>
 namespace sloper::samples {
 namespace {
 

@@ -7,8 +7,8 @@
 /// are our own, chosen for a loose fit. Lengths in metres; the origin of a body panel is the back
 /// neck point, x = 0 its centre line.
 #include "draft.hpp"
-#include <base/units.hpp>
 #include <cmath>
+#include <sloper/base/units.hpp>
 namespace sloper::samples {
 namespace {
 

@@ -2,7 +2,7 @@
 /// The few implicit shapes that the mannequin is made of, and how they are blended.
 /// Every shape answers a length that is negative inside, zero on the surface and near it about the
 /// distance, m.
-#include <geometry/types.hpp>
+#include <sloper/geometry/types.hpp>
 #include <vector>
 namespace sloper::samples {
 

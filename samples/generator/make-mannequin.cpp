@@ -2,12 +2,12 @@
 /// known by construction.
 #include "mannequin.hpp"
 #include "named_length.hpp"
-#include <base/error.hpp>
-#include <cli/run_tool.hpp>
 #include <cstdio>
-#include <io/files.hpp>
-#include <io/json.hpp>
-#include <io/obj.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/cli/run_tool.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/obj.hpp>
 
 using namespace sloper;
 

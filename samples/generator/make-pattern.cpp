@@ -3,9 +3,9 @@
 #include "measures.hpp"
 #include "named_length.hpp"
 #include <algorithm>
-#include <base/error.hpp>
-#include <cli/run_tool.hpp>
 #include <cstdio>
+#include <sloper/base/error.hpp>
+#include <sloper/cli/run_tool.hpp>
 
 using namespace sloper;
 

@@ -4,8 +4,8 @@
 #include "polygonise.hpp"
 #include "section.hpp"
 #include <algorithm>
-#include <base/error.hpp>
 #include <cmath>
+#include <sloper/base/error.hpp>
 namespace sloper::samples {
 namespace {
 

@@ -7,9 +7,9 @@
 /// and grow with the square root of the index, since at one stature a cross-section's area grows
 /// with mass. Frame: m, y up, the figure faces +z, +x is its left, feet at y = 0, origin below the
 /// middle of the hip joints.
-#include <geometry/triangle_mesh.hpp>
-#include <io/json.hpp>
 #include <map>
+#include <sloper/geometry/triangle_mesh.hpp>
+#include <sloper/io/json.hpp>
 #include <string>
 #include <vector>
 namespace sloper::samples {

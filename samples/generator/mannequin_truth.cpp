@@ -1,9 +1,9 @@
 #include "mannequin_truth.hpp"
 #include "section.hpp"
 #include <algorithm>
-#include <base/units.hpp>
 #include <cmath>
-#include <io/json.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/io/json.hpp>
 namespace sloper::samples {
 namespace {
 

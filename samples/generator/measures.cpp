@@ -1,7 +1,7 @@
 #include "measures.hpp"
-#include <base/units.hpp>
 #include <cmath>
-#include <io/json.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/io/json.hpp>
 namespace sloper::samples {
 namespace {
 

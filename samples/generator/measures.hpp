@@ -1,7 +1,7 @@
 #pragma once
 /// Body measures for the drafts, from a body document or from a mannequin.
 #include "draft.hpp"
-#include <io/json_fwd.hpp>
+#include <sloper/io/json_fwd.hpp>
 namespace sloper::samples {
 /// From a body document or a mannequin's truth: both name landmarks, levels and girths alike. What
 /// is missing is taken from stature by average proportions.

@@ -1,9 +1,9 @@
 #pragma once
 /// "waist=0.75" of a command line.
-#include <base/error.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <sloper/base/error.hpp>
 #include <string>
 #include <utility>
 namespace sloper::samples {

@@ -1,9 +1,9 @@
 #include "polygonise.hpp"
 #include <algorithm>
 #include <array>
-#include <base/error.hpp>
 #include <cmath>
 #include <map>
+#include <sloper/base/error.hpp>
 namespace sloper::samples {
 namespace {
 

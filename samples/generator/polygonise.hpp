@@ -1,7 +1,7 @@
 #pragma once
 /// From an implicit surface to a closed, even triangle mesh.
 #include <functional>
-#include <geometry/triangle_mesh.hpp>
+#include <sloper/geometry/triangle_mesh.hpp>
 namespace sloper::samples {
 
 using Field = std::function<double(const Vec3&)>;

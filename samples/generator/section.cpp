@@ -1,7 +1,7 @@
 #include "section.hpp"
 #include <algorithm>
-#include <base/units.hpp>
 #include <cmath>
+#include <sloper/base/units.hpp>
 namespace sloper::samples {
 
 Section2 hull_section(const std::vector<Vec3>& points, const Vec3& u, const Vec3& v) {

@@ -1,7 +1,7 @@
 /// girths SCAN: measures a scan with Sloper's libraries, as a program outside Sloper does it.
-#include <base/error.hpp>
-#include <body/measure_scan.hpp>
-#include <io/scan_reader.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/body/measure_scan.hpp>
+#include <sloper/io/scan_reader.hpp>
 
 #include <cstdio>
 

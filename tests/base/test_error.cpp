@@ -1,5 +1,5 @@
-#include <base/error.hpp>
-#include <base/version.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/version.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <base/random.hpp>
+#include <sloper/base/random.hpp>
 
 #include <gtest/gtest.h>
 

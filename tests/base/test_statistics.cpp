@@ -1,4 +1,4 @@
-#include <base/statistics.hpp>
+#include <sloper/base/statistics.hpp>
 
 #include <gtest/gtest.h>
 

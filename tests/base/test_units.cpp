@@ -1,4 +1,4 @@
-#include <base/units.hpp>
+#include <sloper/base/units.hpp>
 
 #include <gtest/gtest.h>
 

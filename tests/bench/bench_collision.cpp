@@ -3,14 +3,14 @@
 /// 680 triangles. Prints milliseconds: the least of several runs.
 #include <support/shapes.hpp>
 
-#include <base/parallel.hpp>
 #include <chrono>
-#include <collision/body_collider.hpp>
-#include <collision/intersections.hpp>
-#include <collision/self_proximity.hpp>
 #include <cstdio>
 #include <cstdlib>
-#include <io/obj.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/collision/body_collider.hpp>
+#include <sloper/collision/intersections.hpp>
+#include <sloper/collision/self_proximity.hpp>
+#include <sloper/io/obj.hpp>
 
 using namespace sloper;
 using namespace sloper::collision;

@@ -4,25 +4,25 @@
 /// scene's frames, then steps without inertia, which alone would crumple cloth in free fall) or
 /// both. Prints one line a scene, to rest one for each of SLOPER_BENCH_STARTS starts from
 /// SLOPER_BENCH_START on, and their mean. One thread.
-#include <base/parallel.hpp>
-#include <base/random.hpp>
 #include <chrono>
-#include <cloth/contact/body_contact.hpp>
-#include <cloth/contact/self_contact.hpp>
-#include <cloth/forces/bending.hpp>
-#include <cloth/forces/edge_spring.hpp>
-#include <cloth/forces/gravity.hpp>
-#include <cloth/forces/pins.hpp>
-#include <cloth/forces/shear.hpp>
-#include <cloth/solver/implicit_step.hpp>
-#include <collision/body_collider.hpp>
-#include <collision/intersections.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <io/json.hpp>
-#include <io/obj.hpp>
 #include <optional>
+#include <sloper/base/parallel.hpp>
+#include <sloper/base/random.hpp>
+#include <sloper/cloth/contact/body_contact.hpp>
+#include <sloper/cloth/contact/self_contact.hpp>
+#include <sloper/cloth/forces/bending.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
+#include <sloper/cloth/forces/gravity.hpp>
+#include <sloper/cloth/forces/pins.hpp>
+#include <sloper/cloth/forces/shear.hpp>
+#include <sloper/cloth/solver/implicit_step.hpp>
+#include <sloper/collision/body_collider.hpp>
+#include <sloper/collision/intersections.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/obj.hpp>
 
 using namespace sloper;
 using namespace sloper::cloth;

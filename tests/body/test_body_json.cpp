@@ -1,10 +1,10 @@
 #include <support/figures.hpp>
 
-#include <base/error.hpp>
-#include <body/body_json.hpp>
-#include <body/export/exports.hpp>
 #include <gtest/gtest.h>
-#include <io/files.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/body/body_json.hpp>
+#include <sloper/body/export/exports.hpp>
+#include <sloper/io/files.hpp>
 
 #include <algorithm>
 #include <filesystem>

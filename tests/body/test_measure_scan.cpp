@@ -1,7 +1,7 @@
 #include <support/figures.hpp>
 
-#include <base/error.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/error.hpp>
 #include <utility>
 
 using namespace sloper;

@@ -1,10 +1,10 @@
 #include <support/figures.hpp>
 
-#include <base/error.hpp>
-#include <body/body_json.hpp>
 #include <gtest/gtest.h>
-#include <io/files.hpp>
-#include <io/obj.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/body/body_json.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/obj.hpp>
 
 #include <filesystem>
 #include <fstream>

@@ -3,8 +3,8 @@
 #include <support/figures.hpp>
 
 #include <gtest/gtest.h>
-#include <io/json.hpp>
-#include <io/scan_reader.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/scan_reader.hpp>
 
 #include <cstdlib>
 #include <filesystem>

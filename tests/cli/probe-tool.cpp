@@ -1,7 +1,7 @@
 /// A program with every kind of option, to test lib/cli without the real tools: it does what --do
 /// says.
-#include <cli/run_tool.hpp>
-#include <io/files.hpp>
+#include <sloper/cli/run_tool.hpp>
+#include <sloper/io/files.hpp>
 
 #include <chrono>
 #include <cstdio>

@@ -1,7 +1,7 @@
 /// Our exact triangle tests against CGAL's, on the same inputs.
-#include <collision/body_collider.hpp>
-#include <collision/intersections.hpp>
-#include <collision/predicates.hpp>
+#include <sloper/collision/body_collider.hpp>
+#include <sloper/collision/intersections.hpp>
+#include <sloper/collision/predicates.hpp>
 
 #include <support/shapes.hpp>
 

@@ -1,9 +1,9 @@
-#include <collision/body_collider.hpp>
+#include <sloper/collision/body_collider.hpp>
 
 #include <support/shapes.hpp>
 
-#include <base/parallel.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/parallel.hpp>
 
 namespace sloper::collision {
 namespace {

@@ -1,11 +1,11 @@
-#include <collision/ccd_candidates.hpp>
+#include <sloper/collision/ccd_candidates.hpp>
 
 #include <support/shapes.hpp>
 
-#include <base/parallel.hpp>
-#include <base/random.hpp>
-#include <collision/self_proximity.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/parallel.hpp>
+#include <sloper/base/random.hpp>
+#include <sloper/collision/self_proximity.hpp>
 
 namespace sloper::collision {
 namespace {

@@ -1,8 +1,8 @@
 #include <support/shapes.hpp>
 
-#include <collision/displacement_bounds.hpp>
-#include <collision/distance.hpp>
 #include <gtest/gtest.h>
+#include <sloper/collision/displacement_bounds.hpp>
+#include <sloper/collision/distance.hpp>
 
 namespace sloper::collision {
 namespace {

@@ -1,4 +1,4 @@
-#include <collision/distance.hpp>
+#include <sloper/collision/distance.hpp>
 
 #include <support/shapes.hpp>
 

@@ -1,10 +1,10 @@
-#include <collision/intersections.hpp>
-#include <collision/predicates.hpp>
+#include <sloper/collision/intersections.hpp>
+#include <sloper/collision/predicates.hpp>
 
 #include <support/shapes.hpp>
 
-#include <base/parallel.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/parallel.hpp>
 
 namespace sloper::collision {
 namespace {

@@ -2,11 +2,11 @@
 /// faces, faces against vertices, edges against edges.
 #include <support/shapes.hpp>
 
-#include <base/parallel.hpp>
-#include <collision/body_collider.hpp>
-#include <collision/distance.hpp>
 #include <gtest/gtest.h>
 #include <set>
+#include <sloper/base/parallel.hpp>
+#include <sloper/collision/body_collider.hpp>
+#include <sloper/collision/distance.hpp>
 
 using namespace sloper;
 using namespace sloper::collision;

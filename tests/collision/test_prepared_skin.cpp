@@ -1,8 +1,8 @@
 #include <support/shapes.hpp>
 
-#include <collision/body_collider.hpp>
 #include <gtest/gtest.h>
-#include <io/files.hpp>
+#include <sloper/collision/body_collider.hpp>
+#include <sloper/io/files.hpp>
 
 namespace sloper::collision {
 namespace {

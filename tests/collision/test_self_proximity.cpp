@@ -1,11 +1,11 @@
-#include <collision/self_proximity.hpp>
+#include <sloper/collision/self_proximity.hpp>
 
 #include <support/shapes.hpp>
 
-#include <base/parallel.hpp>
-#include <collision/intersections.hpp>
 #include <gtest/gtest.h>
 #include <set>
+#include <sloper/base/parallel.hpp>
+#include <sloper/collision/intersections.hpp>
 
 namespace sloper::collision {
 namespace {

@@ -2,8 +2,8 @@
 #include <support/scratch_folder.hpp>
 #include <support/shapes.hpp>
 
-#include <collision/skin_cache.hpp>
 #include <gtest/gtest.h>
+#include <sloper/collision/skin_cache.hpp>
 
 #include <sys/wait.h>
 #include <unistd.h>

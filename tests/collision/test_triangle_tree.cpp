@@ -1,10 +1,10 @@
-#include <collision/triangle_tree.hpp>
+#include <sloper/collision/triangle_tree.hpp>
 
 #include <support/shapes.hpp>
 
 #include <algorithm>
-#include <base/error.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/error.hpp>
 
 namespace sloper::collision {
 namespace {

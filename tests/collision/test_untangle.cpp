@@ -1,4 +1,4 @@
-#include <collision/untangle.hpp>
+#include <sloper/collision/untangle.hpp>
 
 #include <support/shapes.hpp>
 

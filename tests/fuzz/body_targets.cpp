@@ -1,10 +1,10 @@
 #include "targets.hpp"
 
-#include <base/error.hpp>
-#include <body/body_json.hpp>
-#include <body/landmarks/rules.hpp>
-#include <body/pose_file.hpp>
-#include <io/files.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/body/body_json.hpp>
+#include <sloper/body/landmarks/rules.hpp>
+#include <sloper/body/pose_file.hpp>
+#include <sloper/io/files.hpp>
 
 #include <cstdlib>
 

@@ -1,10 +1,10 @@
 #include "targets.hpp"
 
-#include <base/error.hpp>
-#include <io/json.hpp>
-#include <io/obj.hpp>
 #include <io/pcd.hpp>
-#include <io/scan_reader.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/obj.hpp>
+#include <sloper/io/scan_reader.hpp>
 
 #include <cstdlib>
 

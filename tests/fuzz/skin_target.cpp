@@ -1,7 +1,7 @@
 #include "targets.hpp"
 
-#include <collision/body_collider.hpp>
-#include <io/files.hpp>
+#include <sloper/collision/body_collider.hpp>
+#include <sloper/io/files.hpp>
 
 #include <cmath>
 #include <cstdlib>

@@ -1,8 +1,8 @@
 /// What the fuzzers found, and their seeds, read by every build: no crash comes back.
 #include "targets.hpp"
 
-#include <base/random.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/random.hpp>
 
 #include <filesystem>
 #include <fstream>

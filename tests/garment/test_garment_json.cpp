@@ -1,6 +1,6 @@
-#include <base/error.hpp>
-#include <garment/garment_json.hpp>
-#include <io/files.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/garment/garment_json.hpp>
+#include <sloper/io/files.hpp>
 
 #include <gtest/gtest.h>
 

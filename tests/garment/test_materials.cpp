@@ -1,14 +1,14 @@
 /// Materials in layers, by direction, and as documents.
 #include <support/scratch_folder.hpp>
 
-#include <cloth/bending_plates.hpp>
-#include <garment/composite.hpp>
-#include <garment/garment_json.hpp>
-#include <garment/material_json.hpp>
-#include <garment/materials.hpp>
 #include <gtest/gtest.h>
-#include <io/files.hpp>
-#include <io/json.hpp>
+#include <sloper/cloth/bending_plates.hpp>
+#include <sloper/garment/composite.hpp>
+#include <sloper/garment/garment_json.hpp>
+#include <sloper/garment/material_json.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
-#include <base/random.hpp>
-#include <geometry/disjoint_sets.hpp>
+#include <sloper/base/random.hpp>
+#include <sloper/geometry/disjoint_sets.hpp>
 
 #include <gtest/gtest.h>
 

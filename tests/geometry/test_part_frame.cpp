@@ -1,6 +1,6 @@
-#include <base/random.hpp>
-#include <base/units.hpp>
-#include <geometry/part_frame.hpp>
+#include <sloper/base/random.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/geometry/part_frame.hpp>
 
 #include <gtest/gtest.h>
 

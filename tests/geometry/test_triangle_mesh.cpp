@@ -1,4 +1,4 @@
-#include <geometry/triangle_mesh.hpp>
+#include <sloper/geometry/triangle_mesh.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 /// Sheets and a body: deep starts, ridges, pinches, fast bodies, layers.
 #include "scene_tools.hpp"
 
-#include <cloth/contact/self_contact.hpp>
-#include <cloth/forces/gravity.hpp>
-#include <cloth/forces/pins.hpp>
-#include <cloth/motion/body_motion.hpp>
+#include <sloper/cloth/contact/self_contact.hpp>
+#include <sloper/cloth/forces/gravity.hpp>
+#include <sloper/cloth/forces/pins.hpp>
+#include <sloper/cloth/motion/body_motion.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,11 +3,11 @@
 
 #include "scene_tools.hpp"
 
-#include <garment/drape/drape.hpp>
-#include <garment/materials.hpp>
-#include <garment/scene/scene.hpp>
-#include <garment/sewing.hpp>
 #include <garment/simulate/audit.hpp>
+#include <sloper/garment/drape/drape.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/garment/scene/scene.hpp>
+#include <sloper/garment/sewing.hpp>
 
 #include <cmath>
 

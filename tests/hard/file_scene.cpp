@@ -4,18 +4,18 @@
 
 #include "scene_tools.hpp"
 
-#include <body/body_json.hpp>
-#include <body/measure_scan.hpp>
 #include <filesystem>
 #include <fstream>
-#include <garment/garment_json.hpp>
-#include <garment/scene/scene.hpp>
-#include <garment/sewing.hpp>
-#include <io/files.hpp>
-#include <io/scan_reader.hpp>
 #include <mannequin.hpp>
-#include <pattern/panel_mesh_json.hpp>
-#include <pattern/read/read_pattern.hpp>
+#include <sloper/body/body_json.hpp>
+#include <sloper/body/measure_scan.hpp>
+#include <sloper/garment/garment_json.hpp>
+#include <sloper/garment/scene/scene.hpp>
+#include <sloper/garment/sewing.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/scan_reader.hpp>
+#include <sloper/pattern/panel_mesh_json.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
 #include <unistd.h>
 
 namespace sloper::hard {

@@ -1,6 +1,6 @@
 #include "hard_case.hpp"
 
-#include <base/parallel.hpp>
+#include <sloper/base/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>

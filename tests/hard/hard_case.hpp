@@ -10,9 +10,9 @@
 ///  "seeds": how many, "ci": {"seeds", "points"}, "cpu_s": limit of a run, "failing": [{"at":
 ///  {PARAMETER: value...}, "why"}]: points that do not hold yet}
 /// Seed 0 is the scene as it is; others move its points at random (parameter jitter_m).
-#include <io/json.hpp>
 #include <map>
 #include <set>
+#include <sloper/io/json.hpp>
 #include <string>
 #include <vector>
 

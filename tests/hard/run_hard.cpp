@@ -4,10 +4,10 @@
 /// does not do it again.
 #include "hard_case.hpp"
 
-#include <base/error.hpp>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <sloper/base/error.hpp>
 #include <sstream>
 #include <sys/wait.h>
 #include <unistd.h>

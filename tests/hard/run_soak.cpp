@@ -3,11 +3,11 @@
 /// machine, so slices of any size cover 10,000 together.
 #include "hard_case.hpp"
 
-#include <base/error.hpp>
-#include <base/random.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <sloper/base/error.hpp>
+#include <sloper/base/random.hpp>
 
 using namespace sloper;
 using namespace sloper::hard;

@@ -1,13 +1,13 @@
 #include "scene_tools.hpp"
 
-#include <cloth/forces/bending.hpp>
-#include <cloth/forces/dihedral_bending.hpp>
-#include <cloth/forces/edge_spring.hpp>
-#include <cloth/forces/membrane.hpp>
-#include <cloth/forces/shear.hpp>
-#include <cloth/forces/triangle_stretch.hpp>
-#include <collision/intersections.hpp>
-#include <io/files.hpp>
+#include <sloper/cloth/forces/bending.hpp>
+#include <sloper/cloth/forces/dihedral_bending.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
+#include <sloper/cloth/forces/membrane.hpp>
+#include <sloper/cloth/forces/shear.hpp>
+#include <sloper/cloth/forces/triangle_stretch.hpp>
+#include <sloper/collision/intersections.hpp>
+#include <sloper/io/files.hpp>
 
 #include <algorithm>
 #include <cmath>

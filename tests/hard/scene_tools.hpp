@@ -2,11 +2,11 @@
 /// What the scenes share: sheets, simple bodies, jitter, and the measures of a state.
 #include "hard_case.hpp"
 
-#include <base/random.hpp>
-#include <body/body.hpp>
-#include <cloth/cloth_mesh.hpp>
-#include <cloth/solver/implicit_step.hpp>
-#include <garment/garment.hpp>
+#include <sloper/base/random.hpp>
+#include <sloper/body/body.hpp>
+#include <sloper/cloth/cloth_mesh.hpp>
+#include <sloper/cloth/solver/implicit_step.hpp>
+#include <sloper/garment/garment.hpp>
 
 namespace sloper::hard {
 

@@ -1,11 +1,11 @@
 /// Cloth alone: compressed, crumpled, stiff, badly meshed; pinned, pulled, blown at.
 #include "scene_tools.hpp"
 
-#include <cloth/contact/self_contact.hpp>
-#include <cloth/forces/gravity.hpp>
-#include <cloth/forces/pins.hpp>
-#include <cloth/forces/pressure.hpp>
-#include <cloth/forces/wind.hpp>
+#include <sloper/cloth/contact/self_contact.hpp>
+#include <sloper/cloth/forces/gravity.hpp>
+#include <sloper/cloth/forces/pins.hpp>
+#include <sloper/cloth/forces/pressure.hpp>
+#include <sloper/cloth/forces/wind.hpp>
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include <support/scratch_folder.hpp>
 
-#include <base/error.hpp>
-#include <io/files.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/files.hpp>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,7 +1,7 @@
 #include <support/has.hpp>
 #include <support/scratch_folder.hpp>
 
-#include <io/json.hpp>
+#include <sloper/io/json.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include <support/has.hpp>
 #include <support/scratch_folder.hpp>
 
-#include <base/error.hpp>
-#include <io/obj.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/obj.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 /// Readers under seeded damage: a file is read or refused with a message that names it, never a
 /// crash, never another exception.
-#include <base/error.hpp>
-#include <base/random.hpp>
-#include <io/json.hpp>
-#include <io/obj.hpp>
-#include <io/scan_reader.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/random.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/obj.hpp>
+#include <sloper/io/scan_reader.hpp>
 
 #include <gtest/gtest.h>
 

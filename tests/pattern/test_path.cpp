@@ -1,6 +1,6 @@
-#include <base/units.hpp>
 #include <gtest/gtest.h>
-#include <pattern/path.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/pattern/path.hpp>
 
 #include <cmath>
 

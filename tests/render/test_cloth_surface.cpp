@@ -1,6 +1,6 @@
-#include <collision/intersections.hpp>
 #include <gtest/gtest.h>
 #include <render/cloth_clearance.hpp>
+#include <sloper/collision/intersections.hpp>
 #include <support/sheet.hpp>
 
 #include <cmath>

@@ -1,12 +1,12 @@
-#include <base/error.hpp>
 #include <gtest/gtest.h>
-#include <io/json.hpp>
 #include <nlohmann/json.hpp>
-#include <render/export.hpp>
-#include <render/maps.hpp>
-#include <render/pattern_view.hpp>
-#include <render/show.hpp>
 #include <render/srgb.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/render/export.hpp>
+#include <sloper/render/maps.hpp>
+#include <sloper/render/pattern_view.hpp>
+#include <sloper/render/show.hpp>
 #include <support/sheet.hpp>
 
 #include <cmath>

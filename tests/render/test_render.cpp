@@ -1,9 +1,9 @@
-#include <base/error.hpp>
-#include <base/parallel.hpp>
 #include <gtest/gtest.h>
-#include <io/files.hpp>
-#include <render/draw.hpp>
-#include <render/overlay.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/render/draw.hpp>
+#include <sloper/render/overlay.hpp>
 
 #include <cmath>
 #include <cstdlib>

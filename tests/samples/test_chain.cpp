@@ -1,13 +1,13 @@
 /// The samples as input of the chain: drafts are read and meshed, figures are recognised by the
 /// landmark finder.
-#include <base/progress.hpp>
-#include <body/measure_scan.hpp>
 #include <gtest/gtest.h>
-#include <io/json.hpp>
 #include <mannequin.hpp>
 #include <measures.hpp>
-#include <pattern/mesh/mesh_pattern.hpp>
-#include <pattern/read/read_pattern.hpp>
+#include <sloper/base/progress.hpp>
+#include <sloper/body/measure_scan.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/mesh/mesh_pattern.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
 using namespace sloper;
 using namespace sloper::samples;
 

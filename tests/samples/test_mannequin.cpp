@@ -1,12 +1,12 @@
 /// The mannequin family: every figure is a sound mesh of the right size, and its truth lies where
 /// its names say.
-#include <base/error.hpp>
 #include <gtest/gtest.h>
-#include <io/json.hpp>
-#include <io/obj.hpp>
 #include <mannequin.hpp>
 #include <polygonise.hpp>
 #include <section.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/obj.hpp>
 using namespace sloper;
 using namespace sloper::samples;
 

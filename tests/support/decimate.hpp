@@ -2,7 +2,7 @@
 /// Coarser meshes of the same shape, as users make them before they send a scan: edge collapse by
 /// quadric error (Garland and Heckbert 1997), to the better of the two ends and of the middle.
 #include <Eigen/Dense>
-#include <geometry/triangle_mesh.hpp>
+#include <sloper/geometry/triangle_mesh.hpp>
 
 #include <algorithm>
 #include <queue>

@@ -1,10 +1,10 @@
 #pragma once
 /// A scene made for tests: a round pillar that widens below its waist, a motion of it, and a
 /// two-panel skirt around it.
-#include <body/body.hpp>
 #include <cmath>
 #include <garment/drape/motion.hpp>
-#include <garment/garment.hpp>
+#include <sloper/body/body.hpp>
+#include <sloper/garment/garment.hpp>
 #include <support/shapes.hpp>
 
 namespace sloper::garment {

@@ -1,9 +1,9 @@
 #pragma once
 /// Scans for the tests: mannequins of our own, and what users do to scans.
 #include <Eigen/Geometry>
-#include <base/random.hpp>
-#include <body/measure_scan.hpp>
 #include <mannequin.hpp>
+#include <sloper/base/random.hpp>
+#include <sloper/body/measure_scan.hpp>
 
 #include <cmath>
 #include <set>

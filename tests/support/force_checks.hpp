@@ -4,9 +4,9 @@
 #include <support/grid.hpp>
 
 #include <Eigen/Eigenvalues>
-#include <base/random.hpp>
-#include <cloth/effect.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/random.hpp>
+#include <sloper/cloth/effect.hpp>
 
 namespace sloper::cloth {
 

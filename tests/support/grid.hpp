@@ -1,6 +1,6 @@
 #pragma once
 /// A flat square of cloth, for tests: n by n particles in the plane y = 0, warp along -z.
-#include <cloth/cloth_mesh.hpp>
+#include <sloper/cloth/cloth_mesh.hpp>
 namespace sloper::cloth {
 struct Grid {
   ClothMesh mesh;

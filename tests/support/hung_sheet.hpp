@@ -1,6 +1,6 @@
 #pragma once
 /// A rectangle of cloth as a garment of one panel, standing upright before it is draped.
-#include <garment/garment.hpp>
+#include <sloper/garment/garment.hpp>
 
 #include <cmath>
 

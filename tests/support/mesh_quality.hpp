@@ -1,8 +1,8 @@
 #pragma once
 /// How good a panel mesh is.
-#include <base/units.hpp>
 #include <pattern/mesh/smallest_angle.hpp>
-#include <pattern/panel_mesh.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/pattern/panel_mesh.hpp>
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Small patterns for the tests, and questions that several tests ask of a mesh.
-#include <io/json.hpp>
-#include <pattern/mesh/mesh_pattern.hpp>
-#include <pattern/read/read_pattern.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/mesh/mesh_pattern.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
 
 #include <algorithm>
 #include <fstream>

@@ -4,7 +4,7 @@
 #include <support/stick_body.hpp>
 
 #include <cmath>
-#include <pattern/panel_mesh.hpp>
+#include <sloper/pattern/panel_mesh.hpp>
 
 namespace sloper::pattern::test {
 

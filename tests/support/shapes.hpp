@@ -1,8 +1,8 @@
 #pragma once
 /// Test meshes: spheres, bodies of revolution, sheets, triangle soups; all seeded.
-#include <base/random.hpp>
-#include <base/units.hpp>
-#include <geometry/triangle_mesh.hpp>
+#include <sloper/base/random.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/geometry/triangle_mesh.hpp>
 
 #include <cmath>
 #include <map>

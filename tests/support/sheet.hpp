@@ -1,5 +1,5 @@
 #pragma once
-#include <garment/garment.hpp>
+#include <sloper/garment/garment.hpp>
 
 namespace sloper::support {
 

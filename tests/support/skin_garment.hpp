@@ -2,9 +2,9 @@
 /// Garments made for tests from a body's own skin: the faces of some parts between two heights,
 /// held off by a gap. They need no drape, fit exactly and are smooth, so what binding and fitting
 /// say of them is known.
-#include <body/measure_scan.hpp>
-#include <garment/garment.hpp>
 #include <mannequin.hpp>
+#include <sloper/body/measure_scan.hpp>
+#include <sloper/garment/garment.hpp>
 
 #include <cmath>
 #include <map>

@@ -1,7 +1,7 @@
 #pragma once
 /// A figure of closed tubes with the landmarks that placement asks for; arms at any angle from
 /// hanging down.
-#include <body/body.hpp>
+#include <sloper/body/body.hpp>
 
 #include <cmath>
 

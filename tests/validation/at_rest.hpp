@@ -1,7 +1,7 @@
 #pragma once
 /// Cloth for the validation tests: rectangular sheets, and the road to rest.
-#include <cloth/solver/implicit_step.hpp>
 #include <cmath>
+#include <sloper/cloth/solver/implicit_step.hpp>
 
 namespace sloper::cloth {
 

@@ -4,14 +4,14 @@
 /// specimen covers.
 #include "at_rest.hpp"
 
-#include <base/random.hpp>
-#include <cloth/forces/bending.hpp>
-#include <cloth/forces/edge_spring.hpp>
-#include <cloth/forces/gravity.hpp>
-#include <cloth/forces/membrane.hpp>
-#include <cloth/forces/pins.hpp>
-#include <cloth/forces/shear.hpp>
-#include <cloth/forces/triangle_stretch.hpp>
+#include <sloper/base/random.hpp>
+#include <sloper/cloth/forces/bending.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
+#include <sloper/cloth/forces/gravity.hpp>
+#include <sloper/cloth/forces/membrane.hpp>
+#include <sloper/cloth/forces/pins.hpp>
+#include <sloper/cloth/forces/shear.hpp>
+#include <sloper/cloth/forces/triangle_stretch.hpp>
 #include <string>
 
 namespace sloper::cloth {

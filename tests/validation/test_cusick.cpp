@@ -3,7 +3,7 @@
 #include "cusick.hpp"
 #include "figures.hpp"
 
-#include <garment/materials.hpp>
+#include <sloper/garment/materials.hpp>
 
 using namespace sloper;
 using namespace sloper::cloth;

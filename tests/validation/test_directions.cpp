@@ -4,11 +4,11 @@
 #include "elastica.hpp"
 #include "figures.hpp"
 
-#include <cloth/forces/gravity.hpp>
-#include <cloth/forces/membrane.hpp>
-#include <cloth/forces/orthotropic_bending.hpp>
-#include <cloth/forces/pins.hpp>
 #include <gtest/gtest.h>
+#include <sloper/cloth/forces/gravity.hpp>
+#include <sloper/cloth/forces/membrane.hpp>
+#include <sloper/cloth/forces/orthotropic_bending.hpp>
+#include <sloper/cloth/forces/pins.hpp>
 
 using namespace sloper;
 using namespace sloper::cloth;

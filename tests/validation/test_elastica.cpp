@@ -8,17 +8,17 @@
 #include "figures.hpp"
 
 #include <Eigen/LU>
-#include <cloth/forces/bending.hpp>
-#include <cloth/forces/dihedral_bending.hpp>
-#include <cloth/forces/edge_spring.hpp>
-#include <cloth/forces/gravity.hpp>
-#include <cloth/forces/membrane.hpp>
-#include <cloth/forces/pins.hpp>
-#include <cloth/forces/shear.hpp>
-#include <cloth/forces/triangle_stretch.hpp>
 #include <cstdlib>
 #include <gtest/gtest.h>
-#include <io/json.hpp>
+#include <sloper/cloth/forces/bending.hpp>
+#include <sloper/cloth/forces/dihedral_bending.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
+#include <sloper/cloth/forces/gravity.hpp>
+#include <sloper/cloth/forces/membrane.hpp>
+#include <sloper/cloth/forces/pins.hpp>
+#include <sloper/cloth/forces/shear.hpp>
+#include <sloper/cloth/forces/triangle_stretch.hpp>
+#include <sloper/io/json.hpp>
 
 using namespace sloper;
 using namespace sloper::cloth;

@@ -2,11 +2,11 @@
 /// tan(alpha) = mu, and slides where it is more.
 #include "figures.hpp"
 
-#include <body/body.hpp>
 #include <cmath>
-#include <garment/drape/drape.hpp>
-#include <garment/garment.hpp>
-#include <garment/materials.hpp>
+#include <sloper/body/body.hpp>
+#include <sloper/garment/drape/drape.hpp>
+#include <sloper/garment/garment.hpp>
+#include <sloper/garment/materials.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;

@@ -2,12 +2,12 @@
 /// beside repeated tests of real specimens. Slow; SLOPER_VALIDATION=1 (make validation).
 #include "figures.hpp"
 
-#include <base/parallel.hpp>
-#include <cloth/bending_plates.hpp>
-#include <garment/drapemeter/drapemeter.hpp>
-#include <garment/materials.hpp>
-#include <garment/redrape/spread.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/parallel.hpp>
+#include <sloper/cloth/bending_plates.hpp>
+#include <sloper/garment/drapemeter/drapemeter.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/garment/redrape/spread.hpp>
 
 #include <algorithm>
 #include <cstdlib>

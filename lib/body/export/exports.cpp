@@ -1,4 +1,4 @@
-#include <body/export/exports.hpp>
+#include <sloper/body/export/exports.hpp>
 
 #include <cstdio>
 

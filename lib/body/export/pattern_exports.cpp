@@ -1,6 +1,6 @@
-#include <base/units.hpp>
-#include <body/export/exports.hpp>
-#include <body/measure/section.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/body/export/exports.hpp>
+#include <sloper/body/measure/section.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include <base/error.hpp>
-#include <base/units.hpp>
 #include <body/ingest/canonical_frame.hpp>
 #include <body/ingest/mirror.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

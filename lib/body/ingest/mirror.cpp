@@ -1,6 +1,6 @@
-#include <base/statistics.hpp>
-#include <base/units.hpp>
 #include <body/ingest/mirror.hpp>
+#include <sloper/base/statistics.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 /// The plane in which a trunk is its own mirror image, from points in (about) the body frame.
-#include <geometry/types.hpp>
 #include <optional>
+#include <sloper/geometry/types.hpp>
 #include <vector>
 namespace sloper::body {
 

@@ -1,6 +1,6 @@
-#include <base/statistics.hpp>
 #include <body/ingest/segmentation.hpp>
-#include <geometry/disjoint_sets.hpp>
+#include <sloper/base/statistics.hpp>
+#include <sloper/geometry/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <cmath>

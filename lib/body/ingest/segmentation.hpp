@@ -3,7 +3,7 @@
 /// voxels, so it does not care whether the scan is a mesh, bare points, or slices, and needs no
 /// unit.
 #include <array>
-#include <body/body.hpp>
+#include <sloper/body/body.hpp>
 namespace sloper::body {
 
 struct SegmentedScan {

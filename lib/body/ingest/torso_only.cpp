@@ -1,7 +1,7 @@
-#include <base/error.hpp>
-#include <base/statistics.hpp>
-#include <base/units.hpp>
 #include <body/ingest/torso_only.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/statistics.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 /// and how far the neck's narrowest place lies below the crown), plain legs are set under the torso
 /// so that every rule runs as usual, and afterwards everything that rests on what the scan does not
 /// show is forgotten again. Test: tests/body/ingest/test_torso_only.cpp
-#include <body/body.hpp>
+#include <sloper/body/body.hpp>
 #include <string>
 namespace sloper::body {
 

@@ -1,7 +1,7 @@
 #include <Eigen/LU>
-#include <base/units.hpp>
 #include <body/ingest/upright.hpp>
-#include <geometry/rotation.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/geometry/rotation.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include <base/units.hpp>
 #include <body/ingest/mirror.hpp>
 #include <body/ingest/upright.hpp>
 #include <body/ingest/vertical.hpp>
-#include <geometry/rotation.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/geometry/rotation.hpp>
 
 #include <algorithm>
 #include <cmath>

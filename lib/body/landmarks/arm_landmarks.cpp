@@ -1,6 +1,6 @@
-#include <base/units.hpp>
 #include <body/landmarks/landmark_finder.hpp>
 #include <body/measure/plateau.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

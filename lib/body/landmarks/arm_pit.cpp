@@ -1,5 +1,5 @@
-#include <base/units.hpp>
-#include <body/measure/arm_trace.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/body/measure/arm_trace.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <body/landmarks/corrections.hpp>
-#include <io/json.hpp>
+#include <sloper/body/landmarks/corrections.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <cmath>

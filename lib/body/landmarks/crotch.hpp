@@ -1,9 +1,9 @@
 #pragma once
 /// Whether the crotch that the slices show is the body's: thighs that touch, and holes, put it too
 /// low.
-#include <body/body.hpp>
-#include <body/landmarks/rules.hpp>
-#include <body/measure/level_stack.hpp>
+#include <sloper/body/body.hpp>
+#include <sloper/body/landmarks/rules.hpp>
+#include <sloper/body/measure/level_stack.hpp>
 namespace sloper::body {
 
 /// Moves the crotch of `levels` where the scan does not show it, by the level of the buttocks.

@@ -1,5 +1,5 @@
-#include <base/units.hpp>
 #include <body/landmarks/gate.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// The last look at a measured body: is what was found a person who stands upright? Proportions,
 /// order and posture of the landmarks, each within wide bounds; what lies outside is named, so that
 /// nobody who squats and no statue is measured in silence.
-#include <body/body.hpp>
+#include <sloper/body/body.hpp>
 namespace sloper::body {
 
 /// @param unlikeness of the shape to the bodies that the rules were learned from

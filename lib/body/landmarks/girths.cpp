@@ -1,6 +1,6 @@
 #include <Eigen/Cholesky>
-#include <base/units.hpp>
 #include <body/landmarks/landmark_finder.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

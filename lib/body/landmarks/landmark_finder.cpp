@@ -1,5 +1,5 @@
-#include <base/error.hpp>
 #include <body/landmarks/landmark_finder.hpp>
+#include <sloper/base/error.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,13 +2,13 @@
 /// The landmark rules: step 1 terminal points, step 2 curvature points, each in the file of its
 /// region. All work on a closed skin in the body frame and fill body.landmarks, body.levels and
 /// body.girths; nothing is guessed silently.
-#include <body/body.hpp>
-#include <body/landmarks/corrections.hpp>
-#include <body/landmarks/rules.hpp>
-#include <body/measure/arm_trace.hpp>
 #include <body/measure/relief.hpp>
 #include <functional>
 #include <initializer_list>
+#include <sloper/body/body.hpp>
+#include <sloper/body/landmarks/corrections.hpp>
+#include <sloper/body/landmarks/rules.hpp>
+#include <sloper/body/measure/arm_trace.hpp>
 namespace sloper::body {
 
 /// What the decision tree's first questions find: which proportions to expect. Not a statement

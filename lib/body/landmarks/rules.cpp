@@ -1,7 +1,7 @@
-#include <base/error.hpp>
-#include <body/landmarks/rules.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/body/landmarks/rules.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Compares the height of a landmark with the one that the rest of the body predicts. Where they
 /// differ by more than on the bodies that were learned from, one is wrong, and a warning says so.
-#include <body/body.hpp>
-#include <body/landmarks/corrections.hpp>
+#include <sloper/body/body.hpp>
+#include <sloper/body/landmarks/corrections.hpp>
 namespace sloper::body {
 
 /// Compares the height y of each landmark with its expected height e (Corrections::expected, of

@@ -1,4 +1,4 @@
-#include <body/landmarks/shape_features.hpp>
+#include <sloper/body/landmarks/shape_features.hpp>
 
 #include <algorithm>
 #include <cmath>

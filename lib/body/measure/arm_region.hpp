@@ -1,7 +1,7 @@
 #pragma once
 /// Which skin is an arm's: by connection with the hand along the arm's bent centre line, wherever
 /// the arm and its hand are.
-#include <body/measure/arm_trace.hpp>
+#include <sloper/body/measure/arm_trace.hpp>
 #include <vector>
 namespace sloper::body {
 

@@ -1,4 +1,4 @@
-#include <body/measure/arm_trace.hpp>
+#include <sloper/body/measure/arm_trace.hpp>
 
 #include <algorithm>
 #include <cmath>

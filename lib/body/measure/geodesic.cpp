@@ -1,4 +1,4 @@
-#include <body/measure/geodesic.hpp>
+#include <sloper/body/measure/geodesic.hpp>
 
 #include <algorithm>
 #include <queue>

@@ -1,4 +1,4 @@
-#include <body/measure/level_stack.hpp>
+#include <sloper/body/measure/level_stack.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 /// The centre of a flat minimum: the weighted mean of all samples within `flat` of the lowest. The
 /// single lowest sample of a flat curve is unstable.
-#include <geometry/types.hpp>
+#include <sloper/geometry/types.hpp>
 #include <vector>
 namespace sloper::body {
 

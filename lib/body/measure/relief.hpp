@@ -1,8 +1,8 @@
 #pragma once
 /// Small relief of the skin: bumps and dimples of about a centimetre, such as nipples and the
 /// navel.
-#include <geometry/triangle_mesh.hpp>
 #include <optional>
+#include <sloper/geometry/triangle_mesh.hpp>
 namespace sloper::body {
 
 struct ReliefPoint {

@@ -1,5 +1,5 @@
-#include <body/measure/section.hpp>
-#include <geometry/disjoint_sets.hpp>
+#include <sloper/body/measure/section.hpp>
+#include <sloper/geometry/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <cmath>

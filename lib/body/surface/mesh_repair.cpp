@@ -1,5 +1,5 @@
 #include <body/surface/mesh_repair.hpp>
-#include <geometry/disjoint_sets.hpp>
+#include <sloper/geometry/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <array>

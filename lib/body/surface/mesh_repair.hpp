@@ -1,7 +1,7 @@
 #pragma once
 /// What a scan's own faces need before cloth can lie on them: joined, oriented, closed.
 #include <cstdint>
-#include <geometry/triangle_mesh.hpp>
+#include <sloper/geometry/triangle_mesh.hpp>
 #include <vector>
 namespace sloper::body {
 

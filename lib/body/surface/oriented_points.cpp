@@ -1,6 +1,6 @@
-#include <base/statistics.hpp>
 #include <body/surface/oriented_points.hpp>
 #include <body/surface/point_grid.hpp>
+#include <sloper/base/statistics.hpp>
 
 #include <Eigen/Eigenvalues>
 

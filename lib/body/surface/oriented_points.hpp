@@ -1,7 +1,7 @@
 #pragma once
 /// Surface samples with outward normals from any scan: mesh or bare points, noisy, holed, with
 /// flipped faces.
-#include <geometry/triangle_mesh.hpp>
+#include <sloper/geometry/triangle_mesh.hpp>
 #include <vector>
 namespace sloper::body {
 

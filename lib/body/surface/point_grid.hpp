@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <geometry/types.hpp>
+#include <sloper/geometry/types.hpp>
 #include <vector>
 namespace sloper::body {
 

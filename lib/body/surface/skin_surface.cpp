@@ -1,9 +1,9 @@
-#include <base/statistics.hpp>
 #include <body/surface/mesh_repair.hpp>
 #include <body/surface/point_grid.hpp>
 #include <body/surface/skin_surface.hpp>
 #include <body/surface/sparse_cloud.hpp>
 #include <body/surface/surface_nets.hpp>
+#include <sloper/base/statistics.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 /// The skin on which cloth lies: the scan's own faces where they are sound, else a closed surface
 /// rebuilt from samples.
-#include <body/body.hpp>
 #include <body/surface/mesh_repair.hpp>
+#include <sloper/body/body.hpp>
 namespace sloper::body {
 
 struct SkinSurface {

@@ -1,7 +1,7 @@
 #pragma once
 /// Bare points that lie far apart on the trunk and near on hands and face: points between them, on
 /// the surface they suggest.
-#include <geometry/types.hpp>
+#include <sloper/geometry/types.hpp>
 #include <vector>
 namespace sloper::body {
 

@@ -1,5 +1,5 @@
 #include <body/surface/touching_skin.hpp>
-#include <collision/triangle_tree.hpp>
+#include <sloper/collision/triangle_tree.hpp>
 
 #include <algorithm>
 #include <array>

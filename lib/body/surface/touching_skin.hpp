@@ -7,7 +7,7 @@
 /// and with a smooth rim. Skin that passes through other skin by less than 6 mm is parted too.
 /// Landmarks, levels and girths are measured before and do not change. Test:
 /// tests/body/surface/test_touching_skin.cpp
-#include <geometry/triangle_mesh.hpp>
+#include <sloper/geometry/triangle_mesh.hpp>
 
 namespace sloper::body {
 

@@ -1,8 +1,8 @@
-#include <base/parallel.hpp>
-#include <base/units.hpp>
-#include <cloth/contact/body_contact.hpp>
-#include <cloth/contact/contact_element.hpp>
-#include <cloth/contact/contact_potential.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/cloth/contact/body_contact.hpp>
+#include <sloper/cloth/contact/contact_element.hpp>
+#include <sloper/cloth/contact/contact_potential.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <cloth/contact/body_contact.hpp>
+#include <sloper/cloth/contact/body_contact.hpp>
 
 /// Coulomb friction of cloth on skin: a tie from each loaded particle to the place where it stuck,
 /// which slides along when it pulls too hard.

@@ -1,5 +1,5 @@
-#include <base/parallel.hpp>
-#include <cloth/contact/body_contact.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/cloth/contact/body_contact.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <cloth/contact/contact_element.hpp>
+#include <sloper/cloth/contact/contact_element.hpp>
 
 #include <algorithm>
 

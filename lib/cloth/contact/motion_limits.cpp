@@ -1,4 +1,4 @@
-#include <cloth/contact/motion_limits.hpp>
+#include <sloper/cloth/contact/motion_limits.hpp>
 
 #include <algorithm>
 #include <limits>

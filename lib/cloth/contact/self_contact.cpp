@@ -1,5 +1,5 @@
-#include <cloth/contact/self_contact.hpp>
-#include <collision/intersections.hpp>
+#include <sloper/cloth/contact/self_contact.hpp>
+#include <sloper/collision/intersections.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <cloth/contact/soft_body_contact.hpp>
+#include <sloper/cloth/contact/soft_body_contact.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <cloth/forces/attachments.hpp>
-#include <cloth/forces/edge_spring.hpp>
+#include <sloper/cloth/forces/attachments.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
 
 namespace sloper::cloth {
 

@@ -1,4 +1,4 @@
-#include <cloth/forces/bending.hpp>
+#include <sloper/cloth/forces/bending.hpp>
 
 namespace sloper::cloth {
 

@@ -1,4 +1,4 @@
-#include <cloth/forces/closures.hpp>
+#include <sloper/cloth/forces/closures.hpp>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <cloth/forces/dihedral_bending.hpp>
+#include <sloper/cloth/forces/dihedral_bending.hpp>
 
 #include <algorithm>
 #include <cmath>

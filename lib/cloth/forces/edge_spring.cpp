@@ -1,4 +1,4 @@
-#include <cloth/forces/edge_spring.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <cloth/forces/edge_spring.hpp>
-#include <cloth/forces/elastic_band.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
+#include <sloper/cloth/forces/elastic_band.hpp>
 
 #include <algorithm>
 

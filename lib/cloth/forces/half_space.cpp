@@ -1,4 +1,4 @@
-#include <cloth/forces/half_space.hpp>
+#include <sloper/cloth/forces/half_space.hpp>
 
 namespace sloper::cloth {
 

@@ -1,4 +1,4 @@
-#include <cloth/forces/membrane.hpp>
+#include <sloper/cloth/forces/membrane.hpp>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

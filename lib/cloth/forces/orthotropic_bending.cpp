@@ -1,5 +1,5 @@
-#include <cloth/forces/dihedral_bending.hpp>
-#include <cloth/forces/orthotropic_bending.hpp>
+#include <sloper/cloth/forces/dihedral_bending.hpp>
+#include <sloper/cloth/forces/orthotropic_bending.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <cloth/forces/pins.hpp>
+#include <sloper/cloth/forces/pins.hpp>
 
 namespace sloper::cloth {
 

@@ -1,4 +1,4 @@
-#include <cloth/forces/pressure.hpp>
+#include <sloper/cloth/forces/pressure.hpp>
 
 namespace sloper::cloth {
 

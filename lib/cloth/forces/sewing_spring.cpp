@@ -1,4 +1,4 @@
-#include <cloth/forces/sewing_spring.hpp>
+#include <sloper/cloth/forces/sewing_spring.hpp>
 
 #include <algorithm>
 

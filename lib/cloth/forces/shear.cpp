@@ -1,4 +1,4 @@
-#include <cloth/forces/shear.hpp>
+#include <sloper/cloth/forces/shear.hpp>
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include <cloth/forces/triangle_map.hpp>
+#include <sloper/cloth/forces/triangle_map.hpp>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

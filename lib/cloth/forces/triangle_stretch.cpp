@@ -1,4 +1,4 @@
-#include <cloth/forces/triangle_stretch.hpp>
+#include <sloper/cloth/forces/triangle_stretch.hpp>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <cloth/forces/wind.hpp>
+#include <sloper/cloth/forces/wind.hpp>
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
-#include <base/parallel.hpp>
 #include <cloth/linear/aggregation.hpp>
+#include <sloper/base/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>

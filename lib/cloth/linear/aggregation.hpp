@@ -10,9 +10,9 @@
 /// refinement in double has the last word. Of systems that recur, solves begin with the ways of the
 /// last ones (Deflation).
 #include <Eigen/Dense>
-#include <cloth/linear/conjugate_gradient.hpp>
 #include <cloth/linear/deflation.hpp>
 #include <cloth/linear/float_rows.hpp>
+#include <sloper/cloth/linear/conjugate_gradient.hpp>
 
 namespace sloper::cloth {
 

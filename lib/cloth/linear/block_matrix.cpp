@@ -1,6 +1,6 @@
-#include <base/error.hpp>
-#include <base/parallel.hpp>
-#include <cloth/linear/block_matrix.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/cloth/linear/block_matrix.hpp>
 
 #include <algorithm>
 

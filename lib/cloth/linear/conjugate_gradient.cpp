@@ -1,6 +1,6 @@
 #include <Eigen/Dense>
-#include <base/parallel.hpp>
-#include <cloth/linear/conjugate_gradient.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/cloth/linear/conjugate_gradient.hpp>
 
 #include <cmath>
 

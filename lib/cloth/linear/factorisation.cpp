@@ -1,4 +1,4 @@
-#include <cloth/linear/factorisation.hpp>
+#include <sloper/cloth/linear/factorisation.hpp>
 
 #include <algorithm>
 

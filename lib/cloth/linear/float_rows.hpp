@@ -1,9 +1,9 @@
 #pragma once
 /// Sparse matrices of 3x3 blocks, in double to build a preconditioner and in single precision to
 /// apply it.
-#include <base/parallel.hpp>
-#include <base/simd4.hpp>
-#include <cloth/linear/block_matrix.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/base/simd4.hpp>
+#include <sloper/cloth/linear/block_matrix.hpp>
 
 #include <algorithm>
 

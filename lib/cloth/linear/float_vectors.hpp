@@ -1,8 +1,8 @@
 #pragma once
 /// Vectors of single precision, one Float4 a particle, the fourth lane unused and 0.
-#include <base/parallel.hpp>
-#include <base/simd4.hpp>
-#include <cloth/linear/block_matrix.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/base/simd4.hpp>
+#include <sloper/cloth/linear/block_matrix.hpp>
 
 #include <algorithm>
 

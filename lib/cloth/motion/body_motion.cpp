@@ -1,6 +1,6 @@
-#include <base/parallel.hpp>
-#include <base/statistics.hpp>
-#include <cloth/motion/body_motion.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/base/statistics.hpp>
+#include <sloper/cloth/motion/body_motion.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -1,9 +1,9 @@
-#include <base/error.hpp>
-#include <base/parallel.hpp>
-#include <base/statistics.hpp>
-#include <base/units.hpp>
 #include <cloth/linear/aggregation.hpp>
-#include <cloth/solver/implicit_step.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/base/statistics.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/cloth/solver/implicit_step.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -1,6 +1,6 @@
 /// A step with inertia in several solves: to the minimum of the incremental potential, where one
 /// linearised solve stops short of it or beyond.
-#include <cloth/solver/implicit_step.hpp>
+#include <sloper/cloth/solver/implicit_step.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include <garment/bind/bind.hpp>
+#include <sloper/garment/bind/bind.hpp>
 
-#include <base/error.hpp>
 #include <garment/bind/bind_frames.hpp>
 #include <garment/bind/bind_weights.hpp>
+#include <sloper/base/error.hpp>
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 #include <garment/bind/bind_frames.hpp>
 
-#include <base/error.hpp>
-#include <base/units.hpp>
-#include <geometry/sparse_solver.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/geometry/sparse_solver.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 /// upper_arm and forearm, because the straight axis from hand_tip to acromion passes through the
 /// skin at the shoulder, where theta would be singular, and leaves the arm where the elbow bends.
 /// "lower_body" is the joint frame of both legs, for what wraps them together.
-#include <body/body.hpp>
-#include <geometry/part_frame.hpp>
+#include <sloper/body/body.hpp>
+#include <sloper/geometry/part_frame.hpp>
 
 #include <map>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 /// Lumped mass and stiffness of a garment's surface, for smooth fields over it.
-#include <geometry/types.hpp>
+#include <sloper/geometry/types.hpp>
 
 #include <Eigen/SparseCore>
 

@@ -1,11 +1,11 @@
 #include <garment/bind/bind_weights.hpp>
-#include <geometry/disjoint_sets.hpp>
+#include <sloper/geometry/disjoint_sets.hpp>
 
-#include <base/error.hpp>
-#include <base/parallel.hpp>
-#include <collision/triangle_tree.hpp>
 #include <garment/bind/bind_laplacian.hpp>
-#include <geometry/sparse_solver.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/collision/triangle_tree.hpp>
+#include <sloper/geometry/sparse_solver.hpp>
 
 #include <algorithm>
 #include <cmath>

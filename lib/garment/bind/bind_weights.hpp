@@ -6,7 +6,7 @@
 /// s^2 L)^-2: weights are smooth along the cloth, whose two sides of an arm pit stay apart however
 /// near they are in space, and no seam is torn.
 #include <garment/bind/bind_frames.hpp>
-#include <garment/garment.hpp>
+#include <sloper/garment/garment.hpp>
 
 namespace sloper::garment {
 

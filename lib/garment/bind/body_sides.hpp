@@ -1,6 +1,6 @@
 #pragma once
 /// How unlike a body's left and right are, against what a tailor grades.
-#include <body/body.hpp>
+#include <sloper/body/body.hpp>
 
 namespace sloper::garment {
 

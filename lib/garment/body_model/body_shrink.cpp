@@ -1,4 +1,4 @@
-#include <garment/body_model/body_shrink.hpp>
+#include <sloper/garment/body_model/body_shrink.hpp>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <garment/body_model/coarse_skin.hpp>
+#include <sloper/garment/body_model/coarse_skin.hpp>
 
 #include <meshoptimizer.h>
 

@@ -1,6 +1,6 @@
-#include <collision/skin_cache.hpp>
-#include <garment/body_model/collision_body.hpp>
-#include <io/json.hpp>
+#include <sloper/collision/skin_cache.hpp>
+#include <sloper/garment/body_model/collision_body.hpp>
+#include <sloper/io/json.hpp>
 
 namespace sloper::garment {
 

@@ -1,5 +1,5 @@
-#include <collision/predicates.hpp>
-#include <garment/body_model/extremity_hulls.hpp>
+#include <sloper/collision/predicates.hpp>
+#include <sloper/garment/body_model/extremity_hulls.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include <garment/body_model/under_arms.hpp>
+#include <sloper/garment/body_model/under_arms.hpp>
 
-#include <collision/triangle_tree.hpp>
-#include <garment/body_model/extremity_hulls.hpp>
+#include <sloper/collision/triangle_tree.hpp>
+#include <sloper/garment/body_model/extremity_hulls.hpp>
 
 #include <algorithm>
 #include <string>

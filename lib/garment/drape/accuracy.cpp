@@ -1,6 +1,6 @@
-#include <garment/drape/accuracy.hpp>
-#include <garment/scene/scene.hpp>
-#include <io/json.hpp>
+#include <sloper/garment/drape/accuracy.hpp>
+#include <sloper/garment/scene/scene.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,7 @@
-#include <base/error.hpp>
-#include <garment/drape/drape.hpp>
 #include <garment/levels/drape_levels.hpp>
 #include <garment/simulate/session.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/garment/drape/drape.hpp>
 
 namespace sloper::garment {
 

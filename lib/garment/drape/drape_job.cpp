@@ -1,15 +1,15 @@
-#include <base/error.hpp>
-#include <base/version.hpp>
-#include <garment/bind/bind.hpp>
-#include <garment/drape/drape_job.hpp>
 #include <garment/drape/follow.hpp>
 #include <garment/drape/frame_writer.hpp>
 #include <garment/drape/layers.hpp>
 #include <garment/drape/motion.hpp>
-#include <garment/simulate/checkpoint.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
-#include <io/line_follower.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/version.hpp>
+#include <sloper/garment/bind/bind.hpp>
+#include <sloper/garment/drape/drape_job.hpp>
+#include <sloper/garment/simulate/checkpoint.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/line_follower.hpp>
 
 #include <filesystem>
 

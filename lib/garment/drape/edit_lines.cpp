@@ -1,7 +1,7 @@
-#include <base/error.hpp>
 #include <garment/drape/edit_lines.hpp>
-#include <pattern/edit/edits.hpp>
-#include <pattern/seams/check_pattern.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/pattern/edit/edits.hpp>
+#include <sloper/pattern/seams/check_pattern.hpp>
 
 namespace sloper::garment {
 

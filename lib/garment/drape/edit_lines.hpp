@@ -1,7 +1,7 @@
 #pragma once
 /// The lines of a live session: a head, edits, an end. See follow().
-#include <io/json.hpp>
-#include <pattern/pattern.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 #include <optional>
 #include <string>

@@ -1,9 +1,9 @@
-#include <base/error.hpp>
 #include <garment/drape/edit_lines.hpp>
 #include <garment/drape/follow.hpp>
 #include <garment/drape/live_pattern.hpp>
 #include <garment/simulate/session.hpp>
-#include <io/json.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <chrono>

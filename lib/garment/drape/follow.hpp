@@ -2,7 +2,7 @@
 /// A draped garment that follows edits of its pattern as they come: rest lengths change in place,
 /// the cloth goes on from where it hangs. Only an edit that asks for another mesh makes one, and
 /// carries the draped state across.
-#include <garment/drape/drape.hpp>
+#include <sloper/garment/drape/drape.hpp>
 
 #include <functional>
 #include <optional>

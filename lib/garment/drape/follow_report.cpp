@@ -1,5 +1,5 @@
 #include <garment/drape/follow.hpp>
-#include <io/json.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
-#include <base/error.hpp>
 #include <garment/drape/frame_writer.hpp>
-#include <io/files.hpp>
-#include <io/obj.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/obj.hpp>
 
 #include <cmath>
 #include <cstdio>

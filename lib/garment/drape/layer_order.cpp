@@ -1,8 +1,8 @@
 #include <garment/drape/layer_order.hpp>
 
-#include <base/parallel.hpp>
-#include <collision/intersections.hpp>
-#include <garment/materials.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/collision/intersections.hpp>
+#include <sloper/garment/materials.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 /// The order of garments over each other: joined into one cloth, parted again, and brought into
 /// order around the body. Test: tests/garment/drape/test_layers.cpp
-#include <collision/body_collider.hpp>
-#include <garment/garment.hpp>
+#include <sloper/collision/body_collider.hpp>
+#include <sloper/garment/garment.hpp>
 
 #include <cstddef>
 #include <string>

@@ -1,11 +1,11 @@
 #include <garment/drape/layers.hpp>
 
-#include <base/error.hpp>
-#include <collision/skin_cache.hpp>
 #include <garment/levels/drape_levels.hpp>
 #include <garment/simulate/audit.hpp>
 #include <garment/simulate/session.hpp>
-#include <io/json.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/collision/skin_cache.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <cmath>

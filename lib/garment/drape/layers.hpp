@@ -8,7 +8,7 @@
 /// motion all go with the body. Test: tests/garment/drape/test_layers.cpp
 #include <garment/drape/layer_order.hpp>
 #include <garment/drape/motion.hpp>
-#include <garment/simulate/checkpoint.hpp>
+#include <sloper/garment/simulate/checkpoint.hpp>
 
 namespace sloper::garment {
 

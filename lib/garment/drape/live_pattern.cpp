@@ -1,9 +1,9 @@
-#include <base/error.hpp>
 #include <garment/drape/live_pattern.hpp>
 #include <garment/retarget/state_transfer.hpp>
-#include <io/json.hpp>
-#include <pattern/mesh/folds.hpp>
-#include <pattern/place/place_panels.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
+#include <sloper/pattern/place/place_panels.hpp>
 
 namespace sloper::garment {
 

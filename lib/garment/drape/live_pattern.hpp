@@ -1,10 +1,10 @@
 #pragma once
 /// The pattern of a draped garment while it is edited: the garment's panels keep their mesh as long
 /// as it can follow, and get another one else.
-#include <body/body.hpp>
-#include <garment/garment.hpp>
-#include <pattern/edit/edits.hpp>
-#include <pattern/mesh/mesh_pattern.hpp>
+#include <sloper/body/body.hpp>
+#include <sloper/garment/garment.hpp>
+#include <sloper/pattern/edit/edits.hpp>
+#include <sloper/pattern/mesh/mesh_pattern.hpp>
 
 #include <array>
 #include <memory>

@@ -1,8 +1,8 @@
 #pragma once
 /// A garment on a body that moves: poses as skins, and a drape that follows them with the cloth's
 /// own inertia.
-#include <garment/drape/drape.hpp>
-#include <garment/simulate/body_moves.hpp>
+#include <sloper/garment/drape/drape.hpp>
+#include <sloper/garment/simulate/body_moves.hpp>
 
 namespace sloper::garment {
 

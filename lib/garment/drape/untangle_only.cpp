@@ -1,9 +1,9 @@
 /// The drape that does nothing but draw crossing cloth apart.
-#include <base/error.hpp>
-#include <garment/drape/drape.hpp>
 #include <garment/simulate/audit.hpp>
 #include <garment/simulate/session.hpp>
-#include <io/json.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/garment/drape/drape.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 

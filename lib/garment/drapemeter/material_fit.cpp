@@ -1,10 +1,10 @@
-#include <base/error.hpp>
-#include <base/parallel.hpp>
-#include <base/units.hpp>
-#include <cloth/bending_plates.hpp>
-#include <garment/drapemeter/material_fit.hpp>
-#include <garment/material_json.hpp>
-#include <io/json.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/cloth/bending_plates.hpp>
+#include <sloper/garment/drapemeter/material_fit.hpp>
+#include <sloper/garment/material_json.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <cmath>

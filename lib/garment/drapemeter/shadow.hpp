@@ -1,6 +1,6 @@
 #pragma once
 /// What a drapemeter sees: the shadow of cloth from above, and the folds of its rim.
-#include <geometry/types.hpp>
+#include <sloper/geometry/types.hpp>
 #include <vector>
 
 namespace sloper::garment {

@@ -1,7 +1,7 @@
-#include <base/error.hpp>
-#include <base/units.hpp>
 #include <garment/drapemeter/shadow.hpp>
-#include <garment/drapemeter/silhouette.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/garment/drapemeter/silhouette.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include <base/error.hpp>
-#include <cloth/forces/attachments.hpp>
-#include <garment/scene/effect_spec.hpp>
 #include <garment/scene/panel_runs.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/cloth/forces/attachments.hpp>
+#include <sloper/garment/scene/effect_spec.hpp>
 
 namespace sloper::garment {
 

@@ -1,7 +1,7 @@
-#include <base/error.hpp>
-#include <cloth/forces/closures.hpp>
-#include <garment/scene/effect_spec.hpp>
 #include <garment/scene/panel_runs.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/cloth/forces/closures.hpp>
+#include <sloper/garment/scene/effect_spec.hpp>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
-#include <cloth/forces/elastic_band.hpp>
-#include <garment/scene/effect_spec.hpp>
 #include <garment/scene/panel_runs.hpp>
+#include <sloper/cloth/forces/elastic_band.hpp>
+#include <sloper/garment/scene/effect_spec.hpp>
 
 namespace sloper::garment {
 

@@ -1,5 +1,5 @@
-#include <garment/materials.hpp>
-#include <garment/scene/effect_spec.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/garment/scene/effect_spec.hpp>
 
 namespace sloper::garment {
 

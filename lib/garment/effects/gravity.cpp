@@ -1,5 +1,5 @@
-#include <cloth/forces/gravity.hpp>
-#include <garment/scene/effect_spec.hpp>
+#include <sloper/cloth/forces/gravity.hpp>
+#include <sloper/garment/scene/effect_spec.hpp>
 
 namespace sloper::garment {
 

@@ -1,4 +1,4 @@
-#include <garment/scene/effect_spec.hpp>
+#include <sloper/garment/scene/effect_spec.hpp>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
-#include <cloth/forces/pins.hpp>
-#include <garment/scene/effect_spec.hpp>
 #include <garment/scene/panel_runs.hpp>
+#include <sloper/cloth/forces/pins.hpp>
+#include <sloper/garment/scene/effect_spec.hpp>
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
-#include <cloth/forces/pressure.hpp>
-#include <garment/scene/effect_spec.hpp>
+#include <sloper/cloth/forces/pressure.hpp>
+#include <sloper/garment/scene/effect_spec.hpp>
 
 namespace sloper::garment {
 

@@ -1,5 +1,5 @@
-#include <garment/scene/effect_spec.hpp>
-#include <garment/sewing.hpp>
+#include <sloper/garment/scene/effect_spec.hpp>
+#include <sloper/garment/sewing.hpp>
 
 namespace sloper::garment {
 

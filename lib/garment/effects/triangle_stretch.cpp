@@ -1,6 +1,6 @@
-#include <cloth/forces/triangle_stretch.hpp>
-#include <garment/scene/effect_spec.hpp>
 #include <garment/scene/panel_runs.hpp>
+#include <sloper/cloth/forces/triangle_stretch.hpp>
+#include <sloper/garment/scene/effect_spec.hpp>
 
 namespace sloper::garment {
 

@@ -1,5 +1,5 @@
-#include <garment/scene/effect_spec.hpp>
 #include <garment/scene/panel_runs.hpp>
+#include <sloper/garment/scene/effect_spec.hpp>
 
 namespace sloper::garment {
 

@@ -1,5 +1,5 @@
-#include <garment/fit/cloth_strain.hpp>
-#include <garment/materials.hpp>
+#include <sloper/garment/fit/cloth_strain.hpp>
+#include <sloper/garment/materials.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include <base/statistics.hpp>
-#include <base/text.hpp>
-#include <garment/fit/fit.hpp>
+#include <sloper/base/statistics.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/garment/fit/fit.hpp>
 
-#include <base/error.hpp>
-#include <base/units.hpp>
 #include <garment/fit/fit_measure.hpp>
-#include <garment/materials.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/garment/materials.hpp>
 
 #include <algorithm>
 #include <cmath>

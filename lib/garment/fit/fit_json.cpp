@@ -1,5 +1,5 @@
-#include <garment/fit/fit.hpp>
-#include <io/json.hpp>
+#include <sloper/garment/fit/fit.hpp>
+#include <sloper/io/json.hpp>
 
 #include <cmath>
 #include <cstdio>

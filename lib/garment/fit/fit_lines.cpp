@@ -1,7 +1,7 @@
-#include <garment/fit/fit_lines.hpp>
-#include <geometry/disjoint_sets.hpp>
+#include <sloper/garment/fit/fit_lines.hpp>
+#include <sloper/geometry/disjoint_sets.hpp>
 
-#include <geometry/triangle_mesh.hpp>
+#include <sloper/geometry/triangle_mesh.hpp>
 
 #include <algorithm>
 #include <cmath>

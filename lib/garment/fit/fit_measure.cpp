@@ -1,7 +1,7 @@
-#include <base/statistics.hpp>
 #include <garment/fit/fit_measure.hpp>
+#include <sloper/base/statistics.hpp>
 
-#include <base/units.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 /// One row of a fit report: a line of cloth around the body, measured.
-#include <garment/fit/cloth_strain.hpp>
 #include <garment/fit/fit_places.hpp>
-#include <garment/fit/fit_report.hpp>
 #include <garment/fit/fit_section.hpp>
+#include <sloper/garment/fit/cloth_strain.hpp>
+#include <sloper/garment/fit/fit_report.hpp>
 
 namespace sloper::garment {
 

@@ -1,5 +1,5 @@
-#include <garment/fit/fit.hpp>
 #include <garment/fit/fit_places.hpp>
+#include <sloper/garment/fit/fit.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <body/measure/section.hpp>
 #include <garment/fit/fit_places.hpp>
+#include <sloper/body/measure/section.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 /// Where girths are measured on a body, and which cloth takes part there.
-#include <body/body.hpp>
-#include <garment/garment.hpp>
+#include <sloper/body/body.hpp>
+#include <sloper/garment/garment.hpp>
 
 namespace sloper::garment {
 

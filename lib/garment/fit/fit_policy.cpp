@@ -1,6 +1,6 @@
-#include <garment/fit/fit_policy.hpp>
+#include <sloper/garment/fit/fit_policy.hpp>
 
-#include <io/json.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <array>

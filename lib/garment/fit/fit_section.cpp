@@ -1,6 +1,6 @@
 #include <garment/fit/fit_section.hpp>
 
-#include <base/units.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

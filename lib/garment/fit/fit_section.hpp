@@ -1,7 +1,7 @@
 #pragma once
 /// A garment cut by a plane: the lines of cloth in it, as they lie and as they would be
 /// unstretched.
-#include <garment/garment.hpp>
+#include <sloper/garment/garment.hpp>
 
 #include <optional>
 

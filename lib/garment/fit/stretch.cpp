@@ -1,10 +1,10 @@
-#include <base/text.hpp>
-#include <garment/fit/stretch.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/garment/fit/stretch.hpp>
 
-#include <garment/fit/cloth_strain.hpp>
-#include <garment/fit/fit_policy.hpp>
-#include <garment/materials.hpp>
-#include <io/files.hpp>
+#include <sloper/garment/fit/cloth_strain.hpp>
+#include <sloper/garment/fit/fit_policy.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/io/files.hpp>
 
 #include <algorithm>
 #include <cstdio>

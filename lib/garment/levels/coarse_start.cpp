@@ -1,11 +1,11 @@
-#include <base/error.hpp>
-#include <collision/topology.hpp>
 #include <garment/levels/coarse_start.hpp>
 #include <garment/levels/finer_mesh.hpp>
 #include <garment/levels/soft_sewing.hpp>
-#include <garment/simulate/telemetry.hpp>
-#include <pattern/mesh/mesh_pattern.hpp>
-#include <pattern/pattern.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/collision/topology.hpp>
+#include <sloper/garment/simulate/telemetry.hpp>
+#include <sloper/pattern/mesh/mesh_pattern.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 #include <chrono>
 

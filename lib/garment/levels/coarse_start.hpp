@@ -2,11 +2,11 @@
 /// From placed panels to cloth around the body, by way of a coarse mesh of their pattern: sewn and
 /// relaxed there (soft_sewing.hpp), carried to the given mesh (finer_mesh.hpp), smoothed and moved
 /// off the skin. Test: tests/garment/levels/test_levels.cpp
-#include <base/progress.hpp>
-#include <body/body.hpp>
-#include <garment/garment.hpp>
-#include <garment/scene/settings.hpp>
-#include <garment/simulate/report.hpp>
+#include <sloper/base/progress.hpp>
+#include <sloper/body/body.hpp>
+#include <sloper/garment/garment.hpp>
+#include <sloper/garment/scene/settings.hpp>
+#include <sloper/garment/simulate/report.hpp>
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #include <garment/levels/coarse_start.hpp>
 #include <garment/levels/drape_levels.hpp>
-#include <garment/scene/scene.hpp>
 #include <garment/simulate/session.hpp>
+#include <sloper/garment/scene/scene.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -5,13 +5,13 @@
 /// and each finer preset goes on from where the one before comes to rest, so that what they differ
 /// by is the error of the coarser one. Measured: docs/decisions/drape-through-levels.md. Test:
 /// tests/garment/levels/test_levels.cpp
-#include <base/progress.hpp>
-#include <body/body.hpp>
-#include <garment/garment.hpp>
-#include <garment/scene/settings.hpp>
-#include <garment/simulate/checkpoint.hpp>
-#include <garment/simulate/report.hpp>
-#include <garment/simulate/request.hpp>
+#include <sloper/base/progress.hpp>
+#include <sloper/body/body.hpp>
+#include <sloper/garment/garment.hpp>
+#include <sloper/garment/scene/settings.hpp>
+#include <sloper/garment/simulate/checkpoint.hpp>
+#include <sloper/garment/simulate/report.hpp>
+#include <sloper/garment/simulate/request.hpp>
 
 namespace sloper::garment {
 

@@ -1,6 +1,6 @@
-#include <base/error.hpp>
 #include <garment/levels/finer_mesh.hpp>
-#include <garment/sewing.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/garment/sewing.hpp>
 
 #include <algorithm>
 #include <cmath>

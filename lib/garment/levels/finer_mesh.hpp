@@ -1,7 +1,7 @@
 #pragma once
 /// A state of cloth on another mesh of the same pattern, by panel and place in it. Test:
 /// tests/garment/levels/test_levels.cpp
-#include <garment/garment.hpp>
+#include <sloper/garment/garment.hpp>
 
 namespace sloper::garment {
 

@@ -1,14 +1,14 @@
-#include <base/units.hpp>
-#include <cloth/contact/soft_body_contact.hpp>
-#include <cloth/forces/bending.hpp>
-#include <cloth/forces/edge_spring.hpp>
-#include <cloth/forces/gravity.hpp>
-#include <cloth/forces/half_space.hpp>
-#include <cloth/forces/sewing_spring.hpp>
-#include <cloth/forces/shear.hpp>
-#include <cloth/solver/implicit_step.hpp>
 #include <garment/levels/soft_sewing.hpp>
-#include <garment/sewing.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/cloth/contact/soft_body_contact.hpp>
+#include <sloper/cloth/forces/bending.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
+#include <sloper/cloth/forces/gravity.hpp>
+#include <sloper/cloth/forces/half_space.hpp>
+#include <sloper/cloth/forces/sewing_spring.hpp>
+#include <sloper/cloth/forces/shear.hpp>
+#include <sloper/cloth/solver/implicit_step.hpp>
+#include <sloper/garment/sewing.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -9,10 +9,10 @@
 /// step alone. Trouser legs are kept apart by a plane; other cloth may pass through cloth. On
 /// meshes with edges of 48 mm it costs 3 to 5 ms a step. Measured:
 /// docs/decisions/drape-through-levels.md. Test: tests/garment/levels/test_levels.cpp
-#include <base/progress.hpp>
-#include <garment/body_model/collision_body.hpp>
-#include <garment/garment.hpp>
-#include <garment/scene/settings.hpp>
+#include <sloper/base/progress.hpp>
+#include <sloper/garment/body_model/collision_body.hpp>
+#include <sloper/garment/garment.hpp>
+#include <sloper/garment/scene/settings.hpp>
 
 namespace sloper::garment {
 

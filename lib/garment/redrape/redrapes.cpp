@@ -1,7 +1,7 @@
-#include <base/parallel.hpp>
-#include <garment/bind/bind.hpp>
-#include <garment/drape/drape.hpp>
-#include <garment/redrape/redrapes.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/garment/bind/bind.hpp>
+#include <sloper/garment/drape/drape.hpp>
+#include <sloper/garment/redrape/redrapes.hpp>
 
 namespace sloper::garment {
 

@@ -1,12 +1,12 @@
-#include <base/error.hpp>
-#include <collision/skin_cache.hpp>
 #include <garment/drapemeter/shadow.hpp>
-#include <garment/fit/cloth_strain.hpp>
-#include <garment/fit/fit.hpp>
 #include <garment/fit/fit_section.hpp>
-#include <garment/redrape/spread.hpp>
-#include <geometry/triangle_mesh.hpp>
-#include <io/json.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/collision/skin_cache.hpp>
+#include <sloper/garment/fit/cloth_strain.hpp>
+#include <sloper/garment/fit/fit.hpp>
+#include <sloper/garment/redrape/spread.hpp>
+#include <sloper/geometry/triangle_mesh.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <cmath>

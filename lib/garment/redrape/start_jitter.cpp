@@ -1,7 +1,7 @@
-#include <base/error.hpp>
-#include <base/random.hpp>
-#include <base/units.hpp>
-#include <garment/redrape/start_jitter.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/random.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/garment/redrape/start_jitter.hpp>
 
 #include <charconv>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <garment/retarget/drawn_pattern.hpp>
 
-#include <pattern/mesh/boundary.hpp>
-#include <pattern/mesh/folds.hpp>
+#include <sloper/pattern/mesh/boundary.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
 
 namespace sloper::garment {
 

@@ -1,8 +1,8 @@
 #pragma once
 /// The pattern that a garment was meshed from, beside its mesh: which edge each mesh point of an
 /// outline lies on.
-#include <garment/garment.hpp>
-#include <pattern/pattern.hpp>
+#include <sloper/garment/garment.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 #include <optional>
 

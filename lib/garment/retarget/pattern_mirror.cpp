@@ -1,6 +1,6 @@
 #include <garment/retarget/pattern_mirror.hpp>
 
-#include <collision/triangle_tree.hpp>
+#include <sloper/collision/triangle_tree.hpp>
 
 #include <algorithm>
 #include <cmath>

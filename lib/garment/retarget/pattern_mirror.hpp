@@ -1,7 +1,7 @@
 #pragma once
 /// Which panels of a pattern are each other's mirror images on the two sides of the body, and
 /// fields averaged over them.
-#include <pattern/panel_mesh.hpp>
+#include <sloper/pattern/panel_mesh.hpp>
 
 #include <vector>
 

@@ -1,21 +1,21 @@
-#include <base/statistics.hpp>
-#include <garment/retarget/retarget.hpp>
+#include <sloper/base/statistics.hpp>
+#include <sloper/garment/retarget/retarget.hpp>
 
-#include <base/error.hpp>
-#include <collision/intersections.hpp>
-#include <collision/skin_cache.hpp>
-#include <garment/bind/bind.hpp>
 #include <garment/bind/bind_frames.hpp>
 #include <garment/bind/bind_laplacian.hpp>
 #include <garment/bind/body_sides.hpp>
-#include <garment/body_model/extremity_hulls.hpp>
-#include <garment/body_model/under_arms.hpp>
-#include <garment/fit/cloth_strain.hpp>
 #include <garment/retarget/retarget_grade.hpp>
 #include <garment/simulate/sleeve_ends.hpp>
-#include <geometry/rotation.hpp>
-#include <geometry/sparse_solver.hpp>
-#include <io/json.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/collision/intersections.hpp>
+#include <sloper/collision/skin_cache.hpp>
+#include <sloper/garment/bind/bind.hpp>
+#include <sloper/garment/body_model/extremity_hulls.hpp>
+#include <sloper/garment/body_model/under_arms.hpp>
+#include <sloper/garment/fit/cloth_strain.hpp>
+#include <sloper/geometry/rotation.hpp>
+#include <sloper/geometry/sparse_solver.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <cmath>

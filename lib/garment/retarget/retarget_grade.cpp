@@ -1,7 +1,7 @@
 #include <garment/retarget/retarget_grade.hpp>
 
 #include <garment/retarget/pattern_mirror.hpp>
-#include <geometry/sparse_solver.hpp>
+#include <sloper/geometry/sparse_solver.hpp>
 
 #include <Eigen/LU>
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Regrading: the flat pattern made over for another body.
-#include <garment/garment.hpp>
+#include <sloper/garment/garment.hpp>
 
 #include <map>
 

@@ -1,7 +1,7 @@
-#include <garment/retarget/retarget_pattern.hpp>
+#include <sloper/garment/retarget/retarget_pattern.hpp>
 
-#include <base/units.hpp>
 #include <garment/retarget/drawn_pattern.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

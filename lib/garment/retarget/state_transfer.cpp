@@ -1,5 +1,5 @@
 #include <garment/retarget/state_transfer.hpp>
-#include <garment/sewing.hpp>
+#include <sloper/garment/sewing.hpp>
 
 #include <algorithm>
 #include <cmath>

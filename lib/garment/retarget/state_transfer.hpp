@@ -1,7 +1,7 @@
 #pragma once
 /// A draped state on another mesh of the same garment: where an edit asks for new vertices, they
 /// start where the cloth hangs.
-#include <garment/garment.hpp>
+#include <sloper/garment/garment.hpp>
 
 namespace sloper::garment {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Rest angles of the hinges that a scene's creases run along.
-#include <cloth/cloth_mesh.hpp>
-#include <garment/garment.hpp>
+#include <sloper/cloth/cloth_mesh.hpp>
+#include <sloper/garment/garment.hpp>
 
 namespace sloper::garment {
 

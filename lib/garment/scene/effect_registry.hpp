@@ -1,6 +1,6 @@
 #pragma once
 /// All effects that there are.
-#include <garment/scene/effect_spec.hpp>
+#include <sloper/garment/scene/effect_spec.hpp>
 
 #include <vector>
 

@@ -1,9 +1,9 @@
-#include <base/error.hpp>
-#include <cloth/bending_plates.hpp>
-#include <garment/materials.hpp>
 #include <garment/scene/effect_registry.hpp>
 #include <garment/scene/effects.hpp>
-#include <garment/sewing.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/cloth/bending_plates.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/garment/sewing.hpp>
 
 #include <algorithm>
 #include <sstream>

@@ -1,10 +1,10 @@
 #pragma once
 /// Which effects a scene calls for, and why: pay as you go.
-#include <body/body.hpp>
-#include <garment/garment.hpp>
-#include <garment/scene/effect_report.hpp>
-#include <garment/scene/effect_spec.hpp>
-#include <garment/scene/settings.hpp>
+#include <sloper/body/body.hpp>
+#include <sloper/garment/garment.hpp>
+#include <sloper/garment/scene/effect_report.hpp>
+#include <sloper/garment/scene/effect_spec.hpp>
+#include <sloper/garment/scene/settings.hpp>
 
 namespace sloper::garment {
 

@@ -1,5 +1,5 @@
-#include <base/error.hpp>
 #include <garment/scene/panel_runs.hpp>
+#include <sloper/base/error.hpp>
 
 #include <algorithm>
 #include <queue>

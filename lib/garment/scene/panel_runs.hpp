@@ -1,6 +1,6 @@
 #pragma once
 /// Places on a garment that a scene names: panels, and runs of their vertices.
-#include <garment/garment.hpp>
+#include <sloper/garment/garment.hpp>
 
 #include <string>
 #include <vector>

@@ -1,11 +1,11 @@
-#include <base/error.hpp>
-#include <garment/material_json.hpp>
-#include <garment/materials.hpp>
 #include <garment/scene/panel_runs.hpp>
 #include <garment/scene/preset_table.hpp>
-#include <garment/scene/scene.hpp>
 #include <garment/scene/scene_effects_json.hpp>
-#include <io/json.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/garment/material_json.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/garment/scene/scene.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <charconv>

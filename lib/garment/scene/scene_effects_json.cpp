@@ -1,6 +1,6 @@
-#include <base/units.hpp>
 #include <garment/scene/scene_effects_json.hpp>
-#include <io/json.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/io/json.hpp>
 
 #include <cmath>
 

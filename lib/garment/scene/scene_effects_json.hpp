@@ -12,8 +12,8 @@
 ///   [{"kind": "buttons" | "zip", "panel", "from", "to", "with": PLACE, "count", "stiffness_n_m"}];
 ///   "wind_m_s": [x, y, z]; [0, 0, 0] is still air "pressure_pa": number
 /// PLACE is "panel" with "at": [s, t], or with "from" and "to" for a line.
-#include <garment/scene/effect_inputs.hpp>
-#include <io/json_fwd.hpp>
+#include <sloper/garment/scene/effect_inputs.hpp>
+#include <sloper/io/json_fwd.hpp>
 
 namespace sloper::garment {
 

@@ -1,6 +1,6 @@
-#include <collision/intersections.hpp>
-#include <garment/fit/cloth_strain.hpp>
 #include <garment/simulate/audit.hpp>
+#include <sloper/collision/intersections.hpp>
+#include <sloper/garment/fit/cloth_strain.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 /// What is wrong with a drape, counted exactly: the figures of report.json's `quality`.
-#include <collision/body_collider.hpp>
-#include <garment/garment.hpp>
+#include <sloper/collision/body_collider.hpp>
+#include <sloper/garment/garment.hpp>
 
 namespace sloper::garment {
 

@@ -1,8 +1,8 @@
-#include <garment/simulate/body_moves.hpp>
+#include <sloper/garment/simulate/body_moves.hpp>
 
-#include <base/error.hpp>
-#include <io/files.hpp>
-#include <io/obj.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/obj.hpp>
 
 #include <algorithm>
 #include <cmath>

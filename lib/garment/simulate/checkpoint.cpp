@@ -1,10 +1,10 @@
-#include <garment/garment_json.hpp>
-#include <garment/scene/scene.hpp>
-#include <garment/simulate/checkpoint.hpp>
+#include <sloper/garment/garment_json.hpp>
+#include <sloper/garment/scene/scene.hpp>
+#include <sloper/garment/simulate/checkpoint.hpp>
 
-#include <base/error.hpp>
-#include <io/json.hpp>
-#include <io/json_lists.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/json_lists.hpp>
 
 #include <algorithm>
 

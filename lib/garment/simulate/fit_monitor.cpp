@@ -1,8 +1,8 @@
-#include <base/statistics.hpp>
-#include <garment/fit/cloth_strain.hpp>
-#include <garment/simulate/fit_monitor.hpp>
-#include <io/json.hpp>
-#include <io/json_lists.hpp>
+#include <sloper/base/statistics.hpp>
+#include <sloper/garment/fit/cloth_strain.hpp>
+#include <sloper/garment/simulate/fit_monitor.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/json_lists.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include <collision/intersections.hpp>
-#include <collision/untangle.hpp>
-#include <garment/simulate/penetration_resolver.hpp>
-#include <io/json.hpp>
+#include <sloper/collision/intersections.hpp>
+#include <sloper/collision/untangle.hpp>
+#include <sloper/garment/simulate/penetration_resolver.hpp>
+#include <sloper/io/json.hpp>
 
 #include <limits>
 

@@ -1,14 +1,14 @@
-#include <garment/scene/scene.hpp>
-#include <garment/simulate/report.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
+#include <sloper/garment/scene/scene.hpp>
+#include <sloper/garment/simulate/report.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <sys/resource.h>
 
-#include <base/parallel.hpp>
+#include <sloper/base/parallel.hpp>
 
 namespace sloper::garment {
 

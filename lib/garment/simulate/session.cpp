@@ -1,6 +1,6 @@
-#include <base/error.hpp>
-#include <garment/sewing.hpp>
 #include <garment/simulate/session.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/garment/sewing.hpp>
 
 #include <cmath>
 

@@ -6,8 +6,8 @@
 /// Clients stand on this interface: drape() and resume_drape(), drape_in_motion(), drape_layers(),
 /// drape_to_goal(), follow(), untangle_only().
 #include <garment/simulate/audit.hpp>
-#include <garment/simulate/checkpoint.hpp>
-#include <garment/simulate/context.hpp>
+#include <sloper/garment/simulate/checkpoint.hpp>
+#include <sloper/garment/simulate/context.hpp>
 
 #include <memory>
 #include <optional>

@@ -1,7 +1,7 @@
 /// The end of a session: the audit, and what the report says of it.
 #include <garment/simulate/audit.hpp>
 #include <garment/simulate/session.hpp>
-#include <io/json.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
-#include <base/error.hpp>
-#include <base/units.hpp>
-#include <cloth/linear/factorisation.hpp>
 #include <garment/scene/effects.hpp>
-#include <garment/sewing.hpp>
-#include <garment/simulate/simulated_cloth.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/cloth/linear/factorisation.hpp>
+#include <sloper/garment/sewing.hpp>
+#include <sloper/garment/simulate/simulated_cloth.hpp>
 
 #include <numeric>
 

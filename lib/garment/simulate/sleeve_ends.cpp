@@ -1,6 +1,6 @@
 #include <garment/simulate/sleeve_ends.hpp>
 
-#include <geometry/triangle_mesh.hpp>
+#include <sloper/geometry/triangle_mesh.hpp>
 
 #include <algorithm>
 

@@ -4,8 +4,8 @@
 /// over the hand, where a cuff is stretched and stays. So it would where it is placed by its
 /// coordinates alone, shorter than its cloth. Who puts on a shirt holds the cuffs.
 /// Test: tests/garment/simulate/test_sleeve_ends.cpp
-#include <cloth/forces/pins.hpp>
-#include <garment/garment.hpp>
+#include <sloper/cloth/forces/pins.hpp>
+#include <sloper/garment/garment.hpp>
 
 namespace sloper::garment {
 

@@ -1,8 +1,8 @@
 /// What each part of a session saves, as JSON: apart from the parts themselves, so that who reads a
 /// checkpoint needs no solver.
-#include <garment/simulate/checkpoint.hpp>
-#include <io/json.hpp>
-#include <io/json_lists.hpp>
+#include <sloper/garment/simulate/checkpoint.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/json_lists.hpp>
 
 #include <algorithm>
 

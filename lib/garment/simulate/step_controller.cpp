@@ -1,6 +1,6 @@
-#include <garment/simulate/step_controller.hpp>
-#include <io/json.hpp>
-#include <io/json_lists.hpp>
+#include <sloper/garment/simulate/step_controller.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/json_lists.hpp>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <garment/simulate/stop_reason.hpp>
+#include <sloper/garment/simulate/stop_reason.hpp>
 
 namespace sloper::garment {
 

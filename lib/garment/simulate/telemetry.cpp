@@ -1,5 +1,5 @@
-#include <base/text.hpp>
-#include <garment/simulate/telemetry.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/garment/simulate/telemetry.hpp>
 
 #include <algorithm>
 #include <cmath>

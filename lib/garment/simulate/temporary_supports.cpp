@@ -1,12 +1,12 @@
-#include <base/units.hpp>
-#include <cloth/forces/pins.hpp>
-#include <cloth/forces/pressure.hpp>
-#include <collision/intersections.hpp>
-#include <garment/materials.hpp>
 #include <garment/simulate/sleeve_ends.hpp>
-#include <garment/simulate/temporary_supports.hpp>
-#include <io/json.hpp>
-#include <io/json_lists.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/cloth/forces/pins.hpp>
+#include <sloper/cloth/forces/pressure.hpp>
+#include <sloper/collision/intersections.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/garment/simulate/temporary_supports.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/json_lists.hpp>
 
 #include <cmath>
 #include <map>

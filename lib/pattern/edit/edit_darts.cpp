@@ -1,8 +1,8 @@
 /// Edits of darts: add-dart (into an edge, or a fisheye inside a panel) and rotate-dart.
-#include <base/text.hpp>
-#include <io/json.hpp>
 #include <pattern/edit/edit_tools.hpp>
 #include <pattern/read/outline_json.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include <base/text.hpp>
-#include <io/json.hpp>
 #include <pattern/edit/edit_tools.hpp>
 #include <pattern/read/outline_json.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <cmath>

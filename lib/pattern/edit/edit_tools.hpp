@@ -1,8 +1,8 @@
 #pragma once
 /// What the edits share: the grid that keeps moves exact, and outlines rebuilt edge by edge with
 /// their seams and notches following. Only for the edit sources.
-#include <io/json_fwd.hpp>
-#include <pattern/pattern.hpp>
+#include <sloper/io/json_fwd.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 #include <functional>
 

@@ -1,9 +1,9 @@
 /// Edits that change what edges and panels there are: split, cut, add-point, join. Darts are in
 /// edit_darts.cpp.
-#include <base/units.hpp>
-#include <io/json.hpp>
 #include <pattern/edit/edit_tools.hpp>
 #include <pattern/read/outline_json.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <cmath>

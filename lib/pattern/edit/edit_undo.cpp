@@ -1,8 +1,8 @@
 /// Taking edits back: the opposite edit where it is exact, else the touched panels as they were.
-#include <io/json.hpp>
 #include <pattern/edit/edit_tools.hpp>
-#include <pattern/edit/edits.hpp>
 #include <pattern/read/outline_json.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/edit/edits.hpp>
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
-#include <base/text.hpp>
-#include <io/json.hpp>
 #include <pattern/edit/edit_tools.hpp>
-#include <pattern/edit/edits.hpp>
-#include <pattern/mesh/folds.hpp>
 #include <pattern/read/outline_json.hpp>
-#include <pattern/read/read_pattern.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/edit/edits.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include <base/error.hpp>
-#include <base/units.hpp>
-#include <geometry/sparse_solver.hpp>
-#include <pattern/edit/edits.hpp>
 #include <pattern/mesh/smallest_angle.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/geometry/sparse_solver.hpp>
+#include <sloper/pattern/edit/edits.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include <base/units.hpp>
 #include <pattern/layout/gore_row.hpp>
 #include <pattern/layout/leg_layout.hpp>
 #include <pattern/roles/leg_roles.hpp>
 #include <pattern/surfaces/section_ring.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 /// Where panels lie relative to each other on the developed (unrolled) surface of their region: (u,
 /// v) = turn p + (du, dv).
-#include <pattern/pattern.hpp>
 #include <pattern/roles/panel_role.hpp>
 #include <pattern/seam_graph.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 namespace sloper::pattern {
 

@@ -1,5 +1,5 @@
-#include <base/units.hpp>
 #include <pattern/layout/sleeve_bend.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

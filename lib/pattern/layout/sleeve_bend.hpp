@@ -3,7 +3,7 @@
 /// would start beside hanging arms and never close around them. The drawing is bent at the shoulder
 /// until they lie along the arm; what is below the arm is drawn together and what is above spread,
 /// evenly enough that no part of the panel comes to lie on another. The drape takes it from there.
-#include <geometry/types.hpp>
+#include <sloper/geometry/types.hpp>
 
 #include <optional>
 #include <vector>

@@ -1,8 +1,8 @@
-#include <geometry/disjoint_sets.hpp>
-#include <io/json.hpp>
-#include <pattern/measure/finished_measures.hpp>
-#include <pattern/mesh/folds.hpp>
-#include <pattern/mesh/mesh_pattern.hpp>
+#include <sloper/geometry/disjoint_sets.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/measure/finished_measures.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
+#include <sloper/pattern/mesh/mesh_pattern.hpp>
 
 #include <algorithm>
 #include <map>

@@ -1,9 +1,9 @@
 /// Chest, waist, hip and lengths of the finished garment, measured on its panels as one cloth.
 #include <pattern/layout/leg_layout.hpp>
 #include <pattern/layout/panel_layout.hpp>
-#include <pattern/measure/finished_measures.hpp>
 #include <pattern/measure/sewn_cloth.hpp>
 #include <pattern/roles/panel_roles.hpp>
+#include <sloper/pattern/measure/finished_measures.hpp>
 
 #include <algorithm>
 #include <cmath>

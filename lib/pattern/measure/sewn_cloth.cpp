@@ -1,6 +1,6 @@
-#include <geometry/disjoint_sets.hpp>
-#include <geometry/sparse_solver.hpp>
 #include <pattern/measure/sewn_cloth.hpp>
+#include <sloper/geometry/disjoint_sets.hpp>
+#include <sloper/geometry/sparse_solver.hpp>
 
 #include <algorithm>
 #include <cmath>

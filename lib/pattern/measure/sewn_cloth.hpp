@@ -2,9 +2,9 @@
 /// Panels as one surface, welded along their seams, on which a tailor's tape is laid: levels,
 /// girths and ways along the cloth. Every triangle keeps the shape that it is drawn with, so that
 /// nothing of it depends on where panels lie on the table.
-#include <pattern/panel_mesh.hpp>
 #include <pattern/roles/panel_role.hpp>
 #include <pattern/seam_graph.hpp>
+#include <sloper/pattern/panel_mesh.hpp>
 
 #include <functional>
 

@@ -1,6 +1,6 @@
-#include <base/error.hpp>
-#include <pattern/mesh/boundary.hpp>
 #include <pattern/mesh/size_field.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/pattern/mesh/boundary.hpp>
 
 #include <algorithm>
 #include <cmath>

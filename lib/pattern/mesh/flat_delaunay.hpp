@@ -1,8 +1,8 @@
 #pragma once
 /// A triangulation of a polygon under change: points inserted, edges flipped, interior points
 /// moved. Used by triangulate().
-#include <geometry/types.hpp>
 #include <pattern/mesh/size_field.hpp>
+#include <sloper/geometry/types.hpp>
 
 #include <algorithm>
 #include <set>

@@ -1,7 +1,7 @@
 /// The parts of FlatDelaunay that raise quality: chords split, density evened, points moved.
-#include <base/units.hpp>
 #include <pattern/mesh/flat_delaunay.hpp>
 #include <pattern/mesh/smallest_angle.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

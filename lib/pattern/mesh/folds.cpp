@@ -1,6 +1,6 @@
-#include <base/error.hpp>
 #include <pattern/edit/edit_tools.hpp>
-#include <pattern/mesh/folds.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
 
 #include <algorithm>
 #include <cmath>

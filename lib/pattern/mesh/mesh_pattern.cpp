@@ -1,11 +1,11 @@
-#include <base/error.hpp>
-#include <base/parallel.hpp>
-#include <base/units.hpp>
-#include <pattern/mesh/boundary.hpp>
-#include <pattern/mesh/folds.hpp>
-#include <pattern/mesh/mesh_pattern.hpp>
 #include <pattern/mesh/smallest_angle.hpp>
 #include <pattern/mesh/triangulate.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/pattern/mesh/boundary.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
+#include <sloper/pattern/mesh/mesh_pattern.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 /// How long mesh edges are to be where: fine along some lines, growing away from them up to the
 /// usual length.
-#include <geometry/types.hpp>
+#include <sloper/geometry/types.hpp>
 
 #include <vector>
 

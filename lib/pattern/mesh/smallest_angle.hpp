@@ -1,6 +1,6 @@
 #pragma once
 /// How good a triangle in the plane is.
-#include <geometry/types.hpp>
+#include <sloper/geometry/types.hpp>
 
 namespace sloper::pattern {
 

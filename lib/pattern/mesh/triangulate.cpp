@@ -1,7 +1,7 @@
-#include <base/error.hpp>
 #include <pattern/mesh/flat_delaunay.hpp>
 #include <pattern/mesh/smallest_angle.hpp>
 #include <pattern/mesh/triangulate.hpp>
+#include <sloper/base/error.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include <base/units.hpp>
 #include <pattern/layout/leg_layout.hpp>
 #include <pattern/place/placer.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include <base/error.hpp>
-#include <base/units.hpp>
-#include <body/measure/section.hpp>
 #include <pattern/place/body_space.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/body/measure/section.hpp>
 
 #include <algorithm>
 #include <cmath>

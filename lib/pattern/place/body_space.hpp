@@ -1,7 +1,7 @@
 #pragma once
 /// What placement asks of a body: its skin points by part, the axes of arms, and the heights at
 /// which garments hang.
-#include <body/body.hpp>
+#include <sloper/body/body.hpp>
 
 namespace sloper::pattern {
 

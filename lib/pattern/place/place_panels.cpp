@@ -1,10 +1,10 @@
-#include <collision/intersections.hpp>
 #include <pattern/layout/leg_layout.hpp>
 #include <pattern/panel_words.hpp>
-#include <pattern/place/place_panels.hpp>
 #include <pattern/place/placer.hpp>
 #include <pattern/roles/leg_roles.hpp>
 #include <pattern/roles/panel_roles.hpp>
+#include <sloper/collision/intersections.hpp>
+#include <sloper/pattern/place/place_panels.hpp>
 
 #include <algorithm>
 #include <set>

@@ -2,15 +2,15 @@
 /// The work of place_panels(): groups of panels about one axis, the heights at which they hang
 /// (anchor_panels.cpp), their surfaces around the body (wrap_panels.cpp), and what pushes them free
 /// of each other and of the skin (place_panels.cpp).
-#include <collision/body_collider.hpp>
 #include <map>
 #include <pattern/layout/panel_layout.hpp>
 #include <pattern/layout/sleeve_bend.hpp>
-#include <pattern/mesh/folds.hpp>
 #include <pattern/place/body_space.hpp>
 #include <pattern/surfaces/gore_tube.hpp>
 #include <pattern/surfaces/leg_tube.hpp>
 #include <pattern/surfaces/wrap_curve.hpp>
+#include <sloper/collision/body_collider.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
 
 namespace sloper::pattern {
 

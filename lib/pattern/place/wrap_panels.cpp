@@ -1,8 +1,8 @@
-#include <base/error.hpp>
-#include <base/units.hpp>
 #include <pattern/layout/leg_layout.hpp>
 #include <pattern/place/placer.hpp>
 #include <pattern/surfaces/arm_tube.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <base/error.hpp>
 #include <pattern/read/choose_pieces.hpp>
+#include <sloper/base/error.hpp>
 
 #include <algorithm>
 #include <cctype>

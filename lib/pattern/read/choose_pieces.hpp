@@ -1,6 +1,6 @@
 #pragma once
 /// Which pieces of a file are taken.
-#include <pattern/pattern.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 namespace sloper::pattern {
 

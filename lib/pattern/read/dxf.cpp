@@ -2,18 +2,18 @@
 /// points, 4 and 80-83 notches, 6 mirror line, 7 grain, 8 internal lines, 11 cut-outs, 15
 /// annotation. Pieces are drawn face up, so every outline is taken counter-clockwise whatever its
 /// drawing order.
-#include <base/units.hpp>
-#include <pattern/mesh/folds.hpp>
 #include <pattern/panel_words.hpp>
 #include <pattern/read/choose_pieces.hpp>
 #include <pattern/read/dxf_blocks.hpp>
 #include <pattern/read/dxf_rings.hpp>
 #include <pattern/read/dxf_sewing.hpp>
-#include <pattern/read/grade_rules.hpp>
 #include <pattern/read/outline_json.hpp>
 #include <pattern/read/piece_notes.hpp>
-#include <pattern/read/read_pattern.hpp>
 #include <pattern/read/ring_repair.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
+#include <sloper/pattern/read/grade_rules.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <base/error.hpp>
 #include <pattern/read/dxf_blocks.hpp>
+#include <sloper/base/error.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -1,7 +1,7 @@
 #pragma once
 /// The raw content of a garment DXF (R12 and later, text): per block its polylines, points and
 /// texts by layer. No meaning yet.
-#include <geometry/types.hpp>
+#include <sloper/geometry/types.hpp>
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
-#include <base/units.hpp>
 #include <pattern/read/dxf_rings.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 /// Outlines out of the loose lines of a garment DXF. Only for dxf.cpp.
-#include <pattern/pattern.hpp>
 #include <pattern/read/dxf_blocks.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 namespace sloper::pattern {
 

@@ -1,5 +1,5 @@
-#include <base/error.hpp>
 #include <pattern/read/dxf_sewing.hpp>
+#include <sloper/base/error.hpp>
 
 #include <algorithm>
 #include <sstream>

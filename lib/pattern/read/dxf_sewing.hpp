@@ -3,7 +3,7 @@
 /// of a panel edge names the edge and its place in a seam; then, once for each seam or at every
 /// run, what its sides do not show: a kind (`seam`, `dart`, `gather`, `closure`), `open`, and last
 /// `ease <why>`. `RUN <run>` names an edge that is not sewn. Further words are of later versions.
-#include <pattern/pattern.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 #include <array>
 #include <map>

@@ -3,9 +3,9 @@
 /// look at: it is turned over, and every loop ends up counter-clockwise seen from outside. Ordinary
 /// stitches then join edges that run in opposite directions. GarmentCode sees to that sense itself
 /// (Panel.autonorm); specifications written or changed by hand may not.
-#include <io/json.hpp>
-#include <pattern/read/read_pattern.hpp>
 #include <pattern/read/spec_placement.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
 
 #include <algorithm>
 

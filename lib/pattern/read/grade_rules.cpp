@@ -1,7 +1,7 @@
-#include <base/error.hpp>
-#include <base/text.hpp>
-#include <base/units.hpp>
-#include <pattern/read/grade_rules.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/pattern/read/grade_rules.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -1,7 +1,7 @@
 #pragma once
 /// What the JSON pattern formats share: edges with SVG-like paths, and loops that must close.
-#include <io/json_fwd.hpp>
-#include <pattern/pattern.hpp>
+#include <sloper/io/json_fwd.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 namespace sloper::pattern {
 

@@ -1,10 +1,10 @@
 /// Our own pattern format, a file that people write: every unknown key is an error. Its schema is
 /// pattern.schema.json beside this file.
-#include <base/text.hpp>
-#include <base/units.hpp>
-#include <io/json.hpp>
 #include <pattern/read/outline_json.hpp>
-#include <pattern/read/read_pattern.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
 
 #include <algorithm>
 #include <cmath>

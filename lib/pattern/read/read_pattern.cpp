@@ -1,8 +1,8 @@
-#include <base/text.hpp>
-#include <io/files.hpp>
-#include <io/json.hpp>
 #include <pattern/read/choose_pieces.hpp>
-#include <pattern/read/read_pattern.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <base/units.hpp>
 #include <pattern/read/ring_repair.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <array>

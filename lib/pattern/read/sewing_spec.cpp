@@ -1,9 +1,9 @@
 /// The neutral sewing JSON: outlines of named runs in millimetres, counter-clockwise seen from
 /// outside, and the sidecar with seams only.
-#include <base/units.hpp>
-#include <io/json.hpp>
 #include <pattern/read/outline_json.hpp>
-#include <pattern/read/read_pattern.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
 
 namespace sloper::pattern {
 namespace {

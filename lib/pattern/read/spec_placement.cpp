@@ -1,6 +1,6 @@
-#include <base/units.hpp>
-#include <io/json.hpp>
 #include <pattern/read/spec_placement.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #pragma once
 /// Where a specification of the GarmentCode family places its panels. Its writers differ in what
 /// three Euler angles mean.
-#include <io/json_fwd.hpp>
-#include <pattern/pattern.hpp>
+#include <sloper/io/json_fwd.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 namespace sloper::pattern {
 

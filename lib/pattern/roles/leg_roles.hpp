@@ -1,8 +1,8 @@
 #pragma once
 /// Which panels go around a leg: PanelRole::part leg_l or leg_r.
-#include <pattern/pattern.hpp>
 #include <pattern/roles/panel_role.hpp>
 #include <pattern/seam_graph.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 namespace sloper::pattern {
 

@@ -3,8 +3,8 @@
 /// turned there.
 #include <Eigen/Core>
 #include <cmath>
-#include <geometry/types.hpp>
 #include <optional>
+#include <sloper/geometry/types.hpp>
 #include <string>
 
 namespace sloper::pattern {

@@ -1,9 +1,9 @@
-#include <base/units.hpp>
 #include <pattern/panel_words.hpp>
 #include <pattern/roles/leg_roles.hpp>
 #include <pattern/roles/panel_roles.hpp>
 #include <pattern/roles/panel_turn.hpp>
 #include <pattern/roles/shape_roles.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

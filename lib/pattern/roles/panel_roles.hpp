@@ -1,9 +1,9 @@
 #pragma once
 /// What each panel is on the body. From the pattern's hints where it gives them, else from names,
 /// else from how panels are sewn together.
-#include <pattern/pattern.hpp>
 #include <pattern/roles/panel_role.hpp>
 #include <pattern/seam_graph.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 #include <vector>
 

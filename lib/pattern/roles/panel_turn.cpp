@@ -1,7 +1,7 @@
-#include <base/units.hpp>
 #include <pattern/panel_words.hpp>
 #include <pattern/roles/leg_roles.hpp>
 #include <pattern/roles/panel_turn.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 /// How pieces about the trunk stand upright, where the pattern does not say: CAD files often lay
 /// them along x, or turn them to nest.
-#include <pattern/pattern.hpp>
 #include <pattern/roles/panel_role.hpp>
 #include <pattern/seam_graph.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 namespace sloper::pattern {
 

@@ -1,5 +1,5 @@
-#include <io/json.hpp>
 #include <pattern/roles/shape_roles.hpp>
+#include <sloper/io/json.hpp>
 
 #include <algorithm>
 #include <cmath>

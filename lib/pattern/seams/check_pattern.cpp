@@ -1,9 +1,9 @@
-#include <base/error.hpp>
-#include <base/units.hpp>
-#include <io/json.hpp>
-#include <pattern/mesh/folds.hpp>
-#include <pattern/seams/check_pattern.hpp>
 #include <pattern/seams/missing_seams.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
+#include <sloper/pattern/seams/check_pattern.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include <base/units.hpp>
-#include <geometry/disjoint_sets.hpp>
-#include <io/json.hpp>
 #include <pattern/panel_words.hpp>
-#include <pattern/seams/infer_seams.hpp>
 #include <pattern/seams/seam_assembly.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/geometry/disjoint_sets.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/seams/infer_seams.hpp>
 
 #include <algorithm>
 #include <cmath>

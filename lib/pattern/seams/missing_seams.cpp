@@ -1,7 +1,7 @@
-#include <base/units.hpp>
-#include <geometry/disjoint_sets.hpp>
 #include <pattern/panel_words.hpp>
 #include <pattern/seams/missing_seams.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/geometry/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// Edges that were obviously meant to be sewn together and are not. An opening of a garment, be it
 /// a neckline, a hem, a slit, an open front or a placket, is none: only what can be nothing else is
 /// told.
-#include <pattern/pattern.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 namespace sloper::pattern {
 

@@ -1,5 +1,5 @@
-#include <base/units.hpp>
 #include <pattern/seams/seam_evidence.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <io/json.hpp>
 #include <pattern/seams/seam_model.hpp>
+#include <sloper/io/json.hpp>
 
 namespace sloper::pattern {
 

@@ -1,8 +1,8 @@
 #pragma once
 /// How much the clues of a pair of sides speak for a seam: boosted decision trees, fitted to
 /// specifications whose seams are known (tests/pattern/fit_seam_model.cpp).
-#include <io/json_fwd.hpp>
 #include <pattern/seams/seam_evidence.hpp>
+#include <sloper/io/json_fwd.hpp>
 
 namespace sloper::pattern {
 

@@ -1,6 +1,6 @@
-#include <base/units.hpp>
 #include <pattern/panel_words.hpp>
 #include <pattern/seams/seam_sides.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cctype>

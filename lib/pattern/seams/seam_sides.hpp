@@ -1,6 +1,6 @@
 #pragma once
 /// The edges of unsewn panels as sides that seams may join, with what their shape says.
-#include <pattern/pattern.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 #include <array>
 #include <string>

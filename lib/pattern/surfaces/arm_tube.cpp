@@ -1,7 +1,7 @@
-#include <base/error.hpp>
-#include <base/units.hpp>
 #include <pattern/roles/panel_role.hpp>
 #include <pattern/surfaces/arm_tube.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
-#include <base/units.hpp>
 #include <pattern/surfaces/gore_tube.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include <base/error.hpp>
-#include <base/units.hpp>
 #include <pattern/surfaces/leg_tube.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
 
 #include <algorithm>
 #include <cmath>

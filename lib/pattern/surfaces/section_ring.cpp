@@ -1,5 +1,5 @@
-#include <base/units.hpp>
 #include <pattern/surfaces/section_ring.hpp>
+#include <sloper/base/units.hpp>
 
 #include <cmath>
 

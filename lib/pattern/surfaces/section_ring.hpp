@@ -2,7 +2,7 @@
 /// Sections of a limb, square to its axis, as support functions: the furthest skin in each
 /// direction, m from the origin of the plane. Direction k of RING_ANGLES is turned by 2 pi k /
 /// RING_ANGLES from (0, 1) towards (1, 0).
-#include <geometry/types.hpp>
+#include <sloper/geometry/types.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-#include <base/error.hpp>
 #include <geos_c.h>
 #include <pattern/surfaces/wrap_curve.hpp>
+#include <sloper/base/error.hpp>
 
 #include <algorithm>
 #include <cmath>

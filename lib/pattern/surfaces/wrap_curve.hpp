@@ -2,7 +2,7 @@
 /// The curve that panels are wrapped along: a line in a plane square to a part's axis, measured by
 /// arc length, so that a panel laid on the cylinder over it keeps its shape. Plane coordinates are
 /// (x, z): z is where the middle of the curve looks.
-#include <geometry/types.hpp>
+#include <sloper/geometry/types.hpp>
 
 #include <vector>
 

@@ -1,6 +1,6 @@
-#include <base/units.hpp>
-#include <io/json.hpp>
-#include <pattern/write/export_pattern.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/write/export_pattern.hpp>
 
 #include <algorithm>
 #include <cmath>

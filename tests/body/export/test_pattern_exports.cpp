@@ -1,7 +1,7 @@
 #include <support/figures.hpp>
 
-#include <body/export/exports.hpp>
 #include <gtest/gtest.h>
+#include <sloper/body/export/exports.hpp>
 
 #include <sstream>
 

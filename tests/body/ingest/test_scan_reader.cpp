@@ -1,8 +1,8 @@
-#include <base/error.hpp>
 #include <gtest/gtest.h>
-#include <io/obj.hpp>
 #include <io/pcd.hpp>
-#include <io/scan_reader.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/obj.hpp>
+#include <sloper/io/scan_reader.hpp>
 
 #include <cstdio>
 #include <cstring>

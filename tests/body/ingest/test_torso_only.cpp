@@ -1,8 +1,8 @@
 /// A torso without legs: what it shows is found, the rest is not.
 #include <support/figures.hpp>
 
-#include <base/error.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/error.hpp>
 
 using namespace sloper;
 using namespace sloper::body;

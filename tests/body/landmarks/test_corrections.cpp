@@ -1,8 +1,8 @@
 /// What a population says: of bodies alike alone, and no more than it has seen.
-#include <base/error.hpp>
-#include <body/landmarks/corrections.hpp>
 #include <body/landmarks/second_opinion.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/error.hpp>
+#include <sloper/body/landmarks/corrections.hpp>
 
 using namespace sloper;
 using namespace sloper::body;

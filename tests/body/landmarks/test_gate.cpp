@@ -1,8 +1,8 @@
 /// Who stands is measured, however the arms are held; who does not is told so.
 #include <support/figures.hpp>
 
-#include <body/pose.hpp>
 #include <gtest/gtest.h>
+#include <sloper/body/pose.hpp>
 
 using namespace sloper;
 using namespace sloper::body;

@@ -1,6 +1,6 @@
-#include <base/error.hpp>
-#include <body/landmarks/rules.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/error.hpp>
+#include <sloper/body/landmarks/rules.hpp>
 
 #include <cmath>
 #include <filesystem>

@@ -2,7 +2,7 @@
 #include <support/figures.hpp>
 
 #include <gtest/gtest.h>
-#include <io/scan_reader.hpp>
+#include <sloper/io/scan_reader.hpp>
 
 #include <cstdlib>
 #include <filesystem>

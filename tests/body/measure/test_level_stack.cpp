@@ -1,8 +1,8 @@
 /// Level slices of simple solids: which loop is the trunk, where the crotch lies, and the arm pit
 /// between an arm and a trunk.
-#include <body/measure/arm_trace.hpp>
-#include <body/measure/level_stack.hpp>
 #include <gtest/gtest.h>
+#include <sloper/body/measure/arm_trace.hpp>
+#include <sloper/body/measure/level_stack.hpp>
 
 using namespace sloper;
 using namespace sloper::body;

@@ -1,5 +1,5 @@
-#include <body/measure/section.hpp>
 #include <gtest/gtest.h>
+#include <sloper/body/measure/section.hpp>
 #include <support/shapes.hpp>
 
 #include <cmath>

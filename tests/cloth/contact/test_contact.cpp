@@ -2,16 +2,16 @@
 /// may pass.
 #include <support/grid.hpp>
 
-#include <base/random.hpp>
-#include <cloth/contact/body_contact.hpp>
-#include <cloth/contact/contact_potential.hpp>
-#include <cloth/contact/self_contact.hpp>
-#include <cloth/forces/edge_spring.hpp>
-#include <cloth/forces/gravity.hpp>
-#include <cloth/solver/implicit_step.hpp>
-#include <collision/intersections.hpp>
 #include <gtest/gtest.h>
 #include <random>
+#include <sloper/base/random.hpp>
+#include <sloper/cloth/contact/body_contact.hpp>
+#include <sloper/cloth/contact/contact_potential.hpp>
+#include <sloper/cloth/contact/self_contact.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
+#include <sloper/cloth/forces/gravity.hpp>
+#include <sloper/cloth/solver/implicit_step.hpp>
+#include <sloper/collision/intersections.hpp>
 
 using namespace sloper;
 using namespace sloper::cloth;

@@ -1,6 +1,6 @@
 /// The smooth force that keeps coarse cloth off a body.
-#include <cloth/contact/soft_body_contact.hpp>
 #include <gtest/gtest.h>
+#include <sloper/cloth/contact/soft_body_contact.hpp>
 #include <support/force_checks.hpp>
 
 using namespace sloper;

@@ -2,11 +2,11 @@
 /// of its force.
 #include <support/force_checks.hpp>
 
-#include <cloth/forces/bending.hpp>
-#include <cloth/forces/edge_spring.hpp>
-#include <cloth/forces/gravity.hpp>
-#include <cloth/forces/sewing_spring.hpp>
-#include <cloth/forces/shear.hpp>
+#include <sloper/cloth/forces/bending.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
+#include <sloper/cloth/forces/gravity.hpp>
+#include <sloper/cloth/forces/sewing_spring.hpp>
+#include <sloper/cloth/forces/shear.hpp>
 
 using namespace sloper;
 using namespace sloper::cloth;

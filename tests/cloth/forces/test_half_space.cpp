@@ -1,6 +1,6 @@
 /// Particles that are kept on their side of a plane.
-#include <cloth/forces/half_space.hpp>
 #include <gtest/gtest.h>
+#include <sloper/cloth/forces/half_space.hpp>
 #include <support/force_checks.hpp>
 
 using namespace sloper;

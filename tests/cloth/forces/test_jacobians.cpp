@@ -3,21 +3,21 @@
 /// matrix of edge springs.
 #include <support/force_checks.hpp>
 
-#include <cloth/contact/body_contact.hpp>
-#include <cloth/contact/self_contact.hpp>
-#include <cloth/forces/attachments.hpp>
-#include <cloth/forces/bending.hpp>
-#include <cloth/forces/dihedral_bending.hpp>
-#include <cloth/forces/edge_spring.hpp>
-#include <cloth/forces/elastic_band.hpp>
-#include <cloth/forces/gravity.hpp>
-#include <cloth/forces/membrane.hpp>
-#include <cloth/forces/pins.hpp>
-#include <cloth/forces/pressure.hpp>
-#include <cloth/forces/sewing_spring.hpp>
-#include <cloth/forces/shear.hpp>
-#include <cloth/forces/triangle_stretch.hpp>
-#include <cloth/forces/wind.hpp>
+#include <sloper/cloth/contact/body_contact.hpp>
+#include <sloper/cloth/contact/self_contact.hpp>
+#include <sloper/cloth/forces/attachments.hpp>
+#include <sloper/cloth/forces/bending.hpp>
+#include <sloper/cloth/forces/dihedral_bending.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
+#include <sloper/cloth/forces/elastic_band.hpp>
+#include <sloper/cloth/forces/gravity.hpp>
+#include <sloper/cloth/forces/membrane.hpp>
+#include <sloper/cloth/forces/pins.hpp>
+#include <sloper/cloth/forces/pressure.hpp>
+#include <sloper/cloth/forces/sewing_spring.hpp>
+#include <sloper/cloth/forces/shear.hpp>
+#include <sloper/cloth/forces/triangle_stretch.hpp>
+#include <sloper/cloth/forces/wind.hpp>
 
 using namespace sloper;
 using namespace sloper::cloth;

@@ -2,10 +2,10 @@
 /// forces and matrices against the energy; softening.
 #include <support/force_checks.hpp>
 
-#include <cloth/forces/bending.hpp>
-#include <cloth/forces/dihedral_bending.hpp>
-#include <cloth/forces/orthotropic_bending.hpp>
 #include <cmath>
+#include <sloper/cloth/forces/bending.hpp>
+#include <sloper/cloth/forces/dihedral_bending.hpp>
+#include <sloper/cloth/forces/orthotropic_bending.hpp>
 
 using namespace sloper;
 using namespace sloper::cloth;

@@ -2,12 +2,12 @@
 #include <support/grid.hpp>
 
 #include <Eigen/Dense>
-#include <base/random.hpp>
-#include <cloth/forces/bending.hpp>
-#include <cloth/forces/edge_spring.hpp>
 #include <cloth/linear/aggregation.hpp>
 #include <cstring>
 #include <gtest/gtest.h>
+#include <sloper/base/random.hpp>
+#include <sloper/cloth/forces/bending.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
 
 using namespace sloper;
 using namespace sloper::cloth;

@@ -1,12 +1,12 @@
 #include <support/force_checks.hpp>
 
-#include <base/error.hpp>
-#include <cloth/forces/bending.hpp>
-#include <cloth/forces/edge_spring.hpp>
-#include <cloth/forces/shear.hpp>
 #include <cloth/linear/aggregation.hpp>
-#include <cloth/linear/factorisation.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/error.hpp>
+#include <sloper/cloth/forces/bending.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
+#include <sloper/cloth/forces/shear.hpp>
+#include <sloper/cloth/linear/factorisation.hpp>
 
 #include <cstring>
 

@@ -1,12 +1,12 @@
 #include <support/grid.hpp>
 
-#include <base/random.hpp>
-#include <cloth/contact/self_contact.hpp>
-#include <cloth/forces/edge_spring.hpp>
-#include <cloth/forces/gravity.hpp>
-#include <cloth/motion/body_motion.hpp>
-#include <collision/intersections.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/random.hpp>
+#include <sloper/cloth/contact/self_contact.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
+#include <sloper/cloth/forces/gravity.hpp>
+#include <sloper/cloth/motion/body_motion.hpp>
+#include <sloper/collision/intersections.hpp>
 
 using namespace sloper;
 using namespace sloper::cloth;

@@ -2,13 +2,13 @@
 #include <support/grid.hpp>
 
 #include <algorithm>
-#include <cloth/forces/bending.hpp>
-#include <cloth/forces/edge_spring.hpp>
-#include <cloth/forces/gravity.hpp>
-#include <cloth/forces/pins.hpp>
-#include <cloth/solver/implicit_step.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <sloper/cloth/forces/bending.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
+#include <sloper/cloth/forces/gravity.hpp>
+#include <sloper/cloth/forces/pins.hpp>
+#include <sloper/cloth/solver/implicit_step.hpp>
 
 using namespace sloper;
 using namespace sloper::cloth;

@@ -2,14 +2,14 @@
 /// backward Euler.
 #include <support/grid.hpp>
 
-#include <cloth/contact/body_contact.hpp>
-#include <cloth/contact/self_contact.hpp>
-#include <cloth/forces/bending.hpp>
-#include <cloth/forces/edge_spring.hpp>
-#include <cloth/forces/gravity.hpp>
-#include <cloth/forces/pins.hpp>
-#include <cloth/forces/shear.hpp>
 #include <gtest/gtest.h>
+#include <sloper/cloth/contact/body_contact.hpp>
+#include <sloper/cloth/contact/self_contact.hpp>
+#include <sloper/cloth/forces/bending.hpp>
+#include <sloper/cloth/forces/edge_spring.hpp>
+#include <sloper/cloth/forces/gravity.hpp>
+#include <sloper/cloth/forces/pins.hpp>
+#include <sloper/cloth/forces/shear.hpp>
 
 namespace sloper::cloth {
 namespace {

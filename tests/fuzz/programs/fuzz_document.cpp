@@ -2,7 +2,7 @@
 #include "../targets.hpp"
 #include "memory_file.hpp"
 
-#include <garment/scene/scene.hpp>
+#include <sloper/garment/scene/scene.hpp>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const sloper::fuzz::MemoryFile file(data, size);

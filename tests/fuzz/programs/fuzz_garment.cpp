@@ -3,14 +3,14 @@
 /// line "@@@" between; the document calls its mesh "900".
 #include "memory_file.hpp"
 
-#include <base/error.hpp>
-#include <garment/fit/fit_policy.hpp>
-#include <garment/garment_json.hpp>
 #include <garment/kes.hpp>
-#include <garment/simulate/checkpoint.hpp>
-#include <io/png.hpp>
-#include <pattern/panel_mesh_json.hpp>
-#include <render/camera.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/garment/fit/fit_policy.hpp>
+#include <sloper/garment/garment_json.hpp>
+#include <sloper/garment/simulate/checkpoint.hpp>
+#include <sloper/io/png.hpp>
+#include <sloper/pattern/panel_mesh_json.hpp>
+#include <sloper/render/camera.hpp>
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,10 +1,10 @@
 /// Any bytes as a DXF, as its grade rule table, and as both, one after the other: read or refused
 /// with an Error, never a crash, never without end.
-#include <base/error.hpp>
-#include <pattern/read/grade_rules.hpp>
-#include <pattern/read/read_pattern.hpp>
-#include <pattern/seams/check_pattern.hpp>
-#include <pattern/seams/infer_seams.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/pattern/read/grade_rules.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
+#include <sloper/pattern/seams/check_pattern.hpp>
+#include <sloper/pattern/seams/infer_seams.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,10 +1,10 @@
 /// Any bytes as a pattern JSON of each kind, and as edits and as a sidecar of a small pattern: read
 /// or refused with an Error, never a crash.
-#include <base/error.hpp>
-#include <io/json.hpp>
-#include <pattern/edit/edits.hpp>
-#include <pattern/read/read_pattern.hpp>
-#include <pattern/seams/check_pattern.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/edit/edits.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
+#include <sloper/pattern/seams/check_pattern.hpp>
 
 #include <cstddef>
 #include <cstdint>

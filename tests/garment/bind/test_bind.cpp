@@ -1,9 +1,9 @@
 #include <support/skin_garment.hpp>
 
-#include <base/error.hpp>
-#include <collision/body_collider.hpp>
-#include <garment/bind/bind.hpp>
 #include <garment/bind/bind_frames.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/collision/body_collider.hpp>
+#include <sloper/garment/bind/bind.hpp>
 
 #include <gtest/gtest.h>
 

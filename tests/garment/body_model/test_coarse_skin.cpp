@@ -1,13 +1,13 @@
 /// A dense skin's few triangles: near the skin, its own vertices, and a means only.
 #include <support/drape_scene.hpp>
 
-#include <collision/body_collider.hpp>
-#include <collision/triangle_tree.hpp>
-#include <garment/body_model/coarse_skin.hpp>
-#include <garment/drape/drape.hpp>
 #include <garment/simulate/audit.hpp>
 #include <gtest/gtest.h>
 #include <random>
+#include <sloper/collision/body_collider.hpp>
+#include <sloper/collision/triangle_tree.hpp>
+#include <sloper/garment/body_model/coarse_skin.hpp>
+#include <sloper/garment/drape/drape.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;

@@ -1,8 +1,8 @@
 /// Convex shells around hands.
-#include <base/random.hpp>
-#include <collision/predicates.hpp>
-#include <garment/body_model/extremity_hulls.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/random.hpp>
+#include <sloper/collision/predicates.hpp>
+#include <sloper/garment/body_model/extremity_hulls.hpp>
 
 #include <map>
 

@@ -1,10 +1,10 @@
 /// Cloth between a hanging arm and the trunk, not around the arm.
 #include <support/drape_scene.hpp>
 
-#include <garment/body_model/under_arms.hpp>
 #include <garment/simulate/audit.hpp>
-#include <garment/simulate/checkpoint.hpp>
 #include <gtest/gtest.h>
+#include <sloper/garment/body_model/under_arms.hpp>
+#include <sloper/garment/simulate/checkpoint.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;

@@ -2,13 +2,13 @@
 #include <support/drape_scene.hpp>
 
 #include <algorithm>
-#include <garment/drape/accuracy.hpp>
-#include <garment/materials.hpp>
 #include <garment/scene/preset_table.hpp>
-#include <garment/scene/scene.hpp>
 #include <gtest/gtest.h>
-#include <io/json.hpp>
 #include <numeric>
+#include <sloper/garment/drape/accuracy.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/garment/scene/scene.hpp>
+#include <sloper/io/json.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;

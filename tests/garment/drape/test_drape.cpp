@@ -1,10 +1,10 @@
 #include <support/drape_scene.hpp>
 
 #include <algorithm>
-#include <base/parallel.hpp>
-#include <garment/drape/drape.hpp>
 #include <garment/simulate/audit.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/parallel.hpp>
+#include <sloper/garment/drape/drape.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;

@@ -1,16 +1,16 @@
 #include <support/drape_scene.hpp>
 
 #include <garment/drape/follow.hpp>
-#include <garment/garment_json.hpp>
 #include <garment/retarget/state_transfer.hpp>
 #include <garment/simulate/audit.hpp>
 #include <gtest/gtest.h>
-#include <io/json.hpp>
-#include <io/line_follower.hpp>
-#include <pattern/edit/edits.hpp>
-#include <pattern/mesh/mesh_pattern.hpp>
-#include <pattern/place/place_panels.hpp>
-#include <pattern/read/read_pattern.hpp>
+#include <sloper/garment/garment_json.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/line_follower.hpp>
+#include <sloper/pattern/edit/edits.hpp>
+#include <sloper/pattern/mesh/mesh_pattern.hpp>
+#include <sloper/pattern/place/place_panels.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
 
 #include <filesystem>
 #include <fstream>

@@ -2,13 +2,13 @@
 /// with legs and arms.
 #include <support/gored_patterns.hpp>
 
-#include <base/progress.hpp>
-#include <body/measure_scan.hpp>
-#include <garment/drape/drape.hpp>
 #include <garment/simulate/audit.hpp>
 #include <gtest/gtest.h>
 #include <mannequin.hpp>
-#include <pattern/place/place_panels.hpp>
+#include <sloper/base/progress.hpp>
+#include <sloper/body/measure_scan.hpp>
+#include <sloper/garment/drape/drape.hpp>
+#include <sloper/pattern/place/place_panels.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;

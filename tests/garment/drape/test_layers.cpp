@@ -1,9 +1,9 @@
 #include <support/drape_scene.hpp>
 
 #include <garment/drape/layers.hpp>
-#include <garment/sewing.hpp>
 #include <garment/simulate/audit.hpp>
 #include <gtest/gtest.h>
+#include <sloper/garment/sewing.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;

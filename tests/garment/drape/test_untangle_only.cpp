@@ -1,8 +1,8 @@
 #include <support/drape_scene.hpp>
 
-#include <garment/drape/drape.hpp>
 #include <garment/simulate/audit.hpp>
 #include <gtest/gtest.h>
+#include <sloper/garment/drape/drape.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;

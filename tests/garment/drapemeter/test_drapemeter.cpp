@@ -1,14 +1,14 @@
 /// Shadows, folds, silhouettes, and what material-fit finds from them.
-#include <base/parallel.hpp>
-#include <base/random.hpp>
-#include <cloth/bending_plates.hpp>
-#include <garment/drapemeter/material_fit.hpp>
 #include <garment/drapemeter/shadow.hpp>
-#include <garment/drapemeter/silhouette.hpp>
-#include <garment/material_json.hpp>
-#include <garment/materials.hpp>
 #include <gtest/gtest.h>
-#include <io/json.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/base/random.hpp>
+#include <sloper/cloth/bending_plates.hpp>
+#include <sloper/garment/drapemeter/material_fit.hpp>
+#include <sloper/garment/drapemeter/silhouette.hpp>
+#include <sloper/garment/material_json.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/io/json.hpp>
 
 #include <cmath>
 

@@ -1,13 +1,13 @@
 /// Weights sewn to a garment.
 #include <support/drape_scene.hpp>
 
-#include <base/error.hpp>
-#include <base/units.hpp>
 #include <garment/scene/effects.hpp>
 #include <garment/scene/scene_effects_json.hpp>
-#include <garment/sewing.hpp>
 #include <gtest/gtest.h>
-#include <io/json.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/garment/sewing.hpp>
+#include <sloper/io/json.hpp>
 
 #include <numeric>
 

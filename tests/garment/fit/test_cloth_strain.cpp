@@ -1,10 +1,10 @@
 #include <support/shapes.hpp>
 
-#include <collision/body_collider.hpp>
-#include <garment/fit/cloth_strain.hpp>
 #include <garment/fit/fit_measure.hpp>
-#include <garment/materials.hpp>
 #include <garment/simulate/audit.hpp>
+#include <sloper/collision/body_collider.hpp>
+#include <sloper/garment/fit/cloth_strain.hpp>
+#include <sloper/garment/materials.hpp>
 
 #include <gtest/gtest.h>
 

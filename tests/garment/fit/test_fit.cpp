@@ -1,12 +1,12 @@
 #include <support/skin_garment.hpp>
 
-#include <base/error.hpp>
-#include <garment/bind/bind.hpp>
-#include <garment/fit/fit.hpp>
 #include <garment/fit/fit_places.hpp>
 #include <garment/fit/fit_section.hpp>
-#include <garment/materials.hpp>
-#include <io/json.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/garment/bind/bind.hpp>
+#include <sloper/garment/fit/fit.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/io/json.hpp>
 
 #include <gtest/gtest.h>
 

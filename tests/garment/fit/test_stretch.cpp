@@ -1,7 +1,7 @@
 #include <support/skin_garment.hpp>
 
-#include <garment/fit/stretch.hpp>
-#include <garment/materials.hpp>
+#include <sloper/garment/fit/stretch.hpp>
+#include <sloper/garment/materials.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,20 +1,20 @@
 /// Panels draped through a coarse mesh: how cloth is sewn there so that starts that differ a little
 /// end alike, and how it comes to the given mesh.
-#include <base/parallel.hpp>
-#include <base/progress.hpp>
-#include <body/body_json.hpp>
-#include <garment/drape/drape.hpp>
 #include <garment/levels/coarse_start.hpp>
 #include <garment/levels/drape_levels.hpp>
 #include <garment/levels/finer_mesh.hpp>
 #include <garment/levels/soft_sewing.hpp>
-#include <garment/scene/scene.hpp>
-#include <garment/sewing.hpp>
-#include <garment/simulate/checkpoint.hpp>
 #include <gtest/gtest.h>
-#include <io/json.hpp>
-#include <pattern/mesh/mesh_pattern.hpp>
-#include <pattern/read/read_pattern.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/base/progress.hpp>
+#include <sloper/body/body_json.hpp>
+#include <sloper/garment/drape/drape.hpp>
+#include <sloper/garment/scene/scene.hpp>
+#include <sloper/garment/sewing.hpp>
+#include <sloper/garment/simulate/checkpoint.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/mesh/mesh_pattern.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
 #include <support/drape_scene.hpp>
 
 #include <algorithm>

@@ -3,14 +3,14 @@
 #include <support/hung_sheet.hpp>
 #include <support/scratch_folder.hpp>
 
-#include <base/parallel.hpp>
-#include <base/random.hpp>
-#include <garment/garment_json.hpp>
-#include <garment/materials.hpp>
-#include <garment/redrape/spread.hpp>
-#include <garment/scene/scene.hpp>
 #include <gtest/gtest.h>
-#include <io/json.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/base/random.hpp>
+#include <sloper/garment/garment_json.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/garment/redrape/spread.hpp>
+#include <sloper/garment/scene/scene.hpp>
+#include <sloper/io/json.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;

@@ -1,18 +1,18 @@
 #include <support/shapes.hpp>
 #include <support/skin_garment.hpp>
 
-#include <base/error.hpp>
-#include <garment/bind/bind.hpp>
 #include <garment/bind/body_sides.hpp>
-#include <garment/drape/drape.hpp>
-#include <garment/fit/fit.hpp>
 #include <garment/retarget/pattern_mirror.hpp>
-#include <garment/retarget/retarget.hpp>
 #include <garment/retarget/retarget_grade.hpp>
-#include <garment/retarget/retarget_pattern.hpp>
-#include <io/json.hpp>
-#include <pattern/mesh/mesh_pattern.hpp>
-#include <pattern/read/read_pattern.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/garment/bind/bind.hpp>
+#include <sloper/garment/drape/drape.hpp>
+#include <sloper/garment/fit/fit.hpp>
+#include <sloper/garment/retarget/retarget.hpp>
+#include <sloper/garment/retarget/retarget_pattern.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/mesh/mesh_pattern.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
 
 #include <gtest/gtest.h>
 

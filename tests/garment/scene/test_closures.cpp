@@ -3,14 +3,14 @@
 #include <support/hung_sheet.hpp>
 #include <support/scratch_folder.hpp>
 
-#include <cloth/forces/closures.hpp>
-#include <garment/drape/drape.hpp>
-#include <garment/materials.hpp>
-#include <garment/scene/scene.hpp>
 #include <garment/scene/scene_effects_json.hpp>
 #include <gtest/gtest.h>
-#include <io/files.hpp>
-#include <io/json.hpp>
+#include <sloper/cloth/forces/closures.hpp>
+#include <sloper/garment/drape/drape.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/garment/scene/scene.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;

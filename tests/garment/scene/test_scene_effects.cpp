@@ -3,22 +3,22 @@
 #include <support/drape_scene.hpp>
 #include <support/scratch_folder.hpp>
 
-#include <base/error.hpp>
-#include <cloth/forces/elastic_band.hpp>
-#include <cloth/forces/pins.hpp>
-#include <cloth/solver/implicit_step.hpp>
-#include <garment/garment_json.hpp>
 #include <garment/kes.hpp>
-#include <garment/material_json.hpp>
-#include <garment/materials.hpp>
 #include <garment/scene/effects.hpp>
 #include <garment/scene/panel_runs.hpp>
-#include <garment/scene/scene.hpp>
 #include <garment/scene/scene_effects_json.hpp>
-#include <garment/sewing.hpp>
 #include <gtest/gtest.h>
-#include <io/files.hpp>
-#include <io/json.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/cloth/forces/elastic_band.hpp>
+#include <sloper/cloth/forces/pins.hpp>
+#include <sloper/cloth/solver/implicit_step.hpp>
+#include <sloper/garment/garment_json.hpp>
+#include <sloper/garment/material_json.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/garment/scene/scene.hpp>
+#include <sloper/garment/sewing.hpp>
+#include <sloper/io/files.hpp>
+#include <sloper/io/json.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;

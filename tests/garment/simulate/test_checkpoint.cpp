@@ -1,16 +1,16 @@
 /// A drape that was killed goes on from its last checkpoint to the same bytes as one that was not.
 #include <support/drape_scene.hpp>
 
-#include <base/error.hpp>
-#include <base/parallel.hpp>
 #include <filesystem>
 #include <fstream>
 #include <garment/drape/layers.hpp>
 #include <garment/drape/motion.hpp>
-#include <garment/garment_json.hpp>
-#include <garment/simulate/checkpoint.hpp>
 #include <gtest/gtest.h>
 #include <set>
+#include <sloper/base/error.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/garment/garment_json.hpp>
+#include <sloper/garment/simulate/checkpoint.hpp>
 #include <unistd.h>
 
 using namespace sloper;

@@ -3,10 +3,10 @@
 #include <support/drape_scene.hpp>
 
 #include <algorithm>
-#include <garment/drape/drape.hpp>
-#include <garment/sewing.hpp>
 #include <garment/simulate/audit.hpp>
 #include <gtest/gtest.h>
+#include <sloper/garment/drape/drape.hpp>
+#include <sloper/garment/sewing.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;

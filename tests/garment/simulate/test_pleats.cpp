@@ -1,12 +1,12 @@
 /// Pleats as cloth: pressed along their folds, and sewn with their layers on each other.
-#include <base/progress.hpp>
-#include <garment/drape/drape.hpp>
-#include <garment/sewing.hpp>
 #include <gtest/gtest.h>
-#include <io/json.hpp>
-#include <pattern/mesh/folds.hpp>
-#include <pattern/mesh/mesh_pattern.hpp>
-#include <pattern/read/read_pattern.hpp>
+#include <sloper/base/progress.hpp>
+#include <sloper/garment/drape/drape.hpp>
+#include <sloper/garment/sewing.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
+#include <sloper/pattern/mesh/mesh_pattern.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
 
 #include <algorithm>
 

@@ -2,9 +2,9 @@
 #include <support/drape_scene.hpp>
 
 #include <algorithm>
-#include <garment/drape/drape.hpp>
 #include <garment/simulate/sleeve_ends.hpp>
 #include <gtest/gtest.h>
+#include <sloper/garment/drape/drape.hpp>
 
 using namespace sloper;
 using namespace sloper::garment;

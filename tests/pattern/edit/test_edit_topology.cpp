@@ -1,11 +1,11 @@
 #include <support/pattern_texts.hpp>
 
-#include <base/error.hpp>
 #include <gtest/gtest.h>
-#include <io/json.hpp>
-#include <pattern/edit/edits.hpp>
-#include <pattern/write/export_pattern.hpp>
 #include <random>
+#include <sloper/base/error.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/edit/edits.hpp>
+#include <sloper/pattern/write/export_pattern.hpp>
 
 namespace sloper::pattern::test {
 namespace {

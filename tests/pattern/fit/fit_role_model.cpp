@@ -5,8 +5,8 @@
 /// Those whose path has "keep" in it are not learned from but reported on.
 #include "boosting.hpp"
 
-#include <pattern/read/read_pattern.hpp>
 #include <pattern/roles/shape_roles.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -11,8 +11,8 @@
 #include "join_panels.hpp"
 #include "renaming.hpp"
 
-#include <pattern/read/read_pattern.hpp>
-#include <pattern/write/export_pattern.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
+#include <sloper/pattern/write/export_pattern.hpp>
 
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 #pragma once
 /// Specifications made to look like CAD files: panels in one piece that were drawn in two.
-#include <pattern/pattern.hpp>
+#include <sloper/pattern/pattern.hpp>
 
 namespace sloper::pattern::fit {
 

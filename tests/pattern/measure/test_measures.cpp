@@ -2,7 +2,7 @@
 #include <support/straight_patterns.hpp>
 
 #include <gtest/gtest.h>
-#include <pattern/measure/finished_measures.hpp>
+#include <sloper/pattern/measure/finished_measures.hpp>
 
 #include <cmath>
 

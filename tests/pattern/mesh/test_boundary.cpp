@@ -1,9 +1,9 @@
 #include <support/mesh_quality.hpp>
 #include <support/pattern_texts.hpp>
 
-#include <base/error.hpp>
 #include <gtest/gtest.h>
-#include <pattern/mesh/boundary.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/pattern/mesh/boundary.hpp>
 
 namespace sloper::pattern::test {
 namespace {

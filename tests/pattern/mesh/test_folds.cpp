@@ -2,15 +2,15 @@
 #include <support/pattern_texts.hpp>
 #include <support/stick_body.hpp>
 
-#include <base/error.hpp>
 #include <gtest/gtest.h>
-#include <io/json.hpp>
-#include <pattern/edit/edits.hpp>
-#include <pattern/measure/finished_measures.hpp>
-#include <pattern/mesh/folds.hpp>
-#include <pattern/place/place_panels.hpp>
-#include <pattern/seams/check_pattern.hpp>
-#include <pattern/write/export_pattern.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/edit/edits.hpp>
+#include <sloper/pattern/measure/finished_measures.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
+#include <sloper/pattern/place/place_panels.hpp>
+#include <sloper/pattern/seams/check_pattern.hpp>
+#include <sloper/pattern/write/export_pattern.hpp>
 
 #include <set>
 

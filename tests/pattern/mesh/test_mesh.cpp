@@ -1,13 +1,13 @@
 #include <support/mesh_quality.hpp>
 #include <support/pattern_texts.hpp>
 
-#include <base/error.hpp>
-#include <base/parallel.hpp>
 #include <ctime>
 #include <gtest/gtest.h>
 #include <pattern/mesh/smallest_angle.hpp>
 #include <pattern/mesh/triangulate.hpp>
-#include <pattern/panel_mesh_json.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/base/parallel.hpp>
+#include <sloper/pattern/panel_mesh_json.hpp>
 
 #include <cmath>
 #include <filesystem>

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <pattern/layout/sleeve_bend.hpp>
 #include <pattern/panel_words.hpp>
-#include <pattern/place/place_panels.hpp>
+#include <sloper/pattern/place/place_panels.hpp>
 
 namespace sloper::pattern::test {
 namespace {

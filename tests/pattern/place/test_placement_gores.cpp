@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
-#include <pattern/place/place_panels.hpp>
+#include <sloper/pattern/place/place_panels.hpp>
 
 namespace sloper::pattern::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <support/straight_patterns.hpp>
 
 #include <gtest/gtest.h>
-#include <pattern/place/place_panels.hpp>
+#include <sloper/pattern/place/place_panels.hpp>
 
 namespace sloper::pattern::test {
 namespace {

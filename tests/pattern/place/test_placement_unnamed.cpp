@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <pattern/panel_words.hpp>
-#include <pattern/place/place_panels.hpp>
+#include <sloper/pattern/place/place_panels.hpp>
 
 namespace sloper::pattern::test {
 namespace {

@@ -1,10 +1,10 @@
 #include <support/pattern_texts.hpp>
 
-#include <base/error.hpp>
 #include <gtest/gtest.h>
-#include <io/json.hpp>
-#include <pattern/measure/finished_measures.hpp>
-#include <pattern/seams/check_pattern.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/measure/finished_measures.hpp>
+#include <sloper/pattern/seams/check_pattern.hpp>
 
 #include <filesystem>
 #include <sstream>

@@ -1,7 +1,7 @@
 #include <support/pattern_texts.hpp>
 
-#include <base/error.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/error.hpp>
 
 namespace sloper::pattern::test {
 namespace {

@@ -1,8 +1,8 @@
 /// What files of real CAD systems say and ask, each on a small drawing of our own.
 #include <support/pattern_texts.hpp>
 
-#include <base/error.hpp>
 #include <gtest/gtest.h>
+#include <sloper/base/error.hpp>
 
 namespace sloper::pattern::test::real_dxf {
 namespace {

@@ -1,8 +1,8 @@
-#include <base/units.hpp>
 #include <gtest/gtest.h>
-#include <pattern/read/read_pattern.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/pattern/read/read_pattern.hpp>
 
-#include <io/json.hpp>
+#include <sloper/io/json.hpp>
 
 namespace sloper::pattern::test {
 namespace {

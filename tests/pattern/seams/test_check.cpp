@@ -1,8 +1,8 @@
 #include <support/pattern_texts.hpp>
 
-#include <base/error.hpp>
 #include <gtest/gtest.h>
-#include <pattern/seams/check_pattern.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/pattern/seams/check_pattern.hpp>
 
 namespace sloper::pattern::test {
 namespace {

@@ -1,8 +1,8 @@
 #include <support/pattern_texts.hpp>
 
 #include <gtest/gtest.h>
-#include <io/json.hpp>
-#include <pattern/seams/infer_seams.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/pattern/seams/infer_seams.hpp>
 
 #include <set>
 

@@ -2,8 +2,8 @@
 #include <support/straight_patterns.hpp>
 
 #include <gtest/gtest.h>
-#include <pattern/seams/check_pattern.hpp>
 #include <pattern/seams/missing_seams.hpp>
+#include <sloper/pattern/seams/check_pattern.hpp>
 
 namespace sloper::pattern::test {
 namespace {

@@ -1,7 +1,7 @@
 #include <support/pattern_texts.hpp>
 
 #include <gtest/gtest.h>
-#include <pattern/write/export_pattern.hpp>
+#include <sloper/pattern/write/export_pattern.hpp>
 
 namespace sloper::pattern::test {
 namespace {

@@ -1,6 +1,6 @@
-#include <cloth/forces/orthotropic_bending.hpp>
 #include <garment/scene/crease_angles.hpp>
-#include <garment/scene/effect_spec.hpp>
+#include <sloper/cloth/forces/orthotropic_bending.hpp>
+#include <sloper/garment/scene/effect_spec.hpp>
 
 namespace sloper::garment {
 

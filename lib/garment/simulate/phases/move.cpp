@@ -1,7 +1,7 @@
-#include <collision/intersections.hpp>
-#include <garment/simulate/phases/move.hpp>
-#include <io/json.hpp>
-#include <io/json_lists.hpp>
+#include <sloper/collision/intersections.hpp>
+#include <sloper/garment/simulate/phases/move.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/json_lists.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include <garment/retarget/retarget.hpp>
-#include <garment/simulate/phases/settle.hpp>
-#include <io/json.hpp>
-#include <io/json_lists.hpp>
+#include <sloper/garment/retarget/retarget.hpp>
+#include <sloper/garment/simulate/phases/settle.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/json_lists.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include <base/units.hpp>
-#include <garment/sewing.hpp>
-#include <garment/simulate/phases/sew.hpp>
-#include <io/json.hpp>
-#include <io/json_lists.hpp>
+#include <sloper/base/units.hpp>
+#include <sloper/garment/sewing.hpp>
+#include <sloper/garment/simulate/phases/sew.hpp>
+#include <sloper/io/json.hpp>
+#include <sloper/io/json_lists.hpp>
 
 #include <algorithm>
 

@@ -1,0 +1,89 @@
+#pragma once
+/// What a population says of the rules' results: for each landmark an offset that is linear in the
+/// body's shape, and where the rest of the body lets expect it, learned from bodies whose landmarks
+/// are known (scripts/derive-corrections; ridge regression, Hoerl and Kennard 1970). The bodies are
+/// of several makes; one that is unlike all of them is neither corrected nor judged.
+#include <map>
+#include <optional>
+#include <sloper/body/landmarks/shape_features.hpp>
+#include <sloper/geometry/triangle_mesh.hpp>
+namespace sloper::io {
+class Node;
+}
+namespace sloper::body {
+
+class Corrections {
+public:
+  /// Standard deviations between a rule's height and the expected one beyond which they disagree:
+  /// 4.5. Of 70 bodies kept from learning five had a place beyond, the front of the neck; all five
+  /// were wrong by 11 to 29 mm, in that direction.
+  static constexpr double DISAGREE = 4.5;
+  /// Those embedded at build time (lib/body/landmarks/rules/corrections.json).
+  static const Corrections& standard();
+  /// None: the rules' results stay as they are.
+  static const Corrections& none();
+  /// @param name for messages
+  /// @throws Error INPUT where the text is no such document, or one of features that this program
+  /// does not know
+  static Corrections parse(const std::string& text, const std::string& name);
+
+  bool has(const std::string& place) const { return m_points.count(place) != 0; }
+  /// How far the body is from those that were learned from: root mean square of its features'
+  /// distances from theirs, in standard deviations; 0 where nothing was learned. On the bodies
+  /// learned from it is 1 on average.
+  double unlikeness(const ShapeFeatures& features) const;
+  /// How far the body is from each make of bodies: of z its features in standard deviations about
+  /// the make's mean, and B the main directions in which bodies of all makes differ, the larger of
+  /// sqrt(mean (B z)_k^2 / s_k^2) and sqrt(|z - B^T B z|^2 / r) (Mahalanobis distance within and
+  /// outside of the directions; r is what the bodies left of their fold have there). Both sides'
+  /// mean; empty where nothing was learned.
+  std::vector<double> distances(const ShapeFeatures& features) const;
+  /// Whether the body is like any make, 0 to 1: 1 as near as 97 of 100 of its own bodies that were
+  /// not learned from, 0 a fifth farther.
+  double likeness(const ShapeFeatures& features) const;
+  /// Offset of a landmark as shares of stature, x away from the middle plane; zero for what was not
+  /// learned and for bodies unlike the others.
+  /// @param side 0 left, 1 right, -1 for a landmark in the middle: its x is zero
+  Vec3 offset(const std::string& place, const ShapeFeatures& features, int side) const;
+
+  struct Expected {
+    double height = 0; ///< of stature
+    double sd = 0;     ///< of stature, of bodies that were not learned from
+  };
+  /// The height at which the rest of the body lets expect a landmark; nothing where that was not
+  /// learned or the body is unlike the others.
+  std::optional<Expected> expected(const std::string& place, const ShapeFeatures& features,
+                                   int side) const;
+
+private:
+  struct Weights {
+    double bias = 0, sd = 0;
+    std::vector<double> of_feature; ///< per standard deviation
+  };
+  struct Feature {
+    double mean = 0, sd = 1;
+  };
+  struct Make {
+    std::string name;
+    std::vector<double> mean; ///< standard deviations
+    double limit = 0;         ///< of the distance
+  };
+  struct Point {
+    std::array<Weights, 3> axis;
+    std::vector<char> of_make; ///< 1 where that make's bodies taught it
+  };
+  double scaled(const ShapeFeatures& features, int side, std::size_t k) const;
+  double linear(const Weights& weights, const ShapeFeatures& features, int side) const;
+  double likeness(const ShapeFeatures& features, const std::vector<char>* of_make) const;
+  void read_population(const io::Node& root);
+  Weights read_weights(const io::Node& list) const;
+  std::vector<Feature> m_features;
+  std::vector<Make> m_makes;
+  std::vector<std::vector<double>> m_basis; ///< rows B_k
+  std::vector<double> m_basis_sd;
+  double m_outside = 1; ///< r
+  std::map<std::string, Point> m_points;
+  std::map<std::string, Weights> m_expected;
+};
+
+} // namespace sloper::body

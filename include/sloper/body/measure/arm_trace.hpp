@@ -1,0 +1,51 @@
+#pragma once
+/// One arm followed from the hand to the trunk in sections square to it, whatever the stance.
+#include <optional>
+#include <sloper/body/landmarks/rules.hpp>
+#include <sloper/body/measure/geodesic.hpp>
+#include <sloper/body/measure/level_stack.hpp>
+namespace sloper::body {
+
+struct LimbSection {
+  Vec3 center = Vec3::Zero(); ///< centroid of the loop
+  Vec3 axis = Vec3::UnitY();  ///< unit, towards the trunk
+  Plane plane;
+  Loop loop;
+  double girth = 0; ///< taut, m
+  double along = 0; ///< m from the hand tip along the centres
+};
+
+struct ArmTrace {
+  bool left = true;
+  Vec3 tip = Vec3::Zero();           ///< the point farthest from the trunk over the skin
+  std::vector<LimbSection> sections; ///< from the hand to just before the trunk
+  std::vector<int> triangles;        ///< of the arm and the shoulder's surroundings
+  std::vector<double> from_tip; ///< per vertex of the skin: m over the skin from the finger's end;
+                                ///< 1e300 where it is no arm's reach
+  Vec3 out = Vec3::UnitX();     ///< unit, from shoulder to hand, over the upper arm
+  std::optional<Vec3> axilla;   ///< roof of the arm pit
+  bool pit_hidden = false; ///< no gap closes where an arm pit can be: it is placed by proportion
+  std::optional<Vec3> axilla_front, axilla_back;
+  double lifted_m = 0;       ///< by which pit and folds were lifted towards those of the other arm
+  std::optional<Vec3> merge; ///< where, going up, the level sections of arm and trunk become one
+  /// Point of the centre line at `along` m from the tip, carried on straight beyond its ends.
+  Vec3 at(double along) const;
+  double length() const { return sections.empty() ? 0 : sections.back().along; }
+};
+
+/// Fills the arm pit's roof and the folds beside it: where, along the arm, the gap between arm and
+/// trunk closes; else by proportion, `pit_hidden`.
+void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules);
+
+/// Fills `merge`: going up, the level at which the loops of a hanging arm and of the trunk become
+/// one, by bisection to 0.02 mm: front and back fold often meet within a tenth of a millimetre of
+/// each other.
+void find_merge(ArmTrace& arm, const LevelStack& levels);
+
+/// Both arms (left first); an arm that cannot be told from the trunk has no sections.
+/// @param scan_points the scan's own points where the skin was rebuilt and has lost the fingers'
+/// ends; else empty
+std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& graph,
+                                   const std::vector<Vec3>& scan_points, const Rules& rules);
+
+} // namespace sloper::body

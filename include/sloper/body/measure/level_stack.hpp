@@ -1,0 +1,75 @@
+#pragma once
+/// The skin in level slices: the legs followed up to the crotch, the trunk from there to the neck,
+/// the head above it.
+#include <map>
+#include <optional>
+#include <sloper/body/measure/section.hpp>
+namespace sloper::body {
+
+constexpr double CROTCH_BEFORE_LEGS = 0.0235; ///< crotch in front of the middles of the legs just
+                                              ///< below it, share of stature (sd 0.0075)
+
+/// What stands in one level.
+struct Slice {
+  double y = 0;
+  std::vector<Loop> loops;
+  int leg[2] = {-1, -1}; ///< loop of the left (0) and right (1) leg, below the crotch
+  int trunk = -1;        ///< loop of the trunk, neck or head; arms may hang on it
+};
+
+/// All level slices of a closed skin that stands in (about) the body frame. For one thread: it
+/// remembers cuts.
+class LevelStack {
+public:
+  /// @param spacing m between levels
+  /// @param roughness m by which heights of a rebuilt skin are uncertain; 0 for a scan's own faces
+  LevelStack(const TriangleMesh& skin, double stature, double spacing, double roughness = 0);
+  const std::vector<Slice>& slices() const { return m_slices; }
+  const Slice& at(double y) const; ///< the nearest slice
+  int index(double y) const;
+  double spacing() const { return m_spacing; }
+  double stature() const { return m_stature; }
+  const TriangleMesh& skin() const { return *m_skin; }
+  /// Loops of an exact cut at any height (only the triangles of that level are visited).
+  std::vector<Loop> exact(double y) const;
+  /// The trunk (neck, head) loop of an exact cut; empty when there is none. Stays as long as the
+  /// stack.
+  const std::optional<Loop>& trunk_at(double y) const;
+  std::optional<Loop> leg_at(double y, int side) const;
+  /// Height at which the two leg loops become one, m, by bisection to 0.2 mm; empty when the legs
+  /// are never apart.
+  std::optional<double> crotch() const { return m_crotch; }
+  Vec2 crotch_point() const { return m_crotch_point; } ///< (x, z) where they meet
+  /// A place before or behind that is as low within what the vertical is known to: either may be
+  /// the crotch. Empty where there is none.
+  const std::optional<Vec3>& other_crotch() const { return m_other_crotch; }
+
+  /// Puts the crotch elsewhere, where the scan does not show it: legs are cut apart in the middle
+  /// plane up to there.
+  void move_crotch(double y, double z);
+
+private:
+  struct Underside {
+    double plane = 0, lowest = 0; ///< x of the cut, height of its lowest place, m
+    double best = 0, z = 0;       ///< favoured() height and depth of the place that is the crotch
+    std::vector<std::array<Vec2, 2>> bottom; ///< (z, y)
+  };
+  Underside underside(double plane, double low, double high, double between,
+                      const std::vector<int>& near) const;
+  double favoured(const Vec2& q, double between) const;
+  void settle_crotch(double low, double high, double middle, double between);
+  void follow_legs();
+  void follow_trunk();
+  int trunk_of(const std::vector<Loop>& loops, const Loop& from) const;
+  const TriangleMesh* m_skin;
+  double m_stature, m_spacing, m_roughness;
+  std::vector<Slice> m_slices;
+  LevelledMesh m_levelled;
+  mutable std::map<double, std::optional<Loop>>
+      m_trunk_at; ///< cuts made before: several rules ask for the same heights
+  std::optional<double> m_crotch;
+  Vec2 m_crotch_point = Vec2::Zero();
+  std::optional<Vec3> m_other_crotch;
+};
+
+} // namespace sloper::body

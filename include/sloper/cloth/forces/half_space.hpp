@@ -1,0 +1,30 @@
+#pragma once
+/// Keeps particles on their side of a plane, each with a spring that begins at the plane: E = k/2
+/// min(0, n . (x - p))^2. What has two sides that must not mix, as trouser legs, needs no contact
+/// between them then. Test: tests/cloth/forces/test_half_space.cpp
+#include <sloper/cloth/effect.hpp>
+
+namespace sloper::cloth {
+
+class HalfSpaceEffect : public Effect {
+public:
+  /// @param normal unit, to the side where particles belong   @param stiffness N/m, of each
+  /// particle
+  HalfSpaceEffect(std::vector<int> particles, const Vec3& point, const Vec3& normal,
+                  double stiffness)
+      : m_particles(std::move(particles)), m_point(point), m_normal(normal),
+        m_stiffness(stiffness) {}
+  const char* name() const override { return "half_space"; }
+  void add(StepContext& context) override;
+  double energy(const std::vector<Vec3>& x) const override;
+
+private:
+  double beyond(int particle, const std::vector<Vec3>& x) const {
+    return m_normal.dot(m_point - x[static_cast<std::size_t>(particle)]);
+  }
+  std::vector<int> m_particles;
+  Vec3 m_point, m_normal;
+  double m_stiffness;
+};
+
+} // namespace sloper::cloth

@@ -1,0 +1,63 @@
+#pragma once
+/// Bending with rigidities by direction, and softening with curvature (cloth/bending_plates.hpp).
+///
+/// Without rest angles q of a hinge is its curvature vector sum_k c_k x_k, as in the isometric
+/// model: the stiffness is constant where the fabric does not soften. With rest angles it is |e|
+/// (theta - theta0), as in the dihedral model. The stiffness keeps the secant of the softening and,
+/// with rest angles, J^T K J: both are definite.
+#include <sloper/cloth/bending_plates.hpp>
+#include <sloper/cloth/effect.hpp>
+#include <sloper/cloth/forces/dihedral_bending.hpp>
+
+#include <optional>
+
+namespace sloper::cloth {
+
+class OrthotropicBendingEffect : public Effect {
+public:
+  /// @param rest_angle  none: flat, by curvature vectors; else #hinges, rad, in the sign of
+  /// hinge_angle()
+  explicit OrthotropicBendingEffect(const ClothMesh& mesh,
+                                    std::optional<std::vector<double>> rest_angle = {});
+  const char* name() const override { return "orthotropic_bending"; }
+  void declare(Couplings& couplings) const override;
+  void bind(const BlockMatrix& matrix) override;
+  bool set_rest(const ClothMesh& /*mesh*/) override { return false; } ///< its plates are of before
+  void add(StepContext& c) override;
+  /// Potential at x, J.
+  double energy(const std::vector<Vec3>& x) const override;
+
+private:
+  /// Particles of a plate and what its hinges make of them.
+  struct Stencil {
+    std::vector<int> particle;   // n
+    Eigen::MatrixXd coefficient; // m by n: q from the positions
+    Eigen::MatrixXd stiffness;   // n by n: of one coordinate
+    std::vector<int> slot;       // of pairs a < b, row by row; with a plate of its own alone
+  };
+  struct Pair {
+    int i, j; // i < j, or the same
+    double stiffness;
+  };
+  /// q of a hinge with a rest angle, m.
+  double turning(std::size_t hinge, const HingeAngle& angle) const {
+    return angle.defined ? m_signed_length[hinge] * (angle.value - (*m_rest_angle)[hinge]) : 0;
+  }
+  double energy_of_angles(const std::vector<Vec3>& x) const;
+  void add_plate(StepContext& c, std::size_t plate, double damping);
+  void add_angles(StepContext& c, double damping);
+  void add_firmness(StepContext& c, std::size_t hinge, const HingeAngle& angle, double damping);
+  bool is_constant(std::size_t plate) const { return m_plates[plate].soft_share <= 0; }
+
+  const ClothMesh& m_mesh;
+  std::vector<BendingPlate> m_plates;
+  std::vector<Stencil> m_stencils;
+  std::vector<Pair> m_pairs; // the sum of all plates whose stiffness is constant
+  std::vector<int> m_pair_slots;
+  std::vector<HingeSlots> m_hinge_slots; // with rest angles
+  std::optional<std::vector<double>> m_rest_angle;
+  std::vector<double>
+      m_signed_length; // by hinge: |e|, negative where 0 -> 1 runs against triangle 0
+};
+
+} // namespace sloper::cloth

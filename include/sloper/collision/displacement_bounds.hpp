@@ -1,0 +1,47 @@
+#pragma once
+/// A uniform grid of bounds of the skin's displacement: a query near the hip can ignore the large
+/// displacement of a moving hand.
+///
+/// Each cube keeps the bounds of the displacements of all triangles whose bounding boxes meet it.
+/// Test: tests/collision/test_displacement_bounds.cpp
+#include <sloper/geometry/triangle_mesh.hpp>
+
+namespace sloper::collision {
+
+class DisplacementBounds {
+public:
+  /// Forgets what was. Cost: O(#F) and the cubes of the region, of which there are no more than
+  /// 2^17; allocates only to grow.
+  /// @param way  #V by 3, m   @param region  skin that does not meet it is left out   @param radius
+  /// that will be asked for, about: cost only
+  void build(const TriangleMesh& skin, const std::vector<Vec3>& way, const Box3& region,
+             double radius);
+  const Box3& all() const {
+    return m_all;
+  } ///< the ways of all skin in the region, m; empty without any
+  /// The largest |way - carry| of a box of ways; 0 where it is empty.
+  static double farthest(const Box3& ways, const Vec3& carry);
+  /// An upper bound of |way - carry| over all skin in the region that comes nearer to `place` than
+  /// `radius`, from where it is at first; 0 without any. Cost: O(1) at the radius that was told
+  double max_relative_displacement(const Vec3& carry, const Vec3& place, double radius) const;
+
+  static constexpr double CELL =
+      0.03; ///< m, edge of a cube, or half the radius; more where the region is wide
+
+private:
+  std::array<int, 3> cube_of(const Vec3& place) const; ///< the nearest one of the region
+  Box3& at(int i, int j, int k) {
+    return m_cube[static_cast<std::size_t>((i * m_n[1] + j) * m_n[2] + k)];
+  }
+  const Box3& at(int i, int j, int k) const {
+    return m_cube[static_cast<std::size_t>((i * m_n[1] + j) * m_n[2] + k)];
+  }
+
+  Box3 m_all; ///< of ways, m
+  Vec3 m_low = Vec3::Zero();
+  double m_cell = CELL;
+  std::array<int, 3> m_n{0, 0, 0};
+  std::vector<Box3> m_cube; ///< of ways
+};
+
+} // namespace sloper::collision

@@ -1,0 +1,62 @@
+#pragma once
+/// A fabric's bending rigidity from cheap tests: lengths that hang over an edge, and how a round
+/// specimen drapes over a disc.
+#include <sloper/base/progress.hpp>
+#include <sloper/garment/drapemeter/drapemeter.hpp>
+#include <sloper/garment/garment.hpp>
+#include <sloper/io/json_fwd.hpp>
+
+#include <array>
+#include <optional>
+
+namespace sloper::garment {
+
+/// What was measured. Anything may be missing, but not all.
+struct FabricTests {
+  Material base; ///< weight, stretch and shear, and what else is not fitted
+  /// Lengths that hang over an edge until their end lies 41.5 degrees below it, along warp, weft
+  /// and bias, m; several of one direction are repetitions.
+  std::array<std::vector<double>, 3> overhang_m;
+  std::vector<double> coefficient; ///< drape coefficients of repetitions, 0..1
+  std::vector<int> folds;          ///< of repetitions
+  double length_error_m = 0.002;   ///< standard error of one overhang by a ruler
+  double coefficient_error = 0.03; ///< of one drape, where there are too few to tell
+  double shear_error = 0.3;        ///< relative error of the base's shear; 0 where it was measured
+  DrapemeterSetup setup;
+};
+
+struct FittedValue {
+  double value = 0, sd = 0; ///< N m
+};
+
+struct MaterialFit {
+  Material material;                                       ///< the base with the bending found
+  std::optional<FittedValue> from_drape;                   ///< mean of warp and weft
+  std::array<std::optional<FittedValue>, 3> from_overhang; ///< warp, weft, bias
+  std::optional<FittedValue> mean;      ///< what the material got; none: the data cannot tell
+  std::vector<std::string> cannot_tell; ///< what, and why
+  std::string
+      contradiction; ///< of overhang and drape; empty: there is none. Then the overhang counts
+  double coefficient = 0, coefficient_sd = 0; ///< of the model at the result, of one drape
+  double folds = 0;                           ///< mean of the model at the result
+  int simulations = 0;
+};
+
+/// Overhangs: B = W g (L / 2)^3 (Peirce 1930; BS 3356). Drapes: the logarithm of B at which the
+/// mean of simulated drapes has the measured mean coefficient, by regression over drapes around it;
+/// its error is that of the measured mean, of the model's and of shear that was not measured, over
+/// the slope of the coefficient. Both together: weighted by their errors; the ratios of the
+/// directions are the overhangs'.
+///
+/// The data cannot tell where the coefficient hardly changes with the rigidity: cloth that hangs
+/// straight down or stands straight out; where errors come to a factor of two; where overhang and
+/// drape contradict each other by three times their errors.
+/// The same bytes for any number of threads. At most 60 CPU seconds (36 drapes at 9 mm), 100 MB.
+/// @throws Error INPUT for values that nothing can have
+MaterialFit fit_material(const FabricTests& tests, Reporter& reporter);
+
+/// The document "material" with what is known of its errors in "fit".
+io::Json material_fit_json(const MaterialFit& fit, const FabricTests& tests,
+                           const std::string& tool);
+
+} // namespace sloper::garment

@@ -1,0 +1,52 @@
+#pragma once
+/// One phase of a drape: sew, inflate, settle, move.
+#include <sloper/garment/simulate/context.hpp>
+
+namespace sloper::garment {
+
+enum class DrapePhase {
+  START,
+  SEW,
+  INFLATE,
+  SETTLE,
+  MOVE,
+};
+
+enum class PhaseStatus {
+  CONTINUE,
+  DONE, ///< on to the next phase
+  STOP, ///< the drape has ended
+};
+
+class Phase {
+public:
+  virtual ~Phase() = default;
+  virtual DrapePhase id() const = 0;
+  /// As report.json's `phases` names it; empty for a phase that keeps its time itself.
+  virtual const char* name() const = 0;
+  /// Whether there is anything to do.
+  virtual bool is_needed(const SimContext& context) const = 0;
+  /// @param resumed  it goes on from a checkpoint, with its state restored
+  virtual void begin(SimContext& context, bool resumed) = 0;
+  /// One step, or what belongs to one.
+  virtual PhaseStatus step(SimContext& context) = 0;
+  /// Also where the drape has ended.
+  virtual void end(SimContext& /*context*/) {}
+
+  /// How the cloth is built in this phase: with open seams; with weight and friction; with the
+  /// velocity that it had.
+  virtual bool has_open_seams() const { return false; }
+  virtual bool is_loaded(const SimContext& /*context*/) const { return false; }
+  virtual bool keeps_velocity() const { return false; }
+};
+
+/// Builds the cloth anew in the middle of a phase, as a run that goes on from a checkpoint does.
+/// @param contact  what body contact remembers
+inline void rebuild(SimContext& context, const Phase& phase,
+                    const cloth::BodyContactEffect::Memory& contact, bool keep_velocity) {
+  context.build_cloth(phase.has_open_seams(), keep_velocity);
+  if (phase.is_loaded(context)) context.cloth.add_load();
+  if (context.cloth.body_contact()) context.cloth.body_contact()->recall(contact);
+}
+
+} // namespace sloper::garment

@@ -1,0 +1,73 @@
+#pragma once
+/// Brings the sewn garment to rest.
+///
+/// A garment whose start is strained first relaxes free of weight and friction, which would keep
+/// that strain. Then each step must lower the energy; cloth that still drifts is let go with its
+/// inertia for a while. What stays through the skin or crosses itself is resolved on the way.
+#include <sloper/garment/simulate/phases/phase.hpp>
+#include <sloper/io/json_fwd.hpp>
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace sloper::garment {
+
+class SettlePhase : public Phase {
+public:
+  /// What a checkpoint keeps.
+  struct State {
+    int step = 0;    ///< the next one
+    double h = 0;    ///< s
+    int calm = 0;    ///< steps within the tolerances of rest, one after the other
+    int unmoved = 0; ///< steps in which nothing moved, one after the other
+    int pushed = 0;  ///< steps at rest in which contact pushed what is through the skin
+    int best_residual_step = 0;
+    double best_residual = std::numeric_limits<double>::infinity(); ///< weights
+    std::vector<double> start_height;                               ///< #P, m, where settling began
+    std::optional<double> release_height_m; ///< mean height at the last release of particles that a
+                                            ///< line search blocked
+    int probe_step = 0;                     ///< when drift was last looked at
+    std::vector<Vec3> probe_position;       ///< #P by 3, m, some steps before the next look
+    int dynamic_steps = 0;                  ///< still to go with inertia
+    std::vector<Vec3> velocity; ///< #P by 3, m/s; only in a checkpoint taken within those
+
+    void write(io::Json& state) const;
+    /// @throws Error INPUT, where lists do not belong to the garment too
+    static State read(const io::Node& state, std::size_t n_particles);
+  };
+
+  DrapePhase id() const override { return DrapePhase::SETTLE; }
+  const char* name() const override { return "settle"; }
+  bool is_needed(const SimContext&) const override { return true; }
+  void begin(SimContext& context, bool resumed) override;
+  PhaseStatus step(SimContext& context) override;
+  void end(SimContext& context) override;
+  bool is_loaded(const SimContext& context) const override;
+  bool keeps_velocity() const override { return m_state.dynamic_steps > 0; }
+
+  const State& state() const { return m_state; }
+  void restore(State state) { m_state = std::move(state); }
+  /// Before it settles once more after a motion.
+  void forget_progress();
+
+private:
+  PhaseStatus iterate(SimContext& context);
+  void prepare_step(SimContext& context);
+  void look_for_drift(SimContext& context);
+  void end_dynamic_step(SimContext& context);
+  void adapt_step(SimContext& context);
+  bool has_stalled(SimContext& context);
+  bool release_blocked(SimContext& context);
+  void judge_fit(SimContext& context);
+  bool resolve_leftovers(SimContext& context);
+  PhaseStatus conclude(SimContext& context);
+  void let_arms_hang(SimContext& context);
+  void drop_coarse_proxy(SimContext& context);
+  void restart_calm(SimContext& context);
+  int unloaded_steps(const SimContext& context) const;
+
+  State m_state;
+};
+
+} // namespace sloper::garment

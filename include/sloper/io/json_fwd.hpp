@@ -1,0 +1,93 @@
+#pragma once
+/// JSON documents: strict reading, deterministic writing, the envelope {"format", "version",
+/// "generator", "length_unit"}. For headers, and for sources that only pass documents on; what
+/// looks into a Json includes <io/json.hpp>, which is dear to compile.
+#include <initializer_list>
+#include <nlohmann/json_fwd.hpp>
+#include <sloper/base/error.hpp>
+#include <sloper/geometry/types.hpp>
+#include <string>
+
+namespace sloper::io {
+
+using Json = nlohmann::ordered_json; ///< keys stay in the order in which they were written
+
+/// Reads a JSON file, or standard input for "-". Refuses duplicate keys, NaN, trailing bytes.
+/// @throws Error INPUT with file, line and fact.
+Json read_json(const std::string& path);
+Json parse_json(const std::string& text, const std::string& name);
+
+/// Reads a document and checks its envelope. A newer version than `newest` is refused, older ones
+/// are returned as they are.
+/// @throws Error INPUT
+Json read_document(const std::string& path, const std::string& format, int newest);
+/// The same of a document that was read. @param path  for messages
+void check_envelope(const Json& document, const std::string& path, const std::string& format,
+                    int newest);
+
+/// {"format", "version", "generator", "length_unit": "m"}, to be filled.
+Json new_document(const std::string& format, int version, const std::string& tool);
+
+/// Text of a document: two-space indent, arrays of plain numbers on one line, shortest round-trip
+/// numbers, final newline.
+/// @throws Error INTERNAL when a number is not finite.
+std::string to_text(const Json& document);
+
+/// Writes to a temporary file beside `path` and renames; "-" is standard output. @throws Error
+/// OUTPUT
+void write_json(const std::string& path, const Json& document);
+
+/// A value inside a document that knows its file and place, so that every complaint names both.
+class Node {
+public:
+  Node(const Json& value, std::string file, std::string pointer = {})
+      : m_value(&value), m_file(std::move(file)), m_pointer(std::move(pointer)) {}
+  Node at(const std::string& key) const; ///< @throws Error INPUT when absent
+  Node at(std::size_t index) const;
+  bool has(const std::string& key) const;
+  std::size_t size() const;
+  bool is_array() const;
+  bool is_object() const;
+  bool is_string() const;
+  bool is_number() const;
+  bool is_null() const;
+  double number() const; ///< finite
+  double number(const std::string& key, double fallback) const;
+  int integer() const;
+  int integer(const std::string& key, int fallback) const;
+  bool boolean() const;
+  bool boolean(const std::string& key, bool fallback) const;
+  std::string string() const;
+  std::string string(const std::string& key, const std::string& fallback) const;
+  Vec2 vec2() const;
+  Vec3 vec3() const;
+  std::vector<std::string> keys() const;
+  /// For documents that people write: any other key is an error with a suggestion.
+  void allow_only(std::initializer_list<const char*> keys) const;
+  [[noreturn]] void fail(const std::string& fact, const std::string& next_step = {}) const;
+  const Json& json() const { return *m_value; }
+  const std::string& pointer() const { return m_pointer; }
+  const std::string& file() const { return m_file; }
+
+private:
+  const Json* m_value;
+  std::string m_file, m_pointer;
+};
+
+Json to_json(const Vec2& v);
+Json to_json(const Vec3& v);
+
+/// Path of the OBJ that goes with a document: `.json` replaced by `.obj` (appended when there is no
+/// `.json`).
+std::string mesh_path_beside(const std::string& document_path);
+/// File name without its folder.
+std::string file_name(const std::string& path);
+/// ".png" of out.PNG; empty where there is none.
+std::string ending_of(const std::string& path);
+/// `name` resolved beside the document at `document_path`.
+std::string path_beside(const std::string& document_path, const std::string& name);
+/// Path of the file that a document names, beside the document. @throws Error INPUT at the name
+/// when it is not there
+std::string file_beside(const Node& name);
+
+} // namespace sloper::io

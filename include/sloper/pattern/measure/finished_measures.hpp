@@ -1,0 +1,56 @@
+#pragma once
+/// What a tailor measures on the finished garment, taken from the flat pattern: no body, no drape.
+#include <sloper/io/json_fwd.hpp>
+#include <sloper/pattern/panel_mesh.hpp>
+#include <sloper/pattern/pattern.hpp>
+
+namespace sloper::pattern {
+
+/// An opening of the sewn garment: a hem, a waist, a neckline, an armhole without its sleeve.
+struct Opening {
+  std::vector<std::string> edges;      ///< "front: hem", in the order of the panels
+  double length = 0;                   ///< m, around
+  std::vector<std::array<int, 2>> rim; ///< sides of triangles of the mesh that it was measured on
+};
+
+/// A measure as a tailor names it.
+struct NamedMeasure {
+  std::string name;
+  double value = 0; ///< m
+  std::string how;  ///< where it was taken
+};
+
+struct FinishedMeasures {
+  std::vector<NamedMeasure>
+      named; ///< what the garment has of them, in this order: see measure_trunk()
+  std::vector<Opening> openings;                     ///< longest first
+  std::vector<std::pair<std::string, double>> seams; ///< name, m: the mean of both sides
+  std::vector<std::array<double, 2>> around; ///< m below the garment's top along the cloth, m of
+                                             ///< cloth around the trunk there, every 5 cm
+  double cloth_m2 = 0;
+};
+
+/// @throws Error INPUT for a pattern that cannot be meshed. Cost: one coarse mesh.
+FinishedMeasures finished_measures(const Pattern& pattern, const std::string& file);
+
+struct TrunkMeasures {
+  std::vector<NamedMeasure> named;
+  std::vector<std::array<double, 2>> around; ///< as in FinishedMeasures
+};
+
+/// What hangs on shoulders has shoulder, chest (2.5 cm below the armholes), waist (narrowest from
+/// 10 to 25 cm below the chest), hip (widest from 15 to 25 cm below the waist), length (highest
+/// point to hem), side_seam, neck (the collar's seam, or the neckline); sleeves have sleeve
+/// (length), upper_arm (2.5 cm below the sleeve's seam) and cuff. What hangs on the waist has waist
+/// (the top), hip (widest from 15 to 25 cm below, of trousers at most to 7.5 cm above the crotch),
+/// length, side_seam (without a waistband); trousers have rise (front), inseam, thigh (2.5 cm below
+/// the crotch) and leg_hem. hem is the lowest opening. Seams count as a whole, on however many
+/// edges and panels they are drawn; levels run through seams and darts, and one that does not go
+/// around, as below a bodice's shorter front, is no girth.
+TrunkMeasures measure_trunk(const Pattern& pattern, const PanelMesh& mesh,
+                            const std::vector<Opening>& openings);
+
+/// For the findings document: {"named", "openings", "seams", "around", "cloth_m2"}, m.
+io::Json measures_json(const FinishedMeasures& measures);
+
+} // namespace sloper::pattern

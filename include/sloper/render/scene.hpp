@@ -1,0 +1,83 @@
+#pragma once
+/// What is drawn: meshes with a colour per vertex, collected from documents and OBJ files.
+#include <optional>
+#include <sloper/body/body.hpp>
+#include <sloper/garment/garment.hpp>
+#include <string>
+
+namespace sloper::render {
+
+/// How far inside a panel a vertex is counted as near a border; distances are clamped to it.
+inline constexpr double BORDER_REACH = 0.02; // m
+/// A map value where the map says nothing.
+inline constexpr double NO_VALUE = -1e9;
+
+/// Surfaces to be drawn; vertices of different panels are not shared, so that panels keep sharp
+/// colours.
+struct DrawMesh {
+  std::string name;            ///< of its file, without folder and ending
+  std::vector<Vec3> positions; ///< m
+  /// Cloth that was made smooth: where the vertex lies on the draped triangles, m; else empty.
+  std::vector<Vec3> flat;
+  int pieces = 1; ///< triangles into which each draped triangle was cut; they follow each other
+  std::vector<Vec3> normals; ///< unit; smooth over welded seams
+  std::vector<Vec3> colors;  ///< linear RGB, 0..1
+  std::vector<Triangle> triangles;
+  std::vector<std::array<int, 2>> lines;  ///< borders of panels, drawn darker
+  std::vector<char> is_hem;               ///< by line: a free border, not a seam
+  bool is_cloth = false, is_flat = false; ///< flat: drawn unlit
+  bool is_closed = false; ///< a body without a hole, seen from outside: its far side never shows
+  // Cloth only; empty elsewhere.
+  std::vector<Vec2> uv; ///< m, across and along the warp: the fabric's pattern lies on it
+  std::vector<double> seam,
+      hem; ///< m, pattern distance to the nearest sewn and free border, at most BORDER_REACH
+  std::vector<double> values;      ///< of the map, in its unit; NO_VALUE or empty: none
+  std::vector<int> panel_of;       ///< by vertex
+  std::vector<std::string> panels; ///< their names
+  double thickness = 0;            ///< m
+};
+
+/// Whether each edge is walked as often one way as the other by the triangles beside it, and these
+/// look outwards. Cost: O(#F).
+bool is_closed(const TriangleMesh& mesh);
+
+struct Scene {
+  std::optional<body::Body> body;
+  std::vector<garment::Garment> garments;
+  std::vector<int> garment_mesh;  ///< by garment: its mesh
+  int body_mesh = -1;             ///< of `body`
+  bool draped = false;            ///< there is a garment, not only panels
+  std::vector<DrawMesh> meshes;   ///< in the order of the documents
+  std::vector<std::string> names; ///< file names, for the PNG's text chunk
+  std::vector<std::string>
+      findings; ///< garments that hang on another body than the one beside them
+};
+
+/// Reads body.json, shirt.json, panels.json (by their "format") and bare OBJ, PLY or STL files (in
+/// metres). @throws Error INPUT
+Scene read_scene(const std::vector<std::string>& paths);
+
+/// A garment as it is drawn: one vertex per panel vertex, normals over welded seams.
+DrawMesh cloth_mesh(const garment::Garment& garment);
+
+/// Makes the cloth among the meshes smooth for drawing: triangles are cut in four along curved
+/// patches (Phong tessellation, Boubekeur and Alexa 2008) until edges are finer than about 6 mm or
+/// a mesh has 200,000 triangles; free borders get a rim as thick as the fabric. What a mesh holds
+/// per vertex is interpolated linearly; border distances are measured anew.
+///
+/// The smooth surface passes neither through a mesh that is no cloth nor through cloth, where the
+/// draped triangles do not: it lies nearer to those there (see ClothClearance).
+void smooth_cloth(std::vector<DrawMesh>& meshes);
+
+/// How cloth is coloured: each panel its own colour, or each garment one.
+enum class ClothColors { PANELS, GARMENTS };
+/// @param colors  0xRRGGBB by garment; those that are missing come from the fabric (denim, silk,
+/// wool, jersey, canvas), once each, or a palette
+void color_cloth(Scene& scene, ClothColors how, const std::vector<int>& colors = {});
+
+/// 0xRRGGBB to linear light.
+Vec3 linear_color(int hex);
+/// Muted panel colours that differ for colour-blind eyes too (after Okabe and Ito 2008, softened).
+Vec3 panel_color(int k);
+
+} // namespace sloper::render

@@ -1,4 +1,0 @@
-#pragma once
-/// <io/json_fwd.hpp> with the definition of Json.
-#include <io/json_fwd.hpp>
-#include <nlohmann/json.hpp>
