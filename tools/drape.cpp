@@ -163,8 +163,8 @@ void set_knobs(garment::DrapeSettings& settings, const Options& o, const garment
 bool has_goal(const Options& o, const garment::Scene& scene) {
   const bool preset = !o.accuracy.empty() || !scene.accuracy.empty() || !o.checkpoint.empty();
   if (o.max_error_mm > 0 && !o.accuracy.empty())
-    throw Error(ErrorKind::USAGE, "", "--max-error-mm", "chooses the preset by itself",
-                "leave --accuracy out");
+    throw Error(ErrorKind::USAGE, "option.conflict"_id, "", "--max-error-mm",
+                "chooses the preset by itself", "leave --accuracy out");
   return o.max_error_mm > 0 || (o.max_seconds > 0 && !preset);
 }
 
@@ -178,7 +178,9 @@ garment::DrapeJob job_of(const cli::Tool& tool, const Options& o, const garment:
   job.adjust = [&o, &scene](garment::DrapeSettings& s) { set_knobs(s, o, scene); };
   job.motion = o.motion;
   if (o.motion_fps > 0) job.motion_fps = o.motion_fps;
-  job.untangle_only = o.untangle_only, job.follow = o.follow, job.frames = o.frames,
+  job.untangle_only = o.untangle_only;
+  job.follow = o.follow;
+  job.frames = o.frames;
   job.edit_log = o.edit_log;
   job.checkpoints = {o.checkpoint, o.checkpoint_steps};
   return job;
@@ -199,23 +201,24 @@ void check_options(const Options& o) {
        {cli::Given{"--jitter", !o.jitter.empty()}, cli::Given{"--spread", !o.spread.empty()},
         cli::Given{"--seed", o.seed != 1}})
     if (with.second && !redrapes.second)
-      throw Error(ErrorKind::USAGE, "", with.first, "the garment is draped once",
-                  "give --redrapes too");
+      throw Error(ErrorKind::USAGE, "option.needs-another"_id, "", with.first,
+                  "the garment is draped once", "give --redrapes too");
   for (const cli::Given& one : {follow, untangle})
     if (one.second && o.from.empty())
-      throw Error(ErrorKind::USAGE, "", one.first, "needs a garment to start from",
-                  "give --from shirt.json");
+      throw Error(ErrorKind::USAGE, "option.needs-another"_id, "", one.first,
+                  "needs a garment to start from", "give --from shirt.json");
   if (o.follow.empty() && !o.edit_log.empty())
-    throw Error(ErrorKind::USAGE, "", "--edit-log", "needs --follow", "give --follow too");
+    throw Error(ErrorKind::USAGE, "option.needs-another"_id, "", "--edit-log", "needs --follow",
+                "give --follow too");
   if (o.follow.empty() && o.motion.empty() && !o.frames.empty())
-    throw Error(ErrorKind::USAGE, "", "--frames", "nothing moves, so there are no frames",
-                "give --follow or --motion too");
+    throw Error(ErrorKind::USAGE, "option.needs-another"_id, "", "--frames",
+                "nothing moves, so there are no frames", "give --follow or --motion too");
 }
 
 /// @param below  garments that will lie below this one
 void check_over_output(const Options& o, std::size_t below) {
   if (!o.over_output.empty() && o.over_output.size() != below)
-    throw Error(ErrorKind::USAGE, "", "--over-output",
+    throw Error(ErrorKind::USAGE, "option.wrong-count"_id, "", "--over-output",
                 "is given " + std::to_string(o.over_output.size()) + " times, --over " +
                     std::to_string(below),
                 "name one file for each garment of --over");
@@ -225,7 +228,7 @@ void check_over_output(const Options& o, std::size_t below) {
 int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment,
               std::vector<garment::Garment>& under, const body::Body& body,
               garment::DrapeOutcome& outcome, const io::Json& inputs,
-              const std::vector<std::string>& findings) {
+              const std::vector<Message>& findings) {
   if (!o.body.empty() && o.motion.empty()) garment::bind_garment(garment, body);
   garment::write_garment(o.output, garment, tool.name());
   for (std::size_t k = 0; k < o.over_output.size(); ++k) {
@@ -235,7 +238,7 @@ int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment,
   io::Json& document = outcome.document;
   const garment::DrapeReport& report = outcome.report;
   if (!o.report.empty()) {
-    document["findings"] = findings;
+    io::put_findings(document, findings);
     document["inputs"] = inputs;
     document["hash"] = {{"strict", garment::strict_hash(garment)},
                         {"quantised_10um", garment::quantised_hash(garment)}};
@@ -243,20 +246,23 @@ int write_out(cli::Tool& tool, const Options& o, garment::Garment& garment,
   }
   if (outcome.refused_lines > 0)
     tool.reporter().warning(
-        std::to_string(outcome.refused_lines) +
-        (outcome.refused_lines == 1 ? " line was not an edit" : " lines were not edits") +
-        " of this pattern and changed nothing");
+        {"drape.edits-refused"_id,
+         std::to_string(outcome.refused_lines) +
+             (outcome.refused_lines == 1 ? " line was not an edit" : " lines were not edits") +
+             " of this pattern and changed nothing"});
   if (document.contains("accuracy") && report.converged &&
       !document["accuracy"]["met"].get<bool>()) {
-    tool.reporter().warning("at rest, but not within --max-error-mm; see \"accuracy\" in the "
-                            "report; the state reached is in " +
-                            o.output);
+    tool.reporter().warning({"drape.error-too-large"_id,
+                             "at rest, but not within --max-error-mm; see \"accuracy\" in the "
+                             "report; the state reached is in " +
+                                 o.output});
     return static_cast<int>(ErrorKind::FAILED);
   }
   if (report.converged) return outcome.refused_lines > 0 ? static_cast<int>(ErrorKind::FAILED) : 0;
-  tool.reporter().warning("not done: " + garment::stop_text(report) + " after " +
-                          std::to_string(report.steps) + " steps; the state reached is in " +
-                          o.output);
+  tool.reporter().warning({"drape.not-at-rest"_id, "not done: " + garment::stop_text(report) +
+                                                       " after " + std::to_string(report.steps) +
+                                                       " steps; the state reached is in " +
+                                                       o.output});
   return static_cast<int>(ErrorKind::FAILED);
 }
 
@@ -279,9 +285,10 @@ garment::DrapeOutcome redrape(cli::Tool& tool, const Options& o, garment::Garmen
   outcome.document = garment::report_json(outcome.report, tool.name());
   outcome.document["redrapes"] = garment::redrape_costs(set);
   if (spread.at_rest < spread.count)
-    tool.reporter().warning(std::to_string(spread.count - spread.at_rest) + " of " +
-                            std::to_string(spread.count) +
-                            " drapes did not come to rest and do not count");
+    tool.reporter().warning(
+        {"drape.redrapes-not-at-rest"_id, std::to_string(spread.count - spread.at_rest) + " of " +
+                                              std::to_string(spread.count) +
+                                              " drapes did not come to rest and do not count"});
   return outcome;
 }
 
@@ -307,7 +314,7 @@ int resume(cli::Tool& tool, const Options& o) {
                               {"--motion-fps", o.motion_fps > 0}};
   for (const auto& [name, is_given] : given)
     if (is_given)
-      throw Error(ErrorKind::USAGE, "", name,
+      throw Error(ErrorKind::USAGE, "checkpoint.fixes-option"_id, "", name,
                   "cannot be changed when resuming; the checkpoint fixes it", "leave it out");
   const garment::DrapeCheckpoint checkpoint = garment::read_checkpoint(o.from);
   check_over_output(o, checkpoint.layers ? checkpoint.layers->garments.size() - 1 : 0);
@@ -322,7 +329,9 @@ int resume(cli::Tool& tool, const Options& o) {
   }
   if (!o.motion.empty()) inputs.push_back(garment::input_entry(o.motion));
   garment::DrapeJob job;
-  job.tool = tool.name(), job.motion = o.motion, job.frames = o.frames,
+  job.tool = tool.name();
+  job.motion = o.motion;
+  job.frames = o.frames;
   job.checkpoints.file = o.checkpoint;
   garment::DrapeOutcome outcome =
       garment::resume_job(job, checkpoint, garment, under, o.body.empty() ? nullptr : &body,
@@ -338,7 +347,7 @@ int run(cli::Tool& tool, Options& o) {
   if (o.body.empty()) o.body = scene.body;
   if (o.panels.empty()) o.panels = scene.panels;
   if (o.panels.empty() == o.from.empty())
-    throw Error(ErrorKind::USAGE, "", "",
+    throw Error(ErrorKind::USAGE, "drape.not-one-start"_id, "", "",
                 o.from.empty() ? "nothing to drape" : "both --panels and --from are given",
                 "give --panels panels.json or --from shirt.json, which follows an edited pattern "
                 "with --follow edits.jsonl");
@@ -348,17 +357,18 @@ int run(cli::Tool& tool, Options& o) {
                                                          : "standard");
   set_knobs(settings, o, scene);
   if (!o.motion.empty() && o.body.empty())
-    throw Error(ErrorKind::USAGE, "", "--motion", "there is no body to move",
+    throw Error(ErrorKind::USAGE, "drape.no-body"_id, "", "--motion", "there is no body to move",
                 "give --body body.json");
   if (!o.over.empty() && o.body.empty())
-    throw Error(ErrorKind::USAGE, "", "--over", "layers need a body", "give --body body.json");
+    throw Error(ErrorKind::USAGE, "drape.no-body"_id, "", "--over", "layers need a body",
+                "give --body body.json");
 
   garment::Garment garment;
   const std::string& source = o.from.empty() ? o.panels : o.from;
-  if (o.from.empty())
-    garment.panels = pattern::read_panel_mesh(o.panels),
+  if (o.from.empty()) {
+    garment.panels = pattern::read_panel_mesh(o.panels);
     garment.rest_scale = pattern::tape_scales(garment.panels);
-  else garment = garment::read_garment(o.from);
+  } else garment = garment::read_garment(o.from);
   io::Json inputs = io::Json::array({garment::input_entry(source)});
   garment::apply_scene(scene, garment);
   if (!o.material.empty()) garment.materials[""] = garment::material_from(o.material);
@@ -369,17 +379,17 @@ int run(cli::Tool& tool, Options& o) {
   const body::Body body = o.body.empty() ? body::Body{} : read_body(tool, o);
   const std::string skin = o.body.empty() ? "" : body::skin_sha256(o.body);
   const std::optional<double> before = garment::stretch_elsewhere(garment, skin);
-  std::vector<std::string> findings =
+  std::vector<Message> findings =
       garment::start_findings(garment, {source, o.body, skin, !o.from.empty()});
   if (!o.body.empty()) {
     for (std::size_t k = 0; k < layers.size(); ++k)
-      for (const std::string& finding :
+      for (const Message& finding :
            garment::start_findings(layers[k], {o.over[k], o.body, skin, true}))
         findings.push_back(finding);
     garment.body_sha256 = skin;
     inputs.push_back(garment::input_entry(o.body));
   }
-  for (const std::string& finding : findings) tool.reporter().warning(finding);
+  for (const Message& finding : findings) tool.reporter().warning(finding);
   if (!o.motion.empty()) inputs.push_back(garment::input_entry(o.motion));
   for (const std::string& path : o.over) inputs.push_back(garment::input_entry(path));
   garment::DrapeOutcome outcome =

@@ -81,7 +81,8 @@ std::vector<double> numbers(const char* option, const std::vector<std::string>& 
     const char* end = text.data() + text.size();
     const auto read = std::from_chars(text.data(), end, value);
     if (read.ec != std::errc() || read.ptr != end || !std::isfinite(value))
-      throw Error(ErrorKind::USAGE, "", std::string(option) + " " + text, "is not a number");
+      throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", std::string(option) + " " + text,
+                  "is not a number");
     out.push_back(value);
   }
   return out;
@@ -91,7 +92,10 @@ garment::FabricTests tests_of(const Options& o) {
   garment::FabricTests tests;
   tests.base = garment::material_from(o.preset);
   tests.base.density_kg_m2 = 1e-3 * o.weight;
-  if (o.shear > 0) tests.base.shear_n_m = o.shear, tests.shear_error = 0;
+  if (o.shear > 0) {
+    tests.base.shear_n_m = o.shear;
+    tests.shear_error = 0;
+  }
   tests.base.name = o.name;
   if (o.name.empty()) {
     const std::string file = io::file_name(o.output);
@@ -117,8 +121,8 @@ garment::FabricTests tests_of(const Options& o) {
 
 int run(cli::Tool& tool, const Options& o) {
   if (o.disc >= 0.9 * o.specimen)
-    throw Error(ErrorKind::USAGE, "", "--specimen", "hardly hangs over the disc",
-                "give diameters that differ by a tenth and more");
+    throw Error(ErrorKind::USAGE, "drapemeter.hardly-hangs"_id, "", "--specimen",
+                "hardly hangs over the disc", "give diameters that differ by a tenth and more");
   garment::FabricTests tests = tests_of(o);
   const garment::SilhouetteSetup setup{1e-3 * o.disc, 1e-3 * o.specimen, 1e-3 * o.mm_per_pixel};
   for (const std::string& path : o.pictures) {
@@ -131,7 +135,8 @@ int run(cli::Tool& tool, const Options& o) {
   }
   const garment::MaterialFit fit = garment::fit_material(tests, tool.reporter());
   io::write_json(o.output, garment::material_fit_json(fit, tests, tool.name()));
-  for (const std::string& what : fit.cannot_tell) tool.reporter().warning("cannot tell " + what);
+  for (const std::string& what : fit.cannot_tell)
+    tool.reporter().warning({"drapemeter.cannot-tell"_id, "cannot tell " + what});
   if (!o.draw.empty()) {
     const garment::DrapemeterResult drape = garment::drape_specimen(fit.material, tests.setup, 1);
     io::write_png(o.draw,

@@ -77,10 +77,11 @@ void write_pattern(cli::Tool& tool, const pattern::Pattern& source, const std::s
   else if (ends(".dxf")) {
     std::vector<std::string> left_out;
     io::write_file(path, pattern::pattern_dxf(source, left_out));
-    for (const std::string& line : left_out) tool.reporter().warning(line);
+    for (const std::string& line : left_out) tool.reporter().warning({"dxf.not-written"_id, line});
   } else if (ends(".json")) io::write_json(path, pattern::pattern_json(source, tool.name()));
   else
-    throw Error(ErrorKind::USAGE, path, "", "the file name does not end in a pattern format",
+    throw Error(ErrorKind::USAGE, "option.unknown-ending"_id, path, "",
+                "the file name does not end in a pattern format",
                 "name a .json, .dxf or .svg file");
 }
 
@@ -92,17 +93,18 @@ bool guess_seams(cli::Tool& tool, pattern::Pattern& source) {
   for (const pattern::SeamGuess& g : guesses)
     if (g.certain) {
       source.seams.push_back(g.seam);
-      source.findings.push_back("seam " + g.seam.name + " is guessed");
+      source.findings.push_back({"pattern.seam-guessed"_id, "seam " + g.seam.name + " is guessed"});
     }
   const std::vector<std::string> apart = pattern::panels_apart(source);
   if (document["questions"].empty() && !source.seams.empty() && apart.empty()) return true;
   std::cout << io::to_text(document);
-  tool.reporter().warning("the file states no seams: " + std::to_string(source.seams.size()) +
-                          " are guessed, " + std::to_string(document["questions"].size()) +
-                          " questions are open" +
-                          (apart.empty() ? "" : ", nothing is found for " + apart.front()) +
-                          "; answer the questions on standard output and give them "
-                          "as --sewing, or take the pieces --unsewn");
+  tool.reporter().warning({"pattern.seams-guessed"_id,
+                           "the file states no seams: " + std::to_string(source.seams.size()) +
+                               " are guessed, " + std::to_string(document["questions"].size()) +
+                               " questions are open" +
+                               (apart.empty() ? "" : ", nothing is found for " + apart.front()) +
+                               "; answer the questions on standard output and give them "
+                               "as --sewing, or take the pieces --unsewn"});
   return false;
 }
 
@@ -130,8 +132,8 @@ int run(cli::Tool& tool, const Options& o) {
   if (!o.edits.empty()) edits = io::read_json(o.edits);
   if (!o.undo.empty()) {
     if (o.edits.empty())
-      throw Error(ErrorKind::USAGE, o.undo, "", "no edits to take back were given",
-                  "give --edits too");
+      throw Error(ErrorKind::USAGE, "option.needs-another"_id, o.undo, "",
+                  "no edits to take back were given", "give --edits too");
     io::write_json(o.undo, pattern::inverse_edits(source, edits, o.edits, tool.name()));
   }
   if (o.check ||
@@ -140,11 +142,13 @@ int run(cli::Tool& tool, const Options& o) {
     if (!o.write_pattern.empty()) write_pattern(tool, source, o.write_pattern);
     return o.check ? check(tool, source, o) : 0;
   }
-  if (source.seams.empty() && source.source_format == "dxf" && source.panels.size() > 1 &&
-      !o.unsewn && !guess_seams(tool, source))
+  const bool may_lack_seams = source.source_format == "dxf" || source.source_format == "clo";
+  if (source.seams.empty() && may_lack_seams && source.panels.size() > 1 && !o.unsewn &&
+      !guess_seams(tool, source))
     return 1;
   if (o.output.empty())
-    throw Error(ErrorKind::USAGE, "", "", "--output is missing", "for example -o panels.json");
+    throw Error(ErrorKind::USAGE, "option.missing"_id, "", "", "--output is missing",
+                "for example -o panels.json");
   pattern::require_sewable(source, o.pattern);
   pattern::PanelMesh mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern, o.seam_length);
   if (!o.edits.empty()) {
@@ -153,14 +157,15 @@ int run(cli::Tool& tool, const Options& o) {
     pattern::require_sewable(source, o.pattern);
     if (!pattern::follow_edits(before, source, mesh, LEAST_ANGLE)) {
       mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern, o.seam_length);
-      mesh.findings.push_back("the edits need another mesh: vertex ids are new");
+      mesh.findings.push_back(
+          {"mesh.made-anew"_id, "the edits need another mesh: vertex ids are new"});
       tool.reporter().warning(mesh.findings.back());
     }
   }
   if (!o.write_pattern.empty()) write_pattern(tool, source, o.write_pattern);
   for (const pattern::PatternFinding& f : pattern::check_pattern(source)) {
     if (f.severity != "error") continue; // of those that can be sewn nevertheless
-    mesh.findings.push_back(f.place + ": " + f.fact);
+    mesh.findings.push_back({"pattern.sewn-despite-fault"_id, f.place + ": " + f.fact});
     tool.reporter().warning(mesh.findings.back());
   }
   std::vector<std::string> impossible;
@@ -169,21 +174,24 @@ int run(cli::Tool& tool, const Options& o) {
     mesh.body_sha256 = body::skin_sha256(o.body);
     const pattern::PlacementReport r = pattern::place_panels(source, body::read_body(o.body), mesh);
     if (r.crossings + r.vertices_inside + r.faces_through > 0)
-      tool.reporter().warning("the start is not free: " + std::to_string(r.crossings) +
-                              " pairs of triangles cross, " + std::to_string(r.vertices_inside) +
-                              " vertices lie in the body, " + std::to_string(r.faces_through) +
-                              " faces go through its skin");
+      tool.reporter().warning(
+          {"placement.not-free"_id,
+           "the start is not free: " + std::to_string(r.crossings) + " pairs of triangles cross, " +
+               std::to_string(r.vertices_inside) + " vertices lie in the body, " +
+               std::to_string(r.faces_through) + " faces go through its skin"});
     if (r.is_guess) tool.reporter().warning(mesh.findings.back());
     impossible = r.impossible;
-    mesh.findings.insert(mesh.findings.end(), impossible.begin(), impossible.end());
+    for (const std::string& fact : impossible)
+      mesh.findings.push_back({"placement.impossible"_id, fact});
     tool.reporter().info("seam gap at the start: mean " + pattern::centimetres(r.seam_gap_mean) +
                          ", largest " + pattern::centimetres(r.seam_gap_max));
   }
-  for (const std::string& finding : mesh.findings) tool.reporter().info(finding);
+  for (const Message& finding : mesh.findings) tool.reporter().info(finding.text);
   pattern::write_panel_mesh(o.output, mesh, tool.name());
   if (!impossible.empty())
     throw Error(
-        ErrorKind::FAILED, o.pattern, "", "the panels cannot start so: " + impossible.front(),
+        ErrorKind::FAILED, "placement.impossible"_id, o.pattern, "",
+        "the panels cannot start so: " + impossible.front(),
         "name the pieces for what they are, or say where they go with a hint (\"place\"); " +
             o.output + " shows where they lie");
   return 0;
@@ -195,7 +203,9 @@ int main(int argc, char** argv) {
   cli::Tool tool("pattern-mesh", "Mesh a sewing pattern and place its panels around a body");
   Options o;
   tool.option("PATTERN", o.pattern,
-              "pattern JSON, GarmentCode specification, sewing-spec JSON or AAMA / ASTM DXF")
+              "pattern JSON, GarmentCode specification, sewing-spec JSON, pattern JSON of CLO or "
+              "AAMA / "
+              "ASTM DXF")
       .required()
       .check(cli::input_file());
   tool.option("--edge-length", o.edge_length, "length of mesh edges, m (default: 0.015)")

@@ -133,7 +133,7 @@ void add_options(cli::Tool& tool, Options& o) {
 
 int run_compare(const Options& o) {
   if (o.documents.size() != 2)
-    throw Error(ErrorKind::USAGE, "", "--compare", "needs two PNG files");
+    throw Error(ErrorKind::USAGE, "option.wrong-count"_id, "", "--compare", "needs two PNG files");
   io::Image mask;
   if (!o.mask.empty()) mask = io::read_png(o.mask);
   const render::Comparison c = render::compare(
@@ -162,7 +162,8 @@ int run_sheet(const Options& o) {
 /// An option that would be passed over is refused with what it goes with.
 void needs(const char* name, const std::optional<cli::Option>& option, bool there, const char* fact,
            const char* next) {
-  if (option->given() && !there) throw Error(ErrorKind::USAGE, "", name, fact, next);
+  if (option->given() && !there)
+    throw Error(ErrorKind::USAGE, "option.needs-another"_id, "", name, fact, next);
 }
 
 /// Names that promise something else than what would be written are refused.
@@ -170,20 +171,20 @@ void check_output(const std::string& path) {
   const std::string ending = io::ending_of(path);
   if (ending.empty() || path.rfind("/dev/", 0) == 0 || render::is_export(path)) return;
   if (ending != ".png")
-    throw Error(ErrorKind::USAGE, "", "-o " + path, "is no kind of file that can be written",
-                "end it in .png, .glb, .obj or .ply");
+    throw Error(ErrorKind::USAGE, "option.unknown-ending"_id, "", "-o " + path,
+                "is no kind of file that can be written", "end it in .png, .glb, .obj or .ply");
 }
 
 /// What --values asks for; refused before anything is drawn.
 bool wants_ply(const Options& o) {
   if (o.values.empty()) return false;
   if (o.map == "none" || o.map == "parts")
-    throw Error(ErrorKind::USAGE, "", "--values", "needs a map with numbers",
-                "for example --map strain");
+    throw Error(ErrorKind::USAGE, "option.needs-another"_id, "", "--values",
+                "needs a map with numbers", "for example --map strain");
   const std::string ending = io::ending_of(o.values);
   if (ending == ".ply") return true;
   if (ending == ".csv" || o.values == "-" || o.values.rfind("/dev/", 0) == 0) return false;
-  throw Error(ErrorKind::USAGE, "", "--values " + o.values,
+  throw Error(ErrorKind::USAGE, "option.unknown-ending"_id, "", "--values " + o.values,
               "is no kind of file that can be written", "end it in .csv or .ply");
 }
 
@@ -236,21 +237,22 @@ int run_render(cli::Tool& tool, const Options& o) {
   check_output(o.output);
   const bool values_as_ply = wants_ply(o);
   if (o.as == "files" && (o.output == "-" || o.output.rfind("/dev/", 0) == 0))
-    throw Error(ErrorKind::USAGE, "", "--as files", "needs a file name to number",
-                "for example -o turn.png");
+    throw Error(ErrorKind::USAGE, "option.needs-file-name"_id, "", "--as files",
+                "needs a file name to number", "for example -o turn.png");
   render::DrawOptions options = drawing_options(o);
   auto views = views_of(o);
   const render::Show show = render::parse_show(o.show);
   const std::vector<int> colors = render::parse_colors(o.colors);
   const auto& maps = render::map_names();
   render::Scene scene = render::read_scene(o.documents);
-  for (const std::string& finding : scene.findings) tool.reporter().warning(finding);
+  for (const Message& finding : scene.findings) tool.reporter().warning(finding);
   const render::Legend legend = render::apply_map(
       scene, static_cast<render::Map>(std::find(maps.begin(), maps.end(), o.map) - maps.begin()),
       o.range);
   if (scene.garment_mesh.empty() && (o.fabric != "auto" || !o.colors.empty()))
     tool.reporter().warning(
-        "--fabric and --color are for garments and panels, and none of the documents is one");
+        {"render.no-cloth-to-color"_id,
+         "--fabric and --color are for garments and panels, and none of the documents is one"});
   render::color_cloth(scene, render::choose_fabric(o.fabric, !o.colors.empty(), scene, options),
                       colors);
   options.map_colors = legend.steps;
@@ -285,7 +287,8 @@ int run_render(cli::Tool& tool, const Options& o) {
   if (o.as != "files") render::check_pixels({options.width, options.height}, views.size());
   for (const auto& view : views) {
     if (tool.reporter().stop_requested())
-      throw Error(ErrorKind::FAILED, o.output, "", "stopped by the user; nothing is written");
+      throw Error(ErrorKind::FAILED, "general.stopped"_id, o.output, "",
+                  "stopped by the user; nothing is written");
     tool.reporter().progress("draw", static_cast<double>(drawn + images.size()) /
                                          static_cast<double>(views.size()));
     if (!view) {
@@ -331,7 +334,8 @@ int main(int argc, char** argv) {
           "ask for several views, or give --sheet");
     if (options.compare) return run_compare(options);
     if (options.output.empty())
-      throw Error(ErrorKind::USAGE, "", "", "--output is missing", "for example -o shirt.png");
+      throw Error(ErrorKind::USAGE, "option.missing"_id, "", "", "--output is missing",
+                  "for example -o shirt.png");
     return options.sheet ? run_sheet(options) : run_render(tool, options);
   });
 }

@@ -6,13 +6,18 @@
 #include <sloper/garment/drape/drape.hpp>
 #include <sloper/garment/fit/fit.hpp>
 #include <sloper/garment/fit/stretch.hpp>
+#include <sloper/garment/fit/worn_policy.hpp>
 #include <sloper/garment/garment_json.hpp>
+#include <sloper/garment/ingest/mesh_garment.hpp>
 #include <sloper/garment/inputs.hpp>
+#include <sloper/garment/materials.hpp>
+#include <sloper/garment/retarget/nearest_size.hpp>
 #include <sloper/garment/retarget/retarget.hpp>
 #include <sloper/garment/retarget/retarget_pattern.hpp>
 #include <sloper/garment/scene/scene.hpp>
 #include <sloper/io/files.hpp>
 #include <sloper/io/json.hpp>
+#include <sloper/io/mesh_file.hpp>
 #include <sloper/pattern/write/export_pattern.hpp>
 
 using namespace sloper;
@@ -22,17 +27,31 @@ namespace {
 constexpr int MOST_GRADINGS = 4; // with keep-fit, of a garment that comes out too tight
 
 struct Options {
-  std::string garment, to, mode = "keep-fabric", accuracy = "standard", policy, fit, fit_csv,
-                           fit_page, pattern, report, cache, output;
+  std::string garment, from, fabric, to, mode = "keep-fabric", accuracy = "standard", policy, fit,
+                                         fit_csv, fit_page, pattern, report, cache, output;
   std::vector<std::string> set;
   double max_seconds = 0;
-  bool no_drape = false;
+  bool no_drape = false, nearest_size = false;
 };
 
+std::vector<std::string> fabric_names() {
+  std::vector<std::string> names;
+  for (const garment::Material& m : garment::material_presets()) names.push_back(m.name);
+  return names;
+}
+
 void add_options(cli::Tool& tool, Options& o) {
-  tool.option("--garment", o.garment, "shirt.json from drape or retarget-garment")
+  tool.option("--garment", o.garment,
+              "shirt.json from drape or retarget-garment; or a mesh without a pattern (OBJ, PLY, "
+              "GLB), with --from")
       .required()
       .check(cli::input_file());
+  tool.option("--from", o.from, "of a mesh: body.json of the body that wears it in the file")
+      .check(cli::input_file());
+  tool.option("--fabric", o.fabric, "of a mesh: its fabric (default: cotton-poplin)")
+      .check(cli::one_of(fabric_names()));
+  tool.flag("--nearest-size", o.nearest_size,
+            "of NAME@SIZE.json take the size beside it whose own body is nearest to the other one");
   tool.option("--to", o.to, "body.json of the other body, from scan-landmarks")
       .required()
       .check(cli::input_file());
@@ -68,12 +87,17 @@ void add_options(cli::Tool& tool, Options& o) {
               "the same result, sooner")
       .type_name("DIR");
   tool.flag("--no-drape", o.no_drape, "only place the garment by its coordinates, without a drape");
-  tool.option("-o,--output", o.output, "shirt-b.json; shirt-b.obj is written beside it")
+  tool.option("-o,--output", o.output,
+              "shirt-b.json; shirt-b.obj is written beside it. Of a mesh: also shirt-b.mesh.EXT, "
+              "the file on the other body; or NAME.EXT for that alone")
       .required()
-      .check(cli::document_file());
+      .check(cli::document_or_mesh_file());
   tool.example(
       "retarget-garment --garment shirt.json --to other.body.json --fit fit.json -o shirt-b.json",
       "put a shirt on another body and see how it fits");
+  tool.example("retarget-garment --garment shirt.obj --from body.json --to other.body.json -o "
+               "shirt-b.obj",
+               "put a mesh that has no pattern on another body; it comes out as it came in");
   tool.formats("garment, body and fit policy documents (version 1)",
                "garment, fit and report documents (version 1), OBJ");
   tool.example(
@@ -102,8 +126,67 @@ int refuse(cli::Tool& tool, const Options& o, const garment::FitReport& fit) {
   if (fit.state == "placed") written = "; " + o.output + " has it as it was placed, not draped";
   if (fit.state == "not at rest") written = "; " + o.output + " has it as far as the drape came";
   if (fit.state == "not placed") written = "; " + o.output + " is not written";
-  tool.reporter().warning("does not fit: the garment " + fit.reason + written);
+  std::string rule = garment::rule_text(fit.rule, fit.policy);
+  if (!rule.empty()) rule = "; the rule is " + rule + ": --policy FILE says another";
+  tool.reporter().warning(
+      {"retarget.does-not-fit"_id, "does not fit: the garment " + fit.reason + rule + written});
   return o.policy.empty() ? static_cast<int>(ErrorKind::FAILED) : 1;
+}
+
+/// What is put on: a garment, and the mesh file that it was where it has no pattern.
+struct Source {
+  garment::Garment garment;
+  std::optional<garment::MeshGarment> mesh;
+};
+
+Source read_source(cli::Tool& tool, const Options& o) {
+  if (!io::is_mesh_file(o.garment)) {
+    cli::refuse_together({"--garment of a document", true},
+                         {{"--from", !o.from.empty()}, {"--fabric", !o.fabric.empty()}});
+    if (const std::string fault = cli::document_file().fault(o.output); !fault.empty())
+      throw Error(ErrorKind::USAGE, "option.unknown-ending"_id, "", "--output", fault);
+    return {garment::read_garment(o.garment), {}};
+  }
+  if (o.from.empty())
+    throw Error(ErrorKind::USAGE, "option.needs-another"_id, "", "--from",
+                "a mesh does not say which body wears it", "give the body.json of that body");
+  if (io::is_mesh_file(o.output) && io::ending_of(o.output) != io::ending_of(o.garment))
+    throw Error(ErrorKind::USAGE, "option.unknown-ending"_id, "", "--output",
+                "the mesh comes out as it came in, as " + io::ending_of(o.garment),
+                "end the name so, or with .json");
+  body::Body from = body::read_body(o.from);
+  from.skin_cache = std::make_shared<collision::SkinCache>(o.cache, tool.reporter());
+  Source source;
+  source.mesh = garment::read_mesh_garment(
+      o.garment, from, collision::make_collider(from.skin, from.skin_cache.get()),
+      body::skin_sha256(o.from), o.fabric.empty() ? garment::Material().name : o.fabric,
+      tool.reporter());
+  source.garment = source.mesh->garment;
+  for (const Message& finding : source.mesh->findings) tool.reporter().warning(finding);
+  return source;
+}
+
+/// The file of a mesh with its vertices on the other body. @return whether more crosses than before
+bool write_mesh(cli::Tool& tool, const Options& o, const garment::MeshGarment& mesh,
+                const garment::DressedMesh& dressed) {
+  std::string path = o.output;
+  if (!io::is_mesh_file(path))
+    path = path.substr(0, path.size() - (path.ends_with(".json") ? 5 : 0)) + ".mesh" +
+           io::ending_of(o.garment);
+  io::write_file(path, dressed.bytes);
+  for (const std::string& left : io::copy_companions(mesh.file, path))
+    tool.reporter().warning({"import.file-left-out"_id, io::file_name(path) + ": " + left});
+  bool worse = false;
+  const auto compare = [&](int now, int before, const std::string& what) {
+    if (now <= before) return;
+    worse = true;
+    tool.reporter().warning({"import.crosses-more"_id, io::file_name(path) + ": " +
+                                                           std::to_string(now) + what + ", " +
+                                                           std::to_string(before) + " as it came"});
+  };
+  compare(dressed.crossings, mesh.crossings, " pairs of faces cross");
+  compare(dressed.faces_through, mesh.faces_through, " faces go through the body");
+  return worse;
 }
 
 /// The regraded pattern, as DXF beside it, and what changed.
@@ -117,18 +200,18 @@ void write_pattern(cli::Tool& tool, const Options& o, const garment::Garment& re
   io::write_json(o.pattern, pattern::pattern_json(after, tool.name()));
   io::write_file(stem + ".dxf", pattern::pattern_dxf(after, left_out));
   io::write_file(stem + ".csv", garment::grade_table(before, after));
-  for (const std::string& finding : after.findings) tool.reporter().warning(finding);
+  for (const Message& finding : after.findings) tool.reporter().warning(finding);
   for (const std::string& what : left_out)
-    tool.reporter().warning(io::file_name(stem) + ".dxf: " + what);
+    tool.reporter().warning({"dxf.not-written"_id, io::file_name(stem) + ".dxf: " + what});
 }
 
-int run(cli::Tool& tool, const Options& o) {
+int run(cli::Tool& tool, Options o) {
   const garment::RetargetMode mode = garment::retarget_mode_from_name(o.mode);
   if (!o.pattern.empty() && mode != garment::RetargetMode::KEEP_FIT)
-    throw Error(ErrorKind::USAGE, "", "--pattern", "keep-fabric does not change the pattern",
-                "say --mode keep-fit");
+    throw Error(ErrorKind::USAGE, "option.conflict"_id, "", "--pattern",
+                "keep-fabric does not change the pattern", "say --mode keep-fit");
   if (o.pattern == "-")
-    throw Error(ErrorKind::USAGE, "", "--pattern",
+    throw Error(ErrorKind::USAGE, "option.needs-file-name"_id, "", "--pattern",
                 "a regraded pattern is three files and cannot go to standard output",
                 "give a file name");
   garment::DrapeSettings settings = garment::preset_settings(o.accuracy);
@@ -137,25 +220,31 @@ int run(cli::Tool& tool, const Options& o) {
   garment::FitPolicy policy =
       o.policy.empty() ? garment::standard_fit_policy() : garment::read_fit_policy(o.policy);
 
-  const garment::Garment source = garment::read_garment(o.garment);
-  if (o.policy.empty()) { // what it bears on its own body
-    const garment::Stretch worn = garment::stretch_of(source);
-    if (source.converged && worn.p99 <= worn.bound)
-      policy.worn_p99 = worn.p99, policy.worn_max = worn.max;
-  }
-  if (source.bind.empty())
-    throw input_error(o.garment, "/bind", "the garment is not bound to a body",
-                      "drape it with --body first");
   body::Body body = body::read_body(o.to);
   body.skin_cache = std::make_shared<collision::SkinCache>(o.cache, tool.reporter());
+  garment::SizeRanking sizes;
+  if (o.nearest_size) {
+    sizes = garment::rank_sizes(garment::sizes_beside(o.garment), body);
+    o.garment = sizes.sizes.front().file;
+    tool.reporter().info(garment::ranking_text(sizes));
+  }
+  const Source put_on = read_source(tool, o);
+  const garment::Garment& source = put_on.garment;
+  garment::follow_fabric(source, policy);
+  if (source.bind.empty())
+    throw input_error("garment.not-bound"_id, o.garment, "/bind",
+                      "the garment is not bound to a body", "drape it with --body first");
   const std::string skin_hash = body::skin_sha256(o.to);
-  const io::Json inputs = {garment::input_entry(o.garment), garment::input_entry(o.to)};
+  io::Json inputs = {garment::input_entry(o.garment), garment::input_entry(o.to)};
+  if (put_on.mesh) inputs.push_back(garment::input_entry(o.from));
   if (const std::string reason = garment::why_impossible(source, body); !reason.empty()) {
     const garment::FitReport fit = garment::impossible_fit(reason, policy);
     write_fit(o, fit, tool.name(), false, inputs);
     return refuse(tool, o, fit);
   }
   const collision::BodyCollider skin = collision::make_collider(body.skin, body.skin_cache.get());
+
+  if (o.policy.empty()) garment::follow_worn(source, body, skin, skin_hash, policy);
 
   garment::Retargeted placed = garment::retarget(source, body, skin, mode, tool.reporter());
   garment::Garment& garment = placed.garment;
@@ -180,36 +269,54 @@ int run(cli::Tool& tool, const Options& o) {
     const auto& made_for =
         keep_fit ? garment.body_girths_m : source.body_girths_m; // keep-fit cuts it anew
     fit = garment::fit_garment(garment, body, skin, policy, &placed.placed,
-                               garment::misfit_text(report.misfit), made_for);
+                               garment::misfit_text(report.misfit), made_for, &source.position);
     const bool too_tight = !fit.fits && fit.verdict == garment::FitVerdict::TOO_SMALL;
     if (!keep_fit || o.no_drape || !too_tight || placed.report.gradings == MOST_GRADINGS) break;
     if (settings.max_seconds > 0 && (settings.max_seconds -= report.wall_s) <= 0) break;
     tool.reporter().info("the garment " + fit.reason + ": let out there");
     garment::widen_strained_pieces(placed, source, body);
   }
-  garment::write_garment(o.output, garment, tool.name());
+  if (!io::is_mesh_file(o.output)) garment::write_garment(o.output, garment, tool.name());
+  bool worse = false;
+  std::optional<garment::DressedMesh> dressed;
+  if (put_on.mesh) {
+    dressed = garment::dressed_mesh(*put_on.mesh, garment, body, skin);
+    worse = write_mesh(tool, o, *put_on.mesh, *dressed);
+  }
   if (!o.pattern.empty()) write_pattern(tool, o, garment, source);
-  for (const std::string& finding : placed.report.findings) tool.reporter().warning(finding);
+  if (!o.no_drape && !hopeless)
+    if (const auto place = garment::stretched_place(garment::stretch_of(garment)))
+      placed.report.findings.push_back(
+          {"drape.stretched-place"_id,
+           io::file_name(o.garment) + " on " + io::file_name(o.to) + ": " + *place});
+  for (const Message& finding : placed.report.findings) tool.reporter().warning(finding);
   if (const std::string why = garment::why_stuck(garment, body);
-      fit.fits && !o.no_drape && !report.converged && !why.empty())
-    fit.fits = false, fit.verdict = garment::FitVerdict::IMPOSSIBLE, fit.reason = why;
+      fit.fits && !o.no_drape && !report.converged && !why.empty()) {
+    fit.fits = false;
+    fit.verdict = garment::FitVerdict::IMPOSSIBLE;
+    fit.reason = why;
+  }
   if (o.no_drape) fit.state = "placed";
   write_fit(o, fit, tool.name(), report.converged, inputs);
   if (!o.report.empty()) {
     io::Json document = garment::report_json(report, tool.name());
     document["mode"] = o.mode;
     document["placement"] = garment::placement_json(placed.report);
-    document["findings"] = placed.report.findings;
+    io::put_findings(document, placed.report.findings);
+    if (dressed) document["garment_mesh"] = garment::mesh_json(*put_on.mesh, &*dressed);
+    if (o.nearest_size) document["sizes"] = garment::ranking_json(sizes);
     document["inputs"] = inputs;
     document["hash"] = {{"strict", garment::strict_hash(garment)},
                         {"quantised_10um", garment::quantised_hash(garment)}};
     io::write_json(o.report, document);
   }
   if (!o.no_drape && !hopeless && !report.converged && report.misfit == garment::Misfit::NONE)
-    tool.reporter().warning("not done: " + garment::stop_text(report) + " after " +
-                            std::to_string(report.steps) + " steps; the state reached is in " +
-                            o.output);
+    tool.reporter().warning({"drape.not-at-rest"_id, "not done: " + garment::stop_text(report) +
+                                                         " after " + std::to_string(report.steps) +
+                                                         " steps; the state reached is in " +
+                                                         o.output});
   if (!fit.fits && !o.no_drape) return refuse(tool, o, fit);
+  if (worse && !o.no_drape) return static_cast<int>(ErrorKind::FAILED);
   return report.converged || o.no_drape ? 0 : static_cast<int>(ErrorKind::FAILED);
 }
 

@@ -61,20 +61,19 @@ void strike_pose(cli::Tool& tool, const Options& o, body::Body& body) {
 /// a surface that must be closed again.
 void tell_findings(cli::Tool& tool, const body::Body& body) {
   std::size_t n_holes = 0;
-  std::string widest;
+  Message widest{"scan.hole"_id, ""};
   for (const body::Finding& finding : body.scan.findings) {
     if (finding.severity != "warning") continue; // what was not found is told at the end
     const std::string text = finding.place + ": " + finding.what;
     const bool is_hole =
         finding.place[0] == '('; // its place is a point, and they come widest first
-    if (is_hole && n_holes++ == 0) widest = text;
+    if (is_hole && n_holes++ == 0) widest.text = text;
     if (is_hole || finding.place == "body.obj") tool.reporter().info(text);
-    else tool.reporter().warning(text);
+    else tool.reporter().warning(Message::read(finding.id, text));
   }
-  if (n_holes > 0)
-    tool.reporter().warning(widest + (n_holes > 1 ? ", and " + std::to_string(n_holes - 1) +
-                                                        " less wide: scan.findings has them"
-                                                  : ""));
+  if (n_holes > 1)
+    widest.text += ", and " + std::to_string(n_holes - 1) + " less wide: scan.findings has them";
+  if (n_holes > 0) tool.reporter().warning(widest);
 }
 
 int run(cli::Tool& tool, const Options& o) {
@@ -113,13 +112,13 @@ int run(cli::Tool& tool, const Options& o) {
   if (!o.garmentcode.empty()) io::write_file(o.garmentcode, garmentcode);
   if (!o.skeleton.empty()) io::write_file(o.skeleton, body::skeleton_obj(measured.body));
   if (o.explain)
-    for (const std::string& line : measured.trail) std::fprintf(stderr, "%s\n", line.c_str());
+    for (const std::string& line : measured.trail) tool.tell(line);
   tell_findings(tool, measured.body);
   if (!measured.doubts.empty()) {
     std::string doubts;
     for (const body::Finding& doubt : measured.doubts)
       doubts += (doubts.empty() ? "" : "; ") + doubt.place + ": " + doubt.what;
-    throw Error(ErrorKind::FAILED, o.scan, "",
+    throw Error(ErrorKind::FAILED, "scan.not-standing"_id, o.scan, "",
                 "this does not look like a person standing upright: " + doubts,
                 "the result is written to " + o.output +
                     ", with these findings; look at it before you use it");
@@ -127,7 +126,8 @@ int run(cli::Tool& tool, const Options& o) {
   if (measured.missing.empty()) return 0;
   std::string names;
   for (const std::string& name : measured.missing) names += (names.empty() ? "" : ", ") + name;
-  throw Error(ErrorKind::FAILED, o.scan, "", "landmarks not found: " + names,
+  throw Error(ErrorKind::FAILED, "scan.landmark-not-found"_id, o.scan, "",
+              "landmarks not found: " + names,
               "the rest is written to " + o.output + ", marked in scan.findings");
 }
 

@@ -17,13 +17,15 @@ static std::string join(const std::string& file, const std::string& place, const
   return out;
 }
 
-Error::Error(ErrorKind kind, std::string file, std::string place, std::string fact,
+Error::Error(ErrorKind kind, MessageId id, std::string file, std::string place, std::string fact,
              std::string next_step)
-    : std::runtime_error(join(file, place, fact, next_step)), m_kind(kind), m_file(std::move(file)),
-      m_place(std::move(place)), m_fact(std::move(fact)) {}
+    : std::runtime_error(join(file, place, fact, next_step)), m_kind(kind), m_id(id),
+      m_file(std::move(file)), m_place(std::move(place)), m_fact(std::move(fact)),
+      m_next_step(std::move(next_step)) {}
 
-Error input_error(std::string file, std::string place, std::string fact, std::string next_step) {
-  return {ErrorKind::INPUT, std::move(file), std::move(place), std::move(fact),
+Error input_error(MessageId id, std::string file, std::string place, std::string fact,
+                  std::string next_step) {
+  return {ErrorKind::INPUT,    id, std::move(file), std::move(place), std::move(fact),
           std::move(next_step)};
 }
 
@@ -44,7 +46,11 @@ static std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 Error unknown_word(const std::string& option, const std::string& word,
                    const std::vector<std::string>& known, std::string next_step) {
-  return {ErrorKind::USAGE, "", option + " " + word, "is not known" + did_you_mean(word, known),
+  return {ErrorKind::USAGE,
+          "option.unknown-word"_id,
+          "",
+          option + " " + word,
+          "is not known" + did_you_mean(word, known),
           std::move(next_step)};
 }
 

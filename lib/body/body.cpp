@@ -40,8 +40,8 @@ double SkinProfile::at(double theta, double z) const {
 const Vec3& Body::landmark(const std::string& name) const {
   const auto it = landmarks.find(name);
   if (it == landmarks.end())
-    throw input_error(scan.file, "landmarks/" + name, "was not found on this scan",
-                      "see scan.findings of the body document");
+    throw input_error("body.no-landmark"_id, scan.file, "landmarks/" + name,
+                      "was not found on this scan", "see scan.findings of the body document");
   return it->second.p;
 }
 

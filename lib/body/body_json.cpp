@@ -42,9 +42,11 @@ Json document_of(const Body& body, const std::string& tool, const std::string& m
   scan["front"] = body.scan.front;
   scan["stature_m"] = micron(body.scan.stature_m);
   scan["findings"] = Json::array();
-  for (const Finding& finding : body.scan.findings)
+  for (const Finding& finding : body.scan.findings) {
     scan["findings"].push_back(
         {{"severity", finding.severity}, {"what", finding.what}, {"place", finding.place}});
+    if (!finding.id.empty()) scan["findings"].back()["id"] = finding.id;
+  }
   Json matrix = Json::array();
   for (int r = 0; r < 4; ++r) {
     Json row = Json::array();
@@ -109,11 +111,13 @@ SkinProfile read_profile(const io::Node& node) {
   const io::Node radius = node.at("radius");
   if (profile.n_theta < 1 || profile.n_z < 1 || profile.n_theta > 10000 || profile.n_z > 10000 ||
       radius.size() != static_cast<std::size_t>(profile.n_theta) * profile.n_z)
-    node.fail("does not hold n_theta * n_z radii");
-  if (!(profile.z_high > profile.z_low)) node.fail("z_high is not above z_low");
+    node.fail("json.wrong-count"_id, "does not hold n_theta * n_z radii");
+  if (!(profile.z_high > profile.z_low))
+    node.fail("body.bad-frame"_id, "z_high is not above z_low");
   profile.radius.reserve(radius.size());
   for (const Json& r : radius.json()) {
-    if (!r.is_number() || !(r.get<double>() > 0)) radius.fail("a radius is not a positive number");
+    if (!r.is_number() || !(r.get<double>() > 0))
+      radius.fail("json.out-of-range"_id, "a radius is not a positive number");
     profile.radius.push_back(r.get<double>());
   }
   return profile;
@@ -130,10 +134,13 @@ void read_scan_info(const io::Node& node, ScanInfo& scan) {
   scan.stature_m = node.number("stature_m", 0);
   if (!node.has("findings")) return;
   const io::Node findings = node.at("findings");
-  for (std::size_t i = 0; i < findings.size(); ++i)
-    scan.findings.push_back({findings.at(i).string("severity", "info"),
-                             findings.at(i).string("what", ""),
-                             findings.at(i).string("place", "")});
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    Finding& finding = scan.findings.emplace_back();
+    finding.id = findings.at(i).string("id", "");
+    finding.severity = findings.at(i).string("severity", "info");
+    finding.what = findings.at(i).string("what", "");
+    finding.place = findings.at(i).string("place", "");
+  }
 }
 
 void read_frames(const io::Node& node, Body& body) {
@@ -144,10 +151,11 @@ void read_frames(const io::Node& node, Body& body) {
     frame.frame.upper = entry.at("upper").vec3();
     frame.frame.theta_zero = entry.at("theta_zero").vec3();
     frame.frame.mirrored = entry.boolean("mirrored", false);
-    if (frame.frame.length() < 1e-6) entry.fail("lower and upper centre coincide");
+    if (frame.frame.length() < 1e-6)
+      entry.fail("body.bad-frame"_id, "lower and upper centre coincide");
     if (std::abs(frame.frame.theta_zero.norm() - 1) > 1e-3 ||
         std::abs(frame.frame.theta_zero.dot(frame.frame.axis())) > 1e-3)
-      entry.fail("theta_zero is not a unit vector square to the axis");
+      entry.fail("body.bad-frame"_id, "theta_zero is not a unit vector square to the axis");
     frame.profile = read_profile(entry.at("profile"));
     body.frames[name] = std::move(frame);
   }
@@ -177,7 +185,7 @@ Body read_body(const std::string& path) {
   Body body;
   read_scan_info(root.at("scan"), body.scan);
   const io::Node matrix = root.at("scan_to_body");
-  if (matrix.size() != 4) matrix.fail("is not a 4x4 matrix");
+  if (matrix.size() != 4) matrix.fail("json.wrong-type"_id, "is not a 4x4 matrix");
   for (std::size_t r = 0; r < 4; ++r)
     for (std::size_t c = 0; c < 4; ++c)
       body.scan_to_body(static_cast<int>(r), static_cast<int>(c)) = matrix.at(r).at(c).number();
@@ -230,7 +238,7 @@ Body read_body(const std::string& path) {
     read_skin(mesh_path, body);
     const int faces = static_cast<int>(body.skin.triangles.size());
     if (const int expected = root.integer("mesh_faces", faces); faces != expected)
-      throw input_error(mesh_path, "",
+      throw input_error("body.mesh-differs"_id, mesh_path, "",
                         "has " + std::to_string(faces) + " faces where " + io::file_name(path) +
                             " says " + std::to_string(expected),
                         "it was cut off or replaced; run scan-landmarks again");
@@ -242,7 +250,7 @@ std::string skin_sha256(const std::string& path) {
   const Json document = io::read_document(path, "body", BODY_VERSION);
   const io::Node root(document, path);
   if (!root.has("mesh") || !root.at("mesh").is_string())
-    throw input_error(path, "/mesh",
+    throw input_error("body.no-skin"_id, path, "/mesh",
                       "the body was written without its skin, which cloth would hang on",
                       "give one that scan-landmarks wrote to a file and without --anonymise");
   return io::sha256(io::read_file(io::file_beside(root.at("mesh"))));

@@ -69,7 +69,8 @@ void describe_stance(Body& body, const std::array<ArmTrace, 2>& arms) {
     if (arms[side].sections.empty()) continue;
     const double deg = units::degrees(std::acos(std::clamp(-arms[side].out.y(), -1.0, 1.0)));
     (side == 0 ? body.arm_l_deg : body.arm_r_deg) = deg;
-    sum += deg, ++n;
+    sum += deg;
+    ++n;
   }
   const double mean = n ? sum / n : 0;
   body.stance_class = mean > 70 ? "T" : mean > 15 ? "A" : "I";
@@ -78,26 +79,27 @@ void describe_stance(Body& body, const std::array<ArmTrace, 2>& arms) {
 /// What a user should know of this scan, good or bad.
 void add_findings(Body& body, const SegmentedScan& sorted, const SkinSurface& skin) {
   char text[160];
-  auto add = [&](const char* severity, const char* place) {
-    body.scan.findings.push_back({severity, text, place});
+  auto add = [&](MessageId id, const char* severity, const char* place) {
+    body.scan.findings.push_back({id, severity, text, place});
   };
   std::snprintf(text, sizeof text, "up is %s: score %.2f against %.2f for the next best direction",
                 sorted.up_name.c_str(), sorted.up_score, std::max(0.0, sorted.next_score));
-  add(sorted.up_score - sorted.next_score < 0.15 && sorted.next_score > 0 ? "warning" : "info",
+  add("scan.up"_id,
+      sorted.up_score - sorted.next_score < 0.15 && sorted.next_score > 0 ? "warning" : "info",
       "scan");
   std::snprintf(text, sizeof text, "roughness %.1f mm", 1000 * skin.noise_m);
-  add("info", "skin");
+  add("scan.roughness"_id, "info", "skin");
   if (sorted.has_floor) {
     std::snprintf(text, sizeof text, "a floor was left out");
-    add("info", "feet");
+    add("scan.floor-left-out"_id, "info", "feet");
   }
   if (sorted.n_debris) {
     std::snprintf(text, sizeof text, "%d loose pieces were left out", sorted.n_debris);
-    add("info", "scan");
+    add("scan.pieces-left-out"_id, "info", "scan");
   }
   std::snprintf(text, sizeof text, "stance %s: arms %.0f and %.0f degrees from hanging down",
                 body.stance_class.c_str(), body.arm_l_deg, body.arm_r_deg);
-  add("info", "arms");
+  add("scan.stance"_id, "info", "arms");
 }
 
 /// Where the scan's faces have holes: by the landmark that is nearest, and the place.
@@ -109,13 +111,16 @@ void add_holes(Body& body, const std::vector<Hole>& holes, const Vec3& origin) {
     std::string near;
     double nearest = 1e300;
     for (const auto& [name, landmark] : body.landmarks)
-      if (const double d = (landmark.p - p).norm(); d < nearest)
-        nearest = d, near = " near " + name;
+      if (const double d = (landmark.p - p).norm(); d < nearest) {
+        nearest = d;
+        near = " near " + name;
+      }
     char text[160], place[80];
     std::snprintf(text, sizeof text, "a hole %.0f mm wide (%d open edges)%s", 1000 * hole.width,
                   hole.edges, near.c_str());
     std::snprintf(place, sizeof place, "(%.3f, %.3f, %.3f)", p.x(), p.y(), p.z());
-    body.scan.findings.push_back({hole.width > WIDE ? "warning" : "info", text, place});
+    body.scan.findings.push_back(
+        {"scan.hole"_id, hole.width > WIDE ? "warning" : "info", text, place});
   }
 }
 
@@ -135,7 +140,7 @@ void add_unit_finding(Body& body, bool given) {
       !given && (!other.empty() || body.scan.stature_m < SMALL || body.scan.stature_m > TALL);
   if (is_doubtful && other.empty())
     what += ", as few people are: give --unit, --scale or --stature if that is wrong";
-  body.scan.findings.push_back({is_doubtful ? "warning" : "info", what, "scan"});
+  body.scan.findings.push_back({"scan.unit"_id, is_doubtful ? "warning" : "info", what, "scan"});
 }
 
 /// How far the shape is from the bodies learned from, for --explain.
@@ -267,7 +272,10 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
     ShapeFeatures shape;
     apply_rules({points, in.rebuilt, in.whole, in.s, in.rules, in.corrections}, trial, unheard,
                 nullptr, shape);
-    auto add = [](Sum& sum, double miss) { sum.squares += miss * miss, ++sum.n; };
+    auto add = [](Sum& sum, double miss) {
+      sum.squares += miss * miss;
+      ++sum.n;
+    };
     for (const auto& [name, landmark] : trial.landmarks)
       if (body.has_landmark(name))
         add(landmarks[name], (turn.transpose() * (landmark.p - lift) - body.landmark(name)).norm());
@@ -286,8 +294,10 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
     if (landmark.spread_m > UNSURE * in.s) landmark.confidence *= 0.7;
   }
   for (auto& [name, girth] : body.girths) girth.spread_m = girths[name].rms();
-  for (auto& [name, level] : body.levels)
-    level.y_spread_m = heights[name].rms(), level.girth_spread_m = level_girths[name].rms();
+  for (auto& [name, level] : body.levels) {
+    level.y_spread_m = heights[name].rms();
+    level.girth_spread_m = level_girths[name].rms();
+  }
 }
 
 } // namespace
@@ -298,7 +308,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   for (std::size_t v = 0; v < as_given.positions.size();
        ++v) // the readers refuse such files; a caller may hand over anything
     if (!as_given.positions[v].allFinite())
-      throw input_error(file, "vertex " + std::to_string(v + 1), "is not a finite number");
+      throw input_error("scan.not-finite"_id, file, "vertex " + std::to_string(v + 1),
+                        "is not a finite number");
   MeasuredScan result;
   Body& body = result.body;
   Phases phases(reporter);
@@ -396,7 +407,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
     char place[80];
     std::snprintf(place, sizeof place, "(%.3f, %.3f, %.3f)", opened.place.x(), opened.place.y(),
                   opened.place.z());
-    body.scan.findings.push_back({"info", text, place});
+    body.scan.findings.push_back({"scan.parts-touch"_id, "info", text, place});
   }
   // the origin goes below the middle of the hip joints
   Vec3 origin = Vec3::Zero();
@@ -412,8 +423,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
     std::snprintf(text, sizeof text, "%.4f %.4f %.4f", facing.x(), facing.y(), facing.z());
     body.scan.front = text;
     body.scan.findings.push_back(
-        {"info", "the scan leans or lies in its file: set upright on the soles of its feet",
-         "scan"});
+        {"scan.set-upright"_id, "info",
+         "the scan leans or lies in its file: set upright on the soles of its feet", "scan"});
   }
   build_frames(body);
   build_bones(body);
@@ -431,7 +442,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   for (const char* name : ESSENTIAL)
     if (!body.has_landmark(name) && !(is_torso && may_lack(name))) {
       result.missing.push_back(name);
-      body.scan.findings.push_back({"error", "landmark not found", name});
+      body.scan.findings.push_back(
+          {"scan.landmark-not-found"_id, "error", "landmark not found", name});
     }
   return result;
 }

@@ -92,7 +92,7 @@ std::map<std::string, Isometry3d> joint_motions(const Body& body, const Pose& po
   const std::vector<std::string> names = joint_names(body);
   for (const auto& [name, q] : pose.turn)
     if (std::find(names.begin(), names.end(), name) == names.end())
-      throw input_error("", name, "the body has no such joint");
+      throw input_error("pose.no-joint"_id, "", name, "the body has no such joint");
   auto about = [](const Quaterniond& q, const Vec3& center) {
     return Isometry3d(Eigen::Translation3d(center) * q * Eigen::Translation3d(-center));
   };
@@ -156,7 +156,8 @@ Body posed_body(const Body& body, const SkinWeights& weights, const Pose& pose) 
   }
   for (Bone& b : out.bones) {
     const Isometry3d& m = motion.at(b.name);
-    b.head = m * b.head, b.tail = m * b.tail;
+    b.head = m * b.head;
+    b.tail = m * b.tail;
   }
   double sum = 0;
   int n = 0;
@@ -166,13 +167,15 @@ Body posed_body(const Body& body, const SkinWeights& weights, const Pose& pose) 
         const double deg =
             units::degrees(std::acos(std::clamp((b.head - b.tail).normalized().y(), -1.0, 1.0)));
         (left ? out.arm_l_deg : out.arm_r_deg) = deg;
-        sum += deg, ++n;
+        sum += deg;
+        ++n;
       }
   if (n) out.stance_class = sum / n > 70 ? "T" : sum / n > 15 ? "A" : "I";
   out.frames.clear();
   build_frames(out);
   out.scan.findings.push_back(
-      {"info", "the body was posed; levels and girths are those of the scan's own stance", "pose"});
+      {"body.posed"_id, "info",
+       "the body was posed; levels and girths are those of the scan's own stance", "pose"});
   return out;
 }
 
@@ -183,7 +186,7 @@ Quaterniond arm_turn(const Body& body, bool left, double angle) {
       const double now = std::atan2(std::abs(out.x()), -out.y());
       return Quaterniond(Eigen::AngleAxisd((left ? 1 : -1) * (angle - now), Vec3::UnitZ()));
     }
-  throw input_error(body.scan.file, "bones",
+  throw input_error("pose.no-limb"_id, body.scan.file, "bones",
                     std::string("the body has no ") + (left ? "left" : "right") + " upper arm");
 }
 

@@ -83,7 +83,8 @@ public:
     return static_cast<int>(x);
   }
   [[noreturn]] void fail(const std::string& fact, const std::string& next_step = {}) const {
-    throw input_error(m_name, "line " + std::to_string(m_line), fact, next_step);
+    throw input_error("motion.malformed"_id, m_name, "line " + std::to_string(m_line), fact,
+                      next_step);
   }
 
 private:
@@ -232,7 +233,8 @@ Pose read_pose(const std::string& path, const Body& body) {
     if (!root.has(key)) continue;
     const double degrees = root.at(key).number();
     if (degrees < 0 || degrees > 180)
-      root.at(key).fail("is not an angle from hanging (0) to upright (180)");
+      root.at(key).fail("json.out-of-range"_id,
+                        "is not an angle from hanging (0) to upright (180)");
     pose.turn[left ? "upper_arm_l" : "upper_arm_r"] = arm_turn(body, left, units::radians(degrees));
   }
   if (root.has("turn_deg"))
@@ -240,7 +242,8 @@ Pose read_pose(const std::string& path, const Body& body) {
       if (std::find(names.begin(), names.end(), name) == names.end())
         root.at("turn_deg")
             .at(name)
-            .fail("the body has no joint \"" + name + "\"" + did_you_mean(name, names, "\""));
+            .fail("pose.no-joint"_id,
+                  "the body has no joint \"" + name + "\"" + did_you_mean(name, names, "\""));
       const Vec3 angles = root.at("turn_deg").at(name).vec3();
       Quaterniond q = Quaterniond::Identity();
       for (int axis = 0; axis < 3; ++axis) q = about(axis, units::radians(angles[axis])) * q;
@@ -289,7 +292,8 @@ Motion parse_bvh(std::string_view text, const std::string& name, const Body& bod
         follow(ours, find_joint(bvh, names.theirs, left), std::string(names.ours) != "foot");
   if (followed.size() < 6)
     throw input_error(
-        name, "HIERARCHY", "few of its joints have a name that is known",
+        "motion.unknown-joints"_id, name, "HIERARCHY",
+        "few of its joints have a name that is known",
         "expected names such as Hips, Spine, LeftArm, LeftForeArm, LeftUpLeg, LeftLeg");
   // the hips travel in proportion to the legs
   double scale = 0;

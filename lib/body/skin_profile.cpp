@@ -69,7 +69,10 @@ SkinProfile skin_profile(const PartFrame& frame, const TriangleMesh& skin,
                          const std::vector<int>& triangles, double z_low, double z_high,
                          bool taut) {
   SkinProfile profile;
-  profile.n_theta = N_THETA, profile.n_z = N_Z, profile.z_low = z_low, profile.z_high = z_high;
+  profile.n_theta = N_THETA;
+  profile.n_z = N_Z;
+  profile.z_low = z_low;
+  profile.z_high = z_high;
   profile.radius.assign(static_cast<std::size_t>(N_THETA) * N_Z, -1.0);
   const Vec3 a = frame.axis();
   const double length = frame.length(), step = (z_high - z_low) / (N_Z - 1);
@@ -78,7 +81,8 @@ SkinProfile skin_profile(const PartFrame& frame, const TriangleMesh& skin,
     double low = 1e300, high = -1e300;
     for (const int v : skin.triangles[t]) {
       const double z = (skin.positions[v] - frame.lower).dot(a) / length;
-      low = std::min(low, z), high = std::max(high, z);
+      low = std::min(low, z);
+      high = std::max(high, z);
     }
     const int first = std::max(0, static_cast<int>(std::floor((low - z_low) / step))),
               last = std::min(N_Z - 1, static_cast<int>(std::ceil((high - z_low) / step)));

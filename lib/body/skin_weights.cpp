@@ -66,7 +66,7 @@ struct Limb {
 
 SkinWeights skin_weights(const Body& body) {
   if (body.skin.triangles.empty() || body.face_part.size() != body.skin.triangles.size())
-    throw input_error(body.scan.file, "", "the body has no skin to pose",
+    throw input_error("body.no-skin"_id, body.scan.file, "", "the body has no skin to pose",
                       "measure the scan again without --anonymise");
   auto bone = [&](const std::string& name) -> const Bone* {
     for (const Bone& b : body.bones)
@@ -75,7 +75,7 @@ SkinWeights skin_weights(const Body& body) {
   };
   const Bone* spine = bone("spine");
   if (!spine)
-    throw input_error(body.scan.file, "bones", "the body has no spine to pose",
+    throw input_error("pose.no-limb"_id, body.scan.file, "bones", "the body has no spine to pose",
                       "its hip joints or its neck were not found");
   const double s = std::max(body.scan.stature_m, 0.3);
   SkinWeights out;
@@ -143,8 +143,10 @@ SkinWeights skin_weights(const Body& body) {
     share[v][0] += trunk * (1 - upper);
     double on_spine = trunk * upper;
     for (const auto& [clavicle, j] : clavicles)
-      if (const double w = of_clavicle(*clavicle, body.skin.positions[v]) * trunk * upper; w > 0)
-        share[v][j] += w, on_spine -= w;
+      if (const double w = of_clavicle(*clavicle, body.skin.positions[v]) * trunk * upper; w > 0) {
+        share[v][j] += w;
+        on_spine -= w;
+      }
     share[v][joint("spine")] += on_spine;
   }
   out.joint.assign(n, {});
@@ -157,8 +159,10 @@ SkinWeights skin_weights(const Body& body) {
     most.resize(std::min<std::size_t>(most.size(), SkinWeights::MOST));
     double sum = 0;
     for (const auto& [w, j] : most) sum -= w;
-    for (std::size_t k = 0; k < most.size(); ++k)
-      out.joint[v][k] = most[k].second, out.share[v][k] = -most[k].first / sum;
+    for (std::size_t k = 0; k < most.size(); ++k) {
+      out.joint[v][k] = most[k].second;
+      out.share[v][k] = -most[k].first / sum;
+    }
   }
   return out;
 }

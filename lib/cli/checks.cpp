@@ -40,9 +40,10 @@ Check input_file() {
     struct stat info {};
     if (path == "-") return {};
     if (stat(path.c_str(), &info) != 0)
-      throw input_error(path, "", "no such file", "check the path");
+      throw input_error("file.not-found"_id, path, "", "no such file", "check the path");
     if (S_ISDIR(info.st_mode))
-      throw input_error(path, "", "is a folder, not a file", "name the file inside it");
+      throw input_error("file.is-folder"_id, path, "", "is a folder, not a file",
+                        "name the file inside it");
     return {};
   };
   return {"input_file", "FILE", check};
@@ -69,6 +70,15 @@ Check document_file() {
   return {"output_file", "FILE", check};
 }
 
+Check document_or_mesh_file() {
+  auto check = [](const std::string& path) -> std::string {
+    if (path.empty()) return "an empty file name";
+    if (path == "-") return "a mesh cannot go to standard output; name a file";
+    return "";
+  };
+  return {"output_file", "FILE", check};
+}
+
 Check one_of(const std::vector<std::string>& words) {
   std::string joined;
   for (const std::string& word : words) joined += (joined.empty() ? "" : "|") + word;
@@ -87,8 +97,8 @@ void refuse_together(const Given& one, std::initializer_list<Given> others) {
   if (!one.second) return;
   for (const auto& [name, given] : others)
     if (given)
-      throw Error(ErrorKind::USAGE, "", one.first, std::string("cannot be combined with ") + name,
-                  "leave one of them out");
+      throw Error(ErrorKind::USAGE, "option.conflict"_id, "", one.first,
+                  std::string("cannot be combined with ") + name, "leave one of them out");
 }
 
 } // namespace sloper::cli

@@ -102,7 +102,7 @@ std::string completion(const ToolDescription& tool, const std::string& shell) {
   if (shell == "bash") return bash(tool);
   if (shell == "zsh") return zsh(tool);
   if (shell == "fish") return fish(tool);
-  throw Error(ErrorKind::USAGE, "", "",
+  throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", "",
               "--generate-completion: '" + shell + "' is not one of bash, zsh, fish");
 }
 

@@ -23,6 +23,7 @@
 #include <fstream>
 #include <iostream>
 #include <new>
+#include <optional>
 
 namespace sloper::cli {
 
@@ -37,7 +38,7 @@ struct Tool::Impl {
   bool no_progress = false;
   bool version_asked = false, man_asked = false,
        json_usage_asked = false; ///< declared for the table; check_words() answers them
-  std::string shell_asked;
+  std::string shell_asked, messages = "text";
   int threads = -1; ///< -1: not given
   Impl(const std::string& n, const std::string& s) : name(n), summary(s), app(s, n), reporter(n) {}
   ToolDescription description() const {
@@ -78,6 +79,11 @@ Tool::Tool(const std::string& name, const std::string& summary)
       .add_flag("--json-usage", m.json_usage_asked,
                 "this help as JSON, for programs: options, values, ranges, exit statuses")
       ->group(common);
+  CLI::Option* messages =
+      m.app.add_option("--messages", m.messages,
+                       "how stderr speaks: text, or json, where each line is one object with "
+                       "level, lasting id and text (see docs/messages.md)");
+  Option(messages->group(common)).check(one_of({"text", "json"}));
   CLI::Option* threads = m.app.add_option("--threads", m.threads,
                                           "threads, 0 for all processors; results do not depend on "
                                           "it (default: the processors, at most 8)");
@@ -104,6 +110,7 @@ Option Tool::flag(const std::string& names, bool& value, const std::string& what
   return Option(m_impl->app.add_flag(names, value, what));
 }
 Reporter& Tool::reporter() { return m_impl->reporter; }
+void Tool::tell(const std::string& line) { m_impl->reporter.tell(line); }
 const std::string& Tool::name() const { return m_impl->name; }
 void Tool::example(const std::string& command_line, const std::string& what) {
   m_impl->examples.push_back({command_line, what});
@@ -113,14 +120,17 @@ void Tool::formats(const std::string& read, const std::string& written) {
   m_impl->writes = written;
 }
 
-static Error usage_error(const std::string& fact) { return {ErrorKind::USAGE, "", "", fact}; }
+static Error usage_error(MessageId id, const std::string& fact, const std::string& next_step = {}) {
+  return {ErrorKind::USAGE, id, "", "", fact, next_step};
+}
 
 static Error unknown_option(const CLI::App& app, const std::string& given) {
   std::vector<std::string> known;
   for (const OptionRow& row : option_rows(app))
     for (const std::string& l : row.longs) known.push_back("--" + l);
-  return usage_error("unknown option " + given +
-                     (given.rfind("--", 0) == 0 ? did_you_mean(given, known, "") : ""));
+  return usage_error("option.unknown"_id,
+                     "unknown option " + given +
+                         (given.rfind("--", 0) == 0 ? did_you_mean(given, known, "") : ""));
 }
 
 /// What the command line asks for besides the tool's work: the first of these that is named wins
@@ -133,19 +143,24 @@ struct Request {
 
 /// Walks the words as getopt would, before CLI11 does: it reports an unknown option last and by
 /// other names, and takes the value of a misspelt option for an operand.
-static Request check_words(const CLI::App& app, const std::vector<std::string>& words) {
+/// @param reporter  speaks from then on as --messages and -v ask, of the command line's faults too
+static Request check_words(const CLI::App& app, const std::vector<std::string>& words,
+                           ToolReporter& reporter) {
   Request request;
   auto takes_value = [](const CLI::Option* option) { return option->get_items_expected_max() > 0; };
   auto note = [&](const CLI::Option* option, const std::string& value) {
-    if (!request.option.empty() || option->get_lnames().empty()) return;
+    if (option->get_lnames().empty()) return;
     const std::string& name = option->get_lnames().front();
+    if (name == "messages") reporter.as_json = value == "json";
+    if (name == "verbose") reporter.verbose = true;
+    if (!request.option.empty()) return;
     for (const char* special :
          {"help", "version", "json-usage", "generate-man", "generate-completion"})
       if (name == special) request = {name, value};
   };
-  std::string failure;
+  std::optional<Error> failure;
   auto fail = [&](const Error& error) {
-    if (failure.empty()) failure = error.fact();
+    if (!failure) failure = error;
   };
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
@@ -159,7 +174,7 @@ static Request check_words(const CLI::App& app, const std::vector<std::string>& 
       else if (!takes_value(option)) note(option, "");
       else if (equals != std::string::npos) note(option, word.substr(equals + 1));
       else if (++i < words.size()) note(option, words[i]);
-      else fail(usage_error(name + " needs a value"));
+      else fail(usage_error("option.needs-value"_id, name + " needs a value"));
       continue;
     }
     for (std::size_t k = 1; k < word.size(); ++k) {
@@ -171,11 +186,12 @@ static Request check_words(const CLI::App& app, const std::vector<std::string>& 
       }
       note(option, "");
       if (!takes_value(option)) continue;
-      if (k + 1 == word.size() && ++i == words.size()) fail(usage_error(name + " needs a value"));
+      if (k + 1 == word.size() && ++i == words.size())
+        fail(usage_error("option.needs-value"_id, name + " needs a value"));
       break;
     }
   }
-  if (request.option.empty() && !failure.empty()) throw usage_error(failure);
+  if (request.option.empty() && failure) throw *failure;
   return request;
 }
 
@@ -214,16 +230,17 @@ static void check_outputs(CLI::App& app) {
       if (path == "-") continue;
       struct stat info {};
       if (stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode))
-        throw Error(ErrorKind::OUTPUT, path, "", "is a folder, not a file", "name a file");
+        throw Error(ErrorKind::OUTPUT, "file.is-folder"_id, path, "", "is a folder, not a file",
+                    "name a file");
       const std::size_t slash = path.rfind('/');
       const std::string folder = slash == std::string::npos ? "."
                                  : slash == 0               ? "/"
                                                             : path.substr(0, slash);
       if (stat(folder.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
-        throw Error(ErrorKind::OUTPUT, path, "", "cannot write: there is no folder " + folder,
-                    "make it first");
+        throw Error(ErrorKind::OUTPUT, "file.no-folder"_id, path, "",
+                    "cannot write: there is no folder " + folder, "make it first");
       if (access(folder.c_str(), W_OK) != 0)
-        throw Error(ErrorKind::OUTPUT, path, "",
+        throw Error(ErrorKind::OUTPUT, "file.cannot-write"_id, path, "",
                     "cannot write in folder " + folder + ": " + std::strerror(errno));
     }
   }
@@ -271,14 +288,14 @@ static void spare_files(CLI::App& app) {
         for (const std::filesystem::path& read : files_of(other, "input_file"))
           if (same(written, read))
             throw Error(
-                ErrorKind::USAGE, written, writing->get_name(),
+                ErrorKind::USAGE, "file.would-overwrite-input"_id, written, writing->get_name(),
                 "would be written over what " + other->get_name() + " reads" +
                     (written.extension() == ".obj" ? " (a mesh goes beside its document)" : ""),
                 "name another output");
         if (other == writing) continue;
         for (const std::filesystem::path& twice : files_of(other, "output_file"))
           if (same(written, twice))
-            throw Error(ErrorKind::USAGE, written, writing->get_name(),
+            throw Error(ErrorKind::USAGE, "file.written-twice"_id, written, writing->get_name(),
                         "would be written by " + other->get_name() + " too", "name two files");
       }
 }
@@ -321,16 +338,22 @@ static std::string answer_request(const Request& request, const ToolDescription&
   return completion(tool, request.value);
 }
 
+static std::string example_of(const std::vector<Example>& examples) {
+  return examples.empty() ? "" : "example: " + examples.front().command_line;
+}
+
 /// CLI11's "--size: At Most 1 required but received 2" and "--output is required" in words that say
 /// what to do.
-static std::string plain_words(const std::string& text, const std::vector<Example>& examples) {
+static Error parse_error(const std::string& text, const std::vector<Example>& examples) {
   const std::size_t twice = text.find(": At Most 1 required but received "),
                     missing = text.rfind(" is required");
   if (twice != std::string::npos)
-    return text.substr(0, twice) + " is given more than once; give it once";
-  if (missing == std::string::npos || missing + 12 != text.size()) return text;
-  return text.substr(0, missing) + " is missing" +
-         (examples.empty() ? "" : "; example: " + examples.front().command_line);
+    return usage_error("option.repeated"_id, text.substr(0, twice) + " is given more than once",
+                       "give it once");
+  if (missing == std::string::npos || missing + 12 != text.size())
+    return usage_error("option.wrong-value"_id, text);
+  return usage_error("option.missing"_id, text.substr(0, missing) + " is missing",
+                     example_of(examples));
 }
 
 static int parse_and_run(CLI::App& app, const std::vector<std::string>& words,
@@ -341,10 +364,10 @@ static int parse_and_run(CLI::App& app, const std::vector<std::string>& words,
   } catch (const CLI::ExtrasError&) {
     std::string extra;
     for (const std::string& word : app.remaining()) extra += (extra.empty() ? "" : ", ") + word;
-    throw usage_error("unexpected argument " + extra +
-                      (examples.empty() ? "" : "; example: " + examples.front().command_line));
+    throw usage_error("option.unexpected-argument"_id, "unexpected argument " + extra,
+                      example_of(examples));
   } catch (const CLI::ParseError& error) {
-    throw usage_error(plain_words(error.what(), examples));
+    throw parse_error(error.what(), examples);
   }
   parsed();
   check_outputs(app);
@@ -364,9 +387,11 @@ static void finish_output() {
   struct stat info {};
   if (fstat(STDOUT_FILENO, &info) == 0 && (S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode)))
     return;
-  throw Error(ErrorKind::OUTPUT, "standard output", "",
+  throw Error(ErrorKind::OUTPUT, "file.cannot-write"_id, "standard output", "",
               std::string("cannot write: ") + std::strerror(errno));
 }
+
+static const char* const REPORT_IT = "please report it with the command line";
 
 int Tool::run(int argc, char** argv, const std::function<int()>& body) {
   Impl& m = *m_impl;
@@ -380,7 +405,7 @@ int Tool::run(int argc, char** argv, const std::function<int()>& body) {
                    m.summary.c_str(), hint.c_str());
       return static_cast<int>(ErrorKind::USAGE);
     }
-    const Request request = check_words(m.app, words);
+    const Request request = check_words(m.app, words, m.reporter);
     if (!request.option.empty()) {
       io::write_file("-", answer_request(request, m.description()));
       return 0;
@@ -396,18 +421,18 @@ int Tool::run(int argc, char** argv, const std::function<int()>& body) {
     finish_output();
     return code;
   } catch (const Error& error) {
-    m.reporter.error((error.kind() == ErrorKind::INTERNAL ? "our bug: " : "") +
-                     std::string(error.what()));
-    if (error.kind() == ErrorKind::USAGE) std::fprintf(stderr, "%s\n", hint.c_str());
+    m.reporter.error(error, error.kind() == ErrorKind::USAGE ? hint : "");
     return error.exit_code();
   } catch (const std::bad_alloc&) {
-    m.reporter.error("out of memory");
+    m.reporter.error({ErrorKind::INTERNAL, "general.out-of-memory"_id, "", "", "out of memory"},
+                     "");
   } catch (const std::exception& error) {
-    m.reporter.error(std::string("our bug: ") + error.what() +
-                     "; please report it with the command line");
+    m.reporter.error({ErrorKind::INTERNAL, "general.internal"_id, "", "", error.what(), REPORT_IT},
+                     "");
   } catch (...) {
-    m.reporter.error(
-        "our bug: an exception of unknown type; please report it with the command line");
+    m.reporter.error({ErrorKind::INTERNAL, "general.internal"_id, "", "",
+                      "an exception of unknown type", REPORT_IT},
+                     "");
   }
   return static_cast<int>(ErrorKind::INTERNAL);
 }

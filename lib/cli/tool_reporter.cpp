@@ -1,4 +1,5 @@
 #include <cli/tool_reporter.hpp>
+#include <nlohmann/json.hpp>
 
 #include <unistd.h>
 
@@ -57,13 +58,56 @@ void ToolReporter::line(const std::string& text, const char* color) {
   std::fprintf(stderr, "%s %s\n", name.c_str(), text.c_str());
 }
 
+/// One object, one line. Bytes of a file's name that are no UTF-8 are replaced.
+static void print_json(const nlohmann::ordered_json& object) {
+  const std::string text =
+      object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  std::fprintf(stderr, "%s\n", text.c_str());
+}
+
+std::string ToolReporter::with_id(const std::string& text, std::string_view id) const {
+  return verbose ? text + " [" + std::string(id) + "]" : text;
+}
+
 void ToolReporter::info(const std::string& text) {
-  if (verbose && !quiet) line(text, "");
+  if (!verbose || quiet) return;
+  if (as_json) print_json({{"tool", m_tool}, {"level", "info"}, {"text", text}});
+  else line(text, "");
 }
-void ToolReporter::warning(const std::string& text) {
-  if (!quiet) line("warning: " + text, "\033[33m");
+
+void ToolReporter::warning(const Message& message) {
+  if (quiet) return;
+  if (as_json)
+    print_json(
+        {{"tool", m_tool}, {"level", "warning"}, {"id", message.id}, {"text", message.text}});
+  else line(with_id("warning: " + message.text, message.id), "\033[33m");
 }
-void ToolReporter::error(const std::string& text) { line(text, "\033[31m"); }
+
+void ToolReporter::error(const Error& error, const std::string& hint) {
+  const bool is_ours =
+      error.kind() == ErrorKind::INTERNAL && error.id() != "general.out-of-memory"_id;
+  const std::string text = (is_ours ? "our bug: " : "") + std::string(error.what());
+  if (as_json) {
+    print_json({{"tool", m_tool},
+                {"level", "error"},
+                {"id", error.id().text()},
+                {"text", text},
+                {"file", error.file()},
+                {"place", error.place()},
+                {"fact", error.fact()},
+                {"next_step", error.next_step().empty() ? hint : error.next_step()},
+                {"exit", error.exit_code()}});
+    return;
+  }
+  line(with_id(text, error.id().text()), "\033[31m");
+  if (!hint.empty()) std::fprintf(stderr, "%s\n", hint.c_str());
+}
+
+void ToolReporter::tell(const std::string& text) {
+  clear_line();
+  if (as_json) print_json({{"tool", m_tool}, {"level", "info"}, {"text", text}});
+  else std::fprintf(stderr, "%s\n", text.c_str());
+}
 
 bool ToolReporter::stop_requested() const { return g_stop != 0; }
 
@@ -78,7 +122,7 @@ static std::string clock_text(double seconds) {
 }
 
 void ToolReporter::progress(const std::string& phase, double fraction) {
-  if (quiet || !show_progress || !m_terminal) return;
+  if (quiet || !show_progress || !m_terminal || as_json) return;
   const Clock::time_point now = Clock::now();
   const bool new_phase = phase != m_phase || m_phase_start == Clock::time_point{};
   if (new_phase) {

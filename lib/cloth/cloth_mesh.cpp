@@ -93,8 +93,8 @@ ClothMesh make_cloth_mesh(int n_particles, std::vector<RestTriangle> triangles,
     const RestTriangle& t = mesh.triangles[f];
     const double area = flat_area(t);
     if (area < 1e-12)
-      throw input_error("", "triangle " + std::to_string(f), "has no area in the pattern",
-                        "mesh the pattern again with pattern-mesh");
+      throw input_error("garment.flat-triangle"_id, "", "triangle " + std::to_string(f),
+                        "has no area in the pattern", "mesh the pattern again with pattern-mesh");
     for (int k = 0; k < 3; ++k) {
       mesh.area[t.particle[k]] += area / 3;
       mesh.mass[t.particle[k]] += area / 3 * mesh.fabrics[t.fabric].density_kg_m2;
@@ -104,7 +104,8 @@ ClothMesh make_cloth_mesh(int n_particles, std::vector<RestTriangle> triangles,
   }
   for (int p = 0; p < n_particles; ++p)
     if (mesh.mass[p] <= 0)
-      throw input_error("", "particle " + std::to_string(p), "belongs to no triangle");
+      throw input_error("garment.damaged"_id, "", "particle " + std::to_string(p),
+                        "belongs to no triangle");
 
   std::sort(uses.begin(), uses.end());
   for (std::size_t u = 0; u < uses.size();) {

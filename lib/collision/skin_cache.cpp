@@ -50,7 +50,8 @@ void SkinCache::write(const std::string& key, const PreparedSkin& prepared) {
     m_reporter->info("body kept in " + file);
   } catch (const Error& e) {
     m_writable = false;
-    m_reporter->warning(std::string("could not write the body cache: ") + e.what());
+    m_reporter->warning(
+        {"cache.cannot-write"_id, std::string("could not write the body cache: ") + e.what()});
   }
 }
 

@@ -104,10 +104,12 @@ TriangleTree::TriangleTree(const std::vector<Vec3>& positions,
                            const std::vector<Triangle>& triangles, int k, std::vector<int> order)
     : m_axes(k / 2), m_triangle_of_slot(std::move(order)) {
   if (k != 6 && k != 14 && k != 18 && k != 26)
-    throw Error(ErrorKind::INTERNAL, {}, {}, "a k-DOP tree has k = 6, 14, 18 or 26");
+    throw Error(ErrorKind::INTERNAL, "general.internal"_id, {}, {},
+                "a k-DOP tree has k = 6, 14, 18 or 26");
   const auto n = static_cast<int>(triangles.size());
   if (n != n_slots())
-    throw Error(ErrorKind::INTERNAL, {}, {}, "a tree's order has as many triangles as the mesh");
+    throw Error(ErrorKind::INTERNAL, "general.internal"_id, {}, {},
+                "a tree's order has as many triangles as the mesh");
   m_nodes.reserve(n / 2 + 1);
   if (n > 0) build(0, n);
   m_slot_of_triangle.resize(n);

@@ -99,7 +99,8 @@ public:
     if (m_im < 0 && sine < 0 && im >= 0) --m_turns;
     const double size = std::abs(re) + std::abs(im);
     const double scale = size < 1e-100 || size > 1e100 ? 1 / size : 1;
-    m_re = scale * re, m_im = scale * im;
+    m_re = scale * re;
+    m_im = scale * im;
   }
   double turns() const { return std::atan2(m_im, m_re) / (2 * units::PI) + m_turns; }
 
@@ -132,8 +133,10 @@ WindingNumber::WindingNumber(const TriangleTree& tree, double reach) {
     for (int i = 0; i < 4; ++i) {
       const int child = nodes[node].child[i];
       if (child == TriangleTree::EMPTY) continue;
-      if (child >= 0) lanes[i] = waiting.back(), waiting.pop_back();
-      else lanes[i] = moments_of(tree.corners(-2 - child));
+      if (child >= 0) {
+        lanes[i] = waiting.back();
+        waiting.pop_back();
+      } else lanes[i] = moments_of(tree.corners(-2 - child));
       sum.area += lanes[i].area;
       weighted += lanes[i].area * lanes[i].center;
       middle += lanes[i].center;

@@ -10,20 +10,21 @@ namespace {
 template<class Points> void check_finite(const Points& points, const char* what) {
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!points[i].allFinite())
-      throw input_error("", what + (" " + std::to_string(i)), "is not a finite number");
+      throw input_error("garment.not-finite"_id, "", what + (" " + std::to_string(i)),
+                        "is not a finite number");
 }
 
 void check_range(const std::vector<int>& indices, std::size_t count, const std::string& what) {
   for (std::size_t i = 0; i < indices.size(); ++i)
     if (indices[i] < 0 || static_cast<std::size_t>(indices[i]) >= count)
-      throw input_error("", what + " " + std::to_string(i),
+      throw input_error("garment.damaged"_id, "", what + " " + std::to_string(i),
                         "index " + std::to_string(indices[i]) + " is out of range: there are " +
                             std::to_string(count));
 }
 
 void check_count(std::size_t has, std::size_t wants, const char* what) {
   if (has != wants)
-    throw input_error("", what,
+    throw input_error("garment.damaged"_id, "", what,
                       "there are " + std::to_string(has) + " for " + std::to_string(wants));
 }
 
@@ -36,7 +37,7 @@ void check_garment(const Garment& garment) {
   for (std::size_t f = 0; f < panels.triangles.size(); ++f)
     for (const int v : panels.triangles[f])
       if (v < 0 || static_cast<std::size_t>(v) >= n)
-        throw input_error("", "triangle " + std::to_string(f),
+        throw input_error("garment.damaged"_id, "", "triangle " + std::to_string(f),
                           "vertex index " + std::to_string(v) + " is out of range: there are " +
                               std::to_string(n));
   for (const pattern::MeshSeam& seam : panels.seams) {
@@ -56,7 +57,7 @@ void check_garment(const Garment& garment) {
   for (std::size_t f = 0; f < garment.rest_scale.size(); ++f)
     for (const double scale : garment.rest_scale[f])
       if (!(std::isfinite(scale) && scale > 0))
-        throw input_error("", "triangle " + std::to_string(f),
+        throw input_error("garment.damaged"_id, "", "triangle " + std::to_string(f),
                           "its rest length factor is not a positive number");
 }
 

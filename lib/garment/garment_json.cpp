@@ -119,21 +119,21 @@ std::vector<int> read_indices(const Node& node, int end) {
   for (std::size_t i = 0; i < node.size(); ++i) {
     list.push_back(node.at(i).integer());
     if (list.back() < 0 || list.back() >= end)
-      node.at(i).fail("the index is out of range: the mesh has " + std::to_string(end) +
-                      " panel vertices");
+      node.at(i).fail("json.bad-index"_id, "the index is out of range: the mesh has " +
+                                               std::to_string(end) + " panel vertices");
   }
   return list;
 }
 
 int count(const Node& node) {
   const int n = node.integer();
-  if (n < 0) node.fail("a count is negative");
+  if (n < 0) node.fail("json.out-of-range"_id, "a count is negative");
   return n;
 }
 
 double positive(const Node& node) {
   const double x = node.number();
-  if (x <= 0) node.fail("expected a number above zero");
+  if (x <= 0) node.fail("json.out-of-range"_id, "expected a number above zero");
   return x;
 }
 
@@ -150,10 +150,10 @@ void read_panels(const Node& node, pattern::PanelMesh& mesh) {
     panel.first_triangle = triangle;
     panel.n_triangles = count(p.at("triangles"));
     if (panel.n_vertices > n_vertices - vertex || panel.n_triangles > n_triangles - triangle)
-      p.fail("the panels have more vertices or triangles than the mesh");
+      p.fail("garment.mesh-differs"_id, "the panels have more vertices or triangles than the mesh");
     panel.grain = p.at("grain").vec2();
     if (std::abs(panel.grain.norm() - 1) > 1e-6)
-      p.at("grain").fail("the grain is not a unit direction");
+      p.at("grain").fail("garment.damaged"_id, "the grain is not a unit direction");
     panel.material = p.string("material", "");
     panel.layer = p.integer("layer", 0);
     panel.part = p.string("part", "");
@@ -163,11 +163,13 @@ void read_panels(const Node& node, pattern::PanelMesh& mesh) {
     for (int f = panel.first_triangle; f < triangle; ++f)
       for (const int v : mesh.triangles[f])
         if (v < panel.first_vertex || v >= vertex)
-          p.fail("triangle " + std::to_string(f) + " has a vertex of another panel");
+          p.fail("garment.mesh-differs"_id,
+                 "triangle " + std::to_string(f) + " has a vertex of another panel");
     mesh.panels.push_back(std::move(panel));
   }
   if (vertex != n_vertices || triangle != n_triangles)
-    node.fail("the panels have fewer vertices or triangles than the mesh",
+    node.fail("garment.mesh-differs"_id,
+              "the panels have fewer vertices or triangles than the mesh",
               "document and OBJ belong to different garments");
 }
 
@@ -175,8 +177,8 @@ void read_ids(const Node& node, pattern::PanelMesh& mesh) {
   const Node s = node.at("s"), t = node.at("t");
   for (const Node& list : {s, t})
     if (list.size() != mesh.pattern.size())
-      list.fail("has " + std::to_string(list.size()) + " numbers for " +
-                std::to_string(mesh.pattern.size()) + " panel vertices");
+      list.fail("json.wrong-count"_id, "has " + std::to_string(list.size()) + " numbers for " +
+                                           std::to_string(mesh.pattern.size()) + " panel vertices");
   mesh.ids.reserve(mesh.pattern.size());
   for (std::size_t k = 0; k < mesh.panels.size(); ++k)
     for (int i = 0; i < mesh.panels[k].n_vertices; ++i) {
@@ -197,7 +199,8 @@ void read_seams(const Node& node, pattern::PanelMesh& mesh) {
                            s.at("length_b_m").number(),
                            s.has("open") && s.at("open").boolean()};
     if (seam.a.size() != seam.b.size() || seam.a.size() < 2)
-      s.fail("the two runs of the seam need the same number of vertices, two or more");
+      s.fail("json.wrong-count"_id,
+             "the two runs of the seam need the same number of vertices, two or more");
     mesh.seams.push_back(std::move(seam));
   }
 }
@@ -210,13 +213,16 @@ std::map<std::string, Material> read_materials(const Node& node) {
     material.name = m.string("name", material.name);
     for (const auto& [name, field] : MATERIAL_NUMBERS) {
       material.*field = m.number(name, material.*field);
-      if (material.*field < 0) m.at(name).fail("a material property is negative");
+      if (material.*field < 0)
+        m.at(name).fail("json.out-of-range"_id, "a material property is negative");
     }
     for (const auto& [name, field] : MATERIAL_EXTRAS) {
       material.*field = m.number(name, 0);
-      if (material.*field < 0) m.at(name).fail("a material property is negative");
+      if (material.*field < 0)
+        m.at(name).fail("json.out-of-range"_id, "a material property is negative");
     }
-    if (material.bend_soft_share > 1) m.at("bend_soft_share").fail("is more than all of it");
+    if (material.bend_soft_share > 1)
+      m.at("bend_soft_share").fail("json.out-of-range"_id, "is more than all of it");
     if (m.has("bend_soft_radius_m"))
       material.bend_soft_radius_m = positive(m.at("bend_soft_radius_m"));
     if (m.has("density_kg_m2")) positive(m.at("density_kg_m2"));
@@ -232,10 +238,11 @@ std::vector<std::array<double, 3>> read_rest_scale(const Node& node, std::size_t
   scale.assign(n_triangles, {1, 1, 1});
   for (std::size_t k = 0; k < node.size(); ++k) {
     const Node row = node.at(k);
-    if (row.size() != 4) row.fail("expected [triangle, factor, factor, factor]");
+    if (row.size() != 4)
+      row.fail("json.wrong-type"_id, "expected [triangle, factor, factor, factor]");
     const int f = row.at(std::size_t{0}).integer();
     if (f < 0 || static_cast<std::size_t>(f) >= n_triangles)
-      row.fail("refers to a triangle that the mesh does not have");
+      row.fail("json.bad-index"_id, "refers to a triangle that the mesh does not have");
     for (std::size_t e = 0; e < 3; ++e) scale[f][e] = positive(row.at(e + 1));
   }
   return scale;
@@ -246,33 +253,36 @@ Bind read_bind(const Node& node, std::size_t n_particles) {
   const Node frames = node.at("frames"), marks = node.at("marks"), particles = node.at("particles");
   for (std::size_t k = 0; k < frames.size(); ++k) bind.frames.push_back(frames.at(k).string());
   const Node lengths = node.at("lengths_m");
-  if (lengths.size() != frames.size()) lengths.fail("there must be one length for each frame");
+  if (lengths.size() != frames.size())
+    lengths.fail("json.wrong-count"_id, "there must be one length for each frame");
   for (std::size_t k = 0; k < lengths.size(); ++k)
     bind.lengths_m.push_back(positive(lengths.at(k)));
-  if (marks.size() != frames.size()) marks.fail("there must be one object of marks for each frame");
+  if (marks.size() != frames.size())
+    marks.fail("json.wrong-count"_id, "there must be one object of marks for each frame");
   for (std::size_t k = 0; k < marks.size(); ++k) {
     bind.marks.emplace_back();
     for (const std::string& name : marks.at(k).keys())
       bind.marks.back()[name] = marks.at(k).at(name).number();
   }
   if (particles.size() != 0 && particles.size() != n_particles)
-    particles.fail("binds " + std::to_string(particles.size()) + " of " +
-                   std::to_string(n_particles) + " particles");
+    particles.fail("json.wrong-count"_id, "binds " + std::to_string(particles.size()) + " of " +
+                                              std::to_string(n_particles) + " particles");
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Node row = particles.at(p);
     if (row.size() == 0 || row.size() % 5 != 0)
-      row.fail("expected groups of frame, weight, theta, z, gap");
+      row.fail("json.wrong-type"_id, "expected groups of frame, weight, theta, z, gap");
     std::vector<BindWeight> weights;
     double sum = 0;
     for (std::size_t i = 0; i < row.size(); i += 5) {
       const BindWeight w{row.at(i).integer(), positive(row.at(i + 1)), row.at(i + 2).number(),
                          row.at(i + 3).number(), row.at(i + 4).number()};
       if (w.frame < 0 || static_cast<std::size_t>(w.frame) >= bind.frames.size())
-        row.fail("refers to a frame that is not listed");
+        row.fail("json.bad-index"_id, "refers to a frame that is not listed");
       sum += w.weight;
       weights.push_back(w);
     }
-    if (std::abs(sum - 1) > WEIGHT_SUM_TOLERANCE) row.fail("the weights do not sum to one");
+    if (std::abs(sum - 1) > WEIGHT_SUM_TOLERANCE)
+      row.fail("garment.damaged"_id, "the weights do not sum to one");
     bind.particles.push_back(std::move(weights));
   }
   return bind;
@@ -281,29 +291,33 @@ Bind read_bind(const Node& node, std::size_t n_particles) {
 /// Panel mesh and particles from the OBJ. Unsewn garments have one `v` for each `vt`.
 void take_mesh(const io::ObjMesh& obj, const std::string& path, bool sewn, Garment& garment) {
   if (obj.texture_triangles.size() != obj.triangles.size())
-    throw input_error(path, "", "the faces have no pattern coordinates (vt)",
+    throw input_error("garment.no-pattern-coordinates"_id, path, "",
+                      "the faces have no pattern coordinates (vt)",
                       "give the OBJ that was written with the document");
   std::vector<int> particle_of(obj.texture.size(), -1);
   for (std::size_t f = 0; f < obj.triangles.size(); ++f)
     for (int k = 0; k < 3; ++k) {
       const int t = obj.texture_triangles[f][k], v = obj.triangles[f][k];
       if (t < 0)
-        throw input_error(path, "face " + std::to_string(f + 1),
+        throw input_error("garment.no-pattern-coordinates"_id, path,
+                          "face " + std::to_string(f + 1),
                           "a corner has no pattern coordinates (vt)");
       if (particle_of[t] >= 0 && particle_of[t] != v)
-        throw input_error(path, "face " + std::to_string(f + 1),
+        throw input_error("garment.damaged"_id, path, "face " + std::to_string(f + 1),
                           "vt " + std::to_string(t + 1) + " belongs to two particles");
       particle_of[t] = v;
     }
   std::vector<char> used(obj.positions.size(), 0);
   for (std::size_t t = 0; t < particle_of.size(); ++t) {
     if (particle_of[t] < 0)
-      throw input_error(path, "vt " + std::to_string(t + 1), "the panel vertex is in no triangle");
+      throw input_error("garment.damaged"_id, path, "vt " + std::to_string(t + 1),
+                        "the panel vertex is in no triangle");
     used[particle_of[t]] = 1;
   }
   for (std::size_t v = 0; v < used.size(); ++v)
     if (!used[v])
-      throw input_error(path, "v " + std::to_string(v + 1), "the particle is in no triangle");
+      throw input_error("garment.damaged"_id, path, "v " + std::to_string(v + 1),
+                        "the particle is in no triangle");
   garment.panels.pattern = obj.texture;
   garment.panels.triangles = obj.texture_triangles;
   garment.panels.placed.reserve(particle_of.size());
@@ -311,7 +325,7 @@ void take_mesh(const io::ObjMesh& obj, const std::string& path, bool sewn, Garme
   if (!sewn) {
     for (std::size_t t = 0; t < particle_of.size(); ++t)
       if (particle_of[t] != static_cast<int>(t))
-        throw input_error(path, "vt " + std::to_string(t + 1),
+        throw input_error("garment.damaged"_id, path, "vt " + std::to_string(t + 1),
                           "an unsewn garment must have one v for each vt, in the same order");
     return;
   }
@@ -324,12 +338,14 @@ void check_whole(const Garment& garment) {
   const bool sewn = !garment.particle_of.empty();
   const bool whole = garment.panels.ids.size() == n &&
                      (sewn ? garment.particle_of.size() == n : garment.panels.placed.size() == n);
-  if (!whole) throw Error(ErrorKind::INTERNAL, "", "", "a garment to be written is not whole");
+  if (!whole)
+    throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", "",
+                "a garment to be written is not whole");
 }
 
 double not_negative(const Node& node) {
   const double x = node.number();
-  if (x < 0) node.fail("a spread is negative");
+  if (x < 0) node.fail("json.out-of-range"_id, "a spread is negative");
   return x;
 }
 
@@ -338,7 +354,8 @@ Redrapes read_redrapes(const Node& node, std::size_t n_particles) {
   out.count = count(node.at("count"));
   if (node.has("spread_m")) {
     const Node spread = node.at("spread_m");
-    if (spread.size() != n_particles) spread.fail("is not one number for each particle");
+    if (spread.size() != n_particles)
+      spread.fail("json.wrong-count"_id, "is not one number for each particle");
     for (std::size_t i = 0; i < n_particles; ++i)
       out.spread_m.push_back(not_negative(spread.at(i)));
   }
@@ -365,15 +382,13 @@ Garment read_garment(const std::string& path) {
 Garment garment_from(const io::Node& root, const io::ObjMesh& mesh, const std::string& mesh_name) {
   Garment garment;
   garment.panels.name = root.string("name", "");
-  garment.panels.edge_length = root.number("edge_length_m", 0),
+  garment.panels.edge_length = root.number("edge_length_m", 0);
   garment.panels.seam_length = root.number("seam_edge_length_m", 0);
   take_mesh(mesh, mesh_name, root.boolean("sewn", true), garment);
   read_panels(root.at("panels"), garment.panels);
   read_ids(root.at("vertex_ids"), garment.panels);
   read_seams(root.at("seams"), garment.panels);
-  if (root.has("findings"))
-    for (std::size_t i = 0; i < root.at("findings").size(); ++i)
-      garment.panels.findings.push_back(root.at("findings").at(i).string());
+  garment.panels.findings = io::read_findings(root);
   if (root.has("pattern"))
     garment.panels.source = std::make_shared<pattern::Pattern>(
         pattern::read_pattern_json(root.at("pattern").json(), root.file()));
@@ -381,7 +396,8 @@ Garment garment_from(const io::Node& root, const io::ObjMesh& mesh, const std::s
   if (root.has("rest_scale"))
     garment.rest_scale = read_rest_scale(root.at("rest_scale"), garment.panels.triangles.size());
   garment.offset_m = root.number("offset_m", garment.offset_m);
-  if (garment.offset_m < 0) root.at("offset_m").fail("the contact gap is negative");
+  if (garment.offset_m < 0)
+    root.at("offset_m").fail("json.out-of-range"_id, "the contact gap is negative");
   garment.converged = root.boolean("converged", false);
   if (root.has("body")) {
     const Node body = root.at("body");
@@ -429,7 +445,7 @@ GarmentText garment_text(const Garment& garment, const std::string& mesh_name,
   document["seams"] = Json::array();
   for (const pattern::MeshSeam& seam : garment.panels.seams)
     document["seams"].push_back(seam_json(seam));
-  document["findings"] = garment.panels.findings;
+  io::put_findings(document, garment.panels.findings);
   if (garment.panels.source)
     document["pattern"] =
         pattern::pattern_json(*garment.panels.source, tool, pattern::PatternNumbers::EXACT);

@@ -112,7 +112,7 @@ public:
       if (plain.empty() || plain == u.name) return u.factor;
       names += (names.empty() ? "" : ", ") + std::string(u.name);
     }
-    throw input_error(m_file, "line " + std::to_string(line),
+    throw input_error("kes.malformed"_id, m_file, "line " + std::to_string(line),
                       "unit \"" + unit + "\" of " + property + " is not known",
                       "known are " + names);
   }
@@ -124,7 +124,7 @@ public:
     const auto r = std::from_chars(plain.data(), plain.data() + plain.size(), value);
     if (r.ec != std::errc() || r.ptr != plain.data() + plain.size() || !std::isfinite(value) ||
         value < 0)
-      throw input_error(m_file, "line " + std::to_string(line),
+      throw input_error("kes.malformed"_id, m_file, "line " + std::to_string(line),
                         "\"" + text + "\" is not a number of 0 or more");
     return value;
   }
@@ -207,7 +207,8 @@ void set_bending(const std::string& file, const Value& b, Material& m) {
   if (!(b.bias > 0)) return;
   m.bend_bias_n_m = b.bias;
   if (b.bias < cloth::least_bias_rigidity(m.bend_warp_n_m, m.bend_weft_n_m))
-    throw input_error(file, "", "the bias bends more easily than warp and weft allow",
+    throw input_error("material.bias-too-soft"_id, file, "",
+                      "the bias bends more easily than warp and weft allow",
                       "measure the strip at 45 degrees again");
 }
 
@@ -274,8 +275,8 @@ Material read_kes(const std::string& path) {
     names.push_back(row[0]); // one fabric per row
     if (!wanted.empty() && row[0] != wanted) continue;
     if (!chosen.empty())
-      throw input_error(file, "line " + std::to_string(number), "the file has more than one fabric",
-                        "pick one with " + file + "#NAME");
+      throw input_error("kes.which-fabric"_id, file, "line " + std::to_string(number),
+                        "the file has more than one fabric", "pick one with " + file + "#NAME");
     chosen = row[0];
     for (std::size_t c = 1; c < row.size() && c < header.size(); ++c) {
       const Heading h = heading(header[c]);
@@ -286,12 +287,12 @@ Material read_kes(const std::string& path) {
   if (!wanted.empty() && chosen.empty()) {
     std::string list;
     for (const std::string& n : names) list += (list.empty() ? "" : ", ") + n;
-    throw input_error(file, "fabric \"" + wanted + "\"", "is not in the file",
-                      list.empty() ? "" : "there are " + list);
+    throw input_error("kes.which-fabric"_id, file, "fabric \"" + wanted + "\"",
+                      "is not in the file", list.empty() ? "" : "there are " + list);
   }
   bend_by_lengths(values);
   if (!values["B"].given() || !values["W"].given())
-    throw input_error(file, "",
+    throw input_error("kes.malformed"_id, file, "",
                       values["W"].given() ? "the bending rigidity (B) or length (C, L) is missing"
                                           : "the weight (W) is missing",
                       "see Materials in the manual page drape(1)");

@@ -42,8 +42,9 @@ void read_key(const io::Node& node, const MaterialKey& key, Material& m) {
   if (!node.has(key.name)) return;
   m.*key.field = node.at(key.name).number();
   if (m.*key.field < key.low || m.*key.field > key.high)
-    node.at(key.name).fail("is out of range", "give a value from " + std::to_string(key.low) +
-                                                  " to " + std::to_string(key.high));
+    node.at(key.name).fail("json.out-of-range"_id, "is out of range",
+                           "give a value from " + std::to_string(key.low) + " to " +
+                               std::to_string(key.high));
 }
 
 Material named_material(const io::Node& node) {
@@ -52,7 +53,7 @@ Material named_material(const io::Node& node) {
     const bool is_file = name.find(".csv") != std::string::npos || io::ending_of(name) == ".json";
     return material_from(is_file ? io::path_beside(node.file(), name) : name);
   } catch (const Error& e) {
-    node.fail(e.fact());
+    node.fail(e.id(), e.fact());
   }
 }
 
@@ -69,7 +70,7 @@ void settle_bending(const io::Node& node, Material& m) {
   const cloth::PlateRigidity plate = cloth::plate_rigidity(m);
   const double least = cloth::least_bias_rigidity(plate.warp, plate.weft);
   if (m.bend_bias_n_m < (1 - 1e-9) * least)
-    node.fail("the bias bends more easily than warp and weft allow",
+    node.fail("material.bias-too-soft"_id, "the bias bends more easily than warp and weft allow",
               "give a bend_bias_n_m of (sqrt(warp) - sqrt(weft))^2 / 4 = " +
                   std::to_string(1e6 * least) + "e-6 or more");
 }
@@ -101,10 +102,12 @@ ClothLayer read_cloth_layer(const io::Node& node) {
   layer.material = read_material(node.at("material"));
   layer.bond = node.number("bond", 0);
   if (layer.bond < 0 || layer.bond > 1)
-    node.at("bond").fail("is out of range", "give a share from 0 (loose) to 1 (fused)");
+    node.at("bond").fail("json.out-of-range"_id, "is out of range",
+                         "give a share from 0 (loose) to 1 (fused)");
   const std::string side = node.string("side", "inside");
   if (side != "inside" && side != "outside")
-    node.at("side").fail("is no side of cloth", "known are inside, outside");
+    node.at("side").fail("json.unknown-word"_id, "is no side of cloth",
+                         "known are inside, outside");
   layer.outside = side == "outside";
   return layer;
 }

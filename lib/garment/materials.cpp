@@ -180,8 +180,8 @@ const Material& material_preset(const std::string& name) {
     words.push_back(m.name);
     names += (names.empty() ? "" : ", ") + m.name;
   }
-  throw input_error("", "material \"" + name + "\"", "is not known" + did_you_mean(name, words),
-                    "known are " + names);
+  throw input_error("material.unknown"_id, "", "material \"" + name + "\"",
+                    "is not known" + did_you_mean(name, words), "known are " + names);
 }
 
 const Material& material_of(const Garment& garment, const std::string& name) {

@@ -157,7 +157,7 @@ bool is_read_by_assimp(const std::string& extension) {
 TriangleMesh read_with_assimp(const std::string& path, const std::string& extension) {
   int pipe[2];
   if (::pipe(pipe) != 0)
-    throw Error(ErrorKind::INTERNAL, path, "",
+    throw Error(ErrorKind::INTERNAL, "general.system-refused"_id, path, "",
                 std::string("no pipe could be made: ") + std::strerror(errno));
   const pid_t child = ::fork();
   if (child == 0) {
@@ -182,18 +182,21 @@ TriangleMesh read_with_assimp(const std::string& path, const std::string& extens
   while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
   const std::string next = "export it as OBJ or PLY";
   if (child < 0)
-    throw Error(ErrorKind::INTERNAL, path, "",
+    throw Error(ErrorKind::INTERNAL, "general.system-refused"_id, path, "",
                 std::string("no process could be started: ") + std::strerror(errno));
   if (!whole && WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
-    throw input_error(path, "", "was not read within " + std::to_string(LONGEST_S) + " s", next);
+    throw input_error("scan.unreadable"_id, path, "",
+                      "was not read within " + std::to_string(LONGEST_S) + " s", next);
   if (!whole)
-    throw input_error(path, "", "is damaged: it crashes the reader of " + extension + " (assimp)",
-                      next);
+    throw input_error("scan.unreadable"_id, path, "",
+                      "is damaged: it crashes the reader of " + extension + " (assimp)", next);
   if (!complaint.empty())
-    throw input_error(path, "", "cannot be read as " + extension + ": " + complaint, next);
+    throw input_error("scan.unreadable"_id, path, "",
+                      "cannot be read as " + extension + ": " + complaint, next);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
     if (!mesh.positions[v].allFinite())
-      throw input_error(path, "vertex " + std::to_string(v), "a coordinate is not finite");
+      throw input_error("scan.not-finite"_id, path, "vertex " + std::to_string(v),
+                        "a coordinate is not finite");
   return mesh;
 }
 

@@ -18,14 +18,17 @@ static std::string read_descriptor(int fd, const std::string& name) {
   std::string bytes;
   struct stat info {};
   if (fstat(fd, &info) == 0) {
-    if (S_ISDIR(info.st_mode)) throw input_error(name, "", "is a folder, not a file");
+    if (S_ISDIR(info.st_mode))
+      throw input_error("file.is-folder"_id, name, "", "is a folder, not a file");
     if (info.st_size > 0) bytes.reserve(static_cast<std::size_t>(info.st_size));
   }
   char buffer[1 << 16];
   for (;;) {
     const ssize_t n = read(fd, buffer, sizeof buffer);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw input_error(name, "", std::string("cannot read: ") + std::strerror(errno));
+    if (n < 0)
+      throw input_error("file.cannot-read"_id, name, "",
+                        std::string("cannot read: ") + std::strerror(errno));
     if (n == 0) return bytes;
     bytes.append(buffer, static_cast<std::size_t>(n));
   }
@@ -34,8 +37,8 @@ static std::string read_descriptor(int fd, const std::string& name) {
 std::string read_file(const std::string& path) {
   std::optional<std::string> bytes = read_file_if_there(path);
   if (!bytes)
-    throw input_error(path, "", std::string("cannot open: ") + std::strerror(errno),
-                      "check the path");
+    throw input_error("file.cannot-open"_id, path, "",
+                      std::string("cannot open: ") + std::strerror(errno), "check the path");
   return std::move(*bytes);
 }
 
@@ -44,8 +47,8 @@ std::optional<std::string> read_file_if_there(const std::string& path) {
   const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0 && (errno == ENOENT || errno == ENOTDIR)) return {};
   if (fd < 0)
-    throw input_error(path, "", std::string("cannot open: ") + std::strerror(errno),
-                      "check the path");
+    throw input_error("file.cannot-open"_id, path, "",
+                      std::string("cannot open: ") + std::strerror(errno), "check the path");
   try {
     std::string bytes = read_descriptor(fd, path);
     close(fd);
@@ -58,7 +61,8 @@ std::optional<std::string> read_file_if_there(const std::string& path) {
 
 static Error write_error(const std::string& name, const std::string& what, int reason,
                          const std::string& next_step = {}) {
-  return {ErrorKind::OUTPUT, name, "", what + ": " + std::strerror(reason), next_step};
+  return {ErrorKind::OUTPUT, "file.cannot-write"_id, name, "", what + ": " + std::strerror(reason),
+          next_step};
 }
 
 /// 0, or the errno of the write that failed.
@@ -94,7 +98,8 @@ void write_file(const std::string& path, std::string_view bytes) {
   struct stat info {};
   const bool exists = stat(path.c_str(), &info) == 0;
   if (exists && S_ISDIR(info.st_mode))
-    throw Error(ErrorKind::OUTPUT, path, "", "is a folder, not a file", "name a file");
+    throw Error(ErrorKind::OUTPUT, "file.is-folder"_id, path, "", "is a folder, not a file",
+                "name a file");
   if (exists && !S_ISREG(info.st_mode)) {
     const int fd = open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (fd < 0) throw write_error(path, "cannot write", errno);
@@ -131,7 +136,7 @@ std::string sha256(std::string_view bytes) {
   unsigned char digest[EVP_MAX_MD_SIZE];
   unsigned int length = 0;
   if (EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr) != 1)
-    throw Error(ErrorKind::INTERNAL, "", "", "SHA-256 is not available");
+    throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", "", "SHA-256 is not available");
   std::string hex;
   for (unsigned int i = 0; i < length; ++i) {
     char pair[3];

@@ -22,7 +22,7 @@ public:
     else if (event == Json::parse_event_t::object_end) m_keys.pop_back();
     else if (event == Json::parse_event_t::key &&
              !m_keys.back().insert(parsed.get<std::string>()).second)
-      throw input_error(m_name, "",
+      throw input_error("json.duplicate-key"_id, m_name, "",
                         "the key \"" + parsed.get<std::string>() + "\" appears twice in one object",
                         "remove one of them");
     return true;
@@ -44,7 +44,8 @@ void append_text(std::string& out, const Json& value, int indent, const std::str
   case Json::value_t::number_float: {
     const double x = value.get<double>();
     if (!std::isfinite(x))
-      throw Error(ErrorKind::INTERNAL, "", pointer, "a number to be written is not finite");
+      throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", pointer,
+                  "a number to be written is not finite");
     char buffer[32];
     const auto end = std::to_chars(buffer, buffer + sizeof buffer, x == 0 ? 0.0 : x).ptr; // no "-0"
     out.append(buffer, end);
@@ -109,7 +110,7 @@ bool is_no_number(std::string word) {
 
 Json parse_json(const std::string& text, const std::string& name) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
-    throw input_error(name, "", "the file is empty", "expected a JSON document");
+    throw input_error("file.empty"_id, name, "", "the file is empty", "expected a JSON document");
   Json value;
   try {
     value = Json::parse(text, DuplicateKeyCheck(name));
@@ -120,15 +121,17 @@ Json parse_json(const std::string& text, const std::string& name) {
     for (const char* ending : {".obj", ".ply", ".stl", ".3ds", ".xyz"})
       if (name.size() > 4 && name.compare(name.size() - 4, 4, ending) == 0)
         throw input_error(
-            name, "line " + std::to_string(line), "is a mesh, not a JSON document",
+            "json.is-mesh"_id, name, "line " + std::to_string(line),
+            "is a mesh, not a JSON document",
             "give the .json that was written with it; for a scan, make one with scan-landmarks");
     if (const auto [word, column] = word_at(text, e.byte); is_no_number(word))
-      throw input_error(name, "line " + std::to_string(line) + ", column " + std::to_string(column),
+      throw input_error("json.not-finite"_id, name,
+                        "line " + std::to_string(line) + ", column " + std::to_string(column),
                         "'" + word + "' is not a number", "give a finite number");
-    throw input_error(name, "line " + std::to_string(line), "not valid JSON",
+    throw input_error("json.syntax"_id, name, "line " + std::to_string(line), "not valid JSON",
                       "check that the file is complete and is a JSON document");
   } catch (const Json::out_of_range&) {
-    throw input_error(name, "", "a number is too large for double precision");
+    throw input_error("json.not-finite"_id, name, "", "a number is too large for double precision");
   }
   return value;
 }
@@ -159,15 +162,18 @@ void check_envelope(const Json& document, const std::string& path, const std::st
   const std::string name = path == "-" ? "standard input" : path;
   const Node node(document, name);
   if (!node.is_object() || !node.has("format"))
-    throw input_error(name, "/format", "is not a Sloper document", expected_document(format));
+    throw input_error("json.wrong-format"_id, name, "/format", "is not a Sloper document",
+                      expected_document(format));
   if (const std::string got = node.at("format").string(); got != format)
-    throw input_error(name, "/format", "is a \"" + got + "\" document", expected_document(format));
+    throw input_error("json.wrong-format"_id, name, "/format", "is a \"" + got + "\" document",
+                      expected_document(format));
   const int version = node.at("version").integer();
   if (version < 1)
-    throw input_error(name, "/version", std::to_string(version) + " is not a version",
+    throw input_error("json.wrong-version"_id, name, "/version",
+                      std::to_string(version) + " is not a version",
                       "expected 1 to " + std::to_string(newest));
   if (version > newest)
-    throw input_error(name, "/version",
+    throw input_error("json.newer-version"_id, name, "/version",
                       "version " + std::to_string(version) + " is newer than version " +
                           std::to_string(newest) + ", the newest this program reads",
                       "update Sloper");
@@ -204,40 +210,42 @@ bool Node::is_number() const { return m_value->is_number(); }
 bool Node::is_null() const { return m_value->is_null(); }
 
 Node Node::at(const std::string& key) const {
-  if (!m_value->is_object()) fail("expected an object");
+  if (!m_value->is_object()) fail("json.wrong-type"_id, "expected an object");
   const auto found = m_value->find(key);
   if (found == m_value->end())
-    fail("\"" + key + "\" is missing",
+    fail("json.missing-key"_id, "\"" + key + "\" is missing",
          "add it, or write the file again with the program that makes it");
   return {*found, m_file, m_pointer + "/" + key};
 }
 
 Node Node::at(std::size_t index) const {
-  if (!m_value->is_array()) fail("expected an array");
-  if (index >= m_value->size()) fail("has only " + std::to_string(m_value->size()) + " items");
+  if (!m_value->is_array()) fail("json.wrong-type"_id, "expected an array");
+  if (index >= m_value->size())
+    fail("json.wrong-count"_id, "has only " + std::to_string(m_value->size()) + " items");
   return {(*m_value)[index], m_file, m_pointer + "/" + std::to_string(index)};
 }
 
 double Node::number() const {
-  if (!m_value->is_number()) fail("expected a number");
+  if (!m_value->is_number()) fail("json.wrong-type"_id, "expected a number");
   const double x = m_value->get<double>();
-  if (!std::isfinite(x)) fail("the number is not finite");
+  if (!std::isfinite(x)) fail("json.not-finite"_id, "the number is not finite");
   return x;
 }
 
 int Node::integer() const {
   const double x = number();
-  if (!(x == std::floor(x) && std::abs(x) <= 2e9)) fail("expected a whole number");
+  if (!(x == std::floor(x) && std::abs(x) <= 2e9))
+    fail("json.wrong-type"_id, "expected a whole number");
   return static_cast<int>(x);
 }
 
 bool Node::boolean() const {
-  if (!m_value->is_boolean()) fail("expected true or false");
+  if (!m_value->is_boolean()) fail("json.wrong-type"_id, "expected true or false");
   return m_value->get<bool>();
 }
 
 std::string Node::string() const {
-  if (!m_value->is_string()) fail("expected a text");
+  if (!m_value->is_string()) fail("json.wrong-type"_id, "expected a text");
   return m_value->get<std::string>();
 }
 
@@ -255,17 +263,19 @@ std::string Node::string(const std::string& key, const std::string& fallback) co
 }
 
 Vec2 Node::vec2() const {
-  if (!m_value->is_array() || m_value->size() != 2) fail("expected two numbers");
+  if (!m_value->is_array() || m_value->size() != 2)
+    fail("json.wrong-type"_id, "expected two numbers");
   return {at(std::size_t{0}).number(), at(std::size_t{1}).number()};
 }
 
 Vec3 Node::vec3() const {
-  if (!m_value->is_array() || m_value->size() != 3) fail("expected three numbers");
+  if (!m_value->is_array() || m_value->size() != 3)
+    fail("json.wrong-type"_id, "expected three numbers");
   return {at(std::size_t{0}).number(), at(std::size_t{1}).number(), at(std::size_t{2}).number()};
 }
 
 std::vector<std::string> Node::keys() const {
-  if (!m_value->is_object()) fail("expected an object");
+  if (!m_value->is_object()) fail("json.wrong-type"_id, "expected an object");
   std::vector<std::string> keys;
   for (const auto& item : m_value->items()) keys.push_back(item.key());
   return keys;
@@ -275,12 +285,12 @@ void Node::allow_only(std::initializer_list<const char*> allowed) const {
   const std::vector<std::string> words(allowed.begin(), allowed.end());
   for (const std::string& key : keys()) {
     if (std::find(words.begin(), words.end(), key) != words.end()) continue;
-    fail("unknown key \"" + key + "\"" + did_you_mean(key, words, "\""));
+    fail("json.unknown-key"_id, "unknown key \"" + key + "\"" + did_you_mean(key, words, "\""));
   }
 }
 
-void Node::fail(const std::string& fact, const std::string& next_step) const {
-  throw input_error(m_file, m_pointer.empty() ? "/" : m_pointer, fact, next_step);
+void Node::fail(MessageId id, const std::string& fact, const std::string& next_step) const {
+  throw input_error(id, m_file, m_pointer.empty() ? "/" : m_pointer, fact, next_step);
 }
 
 Json to_json(const Vec2& v) { return Json::array({v.x(), v.y()}); }
@@ -316,7 +326,7 @@ std::string path_beside(const std::string& document_path, const std::string& nam
 std::string file_beside(const Node& name) {
   const std::string path = path_beside(name.file(), name.string());
   if (!std::filesystem::exists(path))
-    name.fail("there is no " + path,
+    name.fail("file.missing-beside"_id, "there is no " + path,
               "keep it beside the document under this name, or write both again");
   return path;
 }

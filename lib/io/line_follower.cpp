@@ -19,7 +19,8 @@ constexpr int NAP_MS = 5; // between looks at a file that may grow
 LineFollower::LineFollower(const std::string& path) : m_stream(path == "-") {
   m_file = m_stream ? STDIN_FILENO : open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (m_file < 0)
-    throw input_error(path, "", std::string("cannot be read: ") + std::strerror(errno));
+    throw input_error("file.cannot-read"_id, path, "",
+                      std::string("cannot be read: ") + std::strerror(errno));
 }
 
 LineFollower::~LineFollower() {

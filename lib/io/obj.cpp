@@ -33,7 +33,8 @@ public:
 
 private:
   void parse_line() {
-    if (m_line.find('\0') != std::string_view::npos) fail("is not text", "expected an OBJ file");
+    if (m_line.find('\0') != std::string_view::npos)
+      fail("obj.malformed"_id, "is not text", "expected an OBJ file");
     const std::string_view key = word();
     if (key == "v") {
       const double x = number(), y = number(), z = number();
@@ -64,27 +65,30 @@ private:
         if (!part.empty()) t = index(part, m_mesh.texture.size());
       }
       if (t >= 0) m_has_texture = true;
-      if (count == 0) v0 = v, t0 = t;
-      else {
+      if (count == 0) {
+        v0 = v;
+        t0 = t;
+      } else {
         if (count > 1) {
           m_mesh.triangles.push_back({v0, v1, v});
           m_mesh.texture_triangles.push_back({t0, t1, t});
         }
-        v1 = v, t1 = t;
+        v1 = v;
+        t1 = t;
       }
     }
-    if (count < 3) fail("a face has fewer than three corners");
+    if (count < 3) fail("obj.malformed"_id, "a face has fewer than three corners");
   }
 
   int index(std::string_view text, std::size_t size) {
     long i = 0;
     const auto result = std::from_chars(text.data(), text.data() + text.size(), i);
     if (result.ec != std::errc() || result.ptr != text.data() + text.size())
-      fail("\"" + std::string(text) + "\" is not an index");
+      fail("obj.malformed"_id, "\"" + std::string(text) + "\" is not an index");
     if (i < 0) i += static_cast<long>(size) + 1;
     if (i < 1 || i > static_cast<long>(size))
-      fail("the face refers to " + std::string(text) + ", but only " + std::to_string(size) +
-           " are defined above it");
+      fail("obj.malformed"_id, "the face refers to " + std::string(text) + ", but only " +
+                                   std::to_string(size) + " are defined above it");
     return static_cast<int>(i - 1);
   }
 
@@ -94,9 +98,10 @@ private:
     double x = 0;
     const auto result = std::from_chars(text.data(), text.data() + text.size(), x);
     if (text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size())
-      fail(text.empty() ? "a number is missing"
-                        : "\"" + std::string(text.substr(0, 20)) + "\" is not a number");
-    if (!std::isfinite(x)) fail("a coordinate is not finite");
+      fail("obj.malformed"_id, text.empty()
+                                   ? "a number is missing"
+                                   : "\"" + std::string(text.substr(0, 20)) + "\" is not a number");
+    if (!std::isfinite(x)) fail("obj.malformed"_id, "a coordinate is not finite");
     return x;
   }
 
@@ -113,8 +118,9 @@ private:
     return w;
   }
 
-  [[noreturn]] void fail(const std::string& fact, const std::string& next_step = {}) const {
-    throw input_error(m_name, "line " + std::to_string(m_number), fact, next_step);
+  [[noreturn]] void fail(MessageId id, const std::string& fact,
+                         const std::string& next_step = {}) const {
+    throw input_error(id, m_name, "line " + std::to_string(m_number), fact, next_step);
   }
 
   std::string_view m_text, m_line;
@@ -126,7 +132,8 @@ private:
 
 void append_number(std::string& out, double x) {
   if (!std::isfinite(x))
-    throw Error(ErrorKind::INTERNAL, "", "", "a coordinate to be written is not finite");
+    throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", "",
+                "a coordinate to be written is not finite");
   char buffer[32];
   out += ' ';
   out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, x == 0 ? 0.0 : x).ptr);
@@ -147,7 +154,8 @@ ObjMesh parse_obj(std::string_view text, const std::string& name, bool keep_text
 ObjMesh read_obj(const std::string& path) {
   ObjMesh mesh = parse_obj(read_file(path), path);
   if (mesh.positions.empty())
-    throw input_error(path, "", "has no vertices", "the file is empty or not an OBJ");
+    throw input_error("obj.no-vertices"_id, path, "", "has no vertices",
+                      "the file is empty or not an OBJ");
   return mesh;
 }
 

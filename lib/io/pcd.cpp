@@ -46,7 +46,8 @@ bool expand_lzf(std::string_view input, std::string& output) {
       const std::size_t n = control + 1;
       if (in + n > input.size() || out + n > output.size()) return false;
       std::memcpy(output.data() + out, input.data() + in, n);
-      in += n, out += n;
+      in += n;
+      out += n;
       continue;
     }
     std::size_t n = control >> 5;
@@ -88,7 +89,7 @@ private:
   void read_header() {
     std::string_view line;
     while (m_data.empty()) {
-      if (!next_line(line)) fail("header", "ends before \"DATA\"");
+      if (!next_line(line)) fail("scan.malformed"_id, "header", "ends before \"DATA\"");
       const std::vector<std::string_view> words = words_of(line);
       if (words.empty() || words[0][0] == '#') continue;
       read_entry(words);
@@ -102,24 +103,26 @@ private:
     for (int axis = 0; axis < 3; ++axis) {
       for (std::size_t k = 0; k < m_fields.size(); ++k)
         if (m_fields[k].name == std::string(1, "xyz"[axis])) m_axis[axis] = static_cast<int>(k);
-      if (m_axis[axis] < 0) fail("FIELDS", "has no x, y and z");
+      if (m_axis[axis] < 0) fail("scan.malformed"_id, "FIELDS", "has no x, y and z");
       const Field& field = m_fields[static_cast<std::size_t>(m_axis[axis])];
       if (field.type != 'F' || (field.size != 4 && field.size != 8) || field.count != 1)
-        fail("TYPE", "x, y and z are not floating-point numbers of 4 or 8 bytes");
+        fail("scan.malformed"_id, "TYPE",
+             "x, y and z are not floating-point numbers of 4 or 8 bytes");
     }
     if (m_points == 0) m_points = m_width * m_height;
-    if (m_points > MOST_POINTS) fail("POINTS", "is more than any scan has");
+    if (m_points > MOST_POINTS) fail("scan.malformed"_id, "POINTS", "is more than any scan has");
   }
 
   void read_entry(const std::vector<std::string_view>& words) {
     const std::string_view key = words[0];
     const std::size_t n = words.size() - 1;
     if (key == "FIELDS" || key == "COLUMNS") {
-      if (n > MOST_FIELDS) fail(place(), "more than 256 fields");
+      if (n > MOST_FIELDS) fail("scan.malformed"_id, place(), "more than 256 fields");
       m_fields.resize(n);
       for (std::size_t k = 0; k < n; ++k) m_fields[k].name = std::string(words[k + 1]);
     } else if (key == "SIZE" || key == "COUNT" || key == "TYPE") {
-      if (n != m_fields.size()) fail(place(), "has not one entry for each field");
+      if (n != m_fields.size())
+        fail("scan.malformed"_id, place(), "has not one entry for each field");
       for (std::size_t k = 0; k < n; ++k) {
         if (key == "TYPE") m_fields[k].type = words[k + 1][0];
         else (key == "SIZE" ? m_fields[k].size : m_fields[k].count) = count_of(words[k + 1], 65536);
@@ -130,14 +133,15 @@ private:
     else if (key == "DATA") {
       m_data = std::string(word(words, 1));
       if (m_data != "ascii" && m_data != "binary" && m_data != "binary_compressed")
-        fail(place(), "the data are \"" + m_data.substr(0, 30) + "\"",
+        fail("scan.unsupported-data"_id, place(), "the data are \"" + m_data.substr(0, 30) + "\"",
              "ascii, binary or binary_compressed is read");
     } else if (key != "VERSION" && key != "VIEWPOINT")
-      fail(place(), "\"" + std::string(key.substr(0, 20)) + "\" is no entry of a PCD header");
+      fail("scan.malformed"_id, place(),
+           "\"" + std::string(key.substr(0, 20)) + "\" is no entry of a PCD header");
   }
 
   std::string_view word(const std::vector<std::string_view>& words, std::size_t k) const {
-    if (k >= words.size()) fail(place(), "has no value");
+    if (k >= words.size()) fail("scan.malformed"_id, place(), "has no value");
     return words[k];
   }
 
@@ -145,7 +149,8 @@ private:
     std::size_t n = 0;
     const auto result = std::from_chars(text.data(), text.data() + text.size(), n);
     if (result.ec != std::errc() || result.ptr != text.data() + text.size() || n > most)
-      fail(place(), '"' + std::string(text.substr(0, 20)) + "\" is not a count");
+      fail("scan.malformed"_id, place(),
+           '"' + std::string(text.substr(0, 20)) + "\" is not a count");
     return n;
   }
 
@@ -162,15 +167,17 @@ private:
     }
     std::string_view line;
     for (std::size_t i = 0; i < m_points; ++i) {
-      if (!next_line(line)) fail(place(), "the file ends early", TRUNCATED);
+      if (!next_line(line)) fail("scan.truncated"_id, place(), "the file ends early", TRUNCATED);
       const std::vector<std::string_view> words = words_of(line);
-      if (words.size() < columns) fail(place(), "has fewer numbers than there are fields");
+      if (words.size() < columns)
+        fail("scan.malformed"_id, place(), "has fewer numbers than there are fields");
       Vec3 p;
       for (int axis = 0; axis < 3; ++axis) {
         const std::string_view text = words[column[axis]];
         const auto result = std::from_chars(text.data(), text.data() + text.size(), p[axis]);
         if (result.ec != std::errc() || result.ptr != text.data() + text.size())
-          fail(place(), '"' + std::string(text.substr(0, 20)) + "\" is not a number");
+          fail("scan.malformed"_id, place(),
+               '"' + std::string(text.substr(0, 20)) + "\" is not a number");
       }
       add(p);
     }
@@ -179,7 +186,8 @@ private:
   /// @param by_field all of a field, then all of the next, as compressed files have it
   void read_points(std::string_view data, bool by_field) {
     if (m_stride == 0 || data.size() / m_stride < m_points)
-      fail("byte " + std::to_string(m_bytes.size()), "the file ends early", TRUNCATED);
+      fail("scan.truncated"_id, "byte " + std::to_string(m_bytes.size()), "the file ends early",
+           TRUNCATED);
     for (std::size_t i = 0; i < m_points; ++i) {
       Vec3 p;
       for (int axis = 0; axis < 3; ++axis) {
@@ -199,25 +207,29 @@ private:
   void read_compressed() {
     std::uint32_t sizes[2]; // compressed, expanded
     if (m_bytes.size() - m_at < sizeof sizes)
-      fail("byte " + std::to_string(m_at), "the file ends early", TRUNCATED);
+      fail("scan.truncated"_id, "byte " + std::to_string(m_at), "the file ends early", TRUNCATED);
     std::memcpy(sizes, m_bytes.data() + m_at, sizeof sizes);
     m_at += sizeof sizes;
     if (m_bytes.size() - m_at < sizes[0])
-      fail("byte " + std::to_string(m_bytes.size()), "the file ends early", TRUNCATED);
+      fail("scan.truncated"_id, "byte " + std::to_string(m_bytes.size()), "the file ends early",
+           TRUNCATED);
     if (m_stride == 0 || sizes[1] % m_stride != 0 || sizes[1] / m_stride != m_points)
-      fail("byte " + std::to_string(m_at), "the data are not of the header's size");
+      fail("scan.malformed"_id, "byte " + std::to_string(m_at),
+           "the data are not of the header's size");
     if (sizes[1] / MOST_EXPANSION > sizes[0])
-      fail("byte " + std::to_string(m_at), "the compressed data are broken", TRUNCATED);
+      fail("scan.malformed"_id, "byte " + std::to_string(m_at), "the compressed data are broken",
+           TRUNCATED);
     std::string data(sizes[1], '\0');
     if (!expand_lzf(m_bytes.substr(m_at, sizes[0]), data))
-      fail("byte " + std::to_string(m_at), "the compressed data are broken", TRUNCATED);
+      fail("scan.malformed"_id, "byte " + std::to_string(m_at), "the compressed data are broken",
+           TRUNCATED);
     read_points(data, true);
   }
 
   std::string place() const { return "line " + std::to_string(m_line); }
-  [[noreturn]] void fail(const std::string& where, const std::string& fact,
+  [[noreturn]] void fail(MessageId id, const std::string& where, const std::string& fact,
                          const std::string& next_step = {}) const {
-    throw input_error(m_name, where, fact, next_step);
+    throw input_error(id, m_name, where, fact, next_step);
   }
 
   std::string_view m_bytes;

@@ -19,7 +19,8 @@ std::string png_bytes(const Image& image,
   std::string out;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
-  if (!info) throw Error(ErrorKind::INTERNAL, "", "", "libpng cannot be started");
+  if (!info)
+    throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", "", "libpng cannot be started");
   std::vector<png_text> chunks;
   for (const auto& [key, text] : texts) {
     png_text t{};
@@ -31,7 +32,8 @@ std::string png_bytes(const Image& image,
   }
   if (setjmp(png_jmpbuf(png))) {
     png_destroy_write_struct(&png, &info);
-    throw Error(ErrorKind::INTERNAL, "", "", "libpng cannot write the picture");
+    throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", "",
+                "libpng cannot write the picture");
   }
   png_set_write_fn(png, &out, append_bytes, nullptr);
   png_set_compression_level(png, 4);
@@ -82,12 +84,14 @@ template<class F> void for_chunks(const std::string& png, F&& visit) {
 
 std::string apng_bytes(const std::vector<Image>& images, double seconds,
                        const std::vector<std::pair<std::string, std::string>>& texts) {
-  if (images.empty()) throw Error(ErrorKind::INTERNAL, "", "", "an animation needs pictures");
+  if (images.empty())
+    throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", "", "an animation needs pictures");
   std::string out;
   std::uint32_t sequence = 0;
   for (const Image& image : images) {
     if (image.width != images[0].width || image.height != images[0].height)
-      throw Error(ErrorKind::INTERNAL, "", "", "the pictures of an animation differ in size");
+      throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", "",
+                  "the pictures of an animation differ in size");
     const bool first = &image == &images[0];
     const std::string png = png_bytes(image, first ? texts : decltype(texts){});
     if (first) out = png.substr(0, 8);
@@ -120,7 +124,7 @@ Image read_png(const std::string& path) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
-    throw input_error(path, "", "is not a readable PNG",
+    throw input_error("png.unreadable"_id, path, "", "is not a readable PNG",
                       "give a picture that render-png or another program wrote as PNG");
   png.format = PNG_FORMAT_RGBA;
   Image image;
@@ -128,11 +132,12 @@ Image read_png(const std::string& path) {
   image.height = static_cast<int>(png.height);
   if (png.width > 16384 || png.height > 16384) {
     png_image_free(&png);
-    throw input_error(path, "", "is larger than 16384 pixels a side", "give a smaller picture");
+    throw input_error("png.unreadable"_id, path, "", "is larger than 16384 pixels a side",
+                      "give a smaller picture");
   }
   image.rgba.resize(PNG_IMAGE_SIZE(png));
   if (!png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr))
-    throw input_error(path, "", "is a damaged PNG", "write it again");
+    throw input_error("png.unreadable"_id, path, "", "is a damaged PNG", "write it again");
   return image;
 }
 

@@ -95,8 +95,9 @@ public:
     for (const Triangle& t : m_mesh.triangles)
       for (int v : t)
         if (v < 0 || v >= static_cast<int>(m_mesh.positions.size()))
-          fail("face", "refers to vertex " + std::to_string(v) + ", but there are only " +
-                           std::to_string(m_mesh.positions.size()));
+          fail("scan.malformed"_id, "face",
+               "refers to vertex " + std::to_string(v) + ", but there are only " +
+                   std::to_string(m_mesh.positions.size()));
     return std::move(m_mesh);
   }
 
@@ -111,14 +112,16 @@ private:
         {"float64", PlyType::F64}};
     for (const auto& [name, type] : names)
       if (word == name) return type;
-    fail(m_lines.place(), '"' + std::string(word.substr(0, 20)) + "\" is not a PLY type");
+    fail("scan.malformed"_id, m_lines.place(),
+         '"' + std::string(word.substr(0, 20)) + "\" is not a PLY type");
   }
 
   void read_header() {
     std::string_view line;
-    if (!m_lines.next(line) || line != "ply") fail("line 1", "does not begin with \"ply\"");
+    if (!m_lines.next(line) || line != "ply")
+      fail("scan.malformed"_id, "line 1", "does not begin with \"ply\"");
     while (true) {
-      if (!m_lines.next(line)) fail("header", "ends before \"end_header\"");
+      if (!m_lines.next(line)) fail("scan.malformed"_id, "header", "ends before \"end_header\"");
       const std::string_view key = next_word(line);
       if (key == "end_header") break;
       if (key == "format") {
@@ -126,17 +129,21 @@ private:
         m_ascii = kind == "ascii";
         m_swap = kind == "binary_big_endian";
         if (!m_ascii && !m_swap && kind != "binary_little_endian")
-          fail(m_lines.place(), "unknown PLY format \"" + std::string(kind.substr(0, 30)) + "\"");
+          fail("scan.malformed"_id, m_lines.place(),
+               "unknown PLY format \"" + std::string(kind.substr(0, 30)) + "\"");
       } else if (key == "element") {
         PlyElement element{std::string(next_word(line)), 0, {}};
         double count = -1;
         const bool is_count = parse_number(next_word(line), count) && count >= 0 &&
                               count <= static_cast<double>(MAX_ELEMENTS); // false for nan
-        if (!is_count) fail(m_lines.place(), "the number of elements is not a whole number");
+        if (!is_count)
+          fail("scan.malformed"_id, m_lines.place(),
+               "the number of elements is not a whole number");
         element.count = static_cast<std::size_t>(count);
         m_elements.push_back(element);
       } else if (key == "property") {
-        if (m_elements.empty()) fail(m_lines.place(), "a property comes before any element");
+        if (m_elements.empty())
+          fail("scan.malformed"_id, m_lines.place(), "a property comes before any element");
         PlyProperty property;
         std::string_view word = next_word(line);
         if (word == "list") {
@@ -157,14 +164,15 @@ private:
       double x = 0;
       const std::string_view word = next_word(line);
       if (!parse_number(word, x))
-        fail(m_lines.place(), word.empty()
-                                  ? "a number is missing"
-                                  : '"' + std::string(word.substr(0, 20)) + "\" is not a number");
+        fail("scan.malformed"_id, m_lines.place(),
+             word.empty() ? "a number is missing"
+                          : '"' + std::string(word.substr(0, 20)) + "\" is not a number");
       return x;
     }
     const int n = size_of(type);
     if (m_at + n > m_bytes.size())
-      fail("byte " + std::to_string(m_at), "the file ends early", "the copy is probably truncated");
+      fail("scan.truncated"_id, "byte " + std::to_string(m_at), "the file ends early",
+           "the copy is probably truncated");
     char raw[8];
     std::memcpy(raw, m_bytes.data() + m_at, n);
     if (m_swap) std::reverse(raw, raw + n);
@@ -188,7 +196,8 @@ private:
   void read_element(const PlyElement& element) {
     const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
     int axis_of[64];
-    if (element.properties.size() > 64) fail("header", "more than 64 properties in one element");
+    if (element.properties.size() > 64)
+      fail("scan.malformed"_id, "header", "more than 64 properties in one element");
     int axes = 0;
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
       const std::string& name = element.properties[k].name;
@@ -198,12 +207,14 @@ private:
               : -1;
       axes += axis_of[k] >= 0;
     }
-    if (is_vertex && axes != 3) fail("header", "the vertices have no x, y and z");
+    if (is_vertex && axes != 3)
+      fail("scan.malformed"_id, "header", "the vertices have no x, y and z");
     std::vector<int> corners;
     for (std::size_t i = 0; i < element.count; ++i) {
       std::string_view line;
       if (m_ascii && !m_lines.next(line))
-        fail(m_lines.place(), "the file ends early", "the copy is probably truncated");
+        fail("scan.truncated"_id, m_lines.place(), "the file ends early",
+             "the copy is probably truncated");
       Vec3 p = Vec3::Zero();
       for (std::size_t k = 0; k < element.properties.size(); ++k) {
         const PlyProperty& property = element.properties[k];
@@ -214,7 +225,7 @@ private:
         }
         const double count = value(property.count_type, line);
         if (!(count >= 0 && count <= 100000))
-          fail(element.name + " " + std::to_string(i),
+          fail("scan.malformed"_id, element.name + " " + std::to_string(i),
                "the number of corners is not a whole number");
         const bool corner_list =
             is_face && (property.name == "vertex_indices" || property.name == "vertex_index");
@@ -227,14 +238,15 @@ private:
           m_mesh.triangles.push_back({corners[0], corners[c - 1], corners[c]});
       }
       if (!is_vertex) continue;
-      if (!p.allFinite()) fail("vertex " + std::to_string(i), "a coordinate is not finite");
+      if (!p.allFinite())
+        fail("scan.not-finite"_id, "vertex " + std::to_string(i), "a coordinate is not finite");
       m_mesh.positions.push_back(p);
     }
   }
 
-  [[noreturn]] void fail(const std::string& place, const std::string& fact,
+  [[noreturn]] void fail(MessageId id, const std::string& place, const std::string& fact,
                          const std::string& next_step = {}) const {
-    throw input_error(m_name, place, fact, next_step);
+    throw input_error(id, m_name, place, fact, next_step);
   }
 
   std::string_view m_bytes;
@@ -266,9 +278,10 @@ TriangleMesh parse_stl(std::string_view bytes, const std::string& name) {
                        bytes.substr(0, 2000).find("facet") != std::string_view::npos;
   if (!is_text) {
     if (bytes.size() < 84)
-      throw input_error(name, "", "is too short for an STL file", "the copy is probably truncated");
+      throw input_error("scan.truncated"_id, name, "", "is too short for an STL file",
+                        "the copy is probably truncated");
     if (84 + 50 * static_cast<std::size_t>(count) > bytes.size())
-      throw input_error(name, "header",
+      throw input_error("scan.truncated"_id, name, "header",
                         "promises " + std::to_string(count) + " facets, but the file ends early",
                         "the copy is probably truncated");
     mesh.positions.reserve(3 * static_cast<std::size_t>(count));
@@ -279,7 +292,8 @@ TriangleMesh parse_stl(std::string_view bytes, const std::string& name) {
       for (int k = 0; k < 3; ++k) {
         corner[k] = Vec3(raw[3 + 3 * k], raw[4 + 3 * k], raw[5 + 3 * k]);
         if (!corner[k].allFinite())
-          throw input_error(name, "facet " + std::to_string(f), "a coordinate is not finite");
+          throw input_error("scan.not-finite"_id, name, "facet " + std::to_string(f),
+                            "a coordinate is not finite");
       }
       add_facet(mesh, corner);
     }
@@ -293,11 +307,15 @@ TriangleMesh parse_stl(std::string_view bytes, const std::string& name) {
     if (next_word(line) != "vertex") continue;
     for (int axis = 0; axis < 3; ++axis)
       if (!parse_number(next_word(line), corner[k][axis]) || !std::isfinite(corner[k][axis]))
-        throw input_error(name, lines.place(), "a vertex is not three finite numbers");
-    if (++k == 3) add_facet(mesh, corner), k = 0;
+        throw input_error("scan.malformed"_id, name, lines.place(),
+                          "a vertex is not three finite numbers");
+    if (++k == 3) {
+      add_facet(mesh, corner);
+      k = 0;
+    }
   }
   if (k != 0)
-    throw input_error(name, lines.place(), "the last facet is not complete",
+    throw input_error("scan.truncated"_id, name, lines.place(), "the last facet is not complete",
                       "the copy is probably truncated");
   return mesh;
 }
@@ -308,20 +326,21 @@ TriangleMesh parse_xyz(std::string_view bytes, const std::string& name) {
   std::string_view line;
   while (lines.next(line)) {
     if (line.find('\0') != std::string_view::npos)
-      throw input_error(name, lines.place(), "is not text", "expected x y z on every line");
+      throw input_error("scan.malformed"_id, name, lines.place(), "is not text",
+                        "expected x y z on every line");
     std::string_view word = next_word(line);
     if (word.empty() || word[0] == '#' || word.substr(0, 2) == "//") continue;
     Vec3 p;
     for (int axis = 0; axis < 3; ++axis) {
       if (!parse_number(word, p[axis])) {
         if (mesh.positions.empty() && axis == 0) break; // a heading line
-        throw input_error(name, lines.place(),
+        throw input_error("scan.malformed"_id, name, lines.place(),
                           word.empty()
                               ? "has fewer than three numbers"
                               : "\"" + std::string(word.substr(0, 20)) + "\" is not a number");
       }
       if (!std::isfinite(p[axis]))
-        throw input_error(name, lines.place(), "a coordinate is not finite");
+        throw input_error("scan.not-finite"_id, name, lines.place(), "a coordinate is not finite");
       if (axis < 2) word = next_word(line);
       else mesh.positions.push_back(p);
     }
@@ -349,7 +368,7 @@ std::string format_of(const std::string& path, std::string_view bytes) {
   const std::string_view head = bytes.substr(0, 4000);
   if (const std::size_t first = head.find_first_not_of(" \t\r\n");
       first != std::string_view::npos && head[first] == '{')
-    throw input_error(path, "", "is a JSON document, not a scan",
+    throw input_error("scan.is-document"_id, path, "", "is a JSON document, not a scan",
                       std::string(EXPECTED) + "; a document's mesh is the .obj beside it");
   if (head.substr(0, 3) == "ply") return "ply";
   if (head.substr(0, 6) == "# .PCD") return "pcd";
@@ -361,7 +380,7 @@ std::string format_of(const std::string& path, std::string_view bytes) {
 
 Scan read_scan(const std::string& path) {
   const std::string bytes = read_file(path);
-  if (bytes.empty()) throw input_error(path, "", "is empty", EXPECTED);
+  if (bytes.empty()) throw input_error("file.empty"_id, path, "", "is empty", EXPECTED);
   Scan scan;
   scan.format = format_of(path, bytes);
   scan.sha256 = sha256(bytes);
@@ -375,7 +394,8 @@ Scan read_scan(const std::string& path) {
   else if (scan.format == "xyz") scan.mesh = parse_xyz(bytes, path);
   else if (scan.format == "pcd") scan.mesh = parse_pcd(bytes, path);
   else scan.mesh = read_with_assimp(path, scan.format);
-  if (scan.mesh.positions.empty()) throw input_error(path, "", "holds no vertices", EXPECTED);
+  if (scan.mesh.positions.empty())
+    throw input_error("scan.no-vertices"_id, path, "", "holds no vertices", EXPECTED);
   return scan;
 }
 

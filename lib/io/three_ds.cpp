@@ -30,7 +30,7 @@ public:
 
   TriangleMesh run() {
     if (m_bytes.size() < HEADER || read<std::uint16_t>(0) != MAIN)
-      fail(0, "does not begin with the main chunk of a 3DS file");
+      fail("scan.malformed"_id, 0, "does not begin with the main chunk of a 3DS file");
     read_chunks(0, m_bytes.size(), 0);
     return std::move(m_mesh);
   }
@@ -38,20 +38,21 @@ public:
 private:
   template<class T> T read(std::size_t at) const {
     if (at + sizeof(T) > m_bytes.size())
-      fail(at, "the file ends early", "the copy is probably truncated");
+      fail("scan.truncated"_id, at, "the file ends early", "the copy is probably truncated");
     T value;
     std::memcpy(&value, m_bytes.data() + at, sizeof value);
     return value;
   }
 
   void read_chunks(std::size_t at, std::size_t end, int depth) {
-    if (depth > DEPTH) fail(at, "chunks are nested too deeply for a 3DS file");
+    if (depth > DEPTH) fail("scan.malformed"_id, at, "chunks are nested too deeply for a 3DS file");
     while (at + HEADER <= end) {
       const auto kind = read<std::uint16_t>(at);
       const std::size_t length = read<std::uint32_t>(at + 2);
-      if (length < HEADER) fail(at, "a chunk is shorter than its own header");
+      if (length < HEADER) fail("scan.malformed"_id, at, "a chunk is shorter than its own header");
       if (at + length > end)
-        fail(at, "a chunk extends past the end of its parent", "the copy is probably truncated");
+        fail("scan.truncated"_id, at, "a chunk extends past the end of its parent",
+             "the copy is probably truncated");
       const std::size_t inside = at + HEADER, close = at + length;
       if (kind == MAIN || kind == EDITOR) read_chunks(inside, close, depth + 1);
       else if (kind == OBJECT) read_object(inside, close, depth);
@@ -73,12 +74,13 @@ private:
   void read_vertices(std::size_t at, std::size_t end) {
     const std::size_t n = read<std::uint16_t>(at);
     if (at + 2 + 12 * n > end)
-      fail(at, "promises " + std::to_string(n) + " vertices, but its chunk ends early");
+      fail("scan.truncated"_id, at,
+           "promises " + std::to_string(n) + " vertices, but its chunk ends early");
     for (std::size_t v = 0; v < n; ++v) {
       Vec3 p;
       for (std::size_t axis = 0; axis < 3; ++axis)
         p[static_cast<int>(axis)] = read<float>(at + 2 + 12 * v + 4 * axis);
-      if (!p.allFinite()) fail(at + 2 + 12 * v, "a coordinate is not finite");
+      if (!p.allFinite()) fail("scan.not-finite"_id, at + 2 + 12 * v, "a coordinate is not finite");
       m_mesh.positions.push_back(p);
     }
   }
@@ -87,23 +89,25 @@ private:
     const std::size_t n = read<std::uint16_t>(at),
                       vertices = m_mesh.positions.size() - static_cast<std::size_t>(m_first);
     if (at + 2 + 8 * n > end)
-      fail(at, "promises " + std::to_string(n) + " faces, but its chunk ends early");
+      fail("scan.truncated"_id, at,
+           "promises " + std::to_string(n) + " faces, but its chunk ends early");
     for (std::size_t f = 0; f < n; ++f) {
       Triangle t;
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t v = read<std::uint16_t>(at + 2 + 8 * f + 2 * k);
         if (v >= vertices)
-          fail(at + 2 + 8 * f, "a face refers to vertex " + std::to_string(v) +
-                                   ", but there are only " + std::to_string(vertices));
+          fail("scan.malformed"_id, at + 2 + 8 * f,
+               "a face refers to vertex " + std::to_string(v) + ", but there are only " +
+                   std::to_string(vertices));
         t[k] = m_first + static_cast<int>(v);
       }
       m_mesh.triangles.push_back(t);
     }
   }
 
-  [[noreturn]] void fail(std::size_t at, const std::string& fact,
+  [[noreturn]] void fail(MessageId id, std::size_t at, const std::string& fact,
                          const std::string& next_step = {}) const {
-    throw input_error(m_name, "byte " + std::to_string(at), fact, next_step);
+    throw input_error(id, m_name, "byte " + std::to_string(at), fact, next_step);
   }
 
   std::string_view m_bytes;

@@ -21,7 +21,7 @@ std::vector<int> vertex_list(const io::Node& node, std::size_t n_vertices) {
   for (std::size_t k = 0; k < node.size(); ++k) {
     const int v = node.at(k).integer();
     if (v < 0 || static_cast<std::size_t>(v) >= n_vertices)
-      node.fail("vertex " + std::to_string(v) + " is not in the mesh");
+      node.fail("json.bad-index"_id, "vertex " + std::to_string(v) + " is not in the mesh");
     out.push_back(v);
   }
   return out;
@@ -40,7 +40,9 @@ Placement placement_of(const io::Node& by) {
 
 void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std::string& tool) {
   io::ObjMesh obj;
-  obj.positions = mesh.placed, obj.texture = mesh.pattern, obj.triangles = mesh.triangles,
+  obj.positions = mesh.placed;
+  obj.texture = mesh.pattern;
+  obj.triangles = mesh.triangles;
   obj.texture_triangles = mesh.triangles;
   for (const PanelInfo& p : mesh.panels) obj.groups.push_back({p.name, p.first_triangle});
   const std::string mesh_path = io::mesh_path_beside(path);
@@ -59,7 +61,8 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
     io::Json st = io::Json::array();
     for (int v = p.first_vertex; v < p.first_vertex + p.n_vertices; ++v) {
       const StableId& id = mesh.ids[static_cast<std::size_t>(v)];
-      st.push_back(id.s), st.push_back(id.t);
+      st.push_back(id.s);
+      st.push_back(id.t);
     }
     panels.push_back({{"name", p.name},
                       {"part", p.part},
@@ -84,7 +87,7 @@ void write_panel_mesh(const std::string& path, const PanelMesh& mesh, const std:
     if (s.open) seams.back()["open"] = true;
   }
   doc["seams"] = seams;
-  doc["findings"] = mesh.findings;
+  io::put_findings(doc, mesh.findings);
   if (mesh.source) doc["pattern"] = pattern_json(*mesh.source, tool, PatternNumbers::EXACT);
   const std::string text = io::to_text(doc); // before anything is written
   io::write_obj(mesh_path, obj, generator_stamp(tool));
@@ -97,16 +100,19 @@ PanelMesh read_panel_mesh(const std::string& path) {
   const io::ObjMesh obj = io::read_obj(io::file_beside(doc.at("mesh")));
   PanelMesh mesh;
   mesh.name = doc.string("name", "");
-  mesh.edge_length = doc.number("edge_length", 0),
+  mesh.edge_length = doc.number("edge_length", 0);
   mesh.seam_length = doc.number("seam_edge_length", 0);
-  mesh.placed = obj.positions, mesh.pattern = obj.texture, mesh.triangles = obj.triangles;
+  mesh.placed = obj.positions;
+  mesh.pattern = obj.texture;
+  mesh.triangles = obj.triangles;
   if (doc.has("placement")) {
     mesh.placement = placement_of(doc.at("placement").at("by"));
     mesh.body_sha256 = doc.at("placement").string("body_sha256", "");
   }
   const std::size_t n = mesh.placed.size();
   if (mesh.pattern.size() != n)
-    doc.at("mesh").fail("the mesh has " + std::to_string(n) + " v and " +
+    doc.at("mesh").fail("panels.mesh-differs"_id,
+                        "the mesh has " + std::to_string(n) + " v and " +
                             std::to_string(mesh.pattern.size()) + " vt",
                         "write both files with one pattern-mesh run");
   const io::Node panels = doc.at("panels");
@@ -114,29 +120,34 @@ PanelMesh read_panel_mesh(const std::string& path) {
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const io::Node node = panels.at(k);
     PanelInfo p;
-    p.name = node.at("name").string(), p.part = node.string("part", ""),
-    p.material = node.string("material", ""), p.layer = node.integer("layer", 0);
+    p.name = node.at("name").string();
+    p.part = node.string("part", "");
+    p.material = node.string("material", "");
+    p.layer = node.integer("layer", 0);
     p.grain = node.at("grain").vec2();
-    p.first_vertex = node.at("vertices").at(0).integer(),
+    p.first_vertex = node.at("vertices").at(0).integer();
     p.n_vertices = node.at("vertices").at(1).integer();
-    p.first_triangle = node.at("triangles").at(0).integer(),
+    p.first_triangle = node.at("triangles").at(0).integer();
     p.n_triangles = node.at("triangles").at(1).integer();
     if (p.first_vertex != vertex || p.n_vertices < 0 || p.first_triangle != triangle ||
         p.n_triangles < 0)
-      node.fail("panel " + p.name + " does not follow the panel before it");
-    vertex += p.n_vertices, triangle += p.n_triangles;
+      node.fail("panels.mesh-differs"_id,
+                "panel " + p.name + " does not follow the panel before it");
+    vertex += p.n_vertices;
+    triangle += p.n_triangles;
     p.outline = vertex_list(node.at("outline"), n);
     const io::Node st = node.at("st");
     if (st.size() != 2 * static_cast<std::size_t>(p.n_vertices))
-      st.fail("there are " + std::to_string(st.size()) + " numbers for " +
-              std::to_string(p.n_vertices) + " vertices");
+      st.fail("panels.mesh-differs"_id, "there are " + std::to_string(st.size()) + " numbers for " +
+                                            std::to_string(p.n_vertices) + " vertices");
     for (std::size_t v = 0; v < static_cast<std::size_t>(p.n_vertices); ++v)
       mesh.ids.push_back({static_cast<int>(k), st.at(2 * v).number(), st.at(2 * v + 1).number()});
     mesh.panels.push_back(p);
   }
   if (static_cast<std::size_t>(vertex) != n ||
       static_cast<std::size_t>(triangle) != mesh.triangles.size())
-    panels.fail("panels have " + std::to_string(vertex) + " vertices and " +
+    panels.fail("panels.mesh-differs"_id,
+                "panels have " + std::to_string(vertex) + " vertices and " +
                     std::to_string(triangle) + " triangles, the mesh " + std::to_string(n) +
                     " and " + std::to_string(mesh.triangles.size()),
                 "write both files with one pattern-mesh run");
@@ -151,13 +162,11 @@ PanelMesh read_panel_mesh(const std::string& path) {
                node.number("length_b", 0),
                node.has("open") && node.at("open").boolean()};
     if (s.a.size() != s.b.size() || s.a.size() < 2)
-      node.fail("seam " + s.name + " has " + std::to_string(s.a.size()) + " and " +
-                std::to_string(s.b.size()) + " vertices");
+      node.fail("panels.mesh-differs"_id, "seam " + s.name + " has " + std::to_string(s.a.size()) +
+                                              " and " + std::to_string(s.b.size()) + " vertices");
     mesh.seams.push_back(std::move(s));
   }
-  if (doc.has("findings"))
-    for (std::size_t k = 0; k < doc.at("findings").size(); ++k)
-      mesh.findings.push_back(doc.at("findings").at(k).string());
+  mesh.findings = io::read_findings(doc);
   if (doc.has("pattern"))
     mesh.source = std::make_shared<Pattern>(read_pattern_json(doc.at("pattern").json(), path));
   return mesh;

@@ -48,7 +48,7 @@ Words words_of(const std::string& name) {
 Words words_of(const Pattern& pattern, std::size_t k) {
   const Panel& panel = pattern.panels[k];
   Words words = words_of(panel.name);
-  if (pattern.source_format != "dxf") return words;
+  if (pattern.source_format != "dxf" && pattern.source_format != "clo") return words;
   const bool side_told = name_suggests_front(words) || says_back(words);
   for (const std::string& word : words_of(panel.label))
     if (!side_told || (!name_suggests_front({word}) && !says_back({word}))) words.insert(word);
@@ -96,6 +96,7 @@ bool says_legs(const Words& words) {
   return any_begins(words, {"short"}) && !says_sleeve(words); // a short sleeve is none
 }
 bool says_skirt(const Words& words) {
+  if (says_cuff(words)) return false; // the skirt of a cuff
   return any_begins(words, {"skirt", "gore", "waist", "rock", "jupe", "falda", "gonna"}) ||
          any_of(words, {"wb"});
 }

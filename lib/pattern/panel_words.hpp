@@ -14,7 +14,8 @@ using Words = std::set<std::string>;
 /// one the English words that its parts stand for.
 Words words_of(const std::string& name);
 /// What a panel is called: its name, and of a DXF what its maker calls the kind of piece ("SLEEVE
-/// SHORT") where the name is a code. A side that the name tells counts more than that of the kind.
+/// SHORT"), of CLO where it is arranged, where the name is a code. A side that the name tells
+/// counts more than that of the kind.
 Words words_of(const Pattern& pattern, std::size_t panel);
 bool any_of(const Words& words, std::initializer_list<const char*> wanted);
 /// Whether some word begins with one of these.

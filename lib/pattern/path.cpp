@@ -157,7 +157,8 @@ Path ArcLength::between(double s0, double s1) const {
     out.push_back(a == 0 && b == 1 ? segment : part_of(segment, a, b));
   }
   if (out.empty()) out.push_back(Segment::straight(at(s0), at(s1)));
-  out.front().p[0] = at(s0), out.back().p[3] = at(s1);
+  out.front().p[0] = at(s0);
+  out.back().p[3] = at(s1);
   return out;
 }
 

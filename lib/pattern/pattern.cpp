@@ -99,7 +99,8 @@ bool unfold(Panel& panel, int fold_edge, const std::string& suffix,
     InnerLine image = panel.lines[k];
     for (Segment& s : image.path)
       for (Vec2& p : s.p) p = reflect(p, origin, along);
-    image.name += mirror_suffix, panel.lines[k].name += suffix;
+    image.name += mirror_suffix;
+    panel.lines[k].name += suffix;
     panel.lines.push_back(std::move(image));
   }
   return true;
@@ -116,8 +117,10 @@ Panel mirror_image(const Panel& panel) {
     for (int e = 0; e < n; ++e) moved.push_back(first + n - 1 - e);
     first += n;
   }
-  for (Notch& notch : out.notches)
-    notch.edge = moved[static_cast<std::size_t>(notch.edge)], notch.at = 1 - notch.at;
+  for (Notch& notch : out.notches) {
+    notch.edge = moved[static_cast<std::size_t>(notch.edge)];
+    notch.at = 1 - notch.at;
+  }
   for (InnerLine& line : out.lines)
     for (Segment& s : line.path)
       for (Vec2& p : s.p) p = reflect(p, origin, along);

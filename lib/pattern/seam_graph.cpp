@@ -14,8 +14,10 @@ SeamGraph::SeamGraph(const PanelMesh& mesh)
   for (const MeshSeam& s : mesh.seams)
     for (std::size_t k = 0; k < s.a.size(); ++k) {
       const int p = panel_of(s.a[k]), q = panel_of(s.b[k]);
-      if (p != q)
-        sets[static_cast<std::size_t>(p)].insert(q), sets[static_cast<std::size_t>(q)].insert(p);
+      if (p != q) {
+        sets[static_cast<std::size_t>(p)].insert(q);
+        sets[static_cast<std::size_t>(q)].insert(p);
+      }
     }
   for (std::size_t p = 0; p < sets.size(); ++p)
     m_neighbours[p].assign(sets[p].begin(), sets[p].end());

@@ -18,30 +18,32 @@ CameraOptions read_camera(const std::string& path) {
   const io::Json document = io::read_json(path);
   const io::Node node(document, path);
   if (!node.is_object())
-    node.fail("a camera is an object",
+    node.fail("json.wrong-type"_id, "a camera is an object",
               R"(write for example {"azimuth_deg": 30, "elevation_deg": 10})");
   if (node.string("format", "camera") != "camera")
-    throw input_error(path, "/format",
+    throw input_error("json.wrong-format"_id, path, "/format",
                       "is a \"" + node.string("format", "") + "\" document, not a camera",
                       R"(write for example {"azimuth_deg": 30, "elevation_deg": 10})");
   if (node.has("version") && node.at("version").integer() != 1)
-    node.at("version").fail("is not version 1 of a camera", "leave it out, or update Sloper");
+    node.at("version").fail("json.wrong-version"_id, "is not version 1 of a camera",
+                            "leave it out, or update Sloper");
   node.allow_only({"format", "version", "azimuth_deg", "elevation_deg", "field_of_view_deg",
                    "orthographic", "field_height_m", "target"});
   CameraOptions options;
   options.azimuth = units::radians(node.number("azimuth_deg", 0));
   const double elevation = node.number("elevation_deg", 0),
                view = node.number("field_of_view_deg", units::degrees(options.field_of_view));
-  if (std::abs(elevation) > 89.9) node.at("elevation_deg").fail("is not between -89.9 and 89.9");
+  if (std::abs(elevation) > 89.9)
+    node.at("elevation_deg").fail("json.out-of-range"_id, "is not between -89.9 and 89.9");
   if (!(view >= 1 && view <= 120))
     node.at("field_of_view_deg")
-        .fail("is not between 1 and 120",
+        .fail("json.out-of-range"_id, "is not between 1 and 120",
               R"(for no perspective at all write "orthographic": true)");
   options.elevation = units::radians(elevation);
   options.field_of_view = node.boolean("orthographic", false) ? 0 : units::radians(view);
   options.field_height = node.number("field_height_m", 0);
   if (options.field_height < 0 || options.field_height > 1000)
-    node.at("field_height_m").fail("is not between 0 and 1000");
+    node.at("field_height_m").fail("json.out-of-range"_id, "is not between 0 and 1000");
   if (node.has("target")) options.target = node.at("target").vec3();
   return options;
 }
@@ -160,7 +162,8 @@ std::vector<std::optional<CameraOptions>> parse_views(const std::string& list) {
       views.emplace_back();
     } else if (std::sscanf(word.c_str(), "turntable:%d%c", &turns, &end) == 1) {
       if (turns < 1 || turns > 360)
-        throw Error(ErrorKind::USAGE, "", "--view " + word, "needs 1 to 360 views");
+        throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", "--view " + word,
+                    "needs 1 to 360 views");
       for (int k = 0; k < turns; ++k) {
         views.emplace_back(named_view("front"));
         views.back()->azimuth = 2 * units::PI * k / turns;
@@ -169,7 +172,8 @@ std::vector<std::optional<CameraOptions>> parse_views(const std::string& list) {
       views.emplace_back(named_view(word));
     }
   }
-  if (views.empty()) throw Error(ErrorKind::USAGE, "", "--view", "names no view");
+  if (views.empty())
+    throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", "--view", "names no view");
   return views;
 }
 

@@ -22,9 +22,11 @@ namespace {
   const bool egl = kind == ContextKind::EGL;
   for (const ContextKind other : built_contexts())
     if (other != kind)
-      throw Error(ErrorKind::FAILED, "", egl ? "--context egl" : "--context osmesa", what,
+      throw Error(ErrorKind::FAILED, "render.no-context"_id, "",
+                  egl ? "--context egl" : "--context osmesa", what,
                   egl ? "try --context osmesa" : "try --context egl");
-  throw Error(ErrorKind::FAILED, "", egl ? "--context egl" : "--context osmesa", what,
+  throw Error(ErrorKind::FAILED, "render.no-context"_id, "",
+              egl ? "--context egl" : "--context osmesa", what,
               "install Mesa's drivers (Debian: libgl1-mesa-dri)");
 }
 
@@ -132,7 +134,8 @@ std::unique_ptr<Context> make_context(ContextKind kind) {
 #ifdef SLOPER_HAVE_EGL
   if (kind == ContextKind::EGL) return std::make_unique<EglContext>();
 #endif
-  throw Error(ErrorKind::USAGE, "", kind == ContextKind::EGL ? "--context egl" : "--context osmesa",
+  throw Error(ErrorKind::USAGE, "render.context-not-built"_id, "",
+              kind == ContextKind::EGL ? "--context egl" : "--context osmesa",
               "was not built into this render-png",
               "leave the option out, or build with its library");
 }

@@ -85,7 +85,7 @@ std::vector<double> drape_difference(const garment::Garment& a, const garment::G
     }
   }
   if (!common)
-    throw Error(ErrorKind::USAGE, "", "--map difference",
+    throw Error(ErrorKind::USAGE, "render.not-two-drapes"_id, "", "--map difference",
                 "the two garments have no panel name in common", "give two drapes of one pattern");
   return result;
 }

@@ -96,7 +96,7 @@ struct Renderer::Impl {
     GLint largest = 0;
     gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
     if (width > largest || height > largest)
-      throw Error(ErrorKind::USAGE, "", "--size",
+      throw Error(ErrorKind::USAGE, "render.too-large"_id, "", "--size",
                   "OpenGL draws at most " + std::to_string(largest / options.supersample) +
                       " pixels a side here");
     GLuint buffers[2];
@@ -111,7 +111,7 @@ struct Renderer::Impl {
       gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, slots[k], GL_RENDERBUFFER, buffers[k]);
     }
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-      throw Error(ErrorKind::INTERNAL, "", "",
+      throw Error(ErrorKind::INTERNAL, "render.opengl-lacks"_id, "", "",
                   "OpenGL gives no picture of " + std::to_string(width) + " x " +
                       std::to_string(height) + " pixels",
                   "ask for a smaller --size");
@@ -127,9 +127,10 @@ struct Renderer::Impl {
       for (int v : t)
         for (int w : t)
           if (const SurfaceVertex& from = vertices[static_cast<std::size_t>(base + w)];
-              from.value[2] > 0)
-            sum[static_cast<std::size_t>(v)][0] += from.value[0],
-                sum[static_cast<std::size_t>(v)][1] += 1;
+              from.value[2] > 0) {
+            sum[static_cast<std::size_t>(v)][0] += from.value[0];
+            sum[static_cast<std::size_t>(v)][1] += 1;
+          }
     for (std::size_t v = 0; v < sum.size(); ++v)
       if (SurfaceVertex& to = vertices[static_cast<std::size_t>(base) + v];
           to.value[2] == 0 && sum[v][1] > 0)

@@ -313,8 +313,8 @@ void export_scene(const std::string& path, const std::vector<DrawMesh>& meshes,
     io::write_file(materials, mtl_text(meshes));
     io::write_file(path, obj_text(meshes, io::file_name(materials)));
   } else {
-    throw Error(ErrorKind::USAGE, "", "-o " + path, "is no kind of file that can be written",
-                "end it in .png, .glb, .obj or .ply");
+    throw Error(ErrorKind::USAGE, "option.unknown-ending"_id, "", "-o " + path,
+                "is no kind of file that can be written", "end it in .png, .glb, .obj or .ply");
   }
 }
 

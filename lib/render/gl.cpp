@@ -6,7 +6,9 @@ namespace sloper::render {
 Gl::Gl(const Context& context) {
   auto find = [&](auto& pointer, const char* name) {
     void* address = context.function(name);
-    if (!address) throw Error(ErrorKind::INTERNAL, "", "", std::string("OpenGL lacks ") + name);
+    if (!address)
+      throw Error(ErrorKind::INTERNAL, "render.opengl-lacks"_id, "", "",
+                  std::string("OpenGL lacks ") + name);
     pointer = reinterpret_cast<std::remove_reference_t<decltype(pointer)>>(address);
   };
   find(AttachShader, "glAttachShader");
@@ -75,7 +77,8 @@ GLuint Gl::program(const char* vertex_shader, const char* fragment_shader) const
     if (!ok) {
       char log[400] = "";
       GetShaderInfoLog(shader, sizeof log, nullptr, log);
-      throw Error(ErrorKind::INTERNAL, "", "", std::string("a shader does not compile: ") + log);
+      throw Error(ErrorKind::INTERNAL, "render.opengl-lacks"_id, "", "",
+                  std::string("a shader does not compile: ") + log);
     }
     AttachShader(result, shader);
   }

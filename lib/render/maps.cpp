@@ -79,8 +79,8 @@ std::vector<double> gaps(const Garment& g, const collision::BodyCollider& body) 
 
 std::vector<double> spread_values(const Garment& g) {
   if (g.redrapes.spread_m.empty())
-    throw Error(ErrorKind::USAGE, "", "--map spread", "needs a garment that was draped repeatedly",
-                "write it with drape --redrapes");
+    throw Error(ErrorKind::USAGE, "render.input-missing"_id, "", "--map spread",
+                "needs a garment that was draped repeatedly", "write it with drape --redrapes");
   std::vector<double> by_vertex;
   for (int p : g.particle_of) by_vertex.push_back(1000 * g.redrapes.spread_m[p]);
   return by_vertex;
@@ -123,14 +123,16 @@ std::vector<char> on_sleeves(const Garment& g) {
 std::vector<double> ease_values(const Garment& g, const body::Body& body,
                                 const collision::BodyCollider& skin) {
   if (g.bind.empty())
-    throw Error(ErrorKind::USAGE, "", "--map ease", "needs a garment that hangs on a body",
+    throw Error(ErrorKind::USAGE, "render.input-missing"_id, "", "--map ease",
+                "needs a garment that hangs on a body",
                 "give the shirt.json that drape or retarget-garment wrote");
   std::map<double, double> ease; // by height
   for (const garment::FitRow& row :
        garment::fit_garment(g, body, skin, garment::standard_fit_policy()).rows)
     if (row.kind == "level") ease[row.height_m] = 100 * row.ease_m;
   if (ease.empty())
-    throw Error(ErrorKind::USAGE, "", "--map ease", "no trunk level goes through this garment");
+    throw Error(ErrorKind::USAGE, "render.no-trunk-level"_id, "", "--map ease",
+                "no trunk level goes through this garment");
   const std::vector<char> sleeve = on_sleeves(g);
   std::vector<double> values;
   for (std::size_t v = 0; v < g.particle_of.size(); ++v) {
@@ -151,9 +153,11 @@ std::vector<double> ease_values(const Garment& g, const body::Body& body,
 /// The legend's quantiles, by area. @returns the size that 99 of 100 parts do not exceed
 double summarise(std::vector<garment::Weighted> all, Legend& legend) {
   if (all.empty()) return 0;
-  legend.p50 = garment::area_quantile(all, 0.5), legend.p1 = garment::area_quantile(all, 0.01),
+  legend.p50 = garment::area_quantile(all, 0.5);
+  legend.p1 = garment::area_quantile(all, 0.01);
   legend.p99 = garment::area_quantile(all, 0.99);
-  legend.least = all.front().value, legend.largest = all.back().value;
+  legend.least = all.front().value;
+  legend.largest = all.back().value;
   for (garment::Weighted& v : all) v.value = std::abs(v.value);
   return garment::area_quantile(all, 0.99);
 }
@@ -168,7 +172,10 @@ void count_outside(const std::vector<garment::Weighted>& values, Legend& legend)
     if (value < legend.low - slack) below += weight;
     if (value > legend.high + slack) beyond += weight;
   }
-  if (all > 0) legend.below = below / all, legend.beyond = beyond / all;
+  if (all > 0) {
+    legend.below = below / all;
+    legend.beyond = beyond / all;
+  }
 }
 
 /// The first of the ranges that holds the value, or the last.
@@ -182,43 +189,52 @@ double choose_range(double most, std::initializer_list<double> ranges) {
 void choose_scale(Map map, double most, Legend& legend) {
   switch (map) {
   case Map::GAP:
-    legend.title = "gap to the skin", legend.unit = "mm",
+    legend.title = "gap to the skin";
+    legend.unit = "mm";
     legend.high = choose_range(most, {40, 80, 120, 160, 240, 320});
     break;
   case Map::PENETRATION:
-    legend.title = "depth in the skin", legend.unit = "mm",
+    legend.title = "depth in the skin";
+    legend.unit = "mm";
     legend.high = choose_range(legend.largest, {0.8, 4, 8, 16, 40, 80});
     break;
   case Map::PRESSURE:
-    legend.title = "contact pressure", legend.unit = "Pa",
+    legend.title = "contact pressure";
+    legend.unit = "Pa";
     legend.high = choose_range(most, {80, 160, 400, 800, 1600, 4000, 8000, 40000});
     break;
   case Map::EASE:
-    legend.title = "ease at the level", legend.unit = "cm",
-    legend.high = choose_range(most, {8, 16, 24, 32, 48, 80}), legend.diverging = true;
+    legend.title = "ease at the level";
+    legend.unit = "cm";
+    legend.high = choose_range(most, {8, 16, 24, 32, 48, 80});
+    legend.diverging = true;
     break;
   case Map::DIFFERENCE:
-    legend.title = "difference", legend.unit = "mm",
+    legend.title = "difference";
+    legend.unit = "mm";
     legend.high = choose_range(most, {0.8, 1.6, 4, 8, 16, 40, 80, 160, 400, 800});
     break;
   case Map::SPREAD:
-    legend.title = "spread of re-drapes", legend.unit = "mm",
+    legend.title = "spread of re-drapes";
+    legend.unit = "mm";
     legend.high = choose_range(most, {0.8, 1.6, 4, 8, 16, 40, 80, 160});
     break;
   case Map::LIMIT:
-    legend.title = "share of strain limit", legend.unit = "%",
+    legend.title = "share of strain limit";
+    legend.unit = "%";
     legend.high = choose_range(most, {8, 16, 40, 80, 160, 400, 1600});
     break;
   default:
     legend.title = map == Map::STRAIN ? "strain" : "strain, " + map_names()[static_cast<int>(map)];
-    legend.unit = "%", legend.high = choose_range(most, {4, 8, 12, 20, 40}),
+    legend.unit = "%";
+    legend.high = choose_range(most, {4, 8, 12, 20, 40});
     legend.diverging = true;
   }
 }
 
 void color_parts(Scene& scene) {
   if (!scene.body)
-    throw Error(ErrorKind::USAGE, "", "--map parts", "needs a body",
+    throw Error(ErrorKind::USAGE, "render.input-missing"_id, "", "--map parts", "needs a body",
                 "give body.json as a document");
   static const int colors[] = {0xc4a484, 0x7fa3c7, 0xd9b45b, 0xc98a9c, 0x7fb69a, 0x9a8fc0};
   DrawMesh& mesh = scene.meshes[scene.body_mesh];
@@ -281,13 +297,13 @@ Legend apply_map(Scene& scene, Map map, double limit) {
   }
   const std::string option = "--map " + map_names()[static_cast<int>(map)];
   if (scene.garments.empty())
-    throw Error(ErrorKind::USAGE, "", option, "needs a garment with pattern coordinates",
-                "give shirt.json as a document");
+    throw Error(ErrorKind::USAGE, "render.input-missing"_id, "", option,
+                "needs a garment with pattern coordinates", "give shirt.json as a document");
   std::vector<std::vector<double>> values;
   std::vector<garment::Weighted> by_area; // of maps whose values are the triangles' own
   if (map == Map::DIFFERENCE) {
     if (scene.garments.size() != 2)
-      throw Error(ErrorKind::USAGE, "", option,
+      throw Error(ErrorKind::USAGE, "render.not-two-drapes"_id, "", option,
                   "compares two garments, not " + std::to_string(scene.garments.size()),
                   "give two shirt.json of one pattern");
     values.push_back(drape_difference(scene.garments[0], scene.garments[1]));
@@ -305,7 +321,7 @@ Legend apply_map(Scene& scene, Map map, double limit) {
     for (const Garment& g : scene.garments) values.push_back(strain_values(g, map, by_area));
   } else {
     if (!scene.body)
-      throw Error(ErrorKind::USAGE, "", option, "needs the body too",
+      throw Error(ErrorKind::USAGE, "render.input-missing"_id, "", option, "needs the body too",
                   "give body.json as a document");
     const collision::BodyCollider body(scene.body->skin);
     for (const Garment& g : scene.garments) {

@@ -20,8 +20,8 @@ FT_Face face() {
     FT_Library library = nullptr;
     FT_Face f = nullptr;
     if (FT_Init_FreeType(&library) || FT_New_Face(library, SLOPER_FONT, 0, &f))
-      throw Error(ErrorKind::INTERNAL, SLOPER_FONT, "", "the font cannot be opened",
-                  "install the package fonts-dejavu-core");
+      throw Error(ErrorKind::INTERNAL, "render.no-font"_id, SLOPER_FONT, "",
+                  "the font cannot be opened", "install the package fonts-dejavu-core");
     return f;
   }();
   return opened;
@@ -229,7 +229,8 @@ io::Image contact_sheet(const std::vector<io::Image>& images,
   sheet.width = left.back();
   sheet.height = top.back();
   if (sheet.width > 16384 || sheet.height > 16384)
-    throw Error(ErrorKind::USAGE, "", "--sheet", "the sheet would be larger than 16384 pixels");
+    throw Error(ErrorKind::USAGE, "render.too-large"_id, "", "--sheet",
+                "the sheet would be larger than 16384 pixels");
   sheet.rgba.assign(
       4 * static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height), 255);
   for (std::size_t k = 0; k < n; ++k) {
@@ -246,12 +247,13 @@ io::Image contact_sheet(const std::vector<io::Image>& images,
 
 Comparison compare(const io::Image& a, const io::Image& b, const io::Image* mask) {
   if (a.width != b.width || a.height != b.height)
-    throw input_error("", "",
+    throw input_error("compare.sizes-differ"_id, "", "",
                       "the pictures differ in size: " + std::to_string(a.width) + " x " +
                           std::to_string(a.height) + " and " + std::to_string(b.width) + " x " +
                           std::to_string(b.height));
   if (mask && (mask->width != a.width || mask->height != a.height))
-    throw input_error("", "", "the mask's size is not that of the pictures");
+    throw input_error("compare.sizes-differ"_id, "", "",
+                      "the mask's size is not that of the pictures");
   auto counts = [&](int x, int y) {
     return !mask || (mask->at(x, y)[0] >= 128 && mask->at(x, y)[3] >= 128);
   };
@@ -277,7 +279,8 @@ Comparison compare(const io::Image& a, const io::Image& b, const io::Image* mask
       out[3] = 255;
     }
   if (result.counted == 0)
-    throw input_error("", "", "the mask is dark everywhere: no pixel counts",
+    throw input_error("compare.mask-dark"_id, "", "",
+                      "the mask is dark everywhere: no pixel counts",
                       "make it bright where pixels are to be compared");
   double sum = 0;
   long blocks = 0;
@@ -290,7 +293,11 @@ Comparison compare(const io::Image& a, const io::Image& b, const io::Image* mask
       for (int k = 0; k < 64; ++k) {
         const double la = luminance(a.at(x + k % 8, y + k / 8)),
                      lb = luminance(b.at(x + k % 8, y + k / 8));
-        sa += la, sb += lb, saa += la * la, sbb += lb * lb, sab += la * lb;
+        sa += la;
+        sb += lb;
+        saa += la * la;
+        sbb += lb * lb;
+        sab += la * lb;
       }
       const double ma = sa / 64, mb = sb / 64, va = saa / 64 - ma * ma, vb = sbb / 64 - mb * mb,
                    cov = sab / 64 - ma * mb;

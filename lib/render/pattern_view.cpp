@@ -152,8 +152,10 @@ std::optional<Vec2> number_place(const SeamSide& side, int font) {
   const pattern::PanelInfo& info =
       side.panels->panels[static_cast<std::size_t>(panel_of(*side.panels, first))];
   double low = 1e9, high = -1e9;
-  for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v)
-    low = std::min(low, at[v].y()), high = std::max(high, at[v].y());
+  for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
+    low = std::min(low, at[v].y());
+    high = std::max(high, at[v].y());
+  }
   if (high - low < 1.2 * font) return {};
   // the panel lies on the side of the triangle that the segment belongs to
   Vec2 aside = Vec2(a.y() - b.y(), b.x() - a.x()).normalized();
@@ -261,7 +263,8 @@ std::vector<Vec2> pack_panels(const std::vector<Vec2>& sizes, double gap,
 
 io::Image draw_pattern(const Scene& scene, const DrawOptions& options) {
   if (scene.garments.empty())
-    throw Error(ErrorKind::USAGE, "", "--view pattern", "needs a garment, panels or a pattern",
+    throw Error(ErrorKind::USAGE, "render.input-missing"_id, "", "--view pattern",
+                "needs a garment, panels or a pattern",
                 "give panels.json, shirt.json or the pattern's file");
   DrawOptions flat = options;
   flat.occlusion_directions = 0;

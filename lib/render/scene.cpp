@@ -65,12 +65,14 @@ constexpr const char* DRAWABLE =
 void refuse_no_document(const std::string& path) {
   const std::string text = io::read_file(path);
   if (text.rfind("\x89PNG", 0) == 0)
-    throw input_error(path, "", "is a picture already",
+    throw input_error("render.is-picture"_id, path, "", "is a picture already",
                       "--sheet puts pictures side by side, --compare compares two");
   const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  if (first == std::string::npos) throw input_error(path, "", "the file is empty", DRAWABLE);
+  if (first == std::string::npos)
+    throw input_error("file.empty"_id, path, "", "the file is empty", DRAWABLE);
   if (text[first] != '{')
-    throw input_error(path, "", "is neither a document nor a mesh by its ending", DRAWABLE);
+    throw input_error("render.unknown-kind"_id, path, "",
+                      "is neither a document nor a mesh by its ending", DRAWABLE);
 }
 
 void read_one(Scene& scene, const std::string& path) {
@@ -117,7 +119,7 @@ void read_one(Scene& scene, const std::string& path) {
     scene.meshes.push_back(cloth_mesh(g));
     scene.garments.push_back(std::move(g));
   } else {
-    throw input_error(path, "/format",
+    throw input_error("render.unknown-kind"_id, path, "/format",
                       format.empty() ? "is not a Sloper document"
                                      : "a \"" + format + "\" document cannot be drawn",
                       DRAWABLE);
@@ -235,8 +237,10 @@ Scene read_scene(const std::vector<std::string>& paths) {
     const int body_before = scene.body_mesh;
     read_one(scene, path);
     if (scene.body_mesh != body_before) body = path;
-    if (scene.garments.size() > garments && !scene.garments.back().body_sha256.empty())
-      draped.push_back(path), which.push_back(garments);
+    if (scene.garments.size() > garments && !scene.garments.back().body_sha256.empty()) {
+      draped.push_back(path);
+      which.push_back(garments);
+    }
     scene.names.push_back(io::file_name(path));
     for (std::size_t m = before; m < scene.meshes.size(); ++m)
       scene.meshes[m].name = scene.names.back().substr(0, scene.names.back().find('.'));
@@ -244,18 +248,19 @@ Scene read_scene(const std::vector<std::string>& paths) {
   if (!body.empty() && body != "-" && !scene.body->skin.positions.empty() && !draped.empty()) {
     const std::string skin = body::skin_sha256(body);
     for (std::size_t k = 0; k < draped.size(); ++k)
-      for (const std::string& finding :
+      for (const Message& finding :
            garment::start_findings(scene.garments[which[k]], {draped[k], body, skin, true}))
         scene.findings.push_back(finding);
   }
   std::size_t triangles = 0;
   for (const DrawMesh& m : scene.meshes) triangles += m.triangles.size();
   if (triangles == 0 && scene.body)
-    throw input_error(paths.front(), "",
+    throw input_error("body.no-skin"_id, paths.front(), "",
                       "the body was written without its skin, and there is nothing else to draw",
                       "give one written without --anonymise");
   if (triangles == 0)
-    throw input_error(paths.front(), "", "there is no triangle to draw",
+    throw input_error("render.nothing-to-draw"_id, paths.front(), "",
+                      "there is no triangle to draw",
                       "points are made a body by scan-landmarks: draw its body.json");
   return scene;
 }

@@ -112,7 +112,8 @@ void draw_labels(Pen& pen, std::vector<Label> labels, int right_edge) {
 }
 
 [[noreturn]] void lacks(const std::string& what, const std::string& needs) {
-  throw Error(ErrorKind::USAGE, "", "--show " + what, "needs " + needs, "give it as a document");
+  throw Error(ErrorKind::USAGE, "render.input-missing"_id, "", "--show " + what, "needs " + needs,
+              "give it as a document");
 }
 
 std::string slice_label(const std::string& name, const body::Level& level) {

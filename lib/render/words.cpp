@@ -15,8 +15,8 @@ std::array<int, 2> parse_size(const std::string& text) {
   char end = 0;
   if (std::sscanf(text.c_str(), "%dx%d%c", &w, &h, &end) != 2 || w < 16 || h < 16 || w > 8192 ||
       h > 8192)
-    throw Error(ErrorKind::USAGE, "", "--size " + text, "is not a size from 16x16 to 8192x8192",
-                "write for example --size 800x1000");
+    throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", "--size " + text,
+                "is not a size from 16x16 to 8192x8192", "write for example --size 800x1000");
   return {w, h};
 }
 
@@ -32,7 +32,8 @@ int samples_for(const std::array<int, 2>& size) {
 static int parse_color(const std::string& option, const std::string& word,
                        const std::string& or_else = "") {
   if (word.size() != 6 || word.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
-    throw Error(ErrorKind::USAGE, "", option + " " + word, "is not a colour",
+    throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", option + " " + word,
+                "is not a colour",
                 "write " + or_else + "six hexadecimal digits, for example " + option + " 4f7396");
   return std::stoi(word, nullptr, 16);
 }
@@ -87,7 +88,7 @@ void check_pixels(const std::array<int, 2>& size, std::size_t views) {
   constexpr double MOST = 268e6; // of one picture: 16384 x 16384, a gigabyte
   const double pixels = static_cast<double>(size[0]) * size[1] * static_cast<double>(views);
   if (pixels <= MOST) return;
-  throw Error(ErrorKind::USAGE, "",
+  throw Error(ErrorKind::USAGE, "render.too-large"_id, "",
               "--size " + std::to_string(size[0]) + "x" + std::to_string(size[1]),
               std::to_string(views) + " views of that size are " +
                   std::to_string(std::llround(pixels / 1e6)) + " million pixels, more than 268",

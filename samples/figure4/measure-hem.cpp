@@ -88,7 +88,8 @@ double turning(const std::vector<std::complex<double>>& z) {
 void measure(const std::string& path) {
   const garment::Garment g = garment::read_garment(path);
   const std::vector<int> hem = hem_of(g);
-  if (hem.size() < 3) throw input_error(path, "", "the garment has no lower edge");
+  if (hem.size() < 3)
+    throw input_error("sample.no-hem"_id, path, "", "the garment has no lower edge");
   std::vector<double> length{0};
   double shadow = 0;
   for (std::size_t i = 0; i < hem.size(); ++i) {
@@ -129,7 +130,8 @@ void measure(const std::string& path) {
 int main(int argc, char** argv) {
   try {
     if (argc < 2)
-      throw Error(ErrorKind::USAGE, "", "", "no garment is given", "measure-hem shirt.json...");
+      throw Error(ErrorKind::USAGE, "option.missing"_id, "", "", "no garment is given",
+                  "measure-hem shirt.json...");
     std::printf("garment\tgirth_cm\tshadow_cm2\tturning\twaviness_mm\tfolds\tstrain_p99\tstate\n");
     for (int i = 1; i < argc; ++i) measure(argv[i]);
     return 0;

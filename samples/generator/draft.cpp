@@ -56,13 +56,14 @@ void Draft::remove(const std::string& panel) {
 const DraftPanel& Draft::panel(const std::string& wanted) const {
   for (const DraftPanel& p : panels)
     if (p.name == wanted) return p;
-  throw Error(ErrorKind::INTERNAL, "", name, "no panel \"" + wanted + "\"");
+  throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", name, "no panel \"" + wanted + "\"");
 }
 
 int edge_index(const DraftPanel& panel, const std::string& edge) {
   for (std::size_t i = 0; i < panel.edges.size(); ++i)
     if (panel.edges[i].name == edge) return static_cast<int>(i);
-  throw Error(ErrorKind::INTERNAL, "", panel.name, "no edge \"" + edge + "\"");
+  throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", panel.name,
+              "no edge \"" + edge + "\"");
 }
 
 std::vector<Vec2> edge_points(const DraftPanel& panel, int edge, int n) {

@@ -56,18 +56,23 @@ struct Draft {
   const DraftPanel& panel(const std::string& name) const; ///< @throws Error INTERNAL
 };
 
-/// Body measures that the drafts need, m. Girths are taut.
+/// Body measures that the drafts need, m. Girths are taut; the waist's is the largest under a
+/// waistband.
 struct Measures {
   double stature = 1.65, bust = 0.92, waist = 0.74, hip = 0.98, neck = 0.335, upper_arm = 0.285,
-         wrist = 0.155, knee = 0.37, ankle = 0.215;
-  double back_length = 0.39;      ///< back neck point to waist, vertical
-  double waist_to_hip = 0.20;     ///< vertical
-  double body_rise = 0.28;        ///< waist to crotch, vertical
-  double inside_leg = 0.75;       ///< crotch to floor
-  double shoulder = 0.12;         ///< side neck point to shoulder point
-  double arm_length = 0.54;       ///< shoulder point to wrist
+         wrist = 0.155, thigh = 0.59, knee = 0.37, ankle = 0.215;
+  double back_length = 0.39;  ///< back neck point to waist, vertical
+  double waist_to_hip = 0.20; ///< vertical
+  double body_rise = 0.28;    ///< waist to crotch, vertical
+  double inside_leg = 0.75;   ///< crotch to floor
+  double crotch_length = 0;   ///< from the waist in front, through between the legs, to the waist
+                              ///< behind; 0: as people of that hip and body rise have it
+  double scye_depth = 0.20;   ///< back neck point to arm pit, vertical
+  double shoulder = 0.12;     ///< side neck point to shoulder point
+  double arm_length = 0.54;   ///< shoulder point to wrist
   double neck_back_height = 1.41; ///< back neck point above the floor
   double shoulder_height = 1.37;  ///< shoulder point above the floor
+  double crotch() const { return crotch_length > 0 ? crotch_length : 2 * body_rise + 0.195 * hip; }
   double waist_height() const { return neck_back_height - back_length; }
 };
 

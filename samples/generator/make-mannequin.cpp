@@ -85,7 +85,8 @@ int main(int argc, char** argv) {
       return 0;
     }
     if (o.output.empty())
-      throw Error(ErrorKind::USAGE, "", "-o", "no output file is given", "for example -o body.obj");
+      throw Error(ErrorKind::USAGE, "option.missing"_id, "", "-o", "no output file is given",
+                  "for example -o body.obj");
     samples::Mannequin shape = o.preset.empty() ? samples::Mannequin{} : samples::preset(o.preset);
     if (sex.given()) shape.sex = given.sex;
     if (stature.given()) shape.stature_m = given.stature_m;

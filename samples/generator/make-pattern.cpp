@@ -24,7 +24,7 @@ samples::Draft draft(const std::string& garment, const samples::Measures& measur
     names.push_back(name);
     if (name == garment) return drafter(measures);
   }
-  throw Error(ErrorKind::USAGE, "", "GARMENT",
+  throw Error(ErrorKind::USAGE, "option.unknown-word"_id, "", "GARMENT",
               "there is no garment \"" + garment + "\"" + did_you_mean(garment, names, "\""),
               "it makes a shirt, tshirt, skirt or trousers");
 }
@@ -46,7 +46,7 @@ std::string standard_measures(const std::vector<std::string>& given) {
     });
     char value[32];
     std::snprintf(value, sizeof value, " %.1f", 100 * standard.*member);
-    if (!own) list += (list.empty() ? "" : ", ") + name + value;
+    if (!own && standard.*member > 0) list += (list.empty() ? "" : ", ") + name + value;
   }
   return list.empty() ? "all measures are those of --measure"
                       : "what --measure does not say is of a standard figure, in cm: " + list;
@@ -89,8 +89,8 @@ int main(int argc, char** argv) {
   tool.formats("body documents (version 1)", "pattern documents (version 1)");
   return tool.run(argc, argv, [&] {
     if (!body.empty() && !preset.empty())
-      throw Error(ErrorKind::USAGE, "", "--body", "cannot be combined with --preset",
-                  "leave one of them out");
+      throw Error(ErrorKind::USAGE, "option.conflict"_id, "", "--body",
+                  "cannot be combined with --preset", "leave one of them out");
     samples::Measures measures;
     if (!body.empty()) measures = samples::measures_from_body(io::read_json(body), body);
     else if (!preset.empty())
@@ -99,17 +99,18 @@ int main(int argc, char** argv) {
     set_measures(given, measures);
     samples::Draft made = draft(garment, measures);
     if (flare > 0 && garment != "skirt")
-      throw Error(ErrorKind::USAGE, "", "--flare", "is of skirts, not of a " + garment,
-                  "leave it out");
+      throw Error(ErrorKind::USAGE, "sample.option-of-another"_id, "", "--flare",
+                  "is of skirts, not of a " + garment, "leave it out");
     if (flare > 0) made = samples::draft_flared_skirt(measures, flare);
     if (band_collar && garment != "shirt")
-      throw Error(ErrorKind::USAGE, "", "--band-collar", "a " + garment + " has no collar",
-                  "leave it out");
+      throw Error(ErrorKind::USAGE, "sample.option-of-another"_id, "", "--band-collar",
+                  "a " + garment + " has no collar", "leave it out");
     if (band_collar) made.remove("collar");
     if (body.empty() && preset.empty())
-      tool.reporter().warning("no --body is given: " + standard_measures(given));
+      tool.reporter().warning(
+          {"sample.standard-measures"_id, "no --body is given: " + standard_measures(given)});
     if (const std::vector<std::string> faults = samples::draft_faults(made); !faults.empty())
-      throw Error(ErrorKind::FAILED, body, garment,
+      throw Error(ErrorKind::FAILED, "sample.faulty-draft"_id, body, garment,
                   "these measures give a faulty draft: " + faults.front(), "check the measures");
     io::write_json(output, samples::pattern_document(made));
     return 0;

@@ -97,7 +97,9 @@ GirthFactors fit(const Mannequin& shape, const std::map<std::string, double>& wa
 }
 
 void require(bool ok, const std::string& place, const std::string& fact) {
-  if (!ok) throw Error(ErrorKind::USAGE, "", place, fact, "see make-mannequin --help");
+  if (!ok)
+    throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", place, fact,
+                "see make-mannequin --help");
 }
 
 } // namespace
@@ -144,7 +146,7 @@ Mannequin preset(const std::string& name) {
       m.leg_deg = p.leg_deg;
       return m;
     }
-  throw Error(ErrorKind::USAGE, "", "--preset",
+  throw Error(ErrorKind::USAGE, "option.unknown-word"_id, "", "--preset",
               "there is no figure \"" + name + "\"" + did_you_mean(name, preset_names(), "\""),
               "see --list");
 }
@@ -171,8 +173,8 @@ MadeMannequin make_mannequin(const Mannequin& shape) {
   for (double t : {0.5, 1.0}) {
     const Vec3 p = body.elbow + t * (body.wrist - body.elbow);
     if (body.without_arms(p) < 0.03 * shape.stature_m)
-      throw Error(ErrorKind::FAILED, "", "--arm-deg", "the arms would lie in the flanks",
-                  "give a larger angle or smaller girths");
+      throw Error(ErrorKind::FAILED, "sample.arms-in-flanks"_id, "", "--arm-deg",
+                  "the arms would lie in the flanks", "give a larger angle or smaller girths");
   }
   const double h = shape.stature_m;
   Box3 box;

@@ -222,8 +222,14 @@ private:
     double front = -1e9, back = 1e9;
     for (double y = m_crotch + 0.004; y < m_body.y_waist; y += 0.002) {
       const Section2 s = trunk_section(y);
-      if (s.high.z() > front) front = s.high.z(), m_abdomen_y = y;
-      if (s.low.z() < back) back = s.low.z(), m_hip_y = y;
+      if (s.high.z() > front) {
+        front = s.high.z();
+        m_abdomen_y = y;
+      }
+      if (s.low.z() < back) {
+        back = s.low.z();
+        m_hip_y = y;
+      }
     }
     put("abdomen_front", Vec3(0, m_abdomen_y, front), "medium", "yz");
     put("buttock_back", Vec3(0, m_hip_y, back), "high", "yz");
@@ -290,7 +296,10 @@ private:
     smallest("waist_width_min", &Sample::width, 0.001, 0.003);
     double most = 0, at = m_crotch;
     for (double y = m_crotch + 0.004; y < m_body.y_waist; y += 0.002)
-      if (const double g = trunk_section(y).girth_m; g > most) most = g, at = y;
+      if (const double g = trunk_section(y).girth_m; g > most) {
+        most = g;
+        at = y;
+      }
     level("hip_girth_max", at, "high");
     double range_low = at, range_high = at;
     while (trunk_section(range_low - 0.002).girth_m > most - 0.002) range_low -= 0.002;
@@ -301,15 +310,18 @@ private:
   void girths() {
     const Vec3 up = Vec3::UnitY();
     const auto both = [&](const std::string& name, double value) {
-      m_girths[name + "_l"] = value, m_girths[name + "_r"] = value;
+      m_girths[name + "_l"] = value;
+      m_girths[name + "_r"] = value;
     };
     both("thigh", part_section(Vec3(0, m_crotch - 0.010, 0), up, LEG_L).girth_m);
     both("knee", part_section(m_body.knee, up, LEG_L).girth_m);
     double calf = 0, calf_y = 0, thin = 1e9;
     for (double y = m_body.ankle.y(); y < m_body.knee.y(); y += 0.004)
       if (const double g = part_section(Vec3(0, y, 0), up, LEG_L).girth_m;
-          y > 0.12 * m_body.stature && y < 0.26 * m_body.stature && g > calf)
-        calf = g, calf_y = y;
+          y > 0.12 * m_body.stature && y < 0.26 * m_body.stature && g > calf) {
+        calf = g;
+        calf_y = y;
+      }
     for (double y = m_body.ankle.y(); y < calf_y; y += 0.004)
       thin = std::min(thin, part_section(Vec3(0, y, 0), up, LEG_L).girth_m);
     both("calf", calf);

@@ -1,11 +1,18 @@
 #include "measures.hpp"
 #include <cmath>
+#include <iterator>
+#include <map>
+#include <optional>
 #include <sloper/base/units.hpp>
 #include <sloper/io/json.hpp>
 namespace sloper::samples {
 namespace {
 
-constexpr int BODY_VERSION = 1; // newest that is read
+constexpr int BODY_VERSION = 1;      // newest that is read
+constexpr double HALF_BAND = 0.0175; // m, of a waistband
+constexpr const char* TRUNK_LEVELS[] = {
+    "underbust", "waist_girth_min", "waist_semantic", "waist_width_min", "omphalion", "abdomen",
+    "hip",       "hip_girth_max"};
 
 /// Landmark, level and girth by name; missing ones are nothing.
 class Reader {
@@ -25,6 +32,19 @@ public:
     girth = entry.at("girth_m").number();
     y = entry.at("y").number();
     return true;
+  }
+  /// Girth of the trunk at a height, m, between the levels of the document; nothing outside of
+  /// them.
+  std::optional<double> trunk_girth(double at) const {
+    std::map<double, double> by_height;
+    double y = 0, around = 0;
+    for (const char* name : TRUNK_LEVELS)
+      if (level(name, around, y)) by_height[y] = around;
+    const auto above = by_height.lower_bound(at);
+    if (above == by_height.end() || above == by_height.begin()) return std::nullopt;
+    const auto below = std::prev(above);
+    const double share = (at - below->first) / (above->first - below->first);
+    return below->second + share * (above->second - below->second);
   }
   void girth(const std::string& name, double& value) const {
     if (!m_body.has("girths") && !m_body.has("girths_m")) return;
@@ -53,12 +73,15 @@ std::vector<std::pair<std::string, double Measures::*>> measure_names() {
           {"neck", &Measures::neck},
           {"upper-arm", &Measures::upper_arm},
           {"wrist", &Measures::wrist},
+          {"thigh", &Measures::thigh},
           {"knee", &Measures::knee},
           {"ankle", &Measures::ankle},
           {"back-length", &Measures::back_length},
           {"waist-to-hip", &Measures::waist_to_hip},
           {"body-rise", &Measures::body_rise},
           {"inside-leg", &Measures::inside_leg},
+          {"crotch-length", &Measures::crotch_length},
+          {"scye-depth", &Measures::scye_depth},
           {"shoulder", &Measures::shoulder},
           {"arm-length", &Measures::arm_length},
           {"neck-back-height", &Measures::neck_back_height},
@@ -71,12 +94,13 @@ void set_measure(Measures& m, const std::string& name, double value) {
     names.push_back(known);
     if (known == name) {
       if (!(value > 0.02 && value < 2.5))
-        throw Error(ErrorKind::USAGE, "", "--measure " + name, "is not a length of a person, in m");
+        throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", "--measure " + name,
+                    "is not a length of a person, in m");
       m.*member = value;
       return;
     }
   }
-  throw Error(ErrorKind::USAGE, "", "--measure",
+  throw Error(ErrorKind::USAGE, "option.unknown-word"_id, "", "--measure",
               "there is no measure \"" + name + "\"" + did_you_mean(name, names, "\""),
               "see --help");
 }
@@ -88,7 +112,7 @@ Measures measures_from_body(const io::Json& body, const std::string& file) {
   Measures m;
   Vec3 p, q;
   if (!r.point("head_tip", p) || p.y() < 0.5)
-    throw input_error(file, "/landmarks/head_tip", "stature is not known",
+    throw input_error("sample.no-stature"_id, file, "/landmarks/head_tip", "stature is not known",
                       "give a body document with a head_tip");
   scale_all(m, p.y() / m.stature);
   double y = 0, girth = 0, waist_y = m.waist_height();
@@ -106,6 +130,8 @@ Measures measures_from_body(const io::Json& body, const std::string& file) {
     m.waist = semantic_girth;
     waist_y = semantic_y;
   }
+  for (const double edge : {waist_y - HALF_BAND, waist_y + HALF_BAND})
+    if (const auto around = r.trunk_girth(edge)) m.waist = std::max(m.waist, *around);
   if (r.level("bust", girth, y)) m.bust = girth;
   double hip_y = waist_y - m.waist_to_hip;
   if (r.level("hip", girth, y)) {
@@ -120,6 +146,13 @@ Measures measures_from_body(const io::Json& body, const std::string& file) {
     m.body_rise = waist_y - p.y();
     m.inside_leg = p.y();
   }
+  // measured to the modelled waist, in front and behind
+  r.girth("crotch_length", m.crotch_length);
+  if (m.crotch_length > 0 && semantic_y > 0) m.crotch_length += 2 * (waist_y - semantic_y);
+  double deepest = 0; // of both arm pits
+  for (const char* pit : {"axilla_l", "axilla_r"})
+    if (r.point(pit, p)) deepest = std::max(deepest, m.neck_back_height - p.y());
+  if (deepest > 0) m.scye_depth = deepest;
   if (r.point("acromion_l", p)) {
     m.shoulder_height = p.y();
     if (r.point("neck_side_l", q)) m.shoulder = (p - q).norm();
@@ -130,6 +163,7 @@ Measures measures_from_body(const io::Json& body, const std::string& file) {
   r.girth("neck", m.neck);
   r.girth("upper_arm_l", m.upper_arm);
   r.girth("wrist_l", m.wrist);
+  r.girth("thigh_l", m.thigh);
   r.girth("knee_l", m.knee);
   r.girth("ankle_min_l", m.ankle);
   return m;

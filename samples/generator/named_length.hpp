@@ -26,21 +26,21 @@ inline std::pair<std::string, double> named_length(const std::string& option,
                         : unit == "in"              ? 0.0254
                                                     : 0;
   if (name.empty() || failure != std::errc() || factor == 0 || !std::isfinite(value))
-    throw Error(ErrorKind::USAGE, "", option, "\"" + text + "\" is not NAME=METRES",
-                "for example " + option + " waist=0.75");
+    throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", option,
+                "\"" + text + "\" is not NAME=METRES", "for example " + option + " waist=0.75");
   const auto say = [&](double metres) {
     char number[32];
     std::snprintf(number, sizeof number, "%.4g", metres);
     return option + " " + name + "=" + number;
   };
   if (!unit.empty())
-    throw Error(ErrorKind::USAGE, "", option,
+    throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", option,
                 "\"" + text + "\" names a unit: lengths are in metres, without one",
                 "say " + say(factor * value));
   if (value > LONGEST) {
     const bool mm = value > 100 * LONGEST;
     const double meant = value / (mm ? 1000 : 100);
-    throw Error(ErrorKind::USAGE, "", option,
+    throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", option,
                 "\"" + text + "\" would be " + length + " m: lengths are in metres",
                 meant < SHORTEST
                     ? "for example " + say(0.75)

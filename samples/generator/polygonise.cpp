@@ -215,7 +215,10 @@ void even_valence(TriangleMesh& mesh) {
       mesh.triangles[t0] = g0;
       mesh.triangles[t1] = g1;
       touched[t0] = touched[t1] = 1;
-      --valence[a], --valence[b], ++valence[c], ++valence[d];
+      --valence[a];
+      --valence[b];
+      ++valence[c];
+      ++valence[d];
     }
   }
 }
@@ -308,8 +311,8 @@ TriangleMesh polygonise(const Field& f, const Box3& box, double cell) {
     relax(mesh, f, 4);
     return mesh;
   }
-  throw Error(ErrorKind::FAILED, "", "mannequin", "no grid gives a closed manifold",
-              "change --cell");
+  throw Error(ErrorKind::FAILED, "sample.no-closed-surface"_id, "", "mannequin",
+              "no grid gives a closed manifold", "change --cell");
 }
 
 } // namespace sloper::samples

@@ -176,6 +176,9 @@ def make_cell(plan, number):
     options = ["--mode", settings["mode"], "--accuracy", settings["accuracy"]]
     for assignment in settings["set"]:
         options += ["--set", assignment]
+    is_mesh = not cell["garment_file"].endswith(".json")
+    if is_mesh:
+        options += ["--from", settings["from"], *(["--fabric", settings["fabric"]] if settings.get("fabric") else [])]
     command = [tools["retarget-garment"]["path"], "--threads", "1", "--cache", plan.skins, "--garment", cell["garment_file"], "--to", os.path.join(body_folder, "body.json"), *options,
                *(["--policy", settings["policy"]] if settings["policy"] else []), "--fit", "fit.json", "--fit-page", "fit.html", "--report", "report.json", "-o", "garment.json"]
     code, message, cost = run(command, settings["timeout_s"], folder)
@@ -185,15 +188,24 @@ def make_cell(plan, number):
     status.update(exit=code, cause=cause, message=message, dressed=cause == "dressed")
     if fit:
         status.update(fits=fit["fits"], verdict=fit["verdict"], reason=fit["reason"], margin_cm=fit["margin_cm"]["value"], margin_at=fit["margin_cm"]["girth"],
+                      margin_uncertainty_cm=fit["girths"].get(fit["margin_cm"]["girth"], {}).get("ease_cm", {}).get("uncertainty"),
                       ease_percent={name: g["ease_percent"]["value"] for name, g in fit["girths"].items()}, strain_p99=fit["strain"]["p99"])
     if report:
         quality = report.get("quality") or {}
         status["quality"] = {k: quality[k] for k in ("faces_through_body", "vertices_inside_body", "self_intersections") if k in quality}
         status["steps"] = report.get("steps")
     if cause not in ("dressed", "does not fit", "cannot go on"):
-        files = {"garment.json": cell["garment_file"], os.path.basename(os.path.splitext(cell["garment_file"])[0] + ".obj"): os.path.splitext(cell["garment_file"])[0] + ".obj",
-                 "body.json": os.path.join(body_folder, "body.json"), "body.obj": os.path.join(body_folder, "body.obj")}
-        replay = ["retarget-garment", "--garment", "garment.json", "--to", "body.json", *options]
+        files = {"body.json": os.path.join(body_folder, "body.json"), "body.obj": os.path.join(body_folder, "body.obj")}
+        worn = os.path.basename(cell["garment_file"]) if is_mesh else "garment.json"
+        files[worn] = cell["garment_file"]
+        if is_mesh:
+            mesh = os.path.splitext(settings["from"])[0] + ".obj"
+            files.update({"from.json": settings["from"], os.path.basename(mesh): mesh})
+            options[options.index("--from") + 1] = "from.json"
+        else:
+            mesh = os.path.splitext(cell["garment_file"])[0] + ".obj"
+            files[os.path.basename(mesh)] = mesh
+        replay = ["retarget-garment", "--garment", worn, "--to", "body.json", *options]
         if settings["policy"]:
             files["policy.json"] = settings["policy"]
             replay += ["--policy", "policy.json"]

@@ -62,8 +62,17 @@ def wilson(good, n, z=1.96):
     return max(0.0, middle - half), min(1.0, middle + half)
 
 
+def sureness(best, second=None):
+    """How likely the best size has the larger margin, from the uncertainties of both, taken as standard deviations of independent normal errors. A
+    body that is measured wrong moves both margins alike, so it is more likely than that where one girth decides both. None: there is no other."""
+    if second is None:
+        return None
+    spread = math.hypot(best.get("margin_uncertainty_cm") or 0, second.get("margin_uncertainty_cm") or 0)
+    return 0.5 * (1 + math.erf((best["margin_cm"] - second["margin_cm"]) / max(spread, 1e-9) / math.sqrt(2)))
+
+
 def best_sizes(statuses):
-    """(garment, scan) -> (size, margin, runner-up): the dressed size whose least margin is largest."""
+    """(garment, scan) -> (size, margin, girth, runner-up, sureness): the dressed size whose least margin is largest."""
     groups = {}
     for s in statuses:
         if s["size"]:
@@ -72,9 +81,9 @@ def best_sizes(statuses):
     for group, members in groups.items():
         fitting = sorted((s for s in members if s["dressed"] and s.get("fits")), key=lambda s: (-s["margin_cm"], s["size"]))
         if fitting:
-            best[group] = (fitting[0]["size"], fitting[0]["margin_cm"], fitting[0]["margin_at"], fitting[1]["size"] if len(fitting) > 1 else "")
+            best[group] = (fitting[0]["size"], fitting[0]["margin_cm"], fitting[0]["margin_at"], fitting[1]["size"] if len(fitting) > 1 else "", sureness(*fitting[:2]))
         else:
-            best[group] = ("", None, "", "")
+            best[group] = ("", None, "", "", None)
     return best
 
 
@@ -179,9 +188,10 @@ def row_html(s):
 
 
 def best_row_html(garment, scan, best):
-    size, margin, at, second = best
+    size, margin, at, second, sure = best
     return (f"<tr><td>{html.escape(garment)}<td>{html.escape(scan)}<td>" + (html.escape(size) if size else "<span class=no>none fits</span>")
-            + (f"<td class=n>{margin:.1f}" if margin is not None else "<td>") + f"<td>{html.escape(at.replace('_', ' '))}<td>{html.escape(second)}</tr>\n")
+            + (f"<td class=n>{margin:.1f}" if margin is not None else "<td>") + f"<td>{html.escape(at.replace('_', ' '))}<td>{html.escape(second)}"
+            + (f"<td class=n>{100 * sure:.0f}" if sure is not None else "<td>") + "</tr>\n")
 
 
 def pictures_html(out, statuses):
@@ -209,7 +219,7 @@ class SmallPage:
         text = "<h2>All cells, worst first</h2>" + CELLS_HEAD + "".join(map(row_html, listed)) + "</tbody></table></div>\n"
         best = best_sizes(listed)
         if best:
-            text += "<h2>Best size</h2><div class=wide><table class=sorts><thead><tr><th>garment<th>scan<th>size<th>margin cm<th>least at<th>next best</tr></thead><tbody>\n"
+            text += '<h2>Best size</h2><div class=wide><table class=sorts><thead><tr><th>garment<th>scan<th>size<th>margin cm<th>least at<th>next best<th title="how likely it has the larger margin, by the uncertainties of both">sure %</tr></thead><tbody>\n'
             text += "".join(best_row_html(garment, scan, of) for (garment, scan), of in sorted(best.items())) + "</tbody></table></div>\n"
         text += "<h2>Ease in % of the girth</h2>\n"
         groups = {}
@@ -317,7 +327,7 @@ class LargePage:
 
 ON_DEMAND = """<script>
 const place=document.getElementById("rows"),loaded=[];window.rows=text=>loaded.push(text);
-const head="<tr><th>garment<th>size<th>scan<th>outcome<th>margin cm<th>strain p99 %<th>CPU s<th>why</tr>",bestHead="<tr><th>garment<th>scan<th>size<th>margin cm<th>least at<th>next best</tr>";
+const head="<tr><th>garment<th>size<th>scan<th>outcome<th>margin cm<th>strain p99 %<th>CPU s<th>why</tr>",bestHead="<tr><th>garment<th>scan<th>size<th>margin cm<th>least at<th>next best<th>sure %</tr>";
 function show(index,part,parts){const s=document.createElement("script");loaded.length=0;s.src=`page/${index}.${part}.js`;s.onload=()=>{
 const wide=loaded[0].split("</tr>")[0].split("<td").length>8;
 place.innerHTML=`<h2>Rows ${part+1} of ${parts}</h2><p>${part>0?"<button id=back>back</button> ":""}${part+1<parts?"<button id=on>on</button>":""}</p><div class=wide><table><thead>${wide?head:bestHead}</thead><tbody>${loaded[0]}</tbody></table></div>`;

@@ -116,10 +116,23 @@ def listed(place, wanted):
     return [place]
 
 
-def find_garments(place):
-    garments = listed(place, lambda path: is_document(path, "garment"))
+MESH_SUFFIXES = (".obj", ".ply", ".glb")  # of garments without a pattern
+
+
+def find_garments(place, worn_by=None):
+    """Garment documents; with a body that wears them, also meshes that belong to no document."""
+    beside = set(os.listdir(place)) if os.path.isdir(place) else set()
+
+    def wanted(path):
+        alone = path.lower().endswith(MESH_SUFFIXES) and os.path.splitext(os.path.basename(path))[0] + ".json" not in beside
+        return is_document(path, "garment") or (alone and worn_by is not None)
+
+    garments = listed(place, wanted)
+    meshes = [path for path in garments if path.lower().endswith(MESH_SUFFIXES)]
+    if meshes and not worn_by:
+        raise Mistake(f"{meshes[0]}: a mesh does not say who wears it; say --from BODY")
     if not garments:
-        raise Mistake(f"{place}: no garment document in it; drape one first")
+        raise Mistake(f"{place}: no garment document in it; drape one first, or say --from BODY where they are meshes")
     return garments
 
 
@@ -205,7 +218,8 @@ class Plan:
         self.keeps_all = scans is not None
         tools = self.programs
         self.base = key_of({"programs": [tools[p]["sha256"] for p in ("retarget-garment", "render-png")],
-                            "settings": {k: self.settings[k] for k in ("mode", "accuracy", "set", "pictures")}, "policy": document["policy_sha256"]})
+                            "settings": {k: self.settings[k] for k in ("mode", "accuracy", "set", "pictures")}, "policy": document["policy_sha256"],
+                            **({"from": document["from_sha256"], "fabric": self.settings["fabric"]} if document.get("from_sha256") else {})})
 
     @property
     def cell_count(self):
@@ -297,7 +311,8 @@ def make_plan(out, garments, scans, settings, tools, cache=None):
     except (OSError, ValueError, KeyError):
         sharded = len(worn) * len(described) > FLAT_CELLS
     document = {"settings": settings, "programs": tools, "garments": worn, "scans": len(described), "sharded": sharded, "cache": cache or os.path.join(out, "bodies"),
-                "skins": os.path.join(cache or out, "skins"), "policy_sha256": sha256(settings["policy"]) if settings["policy"] else None}
+                "skins": os.path.join(cache or out, "skins"), "policy_sha256": sha256(settings["policy"]) if settings["policy"] else None,
+                "from_sha256": sha256(*checked(settings["from"])) if settings.get("from") else None}
     for part in range(0, len(described), SCANS_A_FILE):
         write_json(os.path.join(folder, f"scans.{part // SCANS_A_FILE}.json"), described[part:part + SCANS_A_FILE], indent=None)
     write_json(os.path.join(folder, "plan.json"), document)
@@ -309,7 +324,8 @@ def write_manifest(path, plan, causes):
 
     causes: the cause of cell i, or None where it is missing."""
     shown = dict(plan.settings)
-    shown["policy"] = os.path.basename(shown["policy"]) if shown["policy"] else None
+    for key in ("policy", "from"):
+        shown[key] = os.path.basename(shown[key]) if shown.get(key) else None
     scans = [plan.scan(i) for i in range(plan.scan_count)]
     head = {
         "format": "batch", "version": 1, "settings": shown,

@@ -70,9 +70,10 @@ TEST(MeasureScan, a_missing_hand_is_told) {
   std::vector<int> number(loose.positions.size(), -1);
   for (Triangle t : loose.triangles) {
     for (int& v : t) {
-      if (number[v] < 0)
-        number[v] = static_cast<int>(cut.positions.size()),
+      if (number[v] < 0) {
+        number[v] = static_cast<int>(cut.positions.size());
         cut.positions.push_back(loose.positions[v]);
+      }
       v = number[v];
     }
     cut.triangles.push_back(t);
@@ -285,7 +286,10 @@ TEST(MeasureScan, a_thin_cloud_strewn_at_random_is_one_person_with_fingers) {
           area.begin() - 1;
       const Triangle& t = mesh.triangles[static_cast<std::size_t>(at)];
       double u = random.uniform(), v = random.uniform();
-      if (u + v > 1) u = 1 - u, v = 1 - v;
+      if (u + v > 1) {
+        u = 1 - u;
+        v = 1 - v;
+      }
       cloud.positions.push_back(mesh.positions[t[0]] +
                                 u * (mesh.positions[t[1]] - mesh.positions[t[0]]) +
                                 v * (mesh.positions[t[2]] - mesh.positions[t[0]]));
@@ -319,9 +323,10 @@ TEST(MeasureScan, what_is_no_standing_person_is_refused) {
   TriangleMesh upper;
   for (Triangle t : torso.triangles) {
     for (int& v : t) {
-      if (number[v] < 0)
-        number[v] = static_cast<int>(upper.positions.size()),
+      if (number[v] < 0) {
+        number[v] = static_cast<int>(upper.positions.size());
         upper.positions.push_back(torso.positions[v]);
+      }
       v = number[v];
     }
     upper.triangles.push_back(t);
@@ -351,7 +356,10 @@ TEST(MeasureScan, a_stature_that_no_unit_explains_is_refused) {
 
 TEST(MeasureScan, an_arm_that_touches_the_trunk_hides_the_pit_and_the_waist) {
   samples::Mannequin pressed;
-  pressed.sex = "m", pressed.stature_m = 1.64, pressed.bmi = 31, pressed.arm_deg = 12;
+  pressed.sex = "m";
+  pressed.stature_m = 1.64;
+  pressed.bmi = 31;
+  pressed.arm_deg = 12;
   const Body body = test::measure(samples::make_mannequin(pressed).mesh).body;
   for (const char* name : {"axilla_l", "axilla_r", "axilla_merge_l", "axilla_front_r"})
     EXPECT_FALSE(body.has_landmark(name)) << name;
@@ -390,7 +398,8 @@ TEST(MeasureScan, the_acromia_of_one_person_stay_where_they_are_as_the_arms_rise
     person.arm_deg = degrees;
     const Body body = measure(samples::make_mannequin(person).mesh).body;
     const double breadth = (body.landmark("acromion_l") - body.landmark("acromion_r")).norm();
-    least = std::min(least, breadth), most = std::max(most, breadth);
+    least = std::min(least, breadth);
+    most = std::max(most, breadth);
   }
   EXPECT_LT(most - least, 0.02);
   EXPECT_NEAR(least, 0.39, 0.025);

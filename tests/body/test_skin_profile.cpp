@@ -8,7 +8,10 @@ using namespace sloper::body;
 
 TEST(SkinProfile, is_bilinear_periodic_and_clamped) {
   SkinProfile profile;
-  profile.n_theta = 4, profile.n_z = 2, profile.z_low = 0, profile.z_high = 1;
+  profile.n_theta = 4;
+  profile.n_z = 2;
+  profile.z_low = 0;
+  profile.z_high = 1;
   profile.radius = {1, 2, 3, 4, 5, 6, 7, 8};
   const double pi = 3.14159265358979323846;
   EXPECT_NEAR(profile.at(-pi, 0), 1, 1e-9);

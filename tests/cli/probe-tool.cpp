@@ -32,9 +32,12 @@ int main(int argc, char** argv) {
   tool.example("probe-tool --do nothing -o out.txt", "do nothing");
   tool.formats("text", "text (version 1)");
   return tool.run(argc, argv, [&] {
-    if (deed == "input") throw input_error("a.obj", "line 3", "is wrong", "mend it");
-    if (deed == "usage") throw Error(ErrorKind::USAGE, "", "", "these two do not go together");
-    if (deed == "fail") throw Error(ErrorKind::FAILED, "", "", "did not come to rest");
+    if (deed == "input")
+      throw input_error("probe.input"_id, "a.obj", "line 3", "is wrong", "mend it");
+    if (deed == "usage")
+      throw Error(ErrorKind::USAGE, "probe.usage"_id, "", "", "these two do not go together");
+    if (deed == "fail")
+      throw Error(ErrorKind::FAILED, "probe.failed"_id, "", "", "did not come to rest");
     if (deed == "memory") throw std::bad_alloc();
     if (deed == "bug") throw std::logic_error("index 7 of 5");
     if (deed == "no") return 1;
@@ -45,7 +48,7 @@ int main(int argc, char** argv) {
       }
       return tool.reporter().stop_requested() ? 4 : 0;
     }
-    tool.reporter().warning("a warning");
+    tool.reporter().warning({"probe.warning"_id, "a warning"});
     tool.reporter().info("an info");
     std::string text =
         "length " + std::to_string(length) + "\ncount " + std::to_string(count) + "\n";

@@ -68,9 +68,10 @@ TEST(AgainstCgal, RandomAndNearlyTouchingTrianglesAgree) {
     if (i % 4 == 1)
       t[1][0] = 0.2 * t[0][0] + 0.3 * t[0][1] + 0.5 * t[0][2]; // corner on the face, up to rounding
     if (i % 4 == 2) t[1][0] = t[0][0] + random.uniform() * (t[0][1] - t[0][0]); // corner on an edge
-    if (i % 4 == 3)
-      t[1][0] = t[0][0] + random.uniform() * (t[0][1] - t[0][0]),
+    if (i % 4 == 3) {
+      t[1][0] = t[0][0] + random.uniform() * (t[0][1] - t[0][0]);
       t[1][1] = t[0][2]; // and on a corner
+    }
     if (i % 8 >= 4)
       for (int k = 1; k < 3; ++k)
         t[1][k] = t[0][0] + random.uniform(-1, 1) * (t[0][1] - t[0][0]) +

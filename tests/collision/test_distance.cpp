@@ -28,12 +28,21 @@ double sampled_point_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const
 /// Random shapes of one kind: 0 ordinary, 1 sliver, 2 zero area, 3 all points one, 4 tiny, 5 far
 /// from the origin.
 void triangle_of_kind(Random& random, int kind, Vec3& a, Vec3& b, Vec3& c) {
-  a = random_point(random), b = random_point(random), c = random_point(random);
+  a = random_point(random);
+  b = random_point(random);
+  c = random_point(random);
   if (kind == 1) c = a + 0.3 * (b - a) + random_point(random, 1e-9);
   if (kind == 2) c = a + 0.7 * (b - a);
   if (kind == 3) b = c = a;
-  if (kind == 4) b = a + 1e-7 * b, c = a + 1e-7 * c;
-  if (kind == 5) a.x() += 1000, b.x() += 1000, c.x() += 1000;
+  if (kind == 4) {
+    b = a + 1e-7 * b;
+    c = a + 1e-7 * c;
+  }
+  if (kind == 5) {
+    a.x() += 1000;
+    b.x() += 1000;
+    c.x() += 1000;
+  }
 }
 
 TEST(Distance, PointToTriangleIsTheLeastOverSamplesForEveryShapeOfTriangle) {

@@ -20,7 +20,10 @@ struct Heard : Reporter {
   std::string infos, warnings;
   int n_warnings = 0;
   void info(const std::string& text) override { infos += text + "\n"; }
-  void warning(const std::string& text) override { warnings += text + "\n", ++n_warnings; }
+  void warning(const Message& message) override {
+    warnings += message.text + "\n";
+    ++n_warnings;
+  }
 };
 
 TriangleMesh skin() {

@@ -29,7 +29,10 @@ Untangled untangle(TriangleMesh& mesh, double step, int rounds) {
         Vec3 sum = d[v];
         int n = 1;
         for (int f : topology.triangles_of_vertex(static_cast<int>(v)))
-          for (int u : mesh.triangles[f]) sum += d[u], ++n;
+          for (int u : mesh.triangles[f]) {
+            sum += d[u];
+            ++n;
+          }
         smooth[v] = sum / n;
       }
       d = smooth;

@@ -22,8 +22,10 @@ Garment two_squares() {
   for (int k = 0; k < 2; ++k) {
     pattern::PanelInfo panel;
     panel.name = k == 0 ? "front" : "back";
-    panel.first_vertex = 4 * k, panel.n_vertices = 4;
-    panel.first_triangle = 2 * k, panel.n_triangles = 2;
+    panel.first_vertex = 4 * k;
+    panel.n_vertices = 4;
+    panel.first_triangle = 2 * k;
+    panel.n_triangles = 2;
     panel.material = k == 0 ? "" : "lining";
     panel.layer = k;
     panel.part = "torso";
@@ -38,7 +40,7 @@ Garment two_squares() {
     g.panels.triangles.push_back({4 * k, 4 * k + 2, 4 * k + 3});
   }
   g.panels.seams.push_back({"side", "seam", {1, 2}, {4, 7}, 0.1, 0.1});
-  g.panels.findings = {"nothing to say"};
+  g.panels.findings = {{"test.fact"_id, "nothing to say"}};
   g.particle_of = {0, 1, 2, 3, 1, 4, 5, 2};
   g.position = {{0, 1, 0},   {0.1, 1, 0}, {0.1, 1.1, 1.0 / 3},
                 {0, 1.1, 0}, {0.2, 1, 0}, {0.2, 1.1, 0}};

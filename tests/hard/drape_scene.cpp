@@ -100,15 +100,27 @@ Garment make_garment(const Parameters& p) {
     const int back = g.panels.panels[1].first_vertex;
     auto id = [&](int r, int c) { return r * (n + 1) + c; };
     std::vector<int> a, b;
-    for (int c = 0; c < n; ++c) a.push_back(id(0, c)), b.push_back(back + id(0, n - c));
-    for (int r = 0; r < n; ++r) a.push_back(id(r, n)), b.push_back(back + id(r, 0));
-    for (int c = n; c > 0; --c) a.push_back(id(n, c)), b.push_back(back + id(n, n - c));
-    for (int r = n; r >= 0; --r) a.push_back(id(r, 0)), b.push_back(back + id(r, n));
+    for (int c = 0; c < n; ++c) {
+      a.push_back(id(0, c));
+      b.push_back(back + id(0, n - c));
+    }
+    for (int r = 0; r < n; ++r) {
+      a.push_back(id(r, n));
+      b.push_back(back + id(r, 0));
+    }
+    for (int c = n; c > 0; --c) {
+      a.push_back(id(n, c));
+      b.push_back(back + id(n, n - c));
+    }
+    for (int r = n; r >= 0; --r) {
+      a.push_back(id(r, 0));
+      b.push_back(back + id(r, n));
+    }
     sew(g, "rim", a, b);
   } else if (kind == "empty") {
     g.panels.panels.push_back({});
   } else {
-    throw input_error("", "garment", kind + " is no garment of these scenes");
+    throw input_error("hard.bad-scene"_id, "", "garment", kind + " is no garment of these scenes");
   }
   return g;
 }
@@ -142,7 +154,7 @@ void spoil(Garment& g, const std::string& what) {
       for (std::size_t k = 0; k < s.a.size(); ++k) m.placed[s.b[k]] = m.placed[s.a[k]];
   else if (what == "flat_together") // all panels in one plane, in one place
     for (std::size_t v = 0; v < m.placed.size(); ++v) m.placed[v].z() = m.placed[0].z();
-  else throw input_error("", "spoil", what + " is no fault of these scenes");
+  else throw input_error("hard.bad-scene"_id, "", "spoil", what + " is no fault of these scenes");
 }
 
 void measure(Outcome& out, const Garment& g, const garment::DrapeReport& report,

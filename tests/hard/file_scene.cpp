@@ -85,7 +85,7 @@ std::string broken_obj(const std::string& what) {
   if (what == "repeated_corner") return good + "f 1 1 2\n";
   if (what == "duplicate_faces") return good + "f 1 2 3\nf 1 2 3\n";
   if (what == "lone_vertex") return good + "v 5 5 5\n";
-  throw input_error("", "broken", what + " is no fault of these scenes");
+  throw input_error("hard.bad-scene"_id, "", "broken", what + " is no fault of these scenes");
 }
 
 } // namespace

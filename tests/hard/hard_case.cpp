@@ -219,7 +219,7 @@ Case read_case(const std::string& path) {
   c.elsewhere = node.at("elsewhere").string();
   c.invariant = node.at("invariant").string();
   c.scene = node.at("scene").string();
-  if (!scenes().count(c.scene)) node.at("scene").fail("is no scene");
+  if (!scenes().count(c.scene)) node.at("scene").fail("hard.bad-scene"_id, "is no scene");
   c.parameters = json.value("parameters", io::Json::object());
   c.pass = json.value("pass", io::Json::object());
   c.reference = json.value("reference", io::Json());
@@ -231,7 +231,8 @@ Case read_case(const std::string& path) {
   if (ci.contains("points")) c.ci_points = ci["points"].get<std::vector<std::size_t>>();
   else c.ci_points = {0};
   for (std::size_t k : c.ci_points)
-    if (k >= c.points.size()) node.at("ci").fail("names a point that the sweep does not have");
+    if (k >= c.points.size())
+      node.at("ci").fail("hard.bad-scene"_id, "names a point that the sweep does not have");
   for (const io::Json& f : json.value("failing", io::Json::array())) {
     bool met = false;
     for (Point& p : c.points) {
@@ -242,7 +243,7 @@ Case read_case(const std::string& path) {
       if (same) p.failing = f.at("why").get<std::string>();
       met |= same;
     }
-    if (!met) node.at("failing").fail("names no point of the sweep");
+    if (!met) node.at("failing").fail("hard.bad-scene"_id, "names no point of the sweep");
   }
   return c;
 }

@@ -112,7 +112,7 @@ Options parse(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string a = argv[i];
     auto next = [&] {
-      if (i + 1 == argc) throw Error(ErrorKind::USAGE, "", a, "needs a value");
+      if (i + 1 == argc) throw Error(ErrorKind::USAGE, "hard.option"_id, "", a, "needs a value");
       return std::string(argv[++i]);
     };
     if (a == "--cases") o.cases = next();
@@ -124,7 +124,7 @@ Options parse(int argc, char** argv) {
     else if (a == "--kept") o.kept = next();
     else if (a == "-v") o.verbose = true;
     else
-      throw Error(ErrorKind::USAGE, "", a, "is not known",
+      throw Error(ErrorKind::USAGE, "hard.option"_id, "", a, "is not known",
                   "run-hard [--cases DIR] [--only NAME] [--seeds N] [--jobs N] [--table FILE] "
                   "[--hashes FILE] [--kept FILE] [-v]");
   }

@@ -175,7 +175,7 @@ int main_of(int argc, char** argv) {
     else if (a == "--count") count = std::stoull(argv[i + 1]);
     else if (a == "--out") out = argv[i + 1];
     else
-      throw Error(ErrorKind::USAGE, "", a, "is not known",
+      throw Error(ErrorKind::USAGE, "hard.option"_id, "", a, "is not known",
                   "run-soak [--from K] [--count N] [--out DIR]");
   }
   std::uint64_t failed = 0, refused = 0, unfinished = 0, other_bytes = 0;

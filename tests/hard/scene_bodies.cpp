@@ -111,7 +111,7 @@ TriangleMesh make_body_mesh(const Parameters& p) {
     return m;
   }
   if (shape == "none") return {};
-  throw input_error("", "body", shape + " is no body of these scenes");
+  throw input_error("hard.bad-scene"_id, "", "body", shape + " is no body of these scenes");
 }
 
 body::Body make_body(TriangleMesh mesh) {
@@ -176,7 +176,7 @@ void damage(TriangleMesh& mesh, const std::string& kind, std::uint64_t seed) {
   } else if (kind == "nan") {
     mesh.positions[mesh.positions.size() / 2].y() = std::nan("");
   } else if (kind != "none") {
-    throw input_error("", "damage", kind + " is no damage of these scenes");
+    throw input_error("hard.bad-scene"_id, "", "damage", kind + " is no damage of these scenes");
   }
 }
 

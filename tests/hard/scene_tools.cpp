@@ -47,8 +47,13 @@ Sheet make_sheet(const std::vector<double>& widths, const std::vector<double>& h
     for (int r = 0; r + 1 < s.rows; ++r)
       for (int c = 0; c + 1 < s.columns; ++c) {
         const int a = s.at(c, r), b = s.at(c + 1, r), d = s.at(c, r + 1), e = s.at(c + 1, r + 1);
-        if ((r + c) % 2) add(a, b, d), add(b, e, d);
-        else add(a, b, e), add(a, e, d);
+        if ((r + c) % 2) {
+          add(a, b, d);
+          add(b, e, d);
+        } else {
+          add(a, b, e);
+          add(a, e, d);
+        }
       }
   }
   s.mesh = cloth::make_cloth_mesh(static_cast<int>(s.x.size()), triangles, {fabric});

@@ -210,3 +210,19 @@ TEST(Json, a_file_that_is_not_beside_its_document_is_told_by_document_place_and_
       EXPECT_NE(text.find(part), std::string::npos) << text;
   }
 }
+
+TEST(Findings, have_their_ids_beside_them_and_may_lack_them) {
+  const std::vector<Message> findings = {{"dxf.unit-assumed"_id, "inches are assumed"},
+                                         {"dxf.slits"_id, "two slits"}};
+  Json document;
+  io::put_findings(document, findings);
+  EXPECT_EQ(document["finding_ids"], Json::array({"dxf.unit-assumed", "dxf.slits"}));
+  EXPECT_EQ(io::read_findings({document, "a.json"}), findings);
+  document.erase("finding_ids"); // of before
+  EXPECT_EQ(io::read_findings({document, "a.json"})[1], Message::read("", "two slits"));
+  document["finding_ids"] = Json::array({"dxf.slits"});
+  EXPECT_THROW(io::read_findings({document, "a.json"}), Error);
+  Json empty;
+  io::put_findings(empty, {});
+  EXPECT_EQ(empty, Json({{"findings", Json::array()}}));
+}

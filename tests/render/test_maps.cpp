@@ -135,7 +135,9 @@ TEST(Maps, cloth_without_a_value_has_a_border_of_two_colours) {
     values[v] = scene.garments[0].panels.pattern[v].x() < 0.15 ? 0.9 : NO_VALUE;
   DrawOptions options;
   options.width = options.height = 200;
-  options.map_colors = legend.steps, options.map_low = legend.low, options.map_high = legend.high;
+  options.map_colors = legend.steps;
+  options.map_low = legend.low;
+  options.map_high = legend.high;
   options.border_lines = false;
   const io::Image image = draw_pattern(scene, options);
   const auto srgb = [](double linear) { return 255 * to_srgb(linear); };
@@ -147,7 +149,8 @@ TEST(Maps, cloth_without_a_value_has_a_border_of_two_colours) {
       const Vec3 c(p[0], p[1], p[2]);
       const double t = std::clamp((c - none).dot(high - none) / (high - none).squaredNorm(), 0.0,
                                   1.0); // mixed where the two meet in a pixel
-      highs += (c - high).norm() < 6, nones += (c - none).norm() < 6;
+      highs += (c - high).norm() < 6;
+      nones += (c - none).norm() < 6;
       strange += (c - none - t * (high - none)).norm() > 30 && c.minCoeff() < 235;
     }
   EXPECT_GT(highs, 100);
@@ -160,7 +163,7 @@ TEST(PatternView, a_seam_that_goes_over_two_panels_is_drawn_on_each_and_not_betw
   for (int k = 0; k < 3; ++k) {
     const garment::Garment one = make_sheet(6, flat);
     pattern::PanelInfo info = one.panels.panels[0];
-    info.first_vertex = static_cast<int>(three.position.size()),
+    info.first_vertex = static_cast<int>(three.position.size());
     info.first_triangle = static_cast<int>(three.panels.triangles.size());
     for (const Triangle& t : one.panels.triangles)
       three.panels.triangles.push_back(
@@ -174,12 +177,15 @@ TEST(PatternView, a_seam_that_goes_over_two_panels_is_drawn_on_each_and_not_betw
   }
   three.panels.placed = three.position;
   DrawOptions options;
-  options.width = 900, options.height = 300;
+  options.width = 900;
+  options.height = 300;
   const io::Image without = draw_pattern(scene_of({three}), options);
   pattern::MeshSeam seam; // all of the first panel's left edge, and halves of the others', which
                           // lie beside each other on the sheet
-  for (int r = 0; r <= 6; ++r)
-    seam.a.push_back(7 * r), seam.b.push_back(7 * r + (r <= 3 ? 49 : 98));
+  for (int r = 0; r <= 6; ++r) {
+    seam.a.push_back(7 * r);
+    seam.b.push_back(7 * r + (r <= 3 ? 49 : 98));
+  }
   three.panels.seams = {seam};
   const io::Image with = draw_pattern(scene_of({three}), options);
   const auto same = [](const std::uint8_t* a, const std::uint8_t* b) {
@@ -192,7 +198,9 @@ TEST(PatternView, a_seam_that_goes_over_two_panels_is_drawn_on_each_and_not_betw
       empty = empty && same(without.at(x, y), without.at(0, 0));
       changed = changed || !same(without.at(x, y), with.at(x, y));
     }
-    gaps += empty, drawn += changed, crossed += empty && changed;
+    gaps += empty;
+    drawn += changed;
+    crossed += empty && changed;
   }
   EXPECT_LT(crossed, 15) << "the width of the lines beside the panels";
   EXPECT_GT(gaps, 30);

@@ -165,7 +165,8 @@ TEST(Render, the_far_side_of_a_closed_body_is_left_out_and_never_missed) {
   EXPECT_FALSE(is_closed(pyramid)) << "as many triangles, one of them twice";
   std::vector<DrawMesh> meshes{make_ball()};
   DrawOptions options;
-  options.width = 120, options.height = 160;
+  options.width = 120;
+  options.height = 160;
   const Camera camera = frame_scene(meshes, named_view("iso"), 0.75);
   const io::Image whole = Renderer(meshes, options).draw(camera);
   meshes[0].is_closed = true;
@@ -277,8 +278,10 @@ TEST(Overlay, equal_pictures_compare_equal_and_a_defect_is_seen) {
   EXPECT_EQ(c.far, 100);
   EXPECT_EQ(c.counted, a.width * a.height);
   io::Image dark = a, bright = a;
-  for (std::size_t k = 0; k < dark.rgba.size(); ++k)
-    dark.rgba[k] = k % 4 == 3 ? 255 : 0, bright.rgba[k] = 255;
+  for (std::size_t k = 0; k < dark.rgba.size(); ++k) {
+    dark.rgba[k] = k % 4 == 3 ? 255 : 0;
+    bright.rgba[k] = 255;
+  }
   for (int y = 60; y < 70; ++y)
     for (int x = 50; x < 60; ++x) bright.at(x, y)[0] = 0;
   EXPECT_THROW(compare(a, b, &dark), Error) << "nothing would be compared";
@@ -303,12 +306,16 @@ TEST(Maps, scales_run_from_dark_to_light_and_from_blue_over_white_to_red) {
 // In a picture of 200 x 250 the last line of a long legend had run off the lower edge.
 TEST(Overlay, a_legend_has_room_for_all_its_lines_in_a_small_picture) {
   Legend legend;
-  legend.title = "strain", legend.unit = "%", legend.low = -4, legend.high = 4,
+  legend.title = "strain";
+  legend.unit = "%";
+  legend.low = -4;
+  legend.high = 4;
   legend.diverging = legend.has_gaps = true;
   legend.below = legend.beyond = 0.1;
   legend.steps.assign(8, Vec3(0.9, 0.1, 0.1));
   io::Image image;
-  image.width = 200, image.height = 250;
+  image.width = 200;
+  image.height = 250;
   image.rgba.assign(4 * 200 * 250, 255);
   draw_legend(image, legend);
   int swatch = 0, last = 0;
@@ -326,8 +333,11 @@ TEST(Overlay, a_legend_has_room_for_all_its_lines_in_a_small_picture) {
 
 TEST(Overlay, a_sheet_gives_each_column_the_width_of_its_widest_picture) {
   io::Image wide, narrow;
-  wide.width = 60, narrow.width = 20, wide.height = narrow.height = 40;
-  wide.rgba.assign(4 * 60 * 40, 1), narrow.rgba.assign(4 * 20 * 40, 2);
+  wide.width = 60;
+  narrow.width = 20;
+  wide.height = narrow.height = 40;
+  wide.rgba.assign(4 * 60 * 40, 1);
+  narrow.rgba.assign(4 * 20 * 40, 2);
   const io::Image sheet = contact_sheet({wide, narrow, narrow, wide}, {}, 2);
   EXPECT_EQ(sheet.width, 120);
   EXPECT_EQ(sheet.height, 80);

@@ -95,6 +95,35 @@ TEST(draft, the_skirt_band_goes_round_the_waist_and_the_skirt_over_the_hip) {
   EXPECT_GT(4 * (d.panel("front_l").points[2] - d.panel("front_l").points[5]).norm(), m.hip);
 }
 
+TEST(draft, trousers_go_around_the_thigh_and_between_the_legs_of_the_body_they_are_for) {
+  for (const double crotch_length : {0.0, 0.70, 0.76, 0.85})
+    for (const double thigh : {0.55, 0.75}) {
+      Measures m;
+      m.crotch_length = crotch_length;
+      m.thigh = thigh;
+      const Draft d = draft_trousers(m);
+      const DraftPanel &front = d.panel("front_l"), &back = d.panel("back_r");
+      double length = 0.035; // of the waistband, half of it in front and half behind
+      for (const DraftPanel* p : {&front, &back})
+        length += edge_length(*p, "middle") + edge_length(*p, "crotch");
+      EXPECT_GT(length, m.crotch()) << crotch_length;
+      EXPECT_GT(front.points[3].x() - front.points[7].x() + back.points[3].x() - back.points[7].x(),
+                thigh);
+      EXPECT_TRUE(draft_faults(d).empty()) << joined(draft_faults(d));
+    }
+}
+
+TEST(draft, armholes_end_below_the_arm_pits_of_the_tall) {
+  for (const double scye_depth : {0.15, 0.20, 0.235}) {
+    Measures m;
+    m.scye_depth = scye_depth;
+    const DraftPanel shirt = draft_shirt(m).panel("front_l"),
+                     tshirt = draft_tshirt(m).panel("front");
+    for (const DraftPanel* p : {&shirt, &tshirt})
+      EXPECT_LT(p->points[2].y(), -scye_depth - 0.06) << p->name;
+  }
+}
+
 TEST(draft, a_split_edge_keeps_its_shape_and_parts_its_length) {
   DraftPanel p{"p",
                {{0, 0}, {1, 0}, {0, 1}},
@@ -128,6 +157,7 @@ TEST(measures, a_mannequin_gives_its_own_measures) {
   EXPECT_NEAR(m.stature, 1.65, 1e-3);
   EXPECT_NEAR(m.waist, 0.74, 0.02);
   EXPECT_NEAR(m.bust, 0.93, 0.03);
+  EXPECT_NEAR(m.scye_depth, 0.20, 0.03);
   EXPECT_GT(m.arm_length, 0.45);
   EXPECT_LT(m.arm_length, 0.65);
   for (const DraftedGarment& g : GARMENTS) EXPECT_TRUE(draft_faults(g.draft(m)).empty()) << g.name;

@@ -60,7 +60,10 @@ private:
       const Vec3 p = (1 - w) * m_mesh.positions[a] + w * m_mesh.positions[b];
       const double cost = p.homogeneous().dot(q * p.homogeneous()) +
                           1e-9 * (m_mesh.positions[a] - m_mesh.positions[b]).squaredNorm();
-      if (cost < c.cost) c.cost = cost, c.to = p;
+      if (cost < c.cost) {
+        c.cost = cost;
+        c.to = p;
+      }
     }
     m_queue.push(c);
   }
@@ -114,9 +117,10 @@ private:
     for (const int f : faces) {
       Triangle t = m_mesh.triangles[f];
       for (int& v : t) {
-        if (number[v] < 0)
-          number[v] = static_cast<int>(out.positions.size()),
+        if (number[v] < 0) {
+          number[v] = static_cast<int>(out.positions.size());
           out.positions.push_back(m_mesh.positions[v]);
+        }
         v = number[v];
       }
       out.triangles.push_back(t);

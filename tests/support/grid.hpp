@@ -22,8 +22,13 @@ inline Grid make_grid(int n, double size, const Fabric& fabric = {}) {
   for (int r = 0; r + 1 < n; ++r)
     for (int c = 0; c + 1 < n; ++c) {
       const int a = r * n + c, b = a + 1, d = a + n, e = d + 1;
-      if ((r + c) % 2) add(a, b, d), add(b, e, d);
-      else add(a, b, e), add(a, e, d);
+      if ((r + c) % 2) {
+        add(a, b, d);
+        add(b, e, d);
+      } else {
+        add(a, b, e);
+        add(a, e, d);
+      }
     }
   return {make_cloth_mesh(n * n, triangles, {fabric}), x};
 }

@@ -71,7 +71,10 @@ inline Sewn sew(const PanelMesh& mesh) {
   }
   std::map<int, std::vector<int>> open;
   for (const auto& [edge, n] : undirected)
-    if (n == 1) open[edge.first].push_back(edge.second), open[edge.second].push_back(edge.first);
+    if (n == 1) {
+      open[edge.first].push_back(edge.second);
+      open[edge.second].push_back(edge.first);
+    }
   std::map<int, bool> seen;
   for (const auto& [start, ends] : open) {
     if (seen[start]) continue;

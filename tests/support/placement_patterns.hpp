@@ -36,7 +36,8 @@ inline body::Body waisted_body() {
     if (torso[k]) {
       Vec3& p = body.skin.positions[k];
       const double narrow = 1 - 0.2 * std::exp(-std::pow((p.y() - 1.05) / 0.1, 2));
-      p.x() *= narrow, p.z() *= narrow;
+      p.x() *= narrow;
+      p.z() *= narrow;
     }
   return body;
 }

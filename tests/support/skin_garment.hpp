@@ -48,7 +48,7 @@ inline Garment sheet(const std::vector<Vec3>& position, const std::vector<Triang
     }
     g.rest_scale.push_back(scale);
   }
-  panel.n_vertices = static_cast<int>(g.position.size()),
+  panel.n_vertices = static_cast<int>(g.position.size());
   panel.n_triangles = static_cast<int>(faces.size());
   g.panels.panels.push_back(panel);
   g.panels.placed = g.position;
@@ -134,8 +134,10 @@ inline body::Body without_arms(body::Body body) {
   std::vector<Triangle> faces;
   std::vector<body::Part> parts;
   for (std::size_t f = 0; f < body.skin.triangles.size(); ++f)
-    if (body.face_part[f] != body::Part::ARM_L && body.face_part[f] != body::Part::ARM_R)
-      faces.push_back(body.skin.triangles[f]), parts.push_back(body.face_part[f]);
+    if (body.face_part[f] != body::Part::ARM_L && body.face_part[f] != body::Part::ARM_R) {
+      faces.push_back(body.skin.triangles[f]);
+      parts.push_back(body.face_part[f]);
+    }
   body.skin.triangles = faces;
   body.face_part = parts;
   for (const char* name : {"hand_tip", "hand_extreme", "wrist", "elbow", "olecranon"})

@@ -26,13 +26,18 @@ inline void add_tube(body::Body& body, body::Part part, const Vec3& a, const Vec
   }
   const auto id = [&](int r, int c) { return first + r * AROUND + c % AROUND; };
   const auto add = [&](int i, int j, int k) {
-    m.triangles.push_back({i, j, k}), body.face_part.push_back(part);
+    m.triangles.push_back({i, j, k});
+    body.face_part.push_back(part);
   };
   for (int r = 0; r < UP; ++r)
-    for (int c = 0; c < AROUND; ++c)
-      add(id(r, c), id(r + 1, c + 1), id(r, c + 1)), add(id(r, c), id(r + 1, c), id(r + 1, c + 1));
-  for (int c = 1; c + 1 < AROUND; ++c)
-    add(id(0, 0), id(0, c), id(0, c + 1)), add(id(UP, 0), id(UP, c + 1), id(UP, c));
+    for (int c = 0; c < AROUND; ++c) {
+      add(id(r, c), id(r + 1, c + 1), id(r, c + 1));
+      add(id(r, c), id(r + 1, c), id(r + 1, c + 1));
+    }
+  for (int c = 1; c + 1 < AROUND; ++c) {
+    add(id(0, 0), id(0, c), id(0, c + 1));
+    add(id(UP, 0), id(UP, c + 1), id(UP, c));
+  }
 }
 
 inline body::Body stick_body(double arm_deg, double size = 1) {
@@ -56,12 +61,15 @@ inline body::Body stick_body(double arm_deg, double size = 1) {
     tube(side ? Part::LEG_R : Part::LEG_L, Vec3(s * 0.09, 0.02, 0), Vec3(s * 0.09, 0.85, 0), 0.075,
          0.08);
     const std::string tail = side ? "_r" : "_l";
-    mark("shoulder_joint" + tail, shoulder), mark("elbow" + tail, shoulder + 0.3 * along),
-        mark("wrist" + tail, shoulder + 0.55 * along);
+    mark("shoulder_joint" + tail, shoulder);
+    mark("elbow" + tail, shoulder + 0.3 * along);
+    mark("wrist" + tail, shoulder + 0.55 * along);
     mark("neck_side" + tail, Vec3(s * 0.06, 1.42, 0));
   }
   mark("neck_center", Vec3(0, 1.41, 0));
-  level("waist_semantic", 1.05, 0.85), level("omphalion", 1.0, 0.9), level("hip", 0.86, 0.95);
+  level("waist_semantic", 1.05, 0.85);
+  level("omphalion", 1.0, 0.9);
+  level("hip", 0.86, 0.95);
   body.scan.stature_m = size * 1.7;
   return body;
 }

@@ -48,10 +48,14 @@ public:
                 const std::vector<const char*>& middles) {
     for (const char* name : {"front_l", "back_r"}) panel(name, edges);
     for (const char* name : {"front_r", "back_l"}) panel(name, seen_in_mirror(edges));
-    for (const char* edge : sides)
-      seam("front_l", edge, "back_l", edge), seam("front_r", edge, "back_r", edge);
-    for (const char* edge : middles)
-      seam("front_l", edge, "front_r", edge), seam("back_l", edge, "back_r", edge);
+    for (const char* edge : sides) {
+      seam("front_l", edge, "back_l", edge);
+      seam("front_r", edge, "back_r", edge);
+    }
+    for (const char* edge : middles) {
+      seam("front_l", edge, "front_r", edge);
+      seam("back_l", edge, "back_r", edge);
+    }
   }
   Pattern pattern() const {
     return own(

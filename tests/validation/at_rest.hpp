@@ -32,8 +32,13 @@ inline Sheet make_sheet(int nx, int ny, double dx, double dy, const Fabric& fabr
   for (int r = 0; r < ny; ++r)
     for (int c = 0; c < nx; ++c) {
       const int a = s.at(c, r), b = s.at(c + 1, r), d = s.at(c, r + 1), e = s.at(c + 1, r + 1);
-      if ((r + c) % 2) add(a, b, d), add(b, e, d);
-      else add(a, b, e), add(a, e, d);
+      if ((r + c) % 2) {
+        add(a, b, d);
+        add(b, e, d);
+      } else {
+        add(a, b, e);
+        add(a, e, d);
+      }
     }
   s.mesh = make_cloth_mesh(static_cast<int>(s.x.size()), triangles, {fabric});
   return s;

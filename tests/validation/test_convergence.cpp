@@ -24,7 +24,10 @@ double order(const std::vector<double>& size, const std::vector<double>& error) 
   const auto n = static_cast<double>(size.size());
   for (std::size_t i = 0; i < size.size(); ++i) {
     const double x = std::log(size[i]), y = std::log(error[i]);
-    sx += x, sy += y, sxx += x * x, sxy += x * y;
+    sx += x;
+    sy += y;
+    sxx += x * x;
+    sxy += x * y;
   }
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
@@ -167,8 +170,10 @@ TEST(Convergence, of_a_swing_in_the_time_step_and_its_solves) {
       if (solves != 1) {
         EXPECT_LT(s.gained, solves == 0 ? 0.5 : 2e-3) << what; // a single solve gains up to 3900
       }
-      if (solves == 8 && per_second >= 120)
-        size.push_back(1.0 / per_second), error.push_back(s.distance(exact));
+      if (solves == 8 && per_second >= 120) {
+        size.push_back(1.0 / per_second);
+        error.push_back(s.distance(exact));
+      }
     }
   print_figure("order in the time step, a swing", order(size, error), 1);
   EXPECT_NEAR(order(size, error), 1, 0.35);

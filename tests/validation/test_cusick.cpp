@@ -112,10 +112,15 @@ TEST(Cusick, coefficient_rises_with_the_logarithm_of_the_bending_rigidity) {
     }
   }
   double mx = 0, my = 0, sxx = 0, sxy = 0, syy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) mx += x[i] / 4, my += y[i] / 4;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    sxx += (x[i] - mx) * (x[i] - mx), sxy += (x[i] - mx) * (y[i] - my),
-        syy += (y[i] - my) * (y[i] - my);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    mx += x[i] / 4;
+    my += y[i] / 4;
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sxx += (x[i] - mx) * (x[i] - mx);
+    sxy += (x[i] - mx) * (y[i] - my);
+    syy += (y[i] - my) * (y[i] - my);
+  }
   for (std::size_t i = 0; i < x.size(); ++i)
     plot_point("linear", "wool, mean of three", std::pow(10, x[i]), y[i]);
   const double r2 = sxy * sxy / (sxx * syy);

@@ -1,19 +1,21 @@
 #pragma once
 /// Loops over threads whose result does not depend on the number of threads.
+/// Test: tests/base/test_parallel.cpp
 #include <cstddef>
 #include <functional>
 #include <memory>
 #include <vector>
 namespace sloper {
 
-/// Threads that parallel_for may use; 1 by default. Set once by a tool (--threads). 0 means all
-/// cores.
+/// Sets the number of threads that parallel loops may use; 1 by default, 0 means all
+/// cores. State of the process: a tool sets it once (--threads).
 void set_thread_count(int n);
+/// Threads that parallel loops use, at least 1.
 int thread_count();
 
-/// Work on chunk [begin, end), with what it captured.
+/// Work on chunk [begin, end), with the data that it captured.
 using ChunkWork = void (*)(const void* capture, std::size_t begin, std::size_t end);
-/// What parallel_for does when there is more than one thread and chunk.
+/// Implementation of parallel_for() with more than one thread and chunk.
 void spread_chunks(std::size_t n, std::size_t grain, ChunkWork work, const void* capture);
 
 /// Calls body(begin, end) over [0, n) cut into fixed chunks of `grain`, in any order, on
@@ -35,6 +37,8 @@ template<class Body> void parallel_for(std::size_t n, std::size_t grain, const B
 
 /// Sum of term(begin, end) over fixed chunks, added in chunk order: the same bits for any thread
 /// count. term may write to what belongs to its chunk. @param part  work, of one number a chunk
+/// @param n  items
+/// @param grain  items in a chunk
 template<class Term>
 double parallel_sum(std::size_t n, std::size_t grain, std::vector<double>& part, const Term& term) {
   part.assign((n + grain - 1) / grain, 0);
@@ -45,9 +49,9 @@ double parallel_sum(std::size_t n, std::size_t grain, std::vector<double>& part,
   return sum;
 }
 
-/// Calls work(k) for each k below n, thread_count() at once, each on one thread alone: loops inside
-/// do not spread. For long tasks that share nothing. Not from within a parallel loop. What the
-/// lowest k throws is passed on, after all have ended.
+/// Calls work(k) for each k below n, thread_count() at once, each on one thread alone:
+/// parallel loops inside run serially. For long tasks that share nothing; not from within
+/// a parallel loop. Rethrows the exception of the lowest k after all have ended.
 void run_alone(std::size_t n, const std::function<void(std::size_t)>& work);
 
 } // namespace sloper

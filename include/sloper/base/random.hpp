@@ -2,11 +2,15 @@
 /// Seeded random numbers: the same sequence on every machine and compiler (SplitMix64, Steele et
 /// al. 2014), as long as draws are not arguments of one call: compilers choose those arguments'
 /// order.
+/// Test: tests/base/test_random.cpp
 #include <cstdint>
 namespace sloper {
+/// A generator of random numbers.
 class Random {
 public:
+  /// @param seed  any number
   explicit Random(std::uint64_t seed) : m_state(seed) {}
+  /// 64 uniform random bits.
   std::uint64_t next() {
     std::uint64_t z = (m_state += 0x9e3779b97f4a7c15ULL);
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -9,18 +9,26 @@
 namespace sloper {
 
 #if defined(__SSE2__)
+/// Four lanes of float. Both implementations round alike, so results are the same bits.
 struct Float4 {
-  __m128 v;
+  __m128 v;                                                       ///< lane 0 lowest
   static Float4 load(const float* p) { return {_mm_load_ps(p)}; } ///< p aligned to 16 bytes
+  /// The same number in all lanes.
   static Float4 all(float x) { return {_mm_set1_ps(x)}; }
+  /// Writes four floats.
+  /// @param p  aligned to 16 bytes
   void store(float* p) const { _mm_store_ps(p, v); }
 };
+/// Lane by lane.
 inline Float4 operator+(Float4 a, Float4 b) { return {_mm_add_ps(a.v, b.v)}; }
 inline Float4 operator-(Float4 a, Float4 b) { return {_mm_sub_ps(a.v, b.v)}; }
 inline Float4 operator*(Float4 a, Float4 b) { return {_mm_mul_ps(a.v, b.v)}; }
 inline Float4 operator/(Float4 a, Float4 b) { return {_mm_div_ps(a.v, b.v)}; }
+/// Lane by lane; b where either is NaN.
 inline Float4 max(Float4 a, Float4 b) { return {_mm_max_ps(a.v, b.v)}; }
+/// Lane by lane; b where either is NaN.
 inline Float4 min(Float4 a, Float4 b) { return {_mm_min_ps(a.v, b.v)}; }
+/// Square roots, lane by lane.
 inline Float4 square_root(Float4 a) { return {_mm_sqrt_ps(a.v)}; }
 /// Lane I in all four lanes.
 template<int I> Float4 lane(Float4 a) {
@@ -30,6 +38,7 @@ template<int I> Float4 lane(Float4 a) {
 inline Float4 where_less(Float4 a, Float4 b, Float4 c) {
   return {_mm_and_ps(a.v, _mm_cmplt_ps(b.v, c.v))};
 }
+/// Absolute values, lane by lane.
 inline Float4 absolute(Float4 a) { return max(a, {_mm_sub_ps(_mm_setzero_ps(), a.v)}); }
 /// Four rows of four in, the columns out: x gets the first of each row.
 inline void transpose(Float4& x, Float4& y, Float4& z, Float4& w) {

@@ -5,6 +5,7 @@
 /// There are two conventions, and results depend on which is used: a quantile is taken at the place
 /// floor(q (n - 1)), so that the median of an even number is the lower of the two in the middle;
 /// upper_median() takes the place floor(n / 2), the upper of them.
+/// Test: tests/base/test_statistics.cpp
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -13,6 +14,7 @@ namespace sloper {
 
 /// Puts the value of a rank (0 is the least) in its place, smaller ones before it and larger ones
 /// behind. @returns its place
+/// @param values  not empty; reordered
 template<class T>
 typename std::vector<T>::iterator place_rank(std::vector<T>& values, std::size_t rank) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
@@ -27,6 +29,7 @@ inline std::size_t quantile_rank(std::size_t n, double q) {
 
 /// The largest value with at most the share q of the others below it, without interpolation. @param
 /// q 0..1
+/// @param values  not empty; reordered
 template<class T> T lower_quantile(std::vector<T>& values, double q) {
   return *place_rank(values, quantile_rank(values.size(), q));
 }

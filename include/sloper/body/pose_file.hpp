@@ -3,9 +3,10 @@
 #include <sloper/body/pose.hpp>
 namespace sloper::body {
 
+/// Poses at equal steps of time.
 struct Motion {
-  std::vector<Pose> poses;
-  double frame_s = 0; ///< time between two poses; 0 for a single one
+  std::vector<Pose> poses; ///< in order
+  double frame_s = 0;      ///< time between two poses; 0 for a single one
 };
 
 /// {"format": "pose", "version": 1, "arms_deg": 30, "turn_deg": {"forearm_l": [x, y, z], ...},
@@ -23,6 +24,9 @@ Pose read_pose(const std::string& path, const Body& body);
 /// @param step_s s between the poses that are kept, 0 for all
 /// @throws Error INPUT naming line and fact
 Motion read_bvh(const std::string& path, const Body& body, double step_s);
+/// The same from text.
+/// @param name  for messages
+/// @param step_s  as of read_bvh()
 Motion parse_bvh(std::string_view text, const std::string& name, const Body& body, double step_s);
 
 } // namespace sloper::body

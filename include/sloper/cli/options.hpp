@@ -11,7 +11,8 @@ class Option;
 
 namespace sloper::cli {
 
-/// What a value must be, in words for the help and as a test that returns its complaint.
+/// A condition on the value of an option: in words for the help, and as a test that
+/// returns its complaint.
 struct Check {
   std::string name;  ///< "finite_in": by which the option table knows it
   std::string words; ///< "0 to 1 m", "FILE", "a|b|c"
@@ -29,6 +30,8 @@ Check input_file();
 Check output_file();
 /// A document with a mesh beside it, which cannot go to standard output.
 Check document_file();
+/// A document with a mesh beside it, or a mesh alone.
+Check document_or_mesh_file();
 /// One of some words; the complaint suggests the nearest. Shown as a|b|c and offered by the
 /// completion.
 Check one_of(const std::vector<std::string>& words);
@@ -41,12 +44,18 @@ void refuse_together(const Given& one, std::initializer_list<Given> others);
 /// A declared option, to say more of it: tool.option(...).required().check(input_file()).
 class Option {
 public:
+  /// Made by Tool::option().
   explicit Option(CLI::Option* option) : m_option(option) {}
+  /// Refuses values that fail the check: exit 2, or as the check says. Returns this, as
+  /// the others do.
   Option& check(const Check& check);
+  /// Exit 2 where it is missing.
   Option& required();
   Option& type_name(const std::string& word); ///< what stands for the value in the help: "LIST"
-  Option& show_default(); ///< the value that the variable has now is told in the help
-  bool given() const;     ///< whether the command line named it; known inside Tool::run's body
+  /// The help shows the value that the variable has now as the default.
+  Option& show_default();
+  /// Whether the command line has it; known inside Tool::run's body.
+  bool given() const;
 
 private:
   CLI::Option* m_option;

@@ -19,6 +19,7 @@ namespace sloper::cloth {
 /// Rigidities of an orthotropic plate, N m. Bending along a direction at the angle a from warp:
 /// warp cos^4 a + weft sin^4 a + (2 coupling + 4 twist) sin^2 a cos^2 a.
 struct PlateRigidity {
+  /// Bu, Bv, Bc and Bt of the energy in the file comment, N m.
   double warp = 0, weft = 0, coupling = 0, twist = 0;
 };
 

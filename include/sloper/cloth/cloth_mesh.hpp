@@ -11,21 +11,22 @@ namespace sloper::cloth {
 struct RestTriangle {
   Triangle particle;        ///< counter-clockwise seen from outside
   std::array<Vec2, 3> flat; ///< rest shape in pattern coordinates with warp along +y, m
-  int fabric = 0;
+  int fabric = 0;           ///< index into ClothMesh::fabrics
 };
 
+/// An edge of the mesh as a spring (forces/edge_spring.hpp).
 struct EdgeSpring {
   int i, j;           ///< particles, i < j
-  double rest_length; ///< l0, m; local to the edge: what a pattern edit changes
+  double rest_length; ///< l0, m; pattern edits change it, edge by edge
   double stiffness;   ///< N/m
   double damping_s;   ///< stiffness-proportional damping time
 };
 
-/// Two triangles over one edge: particles 0, 1 on the edge, 2 and 3 opposite.
+/// Two triangles over one edge: particles 0 and 1 on the edge, 2 and 3 opposite.
 struct Hinge {
-  std::array<int, 4> particle;
-  std::array<double, 4>
-      coefficient;  ///< of the curvature vector sum_k c_k x_k, 1/m (Bergou et al. 2006)
+  std::array<int, 4> particle; ///< on the edge, then opposite
+  /// Of the curvature vector sum_k c_k x_k, 1/m (Bergou et al. 2006)
+  std::array<double, 4> coefficient;
   double stiffness; ///< N m times the weight of the hinge: E = 1/2 stiffness |sum_k c_k x_k|^2
   std::array<int, 2> triangle{-1, -1}; ///< whose opposite particles are 2 and 3
   std::array<int, 2> corner{0, 0};     ///< by triangle: the edge runs from this corner to the next
@@ -33,10 +34,11 @@ struct Hinge {
   double firmness = 0; ///< N m as `stiffness`, beside it: of a crease that was pressed in
 };
 
+/// Rest state of a cloth; make_cloth_mesh() fills it. #P particles, #F triangles.
 struct ClothMesh {
-  int n_particles = 0;
-  std::vector<RestTriangle> triangles;
-  std::vector<Fabric> fabrics;
+  int n_particles = 0;                   ///< #P
+  std::vector<RestTriangle> triangles;   ///< #F
+  std::vector<Fabric> fabrics;           ///< that triangles refer to
   std::vector<std::array<int, 2>> edges; ///< each once, sorted
   std::vector<EdgeSpring> springs;       ///< one per edge, in the order of `edges`
   std::vector<Hinge> hinges;             ///< interior edges
@@ -45,6 +47,7 @@ struct ClothMesh {
   std::vector<double> area; ///< #P, m2
   std::vector<double> shortest_edge; ///< #P, m: shortest rest edge around
   double mean_edge() const;          ///< mean rest length of the edge springs, m
+  /// Particles of each triangle, #F by 3.
   std::vector<Triangle> particle_triangles() const;
 };
 

@@ -21,40 +21,50 @@ struct StepContext {
   MotionLimits* limits = nullptr;        ///< where not null: what this step must not pass through
 };
 
+/// Interface of an effect. A step calls begin_step(), add() of all effects,
+/// add_separating_planes(), end_step().
 class Effect {
 public:
   virtual ~Effect() = default;
+  /// As in reports and the setting `effects`.
   virtual const char* name() const = 0;
-  /// Appends the particle pairs whose off-diagonal blocks add() and add_indefinite_part() fill, by
-  /// what they add there: as symmetric or isotropic if that is all that these blocks ever are.
+  /// Appends the particle pairs whose off-diagonal blocks add() and add_indefinite_part()
+  /// fill, to the list of their kind: symmetric or isotropic if these blocks are always
+  /// so.
   virtual void declare(Couplings& /*couplings*/) const {}
+  /// Looks up the slots of its blocks; after declare(), whenever the pattern of the
+  /// matrix has changed.
   virtual void bind(const BlockMatrix&) {}
-  /// The same particles and triangles have other rest shapes from now on, which `mesh` has already.
-  /// Default: for effects that read them from the mesh, or have none. @return false where the
-  /// effect must be made anew
+  /// The same particles and triangles get other rest shapes, which `mesh` already has.
+  /// Default: for effects that read them from the mesh, or have none.
+  /// @return false where the effect must be made anew
   virtual bool set_rest(const ClothMesh& /*mesh*/) { return true; }
   /// Before assembly: find contacts for the positions x.
   virtual void begin_step(const std::vector<Vec3>& /*x*/, double /*h*/) {}
-  /// Within a step of several solves, which has reached x so far: finds contacts there.
+  /// Finds contacts at x, which a step of several solves has reached so far.
+  /// @param h  time step, s
   virtual void update_contacts(const std::vector<Vec3>& /*x*/, double /*h*/) {}
-  /// Whether begin_step() is long, and touches nothing that another effect has to do with: then it
-  /// may run beside their add().
+  /// Whether begin_step() is long and independent of all other effects: then it may run
+  /// beside their add().
   virtual bool is_search() const { return false; }
-  /// Does now what the next begin_step() at x would do first, where that can be done twice.
+  /// Does now what the next begin_step() at x would do first, where doing it twice is
+  /// harmless.
   virtual void prefetch_contacts(const std::vector<Vec3>& /*x*/, double /*h*/) {}
-  /// Whether cloth passed through something at the last search, which the effect pushes it out of.
+  /// Whether the last search found cloth that has passed through something, which the
+  /// effect pushes out.
   virtual bool crosses() const { return false; }
+  /// Adds force and definite stiffness at context.x.
   virtual void add(StepContext& context) = 0;
   /// Adds the indefinite part of d2E/dx2 that add() drops. Default: nothing, for effects whose
   /// Hessian is complete or whose dropped part is not known.
   virtual void add_indefinite_part(const std::vector<Vec3>& /*x*/,
                                    BlockMatrix& /*stiffness*/) const {}
-  /// Potential at x, J; 0 for what has none (damping, friction).
+  /// Potential at x, J; 0 for effects without one (damping, friction).
   virtual double energy(const std::vector<Vec3>& /*x*/) const { return 0; }
-  /// Adds separating planes for pairs that a displacement within `limits` would still bring through
-  /// each other.
-  /// @param last  nothing comes after: limits now must stop all such displacements   @return
-  /// whether limits were added
+  /// Adds separating planes for pairs that a displacement within `limits` would still
+  /// bring through each other.
+  /// @param last  the last round: limits must now stop all such displacements
+  /// @return whether limits were added
   virtual bool add_separating_planes(const std::vector<Vec3>& /*x*/,
                                      const std::vector<Vec3>& /*dx*/, MotionLimits& /*limits*/,
                                      bool /*last*/) {
@@ -63,8 +73,8 @@ public:
   /// After the step: x has become x + dx.
   virtual void end_step(const std::vector<Vec3>& /*x*/) {}
 
-  long calls = 0;
-  double wall_s = 0;
+  long calls = 0;    ///< of add(), counted by the solver
+  double wall_s = 0; ///< in add(), measured by the solver
 };
 
 } // namespace sloper::cloth

@@ -1,6 +1,6 @@
 #pragma once
-/// How searches over many elements are cut into pieces that threads take: always in the same way,
-/// so that the same input gives the same bytes.
+/// Partition of searches over many elements into chunks for threads: fixed borders, so
+/// that the same input gives the same bytes.
 #include <sloper/base/parallel.hpp>
 
 #include <algorithm>

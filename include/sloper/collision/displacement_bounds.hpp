@@ -8,25 +8,26 @@
 
 namespace sloper::collision {
 
+/// The grid of one displacement of a skin.
 class DisplacementBounds {
 public:
-  /// Forgets what was. Cost: O(#F) and the cubes of the region, of which there are no more than
-  /// 2^17; allocates only to grow.
-  /// @param way  #V by 3, m   @param region  skin that does not meet it is left out   @param radius
-  /// that will be asked for, about: cost only
+  /// Builds the grid anew. O(#F) and the cubes of the region, of which there are no more
+  /// than 2^17; allocates only to grow.
+  /// @param way  #V by 3, m: displacement of the skin
+  /// @param region  skin that does not meet it is left out
+  /// @param radius  m, of later queries, about: cost only
   void build(const TriangleMesh& skin, const std::vector<Vec3>& way, const Box3& region,
              double radius);
-  const Box3& all() const {
-    return m_all;
-  } ///< the ways of all skin in the region, m; empty without any
-  /// The largest |way - carry| of a box of ways; 0 where it is empty.
+  /// Bounds of the displacements of all skin in the region, m; empty without any.
+  const Box3& all() const { return m_all; }
+  /// The largest |way - carry| over a box of displacements, m; 0 where it is empty.
   static double farthest(const Box3& ways, const Vec3& carry);
-  /// An upper bound of |way - carry| over all skin in the region that comes nearer to `place` than
-  /// `radius`, from where it is at first; 0 without any. Cost: O(1) at the radius that was told
+  /// An upper bound of |way - carry| over all skin in the region that begins nearer to
+  /// `place` than `radius`, m; 0 without any. O(1) at the radius given to build().
   double max_relative_displacement(const Vec3& carry, const Vec3& place, double radius) const;
 
-  static constexpr double CELL =
-      0.03; ///< m, edge of a cube, or half the radius; more where the region is wide
+  /// Edge of a cube, m, or half the radius; more where the region is wide.
+  static constexpr double CELL = 0.03;
 
 private:
   std::array<int, 3> cube_of(const Vec3& place) const; ///< the nearest one of the region

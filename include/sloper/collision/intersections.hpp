@@ -13,11 +13,12 @@ std::vector<std::array<int, 2>> self_intersections(const std::vector<Vec3>& x,
                                                    const std::vector<Triangle>& triangles,
                                                    const TriangleTree& tree);
 
+/// An edge that passes through a triangle.
 struct EdgeFaceIntersection {
-  int edge, triangle;
-  double t;         ///< [0, 1], point = (1 - t) x[edge[0]] + t x[edge[1]]
-  Vec3 barycentric; ///< of the point in the triangle
-  Vec3 point;       ///< m
+  int edge, triangle; ///< of the topology; of the triangles
+  double t;           ///< [0, 1], point = (1 - t) x[edge[0]] + t x[edge[1]]
+  Vec3 barycentric;   ///< of the point in the triangle
+  Vec3 point;         ///< m
 };
 /// All edges that pass through a triangle with which they share no vertex, sorted by (edge,
 /// triangle). An edge lying in the plane of the triangle is not listed.

@@ -1,7 +1,7 @@
 #pragma once
-/// Exact signs of orientation determinants of double coordinates: a floating-point filter (Shewchuk
-/// 1997), then exact expansion arithmetic where the filter cannot tell. Exact unless a product
-/// under- or overflows (coordinates from 1e-70 to 1e70 are safe). Test:
+/// Exact signs of orientation determinants of double coordinates: a floating-point filter
+/// (Shewchuk 1997), then exact expansion arithmetic where the filter cannot decide. Exact
+/// unless a product under- or overflows (coordinates from 1e-70 to 1e70 are safe). Test:
 /// tests/collision/test_intersections.cpp, against CGAL where it is found.
 #include <sloper/geometry/types.hpp>
 namespace sloper::collision {

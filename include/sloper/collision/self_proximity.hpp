@@ -1,36 +1,39 @@
 #pragma once
-/// Which parts of a moving cloth are near each other: vertex-face and edge-edge pairs within a
-/// radius, each once, and how far every particle may move before anything can cross (conservative
-/// bound as in Offset Geometric Contact, Chen et al. 2025).
+/// Elements of a moving cloth that are near each other: vertex-face and edge-edge pairs
+/// within a radius, each once.
 ///
-/// Every vertex asks the tree of the triangles, every edge that of the edges, once for each
-/// unordered pair. Pairs somewhat beyond the radius are remembered and measured again while the
-/// cloth has moved little since; that changes the cost, never the answer. Test:
+/// Every vertex asks the tree of the triangles, every edge that of the edges, once for
+/// each unordered pair. Pairs somewhat beyond the radius are kept and measured again
+/// while the cloth has moved little since; that changes the cost, never the answer. Test:
 /// tests/collision/test_self_proximity.cpp
 #include <cstdint>
 #include <sloper/collision/topology.hpp>
 #include <sloper/collision/triangle_tree.hpp>
 namespace sloper::collision {
 
+/// A vertex near a triangle.
 struct VertexFacePair {
-  int vertex, triangle;
-  double distance;  ///< m
-  Vec3 barycentric; ///< closest point in the triangle
+  int vertex, triangle; ///< indices
+  double distance;      ///< m
+  Vec3 barycentric;     ///< closest point in the triangle
   bool exempt; ///< a triangle of the vertex now passes through this triangle: nearness is no guide
 };
+/// Two edges near each other.
 struct EdgeEdgePair {
   int edge_a, edge_b; ///< edge_a < edge_b, indices into topology().edges
   double distance;    ///< m
   double s, t;        ///< closest points (1 - s) x[a0] + s x[a1], (1 - t) x[b0] + t x[b1]
-  bool exempt;
+  bool exempt;        ///< the triangles of both edges cross now, as for VertexFacePair
 };
 
+/// The near pairs of one cloth.
 class SelfProximity {
 public:
-  /// @param never_collide for each particle, particles it never collides with (the other side of an
-  /// unsewn seam): a pair is
-  ///   left out when a particle of one feature is listed with one of the other, either way round.
-  ///   Empty, or n_particles lists.
+  /// Builds the trees' shape. O(#F).
+  /// @param never_collide  for each particle, particles it never collides with (the other
+  /// side of an unsewn seam): a pair is left out when a particle of one feature is listed
+  /// with one of the other, in either order. Empty, or n_particles lists.
+  /// @param k  directions of the trees, see TriangleTree
   SelfProximity(std::size_t n_particles, const std::vector<Triangle>& triangles,
                 const std::vector<std::vector<int>>& never_collide = {}, int k = 6);
 
@@ -40,23 +43,22 @@ public:
   void update(const std::vector<Vec3>& x, double radius,
               const std::vector<std::array<int, 2>>& intersecting = {});
 
-  const std::vector<VertexFacePair>& vertex_face() const {
-    return m_vertex_face;
-  } ///< sorted by vertex, triangle
-  const std::vector<EdgeEdgePair>& edge_edge() const {
-    return m_edge_edge;
-  } ///< sorted by edge_a, edge_b
-  bool has_vertex_face(const std::array<int, 2>& pair)
-      const; ///< whether it is among vertex_face(): vertex, triangle
-  bool has_edge_edge(const std::array<int, 2>& pair) const; ///< likewise; the lower edge first
+  /// Pairs of the last update, sorted by vertex, triangle.
+  const std::vector<VertexFacePair>& vertex_face() const { return m_vertex_face; }
+  /// Pairs of the last update, sorted by edge_a, edge_b.
+  const std::vector<EdgeEdgePair>& edge_edge() const { return m_edge_edge; }
+  /// Whether vertex_face() has this pair: vertex, triangle.
+  bool has_vertex_face(const std::array<int, 2>& pair) const;
+  /// Whether edge_edge() has this pair; the lower edge first.
+  bool has_edge_edge(const std::array<int, 2>& pair) const;
 
+  /// As given, and their topology.
   const std::vector<Triangle>& triangles() const { return m_triangles; }
   const Topology& topology() const { return m_topology; }
   /// Over triangles(), refitted to the x of the last update.
   const TriangleTree& tree() const { return m_tree; }
-  int n_rebuilds() const {
-    return m_rebuilds;
-  } ///< how often remembered pairs had to be found afresh
+  /// Number of times that the kept pairs had to be found anew.
+  int n_rebuilds() const { return m_rebuilds; }
 
 private:
   struct Candidate {
@@ -86,8 +88,9 @@ private:
   std::vector<Candidate> m_vertex_face_candidates, m_edge_edge_candidates; ///< sorted
   std::vector<Vec3> m_candidates_x;
   double m_candidates_radius = -1;
-  double m_moved = 0; ///< m, the most a particle has moved against the common drift since the
-                      ///< candidates were found
+  /// The most a particle has moved against the common drift since the candidates were
+  /// found, m.
+  double m_moved = 0;
   int m_rebuilds = 0, m_updates = 0; ///< updates since the last rebuild
   std::size_t m_particles = 0;
   int m_k = 6;

@@ -1,13 +1,14 @@
 #pragma once
-/// Colliders of skins that were met before: what is found out about a skin is kept by its content,
-/// for the rest of the run and, with a folder, for other runs. Results are the same bytes with it
-/// and without. Test: tests/collision/test_skin_cache.cpp
+/// Keeps prepared skins by content, for the rest of the run and, with a folder, for other
+/// runs. Results are the same bytes with it and without. Test:
+/// tests/collision/test_skin_cache.cpp
 #include <map>
 #include <sloper/base/progress.hpp>
 #include <sloper/collision/body_collider.hpp>
 
 namespace sloper::collision {
 
+/// A cache of prepared skins. Not for several threads at once.
 class SkinCache {
 public:
   /// @param folder  made when first written to; empty: nothing is kept beyond this object. Several
@@ -30,6 +31,7 @@ public:
     int prepared = 0;   ///< from the mesh
     int written = 0;    ///< files
   };
+  /// Counts so far.
   const Counts& counts() const { return m_counts; }
 
 private:
@@ -44,7 +46,8 @@ private:
   Counts m_counts;
 };
 
-/// The collider of a skin, by way of the cache where there is one.
+/// The collider of a skin, from the cache where there is one.
+/// @param cache  or nullptr
 BodyCollider make_collider(const TriangleMesh& skin, SkinCache* cache);
 
 } // namespace sloper::collision

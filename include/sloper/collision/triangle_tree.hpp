@@ -13,34 +13,41 @@
 #include <limits>
 namespace sloper::collision {
 
+/// The closest point of a mesh to a point.
 struct ClosestPoint {
-  int triangle = -1; ///< -1: none within the distance asked for
-  Vec3 point = Vec3::Zero();
-  Vec3 barycentric = Vec3::Zero();
+  int triangle = -1;               ///< -1: none within the distance asked for
+  Vec3 point = Vec3::Zero();       ///< m
+  Vec3 barycentric = Vec3::Zero(); ///< weights of the triangle's corners
   double squared_distance = std::numeric_limits<double>::infinity(); ///< m2
   int feature = FEATURE_FACE;                                        ///< 0..6, see distance.hpp
 };
 
-/// A k-DOP: intervals of direction . p for the first k/2 directions of DOP_DIRECTIONS, m.
+/// Most directions of a k-DOP.
 inline constexpr int MAX_AXES = 13;
+/// A k-DOP: intervals of direction . p for the first k/2 directions of DOP_DIRECTIONS, m.
 struct Dop {
+  /// Ends of the intervals, rounded outwards.
   float low[MAX_AXES], high[MAX_AXES];
 };
-extern const std::array<Vec3, MAX_AXES>
-    DOP_DIRECTIONS; ///< x, y, z, then components in {-1, 0, 1}, not of unit length
+/// Directions of k-DOPs: x, y and z first, then vectors with components in {-1, 0, 1},
+/// not of unit length.
+extern const std::array<Vec3, MAX_AXES> DOP_DIRECTIONS;
 
+/// The tree of one mesh.
 class TriangleTree {
 public:
   /// Four children: boxes in x, y, z, lane by lane, and where they lead. Either all are nodes or,
   /// of a lowest node, all are slots: four that follow each other, the first a multiple of four;
   /// the last lowest node may have fewer.
   struct alignas(16) Node {
+    /// Boxes of the children, m, by axis and lane.
     float low[3][4], high[3][4];
     int child[4];    ///< >= 0 a node, EMPTY, or <= -2: slot -2 - child
     int slot_end[4]; ///< one past the last slot below the child; slots of a subtree are consecutive
     bool is_lowest() const { return child[0] <= -2; }
     int first_slot() const { return -2 - child[0]; } ///< of a lowest node
   };
+  /// Child of a lowest node that has fewer than four.
   static constexpr int EMPTY = -1;
 
   TriangleTree() = default;
@@ -62,10 +69,11 @@ public:
   /// where distances tie.
   /// @param hint_triangle a triangle that may be near (the last answer), or -1; it changes the
   /// cost, never the answer.
+  /// @param p  m
   ClosestPoint closest_point(const Vec3& p, double max_distance, int hint_triangle = -1) const;
 
-  /// The least share of the way from a to b at which a triangle, seen from either side, is met, or
-  /// infinity.
+  /// The least fraction of the segment from a to b at which it meets a triangle, seen
+  /// from either side, or infinity.
   double first_hit(const Vec3& a, const Vec3& b) const;
 
   /// Calls visit(triangle) for every triangle whose bounds overlap the box, in no particular but
@@ -92,22 +100,23 @@ public:
   /// Bit i is set where the k-DOP of child i of the node overlaps `query`.
   int overlapping(int node, const Dop& query) const;
 
+  /// The k-DOP of a box.
   Dop dop_of(const Box3& box) const;
-  Dop dop_of_slot(int slot,
-                  double margin) const; ///< bounds of a triangle, each face moved out by margin (m)
+  /// Bounds of the triangle in a slot, each face moved outwards by `margin`, m.
+  Dop dop_of_slot(int slot, double margin) const;
 
-  int n_slots() const {
-    return static_cast<int>(m_triangle_of_slot.size());
-  } ///< slots are the triangles in tree order
+  /// Number of slots: triangles in tree order.
+  int n_slots() const { return static_cast<int>(m_triangle_of_slot.size()); }
+  /// Triangle of a slot, and of all slots in order.
   int triangle_of_slot(int slot) const { return m_triangle_of_slot[slot]; }
   const std::vector<int>& triangle_order() const { return m_triangle_of_slot; }
+  /// Slot of a triangle: the inverse of triangle_of_slot().
   int slot_of_triangle(int triangle) const { return m_slot_of_triangle[triangle]; }
-  const std::array<Vec3, 3>& corners(int slot) const {
-    return m_corners[slot];
-  } ///< positions at the last refit
-  const std::vector<Node>& nodes() const {
-    return m_nodes;
-  } ///< the root first, parents before children
+  /// Corners of the triangle in a slot at the last refit, m.
+  const std::array<Vec3, 3>& corners(int slot) const { return m_corners[slot]; }
+  /// All nodes, the root first, parents before children.
+  const std::vector<Node>& nodes() const { return m_nodes; }
+  /// Directions of the bounds, 6 to 26.
   int k() const { return 2 * m_axes; }
 
 private:

@@ -1,16 +1,19 @@
 #pragma once
-/// Ways out of self intersections without history: intersection contour minimisation (Volino and
-/// Magnenat-Thalmann 2006). Where an edge with direction E passes through a face with normal N, and
-/// R_i are the directions in which the intersection contour leaves that point inside the one or two
-/// faces of the edge, the contour shortens fastest as the edge moves against the face along
+/// Resolves self-intersections without history: intersection contour minimisation (Volino
+/// and Magnenat-Thalmann 2006). Where an edge with direction E passes through a face with
+/// normal N, and R_i are the directions in which the intersection contour leaves that
+/// point inside the one or two faces of the edge, the contour shortens fastest as the
+/// edge moves against the face along
 ///   G = sum_i ( R_i - 2 (E . R_i) / (E . N) N ).
-/// Points of one contour are summed, so that a pocket of cloth is drawn out as a whole (the paper's
-/// global scheme), except where a contour meets its own end and has no two sides: there each point
-/// speaks for itself. It knows no way out where the contour's length does not change with depth: a
-/// straight hem straight through a sheet. Test: tests/collision/test_untangle.cpp
+/// Points of one contour are summed, so that a pocket of cloth is drawn out as a whole
+/// (the paper's global scheme), except where a contour meets its own end and has no two
+/// sides: there each point counts by itself. It fails where the contour's length does not
+/// change with depth: a straight hem straight through a sheet. Test:
+/// tests/collision/test_untangle.cpp
 #include <sloper/collision/intersections.hpp>
 namespace sloper::collision {
 
+/// One edge-face intersection and the direction that resolves it.
 struct UntanglePair {
   EdgeFaceIntersection at; ///< edge, triangle, weights
   Vec3 direction;          ///< unit or shorter: the edge should move along it against the face

@@ -9,6 +9,7 @@ namespace sloper::collision {
 /// where abc turns away from p.
 double solid_angle_fraction(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
+/// The far fields of one tree's nodes; at() needs the same tree.
 class WindingNumber {
 public:
   WindingNumber() = default;
@@ -26,10 +27,11 @@ private:
     float center[3][4], normal[3][4]; ///< area-weighted centre, m; sum of area times normal, m2
     float first[6][4];  ///< sum of n offset^T as a quadratic form: xx, yy, zz, xy, xz, yz, m3
     float linear[3][4]; ///< contracted second moments, m4
-    float cubic[10][4]; ///< symmetrised second moments: coefficients of xxx yyy zzz xxy xxz yyx yyz
-                        ///< zzx zzy xyz
-    float reach2[4]; ///< squared distance from which the expansion serves; infinite where there is
-                     ///< none
+    /// Symmetrised second moments: coefficients of xxx yyy zzz xxy xxz yyx yyz zzx zzy
+    /// xyz.
+    float cubic[10][4];
+    /// Squared distance from which the expansion serves; infinite where there is none.
+    float reach2[4];
   };
   std::vector<FarField> m_far;
   std::vector<int> m_far_of_node; ///< -1 where all children are triangles

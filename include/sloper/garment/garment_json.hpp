@@ -1,19 +1,23 @@
 #pragma once
-/// shirt.json + shirt.obj, read and written (version 1).
+/// A garment document and its OBJ, read and written (version 1); every key is in
+/// garment.json(5).
 ///
-/// The OBJ holds `v` = particles (m, body frame), `vt` = panel vertices in pattern metres, faces `f
-/// v/vt` in panel order and `g PANEL`; which panel vertices are one particle is told by the faces
-/// alone. The document holds everything else: `panels` (name, grain, material, layer, part,
-/// outline), `vertex_ids` (s and t, the panel being the one that owns the vertex), `seams`,
-/// `materials` (units in the key names), `rest_scale` (only triangles with a factor other than 1:
-/// [triangle, k0, k1, k2]), `scene` (pins, elastic bands, wind ... as in scene.json, see
-/// scene_effects_json.hpp), `bind`, `offset_m`, `converged`, `sewn`, and `body` (sha256 and girths
-/// of the body it hangs on). PanelMesh::placed is not kept: after reading it is the particle's
-/// position. Unknown keys are ignored: tools write these files.
+/// The OBJ holds `v` = particles (m, body frame), `vt` = panel vertices in pattern
+/// metres, faces `f v/vt` in panel order and `g PANEL`; only the faces say which panel
+/// vertices are one particle. The document holds everything else: `panels` (name, grain,
+/// material, layer, part, outline), `vertex_ids` (s and t, the panel being the one that
+/// owns the vertex), `seams`, `materials` (units in the key names), `rest_scale` (only
+/// triangles with a factor other than 1: [triangle, k0, k1, k2]), `scene` (pins, elastic
+/// bands, wind ... as in scene.json), `bind`, `offset_m`, `converged`, `sewn`, and `body`
+/// (sha256 and girths of the body it hangs on). PanelMesh::placed is not kept: after
+/// reading it is the particle's position. Unknown keys are ignored: programs write these
+/// files.
+/// Test: tests/garment/test_garment_json.cpp
 #include <sloper/garment/garment.hpp>
 #include <sloper/io/json.hpp>
 #include <sloper/io/obj.hpp>
 namespace sloper::garment {
+/// Version of the format that is written; older ones are read, newer ones refused.
 inline constexpr int GARMENT_VERSION = 1;
 
 /// Reads shirt.json and the OBJ that it names.
@@ -29,15 +33,20 @@ Garment read_garment(const std::string& path);
 /// not finite
 void write_garment(const std::string& path, const Garment& garment, const std::string& tool);
 
-/// Both files of write_garment(), for a document that holds a garment within. @throws Error
-/// INTERNAL as write_garment()
+/// Both files of write_garment(), for a document that holds a garment within.
 struct GarmentText {
-  io::Json document;
-  std::string mesh; ///< OBJ
+  io::Json document; ///< with its envelope
+  std::string mesh;  ///< OBJ
 };
+/// Makes both files in memory.
+/// @param mesh_name  of the OBJ, for the key `mesh`
+/// @throws Error INTERNAL as write_garment()
 GarmentText garment_text(const Garment& garment, const std::string& mesh_name,
                          const std::string& tool);
-/// @param document of garment_text()   @param mesh of its OBJ   @param mesh_name for messages
+/// The garment of both files.
+/// @param document  of garment_text()
+/// @param mesh  of its OBJ
+/// @param mesh_name  for messages
 /// @throws Error INPUT as read_garment()
 Garment garment_from(const io::Node& document, const io::ObjMesh& mesh,
                      const std::string& mesh_name);

@@ -1,5 +1,6 @@
 #pragma once
-/// What a run was made from, and whether its pieces belong together.
+/// Files that a run was made from, and whether they belong together.
+#include <sloper/base/message.hpp>
 #include <sloper/garment/garment.hpp>
 #include <sloper/io/json_fwd.hpp>
 
@@ -16,11 +17,11 @@ struct Start {
   bool draped = false;     ///< it comes from a garment document
 };
 
-/// What a user should know before cloth and body meet: that the panels were placed around another
-/// body, or around none and lie flat, that the garment was draped on another body, or that no body
-/// is given where there was one before. Nothing where it is not known (documents of older
+/// Warnings before cloth and body meet: panels that were placed around another body, or
+/// around none and lie flat; a garment that was draped on another body; a body that was
+/// there before and is not given now. Empty where nothing is known (documents of older
 /// programs).
-/// @param garment as read: Garment::body_sha256 is of the body that it hung on
-std::vector<std::string> start_findings(const Garment& garment, const Start& start);
+/// @param garment  as read: Garment::body_sha256 is of the body that it hung on
+std::vector<Message> start_findings(const Garment& garment, const Start& start);
 
 } // namespace sloper::garment

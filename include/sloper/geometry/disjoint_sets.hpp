@@ -1,6 +1,7 @@
 #pragma once
 /// Elements 0, 1, 2 ... in sets that are joined one by one: a disjoint-set forest with path halving
 /// (Tarjan and van Leeuwen 1984).
+/// Test: tests/geometry/test_disjoint_sets.cpp
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -8,6 +9,7 @@
 
 namespace sloper {
 
+/// A partition of 0 .. size() - 1. Operations take nearly constant time.
 class DisjointSets {
 public:
   /// @param n  elements, each alone in its set
@@ -29,6 +31,7 @@ public:
     while (parent(i) != i) i = parent(i) = parent(parent(i));
     return i;
   }
+  /// The same, without shortening paths.
   int find(int i) const {
     while (m_parent[static_cast<std::size_t>(i)] != i) i = m_parent[static_cast<std::size_t>(i)];
     return i;

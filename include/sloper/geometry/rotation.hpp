@@ -1,5 +1,6 @@
 #pragma once
-/// Rotations that need a singular value decomposition, which is dear to compile: once, here.
+/// Rotations that need a singular value decomposition, kept in one source because it is
+/// slow to compile.
 #include <sloper/geometry/types.hpp>
 
 namespace sloper {

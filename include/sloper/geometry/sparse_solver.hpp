@@ -6,8 +6,10 @@
 
 namespace sloper {
 
+/// The factorisation of one matrix; only the lower triangle is read.
 class SparseSolver {
 public:
+  /// Empty; compute() or factorise() before solve().
   SparseSolver();
   explicit SparseSolver(const Eigen::SparseMatrix<double>& matrix); ///< analyses and factorises
   ~SparseSolver();
@@ -15,8 +17,8 @@ public:
   SparseSolver& operator=(SparseSolver&&) noexcept;
 
   void compute(const Eigen::SparseMatrix<double>& matrix); ///< analyses and factorises
-  void analyse(const Eigen::SparseMatrix<double>&
-                   pattern); ///< the order of elimination, for matrices of this pattern
+  /// The order of elimination, for matrices of this pattern.
+  void analyse(const Eigen::SparseMatrix<double>& pattern);
   void factorise(const Eigen::SparseMatrix<double>& matrix); ///< after analyse()
   /// @param right  n by any number of columns, each solved for by itself
   Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& right) const;

@@ -5,6 +5,7 @@
 
 namespace sloper::io {
 
+/// Follows one file or standard input.
 class LineFollower {
 public:
   /// @param path  a file, or "-" for standard input. @throws Error INPUT where it cannot be opened
@@ -13,8 +14,10 @@ public:
   LineFollower(const LineFollower&) = delete;
   LineFollower& operator=(const LineFollower&) = delete;
 
-  /// The next whole line, without its end; waits for it at most so long. A file's last line counts
-  /// once its newline is there; what standard input ends with counts without.
+  /// The next whole line, without its end; empty where none came in time. A file's last
+  /// line counts once its newline is there; the rest of a closed standard input counts
+  /// without.
+  /// @param wait_ms  longest wait, ms
   std::optional<std::string> next(int wait_ms);
   /// Nothing more can come: standard input was closed, and all of it was given. A file never ends.
   bool ended() const { return m_closed && m_buffer.empty(); }

@@ -8,6 +8,7 @@
 #include <sloper/pattern/path.hpp>
 
 #include <optional>
+#include <sloper/base/message.hpp>
 #include <string>
 #include <vector>
 
@@ -15,22 +16,22 @@ namespace sloper::pattern {
 
 /// A named stretch of an outline.
 struct PanelEdge {
-  std::string name;
-  Path path;
+  std::string name; ///< unique within the panel
+  Path path;        ///< m, in the direction of its loop
 };
 
-/// A mark on an edge that has its like on the edge sewn to it.
+/// A mark on an edge, with a counterpart on the edge that is sewn to it.
 struct Notch {
-  int edge = 0;    ///< index over all loops, as in Run
-  double at = 0.5; ///< fraction of the edge's length
-  std::string kind;
+  int edge = 0;     ///< index over all loops, as in Run
+  double at = 0.5;  ///< fraction of the edge's length
+  std::string kind; ///< shape, such as "slit"; DXF keeps it
 };
 
 /// A line inside a panel. The mesh has edges along marks and folds; an end within 2 mm of the
 /// outline lies on it. A tape shortens the cloth along it to `factor` of its length.
 struct InnerLine {
   std::string name, kind = "mark"; ///< "mark", "fold", "tape"
-  Path path;
+  Path path;                       ///< m, panel coordinates
   double factor = 1, width = 0.01; ///< of tapes; width in m
 };
 
@@ -38,50 +39,60 @@ struct InnerLine {
 /// it, folded back in the middle. Two folds brought to the same line from both sides make a box
 /// pleat.
 struct Pleat {
-  std::string name;
+  std::string name;         ///< for messages
   int fold = 0, target = 0; ///< indices of Panel::lines; straight, and no line ends between them
-  std::vector<int>
-      edges; ///< where the three layers are sewn onto each other: both lines end on each of these
+  /// Where the three layers are sewn onto each other: both lines end on each of these.
+  std::vector<int> edges;
 };
 
 /// Where the author of a pattern wants a panel to start. All fields are optional; unset ones are
 /// derived from name and seams.
 struct PlacementHint {
   std::string part; ///< torso, neck, arm_l, arm_r, leg_l, leg_r, lower_body; empty when unknown
-  std::optional<double> theta;  ///< rad about the part's axis: 0 front (arms: outer, upper side),
-                                ///< +pi/2 the wearer's left
-  std::optional<Vec2> anchor;   ///< pattern point, m, that lies at theta and height
-  std::optional<double> radius; ///< m, of the cylinder that theta was meant on: arc length from the
-                                ///< front is theta times this
-  std::optional<double>
-      height; ///< m, world y of the anchor on the body that the pattern was made for
-  std::optional<Mat4>
-      rigid; ///< panel (x, y, 0) to the world of the body that the pattern was made for, m
+  /// Angle about the part's axis, rad: 0 front (arms: outer, upper side), +pi/2 the
+  /// wearer's left.
+  std::optional<double> theta;
+  std::optional<Vec2> anchor; ///< pattern point, m, that lies at theta and height
+  /// Radius of the cylinder that theta was meant on, m: arc length from the front is
+  /// theta times this.
+  std::optional<double> radius;
+  /// World y of the anchor on the body that the pattern was made for, m.
+  std::optional<double> height;
+  /// Panel (x, y, 0) to the world of the body that the pattern was made for, m.
+  std::optional<Mat4> rigid;
 };
 
+/// A flat piece of cloth: its outline, marks and material.
 struct Panel {
-  std::string name;
-  std::vector<std::vector<PanelEdge>>
-      loops;               ///< [0] outer, counter-clockwise; the rest holes, clockwise
-  Vec2 grain = Vec2(0, 1); ///< unit, warp
-  std::string material;
-  int layer = 0;
-  std::string label; ///< the source's own word for the body part, if any
-  std::vector<Notch> notches;
-  std::vector<InnerLine> lines;
-  std::vector<Pleat> pleats;
-  PlacementHint hint;
+  std::string name; ///< unique within the pattern
+  /// [0] outer, counter-clockwise; the rest holes, clockwise.
+  std::vector<std::vector<PanelEdge>> loops;
+  Vec2 grain = Vec2(0, 1);      ///< unit, warp
+  std::string material;         ///< name of a material, or empty for the scene's
+  int layer = 0;                ///< 0 next to the skin
+  std::string label;            ///< the source's own word for the body part, if any
+  std::vector<Notch> notches;   ///< in no order
+  std::vector<InnerLine> lines; ///< marks, folds, tapes
+  std::vector<Pleat> pleats;    ///< between two of `lines`
+  PlacementHint hint;           ///< of the pattern's author
 
+  /// Edges of all loops.
   int n_edges() const;
-  const PanelEdge& edge(int index) const; ///< counting through all loops
+  /// Edge by its index, counted through all loops.
+  /// @throws std::out_of_range
+  const PanelEdge& edge(int index) const;
+  /// The same, to change it.
   PanelEdge& edge(int index);
-  int find_edge(const std::string& name) const; ///< -1 when there is none
+  /// Index of an edge by name; -1 when there is none.
+  int find_edge(const std::string& name) const;
 };
 
 /// A stretch of one panel edge by arc length: from fraction `from` to fraction `to` of the edge;
 /// from > to walks against the outline.
 struct Run {
+  /// Indices of the panel in Pattern::panels and of the edge as in Panel::edge().
   int panel = 0, edge = 0;
+  /// Fractions of the edge's length.
   double from = 0, to = 1;
 };
 
@@ -89,36 +100,41 @@ struct Run {
 /// linear in arc length.
 struct Seam {
   std::string name, kind = "seam"; ///< "seam", "dart", "gather", "closure", "pleat"
-  std::vector<Run> a, b;
-  std::string ease;  ///< why the sides differ in length, or empty
-  bool open = false; ///< not sewn: a closure left undone. The panels lie as if it were closed, and
-                     ///< its sides have vertices alike
+  std::vector<Run> a, b;           ///< both sides, each in sewing order
+  std::string ease;                ///< why the sides differ in length, or empty
+  /// Not sewn: a closure left undone. The panels lie as if it were closed, and its sides
+  /// have vertices alike.
+  bool open = false;
 };
 
+/// A whole pattern.
 struct Pattern {
-  std::string name, source_format; ///< "pattern", "garmentcode", "sewing-spec", "dxf"
-  std::vector<Panel> panels;
-  std::vector<Seam> seams;
-  std::vector<std::string> findings; ///< what the importer noticed
+  std::string name, source_format; ///< "pattern", "garmentcode", "sewing-spec", "clo", "dxf"
+  std::vector<Panel> panels;       ///< in the order of the file; of DXF by name
+  std::vector<Seam> seams;         ///< in the order of the file
+  std::vector<Message> findings;   ///< doubts of the importer
 
-  int find_panel(const std::string& name) const; ///< -1 when there is none
+  /// Index of a panel by name; -1 when there is none.
+  int find_panel(const std::string& name) const;
 };
 
-/// Length of a run, or of one side of a seam, m.
+/// Length of a run, m.
 double run_length(const Pattern& pattern, const Run& run);
+/// Length of one side of a seam: the sum of its runs, m.
 double side_length(const Pattern& pattern, const std::vector<Run>& side);
 
-/// Opens a half piece cut on the fold: the fold edge (of the outer loop, straight) goes, its mirror
-/// image comes. Names of the edges given get `suffix`, those of the mirrored half `mirror_suffix`.
+/// Opens a half piece cut on the fold: the fold edge (of the outer loop, straight) is
+/// replaced by the mirror image of the other edges. Names of the present edges get
+/// `suffix`, those of the mirrored half `mirror_suffix`.
 /// @return false, with nothing changed, where the edge is no fold
 bool unfold(Panel& panel, int fold_edge, const std::string& suffix,
             const std::string& mirror_suffix);
 
-/// The other one of a pair: the panel as seen from its inside. Edges keep their names and come in
-/// the opposite order.
+/// The other panel of a pair: the panel as seen from its inside. Edges keep their names
+/// and come in the opposite order.
 Panel mirror_image(const Panel& panel);
 
-/// "front: hem", for messages.
+/// Panel and edge of a run as "front: hem", for messages.
 std::string place_of(const Pattern& pattern, const Run& run);
 /// "12.3 cm".
 std::string centimetres(double metres);

@@ -5,14 +5,14 @@
 #include <sloper/render/scene.hpp>
 namespace sloper::render {
 
-/// What a camera is asked for; the rest follows from the scene.
+/// A request for a camera; the rest follows from the scene.
 struct CameraOptions {
-  double azimuth = 0,
-         elevation =
-             0; ///< rad; 0, 0 looks at the front, azimuth turns the viewer to the body's left
+  /// Direction to the viewer, rad: 0, 0 looks at the front, azimuth turns the viewer to
+  /// the body's left.
+  double azimuth = 0, elevation = 0;
   double field_of_view = 0.30; ///< rad, vertical; 0 is orthographic
-  double field_height =
-      0; ///< m that the picture is high at the target's distance; 0 frames the scene
+  /// Height of the picture at the target's distance, m; 0 frames the scene.
+  double field_height = 0;
   std::optional<Vec3> target; ///< m, the middle of the picture; without it the scene's middle
 };
 
@@ -21,6 +21,7 @@ struct CameraOptions {
 /// @throws Error INPUT
 CameraOptions read_camera(const std::string& path);
 
+/// A camera: looks at `center` along -z of `turn`.
 struct Camera {
   Mat3 turn = Mat3::Identity();                           ///< rows: right, up, towards the viewer
   Vec3 center = Vec3::Zero();                             ///< m, in the middle of the picture
@@ -30,14 +31,17 @@ struct Camera {
   /// World to clip space, -1..1 in each axis after division by w.
   Mat4 matrix() const;
   /// Pixel (from the upper left) and depth (0 near, 1 far) of a point.
+  /// @param p  m
+  /// @param width, height  of the picture, pixels
   Vec3 pixel(const Vec3& p, int width, int height) const;
 };
 
-/// Frames everything, or what the options ask for.
+/// A camera that frames all meshes, or as the options ask.
+/// @param width_over_height  of the picture
 Camera frame_scene(const std::vector<DrawMesh>& meshes, const CameraOptions& options,
                    double width_over_height);
-/// The same with shares of the picture's width left free on its left and right, for labels and a
-/// legend.
+/// The same with margins for labels and a legend.
+/// @param left, right  shares of the picture's width left free there
 Camera frame_beside(const std::vector<DrawMesh>& meshes, const CameraOptions& options,
                     double width_over_height, double left, double right);
 /// Views at the largest scale at which each shows everything, so that a body is as tall on all

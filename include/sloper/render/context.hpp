@@ -10,11 +10,14 @@ namespace sloper::render {
 /// there is one, else the processor.
 enum class ContextKind { OSMESA, EGL };
 
+/// An OpenGL context of one thread.
 class Context {
 public:
   virtual ~Context() = default;
   /// Address of an OpenGL function; null when there is none.
   virtual void* function(const char* name) const = 0;
+  /// Makes it the calling thread's context.
+  /// @throws Error FAILED
   virtual void make_current() = 0;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 /// Maps: numbers on cloth, with a colour scale that colour-blind people can read.
+/// Test: tests/render/test_maps.cpp
 #include <sloper/render/scene.hpp>
 namespace sloper::render {
 
@@ -33,20 +34,21 @@ const std::vector<std::string>& map_names();
 
 /// The range and name of a map, for its colour bar.
 struct Legend {
-  std::string title, unit;
-  double low = 0, high = 0;
+  std::string title, unit;                                 ///< as the colour bar shows them
+  double low = 0, high = 0;                                ///< ends of the scale
   double least = 0, p1 = 0, p50 = 0, p99 = 0, largest = 0; ///< of the values
-  bool diverging = false;
+  bool diverging = false;                                  ///< the scale has a neutral middle at 0
   bool has_gaps = false; ///< some cloth has no value: it is drawn in no_value_color()
-  double below = 0,
-         beyond = 0; ///< share under `low` and over `high`, 0..1, weighted as the quantiles are
+  /// Shares under `low` and over `high`, 0..1, weighted as the quantiles are.
+  double below = 0, beyond = 0;
   std::vector<Vec3> steps; ///< eight colours, linear, low to high; empty: no colour bar
 };
 
-/// Fills the values of the scene's cloth (for PARTS the body's colours) and says their legend.
-/// @param limit top of the scale in the map's unit; 0 picks one of a few fixed ranges, so that
-/// pictures can be compared
-/// @throws Error USAGE when the scene lacks what the map needs
+/// Computes a map: fills the values of the scene's cloth (for PARTS the body's colours)
+/// and returns their legend.
+/// @param limit  top of the scale in the map's unit; 0 picks one of a few fixed ranges,
+/// so that pictures can be compared
+/// @throws Error USAGE when the scene lacks data that the map needs
 Legend apply_map(Scene& scene, Map map, double limit = 0);
 
 /// The grey of cloth on which a map has no value, linear RGB: darker than the middle of the
@@ -57,13 +59,14 @@ Vec3 no_value_color();
 /// people can read.
 Vec3 scale_color(double t, bool diverging);
 
-/// Distance of each panel vertex of `a` to its like in `b`, m; NO_VALUE where `b` has no such
-/// place. Panels go by name; places of another mesh are found in the triangles of b's panel by (s,
-/// t).
+/// Distance of each panel vertex of `a` to the same place in `b`, m; NO_VALUE where `b`
+/// has no such place. Panels are matched by name; places of another mesh are found in the
+/// triangles of b's panel by (s, t).
+/// @throws Error USAGE where no panel has the same name
 std::vector<double> drape_difference(const garment::Garment& a, const garment::Garment& b);
 
-/// The numbers behind a map, one row per panel vertex: document, panel, s, t, x, y, z (m), value.
-/// CSV with a header line.
+/// The values of a map, one row per panel vertex: document, panel, s, t, x, y, z (m),
+/// value. CSV with a header line.
 std::string values_csv(const Scene& scene, const Legend& legend);
 
 } // namespace sloper::render

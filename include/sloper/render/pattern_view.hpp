@@ -1,6 +1,7 @@
 #pragma once
 /// The flat pattern as a picture: panels side by side, warp upwards, with grain, names, sizes and
 /// seams in matching colours.
+/// Test: tests/render/test_maps.cpp
 #include <sloper/render/draw.hpp>
 #include <sloper/render/maps.hpp>
 #include <sloper/render/scene.hpp>
@@ -12,9 +13,10 @@ namespace sloper::render {
 /// @throws Error USAGE when there is no panel
 io::Image draw_pattern(const Scene& scene, const DrawOptions& options);
 
-/// Where each panel's lower left corner goes: rows of panels in order of height, filling about
+/// Lower left corner of each panel, m: rows of panels in order of height, filling about
 /// `width_over_height`.
-/// @param sizes width and height, m   @param gap m between panels
+/// @param sizes  width and height, m
+/// @param gap  m between panels
 std::vector<Vec2> pack_panels(const std::vector<Vec2>& sizes, double gap, double width_over_height);
 
 } // namespace sloper::render

@@ -1,60 +1,66 @@
 #pragma once
-/// What is drawn: meshes with a colour per vertex, collected from documents and OBJ files.
+/// The scene that is drawn: meshes with a colour per vertex, collected from documents and
+/// OBJ files.
 #include <optional>
+#include <sloper/base/message.hpp>
 #include <sloper/body/body.hpp>
 #include <sloper/garment/garment.hpp>
 #include <string>
 
 namespace sloper::render {
 
-/// How far inside a panel a vertex is counted as near a border; distances are clamped to it.
+/// Distance within which a panel's vertex counts as near a border, m; border distances
+/// are clamped to it.
 inline constexpr double BORDER_REACH = 0.02; // m
-/// A map value where the map says nothing.
+/// Value of a vertex for which the map is not defined.
 inline constexpr double NO_VALUE = -1e9;
 
-/// Surfaces to be drawn; vertices of different panels are not shared, so that panels keep sharp
-/// colours.
+/// A surface to be drawn. Vertices of different panels are not shared, so that panels
+/// keep sharp colours.
 struct DrawMesh {
   std::string name;            ///< of its file, without folder and ending
   std::vector<Vec3> positions; ///< m
   /// Cloth that was made smooth: where the vertex lies on the draped triangles, m; else empty.
   std::vector<Vec3> flat;
   int pieces = 1; ///< triangles into which each draped triangle was cut; they follow each other
-  std::vector<Vec3> normals; ///< unit; smooth over welded seams
-  std::vector<Vec3> colors;  ///< linear RGB, 0..1
-  std::vector<Triangle> triangles;
+  std::vector<Vec3> normals;              ///< unit; smooth over welded seams
+  std::vector<Vec3> colors;               ///< linear RGB, 0..1
+  std::vector<Triangle> triangles;        ///< counter-clockwise seen from outside
   std::vector<std::array<int, 2>> lines;  ///< borders of panels, drawn darker
   std::vector<char> is_hem;               ///< by line: a free border, not a seam
   bool is_cloth = false, is_flat = false; ///< flat: drawn unlit
   bool is_closed = false; ///< a body without a hole, seen from outside: its far side never shows
   // Cloth only; empty elsewhere.
   std::vector<Vec2> uv; ///< m, across and along the warp: the fabric's pattern lies on it
-  std::vector<double> seam,
-      hem; ///< m, pattern distance to the nearest sewn and free border, at most BORDER_REACH
+  /// Pattern distance to the nearest sewn and free border, m, at most BORDER_REACH.
+  std::vector<double> seam, hem;
   std::vector<double> values;      ///< of the map, in its unit; NO_VALUE or empty: none
   std::vector<int> panel_of;       ///< by vertex
   std::vector<std::string> panels; ///< their names
   double thickness = 0;            ///< m
 };
 
-/// Whether each edge is walked as often one way as the other by the triangles beside it, and these
-/// look outwards. Cost: O(#F).
+/// Whether the triangles at each edge use it equally often in both directions, and the
+/// mesh is oriented outwards. O(#F).
 bool is_closed(const TriangleMesh& mesh);
 
+/// Documents as they are drawn: the data and its meshes.
 struct Scene {
-  std::optional<body::Body> body;
-  std::vector<garment::Garment> garments;
-  std::vector<int> garment_mesh;  ///< by garment: its mesh
-  int body_mesh = -1;             ///< of `body`
-  bool draped = false;            ///< there is a garment, not only panels
-  std::vector<DrawMesh> meshes;   ///< in the order of the documents
-  std::vector<std::string> names; ///< file names, for the PNG's text chunk
-  std::vector<std::string>
-      findings; ///< garments that hang on another body than the one beside them
+  std::optional<body::Body> body;         ///< of the documents
+  std::vector<garment::Garment> garments; ///< in the order of the documents
+  std::vector<int> garment_mesh;          ///< by garment: its mesh
+  int body_mesh = -1;                     ///< of `body`
+  bool draped = false;                    ///< there is a garment, not only panels
+  std::vector<DrawMesh> meshes;           ///< in the order of the documents
+  std::vector<std::string> names;         ///< file names, for the PNG's text chunk
+  /// Garments that hang on another body than the one beside them.
+  std::vector<Message> findings;
 };
 
-/// Reads body.json, shirt.json, panels.json (by their "format") and bare OBJ, PLY or STL files (in
-/// metres). @throws Error INPUT
+/// Reads documents by their "format" (body.json, shirt.json, panels.json) and bare OBJ,
+/// PLY or STL files (in metres).
+/// @param paths  in drawing order
+/// @throws Error INPUT
 Scene read_scene(const std::vector<std::string>& paths);
 
 /// A garment as it is drawn: one vertex per panel vertex, normals over welded seams.
@@ -77,7 +83,9 @@ void color_cloth(Scene& scene, ClothColors how, const std::vector<int>& colors =
 
 /// 0xRRGGBB to linear light.
 Vec3 linear_color(int hex);
-/// Muted panel colours that differ for colour-blind eyes too (after Okabe and Ito 2008, softened).
+/// Muted panel colours that differ for colour-blind eyes too (after Okabe and Ito 2008,
+/// softened), linear RGB.
+/// @param k  number of the panel; colours repeat after 8
 Vec3 panel_color(int k);
 
 } // namespace sloper::render

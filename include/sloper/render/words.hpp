@@ -1,6 +1,6 @@
 #pragma once
-/// Words of render-png's command line as what the drawing asks for. All @throws Error USAGE with
-/// what to write instead.
+/// Words of render-png's command line, interpreted. All
+/// @throws Error USAGE with words to use instead.
 #include <sloper/render/draw.hpp>
 #include <sloper/render/scene.hpp>
 
@@ -15,12 +15,14 @@ int samples_for(const std::array<int, 2>& size);
 std::vector<int> parse_colors(const std::string& list);
 /// white, grey, transparent (none) or RRGGBB.
 std::optional<int> parse_background(const std::string& text);
-/// What --fabric says; sets how the cloth is coloured. @throws Error INPUT for a print that cannot
-/// be read
+/// Interprets --fabric: sets the fabric of `options`.
+/// @param colors_given  --color was given
+/// @return how the cloth is coloured
+/// @throws Error INPUT for a print that cannot be read
 ClothColors choose_fabric(const std::string& fabric, bool colors_given, const Scene& scene,
                           DrawOptions& options);
 
-/// Refuses so many views of this size in one picture that it could be neither held nor opened.
+/// Refuses a number of views of this size that is too large for one picture.
 void check_pixels(const std::array<int, 2>& size, std::size_t views);
 
 } // namespace sloper::render

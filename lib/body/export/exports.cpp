@@ -10,6 +10,7 @@ namespace {
 constexpr std::pair<const char*, const char*> ISO_NAMES[] = {
     {"neck", "neck girth"},
     {"neck_base", "neck base girth"},
+    {"crotch_length", "total crotch length"},
     {"thigh", "thigh girth"},
     {"knee", "knee girth"},
     {"calf", "calf girth"},

@@ -36,8 +36,10 @@ std::optional<double> girth(const Body& b, const std::string& name) {
   double sum = 0;
   int n = 0;
   for (const char* side : {"", "_l", "_r"})
-    if (const auto it = b.girths.find(name + side); it != b.girths.end())
-      sum += it->second.value_m, ++n;
+    if (const auto it = b.girths.find(name + side); it != b.girths.end()) {
+      sum += it->second.value_m;
+      ++n;
+    }
   return n ? std::optional(sum / n) : std::nullopt;
 }
 
@@ -46,7 +48,10 @@ std::optional<double> height(const Body& b, const std::string& name) {
   double sum = 0;
   int n = 0;
   for (const char* side : {"", "_l", "_r"})
-    if (b.has_landmark(name + side)) sum += b.landmark(name + side).y(), ++n;
+    if (b.has_landmark(name + side)) {
+      sum += b.landmark(name + side).y();
+      ++n;
+    }
   return n ? std::optional(sum / n) : std::nullopt;
 }
 
@@ -71,7 +76,10 @@ std::optional<double> along(const Body& b, const std::vector<std::string>& names
       whole &= d.has_value();
       length += d.value_or(0);
     }
-    if (whole) sum += length, ++n;
+    if (whole) {
+      sum += length;
+      ++n;
+    }
   }
   return n ? std::optional(sum / n) : std::nullopt;
 }

@@ -42,9 +42,10 @@ LengthUnit choose_unit(double height, const SizeOptions& size, const std::string
   auto within = [&](const LengthUnit& unit, const char* option) {
     const double stature = height * unit.metres;
     if (stature >= MIN_STATURE && stature <= MAX_STATURE) return unit;
-    throw input_error(
-        file, "", "the body would be " + number_text("%.3g", stature) + " m tall in " + unit.name,
-        std::string("a person is 0.5 to 2.5 m; give another ") + option);
+    throw input_error("scan.wrong-size"_id, file, "",
+                      "the body would be " + number_text("%.3g", stature) + " m tall in " +
+                          unit.name,
+                      std::string("a person is 0.5 to 2.5 m; give another ") + option);
   };
   if (size.stature_m > 0) return within({"given stature", size.stature_m / height, 0}, "--stature");
   if (size.metres_per_unit > 0) return within({"given scale", size.metres_per_unit, 0}, "--scale");
@@ -52,14 +53,14 @@ LengthUnit choose_unit(double height, const SizeOptions& size, const std::string
     const auto named = std::find_if(std::begin(LENGTH_UNITS), std::end(LENGTH_UNITS),
                                     [&](const LengthUnit& u) { return size.unit == u.name; });
     if (named == std::end(LENGTH_UNITS))
-      throw Error(ErrorKind::USAGE, "", "unit", "'" + size.unit + "' is not a unit",
-                  "give auto, m, cm, mm, dm, inch or foot");
+      throw Error(ErrorKind::USAGE, "option.unknown-word"_id, "", "unit",
+                  "'" + size.unit + "' is not a unit", "give auto, m, cm, mm, dm, inch or foot");
     return within(*named, "--unit");
   }
   const std::vector<LengthUnit> likely = likely_units(height);
   if (likely.empty())
     throw input_error(
-        file, "",
+        "scan.wrong-size"_id, file, "",
         "the body is " + number_text("%.4g", height) +
             " units tall, which is not a person's size in m, cm, mm, dm, inch or foot",
         "give its --stature in metres, or its --scale in metres for a unit");
@@ -115,7 +116,10 @@ std::string other_guess(double stature_m, const LengthUnit& own) {
 Mat4 turn_and_shift(double angle, const Vec3& shift) {
   const double c = std::cos(angle), s = std::sin(angle);
   Mat4 m = Mat4::Identity();
-  m(0, 0) = c, m(0, 2) = s, m(2, 0) = -s, m(2, 2) = c;
+  m(0, 0) = c;
+  m(0, 2) = s;
+  m(2, 0) = -s;
+  m(2, 2) = c;
   m.block<3, 1>(0, 3) = shift;
   return m;
 }
@@ -141,7 +145,7 @@ CanonicalFrame guess_frame(const TriangleMesh& scan, const SegmentedScan& sorted
   CanonicalFrame frame;
   const double height = sorted.high - sorted.low;
   if (!shows_a_person(sorted))
-    throw input_error(file, "",
+    throw input_error("scan.no-person"_id, file, "",
                       sorted.head_share >= sorted.leg_share
                           ? "no standing person: no two legs in any axis direction"
                           : "no standing person: no head above the shoulders",
@@ -149,7 +153,7 @@ CanonicalFrame guess_frame(const TriangleMesh& scan, const SegmentedScan& sorted
                       "away what is not the body, or, for a torso without "
                       "legs, give --torso-only");
   if (sorted.second_share > 0.5)
-    throw input_error(file, "", "two bodies stand in this scan",
+    throw input_error("scan.two-people"_id, file, "", "two bodies stand in this scan",
                       "cut the scan so that one person is left");
   const LengthUnit chosen = choose_unit(height, size, file);
   frame.unit = chosen.name;
@@ -180,7 +184,7 @@ CanonicalFrame guess_frame(const TriangleMesh& scan, const SegmentedScan& sorted
   const double cell = stature / 150;
   const Moments calves = moments_of(collect(10, 30), cell);
   if (calves.n == 0)
-    throw input_error(file, "", "no legs below the trunk",
+    throw input_error("scan.no-person"_id, file, "", "no legs below the trunk",
                       "a scan must show a whole standing body");
   // left-right axis: trunk layers are wider than deep, legs stand side by side
   Vec2 doubled = Vec2::Zero();
@@ -209,11 +213,14 @@ CanonicalFrame guess_frame(const TriangleMesh& scan, const SegmentedScan& sorted
   const double margin = std::abs(front - back) / std::max(front + back, 1e-9);
   if (back > front) forward = -forward;
   if (margin < 0.15)
-    frame.findings.push_back({"warning", "the feet hardly show which way the body faces", "feet"});
+    frame.findings.push_back({"scan.front-unclear"_id, "warning",
+                              "the feet hardly show which way the body faces", "feet"});
   // +x is the body's left: x = y cross z
   const Vec3 z(forward.x(), 0, forward.y()), y = Vec3::UnitY(), x = y.cross(z);
   Eigen::Matrix3d heading;
-  heading.row(0) = x.transpose(), heading.row(1) = y.transpose(), heading.row(2) = z.transpose();
+  heading.row(0) = x.transpose();
+  heading.row(1) = y.transpose();
+  heading.row(2) = z.transpose();
   const Eigen::Matrix3d rotation = heading * upright;
   frame.scan_to_body.block<3, 3>(0, 0) = chosen.metres * rotation;
   const Vec3 foot(calves.mean.x(), sorted.low * chosen.metres, calves.mean.y());

@@ -126,9 +126,13 @@ Moments moments_of(const std::vector<Vec2>& points, double cell) {
   for (const auto& c : cells) {
     const Vec2 d =
         cell * Vec2(static_cast<double>(c.first), static_cast<double>(c.second)) - m.mean;
-    m.xx += d.x() * d.x(), m.xz += d.x() * d.y(), m.zz += d.y() * d.y();
+    m.xx += d.x() * d.x();
+    m.xz += d.x() * d.y();
+    m.zz += d.y() * d.y();
   }
-  m.xx /= m.n, m.xz /= m.n, m.zz /= m.n;
+  m.xx /= m.n;
+  m.xz /= m.n;
+  m.zz /= m.n;
   return m;
 }
 
@@ -145,12 +149,17 @@ std::optional<MirrorPlane> mirror_plane(const std::vector<Vec3>& points, double 
         const double miss =
             asymmetry(layers, angle + i * angle_step, offset + j * offset_step, misses) *
             (1 + 1e-6 * (std::abs(i) + std::abs(j)));
-        if (miss < best)
-          best = miss, best_angle = angle + i * angle_step, best_offset = offset + j * offset_step;
+        if (miss < best) {
+          best = miss;
+          best_angle = angle + i * angle_step;
+          best_offset = offset + j * offset_step;
+        }
       }
     if (best > 1e299) return std::nullopt;
-    angle = best_angle, offset = best_offset;
-    angle_step /= 2.5, offset_step /= 2.5;
+    angle = best_angle;
+    offset = best_offset;
+    angle_step /= 2.5;
+    offset_step /= 2.5;
   }
   return MirrorPlane{angle, offset};
 }
@@ -168,8 +177,10 @@ std::optional<double> mirror_roll(const std::vector<Vec3>& points, double statur
       for (int i = -3; i <= 3; ++i)
         if (const double miss =
                 asymmetry(group, 0, around + i * step, misses) * (1 + 1e-6 * std::abs(i));
-            miss < best)
-          best = miss, offset = around + i * step;
+            miss < best) {
+          best = miss;
+          offset = around + i * step;
+        }
     }
     if (best < 1e299) middles.emplace_back(group[GROUP / 2].height, offset);
   }

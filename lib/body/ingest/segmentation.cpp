@@ -162,8 +162,10 @@ LayerShape shape_of_layer(const Voxels& voxels, const Reading& r, const std::vec
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto& c = voxels.cell(cells[i]);
     flat[i] = {c[a], c[b], static_cast<int>(i)};
-    for (int k = 0; k < 2; ++k)
-      low[k] = std::min(low[k], flat[i][k]), high[k] = std::max(high[k], flat[i][k]);
+    for (int k = 0; k < 2; ++k) {
+      low[k] = std::min(low[k], flat[i][k]);
+      high[k] = std::max(high[k], flat[i][k]);
+    }
   }
   std::sort(flat.begin(), flat.end());
   for (std::size_t i = 0; i < flat.size(); ++i)
@@ -221,15 +223,18 @@ Reading read_direction(const Voxels& voxels, int axis, bool flipped, int reach,
       low[label[c]] = std::min(low[label[c]], k);
       high[label[c]] = std::max(high[label[c]], k);
     }
-  r.low = low[body], r.high = high[body];
+  r.low = low[body];
+  r.high = high[body];
   // limbs that fell off stand over or under the body; a pole or a second person stands beside it
   const int a = (axis + 1) % 3, b = (axis + 2) % 3;
   std::vector<std::array<int, 4>> extent(sizes.size(), {1 << 30, -1, 1 << 30, -1});
   for (int c = 0; c < voxels.count(); ++c)
     if (label[c] >= 0) {
       auto& e = extent[label[c]];
-      e[0] = std::min(e[0], voxels.cell(c)[a]), e[1] = std::max(e[1], voxels.cell(c)[a]);
-      e[2] = std::min(e[2], voxels.cell(c)[b]), e[3] = std::max(e[3], voxels.cell(c)[b]);
+      e[0] = std::min(e[0], voxels.cell(c)[a]);
+      e[1] = std::max(e[1], voxels.cell(c)[a]);
+      e[2] = std::min(e[2], voxels.cell(c)[b]);
+      e[3] = std::max(e[3], voxels.cell(c)[b]);
     }
   auto is_above_or_below = [&](std::size_t p) {
     const auto &e = extent[p], &of = extent[static_cast<std::size_t>(body)];
@@ -255,9 +260,11 @@ Reading read_direction(const Voxels& voxels, int axis, bool flipped, int reach,
     if (!leg && !top) continue;
     const LayerShape shape = shape_of_layer(voxels, r, layers[k]);
     if (shape.pieces.empty()) continue;
-    if (top)
-      ++n_top, n_narrow += shape.width < TOP_WIDTH * height &&
-                           (shape.pieces.size() < 2 || shape.pieces[1] < 0.5 * shape.pieces[0]);
+    if (top) {
+      ++n_top;
+      n_narrow += shape.width < TOP_WIDTH * height &&
+                  (shape.pieces.size() < 2 || shape.pieces[1] < 0.5 * shape.pieces[0]);
+    }
     if (leg) {
       ++n_leg;
       const double all = std::accumulate(shape.pieces.begin(), shape.pieces.end(), 0);
@@ -357,7 +364,8 @@ SegmentedScan sort_in_cells(const TriangleMesh& scan, const std::string& up_axis
   for (std::size_t v = 0; v < scan.positions.size(); ++v)
     sorted.is_body[v] = best.is_body[voxels.of_vertex(v)];
   if (best.has_floor) recover_feet(scan, voxels, best, sorted);
-  sorted.low = 1e300, sorted.high = -1e300;
+  sorted.low = 1e300;
+  sorted.high = -1e300;
   for (std::size_t v = 0; v < scan.positions.size(); ++v)
     if (sorted.is_body[v]) {
       const double h = scan.positions[v].dot(sorted.up);
@@ -379,9 +387,10 @@ SegmentedScan segment_scan(const TriangleMesh& scan, const std::string& up_axis)
     const bool whole = shows_a_person(sorted) && !sorted.falls_apart;
     if (whole && sorted.up_score > CLEAR_SCORE) return sorted;
     const double worth = sorted.up_score + (whole ? 2 : shows_a_person(sorted) ? 1 : 0);
-    if (worth > most + 0.1)
-      most = worth,
+    if (worth > most + 0.1) {
+      most = worth;
       best = std::move(sorted); // the finer cells unless the larger ones are clearly better
+    }
   }
   return best;
 }

@@ -13,6 +13,13 @@ namespace sloper::body {
 
 namespace {
 
+/// From a height to a height.
+struct Band {
+  double low, high;
+  constexpr Band times(double s) const { return {low * s, high * s}; }
+  bool holds(double y) const { return y > low && y < high; }
+};
+
 // shares of stature
 constexpr double NECK_BELOW_CROWN = 0.122; ///< narrowest place of the neck
 constexpr double HEAD_BREADTH = 0.1015;    ///< at its broadest; varies less than the neck's height
@@ -23,6 +30,49 @@ constexpr double COLUMN = 0.13;     ///< of the trunk without arms, around the n
 constexpr double RIM = 0.012;       ///< left out where the torso ends: a lid, or torn edges
 constexpr int N_LAYERS = 120, N_OUTLINE_ANGLES = 48;
 
+// A head on a neck above shoulders, by half diagonals of layers. Measured on the shared torso scans
+// and cut mannequins of the tests, on no population.
+constexpr double HEAD_OVER_NECK = 1.15;     ///< a head is broader than its neck by this
+constexpr double SHOULDERS_OVER_HEAD = 1.3; ///< shoulders are broader than the head by this
+constexpr double DOME_UNDER_HEAD = 0.85;    ///< a crown is round: its top layers are narrower
+constexpr double HEAD_HIGH = 2.4;           ///< times its half diagonal, at most
+constexpr double HEAD_OF_HEIGHT = 0.32;     ///< of the scan; two hands that hang are farther apart
+constexpr double SHOULDERS_COUNT = 2.0;     ///< shoulders broader than this count no more
+constexpr double BOTH_ENDS = 0.4;           ///< clearness where both ends look like a head
+constexpr double LOW_END = 0.0005, HIGH_END = 0.9995; ///< shares of the points: few lie outside
+constexpr int DOME_LAYERS = 3;                        ///< the crown's
+constexpr int HEAD_LAYERS = 5;                        ///< a head has more
+
+// Which way a torso faces.
+constexpr Band CHEST_BAND{0.68, 0.76}, SHOULDER_BAND{0.79, 0.81}; ///< heights
+constexpr double HEAD_ABOVE = 0.90;                               ///< height
+constexpr double HEAD_RADIUS = 0.1;                               ///< around the neck
+constexpr std::size_t LEAST_CHEST = 40; ///< points; fewer: the shoulders tell
+
+// The head's breadth.
+constexpr Band HEAD_BAND{0.89, 0.97};
+constexpr double HEAD_STEP = 0.008, HEAD_HALF_STEP = 0.006;
+
+// Plain legs that complete a torso: they carry no measurement, cloth hangs beside them.
+constexpr double ROWS = 230; ///< of points over a stature
+constexpr double ANKLE_HEIGHT = 0.045, ANKLE_ASIDE = 0.06, ANKLE_BEHIND = 0.005,
+                 ANKLE_RADIUS = 0.020;
+constexpr double KNEE_HEIGHT = 0.285, KNEE_RADIUS = 0.033;
+constexpr double THIGH_ASIDE = 0.053, THIGH_RADIUS = 0.049;
+constexpr double FOOT_BACK = -0.035, FOOT_FRONT = 0.112, FOOT_HALF_BREADTH = 0.021;
+constexpr double INSTEP_FROM = 0.03, INSTEP_LENGTH = 0.082, INSTEP_FALL = 0.75;
+constexpr double FOOT_CLOSED_BEHIND = -0.03, FOOT_CLOSED_BEFORE = 0.107;
+constexpr double FOOT_STEP = 0.04, FOOT_END = 1.0001; ///< of its breadth and height
+constexpr double LEGS_APART = 0.004; ///< a rim with nothing so near the middle is two thighs
+constexpr std::size_t LEAST_TRUNK_RIM = 12;
+constexpr double TRUNK_COLUMN = 1.3 * COLUMN; ///< of the trunk where it is cut, around the neck
+
+// What is believed near the place where a torso is cut.
+constexpr double HAND_AT_RIM = 0.03; ///< a stump that ends so near to it is no hand
+constexpr double ABOVE_RIM = 0.02;   ///< an extremum nearer to it is the rim itself
+constexpr double WITH_CROTCH = 0.8, WITHOUT_CROTCH = 0.5; ///< factors of the confidence of ratios
+constexpr std::size_t LEAST_RIM = 8;                      ///< points of one thigh
+
 /// The scan upright: height along `up`, two coordinates across.
 struct Upright {
   int axis = 1;
@@ -31,7 +81,9 @@ struct Upright {
   Vec2 across(const Vec3& p) const { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
   Vec3 point(const Vec2& a, double height) const {
     Vec3 p;
-    p[axis] = sign * height, p[(axis + 1) % 3] = a.x(), p[(axis + 2) % 3] = a.y();
+    p[axis] = sign * height;
+    p[(axis + 1) % 3] = a.x();
+    p[(axis + 2) % 3] = a.y();
     return p;
   }
 };
@@ -47,7 +99,7 @@ struct Neck {
 std::optional<Neck> find_neck(const TriangleMesh& scan, const Upright& upright) {
   std::vector<double> heights;
   for (const Vec3& p : scan.positions) heights.push_back(upright.height(p));
-  const double low = lower_quantile(heights, 0.0005), high = lower_quantile(heights, 0.9995),
+  const double low = lower_quantile(heights, LOW_END), high = lower_quantile(heights, HIGH_END),
                step = (high - low) / N_LAYERS;
   if (!(step > 0)) return std::nullopt;
   std::vector<std::vector<Vec2>> layers(N_LAYERS);
@@ -60,26 +112,30 @@ std::optional<Neck> find_neck(const TriangleMesh& scan, const Upright& upright) 
   for (int k = 0; k < N_LAYERS;
        ++k) { // half the diagonal of the box: dense faces do not count more
     Vec2 least = Vec2::Constant(1e300), most = Vec2::Constant(-1e300);
-    for (const Vec2& q : layers[k]) least = least.cwiseMin(q), most = most.cwiseMax(q);
+    for (const Vec2& q : layers[k]) {
+      least = least.cwiseMin(q);
+      most = most.cwiseMax(q);
+    }
     radius[k] = layers[k].size() < 4 ? -1 : 0.5 * (most - least).norm();
     middle[k] = 0.5 * (most + least);
   }
   double dome = 0; // a crown is round; where a body is cut off, its end is as broad as what follows
-  for (int k = N_LAYERS - 3; k < N_LAYERS; ++k) dome = std::max(dome, radius[k]);
+  for (int k = N_LAYERS - DOME_LAYERS; k < N_LAYERS; ++k) dome = std::max(dome, radius[k]);
   std::optional<Neck> best;
   double clearest = 0;
-  for (int k = N_LAYERS - 5; k > N_LAYERS * 2 / 5; --k) {
+  for (int k = N_LAYERS - HEAD_LAYERS; k > N_LAYERS * 2 / 5; --k) {
     if (radius[k] <= 0) continue;
     const auto head = std::max_element(radius.begin() + k, radius.end());
     const int centre = static_cast<int>(head - radius.begin());
     const auto below =
         std::max_element(radius.begin() + std::max(0, k - (N_LAYERS - k)), radius.begin() + k);
-    if (*head < 1.15 * radius[k] || *below < 1.3 * *head || dome > 0.85 * *head) continue;
+    if (*head < HEAD_OVER_NECK * radius[k]) continue;
+    if (*below < SHOULDERS_OVER_HEAD * *head || dome > DOME_UNDER_HEAD * *head) continue;
     // a head is about as high as it is broad, and nothing of the body is higher
     const double height = (N_LAYERS - k) * step;
-    if (height < 1.0 * *head || height > 2.4 * *head || *head > 0.32 * (high - low))
-      continue; // two hands that hang are farther apart
-    const double clear = (*head / radius[k]) * std::min(2.0, *below / *head);
+    if (height < *head || height > HEAD_HIGH * *head) continue;
+    if (*head > HEAD_OF_HEIGHT * (high - low)) continue;
+    const double clear = (*head / radius[k]) * std::min(SHOULDERS_COUNT, *below / *head);
     if (clear > clearest) {
       clearest = clear;
       best = Neck{high, low + (k + 0.5) * step, clear, 0.5 * (middle[k] + middle[centre])};
@@ -102,19 +158,21 @@ Heading find_heading(const std::vector<Vec3>& p, const Neck& neck,
   for (const Vec3& q : p) {
     const Vec2 a(q.x(), q.z());
     if ((a - neck.center).norm() > COLUMN * s) continue;
-    if (q.y() > 0.68 * s && q.y() < 0.76 * s) chest.push_back(a);
-    if (q.y() > 0.79 * s && q.y() < 0.81 * s) shoulder.push_back(a);
-    if (q.y() > 0.90 * s && (a - neck.center).norm() < 0.1 * s) head.push_back(a);
+    if (CHEST_BAND.times(s).holds(q.y())) chest.push_back(a);
+    if (SHOULDER_BAND.times(s).holds(q.y())) shoulder.push_back(a);
+    if (q.y() > HEAD_ABOVE * s && (a - neck.center).norm() < HEAD_RADIUS * s) head.push_back(a);
   }
-  const std::vector<Vec2>& of = chest.size() > 40 ? chest : shoulder;
+  const std::vector<Vec2>& of = chest.size() > LEAST_CHEST ? chest : shoulder;
   for (const Vec2& a : of) mean += a / static_cast<double>(std::max<std::size_t>(1, of.size()));
   for (const Vec2& a : of) spread += (a - mean) * (a - mean).transpose();
   const double angle = 0.5 * std::atan2(2 * spread(0, 1), spread(0, 0) - spread(1, 1));
   Heading heading{Vec2(std::cos(angle), std::sin(angle)), Vec2(-std::sin(angle), std::cos(angle))};
   auto middle = [&](const std::vector<Vec2>& points) {
     double low = 1e300, high = -1e300;
-    for (const Vec2& a : points)
-      low = std::min(low, heading.forward.dot(a)), high = std::max(high, heading.forward.dot(a));
+    for (const Vec2& a : points) {
+      low = std::min(low, heading.forward.dot(a));
+      high = std::max(high, heading.forward.dot(a));
+    }
     return 0.5 * (low + high);
   };
   if (!head.empty() && !shoulder.empty() && middle(head) < middle(shoulder))
@@ -143,13 +201,14 @@ Stand stand_up(const TriangleMesh& scan, const Upright& upright, const Neck& nec
   put();
   stand.heading = find_heading(p, neck, s);
   double breadth = 0;
-  for (double y = 0.89 * s; y < 0.97 * s; y += 0.008 * s) {
+  for (double y = HEAD_BAND.low * s; y < HEAD_BAND.high * s; y += HEAD_STEP * s) {
     double low = 1e300, high = -1e300;
     for (const Vec3& q : p)
       if (const Vec2 a = Vec2(q.x(), q.z()) - neck.center;
-          std::abs(q.y() - y) < 0.006 * s && a.norm() < 0.1 * s)
-        low = std::min(low, stand.heading.left.dot(a)),
+          std::abs(q.y() - y) < HEAD_HALF_STEP * s && a.norm() < HEAD_RADIUS * s) {
+        low = std::min(low, stand.heading.left.dot(a));
         high = std::max(high, stand.heading.left.dot(a));
+      }
     breadth = std::max(breadth, high - low);
   }
   s = BREADTH_WEIGHT * breadth / HEAD_BREADTH + (1 - BREADTH_WEIGHT) * s;
@@ -168,7 +227,7 @@ Stand stand_up(const TriangleMesh& scan, const Upright& upright, const Neck& nec
 /// the trunk's, as radius over angle.
 class Legs {
 public:
-  Legs(double s) : m_s(s), m_step(s / 230) {}
+  Legs(double s) : m_s(s), m_step(s / ROWS) {}
   std::vector<Vec3> points;
 
   void tube(const Vec3& top, const Vec3& bottom, const std::array<double, N_OUTLINE_ANGLES>& above,
@@ -188,17 +247,17 @@ public:
   }
   void foot(const Vec3& ankle) {
     const double high = ankle.y();
-    for (double z = -0.035 * m_s; z <= 0.112 * m_s; z += m_step)
-      for (double t = 0; t <= 1.0001; t += 0.04) {
-        const double half = 0.021 * m_s,
-                     top = z < 0.03 * m_s ? high
-                                          : high * (1 - 0.75 * (z - 0.03 * m_s) / (0.082 * m_s));
+    const double half = FOOT_HALF_BREADTH * m_s, instep = INSTEP_FROM * m_s;
+    for (double z = FOOT_BACK * m_s; z <= FOOT_FRONT * m_s; z += m_step)
+      for (double t = 0; t <= FOOT_END; t += FOOT_STEP) {
+        const double fall = INSTEP_FALL * (z - instep) / (INSTEP_LENGTH * m_s);
+        const double top = z < instep ? high : high * (1 - fall);
         const double x = half * (2 * t - 1);
         points.emplace_back(ankle.x() + x, top, ankle.z() + z);
         points.emplace_back(ankle.x() + x, 0, ankle.z() + z);
         for (const double side : {-half, half})
           points.emplace_back(ankle.x() + side, t * top, ankle.z() + z);
-        if (z < -0.03 * m_s || z > 0.107 * m_s)
+        if (z < FOOT_CLOSED_BEHIND * m_s || z > FOOT_CLOSED_BEFORE * m_s)
           points.emplace_back(ankle.x() + x, 0.5 * top, ankle.z() + z);
       }
   }
@@ -234,7 +293,10 @@ std::array<double, N_OUTLINE_ANGLES> outline_of(const std::vector<Vec2>& points,
 
 Vec2 box_middle(const std::vector<Vec2>& points) {
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
-  for (const Vec2& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  for (const Vec2& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
   return 0.5 * (low + high);
 }
 
@@ -246,25 +308,27 @@ std::vector<Vec3> plain_legs(const std::vector<Vec2>& rim, double cut, double s)
   const Vec2 middle = box_middle(rim);
   for (const Vec2& p : rim) {
     side[p.x() > middle.x() ? 0 : 1].push_back(p);
-    apart &= std::abs(p.x() - middle.x()) > 0.004 * s;
+    apart &= std::abs(p.x() - middle.x()) > LEGS_APART * s;
   }
   if (!apart && cut > CROTCH * s)
     legs.tube({middle.x(), cut, middle.y()}, {middle.x(), CROTCH * s, middle.y()},
               outline_of(rim, middle), -1);
   for (int k = 0; k < 2; ++k) {
-    const double sign = k == 0 ? 1 : -1, ankle_y = 0.045 * s;
-    Vec3 top(middle.x() + sign * 0.053 * s, std::min(cut, CROTCH * s), middle.y());
-    std::array<double, N_OUTLINE_ANGLES> above = Legs::circle(0.049 * s);
-    if (apart && side[k].size() > 8) {
+    const double sign = k == 0 ? 1 : -1, ankle_y = ANKLE_HEIGHT * s;
+    Vec3 top(middle.x() + sign * THIGH_ASIDE * s, std::min(cut, CROTCH * s), middle.y());
+    std::array<double, N_OUTLINE_ANGLES> above = Legs::circle(THIGH_RADIUS * s);
+    if (apart && side[k].size() > LEAST_RIM) {
       const Vec2 c = box_middle(side[k]);
       top = Vec3(c.x(), cut, c.y());
       above = outline_of(side[k], c);
     }
-    const Vec3 ankle(middle.x() + sign * 0.06 * s, ankle_y, middle.y() - 0.005 * s),
-        knee = top + (0.285 * s < top.y() ? (top.y() - 0.285 * s) / (top.y() - ankle_y) : 0.0) *
-                         (ankle - top);
-    if (knee.y() < top.y()) legs.tube(top, knee, above, 0.033 * s);
-    legs.tube(knee, ankle, knee.y() < top.y() ? Legs::circle(0.033 * s) : above, 0.020 * s);
+    const Vec3 ankle(middle.x() + sign * ANKLE_ASIDE * s, ankle_y, middle.y() - ANKLE_BEHIND * s);
+    const double knee_y = KNEE_HEIGHT * s, knee_radius = KNEE_RADIUS * s;
+    const double to_knee = knee_y < top.y() ? (top.y() - knee_y) / (top.y() - ankle_y) : 0.0;
+    const Vec3 knee = top + to_knee * (ankle - top);
+    const bool thigh = knee.y() < top.y();
+    if (thigh) legs.tube(top, knee, above, knee_radius);
+    legs.tube(knee, ankle, thigh ? Legs::circle(knee_radius) : above, ANKLE_RADIUS * s);
     legs.foot(ankle);
   }
   return legs.points;
@@ -286,12 +350,14 @@ CompletedTorso complete_torso(const TriangleMesh& scan, const std::string& up_ax
       auto found = sign > 0 ? up : down;
       if (!found) continue;
       if (up && down)
-        found->clear *= 0.4; // a hand on its wrist looks like a head, but there are two of them
+        found->clear *=
+            BOTH_ENDS; // a hand on its wrist looks like a head, but there are two of them
       candidates.push_back({{axis, sign}, *found});
     }
   }
   if (candidates.empty())
-    throw input_error(file, "", "no torso: no head on a neck above shoulders in any axis direction",
+    throw input_error("scan.no-torso"_id, file, "",
+                      "no torso: no head on a neck above shoulders in any axis direction",
                       "a torso scan must show the head; check --up");
   std::stable_sort(
       candidates.begin(), candidates.end(),
@@ -301,14 +367,14 @@ CompletedTorso complete_torso(const TriangleMesh& scan, const std::string& up_ax
     const double s = stand.s;
     std::vector<Vec2> rim;
     for (const Vec3& p : stand.points)
-      if (std::hypot(p.x(), p.z()) < 1.3 * COLUMN * s && p.y() > stand.cut + RIM * s &&
+      if (std::hypot(p.x(), p.z()) < TRUNK_COLUMN * s && p.y() > stand.cut + RIM * s &&
           p.y() < stand.cut + 3 * RIM * s)
         rim.emplace_back(p.x(), p.z());
-    if (stand.cut > LEAST_TRUNK * s || rim.size() < 12) continue;
+    if (stand.cut > LEAST_TRUNK * s || rim.size() < LEAST_TRUNK_RIM) continue;
     CompletedTorso made;
     made.is_cut.assign(stand.points.size(), 0);
     for (std::size_t v = 0; v < stand.points.size(); ++v)
-      made.is_cut[v] = std::hypot(stand.points[v].x(), stand.points[v].z()) < 1.3 * COLUMN * s &&
+      made.is_cut[v] = std::hypot(stand.points[v].x(), stand.points[v].z()) < TRUNK_COLUMN * s &&
                        stand.points[v].y() < stand.cut + RIM * s;
     const double floor = neck.crown - s;
     made.scan = scan;
@@ -320,7 +386,7 @@ CompletedTorso complete_torso(const TriangleMesh& scan, const std::string& up_ax
     made.stature = s;
     return made;
   }
-  throw input_error(file, "", "the scan ends above the waist",
+  throw input_error("scan.ends-above-waist"_id, file, "", "the scan ends above the waist",
                     "a torso scan must reach down to the waist");
 }
 
@@ -339,7 +405,7 @@ void forget_unseen(Body& body, double seen_from) {
   for (int side = 0; side < 2; ++side)
     if (const auto tip = body.landmarks.find(side == 0 ? "hand_tip_l" : "hand_tip_r");
         tip != body.landmarks.end())
-      hand_is_cut[side] = std::abs(tip->second.p.y() - seen_from) < 0.03 * s;
+      hand_is_cut[side] = std::abs(tip->second.p.y() - seen_from) < HAND_AT_RIM * s;
   for (const std::string& name : names) {
     const bool of_arm = name.starts_with("hand") || name.starts_with("wrist") ||
                         name.starts_with("elbow") || name.starts_with("olecranon");
@@ -356,15 +422,15 @@ void forget_unseen(Body& body, double seen_from) {
                             name == "hip_section_center"; // at the rim it is the rim
     Landmark& landmark = body.landmarks.at(name);
     if (of_leg || (of_crotch && !has_crotch) || landmark.p.y() < sure ||
-        (is_extreme && landmark.p.y() < sure + 0.02 * s))
+        (is_extreme && landmark.p.y() < sure + ABOVE_RIM * s))
       forget(name);
     else if (landmark.rule.find("ratio") != std::string::npos || landmark.rule == "proportion")
-      landmark.confidence *= has_crotch ? 0.8 : 0.5;
+      landmark.confidence *= has_crotch ? WITH_CROTCH : WITHOUT_CROTCH;
   }
   std::erase_if(body.levels, [&](const auto& level) {
     return level.second.y < sure || (level.first == "crotch" && !has_crotch) ||
            (level.first == "hip" && !body.has_landmark("buttock_back")) ||
-           (level.first == "hip_girth_max" && level.second.y < sure + 0.02 * s);
+           (level.first == "hip_girth_max" && level.second.y < sure + ABOVE_RIM * s);
   });
   for (int side = 0; side < 2; ++side)
     if (hand_is_cut[side]) body.girths.erase(side == 0 ? "wrist_l" : "wrist_r");
@@ -384,9 +450,10 @@ void forget_unseen(Body& body, double seen_from) {
                              body.skin.positions[t[2]].y()}) < seen_from)
       continue;
     for (int& v : t) {
-      if (number[v] < 0)
-        number[v] = static_cast<int>(kept.positions.size()),
+      if (number[v] < 0) {
+        number[v] = static_cast<int>(kept.positions.size());
         kept.positions.push_back(body.skin.positions[v]);
+      }
       v = number[v];
     }
     kept.triangles.push_back(t);
@@ -398,10 +465,11 @@ void forget_unseen(Body& body, double seen_from) {
   std::snprintf(
       text, sizeof text,
       "torso only: stature %.2f m and floor are estimated from the head, to about 4 in 100", s);
-  body.scan.findings.push_back({"warning", text, "scan"});
+  body.scan.findings.push_back({"scan.torso-only"_id, "warning", text, "scan"});
   std::string all;
   for (const std::string& name : lost) all += (all.empty() ? "" : ", ") + name;
-  body.scan.findings.push_back({"info", "not in this scan: " + all, "legs"});
+  body.scan.findings.push_back(
+      {"scan.parts-absent"_id, "info", "not in this scan: " + all, "legs"});
 }
 
 } // namespace sloper::body

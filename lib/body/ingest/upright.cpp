@@ -109,8 +109,10 @@ std::optional<Standing> stand_up(const std::vector<Vec3>& points, Vec3 up) {
       for (std::size_t v = 0; v < points.size(); ++v)
         if (stands.is_body[v])
           if (const Vec3 p = along * cloud.positions[v];
-              p.y() < lowest + SOLE_HEIGHT * (stands.high - stands.low))
-            feet.push_back(p), box.add(p);
+              p.y() < lowest + SOLE_HEIGHT * (stands.high - stands.low)) {
+            feet.push_back(p);
+            box.add(p);
+          }
       if (const auto plane = resting_plane(feet, Vec2(box.center().x(), box.center().z()))) {
         const Vec3 normal = Vec3(-plane->x(), 1, -plane->y()).normalized();
         if (degrees_between(normal, Vec3::UnitY()) < FOOT_LEAN) next = along.transpose() * normal;
@@ -152,7 +154,10 @@ std::optional<Vec3> resting_plane(const std::vector<Vec3>& points, const Vec2& a
           const bool below = std::all_of(holding.begin(), holding.end(), [&](const Vec3& p) {
             return trial.x() * p.x() + trial.y() * p.z() + trial.z() <= p.y() + 1e-9 * reach;
           });
-          if (below) highest = y, plane = trial;
+          if (below) {
+            highest = y;
+            plane = trial;
+          }
         }
     auto gap = [&](const Vec3& p) {
       return p.y() - plane.x() * p.x() - plane.y() * p.z() - plane.z();

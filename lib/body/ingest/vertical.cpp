@@ -47,7 +47,10 @@ std::optional<Lean> lean_of_soles(const std::vector<Vec3>& points, double statur
   std::vector<Vec3> feet;
   Box3 box;
   for (const Vec3& p : points)
-    if (p.y() < SOLE_HEIGHT * stature) feet.push_back(p), box.add(p);
+    if (p.y() < SOLE_HEIGHT * stature) {
+      feet.push_back(p);
+      box.add(p);
+    }
   const auto plane = resting_plane(feet, Vec2(box.center().x(), box.center().z()));
   if (!plane) return std::nullopt;
   return Lean{-std::atan(plane->y()), -std::atan(plane->x())};
@@ -74,7 +77,8 @@ std::optional<ShapeVertical> vertical_of_shape(std::vector<Vec3> points,
     double low = 1e300, high = -1e300;
     for (std::size_t k = 0; k < points.size(); ++k) {
       turned[k] = turn * points[k];
-      low = std::min(low, turned[k].y()), high = std::max(high, turned[k].y());
+      low = std::min(low, turned[k].y());
+      high = std::max(high, turned[k].y());
     }
     for (Vec3& p : turned) p.y() -= low;
     const auto forward = lean_of_posture(turned, high - low),
@@ -121,16 +125,19 @@ void settle_vertical(const TriangleMesh& scan, const std::vector<Vec3>& points,
     turn.block<3, 1>(0, 3) = middle - turn.block<3, 3>(0, 0) * middle;
     settled.scan_to_body = turn * settled.scan_to_body;
     const Eigen::RowVector4d row = settled.scan_to_body.row(1);
-    by_body.low = 1e300, by_body.high = -1e300;
+    by_body.low = 1e300;
+    by_body.high = -1e300;
     for (std::size_t v = 0; v < scan.positions.size(); ++v)
       if (by_body.is_body[v]) {
         const double y = row.head<3>().dot(scan.positions[v]) + row[3];
-        by_body.low = std::min(by_body.low, y), by_body.high = std::max(by_body.high, y);
+        by_body.low = std::min(by_body.low, y);
+        by_body.high = std::max(by_body.high, y);
       }
     settled.scan_to_body(1, 3) -= by_body.low;
     settled.stature_m = by_body.high - by_body.low;
     const double unit = row.head<3>().norm();
-    by_body.low = (by_body.low - row[3]) / unit, by_body.high = (by_body.high - row[3]) / unit;
+    by_body.low = (by_body.low - row[3]) / unit;
+    by_body.high = (by_body.high - row[3]) / unit;
     refine_heading(points, settled);
   }
   if (const double far = degrees_between(by_body.up, sorted.up); upright_file) {
@@ -138,7 +145,8 @@ void settle_vertical(const TriangleMesh& scan, const std::vector<Vec3>& points,
     std::snprintf(text, sizeof text,
                   "the vertical is the body's own, %.1f degrees from the file's%s", far,
                   far > NEAR_FILE ? ", in which it leans" : "");
-    settled.findings.push_back({far > NEAR_FILE ? "warning" : "info", text, "scan"});
+    settled.findings.push_back(
+        {"scan.vertical"_id, far > NEAR_FILE ? "warning" : "info", text, "scan"});
   }
   sorted = std::move(by_body);
   frame = std::move(settled);

@@ -54,8 +54,10 @@ std::optional<double> wrist_by_girth(const ArmTrace& arm, const Finder& f) {
   for (std::size_t k = palm + 1;
        k + 1 < sections.size() && sections[k].along < sections[palm].along + 0.085 * s; ++k) {
     const double w = std::max(0.0, 1.015 * sections[least].girth - sections[k].girth);
-    if (std::abs(sections[k].along - sections[least].along) < 0.02 * s)
-      sum += w * sections[k].along, weight += w;
+    if (std::abs(sections[k].along - sections[least].along) < 0.02 * s) {
+      sum += w * sections[k].along;
+      weight += w;
+    }
   }
   return sum / weight;
 }
@@ -92,7 +94,7 @@ void tell_lifted_pit(const Finder& f, const ArmTrace& arm, const std::string& su
                 1000 * arm.lifted_m);
   f.explain("axilla" + suffix + ": " + text);
   if (arm.lifted_m < TOLD) return;
-  f.body.scan.findings.push_back({"warning", text, "axilla" + suffix});
+  f.body.scan.findings.push_back({"scan.armpit-estimated"_id, "warning", text, "axilla" + suffix});
   for (const char* name : {"axilla", "axilla_front", "axilla_back"})
     f.body.landmarks[name + suffix].confidence *= DOUBTED;
 }
@@ -146,14 +148,15 @@ Vec3 find_shoulder(const Finder& f, int side) {
               {"proportion", [&] { return pit_if(true); }}})) {
     f.find("axilla_merge", suffix, 1, {{"level_sections_merge", [&] { return arm.merge; }}});
     if (arm.pit_hidden)
-      f.body.scan.findings.push_back(
-          {"warning", "the arm pit is hidden, its place is estimated", "axilla" + suffix});
+      f.body.scan.findings.push_back({"scan.armpit-estimated"_id, "warning",
+                                      "the arm pit is hidden, its place is estimated",
+                                      "axilla" + suffix});
     f.find("axilla_front", suffix, 2, {{"beside_arm_pit", [&] { return arm.axilla_front; }}});
     f.find("axilla_back", suffix, 2, {{"beside_arm_pit", [&] { return arm.axilla_back; }}});
     if (arm.lifted_m > 0) tell_lifted_pit(f, arm, suffix);
   } else
     f.body.scan.findings.push_back(
-        {"warning",
+        {"scan.armpit-estimated"_id, "warning",
          "the arm touches the trunk or the scan has a hole there: the arm pit is not found",
          "axilla" + suffix});
   Vec3 by_axis = arm.at(arm.length() + 0.02 * s);
@@ -213,8 +216,10 @@ std::optional<Vec2> elbow_by_bend(const ArmTrace& arm, double s, double around) 
     most = std::max(most, bend_at(arm, around + off * s, s).norm());
   if (most < STRAIGHT) return std::nullopt;
   for (double off = -NEAR; off <= NEAR; off += STEP)
-    if (const double w = bend_at(arm, around + off * s, s).norm() - 0.8 * most; w > 0)
-      sum += w * (around + off * s), weight += w;
+    if (const double w = bend_at(arm, around + off * s, s).norm() - 0.8 * most; w > 0) {
+      sum += w * (around + off * s);
+      weight += w;
+    }
   return Vec2(sum / weight, most);
 }
 
@@ -247,7 +252,8 @@ Vec3 rear_of_section(const ArmTrace& arm, const TriangleMesh& skin, double along
     for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
       const Vec3 p = plane.point((1 - t) * seg[0] + t * seg[1]);
       const double w = std::max(0.0, p.dot(out) - rear + REAR_FLAT) * (seg[1] - seg[0]).norm();
-      back += w * p, weight += w;
+      back += w * p;
+      weight += w;
     }
   if (weight > 0) back /= weight;
   else back = plane.point(loop->centroid);
@@ -344,7 +350,8 @@ void find_arm_landmarks(const Finder& f) {
     // is nearer
     const double arm_length = std::min(reach, f.number("hand.arm_of_stature") * s);
     f.body.scan.findings.push_back(
-        {"warning", "the hand is missing or hidden: hand and wrist are put where the arm ends",
+        {"scan.hand-missing"_id, "warning",
+         "the hand is missing or hidden: hand and wrist are put where the arm ends",
          "hand_tip" + suffix});
     f.explain("hand_tip" + suffix + ": the arm is too short for a hand and has no wrist");
     f.put("wrist" + suffix, arm_length < reach ? arm.at(reach - arm_length) : arm.tip, 2,

@@ -83,7 +83,9 @@ std::optional<Vec2> gap_apex(const std::vector<Loop>& loops, const ArmTrace& arm
           std::clamp((leave_usual - last_leave) / (leave - last_leave), 0.0, 1.0) * (next - *apex);
       break;
     }
-    last_leave = leave, last_enter = enter, apex = next;
+    last_leave = leave;
+    last_enter = enter;
+    apex = next;
     if (enter - leave < 0.0008 * s) break;
   }
   return apex;
@@ -120,8 +122,10 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules) {
   std::vector<double> xs, ys; // the middle of three planes, for a single one may run along a fold
   for (const double offset : {0.0, -0.15, 0.15, -0.4, 0.4}) {
     if (xs.size() == 3 || (!xs.empty() && std::abs(offset) > 0.3)) break;
-    if (const auto apex = apex_at(depth + offset * radius))
-      xs.push_back(apex->x()), ys.push_back(apex->y());
+    if (const auto apex = apex_at(depth + offset * radius)) {
+      xs.push_back(apex->x());
+      ys.push_back(apex->y());
+    }
   }
   if (!xs.empty()) {
     std::sort(xs.begin(), xs.end());
@@ -173,7 +177,10 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
         const Vec2 c(section.center.x(), section.center.z());
         d = std::min(d, encloses(loops[i], c) ? 0.0 : (c - loops[i].centroid).norm());
       }
-      if (d < nearest) nearest = d, limb = static_cast<int>(i);
+      if (d < nearest) {
+        nearest = d;
+        limb = static_cast<int>(i);
+      }
     }
     return loops;
   };
@@ -190,7 +197,9 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
   if (arm.out.y() < -0.12) search(0.80 * s, 0.62 * s, 0.005 * s);
   if (low == 0 || high == 0) { // a level through a level arm's underside is further from its
                                // middle, and the hand may hang
-    reach = 0.035 * s, from = 0.6 * arm.length(), is_level = true;
+    reach = 0.035 * s;
+    from = 0.6 * arm.length();
+    is_level = true;
     const double middle = arm.at(0.85 * arm.length()).y();
     search(middle, middle - 0.05 * s, 0.0006 * s);
   }
@@ -219,8 +228,10 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
             b[0] +
             std::clamp((p - b[0]).dot(along) / std::max(along.squaredNorm(), 1e-20), 0.0, 1.0) *
                 along;
-        if (const double gap = (p - q).norm(); gap < near.gap)
-          near.gap = gap, near.middle = 0.5 * (p + q);
+        if (const double gap = (p - q).norm(); gap < near.gap) {
+          near.gap = gap;
+          near.middle = 0.5 * (p + q);
+        }
       }
       least = std::min(least, near.gap);
       all.push_back(near);
@@ -228,8 +239,10 @@ void find_merge(ArmTrace& arm, const LevelStack& levels) {
   Vec2 sum = Vec2::Zero();
   double weight = 0;
   for (const Near& near : all)
-    if (const double w = (least + AS_NEAR - near.gap) * near.length; w > 0)
-      sum += w * near.middle, weight += w;
+    if (const double w = (least + AS_NEAR - near.gap) * near.length; w > 0) {
+      sum += w * near.middle;
+      weight += w;
+    }
   if (weight <= 0) return;
   const Vec3 merge(sum.x() / weight, low, sum.y() / weight);
   if (std::abs(merge.x() - arm.axilla->x()) < FROM_PIT * s) arm.merge = merge;

@@ -15,11 +15,25 @@ std::string line(const char* format, double a, double b = 0, double c = 0) {
   return text;
 }
 
+constexpr double BREADTH_STEP = 0.006; // of stature, between the levels whose breadth is compared
+constexpr double JOINED_STEP = 0.002; // of stature, up to the first level in which the legs are one
+constexpr double LEAST_BREADTH_M = 1e-6; // what is divided by
+constexpr double BULGE = 1.02;           // times as deep as the chest: a belly
+
+/// How far a measure speaks for female proportions: its distance below the border between the
+/// figures, in units of the clue, no farther than the clue may decide. `direction` is -1 for a
+/// measure that is greater on female figures.
+double vote(const Rules& rules, const std::string& clue, double measure, double direction = 1) {
+  const double away = direction * (rules.number(clue) - measure) / rules.number(clue + "_unit");
+  return std::clamp(away, -rules.number(clue + "_most_male"), rules.number(clue + "_most_female"));
+}
+
 /// Greatest and least breadth of the trunk between two heights; arms that hang on it are no concern
 /// below the arm pits.
 void breadths(const LevelStack& levels, double low, double high, double& least, double& most) {
-  least = 1e300, most = 0;
-  for (double y = low; y <= high; y += 0.006 * levels.stature()) {
+  least = 1e300;
+  most = 0;
+  for (double y = low; y <= high; y += BREADTH_STEP * levels.stature()) {
     const Slice& slice = levels.at(y);
     if (slice.trunk < 0) continue;
     const double width = slice.loops[slice.trunk].size().x();
@@ -43,42 +57,48 @@ FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace,
   const double s = levels.stature(), crotch = *levels.crotch();
   const TriangleMesh& skin = levels.skin();
   double least, hip, unused;
-  breadths(levels, crotch + 0.01 * s, crotch + 0.12 * s, unused, hip);
-  breadths(levels, crotch + 0.12 * s, 0.70 * s, least, unused);
+  const double hip_end = crotch + rules.number("figure.hips_end") * s;
+  breadths(levels, crotch + rules.number("figure.hips_begin") * s, hip_end, unused, hip);
+  breadths(levels, hip_end, rules.number("figure.waist_end") * s, least, unused);
   double score = 0;
-  const double waist_to_hip = least / std::max(hip, 1e-6);
-  score += std::clamp((rules.number("figure.waist_to_hip") - waist_to_hip) / 0.04, -2.5, 2.0);
+  const double waist_to_hip = least / std::max(hip, LEAST_BREADTH_M);
+  score += vote(rules, "figure.waist_to_hip", waist_to_hip);
   // the front just above the crotch, from where the legs are one: skin between them may hang lower
-  double joined = crotch + 0.012 * s;
-  while (joined < crotch + 0.030 * s && !levels.trunk_at(joined)) joined += 0.002 * s;
-  const auto groin = front_of(levels, joined), above = front_of(levels, joined + 0.018 * s);
+  double joined = crotch + rules.number("figure.groin_begin") * s;
+  const double joined_end = crotch + rules.number("figure.groin_end") * s;
+  while (joined < joined_end && !levels.trunk_at(joined)) joined += JOINED_STEP * s;
+  const auto groin = front_of(levels, joined);
+  const auto above = front_of(levels, joined + rules.number("figure.groin_span") * s);
   const double rise = groin && above ? (*above - *groin) / s : rules.number("figure.groin_rise");
-  score += std::clamp((rules.number("figure.groin_rise") - rise) / 0.002, -1.5, 1.5);
+  score += vote(rules, "figure.groin_rise", rise);
   // bumps of the chest
+  const double radius = rules.number("figure.relief_radius") * s;
+  const double inner = rules.number("figure.chest_inner") * s;
+  const double outer = rules.number("figure.chest_outer") * s;
   for (int side = 0; side < 2; ++side) {
     Box3 box;
-    box.low = Vec3(side == 0 ? 0.03 * s : -0.11 * s, 0.655 * s, -1);
-    box.high = Vec3(side == 0 ? 0.11 * s : -0.03 * s, 0.765 * s, 1);
-    figure.nipple[side] = strongest_relief(skin, normals, box, 0.011 * s, 1);
+    box.low = Vec3(side == 0 ? inner : -outer, rules.number("figure.chest_low") * s, -1);
+    box.high = Vec3(side == 0 ? outer : -inner, rules.number("figure.chest_high") * s, 1);
+    figure.nipple[side] = strongest_relief(skin, normals, box, radius, 1);
   }
+  const double navel_aside = rules.number("figure.navel_aside") * s;
   Box3 box;
-  box.low = Vec3(-0.02 * s, 0.55 * s, -1);
-  box.high = Vec3(0.02 * s, 0.65 * s, 1);
-  figure.navel = strongest_relief(skin, normals, box, 0.011 * s, -1);
-  for (auto* relief : {&figure.nipple[0], &figure.nipple[1],
-                       &figure.navel}) // the rules' heights are those of a person of 1.68 m
-    if (*relief) (*relief)->height *= 1.68 / s;
+  box.low = Vec3(-navel_aside, rules.number("figure.navel_low") * s, -1);
+  box.high = Vec3(navel_aside, rules.number("figure.navel_high") * s, 1);
+  figure.navel = strongest_relief(skin, normals, box, radius, -1);
+  const double to_usual_stature = rules.number("figure.usual_stature") / s;
+  for (auto* relief : {&figure.nipple[0], &figure.nipple[1], &figure.navel})
+    if (*relief) (*relief)->height *= to_usual_stature;
   const double bump = figure.nipple[0] && figure.nipple[1]
                           ? std::min(figure.nipple[0]->height, figure.nipple[1]->height)
                           : 0;
-  score += std::clamp((bump - rules.number("figure.bump")) / 0.0008, -1.5, 2.0);
+  score += vote(rules, "figure.bump", bump, -1);
   if (arms[0].axilla && arms[1].axilla) {
     const double shoulder_to_hip =
-        (arms[0].axilla->x() - arms[1].axilla->x()) / std::max(hip, 1e-6);
-    score +=
-        std::clamp((rules.number("figure.shoulder_to_hip") - shoulder_to_hip) / 0.08, -1.0, 1.0);
+        (arms[0].axilla->x() - arms[1].axilla->x()) / std::max(hip, LEAST_BREADTH_M);
+    score += vote(rules, "figure.shoulder_to_hip", shoulder_to_hip);
   }
-  figure.female = 1 / (1 + std::exp(-1.5 * score));
+  figure.female = 1 / (1 + std::exp(-rules.number("figure.steepness") * score));
   trail.push_back(line("figure: waist to hip breadth %.3f, front rises %.4f of stature above the "
                        "crotch, chest bump %.1f mm",
                        waist_to_hip, rise, 1000 * bump));
@@ -109,7 +129,7 @@ void name_body_class(const Finder& f) {
         line("the figure is unsure: %.2f female proportions, %.2f male; numbers of both are mixed",
              f.figure.female, 1 - f.figure.female);
     body.body_class_why.push_back(text);
-    body.scan.findings.push_back({"info", text, "figure"});
+    body.scan.findings.push_back({"scan.figure-unsure"_id, "info", text, "figure"});
   }
   const bool indented =
       body.levels.count("waist_girth_min") != 0 || body.levels.count("waist_width_min") != 0;
@@ -121,7 +141,7 @@ void name_body_class(const Finder& f) {
                                      "hip: the waist is taken by proportion");
   if (body.levels.count("abdomen") && body.levels.count("bust")) {
     const double bulge = body.levels["abdomen"].depth_m / body.levels["bust"].depth_m;
-    if (bulge > 1.02) {
+    if (bulge > BULGE) {
       body.body_class += ", belly";
       body.body_class_why.push_back(line("abdomen is %.2f times as deep as the chest", bulge));
     }

@@ -39,25 +39,25 @@ Corrections Corrections::parse(const std::string& text, const std::string& name)
   const io::Json document = io::parse_json(text, name);
   const io::Node root(document, name);
   if (root.string("format", "") != "landmark-corrections")
-    root.fail("is not a landmark-corrections document");
+    root.fail("json.wrong-format"_id, "is not a landmark-corrections document");
   Corrections corrections;
   const io::Node features = root.at("features");
   const std::vector<std::string>& known = shape_feature_names();
   if (features.size() == 0) return corrections;
   if (features.size() != known.size())
-    features.fail("are not those of this program",
+    features.fail("corrections.other-program"_id, "are not those of this program",
                   "derive the corrections again: scripts/derive-corrections");
   for (std::size_t k = 0; k < known.size(); ++k) {
     const io::Node feature = features.at(k);
     if (feature.at(std::size_t{0}).string() != known[k])
-      feature.fail("is not \"" + known[k] + "\"",
+      feature.fail("corrections.other-program"_id, "is not \"" + known[k] + "\"",
                    "derive the corrections again: scripts/derive-corrections");
     corrections.m_features.push_back({feature.at(1).number(), feature.at(2).number()});
   }
   corrections.read_population(root);
   const io::Node points = root.at("points");
   if (points.size() > 0 && corrections.m_makes.empty())
-    root.fail("does not say which bodies are alike",
+    root.fail("corrections.other-program"_id, "does not say which bodies are alike",
               "derive the corrections anew: scripts/derive-corrections");
   for (const std::string& place : points.keys()) {
     const io::Node entry = points.at(place);
@@ -66,7 +66,7 @@ Corrections Corrections::parse(const std::string& text, const std::string& name)
     if (entry.has("makes"))
       for (const double make : numbers_of(entry.at("makes"), 1)) {
         if (!(make >= 0 && make < static_cast<double>(point.of_make.size())))
-          entry.at("makes").fail("names a make that is not there");
+          entry.at("makes").fail("json.bad-index"_id, "names a make that is not there");
         point.of_make[static_cast<std::size_t>(make)] = 1;
       }
     for (int axis = 0; axis < 3; ++axis)
@@ -79,7 +79,7 @@ Corrections Corrections::parse(const std::string& text, const std::string& name)
     const io::Node entry = expected.at(place);
     Weights& weights = corrections.m_expected[place] = corrections.read_weights(entry.at("y"));
     weights.sd = UNIT * entry.at("sd").number();
-    if (!(weights.sd > 0)) entry.at("sd").fail("is not positive");
+    if (!(weights.sd > 0)) entry.at("sd").fail("json.out-of-range"_id, "is not positive");
   }
   return corrections;
 }
@@ -92,22 +92,25 @@ void Corrections::read_population(const io::Node& root) {
     const io::Node make = makes.at(m);
     m_makes.push_back(
         {make.at("name").string(), numbers_of(make.at("mean"), SHARE), make.at("limit").number()});
-    if (m_makes.back().mean.size() != n) make.at("mean").fail("has not one number a feature");
-    if (!(m_makes.back().limit > 0)) make.at("limit").fail("is not positive");
+    if (m_makes.back().mean.size() != n)
+      make.at("mean").fail("json.wrong-count"_id, "has not one number a feature");
+    if (!(m_makes.back().limit > 0))
+      make.at("limit").fail("json.out-of-range"_id, "is not positive");
   }
   for (std::size_t k = 0; k < basis.size(); ++k) {
     const io::Node row = basis.at(k);
     m_basis_sd.push_back(row.at("sd").number());
     m_basis.push_back(numbers_of(row.at("direction"), SHARE));
-    if (m_basis.back().size() != n) row.fail("has not one number a feature");
-    if (!(m_basis_sd.back() > 0)) row.at("sd").fail("is not positive");
+    if (m_basis.back().size() != n) row.fail("json.wrong-count"_id, "has not one number a feature");
+    if (!(m_basis_sd.back() > 0)) row.at("sd").fail("json.out-of-range"_id, "is not positive");
   }
   m_outside = root.at("outside").number();
-  if (!(m_outside > 0)) root.at("outside").fail("is not positive");
+  if (!(m_outside > 0)) root.at("outside").fail("json.out-of-range"_id, "is not positive");
 }
 
 Corrections::Weights Corrections::read_weights(const io::Node& list) const {
-  if (list.size() != m_features.size() + 1) list.fail("has not one weight for each feature");
+  if (list.size() != m_features.size() + 1)
+    list.fail("json.wrong-count"_id, "has not one weight for each feature");
   Weights weights;
   weights.of_feature = numbers_of(list, UNIT);
   weights.bias = weights.of_feature.front();

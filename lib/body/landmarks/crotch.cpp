@@ -73,7 +73,7 @@ bool doubt_crotch(LevelStack& levels, const std::vector<Vec3>& scan_points, cons
                 "crotch: the slices join at %.3f m, %s; put at %.3f m by the level of the buttocks",
                 found, fused ? "too low: the thighs touch" : "in a hole", y);
   trail.push_back(text);
-  findings.push_back({"warning",
+  findings.push_back({"scan.crotch-estimated"_id, "warning",
                       fused ? "the thighs touch: the crotch is hidden, its height is estimated"
                             : "the crotch is not in the scan, its height is estimated",
                       "crotch"});

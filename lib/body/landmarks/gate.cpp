@@ -52,13 +52,13 @@ public:
     std::snprintf(text, sizeof text,
                   "%s is %.3f of the stature, a standing person's is %.2f to %.2f", what, share,
                   bounds.low, bounds.high);
-    fail(text, place);
+    fail("scan.odd-proportions"_id, text, place);
   }
-  void fail(const std::string& text, const std::string& place) {
-    m_doubts.push_back({"error", text, place});
+  void fail(MessageId id, const std::string& text, const std::string& place) {
+    m_doubts.push_back({id, "error", text, place});
   }
-  void warn(const std::string& text, const std::string& place) {
-    m_doubts.push_back({"warning", text, place});
+  void warn(MessageId id, const std::string& text, const std::string& place) {
+    m_doubts.push_back({id, "warning", text, place});
   }
   std::vector<Finding>& doubts() { return m_doubts; }
 
@@ -85,6 +85,7 @@ void ask_head(Gate& gate, double s) {
   gate.within("the crown above the neck", crown.y() / s, HEAD, "head_tip");
   if (const double aside = std::hypot(crown.x(), crown.z()) / s; aside > CROWN_ASIDE)
     gate.fail(
+        "scan.odd-proportions"_id,
         with_number("the highest point is %.2f of the stature beside the neck: it is not the crown",
                     aside),
         "head_tip");
@@ -98,7 +99,8 @@ void ask_legs(Gate& gate, double s) {
     const double bent = degrees_between_lines(gate.at("hip_joint" + side) - gate.at("knee" + side),
                                               gate.at("knee" + side) - gate.at("ankle" + side));
     if (bent > KNEE_BENT)
-      gate.fail(with_number("the knee is bent by %.0f degrees: a person must stand", bent),
+      gate.fail("scan.posture"_id,
+                with_number("the knee is bent by %.0f degrees: a person must stand", bent),
                 "knee" + side);
   }
 }
@@ -114,10 +116,12 @@ void ask_arms(Gate& gate, double s) {
     gate.within("the forearm", fore, FOREARM, "wrist" + side);
     length[k] = upper + fore;
     if (gate.at("wrist" + side).y() - gate.at("shoulder_joint" + side).y() > OVERHEAD * s)
-      gate.fail("the arm is raised overhead: arms may hang, stand off or be level", "wrist" + side);
+      gate.fail("scan.posture"_id,
+                "the arm is raised overhead: arms may hang, stand off or be level", "wrist" + side);
   }
   if (length[0] > 0 && length[1] > 0 && std::abs(length[0] - length[1]) > ARMS_UNLIKE)
-    gate.warn(with_number("the arms differ by %.2f of the stature in length",
+    gate.warn("scan.arms-unlike"_id,
+              with_number("the arms differ by %.2f of the stature in length",
                           std::abs(length[0] - length[1])),
               "wrist_l");
 }
@@ -133,7 +137,8 @@ void ask_trunk(Gate& gate, const Body& body) {
     const double bent =
         degrees_between_lines(gate.at("neck_center") - gate.at("hip_center"), Vec3::UnitY());
     if (bent > TRUNK_BENT)
-      gate.fail(with_number("the trunk leans by %.0f degrees", bent), "neck_center");
+      gate.fail("scan.posture"_id, with_number("the trunk leans by %.0f degrees", bent),
+                "neck_center");
   }
   const std::pair<const char*, const char*> order[] = {
       {"crotch", "buttock_back"},     {"hip_center", "omphalion"}, {"omphalion", "bust_point_l"},
@@ -141,7 +146,7 @@ void ask_trunk(Gate& gate, const Body& body) {
       {"axilla_l", "neck_back"},      {"axilla_r", "neck_back"}};
   for (const auto& [low, high] : order)
     if (gate.know({low, high}) && gate.at(high).y() < gate.at(low).y() + ORDER * s)
-      gate.fail(std::string(high) + " is not above " + low, high);
+      gate.fail("scan.landmarks-out-of-order"_id, std::string(high) + " is not above " + low, high);
 }
 
 } // namespace
@@ -154,7 +159,8 @@ std::vector<Finding> doubts_of(const Body& body, double unlikeness) {
   ask_arms(gate, body.scan.stature_m);
   ask_trunk(gate, body);
   if (unlikeness > STRANGER)
-    gate.warn(with_number("the shape is %.1f standard deviations from the bodies that the rules "
+    gate.warn("scan.unlike-learned"_id,
+              with_number("the shape is %.1f standard deviations from the bodies that the rules "
                           "were learned from: look at the landmarks",
                           unlikeness),
               "scan");

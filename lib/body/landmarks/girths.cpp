@@ -72,16 +72,42 @@ ArmGirth arm_girth(const Finder& f, const ArmTrace& arm, const Vec3& center, con
     for (const auto& segment : loop.segments)
       if (const Vec3 d = plane.point(segment[0]) - center; d.dot(out) >= 0 && d.norm() < reach)
         points.push_back(segment[0]);
-  girth.value = circle_through(points), girth.touches = true;
+  girth.value = circle_through(points);
+  girth.touches = true;
   if (girth.value > TOO_WIDE * usual || girth.value < 0.6 * usual)
     girth.value = 0; // that side is not free either
   return girth;
+}
+
+/// A taut tape from the waist in front, through between the legs, to the waist behind: the hull of
+/// the trunk's outline beside the middle plane, without its upper side. It spans the cleft of the
+/// seat. 0 where the trunk is not seen.
+double crotch_length(const Finder& f) {
+  constexpr double BESIDE = 0.03, STEP = 0.005; // of stature
+  const auto waist = f.body.levels.find("waist_semantic");
+  if (!f.has("crotch") || waist == f.body.levels.end()) return 0;
+  const Vec3& crotch = f.at("crotch");
+  const double top = waist->second.y;
+  std::vector<Vec2> outline = {Vec2(crotch.z(), crotch.y())};
+  const int n = std::max(2, static_cast<int>((top - crotch.y()) / (STEP * f.s)));
+  double across = 0;
+  for (int k = 1; k <= n; ++k) {
+    const double y = crotch.y() + (top - crotch.y()) * k / n;
+    const auto profile = midline(f.levels, y, crotch.x(), BESIDE * f.s);
+    if (!profile) continue;
+    outline.emplace_back(profile->front, y);
+    outline.emplace_back(profile->back, y);
+    if (k == n) across = profile->front - profile->back;
+  }
+  return across > 0 ? closed_length(convex_hull(outline)) - across : 0;
 }
 
 } // namespace
 
 void find_girths(const Finder& f) {
   const double s = f.s;
+  if (const double length = crotch_length(f); length > 0)
+    f.body.girths["crotch_length"] = {length, 0.005};
   for (int side = 0; side < 2; ++side) {
     const std::string suffix = side_suffix(side);
     auto put = [&](const char* name, double value) {
@@ -97,8 +123,10 @@ void find_girths(const Finder& f) {
       put("knee", leg_girth(knee));
       double calf = 0, calf_y = 0, least = 1e300;
       for (double y = ankle; y < knee; y += 0.004)
-        if (const double g = leg_girth(y); g > calf && y > ankle + 0.3 * (knee - ankle))
-          calf = g, calf_y = y;
+        if (const double g = leg_girth(y); g > calf && y > ankle + 0.3 * (knee - ankle)) {
+          calf = g;
+          calf_y = y;
+        }
       for (double y = ankle; y < calf_y; y += 0.004)
         if (const double g = leg_girth(y); g > 0) least = std::min(least, g);
       put("calf", calf);
@@ -115,7 +143,7 @@ void find_girths(const Finder& f) {
     put("upper_arm", upper.value);
     if (upper.touches)
       f.body.scan.findings.push_back(
-          {"warning",
+          {"scan.arm-touches-trunk"_id, "warning",
            upper.value > 0
                ? "the upper arm touches the trunk: its girth is estimated from its free side"
                : "the upper arm touches the trunk: its girth cannot be measured",
@@ -134,7 +162,10 @@ void find_girths(const Finder& f) {
     double left = -1e300, right = 1e300;
     for (const auto& seg : sides->segments)
       if (const auto piece = clipped(seg, 1, center.z() - 0.009 * s, center.z() + 0.015 * s))
-        for (const Vec2& q : *piece) left = std::max(left, q.x()), right = std::min(right, q.x());
+        for (const Vec2& q : *piece) {
+          left = std::max(left, q.x());
+          right = std::min(right, q.x());
+        }
     if (left > right) {
       // the slope of the shoulders makes this breadth uncertain; the narrowest breadth of the neck
       // is not
@@ -145,7 +176,8 @@ void find_girths(const Finder& f) {
       const double middle = 0.5 * (left + right),
                    half = 0.5 * f.number("neck.breadth_to_narrowest") * narrowest;
       const double measured = std::min(0.5 * (left - right), 1.12 * half);
-      left = middle + 0.5 * (measured + half), right = middle - 0.5 * (measured + half);
+      left = middle + 0.5 * (measured + half);
+      right = middle - 0.5 * (measured + half);
       const double y = center.y() + side_rise, z = center.z() + 0.003 * s;
       const double ring =
           ring_length({Vec3(center.x(), front.y() + rise, fore->front), Vec3(left, y, z),

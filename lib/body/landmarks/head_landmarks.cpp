@@ -23,40 +23,62 @@ std::optional<Profile> midline(const LevelStack& levels, double y, double x, dou
 
 namespace {
 
+// Levels and windows in which the skin is read, of stature where the name says no unit.
+constexpr double THROAT_HALF_WIDTH = 0.006; // over which the throat is read
+constexpr double NAPE_HALF_WIDTH = 0.008;   // over which the nape is read
+constexpr double THROAT_STEP = 0.001;       // between levels of the throat
+constexpr double THROAT_MARGIN = 0.003;     // a hollow nearer to the end of its search is a slope
+constexpr double TURN_STEP = 0.002;         // between levels in which the neck widens
+constexpr double TURN_REACH = 1.5;          // steps to both sides over which widening is read
+constexpr double NECK_STEP = 0.005;         // between levels of the neck's middle
+constexpr double SIDE_STEP = 0.001;         // by which a side neck point goes up
+constexpr double SIDE_DEPTH_NEAR = 0.01;    // in which the neck's side is outermost
+constexpr double SIDE_DEPTH_FAR = 0.03;     // the same where that slice has no skin
+
 /// The hollow of the throat: where the neck's front lies deepest between chin and chest.
 std::optional<double> hollow_of_throat(const Finder& f, double x) {
   constexpr double AS_DEEP = 0.0008; // m
   const double low = f.number("neck_front.search_low") * f.s,
                high = f.number("neck_front.search_high") * f.s;
   std::vector<Vec2> fronts; // height, depth
-  for (double y = low; y <= high; y += 0.001 * f.s)
-    if (const auto m = midline(f.levels, y, x, 0.006 * f.s)) fronts.emplace_back(y, m->front);
+  for (double y = low; y <= high; y += THROAT_STEP * f.s)
+    if (const auto m = midline(f.levels, y, x, THROAT_HALF_WIDTH * f.s))
+      fronts.emplace_back(y, m->front);
   if (fronts.empty()) return std::nullopt;
   const Lowest deepest = lowest_of(fronts, AS_DEEP);
-  if (deepest.least < low + 0.003 * f.s || deepest.least > high - 0.003 * f.s) return std::nullopt;
+  if (deepest.least < low + THROAT_MARGIN * f.s || deepest.least > high - THROAT_MARGIN * f.s)
+    return std::nullopt;
   return deepest.middle;
 }
 
 /// Where the neck turns into the shoulders: coming down, the outline widens faster than it falls.
 std::optional<double> shoulder_turn(const Finder& f) {
-  const double s = f.s, step = 0.002 * s;
-  for (double y = 0.885 * s; y > 0.80 * s; y -= step) {
-    const auto &above = f.levels.trunk_at(y + 1.5 * step),
-               &below = f.levels.trunk_at(y - 1.5 * step);
+  const double s = f.s, step = TURN_STEP * s;
+  const double low = f.number("neck_side.turn_low") * s;
+  const double least_breadth = f.number("neck_side.turn_breadth") * s;
+  for (double y = f.number("neck_side.turn_high") * s; y > low; y -= step) {
+    const auto &above = f.levels.trunk_at(y + TURN_REACH * step),
+               &below = f.levels.trunk_at(y - TURN_REACH * step);
     if (!above || !below) continue;
     const double widening = 0.5 * (below->size().x() - above->size().x()) / (3 * step);
-    if (widening > f.number("neck_side.widening") && below->size().x() > 0.07 * s) return y;
+    if (widening > f.number("neck_side.widening") && below->size().x() > least_breadth) return y;
   }
   return std::nullopt;
 }
 
-/// x of the middle of the neck.
+/// x of the middle of the neck: where necks usually are, and of raised shoulders where they first
+/// leave the neck free above that.
 double neck_middle(const Finder& f) {
   double sum = 0;
   int n = 0;
-  for (double y = 0.855 * f.s; y < 0.875 * f.s; y += 0.005 * f.s)
-    if (const auto& loop = f.levels.trunk_at(y); loop && loop->size().x() < 0.12 * f.s)
-      sum += loop->center().x(), ++n;
+  const double usual = f.number("neck.middle_high"), highest = f.number("neck.middle_highest");
+  const double broadest = f.number("neck.middle_breadth") * f.s;
+  for (double y = f.number("neck.middle_low") * f.s; y < (n ? usual : highest) * f.s;
+       y += NECK_STEP * f.s)
+    if (const auto& loop = f.levels.trunk_at(y); loop && loop->size().x() < broadest) {
+      sum += loop->center().x();
+      ++n;
+    }
   return n ? sum / n : 0.0;
 }
 
@@ -78,7 +100,10 @@ std::optional<Vec3> top_of_head(const TriangleMesh& skin) {
       for (int j = 0; j + i < PIECES; ++j) {
         const double u = (i + 1.0 / 3) / PIECES, v = (j + 1.0 / 3) / PIECES;
         const Vec3 p = a + u * (b - a) + v * (c - a);
-        if (const double w = (p.y() - top + AS_HIGH) * area; w > 0) sum += w * p, weight += w;
+        if (const double w = (p.y() - top + AS_HIGH) * area; w > 0) {
+          sum += w * p;
+          weight += w;
+        }
       }
   }
   if (weight <= 0)
@@ -113,14 +138,15 @@ void find_neck_sides(const Finder& f, double x, double back_y, const std::option
   };
   // where the shoulders are nearly level a millimetre of height is a centimetre of breadth: too
   // broad is too low
-  const double broadest = f.number("neck_side.broadest") * s, limit = side_y + 0.012 * s;
-  for (; side_y < limit; side_y += 0.001 * s) {
-    const auto l = outer_at(side_y, 0, 0.01), r = outer_at(side_y, 1, 0.01);
+  const double broadest = f.number("neck_side.broadest") * s,
+               limit = side_y + f.number("neck_side.most_up") * s;
+  for (; side_y < limit; side_y += SIDE_STEP * s) {
+    const auto l = outer_at(side_y, 0, SIDE_DEPTH_NEAR), r = outer_at(side_y, 1, SIDE_DEPTH_NEAR);
     if (l && r && 0.5 * (l->x() - r->x()) < broadest) break;
   }
   for (int side = 0; side < 2; ++side)
-    if (const auto close = outer_at(side_y, side, 0.01),
-        outer = close ? close : outer_at(side_y, side, 0.03);
+    if (const auto close = outer_at(side_y, side, SIDE_DEPTH_NEAR),
+        outer = close ? close : outer_at(side_y, side, SIDE_DEPTH_FAR);
         outer)
       f.put(std::string("neck_side") + side_suffix(side),
             f.corrected("neck_side", side_suffix(side), Vec3(outer->x(), side_y, depth), true), 2,
@@ -171,8 +197,8 @@ void find_head_landmarks(const Finder& f) {
                                         {"height_ratio", [&] { return Height(back_ratio); }}});
   if (!back_y) return;
   const double back_at = f.more_likely("neck_back", back_y->value + f.correction("neck_back").y());
-  const auto back = midline(f.levels, back_at, x, 0.008 * s),
-             front = midline(f.levels, front_at, x, 0.006 * s);
+  const auto back = midline(f.levels, back_at, x, NAPE_HALF_WIDTH * s),
+             front = midline(f.levels, front_at, x, THROAT_HALF_WIDTH * s);
   if (!back || !front) {
     f.explain("neck: no section at the neck's height");
     return;
@@ -180,7 +206,7 @@ void find_head_landmarks(const Finder& f) {
   f.put("neck_back", Vec3(x, back_at, back->back), 2, *back_y->rule);
   f.put("neck_front", Vec3(x, front_at, front->front), 2, *front_y->rule);
   auto also = [&](const char* name, double y, bool in_front) {
-    if (const auto m = midline(f.levels, y, x, 0.008 * s))
+    if (const auto m = midline(f.levels, y, x, NAPE_HALF_WIDTH * s))
       f.also(name, Vec3(x, y, in_front ? m->front : m->back));
   };
   also("neck_front", front_ratio, true);

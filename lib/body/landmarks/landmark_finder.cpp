@@ -40,7 +40,10 @@ Vec3 nearest_skin(const TriangleMesh& skin, const Vec3& p, double reach) {
   for (const Triangle& t : skin.triangles) {
     if ((skin.positions[t[0]] - p).squaredNorm() > reach * reach) continue;
     const Vec3 q = nearest_in(p, skin.positions[t[0]], skin.positions[t[1]], skin.positions[t[2]]);
-    if (const double d = (q - p).squaredNorm(); d < least) least = d, best = q;
+    if (const double d = (q - p).squaredNorm(); d < least) {
+      least = d;
+      best = q;
+    }
   }
   return best;
 }
@@ -96,7 +99,7 @@ void Finder::put(const std::string& name, const Vec3& p, int step, const RuleCho
 }
 
 void Finder::no_such_rule(const std::string& place, const std::string& rule) {
-  throw Error(ErrorKind::INTERNAL, "", "",
+  throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", "",
               "the tree names \"" + rule + "\" for " + place + ", which is no rule of the program");
 }
 

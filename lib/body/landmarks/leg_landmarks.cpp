@@ -65,8 +65,10 @@ std::optional<Vec3> foot_end(const Finder& f, int side, double ankle_y, double d
   Vec3 sum = Vec3::Zero();
   double weight = 0;
   for (const int v : foot)
-    if (const double w = FLAT_HEEL * f.s - (points[v].z() - mean.z()); w > 0)
-      sum += w * points[v], weight += w;
+    if (const double w = FLAT_HEEL * f.s - (points[v].z() - mean.z()); w > 0) {
+      sum += w * points[v];
+      weight += w;
+    }
   return weight > 0 ? Vec3(sum.x() / weight, sum.y() / weight, mean.z()) : mean;
 }
 
@@ -162,7 +164,7 @@ void find_leg_landmarks(const Finder& f) {
                   "the skin between the legs is as low %.0f mm farther %s: the crotch may be there",
                   1000 * std::abs(other->z() - crotch.z()),
                   other->z() < crotch.z() ? "back" : "forward");
-    f.body.scan.findings.push_back({"info", text, "crotch"});
+    f.body.scan.findings.push_back({"scan.crotch-estimated"_id, "info", text, "crotch"});
   }
   for (int side = 0; side < 2; ++side) find_leg(f, side);
   if (f.has("hip_joint_l") && f.has("hip_joint_r"))

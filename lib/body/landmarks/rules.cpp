@@ -16,7 +16,8 @@ using Tree = std::map<std::string, std::vector<RuleChoice>>;
 
 [[noreturn]] void unknown(const io::Node& at, const char* what, const std::string& name,
                           const std::vector<std::string>& known) {
-  at.fail(std::string(what) + " \"" + name + "\"" + did_you_mean(name, known, "\""));
+  at.fail("rules.unknown-name"_id,
+          std::string(what) + " \"" + name + "\"" + did_you_mean(name, known, "\""));
 }
 
 void merge_numbers(Numbers& numbers, const io::Node& table, bool may_add) {
@@ -40,7 +41,7 @@ std::string one_of(const io::Node& when, const char* key,
   if (value.empty() || std::find(values.begin(), values.end(), value) != values.end()) return value;
   std::string list;
   for (const char* v : values) list += std::string(list.empty() ? "\"" : ", \"") + v + "\"";
-  when.at(key).fail("is \"" + value + "\"", "one of " + list);
+  when.at(key).fail("json.unknown-word"_id, "is \"" + value + "\"", "one of " + list);
 }
 
 void read_conditions(const io::Node& when, RuleChoice& rule) {
@@ -53,11 +54,13 @@ void read_conditions(const io::Node& when, RuleChoice& rule) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string letter = list.at(i).string();
     if (letter != "T" && letter != "A" && letter != "I")
-      list.at(i).fail("is \"" + letter + "\"", "a stance is \"T\", \"A\" or \"I\"");
+      list.at(i).fail("json.unknown-word"_id, "is \"" + letter + "\"",
+                      "a stance is \"T\", \"A\" or \"I\"");
     rule.stance += letter;
   }
   if (rule.stance.empty())
-    list.fail("holds for no stance", "leave it out for any stance, or leave the rule out");
+    list.fail("rules.malformed"_id, "holds for no stance",
+              "leave it out for any stance, or leave the rule out");
 }
 
 RuleChoice read_choice(const io::Node& entry, const std::string& place,
@@ -80,11 +83,14 @@ RuleChoice read_choice(const io::Node& entry, const std::string& place,
   if (entry.has("when")) read_conditions(entry.at("when"), rule);
   rule.confidence = entry.number("confidence", rule.confidence);
   rule.spread_m = entry.number("spread_m", rule.spread_m);
-  if (rule.confidence < 0 || rule.confidence > 1) entry.at("confidence").fail("is outside 0..1");
-  if (rule.spread_m < 0) entry.at("spread_m").fail("is negative");
+  if (rule.confidence < 0 || rule.confidence > 1)
+    entry.at("confidence").fail("json.out-of-range"_id, "is outside 0..1");
+  if (rule.spread_m < 0) entry.at("spread_m").fail("json.out-of-range"_id, "is negative");
   if (!entry.has("uses")) return rule;
   const io::Node uses = entry.at("uses");
-  if (known) uses.fail("says which numbers a rule of the program uses, which a file cannot change");
+  if (known)
+    uses.fail("rules.malformed"_id,
+              "says which numbers a rule of the program uses, which a file cannot change");
   for (std::size_t i = 0; i < uses.size(); ++i) rule.uses.push_back(uses.at(i).string());
   return rule;
 }
@@ -98,13 +104,13 @@ void merge_tree(Tree& tree, const io::Node& table, bool may_add) {
       for (const auto& [name, rules] : tree) names.push_back(name);
       unknown(list, "the tree has no place", place, names);
     }
-    if (!list.is_array()) list.fail("is not a list of rules");
+    if (!list.is_array()) list.fail("json.wrong-type"_id, "is not a list of rules");
     std::vector<RuleChoice> rules;
     for (std::size_t i = 0; i < list.size(); ++i) {
       const RuleChoice rule = read_choice(list.at(i), place, may_add ? nullptr : &known->second);
       if (std::any_of(rules.begin(), rules.end(),
                       [&](const RuleChoice& other) { return other.name == rule.name; }))
-        list.at(i).fail("names \"" + rule.name + "\" again");
+        list.at(i).fail("rules.malformed"_id, "names \"" + rule.name + "\" again");
       rules.push_back(rule);
     }
     tree[place] = rules;
@@ -116,14 +122,16 @@ void merge(Numbers& numbers, Tree& tree, const std::string& text, const std::str
   const io::Json document = io::parse_json(text, name);
   const io::Node root(document, name);
   if (const std::string format = root.string("format", ""); format != "landmark-rules")
-    root.fail(format.empty() ? "is not a landmark-rules document"
+    root.fail("json.wrong-format"_id,
+              format.empty() ? "is not a landmark-rules document"
                              : "is a \"" + format + "\" document",
               "give rules as lib/body/landmarks/rules/standard.json has them, with \"format\": "
               "\"landmark-rules\"");
   root.allow_only({"format", "version", "numbers", "tree"});
   if (root.integer("version", 1) > 1)
-    root.fail("is of a newer version than this program reads (1)");
-  if (!root.has("numbers") && !root.has("tree")) root.fail("has neither \"numbers\" nor \"tree\"");
+    root.fail("json.newer-version"_id, "is of a newer version than this program reads (1)");
+  if (!root.has("numbers") && !root.has("tree"))
+    root.fail("rules.malformed"_id, "has neither \"numbers\" nor \"tree\"");
   if (root.has("numbers")) merge_numbers(numbers, root.at("numbers"), may_add);
   if (root.has("tree")) merge_tree(tree, root.at("tree"), may_add);
 }
@@ -151,14 +159,16 @@ Rules Rules::read(const std::string& path) {
 double Rules::number(const std::string& name) const {
   const auto it = m_numbers.find(name);
   if (it == m_numbers.end())
-    throw Error(ErrorKind::INTERNAL, "", "", "no rule number \"" + name + "\"");
+    throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", "",
+                "no rule number \"" + name + "\"");
   return it->second;
 }
 
 const std::vector<RuleChoice>& Rules::order(const std::string& place) const {
   const auto it = m_tree.find(place);
   if (it == m_tree.end())
-    throw Error(ErrorKind::INTERNAL, "", "", "the tree has no place \"" + place + "\"");
+    throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", "",
+                "the tree has no place \"" + place + "\"");
   return it->second;
 }
 

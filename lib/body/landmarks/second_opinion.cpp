@@ -63,7 +63,7 @@ std::vector<Finding> second_opinions(Body& body, const Corrections& corrections,
     landmark.alternatives.emplace_back(landmark.p.x(), expected->height * s, landmark.p.z());
     std::snprintf(text, sizeof text, "the rest of the body lets expect it %.0f mm %s: look at it",
                   1000 * std::abs(off), off > 0 ? "lower" : "higher");
-    findings.push_back({"warning", text, place.landmark});
+    findings.push_back({"scan.landmark-unlikely"_id, "warning", text, place.landmark});
   }
   return findings;
 }

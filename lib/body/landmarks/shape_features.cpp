@@ -135,8 +135,10 @@ void add_shoulder(Row& row, const LevelStack& levels, double sign) {
   for (const Vec3& p : levels.skin().positions) {
     if (p.y() > 0.87 * s || p.y() < 0.7 * s) continue;
     for (int k = 0; k < 5; ++k)
-      if (std::abs(sign * p.x() - ACROSS[k] * s) < 0.006 * s && !(p.y() <= top[k]))
-        top[k] = p.y(), depth[k] = p.z();
+      if (std::abs(sign * p.x() - ACROSS[k] * s) < 0.006 * s && !(p.y() <= top[k])) {
+        top[k] = p.y();
+        depth[k] = p.z();
+      }
   }
   for (int k = 0; k < 5; ++k) {
     row.add(numbered("shoulder_top", 10 * ACROSS[k]), top[k] / s);

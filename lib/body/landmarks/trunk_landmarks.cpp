@@ -10,6 +10,28 @@ namespace sloper::body {
 
 namespace {
 
+// Levels and windows in which the skin is read; what says where a body's places are stands in
+// rules/standard.json.
+constexpr double PIT_MARGIN_M = 0.002;     // below an arm pit the arm is part of the outline
+constexpr double HIDDEN_PIT = 0.62;        // of stature: arms touch the trunk from here up
+constexpr double BELOW_PIT = 0.02;         // of stature: near its pit every arm meets the trunk
+constexpr double ARM_LEVEL = 0.004;        // of stature: an arm's section counts for levels so near
+constexpr double FRONT_HALF_WIDTH = 0.006; // of stature, over which the front is read
+constexpr double FOLD_HALF_WIDTH = 0.005;  // of stature, over which the fold's profile is read
+constexpr double FOLD_STEP = 0.003;        // of stature, over which its slope is taken
+constexpr double FOLD_SEARCH_STEP = 0.0015;   // of stature
+constexpr double LEVEL_STEP_M = 0.002;        // between levels of a girth's curve
+constexpr double ABOVE_CROTCH_M = 0.004;      // the first level that is the trunk's
+constexpr double LEGS_BELOW_CROTCH_M = 0.010; // where both legs are apart
+constexpr double CROTCH_SEARCH_M = 0.02;      // above the crotch, in which legs become one
+constexpr double BESIDE_MIDDLE_M = 0.002;     // a side begins here
+constexpr double MUSCLE_HALF_WIDTH = 0.004;   // of stature, over which a nipple's front is read
+constexpr double MUSCLE_ABOVE = 0.002;        // of stature: the skin beside a nipple, not its tip
+constexpr double SEAT_DIFFERENCE_M = 0.005;   // people's sides of the seat differ by less
+constexpr double SIDE_HALF_DEPTH = 0.01;      // of stature, in which the waist's side is outermost
+constexpr double UNDERBUST_MARGIN_M = 0.005;  // the waist's curve begins below the bust's band
+constexpr std::size_t LEAST_CURVE = 5;        // levels of a curve that can have a minimum
+
 /// The trunk's outline without arms that hang on it: clipped at the arm pits.
 std::optional<Level> measure_level(const Finder& f, double y) {
   const auto& loop = f.levels.trunk_at(y);
@@ -18,9 +40,9 @@ std::optional<Level> measure_level(const Finder& f, double y) {
   for (int side = 0; side < 2; ++side)
     if (f.arms[side].axilla &&
         y > (f.arms[side].pit_hidden
-                 ? 0.62 * f.s
+                 ? HIDDEN_PIT * f.s
                  : f.arms[side].axilla->y() -
-                       0.002)) // an arm that touches hangs on it below the pit too
+                       PIT_MARGIN_M)) // an arm that touches hangs on it below the pit too
       limit[side] = std::abs(f.arms[side].axilla->x());
   std::vector<Vec2> points;
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
@@ -46,10 +68,11 @@ bool arm_hangs_on(const Finder& f, double y) {
   const auto& loop = f.levels.trunk_at(y);
   if (!loop) return false;
   for (const ArmTrace& arm : f.arms) {
-    if (arm.sections.empty() || (!arm.pit_hidden && arm.axilla && y > arm.axilla->y() - 0.02 * f.s))
+    if (arm.sections.empty() ||
+        (!arm.pit_hidden && arm.axilla && y > arm.axilla->y() - BELOW_PIT * f.s))
       continue;
     for (const LimbSection& section : arm.sections)
-      if (std::abs(section.center.y() - y) < 0.004 * f.s &&
+      if (std::abs(section.center.y() - y) < ARM_LEVEL * f.s &&
           encloses(*loop, Vec2(section.center.x(), section.center.z())))
         return true;
   }
@@ -84,6 +107,11 @@ Span half_front(int side, double inner, double outer) {
   return side == 0 ? Span{inner, outer} : Span{-outer, -inner};
 }
 
+/// The front of the chest on one side.
+Span chest_half(const Finder& f, int side) {
+  return half_front(side, BESIDE_MIDDLE_M, f.number("bust.chest_end") * f.s);
+}
+
 /// Foremost skin of the trunk at (x, y).
 std::optional<Vec3> front_at(const Finder& f, double x, double y, double half_width) {
   const auto m = midline(f.levels, y, x, half_width);
@@ -96,12 +124,13 @@ std::optional<Vec3> front_at(const Finder& f, double x, double y, double half_wi
 bool is_nipple_pair(const Finder& f) {
   const auto &l = f.figure.nipple[0], &r = f.figure.nipple[1];
   if (!l || !r || std::min(l->height, r->height) <= f.number("bust.bump")) return false;
-  if (std::abs(l->p.y() - r->p.y()) >= 0.015 * f.s || std::abs(l->p.x() + r->p.x()) >= 0.03 * f.s)
-    return false;
+  if (std::abs(l->p.y() - r->p.y()) >= f.number("bust.bumps_aslant") * f.s) return false;
+  if (std::abs(l->p.x() + r->p.x()) >= f.number("bust.bumps_off_middle") * f.s) return false;
+  const double near = f.number("bust.bump_near") * f.s;
   for (int side = 0; side < 2; ++side) {
     const Vec3& p = f.figure.nipple[side]->p;
-    const auto foremost = foremost_place(f, {p.y() - 0.03 * f.s, p.y() + 0.03 * f.s},
-                                         half_front(side, 0.002, 0.14 * f.s), 1, PEAKED);
+    const auto foremost =
+        foremost_place(f, {p.y() - near, p.y() + near}, chest_half(f, side), 1, PEAKED);
     // a clear bump is believed farther back: a stout trunk leans, and its belly or the middle of
     // its chest is foremost
     const double clear =
@@ -119,23 +148,28 @@ using BothSides = std::array<std::optional<Vec3>, 2>;
 /// between both sides.
 /// @return whether it did on either side
 bool bust_at(const Finder& f, double expected, double y, BothSides& points) {
-  const double s = f.s, a = 0.02 * s, b = 0.10 * s;
+  const double s = f.s;
+  const Span inner_outer{f.number("bust.inner") * s, f.number("bust.outer") * s};
+  const double search = f.number("bust.search") * s;
+  const double believed = f.number("bust.believed") * s;
   bool drawn = false;
   for (int side = 0; side < 2; ++side) {
     double height = y, x = (side == 0 ? 1 : -1) * f.number("bust.beside") * s;
     if (f.situation.female)
-      if (const auto place = foremost_place(f, {expected - 0.035 * s, expected + 0.035 * s},
-                                            half_front(side, a, b), 1, PEAKED))
+      if (const auto place =
+              foremost_place(f, {expected - search, expected + search},
+                             half_front(side, inner_outer.low, inner_outer.high), 1, PEAKED))
         if (const Vec3* p = &place->p;
-            p->y() > expected - 0.033 * s && p->y() < expected + 0.033 * s) {
-          height = 0.5 * (y + p->y()), drawn = true;
-          if (const auto between = front_at(f, 0, p->y(), 0.006 * s))
+            p->y() > expected - believed && p->y() < expected + believed) {
+          height = 0.5 * (y + p->y());
+          drawn = true;
+          if (const auto between = front_at(f, 0, p->y(), FRONT_HALF_WIDTH * s))
             x += 0.5 *
                  std::clamp((p->z() - between->z()) / (f.number("bust.clear_of_middle") * s), 0.0,
                             1.0) *
                  (p->x() - x);
         }
-    points[side] = front_at(f, x, height, 0.006 * s);
+    points[side] = front_at(f, x, height, FRONT_HALF_WIDTH * s);
   }
   return drawn;
 }
@@ -155,7 +189,7 @@ void find_bust(const Finder& f, double pit) {
           BothSides both;
           for (int side = 0; side < 2; ++side) {
             const Vec3& p = f.figure.nipple[side]->p;
-            both[side] = front_at(f, p.x(), p.y() + 0.002 * s, 0.004 * s);
+            both[side] = front_at(f, p.x(), p.y() + MUSCLE_ABOVE * s, MUSCLE_HALF_WIDTH * s);
           }
           return both;
         }},
@@ -165,7 +199,8 @@ void find_bust(const Finder& f, double pit) {
           if (!l || !r) return std::nullopt;
           const double y = 0.5 * (l->p.y() + r->p.y()) + f.number("bust.above_muscle") * s;
           const double off = std::abs(y - expected) / (f.number("bust.muscle_near_ratio") * s);
-          const double aslant = std::abs(l->p.y() - r->p.y()) / (0.012 * s);
+          const double aslant =
+              std::abs(l->p.y() - r->p.y()) / (f.number("bust.muscle_aslant") * s);
           if (off >= 1 || aslant >= 1)
             return std::nullopt; // it fades towards both, and where it is low, so that nothing
                                  // jumps
@@ -186,7 +221,7 @@ void find_bust(const Finder& f, double pit) {
           BothSides both;
           for (int side = 0; side < 2; ++side)
             both[side] = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected,
-                                  0.006 * s);
+                                  FRONT_HALF_WIDTH * s);
           return both;
         }}});
   if (!points) return;
@@ -202,14 +237,16 @@ void find_bust(const Finder& f, double pit) {
     f.put("bust_point" + suffix, *point, 2, *points->rule);
     f.find("bust_prominent", suffix, 2,
            {{"foremost_of_chest", [&] {
-               return place_of(foremost_place(f, {point->y() - 0.024 * s, point->y() + 0.06 * s},
-                                              half_front(side, 0.002, 0.14 * s), 1, PEAKED,
-                                              BELLY_BEFORE));
+               return place_of(foremost_place(f,
+                                              {point->y() - f.number("bust.prominent_below") * s,
+                                               point->y() + f.number("bust.prominent_above") * s},
+                                              chest_half(f, side), 1, PEAKED, BELLY_BEFORE));
              }}});
-    if (const auto p =
-            front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected, 0.006 * s))
+    if (const auto p = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected,
+                                FRONT_HALF_WIDTH * s))
       f.also("bust_point" + suffix, *p);
-    sum += point->y(), ++n;
+    sum += point->y();
+    ++n;
   }
   if (n == 2) put_level(f, "bust", sum / 2, points->rule->name);
 }
@@ -217,21 +254,30 @@ void find_bust(const Finder& f, double pit) {
 /// Height of the fold under the breast: below the bust point, where the front turns from falling
 /// back to falling straight.
 std::optional<double> breast_fold(const Finder& f, double bust_y, double expected) {
-  const double s = f.s, step = 0.003 * s;
+  const double s = f.s, step = FOLD_STEP * s;
+  const double begin = bust_y - f.number("underbust.fold_begin") * s;
+  const double end = bust_y - f.number("underbust.fold_end") * s;
   if (!f.has("bust_point_l") || !f.has("bust_point_r")) return std::nullopt;
   double sum = 0;
   int n = 0;
   for (const char* name : {"bust_point_l", "bust_point_r"}) {
     const double x = f.at(name).x();
     double sharpest = f.number("underbust.fold_turn"), at = 0;
-    for (double y = bust_y - 0.012 * s; y > bust_y - 0.065 * s; y -= 0.0015 * s) {
-      const auto a = front_at(f, x, y + 2 * step, 0.005 * s), b = front_at(f, x, y, 0.005 * s),
-                 c = front_at(f, x, y - 2 * step, 0.005 * s);
+    for (double y = begin; y > end; y -= FOLD_SEARCH_STEP * s) {
+      const auto a = front_at(f, x, y + 2 * step, FOLD_HALF_WIDTH * s),
+                 b = front_at(f, x, y, FOLD_HALF_WIDTH * s),
+                 c = front_at(f, x, y - 2 * step, FOLD_HALF_WIDTH * s);
       if (!a || !b || !c) continue;
       const double turn = (c->z() - b->z()) / (2 * step) - (b->z() - a->z()) / (2 * step);
-      if (turn > sharpest) sharpest = turn, at = y;
+      if (turn > sharpest) {
+        sharpest = turn;
+        at = y;
+      }
     }
-    if (at > 0) sum += at, ++n;
+    if (at > 0) {
+      sum += at;
+      ++n;
+    }
   }
   if (n == 0) return std::nullopt;
   return (sum + (2 - n) * expected) / 2;
@@ -249,16 +295,16 @@ double prominence(const std::vector<double>& curve, std::size_t least) {
 
 void find_waist_minima(const Finder& f, double top, double bottom) {
   std::vector<Level> curve;
-  for (double y = top; y > bottom; y -= 0.002) {
+  for (double y = top; y > bottom; y -= LEVEL_STEP_M) {
     if (arm_hangs_on(f, y)) {
       f.body.scan.findings.push_back(
-          {"warning", "an arm touches the trunk: its least girth and breadth are not found",
-           "waist"});
+          {"scan.arm-touches-trunk"_id, "warning",
+           "an arm touches the trunk: its least girth and breadth are not found", "waist"});
       return;
     }
     if (const auto level = measure_level(f, y)) curve.push_back(*level);
   }
-  if (curve.size() < 5) return;
+  if (curve.size() < LEAST_CURVE) return;
   auto least_of = [&](const char* name, double Level::*measure) -> std::optional<Level> {
     std::vector<double> values;
     for (const Level& level : curve) values.push_back(level.*measure);
@@ -292,9 +338,12 @@ std::optional<double> find_navel(const Finder& f) {
           // by how deep it is and how near to the proportion it counts, so that nothing jumps: half
           // for the depth that the rule names
           const double deep = -dimple->height / f.number("omphalion.dimple"),
-                       off = std::abs(dimple->p.y() - expected) / (0.06 * s);
-          const double share =
-              std::clamp((deep - 0.6) / 0.9, 0.0, 1.0) * std::clamp(3 * (1 - off), 0.0, 1.0);
+                       off = std::abs(dimple->p.y() - expected) /
+                             (f.number("omphalion.dimple_near") * s);
+          const double share = std::clamp((deep - f.number("omphalion.dimple_counts")) /
+                                              f.number("omphalion.dimple_range"),
+                                          0.0, 1.0) *
+                               std::clamp(3 * (1 - off), 0.0, 1.0);
           if (share <= 0) return std::nullopt;
           const Vec2 seen(dimple->p.x(), dimple->p.y() + f.number("omphalion.above_dimple") * s);
           return Vec2(share * seen + (1 - share) * Vec2(0, expected));
@@ -304,16 +353,16 @@ std::optional<double> find_navel(const Finder& f) {
   const double navel =
       place->value.y() + (place->rule->name == "dimple" ? 0.0 : f.correction("omphalion").y());
   // the tape and the truth lie on the belly's surface beside the dimple, not at its bottom
-  if (const auto p = front_at(f, place->value.x(), navel, 0.006 * s))
+  if (const auto p = front_at(f, place->value.x(), navel, FRONT_HALF_WIDTH * s))
     f.put("omphalion", *p, 2, *place->rule);
-  if (const auto p = front_at(f, 0, expected, 0.006 * s)) f.also("omphalion", *p);
+  if (const auto p = front_at(f, 0, expected, FRONT_HALF_WIDTH * s)) f.also("omphalion", *p);
   put_level(f, "omphalion", navel, place->rule->name);
   return navel;
 }
 
 double find_waist(const Finder& f, const std::optional<double>& navel, double pit) {
   const double s = f.s, crotch = f.at("crotch").y();
-  const double top = pit > 0 ? pit : 0.757 * s;
+  const double top = pit > 0 ? pit : f.number("waist.usual_pit") * s;
   const double by_ratio = crotch + f.number("waist.of_trunk") * (top - crotch);
   const auto height = f.choose<double>(
       "waist_semantic", "waist_semantic",
@@ -321,9 +370,12 @@ double find_waist(const Finder& f, const std::optional<double>& navel, double pi
         [&]() -> std::optional<double> {
           if (!navel || !f.has("omphalion") || f.body.landmarks["omphalion"].rule != "dimple")
             return std::nullopt;
+          const double reach = f.number("waist.navel_reach") * s;
           const double above = std::clamp(*navel + f.number("waist.above_navel") * s,
-                                          by_ratio - 0.02 * s, by_ratio + 0.02 * s);
-          return by_ratio + (0.25 + 0.25 * f.figure.female) * (above - by_ratio);
+                                          by_ratio - reach, by_ratio + reach);
+          const double weight = f.number("waist.navel_weight") +
+                                f.number("waist.navel_weight_female") * f.figure.female;
+          return by_ratio + weight * (above - by_ratio);
         }},
        {"trunk_ratio", [&] { return std::optional(by_ratio); }}});
   if (!height) return by_ratio;
@@ -341,7 +393,8 @@ double find_waist(const Finder& f, const std::optional<double>& navel, double pi
                const double sign = side == 0 ? 1 : -1;
                std::optional<Vec2> outer;
                for (const auto& seg : loop->segments)
-                 if (const auto piece = clipped(seg, 1, depth - 0.01 * s, depth + 0.01 * s))
+                 if (const auto piece =
+                         clipped(seg, 1, depth - SIDE_HALF_DEPTH * s, depth + SIDE_HALF_DEPTH * s))
                    for (const Vec2& q : *piece)
                      if (!outer || sign * q.x() > sign * outer->x()) outer = q;
                if (!outer) return std::nullopt;
@@ -352,17 +405,19 @@ double find_waist(const Finder& f, const std::optional<double>& navel, double pi
 
 void find_seat_and_belly(const Finder& f, double crotch, double waist) {
   const double s = f.s;
+  const double half_belly = f.number("abdomen.half_breadth") * s;
+  const double half_seat = f.number("buttock.half_breadth") * s;
   std::optional<Foremost> belly;
   std::optional<Vec3> rival; // as far out, far from where bellies are foremost
   auto foremost = [&]() -> std::optional<Vec3> {
     belly = foremost_place(f, {crotch + f.number("abdomen.above_crotch") * s, waist},
-                           {-0.1 * s, 0.1 * s}, 1, f.number("abdomen.flat"), 0);
+                           {-half_belly, half_belly}, 1, f.number("abdomen.flat"), 0);
     if (!belly) return std::nullopt;
     const double usual = f.number("abdomen.usual") * (waist - crotch),
-                 near = 0.5 * (waist - crotch);
+                 near = 0.5 * (waist - crotch), reach = f.number("abdomen.usual_reach");
     if (const auto other =
-            foremost_place(f, {crotch + usual - 0.4 * near, crotch + usual + 0.4 * near},
-                           {-0.1 * s, 0.1 * s}, 1, f.number("abdomen.flat"), 0);
+            foremost_place(f, {crotch + usual - reach * near, crotch + usual + reach * near},
+                           {-half_belly, half_belly}, 1, f.number("abdomen.flat"), 0);
         other && std::abs(other->p.y() - belly->p.y()) > f.number("abdomen.apart") * s &&
         other->p.z() > belly->p.z() - f.number("abdomen.as_far") * s) {
       rival = belly->p;
@@ -381,7 +436,7 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
       std::snprintf(text, sizeof text, "the belly is flat: it is as far out at %.3f m, %.0f mm %s",
                     rival->y(), 1000 * std::abs(rival->y() - belly->p.y()),
                     rival->y() > belly->p.y() ? "higher" : "lower");
-      f.body.scan.findings.push_back({"info", text, "abdomen"});
+      f.body.scan.findings.push_back({"scan.belly-flat"_id, "info", text, "abdomen"});
     }
     if (!rival && belly->spread_m > f.number("abdomen.unsure") * s) {
       landmark.confidence *= 0.5;
@@ -390,15 +445,15 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
           text, sizeof text,
           "the belly is flat: the level of its front is ambiguous, between %.3f and %.3f m",
           belly->low, belly->high);
-      f.body.scan.findings.push_back({"info", text, "abdomen"});
+      f.body.scan.findings.push_back({"scan.belly-flat"_id, "info", text, "abdomen"});
     }
   }
   auto rearmost = [&] { // both sides of the seat are nearly level: the left one is taken unless the
                         // right one stands out more than people's do
-    const Span heights{crotch + 0.004, waist};
-    auto rear = foremost_place(f, heights, {0, 0.12 * s}, -1, PEAKED);
-    if (const auto right = foremost_place(f, heights, {-0.12 * s, 0}, -1, PEAKED);
-        right && (!rear || right->p.z() < rear->p.z() - 0.005))
+    const Span heights{crotch + ABOVE_CROTCH_M, waist};
+    auto rear = foremost_place(f, heights, {0, half_seat}, -1, PEAKED);
+    if (const auto right = foremost_place(f, heights, {-half_seat, 0}, -1, PEAKED);
+        right && (!rear || right->p.z() < rear->p.z() - SEAT_DIFFERENCE_M))
       rear = right;
     return place_of(rear);
   };
@@ -415,7 +470,7 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
   find_level(f, "hip_girth_max",
              {{"largest_girth", [&] {
                  std::optional<Level> most;
-                 for (double y = crotch + 0.004; y < waist; y += 0.002)
+                 for (double y = crotch + ABOVE_CROTCH_M; y < waist; y += LEVEL_STEP_M)
                    if (const auto level = arm_hangs_on(f, y) ? std::nullopt : measure_level(f, y))
                      if (!most || level->girth_m > most->girth_m) most = level;
                  return most;
@@ -432,9 +487,15 @@ void find_trunk_landmarks(const Finder& f) {
   int n_pit = 0, n_fold = 0;
   for (int side = 0; side < 2; ++side) {
     const std::string suffix = side_suffix(side);
-    if (f.has("axilla" + suffix)) pit += f.at("axilla" + suffix).y(), ++n_pit;
+    if (f.has("axilla" + suffix)) {
+      pit += f.at("axilla" + suffix).y();
+      ++n_pit;
+    }
     for (const char* name : {"axilla_front", "axilla_back"})
-      if (f.has(name + suffix)) fold += f.at(name + suffix).y(), ++n_fold;
+      if (f.has(name + suffix)) {
+        fold += f.at(name + suffix).y();
+        ++n_fold;
+      }
   }
   if (n_pit) pit /= n_pit;
   find_level(f, "chest_axilla", {{"axilla_folds", [&] {
@@ -446,8 +507,10 @@ void find_trunk_landmarks(const Finder& f) {
   find_seat_and_belly(f, crotch, waist);
   // the first level above the crotch whose outline goes around both legs: skin that hangs between
   // them is lower than where they join
-  const auto left = f.levels.leg_at(crotch - 0.010, 0), right = f.levels.leg_at(crotch - 0.010, 1);
-  for (double y = crotch + 0.004; y < crotch + 0.02 && !f.body.levels.count("crotch"); y += 0.002) {
+  const auto left = f.levels.leg_at(crotch - LEGS_BELOW_CROTCH_M, 0);
+  const auto right = f.levels.leg_at(crotch - LEGS_BELOW_CROTCH_M, 1);
+  for (double y = crotch + ABOVE_CROTCH_M;
+       y < crotch + CROTCH_SEARCH_M && !f.body.levels.count("crotch"); y += LEVEL_STEP_M) {
     const auto& loop = f.levels.trunk_at(y);
     if (loop && left && right &&
         (loop->high.x() < left->centroid.x() || loop->low.x() > right->centroid.x()))
@@ -455,7 +518,7 @@ void find_trunk_landmarks(const Finder& f) {
     put_level(f, "crotch", y, "crotch");
   }
   if (f.body.levels.count("crotch")) f.body.levels["crotch"].y = crotch;
-  double under = waist + 0.055 * s;
+  double under = waist + f.number("underbust.above_waist") * s;
   if (f.body.levels.count("bust")) {
     const double bust = f.body.levels["bust"].y,
                  expected = bust - f.number("underbust.below_bust") * s;
@@ -466,7 +529,7 @@ void find_trunk_landmarks(const Finder& f) {
     under = chosen ? chosen->value : expected;
     if (chosen) put_level(f, "underbust", under, chosen->rule->name);
   }
-  find_waist_minima(f, under - 0.005,
+  find_waist_minima(f, under - UNDERBUST_MARGIN_M,
                     0.5 * (navel.value_or(crotch + f.number("omphalion.of_trunk") *
                                                        (f.at("neck_back").y() - crotch)) +
                            crotch));

@@ -165,7 +165,8 @@ void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& 
       const double less = distal.dot(tip - skin.positions[v]);
       if (less > BLUNT || from_tip[v] > 2 * FINGER_END * s) continue;
       is_fist |= less < -4 * BLUNT;
-      sum += (BLUNT - less) * skin.positions[v], weight += BLUNT - less;
+      sum += (BLUNT - less) * skin.positions[v];
+      weight += BLUNT - less;
     }
   arm.tip = tip;
   if (!is_fist && weight > 0) arm.tip = sum / weight + distal.dot(tip - sum / weight) * distal;
@@ -183,7 +184,10 @@ void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& 
     for (std::size_t i = 0; i < loops.size(); ++i) {
       if (loops[i].area <= 0) continue;
       const double d = encloses(loops[i], Vec2::Zero()) ? 0 : loops[i].centroid.norm();
-      if (d < nearest) nearest = d, best = static_cast<int>(i);
+      if (d < nearest) {
+        nearest = d;
+        best = static_cast<int>(i);
+      }
     }
     if (best < 0) break;
     section.loop = std::move(loops[best]);

@@ -33,7 +33,8 @@ std::vector<Vec3> outline_of(const Finder& f, Span heights, Span across, double 
         const double less = sign * (outer->z() - q.y());
         if (q.x() < across.low || q.x() > across.high || less > across_flat) continue;
         const double w = (across_flat - less) * (segment[1] - segment[0]).norm();
-        sum += w * q.x(), weight += w;
+        sum += w * q.x();
+        weight += w;
       }
     if (weight > 0) outer->x() = sum / weight;
     outline.push_back(*outer);
@@ -55,8 +56,11 @@ public:
       const double share = 1 - out_less(top, k) / m_flat;
       if (share <= 0) continue;
       const double w = share * share, y = at(k).y();
-      sum += w * Vec2(at(k).x(), y), squares += w * y * y, weight += w;
-      place.low = std::min(place.low, y), place.high = std::max(place.high, y);
+      sum += w * Vec2(at(k).x(), y);
+      squares += w * y * y;
+      weight += w;
+      place.low = std::min(place.low, y);
+      place.high = std::max(place.high, y);
     }
     const Vec2 mean = sum / weight;
     place.spread_m = std::sqrt(std::max(0.0, squares / weight - mean.y() * mean.y()));
@@ -91,7 +95,10 @@ public:
     for (std::ptrdiff_t k = MARGIN; k < size() - MARGIN; ++k) {
       const double line = a.z() + (at(k).y() - a.y()) / (b.y() - a.y()) * (b.z() - a.z()),
                    out = m_sign * (at(k).z() - line);
-      if (out > most) most = out, best = k;
+      if (out > most) {
+        most = out;
+        best = k;
+      }
     }
     return best;
   }

@@ -10,7 +10,10 @@ EdgeGraph::EdgeGraph(const TriangleMesh& mesh)
   // every triangle gives each corner its other two: a neighbour over an inner edge stands twice,
   // which costs less than to look for it
   for (const Triangle& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) ++m_first[t[k] + 1], ++m_first[t[(k + 1) % 3] + 1];
+    for (int k = 0; k < 3; ++k) {
+      ++m_first[t[k] + 1];
+      ++m_first[t[(k + 1) % 3] + 1];
+    }
   for (std::size_t v = 1; v < m_first.size(); ++v) m_first[v] += m_first[v - 1];
   m_neighbour.resize(static_cast<std::size_t>(m_first.back()));
   std::vector<int> at(m_first.begin(), m_first.end() - 1);

@@ -37,7 +37,10 @@ int best_overlap(const std::vector<Loop>& loops, const Loop& from) {
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (loops[i].area <= 0) continue;
     const double o = overlap(loops[i], from);
-    if (o > most) most = o, best = static_cast<int>(i);
+    if (o > most) {
+      most = o;
+      best = static_cast<int>(i);
+    }
   }
   return best;
 }
@@ -162,7 +165,8 @@ void LevelStack::follow_legs() {
       if (pick[side] < 0) pick[side] = static_cast<int>(i); // loops come largest first
     }
     if (pick[0] < 0 || pick[1] < 0) continue;
-    slice.leg[0] = pick[0], slice.leg[1] = pick[1];
+    slice.leg[0] = pick[0];
+    slice.leg[1] = pick[1];
     start = k;
   }
   if (start < 0) return;
@@ -195,7 +199,11 @@ void LevelStack::follow_legs() {
     std::vector<Loop> loops = exact(y);
     const int a = best_overlap(loops, left), b = best_overlap(loops, right);
     if (a < 0 || b < 0 || a == b) high = y;
-    else low = y, left = loops[a], right = loops[b];
+    else {
+      low = y;
+      left = loops[a];
+      right = loops[b];
+    }
   }
   m_crotch = low;
   // just above, the two legs are one loop that is thinnest between them: there lies the saddle
@@ -248,8 +256,10 @@ LevelStack::Underside LevelStack::underside(double plane, double low, double hig
     for (const Vec2& q : piece) {
       under.lowest = std::min(under.lowest, q.y());
       // as low as makes no difference counts, also just above where the legs are one
-      if (q.y() < high + favour && favoured(q, between) < under.best)
-        under.best = favoured(q, between), under.z = q.x();
+      if (q.y() < high + favour && favoured(q, between) < under.best) {
+        under.best = favoured(q, between);
+        under.z = q.x();
+      }
     }
   }
   return under;
@@ -289,9 +299,12 @@ void LevelStack::settle_crotch(double low, double high, double middle, double be
       const double w = std::clamp(2 - off, 0.0, 1.0) *
                        std::max(0.0, under.best + LEVEL + m_roughness - favoured(q, between)) *
                        std::abs(segment[1].x() - segment[0].x());
-      sum += w * q.x(), weight += w;
-      if (off > 2 && q.y() < std::min(other, under.lowest + FAVOUR + LEVEL + m_roughness))
-        other = q.y(), m_other_crotch = Vec3(under.plane, q.y(), q.x());
+      sum += w * q.x();
+      weight += w;
+      if (off > 2 && q.y() < std::min(other, under.lowest + FAVOUR + LEVEL + m_roughness)) {
+        other = q.y();
+        m_other_crotch = Vec3(under.plane, q.y(), q.x());
+      }
     }
   if (weight > 0) m_crotch_point.y() = sum / weight;
 }

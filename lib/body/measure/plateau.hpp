@@ -20,7 +20,10 @@ inline Lowest lowest_of(const std::vector<Vec2>& curve, double flat) {
   double sum = 0, weight = 0;
   auto add = [&](std::size_t k) {
     const double w = curve[least].y() + flat - curve[k].y();
-    if (w > 0) sum += w * curve[k].x(), weight += w;
+    if (w > 0) {
+      sum += w * curve[k].x();
+      weight += w;
+    }
     return w > 0;
   };
   for (std::size_t k = least; k < curve.size() && add(k); ++k) {}

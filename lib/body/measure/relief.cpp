@@ -47,15 +47,20 @@ std::optional<ReliefPoint> strongest_relief(const TriangleMesh& skin,
     });
     if (n < 4 || quadrants != 15 || weight <= 0) continue; // not surrounded: at an edge
     height[i] = -sign * ring / weight;
-    if (height[i] > most) most = height[i], best = i;
+    if (height[i] > most) {
+      most = height[i];
+      best = i;
+    }
   }
   if (most < -1e299) return std::nullopt;
   Vec3 sum = Vec3::Zero();
   double weight = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (const double w = area[i] * (height[i] - 0.7 * most);
-        w > 0 && (points[i] - points[best]).norm() < radius)
-      sum += w * points[i], weight += w;
+        w > 0 && (points[i] - points[best]).norm() < radius) {
+      sum += w * points[i];
+      weight += w;
+    }
   return ReliefPoint{weight > 0 && most > 0 ? Vec3(sum / weight) : points[best], sign * most};
 }
 

@@ -274,7 +274,10 @@ Vec2 outermost(const Loop& loop, const Vec2& direction, double flat) {
     constexpr int PIECES = 8; // a segment of a coarse mesh may be longer than the flat part
     for (int k = 0; k < PIECES; ++k) {
       const double t = (k + 0.5) / PIECES, w = ((1 - t) * a + t * b) * length;
-      if (w > 0) sum += w * ((1 - t) * segment[0] + t * segment[1]), weight += w;
+      if (w > 0) {
+        sum += w * ((1 - t) * segment[0] + t * segment[1]);
+        weight += w;
+      }
     }
   }
   if (weight <= 0) return loop.centroid;

@@ -230,7 +230,9 @@ void orient_faces(TriangleMesh& mesh, const std::vector<HalfEdge>& list) {
     for (int next; parent[f] != top && f != top; f = next) {
       next = parent[f];
       const char rest = turned ^ against[f];
-      parent[f] = top, against[f] = turned, turned = rest;
+      parent[f] = top;
+      against[f] = turned;
+      turned = rest;
     }
     return top;
   };
@@ -277,7 +279,8 @@ std::vector<Hole> holes_of(const TriangleMesh& mesh, const std::vector<HalfEdge>
     auto& [hole, box] = pieces[joined.find(a)];
     hole.center += 0.5 * (mesh.positions[a] + mesh.positions[b]);
     ++hole.edges;
-    box.add(mesh.positions[a]), box.add(mesh.positions[b]);
+    box.add(mesh.positions[a]);
+    box.add(mesh.positions[b]);
   }
   std::vector<Hole> holes;
   for (auto& [vertex, piece] : pieces) {
@@ -324,7 +327,8 @@ bool fill_holes(TriangleMesh& mesh, const std::vector<HalfEdge>& list, double wi
         if (length <= 0) continue;
         const Vec3 arm = mesh.positions[v] - middle;
         out += normal[v] / length;
-        lean += share * arm.dot(normal[v]) / length, reach += share * arm.norm();
+        lean += share * arm.dot(normal[v]) / length;
+        reach += share * arm.norm();
       }
       if (const double length = out.norm(); length > 0)
         middle += std::clamp(0.3 * lean, -0.2 * reach, 0.2 * reach) / length * out;

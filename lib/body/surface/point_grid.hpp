@@ -51,7 +51,10 @@ public:
     int best = -1;
     double least = 1e300;
     within(q, m_cell, [&](int i, double d) {
-      if (d < least || (d == least && i < best)) least = d, best = i;
+      if (d < least || (d == least && i < best)) {
+        least = d;
+        best = i;
+      }
     });
     return best;
   }

@@ -164,7 +164,8 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
   SkinSurface skin;
   skin.mesh = own_faces(positions, triangles, is_body, skin.of_scan);
   auto keep = [&](const EdgeCounts& counts) {
-    skin.border_edges = counts.border, skin.crowded_edges = counts.crowded,
+    skin.border_edges = counts.border;
+    skin.crowded_edges = counts.crowded;
     skin.flipped_edges = counts.flipped;
   };
   std::string why = rebuild_why;
@@ -177,8 +178,8 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
       weld(skin.mesh, skin.of_scan); // STL: three vertices a face
     if (const int dropped = drop_small_pieces(skin.mesh, skin.of_scan))
       skin.findings.push_back(
-          {"info", std::to_string(dropped) + " small loose pieces are left out of the skin",
-           "faces"});
+          {"scan.pieces-left-out"_id, "info",
+           std::to_string(dropped) + " small loose pieces are left out of the skin", "faces"});
     std::vector<HalfEdge> list = half_edges(skin.mesh);
     keep(count_edges(list));
     const double edges = 1.5 * static_cast<double>(skin.mesh.triangles.size());
@@ -192,7 +193,7 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
     orient_faces(skin.mesh, list);
     if (skin.flipped_edges)
       skin.findings.push_back(
-          {"warning",
+          {"scan.faces-turned"_id, "warning",
            std::to_string(skin.flipped_edges) + " edges whose faces disagree about outside; turned",
            "faces"});
     skin.noise_m = roughness(skin.mesh);
@@ -206,8 +207,9 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
           fill_holes(skin.mesh, list, widest, SOLES * stature, CROWN * stature)) {
         filled = true;
         keep(count_edges(half_edges(skin.mesh)));
-        skin.findings.push_back(
-            {"info", "holes with " + std::to_string(open) + " open edges were closed", "body.obj"});
+        skin.findings.push_back({"scan.holes-closed"_id, "info",
+                                 "holes with " + std::to_string(open) + " open edges were closed",
+                                 "body.obj"});
       }
     }
     if (skin.border_edges > 0)
@@ -225,7 +227,7 @@ SkinSurface make_skin(const std::vector<Vec3>& positions, const std::vector<Tria
   skin.noise_m = std::max(skin.noise_m, noise);
   skin.rebuilt = true;
   skin.of_scan.clear();
-  skin.findings.push_back({"warning",
+  skin.findings.push_back({"scan.skin-rebuilt"_id, "warning",
                            "the skin was rebuilt as a closed surface of " +
                                std::to_string(skin.mesh.triangles.size()) + " triangles: " + why,
                            "body.obj"});

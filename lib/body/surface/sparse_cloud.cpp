@@ -62,7 +62,10 @@ std::optional<Vec3> middle_between(const Vec3& p, const Vec3& n, const Vec3& q, 
   const Vec3 way = q - p;
   const double length = way.norm();
   double agree = n.dot(m);
-  if (agree < 0) m = -m, agree = -agree;
+  if (agree < 0) {
+    m = -m;
+    agree = -agree;
+  }
   if (agree < AGREE || std::abs(way.dot(n)) > ALONG * length ||
       std::abs(way.dot(m)) > ALONG * length)
     return std::nullopt;

@@ -32,9 +32,12 @@ std::vector<std::size_t> label_regions(const NodeGrid& grid, const std::vector<c
         label[j] = region;
         stack.push_back(j);
       };
-      visit(x > 0, i - 1), visit(x + 1 < nx, i + 1);
-      visit(y > 0, i - sy), visit(y + 1 < ny, i + sy);
-      visit(z > 0, i - sz), visit(z + 1 < nz, i + sz);
+      visit(x > 0, i - 1);
+      visit(x + 1 < nx, i + 1);
+      visit(y > 0, i - sy);
+      visit(y + 1 < ny, i + sy);
+      visit(z > 0, i - sz);
+      visit(z + 1 < nz, i + sz);
     }
   }
   return sizes;
@@ -149,7 +152,8 @@ TriangleMesh zero_surface(NodeGrid grid) {
           const int u = (axis + 1) % 3, v = (axis + 2) % 3;
           auto cell = [&](int du, int dv) {
             int c[3] = {x, y, z};
-            c[u] += du, c[v] += dv;
+            c[u] += du;
+            c[v] += dv;
             return vertex[grid.at(c[0], c[1], c[2])];
           };
           int q[4] = {cell(-1, -1), cell(0, -1), cell(0, 0),

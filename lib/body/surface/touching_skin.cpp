@@ -93,8 +93,10 @@ std::vector<char> facing_candidates(const TriangleMesh& skin, const std::vector<
   std::sort(order.begin(), order.end(),
             [&](int a, int b) { return faced[a].first < faced[b].first; });
   std::vector<std::pair<long, int>> sorted;
-  for (std::size_t i = 0; i < n; ++i)
-    place[order[i]] = static_cast<int>(i), sorted.push_back(faced[order[i]]);
+  for (std::size_t i = 0; i < n; ++i) {
+    place[order[i]] = static_cast<int>(i);
+    sorted.push_back(faced[order[i]]);
+  }
   faced = std::move(sorted);
   std::vector<int> around(n, 0); // the same over the neighbour cells
   for (long x = -1; x <= 1; ++x)

@@ -65,7 +65,8 @@ int BlockMatrix::slot(int i, int j) const {
   const auto entry =
       std::lower_bound(begin, end, j, [](const Entry& e, int column) { return e.column < column; });
   if (entry == end || entry->column != j)
-    throw Error(ErrorKind::INTERNAL, "", "", "a block outside of the matrix's pattern");
+    throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", "",
+                "a block outside of the matrix's pattern");
   return static_cast<int>(m_value.size()) + entry->slot;
 }
 

@@ -49,7 +49,10 @@ bool Deflation::orthonormalise() {
   const double energy = dot(way, image, m_sum);
   if (!(before > 0 && energy > NEW * before)) return false;
   const Float4 scale = Float4::all(static_cast<float>(1 / std::sqrt(energy)));
-  for (std::size_t i = 0; i < way.size(); ++i) way[i] = scale * way[i], image[i] = scale * image[i];
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    way[i] = scale * way[i];
+    image[i] = scale * image[i];
+  }
   return true;
 }
 

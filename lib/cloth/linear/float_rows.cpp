@@ -60,7 +60,10 @@ template<bool SYMMETRIC> void times_narrow(const Group& group, const Float4* x, 
     const auto gather = [&](const FloatRows::Slot& slot, Float4& px, Float4& py, Float4& pz) {
       const int* column = slot.column + half;
       Float4 unused;
-      px = x[column[0]], py = x[column[1]], pz = x[column[2]], unused = x[column[3]];
+      px = x[column[0]];
+      py = x[column[1]];
+      pz = x[column[2]];
+      unused = x[column[3]];
       transpose(px, py, pz, unused);
     };
     Float4 px, py, pz;
@@ -79,7 +82,9 @@ template<bool SYMMETRIC> void times_narrow(const Group& group, const Float4* x, 
          ++slot, ++v) {
       gather(*slot, px, py, pz);
       const Float4 a = Float4::load(v->lane + half);
-      sum[0] = sum[0] + a * px, sum[1] = sum[1] + a * py, sum[2] = sum[2] + a * pz;
+      sum[0] = sum[0] + a * px;
+      sum[1] = sum[1] + a * py;
+      sum[2] = sum[2] + a * pz;
     }
     transpose(sum[0], sum[1], sum[2], sum[3]);
     for (int i = 0; i < 4; ++i) row[half + i] = sum[i];
@@ -307,7 +312,10 @@ void product(const BlockRows& a, const BlockRows& b, BlockRows& c) {
     std::vector<int> where(b.columns, -1);
     int row = -1, next = 0;
     visit(begin, end, [&](int i, int k, int l, int j) {
-      if (i != row) row = i, next = c.start[i];
+      if (i != row) {
+        row = i;
+        next = c.start[i];
+      }
       if (where[j] < c.start[i]) {
         where[j] = next++;
         c.column[where[j]] = j;

@@ -131,7 +131,10 @@ double BodyMotion::free_part(const std::vector<Vec3>& way, double longest, doubl
     const bool whole =
         carry == m_predictor; // what else stops the skin does so on a shorter way too
     const double share = std::min(asked, m_contact.collision_free_step_fraction(x, way, carry));
-    if (share > best) best = share, best_carry = std::move(carry);
+    if (share > best) {
+      best = share;
+      best_carry = std::move(carry);
+    }
     if (whole || best >= asked / ASK_LESS || asked * longest < SHORTEST_PART) break;
   }
   m_predictor = std::move(best_carry);

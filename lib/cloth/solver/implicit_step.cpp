@@ -64,8 +64,11 @@ ClothSolver::ClothSolver(const ClothMesh& mesh, std::vector<Vec3> x)
 void ClothSolver::begin() {
   const ClothMesh& mesh = m_mesh;
   if (static_cast<int>(m_x.size()) != mesh.n_particles)
-    throw Error(ErrorKind::INTERNAL, "", "", "positions and particles differ in number");
-  if (!all_finite(m_x)) throw input_error("", "", "a particle's position is not a finite number");
+    throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", "",
+                "positions and particles differ in number");
+  if (!all_finite(m_x))
+    throw input_error("garment.not-finite"_id, "", "",
+                      "a particle's position is not a finite number");
   if (m_v.size() != m_x.size()) m_v.assign(m_x.size(), Vec3::Zero());
   m_force.assign(m_x.size(), Vec3::Zero());
   m_rhs = m_dx = m_force;

@@ -83,7 +83,8 @@ StepResult ClothSolver::newton_step(const StepOptions& o, int most_solves, bool 
   result.newton_iterations = 0;
   m_limits.planes_translate = true;
   m_held.assign(n, 0);
-  m_trial.resize(n), m_trial_dx.resize(n);
+  m_trial.resize(n);
+  m_trial_dx.resize(n);
   const double done2 = static_cast<double>(n) * std::pow(GRADIENT_DONE * m_mean_weight, 2);
   for (int k = 0; k < most_solves; ++k) {
     assemble(o.h, begun || k > 0);

@@ -25,7 +25,8 @@ std::map<std::string, double> girths_of(const body::Body& body) {
 
 void bind_garment(Garment& garment, const body::Body& body) {
   if (garment.particle_of.empty() || garment.position.empty())
-    throw input_error("", "", "the garment is not sewn, so it hangs on nothing", "drape it first");
+    throw input_error("garment.not-sewn"_id, "", "",
+                      "the garment is not sewn, so it hangs on nothing", "drape it first");
   const BindFrames frames = make_bind_frames(body);
   const auto weights = bind_weights(garment, body, frames);
   Bind bind;
@@ -48,7 +49,7 @@ void bind_garment(Garment& garment, const body::Body& body) {
 std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body, Waist waist) {
   const Bind& bind = garment.bind;
   if (bind.empty())
-    throw input_error("", "/bind", "the garment is not bound to a body",
+    throw input_error("garment.not-bound"_id, "", "/bind", "the garment is not bound to a body",
                       "drape it on a body first");
   const BindFrames frames = make_bind_frames(body);
   std::vector<int> target(bind.frames.size(), -1);
@@ -70,9 +71,10 @@ std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body, 
     if (there < 0.5)
       for (const BindWeight& w : bind.particles[i])
         if (target[w.frame] < 0)
-          throw input_error(
-              "", "", "the garment hangs on " + bind.frames[w.frame] + ", which the body lacks",
-              "give a body with that part, or another garment");
+          throw input_error("garment.part-missing"_id, "", "",
+                            "the garment hangs on " + bind.frames[w.frame] +
+                                ", which the body lacks",
+                            "give a body with that part, or another garment");
     for (const BindWeight& w : bind.particles[i]) {
       if (target[w.frame] < 0) continue;
       const BindFrame& to = frames.frames[target[w.frame]];

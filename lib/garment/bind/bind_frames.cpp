@@ -76,7 +76,10 @@ Vec3 center_of_slab(const std::vector<Vec3>& points, const Vec3& a, const Vec3& 
   double n = 0;
   for (const Vec3& p : points) {
     const double s = (p - a).dot(d) / d.squaredNorm();
-    if (std::abs(s - fraction) < 0.03) sum += p, ++n;
+    if (std::abs(s - fraction) < 0.03) {
+      sum += p;
+      ++n;
+    }
   }
   return n > 0 ? Vec3(sum / n) : Vec3(a + fraction * d);
 }
@@ -159,20 +162,25 @@ body::SkinProfile fit_skin_profile(const PartFrame& frame, const std::vector<Vec
     const PartCoordinates c = frame.coordinates(p);
     if (c.z < z_low || c.z > z_high) continue;
     samples.push_back(c);
-    low = std::min(low, c.z), high = std::max(high, c.z);
+    low = std::min(low, c.z);
+    high = std::max(high, c.z);
     mean_radius += c.r;
   }
   body::SkinProfile profile;
   profile.n_theta = N_THETA;
   if (samples.empty()) { // no skin at all: a thin rod keeps the frame usable
-    profile.n_z = 2, profile.z_low = 0, profile.z_high = 1;
+    profile.n_z = 2;
+    profile.z_low = 0;
+    profile.z_high = 1;
     profile.radius.assign(2 * N_THETA, MIN_RADIUS);
     return profile;
   }
   mean_radius = std::max(mean_radius / static_cast<double>(samples.size()), MIN_RADIUS);
   const double height = std::max((high - low) * frame.length(), ROW_HEIGHT);
   const int rows = std::clamp(static_cast<int>(std::round(height / ROW_HEIGHT)) + 1, 2, 400);
-  profile.n_z = rows, profile.z_low = low, profile.z_high = high;
+  profile.n_z = rows;
+  profile.z_low = low;
+  profile.z_high = high;
   const double dz = height / (rows - 1), dtheta = 2 * units::PI / N_THETA;
 
   const int n = rows * N_THETA;
@@ -188,8 +196,10 @@ body::SkinProfile fit_skin_profile(const PartFrame& frame, const std::vector<Vec
   entries.reserve(5 * static_cast<std::size_t>(n));
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
   const auto couple = [&](int a, int b, double c) {
-    entries.emplace_back(a, a, c), entries.emplace_back(b, b, c);
-    entries.emplace_back(a, b, -c), entries.emplace_back(b, a, -c);
+    entries.emplace_back(a, a, c);
+    entries.emplace_back(b, b, c);
+    entries.emplace_back(a, b, -c);
+    entries.emplace_back(b, a, -c);
   };
   const double across = std::pow(sigma / (mean_radius * dtheta), 2),
                along = std::pow(sigma / dz, 2);
@@ -215,13 +225,13 @@ body::SkinProfile fit_skin_profile(const PartFrame& frame, const std::vector<Vec
 BindFrames make_bind_frames(const Body& body) {
   BindFrames all;
   if (body.face_part.size() != body.skin.triangles.size())
-    throw input_error("", "", "the body's faces have no parts",
+    throw input_error("body.no-parts"_id, "", "", "the body's faces have no parts",
                       "make the body document again with scan-landmarks");
   const auto hip = landmark_of(body, "hip_center"), neck = landmark_of(body, "neck_center"),
              tip = landmark_of(body, "head_tip");
   const bool has_torso = body.frames.count("torso") || (hip && neck);
   if (!has_torso)
-    throw input_error("", "/landmarks",
+    throw input_error("body.no-torso-frame"_id, "", "/landmarks",
                       "the body has no torso frame: hip_center or neck_center was not found",
                       "a garment cannot be hung on this body");
   const PartFrame torso =
@@ -300,11 +310,18 @@ std::pair<Marks, Marks> with_one_waist(Marks from, Marks to) {
   double from_sum = 0, to_sum = 0, sum = 0;
   for (const auto& [name, spread] : WAISTS) {
     const double weight = 1 / (spread * spread);
-    if (from.count(name) && to.count(name))
-      from_sum += weight * from.at(name), to_sum += weight * to.at(name), sum += weight;
-    from.erase(name), to.erase(name);
+    if (from.count(name) && to.count(name)) {
+      from_sum += weight * from.at(name);
+      to_sum += weight * to.at(name);
+      sum += weight;
+    }
+    from.erase(name);
+    to.erase(name);
   }
-  if (sum > 0) from["waist"] = from_sum / sum, to["waist"] = to_sum / sum;
+  if (sum > 0) {
+    from["waist"] = from_sum / sum;
+    to["waist"] = to_sum / sum;
+  }
   return {from, to};
 }
 
@@ -327,7 +344,10 @@ MarkMap::MarkMap(const Marks& from, double from_length, const Marks& to, double 
   if (knots.empty()) knots = {{0.0, 0.0}, {1.0, 1.0}};
   else if (fits(0, 0) && knots.size() == 1) knots.emplace_back(0.0, 0.0);
   std::sort(knots.begin(), knots.end());
-  for (const auto& [x, y] : knots) m_x.push_back(x), m_y.push_back(y);
+  for (const auto& [x, y] : knots) {
+    m_x.push_back(x);
+    m_y.push_back(y);
+  }
   const std::size_t n = m_x.size();
   m_slope.assign(n, m_outside_slope);
   const auto secant = [&](std::size_t i) { return (m_y[i + 1] - m_y[i]) / (m_x[i + 1] - m_x[i]); };

@@ -26,8 +26,10 @@ SurfaceOperators surface_operators(const std::vector<Vec3>& x,
   entries.reserve(4 * cotangent.size());
   for (const auto& [edge, value] : cotangent) {
     const double c = std::clamp(value, 0.05, 20.0);
-    entries.emplace_back(edge[0], edge[0], c), entries.emplace_back(edge[1], edge[1], c);
-    entries.emplace_back(edge[0], edge[1], -c), entries.emplace_back(edge[1], edge[0], -c);
+    entries.emplace_back(edge[0], edge[0], c);
+    entries.emplace_back(edge[1], edge[1], c);
+    entries.emplace_back(edge[0], edge[1], -c);
+    entries.emplace_back(edge[1], edge[0], -c);
   }
   s.stiffness.resize(s.mass.size(), s.mass.size());
   s.stiffness.setFromTriplets(entries.begin(), entries.end());

@@ -109,7 +109,10 @@ std::vector<int> nearest_frame(const std::vector<Vec3>& positions, const std::ve
                            .normalized();
         const double agreement = std::isfinite(n.x()) ? n.dot(normals[i]) : 1;
         const double cost = std::sqrt(c.squared_distance) + FACING_PENALTY * 0.5 * (1 - agreement);
-        if (cost < best) best = cost, label[i] = static_cast<int>(k);
+        if (cost < best) {
+          best = cost;
+          label[i] = static_cast<int>(k);
+        }
       }
     }
   });
@@ -169,7 +172,8 @@ bind_weights(const Garment& garment, const body::Body& body, const BindFrames& f
   const std::vector<int> piece = connected_components(x.size(), triangles);
   std::vector<int> label = nearest_frame(x, vertex_normals({x, triangles}), body, frames);
   if (std::find(label.begin(), label.end(), -1) != label.end())
-    throw input_error("", "", "the body has no skin that a garment could hang on",
+    throw input_error("body.no-skin"_id, "", "",
+                      "the body has no skin that a garment could hang on",
                       "make the body document again with scan-landmarks");
 
   const int lower_body = frames.index("lower_body"), leg_l = frames.index("leg_l"),

@@ -39,13 +39,17 @@ std::vector<Triangle> convex_hull_of(const std::vector<Vec3>& p) {
     if ((p[i] - p[a]).squaredNorm() > (p[b] - p[a]).squaredNorm()) b = i;
   double widest = 0, highest = 0;
   for (int i = 0; i < n; ++i)
-    if (const double area = (p[b] - p[a]).cross(p[i] - p[a]).squaredNorm(); area > widest)
-      widest = area, c = i;
+    if (const double area = (p[b] - p[a]).cross(p[i] - p[a]).squaredNorm(); area > widest) {
+      widest = area;
+      c = i;
+    }
   if (!(widest > 0)) return {};
   for (int i = 0; i < n; ++i)
     if (const double volume = std::abs((p[b] - p[a]).cross(p[c] - p[a]).dot(p[i] - p[a]));
-        volume > highest)
-      highest = volume, d = i;
+        volume > highest) {
+      highest = volume;
+      d = i;
+    }
   if (d < 0 || collision::orientation(p[a], p[b], p[c], p[d]) == 0) return {};
   std::vector<Triangle> hull = {{a, b, c}, {a, c, d}, {a, d, b}, {b, d, c}};
   const int inner[4] = {d, b, c, a};
@@ -95,9 +99,11 @@ ExtremityHulls::ExtremityHulls(const body::Body& body, unsigned ends) : m_mesh(b
     std::vector<Vec3> points;
     Vec3 middle = Vec3::Zero();
     for (std::size_t v = 0; v < of_end.size(); ++v)
-      if (of_end[v])
-        source.push_back(static_cast<int>(v)), points.push_back(body.skin.positions[v]),
-            middle += points.back();
+      if (of_end[v]) {
+        source.push_back(static_cast<int>(v));
+        points.push_back(body.skin.positions[v]);
+        middle += points.back();
+      }
     const std::vector<Triangle> hull = convex_hull_of(points);
     if (hull.empty()) continue;
     middle /= static_cast<double>(points.size());

@@ -68,7 +68,8 @@ double Forearms::length_on(const Arm& arm, const std::vector<Vec3>& sleeve) {
   double low = 1e300, high = -1e300; // m along the forearm
   for (const Vec3& p : sleeve) {
     const double along = (p - arm.elbow).dot(arm.down.normalized());
-    low = std::min(low, along), high = std::max(high, along);
+    low = std::min(low, along);
+    high = std::max(high, along);
   }
   return high - low - arm.upper_length;
 }
@@ -117,7 +118,10 @@ std::size_t bring_under_arms(std::vector<Vec3>& positions, const std::vector<cha
   std::vector<std::size_t> hanging; // on trunk and legs alone
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < positions.size(); ++i)
-    if (!on_arms[i]) hanging.push_back(i), points.push_back(positions[i]);
+    if (!on_arms[i]) {
+      hanging.push_back(i);
+      points.push_back(positions[i]);
+    }
   const Forearms forearms(body);
   if (hanging.empty() || !forearms.are_near(points)) return 0;
   const ExtremityHulls covered(body, ExtremityHulls::HANDS);

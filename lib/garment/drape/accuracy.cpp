@@ -37,7 +37,9 @@ AccuracyReport drape_to_goal(Garment& garment, const body::Body* body, const Acc
     if (goal.max_seconds > 0) settings.max_seconds = std::max(goal.max_seconds - elapsed(), 1e-6);
     reporter.info("accuracy " + names[k]);
     const std::vector<Vec3> kept = garment.position;
-    DrapeReport now = drape(garment, body, settings, reporter);
+    DrapeRequest request;
+    request.carried = k > 0 && report.drape.levels.meshes > 1;
+    DrapeReport now = drape(garment, body, settings, reporter, request);
     const bool worse = k > 0 && report.drape.converged && !now.converged;
     io::Json entry = {{"accuracy", names[k]}, {"converged", now.converged}, {"wall_s", now.wall_s}};
     if (worse) { // what was at rest before is given back

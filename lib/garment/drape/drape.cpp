@@ -24,7 +24,7 @@ DrapeReport resume_drape(const std::string& file, Garment& garment, const body::
                          Reporter& reporter, const std::string& next_file) {
   const DrapeCheckpoint from = read_checkpoint(file);
   if (from.motion || from.layers)
-    throw input_error(file, "",
+    throw input_error("checkpoint.other-run"_id, file, "",
                       from.motion ? "is a checkpoint of a run with --motion"
                                   : "is a checkpoint of a run with --over");
   from.check_body(body, garment.body_sha256);

@@ -81,10 +81,12 @@ DrapeReport resume_with_motion(const DrapeJob& job, const DrapeCheckpoint& c, Ga
                                std::vector<Garment>& under, const body::Body& body,
                                std::ostream& stream, Reporter& reporter) {
   if (job.motion.empty())
-    throw input_error(c.file, "", "this drape began with a motion of the body",
+    throw input_error("checkpoint.other-run"_id, c.file, "",
+                      "this drape began with a motion of the body",
                       "give the same --motion as before");
   if (!c.motion->sha256.empty() && motion_sha256(job.motion) != c.motion->sha256)
-    throw input_error(job.motion, "", "is not the motion with which this drape began",
+    throw input_error("checkpoint.other-run"_id, job.motion, "",
+                      "is not the motion with which this drape began",
                       "give the same --motion as before");
   return with_motion(
       job, c.motion->fps, c.state.move.frame, garment, under, body, stream,
@@ -105,7 +107,8 @@ void refuse_document(const std::string& path) {
   const io::Json json = io::Json::parse(text);
   if (json.is_object() && json.contains("edits") && !json["edits"].empty())
     throw input_error(
-        path, "/edits", "is a document of edits, where --follow wants lines as they come",
+        "edit.bad-line"_id, path, "/edits",
+        "is a document of edits, where --follow wants lines as they come",
         R"(write {"format": "edits", "version": 1, "length_unit": "cm"} on the first line, then one edit a line, at last {"edit": "end"}; )"
         "or give the document to pattern-mesh --edits");
 }
@@ -156,7 +159,8 @@ DrapeOutcome resume_job(const DrapeJob& job, const DrapeCheckpoint& c, Garment& 
                         Reporter& reporter) {
   c.check_body(body, garment.body_sha256);
   if (!c.motion && !job.motion.empty())
-    throw input_error(c.file, "", "this drape began without a motion", "leave --motion out");
+    throw input_error("checkpoint.other-run"_id, c.file, "", "this drape began without a motion",
+                      "leave --motion out");
   DrapeReport report = c.motion
                            ? resume_with_motion(job, c, garment, under, *body, stream, reporter)
                        : c.layers ? resume_over(c, garment, under, body, reporter, job.checkpoints)

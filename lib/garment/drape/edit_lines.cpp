@@ -12,9 +12,10 @@ void EditLines::take_end(const io::Node& node) {
   }
   const std::string finish = node.at("finish").string();
   if (finish != "warm" && finish != "replay" && finish != "cold")
-    node.fail("unknown finish '" + finish + "'", "known are warm, replay and cold");
+    node.fail("json.unknown-word"_id, "unknown finish '" + finish + "'",
+              "known are warm, replay and cold");
   if (finish == "cold" && !m_has_body)
-    node.fail("without a body the panels cannot be placed for a cold finish",
+    node.fail("drape.no-body"_id, "without a body the panels cannot be placed for a cold finish",
               "give --body, or finish warm");
   m_ended = true;
   if (finish == "cold") m_finish = Finish::COLD;
@@ -26,11 +27,12 @@ EditLines::Taken EditLines::take(const std::string& line, const pattern::Pattern
   if (line.find_first_not_of(" \t") == std::string::npos) return {};
   const std::string place = "line " + std::to_string(m_line);
   if (!line.starts_with('{'))
-    throw input_error(place, "", "is no JSON object",
+    throw input_error("edit.bad-line"_id, place, "", "is no JSON object",
                       R"(write an edit such as {"edit": "scale", ...} on one line)");
   io::Json json = io::parse_json(line, place);
   const io::Node node(json, place);
-  if (!node.is_object()) node.fail("each line must be a JSON object: the header or one edit");
+  if (!node.is_object())
+    node.fail("edit.bad-line"_id, "each line must be a JSON object: the header or one edit");
   io::Json document = m_head;
   if (node.has("format")) {
     m_head = json;
@@ -43,7 +45,7 @@ EditLines::Taken EditLines::take(const std::string& line, const pattern::Pattern
       return {};
     }
     if (m_head.is_null())
-      node.fail("the header line is missing before the first edit",
+      node.fail("edit.bad-line"_id, "the header line is missing before the first edit",
                 R"(begin with {"format": "edits", "version": 1, "length_unit": "cm"})");
     document["edits"].push_back(json);
   }

@@ -104,7 +104,7 @@ private:
       m_report.edits += static_cast<int>(taken.edits);
     } catch (const Error& e) {
       m_report.refused.push_back(e.what());
-      m_reporter.warning(m_report.refused.back());
+      m_reporter.warning({e.id(), m_report.refused.back()});
       return;
     }
     m_edited = arrived;

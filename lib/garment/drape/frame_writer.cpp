@@ -32,14 +32,19 @@ FrameWriter::FrameWriter(std::string where, std::string stamp, std::ostream& str
     m_index.open(index);
   }
   if (failed || !m_index)
-    throw Error(ErrorKind::OUTPUT, m_where, "", "no frames can be written there", "name a folder");
+    throw Error(ErrorKind::OUTPUT, "file.cannot-write"_id, m_where, "",
+                "no frames can be written there", "name a folder");
 }
 
 void FrameWriter::operator()(const FollowFrame& f, const Garment& garment) {
   io::Json line = {{"frame", f.number}, {"edits", f.edits}};
-  if (f.latency_ms >= 0)
-    line["latency_ms"] = std::round(1000 * f.latency_ms) / 1000, line["cpu_ms"] = f.cpu_ms;
-  line["remeshed"] = f.remeshed, line["speed_m_s"] = f.speed_m_s, line["at_rest"] = f.at_rest;
+  if (f.latency_ms >= 0) {
+    line["latency_ms"] = std::round(1000 * f.latency_ms) / 1000;
+    line["cpu_ms"] = f.cpu_ms;
+  }
+  line["remeshed"] = f.remeshed;
+  line["speed_m_s"] = f.speed_m_s;
+  line["at_rest"] = f.at_rest;
   write(f.number, std::move(line), garment);
 }
 
@@ -70,8 +75,10 @@ void FrameWriter::write(int number, io::Json line, const Garment& garment) {
   char name[32];
   std::snprintf(name, sizeof name, "frame-%06d.obj", number);
   io::ObjMesh obj;
-  obj.positions = garment.position, obj.texture = garment.panels.pattern;
-  obj.triangles = garment.particle_triangles(), obj.texture_triangles = garment.panels.triangles;
+  obj.positions = garment.position;
+  obj.texture = garment.panels.pattern;
+  obj.triangles = garment.particle_triangles();
+  obj.texture_triangles = garment.panels.triangles;
   for (const pattern::PanelInfo& panel : garment.panels.panels)
     obj.groups.push_back({panel.name, panel.first_triangle});
   io::write_obj(m_where + "/" + name, obj, m_stamp);

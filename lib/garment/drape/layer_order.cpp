@@ -145,7 +145,10 @@ Garment merge_layers(const std::vector<Garment>& garments) {
       }
     if (all.scene.membrane.empty()) all.scene.membrane = g.scene.membrane;
     if (all.scene.bending.empty()) all.scene.bending = g.scene.bending;
-    if (g.scene.air) all.scene.air = true, all.scene.wind_m_s = g.scene.wind_m_s;
+    if (g.scene.air) {
+      all.scene.air = true;
+      all.scene.wind_m_s = g.scene.wind_m_s;
+    }
   }
   all.materials[""] = material_of(garments.front(), "");
   p.name = garments.back().panels.name;

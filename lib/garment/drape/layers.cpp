@@ -31,7 +31,8 @@ public:
       : m_at(at), m_from(from), m_body(body), m_reporter(reporter), m_checkpoints(checkpoints),
         m_moves(moves), m_on_frame(on_frame) {
     if (!body || body->skin.triangles.empty())
-      throw input_error("", "layers", "layer order needs a body", "give --body body.json");
+      throw input_error("drape.no-body"_id, "", "layers", "layer order needs a body",
+                        "give --body body.json");
     m_checkpoints.layers = &at;
   }
 
@@ -157,7 +158,8 @@ DrapeReport resume_layers(const DrapeCheckpoint& checkpoint, std::vector<Garment
                           const Checkpoints& checkpoints, const BodyMoves* moves,
                           const OnMotionFrame& on_frame) {
   if (!checkpoint.layers)
-    throw input_error(checkpoint.file, "", "is of a run without garments over each other");
+    throw input_error("checkpoint.other-run"_id, checkpoint.file, "",
+                      "is of a run without garments over each other");
   checkpoint.check_moves(moves);
   LayersProgress at = *checkpoint.layers;
   Checkpoints taken = checkpoints;

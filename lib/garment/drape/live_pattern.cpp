@@ -16,15 +16,16 @@ constexpr double OFF_OUTLINE = 1e-4;   // m: vertices further off are not of thi
 
 LivePattern::LivePattern(Garment& garment) : m_garment(garment) {
   if (garment.particle_of.empty())
-    throw input_error("", "", "the garment is not sewn yet",
+    throw input_error("garment.not-sewn"_id, "", "", "the garment is not sewn yet",
                       "drape it first, then let it follow edits");
   if (!garment.panels.source)
-    throw input_error("", "", "the garment does not know the pattern it was made from",
+    throw input_error("garment.no-pattern"_id, "", "",
+                      "the garment does not know the pattern it was made from",
                       "mesh and drape the pattern again");
   m_pattern = *garment.panels.source;
   ready_follower();
   if (m_follower->off_outline() > OFF_OUTLINE)
-    throw input_error("", "",
+    throw input_error("garment.no-pattern"_id, "", "",
                       "the panels are no longer those of the garment's pattern: a vertex lies " +
                           pattern::centimetres(m_follower->off_outline()) + " off its outline",
                       "edits can follow a garment that drape made, not one that was regraded");

@@ -48,7 +48,8 @@ void resolve(DrapeSession& session, Garment& garment, Reporter& reporter) {
 DrapeReport untangle_only(Garment& garment, const body::Body* body, const DrapeSettings& settings,
                           Reporter& reporter) {
   if (garment.particle_of.empty())
-    throw input_error("", "", "the garment is not sewn yet", "drape it first");
+    throw input_error("garment.not-sewn"_id, "", "", "the garment is not sewn yet",
+                      "drape it first");
   DrapeSession session({.garment = garment, .body = body}, settings, reporter);
   session.choose_contact_alone();
   const io::Json before = counts_json(garment, session.full_skin());
@@ -79,7 +80,7 @@ DrapeReport untangle_only(Garment& garment, const body::Body* body, const DrapeS
             counts["vertices_inside_body"].dump() + " vertices inside it, " +
             counts["self_intersections"].dump() + " self intersections";
   if (is_clean(before) && is_clean(after)) reporter.info(text);
-  else reporter.warning(text);
+  else reporter.warning({"drape.crossings"_id, text});
   return report;
 }
 

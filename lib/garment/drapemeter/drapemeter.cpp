@@ -52,8 +52,13 @@ void zip(const std::vector<int>& p, const std::vector<int>& q, Ring& ring) {
               qn = q[(first + j + 1) % q.size()];
     const bool inner = j == q.size() || (i < p.size() && (flat[pn] - flat[qj]).norm() <
                                                              (flat[qn] - flat[pi]).norm());
-    if (inner) add(pi, qj, pn), ++i;
-    else add(pi, qj, qn), ++j;
+    if (inner) {
+      add(pi, qj, pn);
+      ++i;
+    } else {
+      add(pi, qj, qn);
+      ++j;
+    }
   }
 }
 
@@ -122,7 +127,8 @@ DrapemeterResult drape_specimen(const cloth::Fabric& fabric, const DrapemeterSet
                                 std::uint64_t seed) {
   const double width = setup.specimen_radius_m - setup.disc_radius_m;
   if (!(setup.disc_radius_m > 0) || !(width > 2 * setup.edge_m) || !(setup.edge_m > 0))
-    throw input_error("", "", "the specimen does not hang over the disc by two edges of the mesh",
+    throw input_error("drapemeter.hardly-hangs"_id, "", "",
+                      "the specimen does not hang over the disc by two edges of the mesh",
                       "give the diameters of disc and specimen");
   Ring ring = make_ring(setup);
   const cloth::ClothMesh mesh =

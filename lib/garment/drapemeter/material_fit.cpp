@@ -63,12 +63,16 @@ Line regression(const std::vector<Sample>& samples, double decade) {
     if (std::abs(s.decade - decade) <= NEAR) use.push_back(s);
   line.n = static_cast<int>(use.size());
   if (line.n == 0) return line;
-  for (const Sample& s : use) sx += s.decade / line.n, sy += s.coefficient / line.n;
+  for (const Sample& s : use) {
+    sx += s.decade / line.n;
+    sy += s.coefficient / line.n;
+  }
   for (const Sample& s : use) {
     sxx += (s.decade - sx) * (s.decade - sx);
     sxy += (s.decade - sx) * (s.coefficient - sy);
   }
-  line.middle = sx, line.at = sy;
+  line.middle = sx;
+  line.at = sy;
   line.slope = sxx > 1e-6 ? sxy / sxx : 0;
   double left = 0;
   for (const Sample& s : use) {
@@ -84,7 +88,9 @@ Material with_bending(const Material& base, double bending) {
   Material m = base;
   const double factor = bending / base.bend_n_m;
   m.bend_n_m = bending;
-  m.bend_warp_n_m *= factor, m.bend_weft_n_m *= factor, m.bend_bias_n_m *= factor;
+  m.bend_warp_n_m *= factor;
+  m.bend_weft_n_m *= factor;
+  m.bend_bias_n_m *= factor;
   return m;
 }
 
@@ -221,7 +227,10 @@ private:
     m_fit.coefficient_sd = line.scatter;
     int near = 0;
     for (const Sample& s : m_samples)
-      if (std::abs(s.decade - decade) <= NEAR) m_fit.folds += s.folds, ++near;
+      if (std::abs(s.decade - decade) <= NEAR) {
+        m_fit.folds += s.folds;
+        ++near;
+      }
     m_fit.folds /= std::max(near, 1);
     const double value = std::pow(10, decade);
     m_fit.from_drape = FittedValue{value, value * std::log(10.0) * sd};
@@ -274,18 +283,22 @@ void combine(MaterialFit& fit) {
 
 void check(const FabricTests& tests) {
   if (!(tests.base.density_kg_m2 > 0.005) || tests.base.density_kg_m2 > 5)
-    throw input_error("", "weight", "is that of no cloth", "give it in g/m2, from 5 to 5000");
+    throw input_error("drapemeter.out-of-range"_id, "", "weight", "is that of no cloth",
+                      "give it in g/m2, from 5 to 5000");
   for (const auto& lengths : tests.overhang_m)
     for (double l : lengths)
       if (!(l > 0.005) || l > 1)
-        throw input_error("", "overhang", "is that of no cloth", "give it in mm, from 5 to 1000");
+        throw input_error("drapemeter.out-of-range"_id, "", "overhang", "is that of no cloth",
+                          "give it in mm, from 5 to 1000");
   for (double c : tests.coefficient)
     if (!(c > 0) || c > 1)
-      throw input_error("", "drape coefficient", "is out of range", "give it in %, up to 100");
+      throw input_error("drapemeter.out-of-range"_id, "", "drape coefficient", "is out of range",
+                        "give it in %, up to 100");
   const bool any =
       !tests.coefficient.empty() || !tests.overhang_m[0].empty() || !tests.overhang_m[1].empty();
   if (!any)
-    throw input_error("", "", "nothing was measured that bending follows from",
+    throw input_error("drapemeter.nothing-measured"_id, "", "",
+                      "nothing was measured that bending follows from",
                       "give a silhouette, a drape coefficient, or overhangs along warp or weft");
 }
 

@@ -34,15 +34,22 @@ int grey_of(const std::uint8_t* p) { return (299 * p[0] + 587 * p[1] + 114 * p[2
 /// Otsu's threshold: greys up to it are the darker class. -1 where there is but one grey.
 int otsu(const std::array<double, GREYS>& count) {
   double all = 0, sum = 0;
-  for (int g = 0; g < GREYS; ++g) all += count[g], sum += g * count[g];
+  for (int g = 0; g < GREYS; ++g) {
+    all += count[g];
+    sum += g * count[g];
+  }
   double below = 0, below_sum = 0, best = 0;
   int threshold = -1;
   for (int g = 0; g + 1 < GREYS; ++g) {
-    below += count[g], below_sum += g * count[g];
+    below += count[g];
+    below_sum += g * count[g];
     if (below <= 0 || below >= all) continue;
     const double a = below_sum / below, b = (sum - below_sum) / (all - below),
                  between = below * (all - below) * (a - b) * (a - b);
-    if (between > best) best = between, threshold = g;
+    if (between > best) {
+      best = between;
+      threshold = g;
+    }
   }
   return threshold;
 }
@@ -84,7 +91,10 @@ Blob blob_of(const Grid& grid) {
   Blob b;
   for (int y = 0; y < grid.height; ++y)
     for (int x = 0; x < grid.width; ++x)
-      if (grid.at(x, y)) ++b.area, b.middle += Vec2(x, y);
+      if (grid.at(x, y)) {
+        ++b.area;
+        b.middle += Vec2(x, y);
+      }
   if (b.area > 0) b.middle /= b.area;
   return b;
 }
@@ -110,7 +120,8 @@ Grid cloth_of(const io::Image& picture, const std::string& name) {
       border_dark += dark.at(x, y);
     }
   if (threshold < 0 && transparent == 0)
-    throw input_error(name, "", "is all of one grey: there is no cloth to be seen",
+    throw input_error("drapemeter.bad-picture"_id, name, "",
+                      "is all of one grey: there is no cloth to be seen",
                       "give a picture from above, cloth on a ground of another grey");
   const bool ground_is_dark = transparent == 0 && border_dark > 0.5 * border;
   for (std::size_t k = 0; k < dark.on.size(); ++k)
@@ -123,18 +134,24 @@ Grid cloth_of(const io::Image& picture, const std::string& name) {
     for (int x = 0; x < w; ++x) {
       if (!dark.at(x, y) || label[static_cast<std::size_t>(y) * w + x]) continue;
       const std::size_t area = mark_piece(dark, x, y, label, ++pieces);
-      if (area > most) most = area, largest = pieces;
+      if (area > most) {
+        most = area;
+        largest = pieces;
+      }
     }
   if (most == 0)
-    throw input_error(name, "", "there is no cloth to be seen", "give a picture from above");
+    throw input_error("drapemeter.bad-picture"_id, name, "", "there is no cloth to be seen",
+                      "give a picture from above");
   Grid best{w, h, std::vector<char>(dark.on.size(), 0)};
   for (std::size_t k = 0; k < label.size(); ++k) best.on[k] = label[k] == largest;
   for (int x = 0; x < w; ++x)
     if (best.at(x, 0) || best.at(x, h - 1))
-      throw input_error(name, "", "the cloth reaches the picture's border", "show all of it");
+      throw input_error("drapemeter.bad-picture"_id, name, "",
+                        "the cloth reaches the picture's border", "show all of it");
   for (int y = 0; y < h; ++y)
     if (best.at(0, y) || best.at(w - 1, y))
-      throw input_error(name, "", "the cloth reaches the picture's border", "show all of it");
+      throw input_error("drapemeter.bad-picture"_id, name, "",
+                        "the cloth reaches the picture's border", "show all of it");
   const Grid ground = piece(best, 0, 0);
   for (std::size_t k = 0; k < best.on.size(); ++k) best.on[k] = !ground.on[k];
   return best;
@@ -160,11 +177,13 @@ double scale_by_disc(const io::Image& picture, const Grid& cloth, const std::str
       const int grey = grey_of(picture.at(x, y));
       const bool same = (grey <= threshold) == middle_is_dark;
       alike.at(x, y) = same;
-      sum[same] += grey, ++number[same];
+      sum[same] += grey;
+      ++number[same];
     }
   if (threshold < 0 || number[0] < 1 || number[1] < 1 ||
       std::abs(sum[0] / number[0] - sum[1] / number[1]) < LEAST_DISC_STEP)
-    throw input_error(name, "", "there is no disc to be seen on the cloth", next);
+    throw input_error("drapemeter.bad-picture"_id, name, "",
+                      "there is no disc to be seen on the cloth", next);
   const Grid disc = piece(alike, cx, cy);
   const Blob blob = blob_of(disc);
   const double radius = std::sqrt(blob.area / units::PI);
@@ -174,7 +193,8 @@ double scale_by_disc(const io::Image& picture, const Grid& cloth, const std::str
       if (disc.at(x, y)) farthest = std::max(farthest, (Vec2(x, y) - blob.middle).norm());
   const double cloth_radius = std::sqrt(whole.area / units::PI);
   if (farthest > ROUND * radius + 1 || (blob.middle - whole.middle).norm() > CENTRED * cloth_radius)
-    throw input_error(name, "", "the cloth's middle is no round disc", next);
+    throw input_error("drapemeter.bad-picture"_id, name, "", "the cloth's middle is no round disc",
+                      next);
   return 0.5 * setup.disc_m / radius;
 }
 
@@ -206,7 +226,8 @@ std::vector<double> outline_of(const Grid& cloth, const Vec2& middle) {
 Silhouette measure_silhouette(const io::Image& picture, const std::string& name,
                               const SilhouetteSetup& setup) {
   if (picture.width < 16 || picture.height < 16)
-    throw input_error(name, "", "is too small to be measured", "give 100 pixels and more a side");
+    throw input_error("drapemeter.bad-picture"_id, name, "", "is too small to be measured",
+                      "give 100 pixels and more a side");
   const Grid cloth = cloth_of(picture, name);
   const Blob whole = blob_of(cloth);
   Silhouette out;
@@ -216,7 +237,7 @@ Silhouette measure_silhouette(const io::Image& picture, const std::string& name,
                specimen = 0.25 * units::PI * setup.specimen_m * setup.specimen_m;
   out.coefficient = (whole.area * out.m_per_pixel * out.m_per_pixel - disc) / (specimen - disc);
   if (out.coefficient > MOST_COEFFICIENT || out.coefficient < LEAST_COEFFICIENT)
-    throw input_error(name, "",
+    throw input_error("drapemeter.wrong-scale"_id, name, "",
                       "the cloth covers " + std::to_string(std::lround(100 * out.coefficient)) +
                           " % of the ring between disc and specimen",
                       "check the diameters and the scale");

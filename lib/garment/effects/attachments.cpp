@@ -13,7 +13,8 @@ std::vector<cloth::Attachment> attachments_of(const Garment& garment, const body
     Vec3 anchor = a.anchor;
     if (!a.landmark.empty()) {
       if (!body || !body->landmarks.count(a.landmark))
-        throw input_error("", "attachment to landmark \"" + a.landmark + "\"",
+        throw input_error("scene.no-landmark"_id, "",
+                          "attachment to landmark \"" + a.landmark + "\"",
                           body ? "the body has no such landmark" : "there is no body");
       anchor = body->landmarks.at(a.landmark).p;
     }

@@ -35,6 +35,13 @@ Flat sides_in_grain(const Garment& g, const Triangle& t, const Vec2& warp) {
   return sides;
 }
 
+/// The smaller principal stretch of a deformation, less 1.
+double least_stretch(const Deformation& f) {
+  const Flat c = f.transpose() * f;
+  const double mean = 0.5 * c.trace(), half = std::hypot(0.5 * (c(0, 0) - c(1, 1)), c(0, 1));
+  return std::sqrt(std::max(mean - half, 0.0)) - 1;
+}
+
 } // namespace
 
 std::vector<TriangleStrain> triangle_strains(const Garment& garment,
@@ -59,7 +66,8 @@ std::vector<TriangleStrain> triangle_strains(const Garment& garment,
       };
       const double rising = along({r, r}), falling = along({r, -r});
       strains[f] = {along({0, 1}), along({1, 0}),
-                    std::abs(rising) >= std::abs(falling) ? rising : falling, area};
+                    std::abs(rising) >= std::abs(falling) ? rising : falling, area,
+                    least_stretch(moved * rest.inverse())};
     }
   return strains;
 }
@@ -91,7 +99,8 @@ std::vector<double> contact_pressures(const Garment& garment,
         moved.col(k) = garment.position[garment.particle_of[t[k + 1]]] - a;
         turned.col(k) = normals[garment.particle_of[t[k + 1]]] - normals[garment.particle_of[t[0]]];
       }
-      moved = moved * inverse, turned = turned * inverse;
+      moved = moved * inverse;
+      turned = turned * inverse;
       for (int k = 0; k < 2; ++k)
         pressures[f] += tension[k] * std::max(0.0, turned.col(k).dot(moved.col(k)) /
                                                        std::max(moved.col(k).squaredNorm(), 1e-12));
@@ -109,6 +118,25 @@ double area_quantile(std::vector<Weighted>& values, double q) {
   for (const Weighted& v : values)
     if (below += v.area; below >= q * whole) return v.value;
   return values.back().value;
+}
+
+std::vector<std::optional<double>> strains_around(const Garment& garment,
+                                                  const std::vector<TriangleStrain>& strains,
+                                                  const std::vector<int>& list) {
+  std::vector<Weighted> sums(garment.position.size(), {0, 0}); // strain times area, area
+  for (const int f : list) {
+    const TriangleStrain& s = strains[f];
+    if (!(s.area > 0)) continue;
+    for (const int v : garment.panels.triangles[f]) {
+      Weighted& sum = sums[garment.particle_of[v]];
+      sum.value += s.area * s.thread();
+      sum.area += s.area;
+    }
+  }
+  std::vector<std::optional<double>> places(sums.size());
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    if (sums[i].area > 0) places[i] = sums[i].value / sums[i].area;
+  return places;
 }
 
 } // namespace sloper::garment

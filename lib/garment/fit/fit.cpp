@@ -50,6 +50,30 @@ std::string too_small(const FitRow& row, bool goes_round) {
          " unless it is stretched by " + whole_percent(-row.ease_m / cloth);
 }
 
+/// The limits of a girth, as far as what the garment was cut for and how it was worn move them.
+void take_limits(const FitPolicy& policy, const FitReport& report,
+                 const std::map<std::string, double>& made_for, FitRow& row) {
+  FitLimits& limits = row.limits;
+  limits = policy.limits(row.name, report.garment_class, report.fabric);
+  limits.too_small_strain = policy.too_small_strain(limits, row.worn_strain, row.name,
+                                                    report.garment_class, report.fabric);
+  const auto designed_with = [&](double ease) {
+    limits.too_large_ease =
+        policy.too_large_ease(limits, ease, row.name, report.garment_class, report.fabric);
+    limits.too_small_ease =
+        policy.too_small_ease(limits, ease, row.name, report.garment_class, report.fabric);
+  };
+  for (const std::string& known : {row.name, "level:" + row.name})
+    if (const auto girth = made_for.find(known); girth != made_for.end())
+      designed_with((row.body_m + row.ease_m) / girth->second - 1);
+  if (row.worn_strain > 0) // as much smaller as it was stretched there
+    limits.too_small_ease = policy.too_small_ease(limits, 1 / (1 + row.worn_strain) - 1, row.name,
+                                                  report.garment_class, report.fabric);
+  if (!policy.worn_here) return;
+  const auto here = policy.worn_here->find(row.name);
+  if (here != policy.worn_here->end()) designed_with(here->second);
+}
+
 /// @param at_rest  strain is a fact only of cloth at rest
 void judge(bool at_rest, FitRow& row) {
   const FitLimits& limits = row.limits;
@@ -58,21 +82,26 @@ void judge(bool at_rest, FitRow& row) {
                           limits.loose_ease * row.body_m - row.ease_m);
   if (share < limits.too_small_ease) {
     row.verdict = FitVerdict::TOO_SMALL;
+    row.rule = {"too_small_ease", limits.too_small_ease};
     row.reason = too_small(row, at_rest && row.lying_m >= GOES_ROUND * row.body_m);
   } else if (at_rest && row.strain_girth > limits.too_small_strain) {
     row.verdict = FitVerdict::TOO_SMALL;
+    row.rule = {"too_small_strain", limits.too_small_strain};
     row.reason =
         "is stretched by " + whole_percent(row.strain_girth) + " at the " + spoken_girth(row.name);
   } else if (share < limits.tight_ease) {
     row.verdict = FitVerdict::TIGHT;
+    row.rule = {"tight_ease", limits.tight_ease};
     row.reason = "is tight at the " + spoken_girth(row.name) + ": " + (row.ease_m < 0 ? "-" : "") +
                  centimetres(row.ease_m) + " of ease";
   } else if (share > limits.too_large_ease) {
     row.verdict = FitVerdict::TOO_LARGE;
+    row.rule = {"too_large_ease", limits.too_large_ease};
     row.reason = "is too large at the " + spoken_girth(row.name) + ": " + centimetres(row.ease_m) +
                  " of ease";
   } else if (share > limits.loose_ease) {
     row.verdict = FitVerdict::LOOSE;
+    row.rule = {"loose_ease", limits.loose_ease};
     row.reason =
         "is loose at the " + spoken_girth(row.name) + ": " + centimetres(row.ease_m) + " of ease";
   }
@@ -150,6 +179,7 @@ void judge_strain(const FitPolicy& policy, FitReport& report) {
                   worst->name
             : "";
   report.verdict = FitVerdict::TOO_SMALL;
+  report.rule = {by_p99 ? "strain_p99" : "strain_max", by_p99 ? p99 : most};
   report.reason = by_p99 ? "is stretched by " +
                                whole_percent(worst ? worst->strain_p99 : report.strain_p99) +
                                where + "; the cloth bears " + whole_percent(p99)
@@ -205,19 +235,25 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
                        (row.verdict == worst->verdict &&
                         row.margin_m / row.body_m < worst->margin_m / worst->body_m);
     if (worse) worst = &row;
-    if (&row == report.rows.data() || row.margin_m < report.margin_m)
-      report.margin_m = row.margin_m, report.margin_at = row.name;
+    if (&row == report.rows.data() || row.margin_m < report.margin_m) {
+      report.margin_m = row.margin_m;
+      report.margin_at = row.name;
+    }
   }
   const bool slips = report.slip_m > report.slip_borne_m;
   const std::string slides_down = "slides down by " + centimetres(report.slip_m);
-  if (!worst &&
-      (slips || !std::isfinite(report.slip_borne_m))) { // it has slid off all of them, or may have
+  const FitRule slip_rule{"slip_m", report.slip_borne_m};
+  if (!worst && (slips || (!policy.worn_here &&
+                           !std::isfinite(
+                               report.slip_borne_m)))) { // it has slid off all of them, or may have
     report.fits = false;
     report.verdict = FitVerdict::TOO_LARGE;
     report.reason = slips ? slides_down : "does not go around any girth of the body";
+    if (slips) report.rule = slip_rule;
     return;
   }
   report.verdict = worst ? worst->verdict : FitVerdict::OK; // an apron goes round none
+  if (worst) report.rule = worst->rule;
   report.reason =
       worst ? worst->reason
             : "does not go around any girth of the body: only strain and slip were judged";
@@ -226,6 +262,7 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
   if (certain && report.verdict <= FitVerdict::TOO_LARGE && slips) {
     report.verdict = FitVerdict::TOO_LARGE;
     report.reason = slides_down;
+    report.rule = slip_rule;
   } else if (certain && report.verdict <= FitVerdict::LOOSE && hangs_from_waist(report) &&
              report.slip_m > SLID) {
     report.verdict = FitVerdict::LOOSE;
@@ -241,7 +278,11 @@ void conclude(const FitPolicy& policy, const std::string& unfit, FitReport& repo
     report.fits = false;
   if (report.fits && policy.refuse_loose) // behind a tight one
     for (const FitRow& row : report.rows)
-      if (row.verdict == FitVerdict::LOOSE) report.fits = false, report.reason = row.reason;
+      if (row.verdict == FitVerdict::LOOSE) {
+        report.fits = false;
+        report.reason = row.reason;
+        report.rule = row.rule;
+      }
   if (report.fits && !unfit.empty()) { // measured where it was then, it might be of another class,
                                        // with limits of its own
     report.fits = false;
@@ -271,19 +312,22 @@ void add_redrape_spread(const Redrapes& redrapes, FitReport& report) {
 FitReport fit_garment(const Garment& garment, const body::Body& body,
                       const collision::BodyCollider& skin, const FitPolicy& policy,
                       const std::vector<Vec3>* placed, const std::string& unfit,
-                      const std::map<std::string, double>& made_for) {
+                      const std::map<std::string, double>& made_for,
+                      const std::vector<Vec3>* source) {
   if (garment.bind.empty())
-    throw input_error("", "/bind", "the garment is not bound to a body",
+    throw input_error("garment.not-bound"_id, "", "/bind", "the garment is not bound to a body",
                       "drape it on the body first");
   FitReport report;
   report.policy = policy.name;
   report.fabric = main_material(garment);
   report.convergence_m = garment.converged ? 0 : NOT_AT_REST;
   report.state = garment.converged ? "at rest" : "not at rest";
-  report.hem_height_m = 1e300, report.top_height_m = -1e300;
-  for (const Vec3& p : garment.position)
-    report.hem_height_m = std::min(report.hem_height_m, p.y()),
+  report.hem_height_m = 1e300;
+  report.top_height_m = -1e300;
+  for (const Vec3& p : garment.position) {
+    report.hem_height_m = std::min(report.hem_height_m, p.y());
     report.top_height_m = std::max(report.top_height_m, p.y());
+  }
   if (body.has_landmark("foot_tip_l") || body.has_landmark("foot_tip_r"))
     report.below_soles_m = std::max(0.0, soles_of(body) - report.hem_height_m);
   if (placed) {
@@ -301,7 +345,8 @@ FitReport fit_garment(const Garment& garment, const body::Body& body,
   std::vector<int> all(cloth.strains.size());
   std::iota(all.begin(), all.end(), 0);
   const StrainFigures total = strain_of(cloth, all);
-  report.strain_p99 = total.p99, report.strain_max = total.max;
+  report.strain_p99 = total.p99;
+  report.strain_max = total.max;
 
   std::set<std::string> measured;
   std::string why;
@@ -310,26 +355,18 @@ FitReport fit_garment(const Garment& garment, const body::Body& body,
       if (!why.empty()) report.left_out.emplace_back(name, why);
       return;
     }
-    row->limits = policy.limits(row->name, report.garment_class, report.fabric);
-    for (const std::string& known : {row->name, "level:" + row->name})
-      if (const auto girth = made_for.find(known); girth != made_for.end()) {
-        const double designed = row->rest_m / girth->second - 1;
-        row->limits.too_large_ease = policy.too_large_ease(row->limits, designed, row->name,
-                                                           report.garment_class, report.fabric);
-        row->limits.too_small_ease = policy.too_small_ease(row->limits, designed, row->name,
-                                                           report.garment_class, report.fabric);
-      }
+    take_limits(policy, report, made_for, *row);
     judge(garment.converged, *row);
     tell_long_sleeve(report.lines, *row);
     report.rows.push_back(std::move(*row));
   };
   for (const FitPlace& place : fit_places(body)) {
     measured.insert(place.name);
-    add(measure_place(cloth, place, report.convergence_m, why), place.name);
+    add(measure_place(cloth, place, report.convergence_m, why, source), place.name);
   }
   report.lines = fit_lines(garment, body);
   for (const FitHem& hem : report.lines.hems)
-    add(measure_edge(cloth, body, hem, report.convergence_m, why), hem.name + " edge");
+    add(measure_edge(cloth, body, hem, report.convergence_m, why, source), hem.name + " edge");
   for (const auto& [name, girth] : body.girths)
     if (!measured.count(name))
       report.left_out.emplace_back(name, "the body document does not say where it was measured");
@@ -353,20 +390,30 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
   const auto refuse = [&](const FitPlace& place, const SectionLine& line, const FitLimits& limits,
                           double missing) {
     FitRow row;
-    row.name = place.name, row.kind = place.kind, row.height_m = place.center.y(),
+    row.name = place.name;
+    row.kind = place.kind;
+    row.height_m = place.center.y();
     row.body_m = place.body_m;
-    row.rest_m = line.rest, row.lying_m = line.lying, row.ease_m = row.rest_m - row.body_m;
-    row.bridged_m = line.bridged, row.open = !line.closed();
+    row.rest_m = line.rest;
+    row.lying_m = line.lying;
+    row.ease_m = row.rest_m - row.body_m;
+    row.bridged_m = line.bridged;
+    row.open = !line.closed();
     row.body_uncertainty_m = row.ease_uncertainty_m = place.body_spread_m;
     row.margin_m = row.ease_m;
     row.limits = limits;
     row.verdict = FitVerdict::TOO_SMALL;
+    row.rule = {"too_small_ease", limits.too_small_ease};
     row.reason = too_small(row, false);
     report.fits = false;
     report.verdict = row.verdict;
-    if (missing / place.body_m > worst)
-      worst = missing / place.body_m, report.reason = row.reason, report.margin_m = row.margin_m,
+    if (missing / place.body_m > worst) {
+      worst = missing / place.body_m;
+      report.reason = row.reason;
+      report.margin_m = row.margin_m;
       report.margin_at = row.name;
+      report.rule = row.rule;
+    }
     report.rows.push_back(std::move(row));
   };
   const auto accept = [&](const FitPlace& place, const SectionLine& line, const FitLimits& limits) {

@@ -6,11 +6,22 @@
 
 namespace sloper::garment {
 
+namespace {
+
+io::Json rule_json(const FitRule& rule) {
+  io::Json j = {{"key", rule.key}};
+  if (!rule.key.empty() && std::isfinite(rule.limit)) j["limit"] = rule.limit;
+  return j;
+}
+
+} // namespace
+
 io::Json fit_json(const FitReport& report, const std::string& tool) {
   io::Json document = io::new_document("fit", 1, tool);
   document["fits"] = report.fits;
   document["verdict"] = verdict_name(report.verdict);
   document["reason"] = report.reason;
+  document["rule"] = rule_json(report.rule);
   document["state"] = report.state;
   document["policy"] = report.policy;
   document["garment_class"] = report.garment_class;
@@ -33,6 +44,7 @@ io::Json fit_json(const FitReport& report, const std::string& tool) {
     j["ease_cm"] = {{"value", 100 * r.ease_m}, {"uncertainty", 100 * r.ease_uncertainty_m}};
     j["ease_percent"] = {{"value", 100 * r.ease_m / r.body_m},
                          {"uncertainty", 100 * r.ease_uncertainty_m / r.body_m}};
+    j["gathered"] = r.gathered;
     j["open"] = r.open;
     j["bridged_m"] = r.bridged_m;
     j["strain"] = {{"girth", r.strain_girth},
@@ -50,6 +62,7 @@ io::Json fit_json(const FitReport& report, const std::string& tool) {
     j["margin_cm"] = 100 * r.margin_m;
     j["verdict"] = verdict_name(r.verdict);
     j["reason"] = r.reason;
+    j["rule"] = rule_json(r.rule);
     document["girths"][r.name] = j;
   }
   document["regions"] = io::Json::object();

@@ -44,7 +44,8 @@ std::string owner(const Garment& garment, const std::vector<std::array<int, 2>>&
 FitHem measure_hem(const Garment& garment, const std::vector<std::array<int, 2>>& loop,
                    const Vec3& axis) {
   FitHem hem;
-  hem.lowest_m = 1e300, hem.highest_m = -1e300;
+  hem.lowest_m = 1e300;
+  hem.highest_m = -1e300;
   double sum = 0, half[4] = {}, half_length[4] = {}; // front, back, left, right
   for (const auto& e : loop) {
     const Vec3 &a = garment.position[e[0]], &b = garment.position[e[1]], middle = 0.5 * (a + b);
@@ -54,7 +55,10 @@ FitHem measure_hem(const Garment& garment, const std::vector<std::array<int, 2>>
     hem.lowest_m = std::min({hem.lowest_m, a.y(), b.y()});
     hem.highest_m = std::max({hem.highest_m, a.y(), b.y()});
     const int which[2] = {middle.z() > axis.z() ? 0 : 1, middle.x() > axis.x() ? 2 : 3};
-    for (const int w : which) half[w] += length * middle.y(), half_length[w] += length;
+    for (const int w : which) {
+      half[w] += length * middle.y();
+      half_length[w] += length;
+    }
   }
   hem.height_m = sum / hem.length_m;
   if (half_length[0] > 0 && half_length[1] > 0)
@@ -78,8 +82,10 @@ void cover(const body::Body& body, const std::vector<std::string>& names, const 
     const double t = i + 2 == names.size()
                          ? std::max(0.0, free)
                          : std::clamp(free, 0.0, 1.0); // may reach over the hand or the floor
-    if (const double distance = (a + t * d - at).norm(); distance < best)
-      best = distance, way = whole + t * d.norm();
+    if (const double distance = (a + t * d - at).norm(); distance < best) {
+      best = distance;
+      way = whole + t * d.norm();
+    }
     whole += d.norm();
   }
   if (whole <= 0) return;
@@ -92,7 +98,10 @@ void cover(const body::Body& body, const std::vector<std::string>& names, const 
 FitLines fit_lines(const Garment& garment, const body::Body& body) {
   FitLines lines;
   double low = 1e300, high = -1e300;
-  for (const Vec3& p : garment.position) low = std::min(low, p.y()), high = std::max(high, p.y());
+  for (const Vec3& p : garment.position) {
+    low = std::min(low, p.y());
+    high = std::max(high, p.y());
+  }
   std::map<std::string, int> seen;
   for (const auto& loop : free_loops(garment.particle_triangles(), garment.position.size())) {
     Vec3 center = Vec3::Zero();

@@ -21,6 +21,9 @@ constexpr double LEAST_ROUND =
     0.3; // of a circle's area at the same length: less is the rim of a flat piece or crumpled cloth
 constexpr double STEEPEST = 0.5; // upward part of the normal of an edge round the trunk: a panel
                                  // that nothing is sewn to stands upright
+constexpr double GATHERED =
+    0.2; // of a line that it is shorter than its cloth: fold by fold cloth is
+         // as long as it lies, and only stitches hold it pressed together
 constexpr double WIDER_THAN_NECK =
     1.2; // of the neck base: a section this long goes through the shoulders
 
@@ -38,8 +41,9 @@ FitRow row_of(const FitPlace& place, const SectionLine& line) {
   row.bridged_m = line.bridged;
   row.lying_m = line.lying;
   row.rest_m = line.rest;
-  row.ease_m = row.rest_m - row.body_m;
   row.strain_girth = row.rest_m > 0 ? row.lying_m / row.rest_m - 1 : 0;
+  row.gathered = row.strain_girth < -GATHERED;
+  row.ease_m = (row.gathered ? row.lying_m : row.rest_m) - row.body_m;
   return row;
 }
 
@@ -86,7 +90,10 @@ void finish_row(const ClothState& cloth, const FitPlace& place, const SectionLin
 /// A loop's particles in order, or nothing where it is no simple one.
 std::vector<int> in_order(const std::vector<std::array<int, 2>>& edges) {
   std::map<int, std::vector<int>> next;
-  for (const auto& e : edges) next[e[0]].push_back(e[1]), next[e[1]].push_back(e[0]);
+  for (const auto& e : edges) {
+    next[e[0]].push_back(e[1]);
+    next[e[1]].push_back(e[0]);
+  }
   for (const auto& [particle, others] : next)
     if (others.size() != 2) return {};
   std::vector<int> loop{next.begin()->first};
@@ -127,11 +134,12 @@ SectionLine line_of(const Garment& garment, const std::vector<int>& loop) {
     const int a = loop[i], b = loop[(i + 1) % loop.size()];
     const Side& side = sides.at({std::min(a, b), std::max(a, b)});
     chain.segments.push_back({side.triangle, garment.position[a], garment.position[b], side.rest});
-    chain.length += (garment.position[b] - garment.position[a]).norm(),
-        chain.rest_length += side.rest;
+    chain.length += (garment.position[b] - garment.position[a]).norm();
+    chain.rest_length += side.rest;
   }
   SectionLine line;
-  line.lying = chain.length, line.rest = chain.rest_length;
+  line.lying = chain.length;
+  line.rest = chain.rest_length;
   line.chains.push_back(std::move(chain));
   return line;
 }
@@ -194,17 +202,11 @@ StrainFigures strain_of(const ClothState& cloth, const std::vector<int>& triangl
       values.push_back({s.thread(), s.area});
   figures.n = values.size();
   if (values.empty()) return figures;
-  figures.p50 = area_quantile(values, 0.5), figures.p99 = area_quantile(values, 0.99);
-  std::vector<Weighted> around(cloth.garment.position.size(),
-                               {0, 0}); // by particle: strain times area, area
-  for (const int f : triangles)
-    if (const TriangleStrain& s = cloth.strains[f]; s.area > 0)
-      for (const int v : cloth.garment.panels.triangles[f])
-        around[cloth.garment.particle_of[v]].value += s.area * s.thread(),
-            around[cloth.garment.particle_of[v]].area += s.area;
+  figures.p50 = area_quantile(values, 0.5);
+  figures.p99 = area_quantile(values, 0.99);
   figures.max = values.front().value;
-  for (const Weighted& place : around)
-    if (place.area > 0) figures.max = std::max(figures.max, place.value / place.area);
+  for (const auto& place : strains_around(cloth.garment, cloth.strains, triangles))
+    if (place) figures.max = std::max(figures.max, *place);
   double warp = 0, weft = 0;
   for (const int f : triangles)
     if (const TriangleStrain& s = cloth.strains[f]; s.area > 0 && s.thread() >= figures.p99)
@@ -234,7 +236,8 @@ std::optional<SectionLine> line_around(const Garment& garment, const std::vector
   if (best) {
     SectionLine line;
     line.bridged = best->closed ? 0 : best->opening;
-    line.lying = best->length + line.bridged, line.rest = best->rest_length + line.bridged,
+    line.lying = best->length + line.bridged;
+    line.rest = best->rest_length + line.bridged;
     line.elsewhere = best->elsewhere + line.bridged;
     line.chains.push_back(*best);
     return line;
@@ -244,12 +247,14 @@ std::optional<SectionLine> line_around(const Garment& garment, const std::vector
 }
 
 std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& place,
-                                    double convergence, std::string& why) {
+                                    double convergence, std::string& why,
+                                    const std::vector<Vec3>* source) {
   const Garment& garment = cloth.garment;
   const std::vector<char> use = cloth_of(garment, place);
-  const auto line = line_around(garment, use, place, 0, why);
+  const auto line = line_around(garment, use, place, 0, why, source);
   if (!line) return std::nullopt;
   FitRow row = row_of(place, *line);
+  if (source && line->rest > 0) row.worn_strain = line->elsewhere / line->rest - 1;
   const auto within = [&](double band) {
     std::vector<int> near;
     for (std::size_t f = 0; f < use.size(); ++f) {
@@ -323,11 +328,20 @@ std::optional<EdgeLine> edge_line(const Garment& garment, const body::Body& body
 }
 
 std::optional<FitRow> measure_edge(const ClothState& cloth, const body::Body& body,
-                                   const FitHem& hem, double convergence, std::string& why) {
+                                   const FitHem& hem, double convergence, std::string& why,
+                                   const std::vector<Vec3>* source) {
   const Garment& garment = cloth.garment;
   const auto edge = edge_line(garment, body, hem, why);
   if (!edge) return std::nullopt;
   FitRow row = row_of(edge->place, edge->line);
+  if (source && edge->line.rest > 0) {
+    double worn = 0;
+    for (std::size_t i = 0; i < edge->particles.size(); ++i)
+      worn += ((*source)[edge->particles[i]] -
+               (*source)[edge->particles[(i + 1) % edge->particles.size()]])
+                  .norm();
+    row.worn_strain = worn / edge->line.rest - 1;
+  }
   std::vector<char> in(garment.position.size(), 0);
   for (const int p : edge->particles) in[p] = 1;
   const StrainFigures first = strain_of(cloth, ring_of(garment, in));

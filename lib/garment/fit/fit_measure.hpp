@@ -37,9 +37,11 @@ std::optional<SectionLine> line_around(const Garment& garment, const std::vector
                                        const std::vector<Vec3>* elsewhere = nullptr);
 
 /// A girth of the body where the garment goes round it, or nothing and why. @param convergence  m
-/// that the cloth may still move
+/// that the cloth may still move   @param source  where the particles are on the body that the
+/// garment comes from, for FitRow::worn_strain, or nullptr
 std::optional<FitRow> measure_place(const ClothState& cloth, const FitPlace& place,
-                                    double convergence, std::string& why);
+                                    double convergence, std::string& why,
+                                    const std::vector<Vec3>* source = nullptr);
 
 /// A free edge as a closed line of cloth, and the place that it goes round.
 struct EdgeLine {
@@ -57,6 +59,7 @@ std::optional<EdgeLine> edge_line(const Garment& garment, const body::Body& body
 /// its plane; nothing, and why, for another one. Its row is "neck_edge", "sleeve_hem_l",
 /// "leg_hem_r", "top_edge"; its strain that of the triangles along it.
 std::optional<FitRow> measure_edge(const ClothState& cloth, const body::Body& body,
-                                   const FitHem& hem, double convergence, std::string& why);
+                                   const FitHem& hem, double convergence, std::string& why,
+                                   const std::vector<Vec3>* source = nullptr);
 
 } // namespace sloper::garment

@@ -83,7 +83,8 @@ std::string table(const std::vector<std::string>& heads, const std::string& rows
 struct Scale {
   double low = -0.06, high = 0.2;
   void show(double share) {
-    low = std::max(-0.5, std::min(low, share)), high = std::min(1.2, std::max(high, share));
+    low = std::max(-0.5, std::min(low, share));
+    high = std::min(1.2, std::max(high, share));
   }
   bool shows(double share) const { return share >= low && share <= high; }
   double at(double share) const {
@@ -107,7 +108,8 @@ std::string ease_bars(const std::vector<FitRow>& rows) {
   Scale scale;
   for (const FitRow& r : rows) {
     const double share = r.ease_m / r.body_m, error = r.ease_uncertainty_m / r.body_m;
-    scale.show(share - error), scale.show(share + error + 0.02);
+    scale.show(share - error);
+    scale.show(share + error + 0.02);
     if (r.limits.loose_ease <= 0.65) scale.show(r.limits.loose_ease);
     if (r.limits.too_large_ease <= 0.65) scale.show(r.limits.too_large_ease + 0.01);
     scale.show(r.limits.too_small_ease - 0.01);

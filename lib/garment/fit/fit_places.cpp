@@ -36,7 +36,8 @@ double level_girth_spread(const body::Body& body, const std::string& name, doubl
     const double distance = std::abs(other.y - level.y);
     if (other_name == name || !(other.girth_m > 0) || distance < 0.02 || distance > nearest)
       continue;
-    nearest = distance, slope = std::abs(other.girth_m - level.girth_m) / distance;
+    nearest = distance;
+    slope = std::abs(other.girth_m - level.girth_m) / distance;
   }
   return std::hypot(LEAST_GIRTH_SPREAD, slope * height_error);
 }
@@ -101,7 +102,10 @@ std::optional<Vec3> like_girth(const body::Body& body, const std::vector<body::P
     const Vec3 at = from + way * direction.normalized();
     const body::Plane plane = body::cross_plane(at, direction);
     const double difference = std::abs(girth_in(body, plane, spheres.near(plane)) - girth);
-    if (difference < least) least = difference, best = at;
+    if (difference < least) {
+      least = difference;
+      best = at;
+    }
   }
   return best;
 }

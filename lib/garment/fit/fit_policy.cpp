@@ -10,6 +10,8 @@ namespace sloper::garment {
 namespace {
 
 constexpr double STRAIN_P99 = 0.05, STRAIN_MAX = 0.30, SLIP = 0.10; // woven cloth; m
+constexpr double WEARING_LOAD = 50; // N/m: half of the tension from which stretch is a finding
+constexpr double ONE_PLACE = 2;     // times the strain of the whole, at one place
 
 FitOverride read_override(const io::Node& node) {
   node.allow_only(
@@ -24,13 +26,13 @@ FitOverride read_override(const io::Node& node) {
   read("loose_ease", o.loose_ease);
   read("too_large_ease", o.too_large_ease);
   if (o.too_small_strain && *o.too_small_strain <= 0)
-    node.fail("too_small_strain must be above zero");
+    node.fail("policy.bad-limits"_id, "too_small_strain must be above zero");
   // Only what is said here can be out of order here; the rest is checked where it is used with the
   // rest.
   const double low = o.too_small_ease.value_or(-1e300), middle = o.tight_ease.value_or(low),
                high = o.loose_ease.value_or(middle);
   if (!(low <= middle && middle <= high && high <= o.too_large_ease.value_or(high)))
-    node.fail("the limits are out of order",
+    node.fail("policy.bad-limits"_id, "the limits are out of order",
               "too_small_ease <= tight_ease <= loose_ease <= too_large_ease");
   return o;
 }
@@ -44,7 +46,7 @@ FitRules read_rules(const io::Node& node) {
   const auto positive = [&](const char* key, std::optional<double>& value) {
     if (!node.has(key)) return;
     value = node.at(key).number();
-    if (*value <= 0) node.at(key).fail("must be above zero");
+    if (*value <= 0) node.at(key).fail("policy.bad-limits"_id, "must be above zero");
   };
   positive("strain_p99", rules.strain_p99);
   positive("strain_max", rules.strain_max);
@@ -176,6 +178,15 @@ static FitPolicy without_document(const FitPolicy& policy) {
   return ours;
 }
 
+double FitPolicy::too_small_strain(const FitLimits& limits, double worn, const std::string& girth,
+                                   const std::string& garment_class,
+                                   const std::string& fabric) const {
+  const bool said = limits.too_small_strain !=
+                    without_document(*this).limits(girth, garment_class, fabric).too_small_strain;
+  return worn_p99 == 0 || said ? limits.too_small_strain
+                               : std::max(limits.too_small_strain, AS_WORN * worn + BELOW_DESIGN);
+}
+
 double FitPolicy::too_small_ease(const FitLimits& limits, double designed, const std::string& girth,
                                  const std::string& garment_class,
                                  const std::string& fabric) const {
@@ -213,6 +224,22 @@ FitPolicy standard_fit_policy() {
   return policy;
 }
 
+FitRules elastic_fabric_rules(double stiffness_n_m) {
+  FitRules rules;
+  const double strain = WEARING_LOAD / stiffness_n_m;
+  const FitLimits woven;
+  if (strain <= STRAIN_P99) return rules; // it gives no more than woven cloth
+  if (strain > woven.too_small_strain) rules.standard.too_small_strain = strain;
+  rules.strain_p99 = strain;
+  if (ONE_PLACE * strain > STRAIN_MAX) rules.strain_max = ONE_PLACE * strain;
+  const double ease = -strain / (1 + strain); // of the body's girth
+  if (ease < woven.too_small_ease) {
+    rules.standard.too_small_ease = ease;
+    rules.standard.tight_ease = std::min(woven.tight_ease, 0.5 * ease);
+  }
+  return rules;
+}
+
 FitPolicy read_fit_policy(const std::string& path) {
   const io::Json document = io::read_document(path, "fit-policy", FIT_POLICY_VERSION);
   const io::Node root(document, path);
@@ -234,7 +261,7 @@ FitPolicy read_fit_policy(const std::string& path) {
   for (const auto& [name, rules] : policy.own.classes)
     if (name != "top" && name != "dress" && name != "skirt" && name != "trousers" &&
         name != "whole")
-      root.at("classes").fail("\"" + name + "\" is not a class of garments",
+      root.at("classes").fail("json.unknown-word"_id, "\"" + name + "\" is not a class of garments",
                               "use top, dress, skirt, trousers or whole");
   if (root.has("refuse")) {
     const io::Node refuse = root.at("refuse");
@@ -243,7 +270,7 @@ FitPolicy read_fit_policy(const std::string& path) {
       if (word == "loose") policy.refuse_loose = true;
       else if (word == "tight") policy.refuse_tight = true;
       else if (word != "too small" && word != "too large")
-        refuse.at(i).fail("\"" + word + "\" is not a verdict",
+        refuse.at(i).fail("json.unknown-word"_id, "\"" + word + "\" is not a verdict",
                           "use \"too small\", \"too large\", \"tight\" or \"loose\"");
     }
   }

@@ -107,7 +107,10 @@ std::optional<SectionLine> assemble_line(std::vector<SectionChain> chains, const
     double sweep = signed_turns(chain, axis_point, normal);
     if (std::abs(sweep) < SMALLEST_ARC || chain.closed)
       continue; // a closed line that does not go round is a fold or a pocket
-    if (sweep < 0) chain.reverse(), sweep = -sweep;
+    if (sweep < 0) {
+      chain.reverse();
+      sweep = -sweep;
+    }
     const Vec3 d = chain.segments.front().a - axis_point;
     double radius = 0;
     for (const SectionSegment& s : chain.segments)
@@ -140,10 +143,14 @@ std::optional<SectionLine> assemble_line(std::vector<SectionChain> chains, const
   for (std::size_t i = 0; i < taken.size(); ++i) {
     const SectionChain &chain = *taken[i].chain, &next = *taken[(i + 1) % taken.size()].chain;
     line.bridged += (next.segments.front().a - chain.segments.back().b).norm();
-    line.lying += chain.length, line.rest += chain.rest_length, line.elsewhere += chain.elsewhere;
+    line.lying += chain.length;
+    line.rest += chain.rest_length;
+    line.elsewhere += chain.elsewhere;
   }
   for (const Arc& arc : taken) line.chains.push_back(std::move(*arc.chain));
-  line.lying += line.bridged, line.rest += line.bridged, line.elsewhere += line.bridged;
+  line.lying += line.bridged;
+  line.rest += line.bridged;
+  line.elsewhere += line.bridged;
   return line;
 }
 
@@ -173,8 +180,10 @@ std::vector<SectionChain> cut_garment(const Garment& garment, const std::vector<
       if (next == here.end()) return line;
       taken[*next] = 1;
       Cut& cut = cuts[*next];
-      if (cut.edge_a != edge)
-        std::swap(cut.edge_a, cut.edge_b), std::swap(cut.segment.a, cut.segment.b);
+      if (cut.edge_a != edge) {
+        std::swap(cut.edge_a, cut.edge_b);
+        std::swap(cut.segment.a, cut.segment.b);
+      }
       line.push_back(cut.segment);
       edge = cut.edge_b;
     }
@@ -190,9 +199,11 @@ std::vector<SectionChain> cut_garment(const Garment& garment, const std::vector<
       chain.segments.push_back({s->triangle, s->b, s->a, s->rest, s->elsewhere});
     chain.segments.push_back(cuts[c].segment);
     chain.segments.insert(chain.segments.end(), forward.begin(), forward.end());
-    for (const SectionSegment& s : chain.segments)
-      chain.length += (s.b - s.a).norm(), chain.rest_length += s.rest,
-          chain.elsewhere += s.elsewhere;
+    for (const SectionSegment& s : chain.segments) {
+      chain.length += (s.b - s.a).norm();
+      chain.rest_length += s.rest;
+      chain.elsewhere += s.elsewhere;
+    }
     chain.opening = (chain.segments.front().a - chain.segments.back().b).norm();
     chain.closed = chain.segments.size() > 2 && chain.opening < 1e-9;
     chains.push_back(std::move(chain));

@@ -16,8 +16,18 @@ namespace {
 constexpr double GROSS = 0.1;        // of any fabric: woven cloth near its limit
 constexpr double WORN_TENSION = 100; // N/m, twice a wearing load: knits give more than GROSS to it
 constexpr double FURTHER = 1.5; // times the strain on its own body: within that it hangs as it did
+constexpr double TIMES_AT_ONE_PLACE =
+    3; // times the bound, around one particle: 30 % of woven cloth
 constexpr double TELLING_SHARE =
     0.002; // of the particles held in a pinch: fewer are in any garment
+
+/// The first panel that has a vertex at a particle.
+std::string panel_of(const Garment& garment, int particle) {
+  for (const pattern::PanelInfo& panel : garment.panels.panels)
+    for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v)
+      if (garment.particle_of[v] == particle) return panel.name;
+  return "";
+}
 
 std::string strain_text(double strain) { return percent(strain, strain < 0.1 ? 1 : 0); }
 
@@ -37,6 +47,7 @@ std::string stretch_text(const Stretch& s, const Garment& garment, const io::Jso
 Stretch stretch_of(const Garment& garment) {
   Stretch result;
   const std::vector<TriangleStrain> strains = triangle_strains(garment, garment.position);
+  std::vector<int> list;
   std::vector<Weighted> all;
   double softest = 1e300;
   for (const pattern::PanelInfo& panel : garment.panels.panels) {
@@ -44,22 +55,39 @@ Stretch stretch_of(const Garment& garment) {
     softest = std::min({softest, material.stretch_warp_n_m, material.stretch_weft_n_m});
     std::vector<Weighted> own;
     for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
-      const double stretch = std::max({strains[f].warp, strains[f].weft, 0.0});
       if (!(strains[f].area > 0)) continue;
-      own.push_back({stretch, strains[f].area});
-      if (stretch <= result.max) continue;
-      result.max = stretch;
-      result.place = Vec3::Zero();
-      for (const int v : garment.panels.triangles[f])
-        result.place += garment.position[garment.particle_of[v]] / 3;
+      list.push_back(f);
+      own.push_back({strains[f].thread(), strains[f].area});
     }
     all.insert(all.end(), own.begin(), own.end());
-    if (const double p99 = area_quantile(own, 0.99); result.panel.empty() || p99 > result.panel_p99)
-      result.panel_p99 = p99, result.panel = panel.name;
+    if (const double p99 = area_quantile(own, 0.99);
+        result.panel.empty() || p99 > result.panel_p99) {
+      result.panel_p99 = p99;
+      result.panel = panel.name;
+    }
   }
-  result.p99 = area_quantile(all, 0.99);
+  const auto places = strains_around(garment, strains, list);
+  std::size_t most = places.size();
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (places[i] && *places[i] > result.max) {
+      result.max = *places[i];
+      most = i;
+    }
+  if (most < places.size()) {
+    result.place = garment.position[most];
+    result.place_panel = panel_of(garment, static_cast<int>(most));
+  }
+  result.p99 = std::max(area_quantile(all, 0.99), 0.0);
+  result.panel_p99 = std::max(result.panel_p99, 0.0);
   result.bound = std::max(GROSS, WORN_TENSION / softest);
   return result;
+}
+
+std::optional<std::string> stretched_place(const Stretch& s) {
+  if (s.p99 > s.bound || s.max < TIMES_AT_ONE_PLACE * s.bound) return std::nullopt;
+  return "one place is stretched by " + strain_text(s.max) + ", in panel " + s.place_panel +
+         " at " + sloper::place_text(s.place.x(), s.place.y(), s.place.z()) +
+         " m, though 99 % of the cloth is by less than " + strain_text(s.p99);
 }
 
 std::optional<double> stretch_elsewhere(const Garment& garment, const std::string& skin_sha256) {
@@ -69,21 +97,29 @@ std::optional<double> stretch_elsewhere(const Garment& garment, const std::strin
 }
 
 void judge_stretch(Garment& garment, DrapeOutcome& outcome, const Start& start,
-                   std::optional<double> before, std::vector<std::string>& findings,
+                   std::optional<double> before, std::vector<Message>& findings,
                    Reporter& reporter) {
   if (start.body.empty() || garment.particle_of.empty()) return;
   DrapeReport& report = outcome.report;
   const Stretch now = stretch_of(garment);
   const bool failed =
       before && now.p99 > std::max(standard_fit_policy().strain_p99("", ""), FURTHER * *before);
+  const std::string file = io::file_name(start.file), body = io::file_name(start.body);
+  if (const auto place = stretched_place(now); place && !failed) {
+    findings.push_back(
+        {"drape.stretched-place"_id,
+         file + " on " + body + ": " + *place +
+             ": look there (render-png --map strain), it is drawn over something or caught"});
+    reporter.warning(findings.back());
+  }
   if (!failed && (before || !report.converged || now.p99 <= now.bound)) return;
-  const std::string file = io::file_name(start.file), body = io::file_name(start.body),
-                    retarget = "retarget-garment --garment ";
+  const std::string retarget = "retarget-garment --garment ";
   findings.push_back(
-      file + " on " + body + ": " + stretch_text(now, garment, report.quality) + "; " +
-      (failed ? "it comes from another body, and draping does not put it on this one: " + retarget +
-                    file + " --to " + body + " does"
-              : retarget + "FILE --to " + body + " --fit FIT tells how it fits"));
+      {"drape.stretched"_id,
+       file + " on " + body + ": " + stretch_text(now, garment, report.quality) + "; " +
+           (failed ? "it comes from another body, and draping does not put it on this one: " +
+                         retarget + file + " --to " + body + " does"
+                   : retarget + "FILE --to " + body + " --fit FIT tells how it fits")});
   reporter.warning(findings.back());
   if (!failed || !report.converged) return;
   report.converged = garment.converged = false;

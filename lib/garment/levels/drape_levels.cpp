@@ -106,6 +106,7 @@ private:
     const bool first = m_at.rung == FIRST_RUNG && !m_at.on_given_mesh;
     DrapeRequest request = m_request;
     request.only_clear = first;
+    request.carried = !m_at.on_given_mesh;
     request.start.around_body = first;
     request.audit = first || is_last();
     const SessionInputs inputs{.garment = m_garment, .body = m_body, .request = request};

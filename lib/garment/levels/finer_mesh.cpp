@@ -42,8 +42,8 @@ Vec3 limited(const Vec3& weights) {
 const pattern::PanelInfo& panel_of_name(const pattern::PanelMesh& mesh, const std::string& name) {
   for (const pattern::PanelInfo& p : mesh.panels)
     if (p.name == name) return p;
-  throw input_error("", "panel " + name, "is not in the coarser mesh of the same pattern",
-                    "mesh the pattern again");
+  throw input_error("mesh.other-pattern"_id, "", "panel " + name,
+                    "is not in the coarser mesh of the same pattern", "mesh the pattern again");
 }
 
 /// Looks at the last triangle first: neighbours come one after the other. Cost: vertices of one

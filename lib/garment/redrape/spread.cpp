@@ -57,7 +57,10 @@ std::vector<int> lowest_free_edge(const std::vector<Triangle>& triangles,
     }
     double height = 0;
     for (int p : loop) height += position[p].y() / static_cast<double>(loop.size());
-    if (loop.size() >= 3 && height < lowest) lowest = height, best = std::move(loop);
+    if (loop.size() >= 3 && height < lowest) {
+      lowest = height;
+      best = std::move(loop);
+    }
   }
   return best;
 }
@@ -142,7 +145,10 @@ Spread measure_spread(const RedrapeSet& set, const body::Body* body) {
   std::vector<const Garment*> drapes;
   std::vector<std::size_t> number;
   for (std::size_t k = 0; k < set.garments.size(); ++k)
-    if (set.garments[k].converged) drapes.push_back(&set.garments[k]), number.push_back(k);
+    if (set.garments[k].converged) {
+      drapes.push_back(&set.garments[k]);
+      number.push_back(k);
+    }
   out.at_rest = static_cast<int>(drapes.size());
   if (drapes.size() < 2) {
     out.medoid = drapes.empty() ? 0 : static_cast<int>(number[0]);
@@ -152,8 +158,11 @@ Spread measure_spread(const RedrapeSet& set, const body::Body* body) {
   double low = 1e300, high = -1e300;
   for (const Garment* g : drapes) {
     if (g->position.size() != drapes[0]->position.size())
-      throw input_error("", "", "the drapes have not the same mesh");
-    for (const Vec3& p : g->position) low = std::min(low, p.y()), high = std::max(high, p.y());
+      throw input_error("drape.meshes-differ"_id, "", "", "the drapes have not the same mesh");
+    for (const Vec3& p : g->position) {
+      low = std::min(low, p.y());
+      high = std::max(high, p.y());
+    }
   }
   std::vector<double> heights;
   for (double k = std::ceil(low / LEVEL_STEP); k * LEVEL_STEP <= high; ++k)
@@ -172,8 +181,10 @@ Spread measure_spread(const RedrapeSet& set, const body::Body* body) {
     shadow.push_back(shadow_area(triangles, g->position, SHADOW_CELL));
     percent.push_back(flat > 0 ? 100 * shadow.back() / flat : 0);
   }
-  out.strain_p50 = spread_figure(p50), out.strain_p99 = spread_figure(p99);
-  out.folds = spread_figure(folds), out.shadow_m2 = spread_figure(shadow),
+  out.strain_p50 = spread_figure(p50);
+  out.strain_p99 = spread_figure(p99);
+  out.folds = spread_figure(folds);
+  out.shadow_m2 = spread_figure(shadow);
   out.drape_percent = spread_figure(percent);
 
   std::map<std::string, std::vector<double>> pairs;
@@ -196,7 +207,10 @@ Spread measure_spread(const RedrapeSet& set, const body::Body* body) {
   for (std::size_t a = 0; a < drapes.size(); ++a) {
     double sum = 0;
     for (double r : rms[a]) sum += r * r;
-    if (sum < least) least = sum, medoid = a;
+    if (sum < least) {
+      least = sum;
+      medoid = a;
+    }
   }
   out.medoid = static_cast<int>(number[medoid]);
   for (std::size_t a = 0; a < drapes.size(); ++a) out.to_medoid_m[number[a]] = rms[medoid][a];

@@ -42,12 +42,13 @@ void set_jitter(StartJitter& jitter, const std::string& assignment) {
     const char* end = assignment.data() + assignment.size();
     const auto read = std::from_chars(assignment.data() + equals + 1, end, value);
     if (read.ec != std::errc() || read.ptr != end || !(value >= 0 && value <= b.most))
-      throw Error(ErrorKind::USAGE, "", place, "the value is no number in range",
+      throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", place,
+                  "the value is no number in range",
                   "give one from 0 to " + std::to_string(static_cast<int>(b.most)));
     jitter.*b.field = value * b.unit;
     return;
   }
-  throw Error(ErrorKind::USAGE, "", place,
+  throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", place,
               "is not NAME=VALUE" + did_you_mean(name, {"turn_deg", "offset_mm", "order_mm"}),
               "known are turn_deg, offset_mm, order_mm");
 }

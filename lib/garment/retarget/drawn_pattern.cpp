@@ -16,7 +16,10 @@ bool is_meshed_from(const Garment& garment, const pattern::PanelInfo& panel,
                     const std::vector<Vec2>& drawn) {
   if (panel.outline.size() != drawn.size()) return false;
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
-  for (const Vec2& p : drawn) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  for (const Vec2& p : drawn) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     const pattern::StableId& id = garment.panels.ids[panel.outline[i]];
     const Vec2 at = (drawn[i] - low).cwiseQuotient(high - low);

@@ -40,7 +40,8 @@ struct WornOutline {
         const int next = (at + step + n()) % n();
         const double side = (flat[next] - flat[at]).norm();
         if (done + side < wanted && next != start) {
-          done += side, at = next;
+          done += side;
+          at = next;
           continue;
         }
         const double share = side > 0 ? std::clamp((wanted - done) / side, 0.0, 1.0) : 0;
@@ -56,15 +57,20 @@ struct WornOutline {
 WornOutline outline_of(const pattern::PanelMesh& panels, const pattern::PanelInfo& info,
                        const std::vector<Vec3>& position) {
   WornOutline o;
-  for (const int v : info.outline)
-    o.flat.push_back(panels.pattern[v]), o.body.push_back(position[v]);
+  for (const int v : info.outline) {
+    o.flat.push_back(panels.pattern[v]);
+    o.body.push_back(position[v]);
+  }
   double sharpest = 2;
   for (int i = 0; i < o.n(); ++i) {
     const Vec2 before = o.flat[i] - o.flat[(i + o.n() - 1) % o.n()],
                after = o.flat[(i + 1) % o.n()] - o.flat[i];
     o.perimeter += after.norm();
     const double cosine = before.normalized().dot(after.normalized());
-    if (cosine < sharpest - 1e-9) sharpest = cosine, o.corner = i;
+    if (cosine < sharpest - 1e-9) {
+      sharpest = cosine;
+      o.corner = i;
+    }
   }
   return o;
 }
@@ -73,7 +79,10 @@ WornOutline outline_of(const pattern::PanelMesh& panels, const pattern::PanelInf
 /// left.
 PanelMirror reflection(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
   Vec2 center_a = Vec2::Zero(), center_b = Vec2::Zero();
-  for (std::size_t i = 0; i < a.size(); ++i) center_a += a[i] / SAMPLES, center_b += b[i] / SAMPLES;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    center_a += a[i] / SAMPLES;
+    center_b += b[i] / SAMPLES;
+  }
   Eigen::Matrix2d m = Eigen::Matrix2d::Zero();
   for (std::size_t i = 0; i < a.size(); ++i) m += (b[i] - center_b) * (a[i] - center_a).transpose();
   const double angle = std::atan2(m(0, 1) + m(1, 0), m(0, 0) - m(1, 1)), c = std::cos(angle),
@@ -130,7 +139,11 @@ std::vector<PanelMirror> panel_mirrors(const pattern::PanelMesh& panels,
           apart +=
               (Vec3(-ring.body[k].x(), ring.body[k].y(), ring.body[k].z()) - image.body[k]).norm() /
               SAMPLES;
-        if (apart < best.apart) best.apart = apart, best.mirror = mirror, best.mirror.partner = q;
+        if (apart < best.apart) {
+          best.apart = apart;
+          best.mirror = mirror;
+          best.mirror.partner = q;
+        }
       }
       if (best.mirror.partner >= 0) pairs.push_back(best);
     }

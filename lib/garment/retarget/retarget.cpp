@@ -84,7 +84,10 @@ public:
       : m_normal(n, Vec3::Zero()), m_amount(n, -1), m_nearest(nearest) {}
   /// @param amount  m along the unit normal, 0 for what is only not to come nearer
   void add(int particle, const Vec3& normal, double amount, double distance) {
-    if (amount > m_amount[particle]) m_normal[particle] = normal, m_amount[particle] = amount;
+    if (amount > m_amount[particle]) {
+      m_normal[particle] = normal;
+      m_amount[particle] = amount;
+    }
     m_nearest = std::min(m_nearest, distance);
   }
   bool active(std::size_t i) const { return m_amount[i] >= 0; }
@@ -168,7 +171,8 @@ void grade(Retargeted& result, const Garment& source, const std::vector<Vec3>& a
     sides.apart[d.limb] += (sides.apart[d.limb].empty() ? "" : ", ") + d.text;
   result.garment.panels = source.panels;
   const GradeReport report = regrade(result.garment, source.position, after, sides, longer);
-  result.report.mirrored_panels = report.mirrored_panels, result.report.findings = report.findings;
+  result.report.mirrored_panels = report.mirrored_panels;
+  result.report.findings = report.findings;
   ++result.report.gradings;
 }
 
@@ -177,8 +181,8 @@ void grade(Retargeted& result, const Garment& source, const std::vector<Vec3>& a
 RetargetMode retarget_mode_from_name(const std::string& name) {
   if (name == "keep-fabric") return RetargetMode::KEEP_FABRIC;
   if (name == "keep-fit") return RetargetMode::KEEP_FIT;
-  throw Error(ErrorKind::USAGE, "", "--mode", "\"" + name + "\" is not a mode",
-              "use keep-fabric or keep-fit");
+  throw Error(ErrorKind::USAGE, "option.unknown-word"_id, "", "--mode",
+              "\"" + name + "\" is not a mode", "use keep-fabric or keep-fit");
 }
 
 io::Json placement_json(const PlacementReport& r) {

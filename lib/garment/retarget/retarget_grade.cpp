@@ -366,15 +366,17 @@ void measure_seams(Garment& garment, const std::vector<std::array<double, 2>>& b
                    GradeReport& report) {
   for (std::size_t s = 0; s < garment.panels.seams.size(); ++s) {
     pattern::MeshSeam& seam = garment.panels.seams[s];
-    seam.length_a = run_length(garment, seam.a), seam.length_b = run_length(garment, seam.b);
+    seam.length_a = run_length(garment, seam.a);
+    seam.length_b = run_length(garment, seam.b);
     if (!(before[s][0] > 0 && before[s][1] > 0)) continue;
     const double apart = std::abs(seam.length_a - seam.length_b * before[s][0] / before[s][1]);
     report.largest_seam_change_m = std::max(report.largest_seam_change_m, apart);
     if (apart <= SEAM_FINDING) continue;
     char length[32];
     std::snprintf(length, sizeof length, "%.1f", 1000 * apart);
-    report.findings.push_back("the sides of seam \"" + seam.name + "\" fit each other " + length +
-                              " mm worse than before grading");
+    report.findings.push_back({"retarget.seam-fits-worse"_id, "the sides of seam \"" + seam.name +
+                                                                  "\" fit each other " + length +
+                                                                  " mm worse than before grading"});
   }
 }
 
@@ -450,8 +452,9 @@ GradeReport regrade(Garment& garment, const std::vector<Vec3>& before,
                     [&, limb = limb](const auto& panel) {
                       return limb_of(garment, panel) == limb;
                     })) // clang 14 captures no structured binding
-      report.findings.push_back(why +
-                                ": more than is graded alike, so left and right are graded apart");
+      report.findings.push_back(
+          {"retarget.sides-apart"_id,
+           why + ": more than is graded alike, so left and right are graded apart"});
   measure_seams(garment, lengths, report);
   return report;
 }

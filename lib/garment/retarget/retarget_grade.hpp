@@ -3,6 +3,7 @@
 #include <sloper/garment/garment.hpp>
 
 #include <map>
+#include <sloper/base/message.hpp>
 
 namespace sloper::garment {
 
@@ -15,8 +16,8 @@ struct GradeSides {
 struct GradeReport {
   int mirrored_panels = 0; ///< graded together with their mirror images
   double largest_seam_change_m =
-      0; ///< by which the sides of a seam fit each other worse than before
-  std::vector<std::string> findings; ///< limbs graded apart, seams that no longer match as they did
+      0;                         ///< by which the sides of a seam fit each other worse than before
+  std::vector<Message> findings; ///< limbs graded apart, seams that no longer match as they did
 };
 
 /// Changes the pattern coordinates of every panel so that the cloth has the strain at `after` that

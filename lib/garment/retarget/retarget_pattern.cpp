@@ -140,8 +140,11 @@ std::vector<std::string> edge_names(const EdgedOutline& outline, const pattern::
 pattern::Panel panel_of(const Garment& garment, const pattern::PanelInfo& info,
                         const EdgedOutline& outline, const std::vector<std::string>& names) {
   pattern::Panel panel;
-  panel.name = info.name, panel.grain = info.grain, panel.material = info.material,
-  panel.layer = info.layer, panel.label = info.part;
+  panel.name = info.name;
+  panel.grain = info.grain;
+  panel.material = info.material;
+  panel.layer = info.layer;
+  panel.label = info.part;
   panel.hint.part = info.part;
   panel.loops.emplace_back();
   for (std::size_t e = 0; e < outline.edge_starts.size(); ++e) {
@@ -160,7 +163,10 @@ pattern::Panel panel_of(const Garment& garment, const pattern::PanelInfo& info,
 
 double width_of(const std::vector<Vec2>& points) {
   double low = 1e300, high = -1e300;
-  for (const Vec2& p : points) low = std::min(low, p.x()), high = std::max(high, p.x());
+  for (const Vec2& p : points) {
+    low = std::min(low, p.x());
+    high = std::max(high, p.x());
+  }
   return high - low;
 }
 
@@ -236,9 +242,10 @@ void take_over(const DrawnPattern& drawn, std::size_t k, const Garment& garment,
         panel.notches.push_back(moved);
   const bool lines = !from.lines.empty(), holes = from.loops.size() > 1;
   if (lines || holes)
-    result.findings.push_back(from.name + ": its " + (lines ? "inner lines" : "") +
-                              (lines && holes ? " and " : "") + (holes ? "holes" : "") +
-                              " are not in the regraded pattern");
+    result.findings.push_back({"retarget.lines-left-out"_id,
+                               from.name + ": its " + (lines ? "inner lines" : "") +
+                                   (lines && holes ? " and " : "") + (holes ? "holes" : "") +
+                                   " are not in the regraded pattern"});
 }
 
 } // namespace
@@ -275,13 +282,16 @@ pattern::Pattern pattern_of(const Garment& garment, const Garment& shape) {
     const pattern::MeshSeam& from = garment.panels.seams[s];
     const bool inside = sides[s][0].empty() || sides[s][1].empty();
     if (inside || from.kind == "pleat") {
-      result.findings.push_back("seam " + from.name +
-                                (inside ? " lies inside a panel and is left out"
-                                        : " of a pleat is left out: fold and sew it again"));
+      result.findings.push_back({"retarget.seam-left-out"_id,
+                                 "seam " + from.name +
+                                     (inside ? " lies inside a panel and is left out"
+                                             : " of a pleat is left out: fold and sew it again")});
       continue;
     }
     pattern::Seam seam;
-    seam.name = from.name, seam.kind = from.kind, seam.open = from.open;
+    seam.name = from.name;
+    seam.kind = from.kind;
+    seam.open = from.open;
     for (const Stretch& stretch : sides[s][0]) add_runs(outlines[stretch.panel], stretch, seam.a);
     for (const Stretch& stretch : sides[s][1]) add_runs(outlines[stretch.panel], stretch, seam.b);
     if (drawn)
@@ -305,8 +315,10 @@ std::string grade_table(const pattern::Pattern& before, const pattern::Pattern& 
     double low = 1e300, high = -1e300;
     for (const auto& loop : panel.loops)
       for (const pattern::PanelEdge& e : loop)
-        for (const pattern::Segment& s : e.path)
-          low = std::min(low, s.p[0].dot(direction)), high = std::max(high, s.p[0].dot(direction));
+        for (const pattern::Segment& s : e.path) {
+          low = std::min(low, s.p[0].dot(direction));
+          high = std::max(high, s.p[0].dot(direction));
+        }
     return high - low;
   };
   for (std::size_t k = 0; k < before.panels.size() && k < after.panels.size(); ++k) {

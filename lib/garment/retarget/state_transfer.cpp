@@ -40,15 +40,18 @@ bool beside(const pattern::PanelMesh& mesh, const pattern::PanelInfo& a,
       else if (owns(a, s.b[k]) && owns(b, s.a[k])) pairs.push_back({s.b[k], s.a[k]});
   if (pairs.size() < 2) return false;
   Vec2 mean_a = Vec2::Zero(), mean_b = Vec2::Zero();
-  for (const auto& [v, w] : pairs)
-    mean_a += mesh.pattern[static_cast<std::size_t>(v)],
-        mean_b += mesh.pattern[static_cast<std::size_t>(w)];
-  mean_a /= static_cast<double>(pairs.size()), mean_b /= static_cast<double>(pairs.size());
+  for (const auto& [v, w] : pairs) {
+    mean_a += mesh.pattern[static_cast<std::size_t>(v)];
+    mean_b += mesh.pattern[static_cast<std::size_t>(w)];
+  }
+  mean_a /= static_cast<double>(pairs.size());
+  mean_b /= static_cast<double>(pairs.size());
   double along = 0, across = 0;
   for (const auto& [v, w] : pairs) {
     const Vec2 p = mesh.pattern[static_cast<std::size_t>(w)] - mean_b,
                q = mesh.pattern[static_cast<std::size_t>(v)] - mean_a;
-    along += p.dot(q), across += p.x() * q.y() - p.y() * q.x();
+    along += p.dot(q);
+    across += p.x() * q.y() - p.y() * q.x();
   }
   out.turn = Eigen::Rotation2Dd(std::atan2(across, along)).toRotationMatrix();
   out.shift = mean_a - out.turn * mean_b;
@@ -74,8 +77,12 @@ Vec3 nearest_weights(const std::array<Vec2, 3>& t, const Vec2& p, double& square
     const double length = (b - a).squaredNorm(),
                  s = length > 0 ? std::clamp((p - a).dot(b - a) / length, 0.0, 1.0) : 0.0;
     const double off = (a + s * (b - a) - p).squaredNorm();
-    if (off < squared_distance)
-      squared_distance = off, best = Vec3::Zero(), best[k] = 1 - s, best[(k + 1) % 3] = s;
+    if (off < squared_distance) {
+      squared_distance = off;
+      best = Vec3::Zero();
+      best[k] = 1 - s;
+      best[(k + 1) % 3] = s;
+    }
   }
   return best;
 }
@@ -88,16 +95,19 @@ public:
     Vec2 high = Vec2::Constant(-1e300);
     for (int v = panel.first_vertex; v < panel.first_vertex + panel.n_vertices; ++v) {
       const Vec2& p = mesh.pattern[static_cast<std::size_t>(v)];
-      m_low = m_low.cwiseMin(p), high = high.cwiseMax(p);
+      m_low = m_low.cwiseMin(p);
+      high = high.cwiseMax(p);
     }
     m_cell = std::max(m_cell, (high - m_low).maxCoeff() / MOST_CELLS);
-    m_nx = cell_at(high.x() - m_low.x()) + 1, m_ny = cell_at(high.y() - m_low.y()) + 1;
+    m_nx = cell_at(high.x() - m_low.x()) + 1;
+    m_ny = cell_at(high.y() - m_low.y()) + 1;
     m_triangles.resize(static_cast<std::size_t>(m_nx) * static_cast<std::size_t>(m_ny));
     for (int f = panel.first_triangle; f < panel.first_triangle + panel.n_triangles; ++f) {
       Vec2 least = Vec2::Constant(1e300), most = Vec2::Constant(-1e300);
       for (int v : mesh.triangles[static_cast<std::size_t>(f)]) {
         const Vec2 p = mesh.pattern[static_cast<std::size_t>(v)] - m_low;
-        least = least.cwiseMin(p), most = most.cwiseMax(p);
+        least = least.cwiseMin(p);
+        most = most.cwiseMax(p);
       }
       for (int y = cell_at(least.y()); y <= cell_at(most.y()); ++y)
         for (int x = cell_at(least.x()); x <= cell_at(most.x()); ++x)
@@ -133,10 +143,10 @@ void part_free_edges(const std::vector<Triangle>& triangles, std::vector<Vec3>& 
   for (const Triangle& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = t[k], b = t[(k + 1) % 3];
-      around[static_cast<std::size_t>(a)] += position[static_cast<std::size_t>(b)],
-          ++count[static_cast<std::size_t>(a)];
-      around[static_cast<std::size_t>(b)] += position[static_cast<std::size_t>(a)],
-          ++count[static_cast<std::size_t>(b)];
+      around[static_cast<std::size_t>(a)] += position[static_cast<std::size_t>(b)];
+      ++count[static_cast<std::size_t>(a)];
+      around[static_cast<std::size_t>(b)] += position[static_cast<std::size_t>(a)];
+      ++count[static_cast<std::size_t>(b)];
     }
   const std::vector<std::array<int, 2>> free = free_edges_of(triangles);
   std::set<int> ends;
@@ -191,7 +201,8 @@ void transfer_state(Garment& garment, pattern::PanelMesh mesh) {
                                         old.pattern[static_cast<std::size_t>(t[2])]},
                                        p, off);
         if (off >= least) return;
-        least = off, voted = s;
+        least = off;
+        voted = s;
         Vec3 at = Vec3::Zero();
         for (int k = 0; k < 3; ++k)
           at += w[k] *

@@ -28,7 +28,7 @@ static EffectReport& named(std::vector<EffectReport>& effects, const std::string
     known.push_back(e.name);
     names += (names.empty() ? "" : ", ") + e.name;
   }
-  throw Error(ErrorKind::USAGE, "", "effect \"" + name + "\"",
+  throw Error(ErrorKind::USAGE, "option.unknown-word"_id, "", "effect \"" + name + "\"",
               "is not known" + did_you_mean(name, known), "known are " + names);
 }
 
@@ -60,14 +60,14 @@ static void check_models(const std::vector<EffectReport>& effects) {
         both += (both.empty() ? "" : " and ") + std::string(m);
       }
     if (n > 1)
-      throw Error(ErrorKind::USAGE, "", "effects", both + " are models of the same " + of,
-                  "name one of them");
+      throw Error(ErrorKind::USAGE, "scene.effects-conflict"_id, "", "effects",
+                  both + " are models of the same " + of, "name one of them");
   };
   only_one(models_of(EffectModel::STRETCH), "stretch");
   only_one(models_of(EffectModel::BENDING), "bending");
   if (is_active(effects, "membrane") && is_active(effects, "shear"))
-    throw Error(ErrorKind::USAGE, "", "effects", "membrane and shear both carry shear",
-                "leave shear out");
+    throw Error(ErrorKind::USAGE, "scene.effects-conflict"_id, "", "effects",
+                "membrane and shear both carry shear", "leave shear out");
 }
 
 static EffectFacts facts_of(const Garment& garment, const body::Body* body,
@@ -105,7 +105,8 @@ std::vector<EffectReport> choose_effects(const Garment& garment, const body::Bod
                                          const DrapeSettings& settings) {
   const EffectFacts facts = facts_of(garment, body, settings);
   if (facts.is_fem && !facts.scene.shrink.empty())
-    throw input_error("", "shrink", "the finite-element membrane has no b_u, b_v",
+    throw input_error("scene.effects-conflict"_id, "", "shrink",
+                      "the finite-element membrane has no b_u, b_v",
                       "choose \"membrane\": \"triangles\", which the scene gets by itself");
   std::vector<EffectReport> effects;
   for (const EffectSpec& spec : effect_registry()) {

@@ -86,7 +86,7 @@ const pattern::PanelInfo& panel_named(const Garment& garment, const std::string&
     words.push_back(p.name);
     names += (names.empty() ? "" : ", ") + p.name;
   }
-  throw input_error("", "panel \"" + name + "\"",
+  throw input_error("garment.no-panel"_id, "", "panel \"" + name + "\"",
                     "is not in the garment" + did_you_mean(name, words), "panels are " + names);
 }
 

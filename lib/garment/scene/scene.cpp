@@ -150,8 +150,8 @@ DrapeSettings preset_settings(const std::string& accuracy) {
       s.max_steps = p.max_steps;
       return s;
     }
-  throw Error(ErrorKind::USAGE, "", "--accuracy", "\"" + accuracy + "\" is not known",
-              "known are draft, standard, fine, reference");
+  throw Error(ErrorKind::USAGE, "option.unknown-word"_id, "", "--accuracy",
+              "\"" + accuracy + "\" is not known", "known are draft, standard, fine, reference");
 }
 
 void set_knob(DrapeSettings& settings, const std::string& name, double value) {
@@ -160,7 +160,7 @@ void set_knob(DrapeSettings& settings, const std::string& name, double value) {
   for (const Knob& k : knobs()) {
     if (name == k.name) {
       if (!(value >= k.low && value <= k.high))
-        throw Error(ErrorKind::USAGE, "", name, "is out of range",
+        throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", name, "is out of range",
                     "give a value from " + std::to_string(k.low) + " to " + std::to_string(k.high));
       if (k.real) settings.*k.real = value;
       else settings.*k.whole = static_cast<int>(value);
@@ -169,8 +169,8 @@ void set_knob(DrapeSettings& settings, const std::string& name, double value) {
     words.emplace_back(k.name);
     names += (names.empty() ? "" : ", ") + words.back();
   }
-  throw Error(ErrorKind::USAGE, "", name, "is not a setting" + did_you_mean(name, words),
-              "settings are " + names);
+  throw Error(ErrorKind::USAGE, "option.unknown-word"_id, "", name,
+              "is not a setting" + did_you_mean(name, words), "settings are " + names);
 }
 
 void set_knob(DrapeSettings& settings, const std::string& name, const io::Node& value) {
@@ -178,7 +178,7 @@ void set_knob(DrapeSettings& settings, const std::string& name, const io::Node& 
   try {
     set_knob(settings, name, number);
   } catch (const Error& e) {
-    value.fail(e.what());
+    value.fail(e.id(), e.what());
   }
 }
 
@@ -187,10 +187,12 @@ void set_knob(DrapeSettings& settings, const std::string& assignment) {
   double value = 0;
   const char* end = assignment.data() + assignment.size();
   if (equals == std::string::npos)
-    throw Error(ErrorKind::USAGE, "", "--set " + assignment, "is not KNOB=VALUE");
+    throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", "--set " + assignment,
+                "is not KNOB=VALUE");
   if (const auto r = std::from_chars(assignment.data() + equals + 1, end, value);
       r.ec != std::errc() || r.ptr != end || !std::isfinite(value))
-    throw Error(ErrorKind::USAGE, "", "--set " + assignment, "the value is not a number");
+    throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", "--set " + assignment,
+                "the value is not a number");
   set_knob(settings, assignment.substr(0, equals), value);
 }
 

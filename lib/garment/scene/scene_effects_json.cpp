@@ -20,7 +20,7 @@ double in_range(const Node& node, const char* key, double fallback, double low, 
   if (!node.has(key)) return fallback;
   const double value = node.at(key).number();
   if (!(value >= low && value <= high))
-    node.at(key).fail("is out of range",
+    node.at(key).fail("json.out-of-range"_id, "is out of range",
                       "give a value from " + std::to_string(low) + " to " + std::to_string(high));
   return value;
 }
@@ -33,7 +33,7 @@ std::string one_of(const Node& node, const char* key, std::initializer_list<cons
     if (value == name) return value;
     list += (list.empty() ? "" : ", ") + std::string(name);
   }
-  node.at(key).fail("\"" + value + "\" is not known", "known are " + list);
+  node.at(key).fail("json.unknown-word"_id, "\"" + value + "\" is not known", "known are " + list);
 }
 
 PanelRun read_run(const Node& node) {
@@ -41,7 +41,7 @@ PanelRun read_run(const Node& node) {
   run.panel = node.at("panel").string();
   if (node.has("at")) {
     if (node.has("from") || node.has("to"))
-      node.fail("names both a point (at) and a line (from, to)");
+      node.fail("scene.bad-effect"_id, "names both a point (at) and a line (from, to)");
     run.from = run.to = node.at("at").vec2();
   } else {
     run.from = node.at("from").vec2();
@@ -66,7 +66,7 @@ template<class Item, class Read>
 void read_list(const Node& node, const char* key, std::vector<Item>& list, Read read) {
   if (!node.has(key)) return;
   const Node items = node.at(key);
-  if (!items.is_array()) items.fail("expected a list");
+  if (!items.is_array()) items.fail("json.wrong-type"_id, "expected a list");
   for (std::size_t k = 0; k < items.size(); ++k) list.push_back(read(items.at(k)));
 }
 
@@ -105,7 +105,8 @@ SceneEffects read_scene_effects(const Node& node) {
         {"panel", "at", "from", "to", "anchor_m", "landmark", "rest_length_m", "stiffness_n_m"});
     SceneAttachment a;
     a.run = read_run(n);
-    if (n.has("anchor_m") == n.has("landmark")) n.fail("needs either anchor_m or landmark");
+    if (n.has("anchor_m") == n.has("landmark"))
+      n.fail("json.missing-key"_id, "needs either anchor_m or landmark");
     if (n.has("anchor_m")) a.anchor = n.at("anchor_m").vec3();
     a.landmark = n.string("landmark", "");
     a.rest_length_m = in_range(n, "rest_length_m", a.rest_length_m, 0, 10);
@@ -140,7 +141,8 @@ SceneEffects read_scene_effects(const Node& node) {
     with.allow_only({"panel", "from", "to"});
     closure.with = read_run(with);
     const std::string kind = one_of(n, "kind", {"buttons", "zip"});
-    if (kind == "zip" && n.has("count")) n.at("count").fail("a zip is not counted");
+    if (kind == "zip" && n.has("count"))
+      n.at("count").fail("scene.bad-effect"_id, "a zip is not counted");
     if (kind != "zip") closure.count = static_cast<int>(in_range(n, "count", 5, 1, 200));
     closure.stiffness_n_m = in_range(n, "stiffness_n_m", closure.stiffness_n_m, 1, 1e6);
     return closure;
@@ -154,7 +156,8 @@ SceneEffects read_scene_effects(const Node& node) {
   });
   scene.air = node.has("wind_m_s");
   if (scene.air) scene.wind_m_s = node.at("wind_m_s").vec3();
-  if (scene.wind_m_s.norm() > 100) node.at("wind_m_s").fail("is beyond 100 m/s");
+  if (scene.wind_m_s.norm() > 100)
+    node.at("wind_m_s").fail("json.out-of-range"_id, "is beyond 100 m/s");
   scene.pressure_pa = in_range(node, "pressure_pa", 0, -1e5, 1e5);
   return scene;
 }

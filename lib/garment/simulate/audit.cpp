@@ -11,12 +11,15 @@ static void measure_strain(const Garment& garment, Audit& result) {
   std::vector<Weighted> warp, weft, bias, thread;
   for (const TriangleStrain& s : triangle_strains(garment, garment.position)) {
     if (!(s.area > 0)) continue;
-    warp.push_back({s.warp, s.area}), weft.push_back({s.weft, s.area}),
-        bias.push_back({s.bias, s.area}), thread.push_back({s.thread(), s.area});
+    warp.push_back({s.warp, s.area});
+    weft.push_back({s.weft, s.area});
+    bias.push_back({s.bias, s.area});
+    thread.push_back({s.thread(), s.area});
   }
   const auto quantiles = [](std::vector<Weighted>& values, double out[3]) {
     if (values.empty()) return;
-    out[0] = area_quantile(values, 0.5), out[1] = area_quantile(values, 0.99),
+    out[0] = area_quantile(values, 0.5);
+    out[1] = area_quantile(values, 0.99);
     out[2] = values.back().value;
   };
   quantiles(warp, result.strain_warp);

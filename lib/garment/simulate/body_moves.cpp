@@ -41,7 +41,8 @@ std::size_t number_of(const std::string& first) {
   std::size_t begin = dot == std::string::npos ? 0 : dot;
   while (begin > 0 && std::isdigit(static_cast<unsigned char>(first[begin - 1]))) --begin;
   if (dot == std::string::npos || begin == dot || dot - begin > 9)
-    throw input_error(first, "", "is neither a BVH motion nor a numbered skin",
+    throw input_error("motion.unknown-kind"_id, first, "",
+                      "is neither a BVH motion nor a numbered skin",
                       "give walk.bvh, or the first file of a sequence such as body.0001.obj");
   return std::stoul(first.substr(begin, dot - begin));
 }
@@ -50,7 +51,8 @@ std::size_t number_of(const std::string& first) {
 
 BodyMoves moves_of(const body::Body& body, const body::Motion& motion) {
   if (motion.poses.empty())
-    throw input_error("", "motion", "has no pose", "give a motion with one frame at least");
+    throw input_error("motion.no-pose"_id, "", "motion", "has no pose",
+                      "give a motion with one frame at least");
   BodyMoves moves;
   if (motion.frame_s > 0) moves.frame_s = motion.frame_s;
   const auto weights = std::make_shared<body::SkinWeights>(body::skin_weights(body));
@@ -75,7 +77,7 @@ BodyMoves moves_of_files(const body::Body& body, const std::string& first_file, 
   std::size_t count = 0;
   while (std::filesystem::exists(numbered(first_file, first + count))) ++count;
   if (count == 0)
-    throw input_error(first_file, "", "the file does not exist",
+    throw input_error("file.not-found"_id, first_file, "", "the file does not exist",
                       "write the sequence with scan-landmarks --pose motion.bvh");
   BodyMoves moves;
   moves.frame_s = frame_s;
@@ -83,7 +85,7 @@ BodyMoves moves_of_files(const body::Body& body, const std::string& first_file, 
     const std::string path = numbered(first_file, first + k);
     io::ObjMesh obj = io::read_obj(path);
     if (obj.positions.size() != body.skin.positions.size() || obj.triangles != body.skin.triangles)
-      throw input_error(path, "",
+      throw input_error("motion.other-body"_id, path, "",
                         "is not the skin of the body in another pose: its vertices or faces differ",
                         "pose the same body that the garment is draped on");
     return std::move(obj.positions);

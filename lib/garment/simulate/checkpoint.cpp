@@ -31,7 +31,7 @@ cloth::BodyContactEffect::Memory read_contact(const Node& node, std::size_t n_pa
   contact.push = node.at("push").number();
   if (contact.anchor.size() != contact.has_anchor.size() ||
       (!contact.anchor.empty() && contact.anchor.size() != n_particles))
-    node.fail("does not belong to this garment");
+    node.fail("checkpoint.damaged"_id, "does not belong to this garment");
   return contact;
 }
 
@@ -57,7 +57,8 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   DrapeState s;
   const std::string phase = node.at("phase").string();
   const auto found = std::find(std::begin(PHASES), std::end(PHASES), phase);
-  if (found == std::end(PHASES)) node.at("phase").fail("is not a phase of a drape");
+  if (found == std::end(PHASES))
+    node.at("phase").fail("checkpoint.damaged"_id, "is not a phase of a drape");
   s.phase = static_cast<DrapePhase>(found - std::begin(PHASES));
   s.disturbed = node.at("disturbed").boolean();
   s.body = CollisionBody::State::read(node);
@@ -70,14 +71,16 @@ DrapeState read_state(const Node& node, std::size_t n_particles) {
   s.settle = SettlePhase::State::read(node, n_particles);
   s.sew.step = s.settle.step = node.at("step").integer();
   if (s.phase == DrapePhase::SEW && static_cast<int>(s.sew.gaps.size()) != s.sew.step)
-    node.at("gaps").fail("must have one number for each step");
+    node.at("gaps").fail("checkpoint.damaged"_id, "must have one number for each step");
   if (s.phase == DrapePhase::SETTLE && s.settle.start_height.size() != n_particles)
-    node.at("start_height").fail("does not belong to this garment");
+    node.at("start_height").fail("checkpoint.damaged"_id, "does not belong to this garment");
   if (node.has("motion") || s.phase == DrapePhase::MOVE)
     s.move = MovePhase::State::read(node.at("motion"));
   if (node.has("fit")) s.fit = FitMonitor::State::read(node.at("fit")); // older ones have none
   if (s.phase == DrapePhase::MOVE && s.move.velocity.size() != n_particles)
-    node.at("motion").at("velocity").fail("does not belong to this garment");
+    node.at("motion")
+        .at("velocity")
+        .fail("checkpoint.damaged"_id, "does not belong to this garment");
   return s;
 }
 
@@ -151,7 +154,7 @@ Garment take_garment(const Node& node) {
   garment.panels.placed = io::read_flat_points(node.at("placed"));
   if (!garment.panels.placed.empty() &&
       garment.panels.placed.size() != garment.panels.pattern.size())
-    node.at("placed").fail("does not belong to this garment");
+    node.at("placed").fail("checkpoint.damaged"_id, "does not belong to this garment");
   return garment;
 }
 
@@ -179,10 +182,10 @@ LayersProgress read_layers(const Node& node, std::size_t n_particles) {
   }
   const int alone = node.at("alone").integer();
   if (l.garments.empty() || alone < 0 || static_cast<std::size_t>(alone) > l.garments.size())
-    node.at("alone").fail("is not the index of one of the garments");
+    node.at("alone").fail("checkpoint.damaged"_id, "is not the index of one of the garments");
   l.alone = static_cast<std::size_t>(alone);
   if (l.alone == l.garments.size() && n != n_particles)
-    garments.fail("do not match the garments of the checkpoint");
+    garments.fail("checkpoint.damaged"_id, "do not match the garments of the checkpoint");
   l.alone_s = node.at("alone_s").number();
   l.repairs = io::read_strings(node.at("repairs"));
   return l;
@@ -202,7 +205,7 @@ LevelsProgress read_levels(const Node& node) {
   l.rung = node.at("rung").string();
   const std::vector<std::string> names = accuracy_names();
   if (!l.rung.empty() && std::find(names.begin(), names.end(), l.rung) == names.end())
-    node.at("rung").fail("is no preset");
+    node.at("rung").fail("checkpoint.damaged"_id, "is no preset");
   l.on_given_mesh = node.at("on_given_mesh").boolean();
   l.before = read_progress(node.at("before"), node.at("settings"));
   MeshLevels& levels = l.before.levels;
@@ -247,7 +250,8 @@ DrapeCheckpoint read_checkpoint(const std::string& path) {
   DrapeCheckpoint c;
   c.file = path;
   c.every_steps = root.at("every_steps").integer();
-  if (c.every_steps < 1) root.at("every_steps").fail("expected a number above zero");
+  if (c.every_steps < 1)
+    root.at("every_steps").fail("json.out-of-range"_id, "expected a number above zero");
   c.has_body = root.at("has_body").boolean();
   if (root.has("bounds")) c.bounds = read_bounds(root.at("bounds")); // older ones: none
   c.garment = take_garment(root);
@@ -255,9 +259,11 @@ DrapeCheckpoint read_checkpoint(const std::string& path) {
   c.state = read_state(root.at("state"), c.garment.position.size());
   if (root.has("motion")) {
     c.motion = {root.at("motion").at("sha256").string(), root.at("motion").at("fps").number()};
-    if (!(c.motion->fps > 0)) root.at("motion").at("fps").fail("expected a number above zero");
+    if (!(c.motion->fps > 0))
+      root.at("motion").at("fps").fail("json.out-of-range"_id, "expected a number above zero");
   } else if (c.state.move.frame > 0) {
-    root.at("state").at("motion").fail("belongs to a motion that the checkpoint does not name");
+    root.at("state").at("motion").fail("checkpoint.damaged"_id,
+                                       "belongs to a motion that the checkpoint does not name");
   }
   if (root.has("layers")) c.layers = read_layers(root.at("layers"), c.garment.position.size());
   if (root.has("levels")) c.levels = read_levels(root.at("levels"));
@@ -267,7 +273,7 @@ DrapeCheckpoint read_checkpoint(const std::string& path) {
 void DrapeCheckpoint::check_moves(const BodyMoves* moves) const {
   if (motion.has_value() == (moves != nullptr) && (!moves || state.move.frame <= moves->n_frames))
     return;
-  throw input_error(file, "",
+  throw input_error("checkpoint.other-run"_id, file, "",
                     motion ? "was written with another motion" : "was written without --motion",
                     "give the same --motion as before");
 }
@@ -277,7 +283,7 @@ void DrapeCheckpoint::check_body(const body::Body* body, const std::string& body
   const bool same =
       has_body == (body != nullptr) && (body_sha256.empty() || body_sha256 == began_on);
   if (same) return;
-  throw input_error(file, "",
+  throw input_error("checkpoint.other-run"_id, file, "",
                     !has_body ? "this drape began without a body"
                     : !body   ? "this drape began on a body"
                               : "the body is not the one on which this drape began",

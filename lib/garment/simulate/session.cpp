@@ -36,6 +36,7 @@ DrapeSession::DrapeSession(const SessionInputs& inputs, const DrapeSettings& set
                                                     &m_settle} {
   m_context.checkpoints = this;
   m_context.only_clear = inputs.request.only_clear;
+  m_context.carried = inputs.request.carried;
 }
 
 DrapeSession::DrapeSession(const SessionInputs& inputs, const DrapeCheckpoint& from,
@@ -47,6 +48,7 @@ DrapeSession::DrapeSession(const SessionInputs& inputs, const DrapeCheckpoint& f
                                                     &m_settle} {
   m_context.checkpoints = this;
   m_context.only_clear = inputs.request.only_clear;
+  m_context.carried = inputs.request.carried;
   restore(from);
 }
 
@@ -351,7 +353,8 @@ void DrapeSession::restore_body(const DrapeCheckpoint& from) {
   } else if (state.body.shrunk || state.body.arms_aside) {
     const bool inflating = state.phase == DrapePhase::INFLATE;
     if (inflating && state.inflate.skin.size() != body.collider()->mesh().positions.size())
-      throw input_error(from.file, "", "belongs to another body", "give the same --body as before");
+      throw input_error("checkpoint.other-run"_id, from.file, "", "belongs to another body",
+                        "give the same --body as before");
     body.collider()->set_positions(inflating ? state.inflate.skin : body.skin_at(state.body.scale));
   }
 }

@@ -20,7 +20,7 @@ SimulatedCloth::SimulatedCloth(Garment& garment, const DrapeSettings& settings, 
                                Telemetry& telemetry)
     : m_garment(garment), m_settings(settings), m_body(body), m_telemetry(telemetry) {
   if (garment.panels.triangles.empty())
-    throw input_error("", "", "the garment has no triangles",
+    throw input_error("garment.no-triangles"_id, "", "", "the garment has no triangles",
                       "mesh a pattern with pattern-mesh first");
   check_garment(garment);
 }

@@ -75,9 +75,10 @@ std::vector<int> ends_pushed_on_hands(const Garment& garment, const std::vector<
     const std::vector<char> of_end = flags_of(sleeve.end, placed.size());
     double length = 0, before = 0;
     for (const auto& [a, b] : free_edges_of(garment.particle_triangles()))
-      if (of_end[a] && of_end[b])
-        length += (garment.position[a] - garment.position[b]).norm(),
-            before += (shape[a] - shape[b]).norm();
+      if (of_end[a] && of_end[b]) {
+        length += (garment.position[a] - garment.position[b]).norm();
+        before += (shape[a] - shape[b]).norm();
+      }
     if (length > (1 + STRETCHED) * before)
       pushed.insert(pushed.end(), sleeve.end.begin(), sleeve.end.end());
   }

@@ -49,7 +49,8 @@ CollisionBody::State CollisionBody::State::read(const io::Node& node) {
   else if (node.at("mitten").boolean())
     covered = static_cast<int>(ExtremityHulls::HANDS); // older ones: hands alone
   if (covered < 0 || covered > static_cast<int>(ExtremityHulls::ALL_ENDS))
-    node.at("covered").fail("has unknown bits; the checkpoint is damaged or of a newer version");
+    node.at("covered").fail("checkpoint.damaged"_id,
+                            "has unknown bits; the checkpoint is damaged or of a newer version");
   state.covered = static_cast<unsigned>(covered);
   state.full_skin = node.has("whole_skin") && node.at("whole_skin").boolean();
   state.shrunk = node.at("shrunk").boolean();
@@ -102,7 +103,7 @@ TemporarySupports::State TemporarySupports::State::read(const io::Node& node,
   if (node.has("tucks")) state.tangles = io::read_integers(node.at("tucks"));
   for (int i : state.tangles)
     if (i < 0 || static_cast<std::size_t>(i) >= n_particles)
-      node.at("tucks").fail("does not belong to this garment");
+      node.at("tucks").fail("checkpoint.damaged"_id, "does not belong to this garment");
   return state;
 }
 
@@ -182,7 +183,7 @@ SettlePhase::State SettlePhase::State::read(const io::Node& node, std::size_t n_
     state.velocity = io::read_flat_points(node.at("velocity"));
     for (const std::vector<Vec3>* of_particles : {&state.probe_position, &state.velocity})
       if (!of_particles->empty() && of_particles->size() != n_particles)
-        node.at("looked_from").fail("does not belong to this garment");
+        node.at("looked_from").fail("checkpoint.damaged"_id, "does not belong to this garment");
   }
   return state;
 }
@@ -206,7 +207,8 @@ io::Json MovePhase::State::to_json() const {
 
 MovePhase::State MovePhase::State::read(const io::Node& node) {
   State state;
-  if (node.at("frame").integer() < 1) node.at("frame").fail("expected a number above zero");
+  if (node.at("frame").integer() < 1)
+    node.at("frame").fail("json.out-of-range"_id, "expected a number above zero");
   state.frame = static_cast<std::size_t>(node.at("frame").integer());
   state.over = node.at("over").boolean();
   state.velocity = io::read_flat_points(node.at("velocity"));

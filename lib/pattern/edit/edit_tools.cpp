@@ -51,12 +51,14 @@ Rebuilt rebuilt(const Panel& like, const std::vector<Piece>& outer,
                 const std::vector<std::size_t>& holes) {
   Rebuilt out;
   out.panel = like;
-  out.panel.loops.clear(), out.panel.notches.clear();
+  out.panel.loops.clear();
+  out.panel.notches.clear();
   out.panel.loops.push_back({});
   for (const Piece& piece : outer) {
     PanelEdge edge = piece.edge;
     if (out.panel.find_edge(edge.name) >= 0) edge.name = free_edge_name(out.panel, edge.name + "_");
-    out.panel.loops[0].push_back(std::move(edge)), out.origin.push_back(piece.origin);
+    out.panel.loops[0].push_back(std::move(edge));
+    out.origin.push_back(piece.origin);
   }
   for (std::size_t h : holes) {
     int edge = 0;
@@ -83,7 +85,7 @@ std::vector<Piece> walk(const std::vector<Piece>& pieces, std::size_t from, std:
 int outer_edge(const Panel& panel, const io::Node& node, const char* key) {
   const int edge = edge_named(panel, node.at(key));
   if (edge >= static_cast<int>(panel.loops[0].size()))
-    node.at(key).fail("edge '" + panel.edge(edge).name + "' is on a hole",
+    node.at(key).fail("edit.edge-on-hole"_id, "edge '" + panel.edge(edge).name + "' is on a hole",
                       "name an edge of the outline");
   return edge;
 }
@@ -91,7 +93,7 @@ int outer_edge(const Panel& panel, const io::Node& node, const char* key) {
 double fraction(const io::Node& node, const char* key) {
   const double at = node.at(key).number();
   if (!(at >= 0 && at <= 1))
-    node.at(key).fail(decimals(at, 3) + " is not a place on an edge",
+    node.at(key).fail("json.out-of-range"_id, decimals(at, 3) + " is not a place on an edge",
                       "give a fraction from 0 to 1");
   return at;
 }
@@ -127,11 +129,12 @@ void keep_lines(Panel& panel, const std::function<bool(const InnerLine&)>& pass)
   }
   std::vector<Pleat> pleats;
   for (Pleat pleat : panel.pleats) {
-    pleat.fold = number[static_cast<std::size_t>(pleat.fold)],
+    pleat.fold = number[static_cast<std::size_t>(pleat.fold)];
     pleat.target = number[static_cast<std::size_t>(pleat.target)];
     if (pleat.fold >= 0 && pleat.target >= 0 && !pleat.edges.empty()) pleats.push_back(pleat);
   }
-  panel.lines = std::move(kept), panel.pleats = std::move(pleats);
+  panel.lines = std::move(kept);
+  panel.pleats = std::move(pleats);
 }
 
 std::string free_edge_name(const Panel& panel, const std::string& wanted) {
@@ -184,7 +187,8 @@ void replace_panel(Pattern& pattern, int p, std::vector<Rebuilt> panels, const i
         runs.insert(runs.end(), parts.begin(), parts.end());
       }
       if (runs.empty())
-        node.fail("one side of seam " + seam.name + " would become empty",
+        node.fail("pattern.seam-side-empty"_id,
+                  "one side of seam " + seam.name + " would become empty",
                   "take out the seam first, or cut elsewhere");
       *side = std::move(runs);
     }

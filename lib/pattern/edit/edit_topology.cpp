@@ -53,11 +53,13 @@ void split_panel(Pattern& pattern, const io::Node& node, double unit) {
   const int index = panel_named(pattern, node.at("panel"));
   const Panel panel = pattern.panels[static_cast<std::size_t>(index)];
   const Vec2 from = node.at("from").vec2() * unit, to = node.at("to").vec2() * unit;
-  if (!((to - from).norm() > 1e-4)) node.at("to").fail("the line has no direction");
+  if (!((to - from).norm() > 1e-4))
+    node.at("to").fail("edit.no-direction"_id, "the line has no direction");
   std::vector<Piece> pieces = pieces_of(panel);
   auto hits = crossings(pieces, from, to - from);
   if (hits.size() != 2)
-    node.fail("the line crosses the outline of " + panel.name + " in " +
+    node.fail("edit.line-does-not-cut"_id,
+              "the line crosses the outline of " + panel.name + " in " +
                   std::to_string(hits.size()) + " places",
               "give a line that crosses it twice");
   // The second first, so that the first keeps its number. A: what lies to the left of the line.
@@ -70,7 +72,8 @@ void split_panel(Pattern& pattern, const io::Node& node, double unit) {
   if (k1 >= pieces.size()) k1 = 0;
   std::vector<Piece> one = walk(pieces, k0, k1), two = walk(pieces, k1, k0);
   if (one.empty() || two.empty())
-    node.fail("the line runs along an edge of " + panel.name, "give a line through its inside");
+    node.fail("edit.line-does-not-cut"_id, "the line runs along an edge of " + panel.name,
+              "give a line through its inside");
   double left = 0;
   for (const Piece& piece : one) left += side(piece.edge.path[0].at(0.5), from, to - from);
   if (left < 0) std::swap(one, two);
@@ -80,22 +83,29 @@ void split_panel(Pattern& pattern, const io::Node& node, double unit) {
   for (const std::string& name : names)
     if (name.empty() || names[0] == names[1] ||
         (pattern.find_panel(name) >= 0 && name != panel.name))
-      node.fail("the name '" + name + "' is already in use", "give two free names");
+      node.fail("edit.name-taken"_id, "the name '" + name + "' is already in use",
+                "give two free names");
   const std::string cut = free_edge_name(panel, "cut");
   const Vec2 a0 = start_of(one.front()), a1 = end_of(one.back());
-  one.push_back(straight(cut, a1, a0)), two.push_back(straight(cut, a0, a1));
+  one.push_back(straight(cut, a1, a0));
+  two.push_back(straight(cut, a0, a1));
   std::vector<std::size_t> holes[2];
   for (std::size_t h = 1; h < panel.loops.size(); ++h) {
     int n_left = 0, n = 0;
     for (const PanelEdge& e : panel.loops[h])
       for (const Segment& s : e.path)
-        for (double t : {0.0, 0.5}) n_left += side(s.at(t), from, to - from) > 0, ++n;
+        for (double t : {0.0, 0.5}) {
+          n_left += side(s.at(t), from, to - from) > 0;
+          ++n;
+        }
     if (n_left != 0 && n_left != n)
-      node.fail("the line crosses a hole of " + panel.name, "cut beside it");
+      node.fail("edit.line-does-not-cut"_id, "the line crosses a hole of " + panel.name,
+                "cut beside it");
     holes[n_left ? 0 : 1].push_back(h);
   }
   std::vector<Rebuilt> both = {rebuilt(panel, one, holes[0]), rebuilt(panel, two, holes[1])};
-  both[0].panel.name = names[0], both[1].panel.name = names[1];
+  both[0].panel.name = names[0];
+  both[1].panel.name = names[1];
   for (std::size_t k = 0; k < 2; ++k) // a line that the cut crosses is in neither
     keep_lines(both[k].panel, [&](const InnerLine& line) {
       const ArcLength arc(line.path);
@@ -123,7 +133,7 @@ void add_point(Pattern& pattern, const io::Node& node) {
   const std::size_t k = static_cast<std::size_t>(outer_edge(panel, node, "edge"));
   const double at = fraction(node, "at"), total = length(panel.edge(static_cast<int>(k)).path);
   if (std::min(at, 1 - at) * total < AT_CORNER)
-    node.at("at").fail("the edge already has a corner there");
+    node.at("at").fail("edit.already-so"_id, "the edge already has a corner there");
   std::vector<Piece> pieces = pieces_of(panel);
   corner_at(pieces, k, at);
   if (node.has("names"))
@@ -136,31 +146,36 @@ void join_panels(Pattern& pattern, const io::Node& node) {
   const std::string name = node.at("seam").string();
   const auto seam = std::find_if(pattern.seams.begin(), pattern.seams.end(),
                                  [&](const Seam& s) { return s.name == name; });
-  if (seam == pattern.seams.end()) node.at("seam").fail("there is no seam '" + name + "'");
+  if (seam == pattern.seams.end())
+    node.at("seam").fail("edit.no-seam"_id, "there is no seam '" + name + "'");
   const auto whole = [](const std::vector<Run>& side) {
     return side.size() == 1 && std::min(side[0].from, side[0].to) < 1e-9 &&
            std::max(side[0].from, side[0].to) > 1 - 1e-9;
   };
   if (!whole(seam->a) || !whole(seam->b))
-    node.at("seam").fail("seam " + name + " does not join one whole edge to another",
+    node.at("seam").fail("edit.cannot-join"_id,
+                         "seam " + name + " does not join one whole edge to another",
                          "split the edges first");
   Run a = seam->a[0], b = seam->b[0];
   if (a.panel == b.panel)
-    node.at("seam").fail("seam " + name + " joins panel " +
-                         pattern.panels[static_cast<std::size_t>(a.panel)].name + " to itself");
+    node.at("seam").fail("edit.cannot-join"_id,
+                         "seam " + name + " joins panel " +
+                             pattern.panels[static_cast<std::size_t>(a.panel)].name + " to itself");
   if ((a.from < a.to) == (b.from < b.to))
-    node.at("seam").fail("seam " + name +
-                         " joins the outside of one panel to the inside of the other");
+    node.at("seam").fail("edit.cannot-join"_id,
+                         "seam " + name +
+                             " joins the outside of one panel to the inside of the other");
   const Panel p = pattern.panels[static_cast<std::size_t>(a.panel)],
               q = pattern.panels[static_cast<std::size_t>(b.panel)];
   if (a.edge >= static_cast<int>(p.loops[0].size()) ||
       b.edge >= static_cast<int>(q.loops[0].size()))
-    node.at("seam").fail("seam " + name + " is on a hole");
+    node.at("seam").fail("edit.cannot-join"_id, "seam " + name + " is on a hole");
   const Path &pa = p.edge(a.edge).path, &pb = q.edge(b.edge).path;
   // q turns and moves so that its edge lies on p's, the other way round.
   const Vec2 da = pa.back().p[3] - pa.front().p[0], db = pb.front().p[0] - pb.back().p[3];
   if (!(da.norm() > 1e-6 && db.norm() > 1e-6))
-    node.at("seam").fail("the edges of seam " + name + " are closed curves and cannot be joined");
+    node.at("seam").fail("edit.cannot-join"_id,
+                         "the edges of seam " + name + " are closed curves and cannot be joined");
   const double angle = std::atan2(da.y(), da.x()) - std::atan2(db.y(), db.x());
   const Eigen::Matrix2d turn = std::abs(std::remainder(angle, 2 * units::PI)) < 1e-9
                                    ? Eigen::Matrix2d(Eigen::Matrix2d::Identity())
@@ -175,14 +190,15 @@ void join_panels(Pattern& pattern, const io::Node& node) {
         worst,
         (arc_a.at(arc_a.length() * k / 32) - map(arc_b.at(arc_b.length() * (32 - k) / 32))).norm());
   if (worst > 1e-3)
-    node.at("seam").fail("the edges of seam " + name + " are " + centimetres(worst) +
+    node.at("seam").fail("edit.cannot-join"_id,
+                         "the edges of seam " + name + " are " + centimetres(worst) +
                              " apart when laid on each other",
                          "join panels along congruent edges");
 
   Panel out = p;
   out.name = node.string("name", p.name);
   if (out.name != p.name && out.name != q.name && pattern.find_panel(out.name) >= 0)
-    node.at("name").fail("the name '" + out.name + "' is already in use");
+    node.at("name").fail("edit.name-taken"_id, "the name '" + out.name + "' is already in use");
   std::vector<int> new_p(static_cast<std::size_t>(p.n_edges()), -1),
       new_q(static_cast<std::size_t>(q.n_edges()), -1);
   out.loops.assign(1, {});
@@ -218,8 +234,10 @@ void join_panels(Pattern& pattern, const io::Node& node) {
   }
   for (std::size_t h = 1; h < q.loops.size(); ++h) {
     std::vector<PanelEdge> loop;
-    for (const PanelEdge& e : q.loops[h])
-      loop.push_back(moved(e)), new_q[static_cast<std::size_t>(edge_q++)] = edge++;
+    for (const PanelEdge& e : q.loops[h]) {
+      loop.push_back(moved(e));
+      new_q[static_cast<std::size_t>(edge_q++)] = edge++;
+    }
     out.loops.push_back(loop);
   }
   for (InnerLine line : q.lines) {
@@ -237,7 +255,8 @@ void join_panels(Pattern& pattern, const io::Node& node) {
        {std::tuple<const Panel*, const std::vector<int>*, int>{&p, &new_p, 0},
         {&q, &new_q, static_cast<int>(p.lines.size())}})
     for (Pleat pleat : from->pleats) {
-      pleat.fold += first, pleat.target += first;
+      pleat.fold += first;
+      pleat.target += first;
       for (int& e : pleat.edges) e = (*numbers)[static_cast<std::size_t>(e)];
       pleat.edges.erase(std::remove(pleat.edges.begin(), pleat.edges.end(), -1), pleat.edges.end());
       if (!pleat.edges.empty()) out.pleats.push_back(std::move(pleat));
@@ -253,8 +272,10 @@ void join_panels(Pattern& pattern, const io::Node& node) {
     for (auto* list : {&s.a, &s.b})
       for (Run& run : *list) {
         if (run.panel == a.panel) run.edge = new_p[static_cast<std::size_t>(run.edge)];
-        else if (run.panel == b.panel)
-          run.edge = new_q[static_cast<std::size_t>(run.edge)], run.panel = a.panel;
+        else if (run.panel == b.panel) {
+          run.edge = new_q[static_cast<std::size_t>(run.edge)];
+          run.panel = a.panel;
+        }
         if (run.panel > b.panel) --run.panel;
       }
   pattern.panels[static_cast<std::size_t>(a.panel)] = std::move(out);

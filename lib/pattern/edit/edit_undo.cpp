@@ -19,7 +19,10 @@ io::Json panel_state(const Panel& p) {
       io::Json path = io::Json::array();
       for (const Segment& s : e.path) {
         io::Json segment = io::Json::array({s.line ? 1 : 0});
-        for (const Vec2& x : s.p) segment.push_back(x.x()), segment.push_back(x.y());
+        for (const Vec2& x : s.p) {
+          segment.push_back(x.x());
+          segment.push_back(x.y());
+        }
         path.push_back(segment);
       }
       edges.push_back({{"edge", e.name}, {"segments", path}});
@@ -38,7 +41,10 @@ io::Json panel_state(const Panel& p) {
       io::Json path = io::Json::array();
       for (const Segment& s : line.path) {
         io::Json segment = io::Json::array({s.line ? 1 : 0});
-        for (const Vec2& x : s.p) segment.push_back(x.x()), segment.push_back(x.y());
+        for (const Vec2& x : s.p) {
+          segment.push_back(x.x());
+          segment.push_back(x.y());
+        }
         path.push_back(segment);
       }
       lines.push_back({{"name", line.name},
@@ -52,7 +58,8 @@ io::Json panel_state(const Panel& p) {
                         {"fold", pleat.fold},
                         {"target", pleat.target},
                         {"edges", pleat.edges}});
-    out["lines"] = lines, out["pleats"] = pleats;
+    out["lines"] = lines;
+    out["pleats"] = pleats;
   }
   if (!p.hint.part.empty()) hint["part"] = p.hint.part;
   if (p.hint.theta) hint["theta"] = *p.hint.theta;
@@ -70,11 +77,12 @@ io::Json panel_state(const Panel& p) {
 }
 
 Path path_from(const io::Node& segments) {
-  if (!segments.is_array() || segments.size() == 0) segments.fail("the edge has no segments");
+  if (!segments.is_array() || segments.size() == 0)
+    segments.fail("edit.damaged-undo"_id, "the edge has no segments");
   Path path;
   for (std::size_t s = 0; s < segments.size(); ++s) {
     const io::Node numbers = segments.at(s);
-    if (numbers.size() != 9) numbers.fail("a segment needs 9 numbers");
+    if (numbers.size() != 9) numbers.fail("edit.damaged-undo"_id, "a segment needs 9 numbers");
     Segment segment;
     segment.line = numbers.at(0).number() != 0;
     for (std::size_t i = 0; i < 4; ++i)
@@ -86,14 +94,18 @@ Path path_from(const io::Node& segments) {
 
 Panel panel_from(const io::Node& node) {
   Panel p;
-  p.name = node.at("name").string(), p.grain = node.at("grain").vec2(),
-  p.material = node.string("material", ""), p.layer = node.integer("layer", 0),
+  p.name = node.at("name").string();
+  p.grain = node.at("grain").vec2();
+  p.material = node.string("material", "");
+  p.layer = node.integer("layer", 0);
   p.label = node.string("label", "");
   const io::Node loops = node.at("loops");
-  if (!loops.is_array() || loops.size() == 0) loops.fail("the panel has no outline");
+  if (!loops.is_array() || loops.size() == 0)
+    loops.fail("edit.damaged-undo"_id, "the panel has no outline");
   for (std::size_t l = 0; l < loops.size(); ++l) {
     const io::Node edges = loops.at(l);
-    if (!edges.is_array() || edges.size() == 0) edges.fail("the loop has no edges");
+    if (!edges.is_array() || edges.size() == 0)
+      edges.fail("edit.damaged-undo"_id, "the loop has no edges");
     p.loops.push_back({});
     for (std::size_t k = 0; k < edges.size(); ++k) {
       const io::Node segments = edges.at(k).at("segments");
@@ -104,15 +116,17 @@ Panel panel_from(const io::Node& node) {
                               p.loops.back()[(k + 1) % p.loops.back().size()].path.front().p[0])
                                  .norm();
           gap > 1e-4)
-        edges.fail("the outline of panel " + p.name + " is open by " + centimetres(gap) +
-                   " after edge " + p.loops.back()[k].name);
+        edges.fail("edit.damaged-undo"_id, "the outline of panel " + p.name + " is open by " +
+                                               centimetres(gap) + " after edge " +
+                                               p.loops.back()[k].name);
   }
   const io::Node notches = node.at("notches"), hint = node.at("hint");
   for (std::size_t k = 0; k < notches.size(); ++k) {
     const Notch n{notches.at(k).at("edge").integer(), notches.at(k).at("at").number(),
                   notches.at(k).string("kind", "")};
     if (n.edge < 0 || n.edge >= p.n_edges())
-      notches.at(k).fail("edge " + std::to_string(n.edge) + " does not exist");
+      notches.at(k).fail("edit.damaged-undo"_id,
+                         "edge " + std::to_string(n.edge) + " does not exist");
     p.notches.push_back(n);
   }
   if (node.has("lines")) {
@@ -129,11 +143,13 @@ Panel panel_from(const io::Node& node) {
       for (std::size_t e = 0; e < item.at("edges").size(); ++e) {
         pleat.edges.push_back(item.at("edges").at(e).integer());
         if (pleat.edges.back() < 0 || pleat.edges.back() >= p.n_edges())
-          item.fail("pleat " + pleat.name + " is sewn along an edge that does not exist");
+          item.fail("edit.damaged-undo"_id,
+                    "pleat " + pleat.name + " is sewn along an edge that does not exist");
       }
       for (int line : {pleat.fold, pleat.target})
         if (line < 0 || line >= static_cast<int>(p.lines.size()))
-          item.fail("pleat " + pleat.name + " folds along a line that does not exist");
+          item.fail("edit.damaged-undo"_id,
+                    "pleat " + pleat.name + " folds along a line that does not exist");
       p.pleats.push_back(std::move(pleat));
     }
   }
@@ -144,7 +160,8 @@ Panel panel_from(const io::Node& node) {
   if (hint.has("height")) p.hint.height = hint.at("height").number();
   if (hint.has("rigid")) {
     Mat4 m;
-    if (hint.at("rigid").size() != 16) hint.at("rigid").fail("a placement needs 16 numbers");
+    if (hint.at("rigid").size() != 16)
+      hint.at("rigid").fail("edit.damaged-undo"_id, "a placement needs 16 numbers");
     for (long k = 0; k < 16; ++k)
       m(k / 4, k % 4) = hint.at("rigid").at(static_cast<std::size_t>(k)).number();
     p.hint.rigid = m;
@@ -213,12 +230,14 @@ void restore(Pattern& pattern, const io::Node& node) {
     const std::string name = order.at(k).string();
     bool found = false;
     for (std::size_t g = 0; g < given.size() && !found; ++g)
-      if (given.at(g).at("name").string() == name)
-        panels.push_back(panel_from(given.at(g))), found = true;
+      if (given.at(g).at("name").string() == name) {
+        panels.push_back(panel_from(given.at(g)));
+        found = true;
+      }
     if (found) continue;
     panels.push_back(pattern.panels[static_cast<std::size_t>(panel_named(pattern, order.at(k)))]);
   }
-  if (panels.empty()) order.fail("no panel would be left");
+  if (panels.empty()) order.fail("edit.no-panel-left"_id, "no panel would be left");
   std::vector<Seam> seams = pattern.seams;
   if (node.has("seams")) {
     seams.clear();
@@ -242,14 +261,17 @@ void restore(Pattern& pattern, const io::Node& node) {
   }
   for (const Seam& seam : seams)
     for (const auto* side : {&seam.a, &seam.b}) {
-      if (side->empty()) node.fail("seam " + seam.name + " has an empty side");
+      if (side->empty())
+        node.fail("edit.damaged-undo"_id, "seam " + seam.name + " has an empty side");
       for (const Run& run : *side)
         if (run.panel < 0 || run.panel >= static_cast<int>(panels.size()) || run.edge < 0 ||
             run.edge >= panels[static_cast<std::size_t>(run.panel)].n_edges() ||
             !(run.from >= 0 && run.from <= 1 && run.to >= 0 && run.to <= 1))
-          node.fail("seam " + seam.name + " runs along an edge that does not exist");
+          node.fail("edit.damaged-undo"_id,
+                    "seam " + seam.name + " runs along an edge that does not exist");
     }
-  pattern.panels = std::move(panels), pattern.seams = std::move(seams);
+  pattern.panels = std::move(panels);
+  pattern.seams = std::move(seams);
 }
 
 io::Json inverse_edits(const Pattern& before, const io::Json& json, const std::string& file,

@@ -46,9 +46,11 @@ Place place_of_edge(Panel& panel, int edge) {
 /// Moves an edge's ends by two vectors; the edge follows in between, its neighbours with their near
 /// ends.
 void move_ends(const Place& place, const Vec2& start, const Vec2& end) {
-  drag(place.edge().path, start, 1, 0), drag(place.edge().path, end, 0, 1);
+  drag(place.edge().path, start, 1, 0);
+  drag(place.edge().path, end, 0, 1);
   if (place.loop->size() == 1) return;
-  drag(place.before().path, start, 0, 1), drag(place.after().path, end, 1, 0);
+  drag(place.before().path, start, 0, 1);
+  drag(place.after().path, end, 1, 0);
 }
 
 /// Scales an edge about a point of itself so that its length becomes `length`.
@@ -63,10 +65,10 @@ void set_length(Panel& panel, int edge, double length, const std::string& fixed)
   for (Segment& s : path)
     for (Vec2& p : s.p) p = snapped(Vec2(about + factor * (p - about)));
   if (place.loop->size() == 1) return;
-  drag(place.before().path, path.front().p[0] - a, 0, 1),
-      drag(place.after().path, path.back().p[3] - b, 1, 0);
+  drag(place.before().path, path.front().p[0] - a, 0, 1);
+  drag(place.after().path, path.back().p[3] - b, 1, 0);
   // The ends must meet to the last bit.
-  place.before().path.back().p[3] = path.front().p[0],
+  place.before().path.back().p[3] = path.front().p[0];
   place.after().path.front().p[0] = path.back().p[3];
 }
 
@@ -93,15 +95,20 @@ void carry_lines(const Panel& before, Panel& after) {
       const ArcLength old(before.edge(on.edge).path), now(after.edge(on.edge).path);
       move[last] = now.at(on.at * now.length()) - old.at(on.at * old.length());
     }
-    if (move[0].norm() + move[1].norm() > 1e-12)
-      drag(path, move[0], 1, 0), drag(path, move[1], 0, 1);
+    if (move[0].norm() + move[1].norm() > 1e-12) {
+      drag(path, move[0], 1, 0);
+      drag(path, move[1], 0, 1);
+    }
   }
 }
 
 std::array<Vec2, 2> extent(const Panel& panel) {
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
   for (const PanelEdge& e : panel.loops[0])
-    for (const Segment& s : e.path) low = low.cwiseMin(s.p[0]), high = high.cwiseMax(s.p[0]);
+    for (const Segment& s : e.path) {
+      low = low.cwiseMin(s.p[0]);
+      high = high.cwiseMax(s.p[0]);
+    }
   return {low, high};
 }
 
@@ -115,12 +122,14 @@ void move_inward(const io::Node& node, Panel& panel, int edge, double by) {
   const Place place = place_of_edge(panel, edge);
   const Vec2 chord = place.edge().path.back().p[3] - place.edge().path.front().p[0];
   if (chord.norm() < 1e-6)
-    node.fail("edge " + place.edge().name +
-              " is a closed curve, so it has no direction to move in");
+    node.fail("edit.no-direction"_id, "edge " + place.edge().name +
+                                          " is a closed curve, so it has no direction to move in");
   const Vec2 move = snapped(Vec2(Vec2(-chord.y(), chord.x()).normalized() * by));
   drag(place.edge().path, move, 1, 1);
-  if (place.loop->size() > 1)
-    drag(place.before().path, move, 0, 1), drag(place.after().path, move, 1, 0);
+  if (place.loop->size() > 1) {
+    drag(place.before().path, move, 0, 1);
+    drag(place.after().path, move, 1, 0);
+  }
 }
 
 const Seam& seam_named(const Pattern& pattern, const io::Node& node) {
@@ -130,7 +139,7 @@ const Seam& seam_named(const Pattern& pattern, const io::Node& node) {
   if (seam != pattern.seams.end()) return *seam;
   std::vector<std::string> names;
   for (const Seam& s : pattern.seams) names.push_back(s.name);
-  node.fail("there is no seam '" + name + "'" + did_you_mean(name, names));
+  node.fail("edit.no-seam"_id, "there is no seam '" + name + "'" + did_you_mean(name, names));
 }
 
 /// Opens a seam, or closes one that is open. An edit that changes nothing is a mistake, and would
@@ -140,24 +149,28 @@ void open_seam(Pattern& pattern, const io::Node& node, bool open) {
   const Seam& found = seam_named(pattern, node.at("seam"));
   Seam& seam = pattern.seams[static_cast<std::size_t>(&found - pattern.seams.data())];
   if (seam.kind == "dart" || seam.kind == "pleat")
-    node.at("seam").fail(seam.name + " is a " + seam.kind + " and cannot be opened",
+    node.at("seam").fail("edit.cannot-open"_id,
+                         seam.name + " is a " + seam.kind + " and cannot be opened",
                          "name a seam or a closure");
   if (seam.open == open)
-    node.at("seam").fail("seam " + seam.name + " is already " + (open ? "open" : "closed"));
+    node.at("seam").fail("edit.already-so"_id,
+                         "seam " + seam.name + " is already " + (open ? "open" : "closed"));
   seam.open = open;
 }
 
 double factor(const io::Node& node, const char* key) {
   const double f = node.number(key, 1);
   if (!(f > 0.05 && f < 20))
-    node.at(key).fail("factor " + decimals(f, 3) + " is out of range", "give 0.05 to 20");
+    node.at(key).fail("json.out-of-range"_id, "factor " + decimals(f, 3) + " is out of range",
+                      "give 0.05 to 20");
   return f;
 }
 
 double positive_length(const io::Node& node, double unit) {
   const double length = node.at("length").number() * unit;
   if (!(length > 1e-4))
-    node.at("length").fail("the length is too short (" + centimetres(length) + ")",
+    node.at("length").fail("edit.too-small"_id,
+                           "the length is too short (" + centimetres(length) + ")",
                            "give more than 0.01 cm");
   return length;
 }
@@ -174,7 +187,8 @@ void move_point(Pattern& pattern, const io::Node& node, double unit) {
   Panel& p = edited_panel(pattern, node);
   const std::string end = node.string("end", "start");
   if (end != "start" && end != "end")
-    node.at("end").fail("'" + end + "' is not an end of an edge", "give start or end");
+    node.at("end").fail("json.unknown-word"_id, "'" + end + "' is not an end of an edge",
+                        "give start or end");
   const Vec2 by = snapped(Vec2(node.at("by").vec2() * unit)), none(0, 0);
   move_ends(place_of_edge(p, edited_edge(p, node)), end == "start" ? by : none,
             end == "end" ? by : none);
@@ -186,8 +200,10 @@ void move_edge(Pattern& pattern, const io::Node& node, double unit) {
   const Vec2 by = snapped(Vec2(node.at("by").vec2() * unit));
   const Place place = place_of_edge(p, edited_edge(p, node));
   drag(place.edge().path, by, 1, 1);
-  if (place.loop->size() > 1)
-    drag(place.before().path, by, 0, 1), drag(place.after().path, by, 1, 0);
+  if (place.loop->size() > 1) {
+    drag(place.before().path, by, 0, 1);
+    drag(place.after().path, by, 1, 0);
+  }
 }
 
 /// Inwards along one edge, or half of it along each side of a seam. @param way 1 takes in, -1 lets
@@ -217,7 +233,8 @@ void bend(Pattern& pattern, const io::Node& node, double unit) {
     if (path[0].line)
       path[0] =
           Segment::cubic(path[0].p[0], path[0].at(1.0 / 3), path[0].at(2.0 / 3), path[0].p[3]);
-    path[0].p[1] += by, path[0].p[2] += by;
+    path[0].p[1] += by;
+    path[0].p[2] += by;
     return;
   }
   for (std::size_t s = 0; s < path.size();
@@ -234,7 +251,8 @@ void set_lengths(Pattern& pattern, const io::Node& node, double unit) {
   const double length = positive_length(node, unit);
   const std::string fixed = node.string("fixed", "start");
   if (fixed != "start" && fixed != "end" && fixed != "middle")
-    node.at("fixed").fail("'" + fixed + "' cannot be fixed", "give start, end or middle");
+    node.at("fixed").fail("json.unknown-word"_id, "'" + fixed + "' cannot be fixed",
+                          "give start, end or middle");
   if (!node.has("seam")) {
     Panel& p = edited_panel(pattern, node);
     set_length(p, edited_edge(p, node), length, fixed);
@@ -255,7 +273,8 @@ void lengthen(Pattern& pattern, const io::Node& node, double unit, double way) {
   node.allow_only({"edit", "panel", "at", "along", "by"});
   const Vec2 at = node.at("at").vec2() * unit, direction = node.at("along").vec2();
   if (!(direction.norm() > 0))
-    node.at("along").fail("the vector has no length, so it gives no direction");
+    node.at("along").fail("edit.no-direction"_id,
+                          "the vector has no length, so it gives no direction");
   const Vec2 along = direction.normalized(),
              by = snapped(Vec2(along * node.at("by").number() * unit * way));
   map_panel(edited_panel(pattern, node),
@@ -288,8 +307,9 @@ void grade(Pattern& pattern, const io::Node& node, double unit) {
     const Vec2 c = 0.5 * (low + high), size = high - low,
                factor((size.x() + width) / size.x(), (size.y() + height) / size.y());
     if (!(factor.minCoeff() > 0.2))
-      node.fail("panel " + p.name + " is " + centimetres(size.x()) + " by " +
-                centimetres(size.y()) + ": too small to grade by that much");
+      node.fail("edit.too-small"_id, "panel " + p.name + " is " + centimetres(size.x()) + " by " +
+                                         centimetres(size.y()) +
+                                         ": too small to grade by that much");
     map_panel(p, [&](const Vec2& q) { return Vec2(c + factor.cwiseProduct(q - c)); });
   });
 }
@@ -304,12 +324,15 @@ void add_tape(Panel& p, const io::Node& node, double unit) {
   for (const Segment& s : tape.path)
     for (const Vec2& q : s.p)
       if (!((low - q).maxCoeff() < 0.1 && (q - high).maxCoeff() < 0.1))
-        node.at("curve").fail("the tape extends beyond panel " + p.name, "draw it inside");
+        node.at("curve").fail("edit.outside-panel"_id, "the tape extends beyond panel " + p.name,
+                              "draw it inside");
   if (!(pattern::length(tape.path) > 0.005))
-    node.at("curve").fail("the tape is too short (" + centimetres(pattern::length(tape.path)) + ")",
+    node.at("curve").fail("edit.too-small"_id,
+                          "the tape is too short (" + centimetres(pattern::length(tape.path)) + ")",
                           "draw at least 0.5 cm");
   if (!(tape.width > 0 && tape.width < 1))
-    node.at("width").fail("a tape " + centimetres(tape.width) + " wide is out of range",
+    node.at("width").fail("json.out-of-range"_id,
+                          "a tape " + centimetres(tape.width) + " wide is out of range",
                           "give a width above 0 and below 100 cm");
   const auto taken = [&](const std::string& name) {
     return std::any_of(p.lines.begin(), p.lines.end(),
@@ -317,7 +340,8 @@ void add_tape(Panel& p, const io::Node& node, double unit) {
   };
   tape.name = node.string("name", "tape");
   if (node.has("name") && taken(tape.name))
-    node.at("name").fail("panel " + p.name + " already has a line '" + tape.name + "'");
+    node.at("name").fail("edit.name-taken"_id,
+                         "panel " + p.name + " already has a line '" + tape.name + "'");
   for (int k = 2; taken(tape.name); ++k) tape.name = "tape" + std::to_string(k);
   p.lines.push_back(std::move(tape));
 }
@@ -329,7 +353,8 @@ void shrink_strip(Panel& p, const io::Node& node, double unit) {
   const Vec2 from = strip.at("from").vec2() * unit, way = strip.at("to").vec2() * unit - from;
   const double width = way.norm(), f = factor(node, "factor");
   if (!(width > 1e-4))
-    strip.fail("the strip is too narrow (" + centimetres(width) + ")", "give more than 0.01 cm");
+    strip.fail("edit.too-small"_id, "the strip is too narrow (" + centimetres(width) + ")",
+               "give more than 0.01 cm");
   const Vec2 along = way / width, c = from + 0.5 * way;
   map_panel(p, [&](const Vec2& q) {
     const double s = (q - c).dot(along), inside = std::clamp(s, -0.5 * width, 0.5 * width);
@@ -396,7 +421,7 @@ const Edit& edit_named(const io::Node& node) {
              std::string(edit.name);
     names.emplace_back(edit.name);
   }
-  node.at("edit").fail("unknown edit '" + what + "'" + did_you_mean(what, names),
+  node.at("edit").fail("edit.unknown"_id, "unknown edit '" + what + "'" + did_you_mean(what, names),
                        "known are " + known);
 }
 
@@ -409,11 +434,12 @@ Vec2 snapped(const Vec2& p) {
 void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file) {
   const io::Node root(json, file);
   if (const std::string format = root.at("format").string(); format != "edits")
-    root.at("format").fail("is a \"" + format + "\" document, not edits",
+    root.at("format").fail("json.wrong-format"_id, "is a \"" + format + "\" document, not edits",
                            "write \"format\": \"edits\"");
   root.allow_only({"format", "version", "generator", "length_unit", "edits"});
   if (root.integer("version", 1) > 1)
-    root.at("version").fail("the version is newer than version 1, the newest this program reads",
+    root.at("version").fail("json.newer-version"_id,
+                            "the version is newer than version 1, the newest this program reads",
                             "update Sloper, or write version 1");
   const double unit = unit_of(root.at("length_unit"));
   const auto onto_grid =
@@ -437,11 +463,13 @@ void apply_edits(Pattern& pattern, const io::Json& json, const std::string& file
       std::vector<Path> loop;
       for (const PanelEdge& e : p.loops[0]) loop.push_back(e.path);
       if (const double area = signed_area(loop); !(area > 0))
-        edits.at(k).fail("panel " + p.name +
-                         " is turned inside out: its outline now runs clockwise around " +
-                         std::to_string(std::lround(std::min(1e9, -1e4 * area))) + " cm2");
+        edits.at(k).fail("edit.turned-inside-out"_id,
+                         "panel " + p.name +
+                             " is turned inside out: its outline now runs clockwise around " +
+                             std::to_string(std::lround(std::min(1e9, -1e4 * area))) + " cm2");
       if (const auto fault = fault_of(p))
-        edits.at(k).fail("panel " + p.name + (fault->place.empty() ? "" : ": " + fault->place) +
+        edits.at(k).fail("pattern.faulty-outline"_id,
+                         "panel " + p.name + (fault->place.empty() ? "" : ": " + fault->place) +
                              ": " + fault->fact,
                          fault->next);
     }

@@ -40,7 +40,10 @@ PlaceOnEdge locate(const Panel& panel, const std::vector<ArcLength>& arcs, const
     double near = 1e300;
     for (int k = 0; k <= n; ++k) {
       const double d = (arc.at(arc.length() * k / n) - p).squaredNorm();
-      if (d < near) near = d, at = k;
+      if (d < near) {
+        near = d;
+        at = k;
+      }
     }
     if (std::sqrt(near) > std::sqrt(least) + 2 * arc.length() / n) continue;
     double low = arc.length() * std::max(at - 1, 0) / n,
@@ -158,11 +161,12 @@ struct MeshFollower::State {
 
 MeshFollower::MeshFollower(const Pattern& before, const PanelMesh& mesh)
     : m_state(std::make_unique<State>()) {
-  m_state->before = before, m_state->original = mesh.pattern;
+  m_state->before = before;
+  m_state->original = mesh.pattern;
   m_state->panels = std::vector<FollowedPanel>(mesh.panels.size());
   if (before.panels.size() != mesh.panels.size())
-    throw input_error("", "pattern", "the mesh was made from another pattern",
-                      "mesh the pattern again");
+    throw input_error("mesh.other-pattern"_id, "", "pattern",
+                      "the mesh was made from another pattern", "mesh the pattern again");
   for (std::size_t p = 0; p < mesh.panels.size(); ++p)
     prepare(m_state->panels[p], before.panels[p], mesh.panels[p], mesh);
 }
@@ -221,8 +225,10 @@ bool MeshFollower::follow(const Pattern& after, PanelMesh& mesh, double least_an
   mesh.pattern = std::move(moved); // ids stay: they are those of the panel before the edits
   for (MeshSeam& s : mesh.seams)
     for (const Seam& seam : after.seams)
-      if (seam.name == s.name)
-        s.length_a = side_length(after, seam.a), s.length_b = side_length(after, seam.b);
+      if (seam.name == s.name) {
+        s.length_a = side_length(after, seam.a);
+        s.length_b = side_length(after, seam.b);
+      }
   for (std::size_t p = 0; p < mesh.panels.size(); ++p) mesh.panels[p].grain = after.panels[p].grain;
   return true;
 }

@@ -52,7 +52,8 @@ Gore::Gore(std::size_t of, std::vector<Vec2> left, std::vector<Vec2> right)
   for (auto* stitches : {&left, &right}) {
     std::stable_sort(stitches->begin(), stitches->end(),
                      [](const Vec2& a, const Vec2& b) { return a.y() > b.y(); });
-    m_top = std::max(m_top, stitches->front().y()), low = std::min(low, stitches->back().y());
+    m_top = std::max(m_top, stitches->front().y());
+    low = std::min(low, stitches->back().y());
   }
   const std::size_t n = static_cast<std::size_t>((m_top - low + BELOW) / m_step) + 2;
   std::vector<double> half;
@@ -163,7 +164,8 @@ private:
         const double x = std::abs(b.y() - a.y()) > 1e-9
                              ? a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())
                              : (1 - t) * a.x() + t * b.x();
-        low = std::min(low, x), high = std::max(high, x);
+        low = std::min(low, x);
+        high = std::max(high, x);
       }
     }
     return high > low + 1e-6 ? (p.x() - 0.5 * (low + high)) / (high - low) : 0;
@@ -179,7 +181,8 @@ private:
           Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
           for (const auto& s : seam) {
             const Vec2 p = uv(end ? q : k, s[end]);
-            low = low.cwiseMin(p), high = high.cwiseMax(p);
+            low = low.cwiseMin(p);
+            high = high.cwiseMax(p);
           }
           extent[end] = high - low;
         }
@@ -191,9 +194,11 @@ private:
         double right = 0;
         for (const auto& s : seam) right += rightness(k, uv(k, s[0]));
         Link& link = m_links[right > 0 ? RIGHT : LEFT][k][q];
-        for (const auto& s : seam)
-          link.side.push_back(uv(k, s[0])), link.top = std::max(link.top, uv(k, s[0]).y()),
-                                            link.bottom = std::min(link.bottom, uv(k, s[0]).y());
+        for (const auto& s : seam) {
+          link.side.push_back(uv(k, s[0]));
+          link.top = std::max(link.top, uv(k, s[0]).y());
+          link.bottom = std::min(link.bottom, uv(k, s[0]).y());
+        }
       }
       const double least = LONG * std::min(height(k), height(q));
       for (auto& links : m_links)
@@ -257,8 +262,10 @@ private:
     std::stable_sort(across.begin(), across.end(),
                      [](const Vec2& x, const Vec2& y) { return x.y() > y.y(); });
     double narrowest = 1e300, most = 0;
-    for (const Vec2& w : across)
-      narrowest = std::min(narrowest, w.x()), most = std::max(most, w.x() - narrowest);
+    for (const Vec2& w : across) {
+      narrowest = std::min(narrowest, w.x());
+      most = std::max(most, w.x() - narrowest);
+    }
     return most;
   }
 
@@ -271,13 +278,16 @@ private:
       order.push_back({p, false});
       if (p == q || (n == 2 && i == 1 && !m_links[RIGHT][p].count(q))) continue;
       for (std::size_t g : let_in(p, q))
-        if (std::find(row.begin(), row.end(), g) == row.end())
-          order.push_back({g, true}), flared = true;
+        if (std::find(row.begin(), row.end(), g) == row.end()) {
+          order.push_back({g, true});
+          flared = true;
+        }
       if (m_roles[p].side == m_roles[q].side) flared = flared || flare(p, q) > FLARE;
     }
     if (!flared) return std::nullopt;
     GoreRow ring;
-    ring.top = -1e300, ring.bottom = 1e300;
+    ring.top = -1e300;
+    ring.bottom = 1e300;
     for (const auto& [k, godet] : order) {
       std::vector<Vec2> sides[2];
       for (const int side : {LEFT, RIGHT})
@@ -290,13 +300,15 @@ private:
                          Vec2(bounds[side].x(), bounds[0].y())};
       ring.gores.emplace_back(k, sides[LEFT], sides[RIGHT]);
       Gore& gore = ring.gores.back();
-      gore.godet = godet, gore.side = m_roles[k].side, gore.theta = m_roles[k].theta;
+      gore.godet = godet;
+      gore.side = m_roles[k].side;
+      gore.theta = m_roles[k].theta;
       const double size = (bounds[1] - bounds[0]).norm();
       for (int v : m_mesh.panels[k].outline) {
         const Gore::Place at = gore.at(uv(k, v));
         if (std::abs(at.along) > size || at.row < bounds[0].y() - 0.5 * size)
           return std::nullopt; // its sides are not where it is drawn
-        ring.top = std::max({ring.top, at.row, uv(k, v).y()}),
+        ring.top = std::max({ring.top, at.row, uv(k, v).y()});
         ring.bottom = std::min(ring.bottom, at.row);
       }
     }
@@ -315,8 +327,9 @@ private:
     const double first = ring.gores[0].half_width(ring.top),
                  looks = ring.gores[0].side == Side::BACK ? units::PI : 0;
     for (Gore& g : ring.gores) {
-      g.side = Side::RING, g.theta = looks + 2 * units::PI * (at + g.half_width(ring.top) - first) /
-                                                 std::max(around, 1e-6);
+      g.side = Side::RING;
+      g.theta =
+          looks + 2 * units::PI * (at + g.half_width(ring.top) - first) / std::max(around, 1e-6);
       at += 2 * g.half_width(ring.top);
     }
   }

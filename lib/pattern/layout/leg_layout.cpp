@@ -27,7 +27,7 @@ void bridge(std::vector<LegRow>& rows, LegRow::Span LegRow::*span) {
     for (std::size_t j = last + 1; last < rows.size() && j < k; ++j) {
       const double t = static_cast<double>(j - last) / static_cast<double>(k - last);
       const LegRow::Span &a = rows[last].*span, &b = rows[k].*span;
-      (rows[j].*span).in = (1 - t) * a.in + t * b.in,
+      (rows[j].*span).in = (1 - t) * a.in + t * b.in;
       (rows[j].*span).out = (1 - t) * a.out + t * b.out;
     }
     last = k;
@@ -73,7 +73,9 @@ void level_trunk(const PanelMesh& mesh, const SeamGraph& graph, const std::vecto
         double mean = 0, least = 1e300, own = 0, other = 0;
         for (const auto& s : seam) {
           const double a = v(p, s[0]).y(), b = v(q, s[1]).y();
-          mean += a - b, own += a, other += b;
+          mean += a - b;
+          own += a;
+          other += b;
         }
         const double count = static_cast<double>(seam.size());
         mean /= count;
@@ -87,8 +89,12 @@ void level_trunk(const PanelMesh& mesh, const SeamGraph& graph, const std::vecto
         }
         const long i = static_cast<long>(p), j = static_cast<long>(q);
         const double off = wanted - mean; // of x_i - x_j
-        normal(i, i) += count, normal(j, j) += count, normal(i, j) -= count, normal(j, i) -= count;
-        right(i) += count * off, right(j) -= count * off;
+        normal(i, i) += count;
+        normal(j, j) += count;
+        normal(i, j) -= count;
+        normal(j, i) -= count;
+        right(i) += count * off;
+        right(j) -= count * off;
       }
     }
   const Eigen::VectorXd shift = normal.ldlt().solve(right);
@@ -128,7 +134,8 @@ std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>
     const auto take = [&](double row, double t) {
       if (row < -0.5 || row > static_cast<double>(n) - 0.5) return;
       LegRow::Span& s = rows[static_cast<std::size_t>(std::lround(row))].*span;
-      s.in = std::min(s.in, t), s.out = std::max(s.out, t);
+      s.in = std::min(s.in, t);
+      s.out = std::max(s.out, t);
     };
     for (std::size_t k = 0; k < outline.size(); ++k) {
       const Vec2 a = laid(mesh, roles[p], spots[p], outline[k]),
@@ -140,8 +147,10 @@ std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>
     }
   }
   for (const auto span : {&LegRow::front, &LegRow::back, &LegRow::ring}) bridge(rows, span);
-  for (const auto span : {&LegRow::front, &LegRow::back, &LegRow::ring})
-    carry_on(rows, span, step, true), carry_on(rows, span, step, false);
+  for (const auto span : {&LegRow::front, &LegRow::back, &LegRow::ring}) {
+    carry_on(rows, span, step, true);
+    carry_on(rows, span, step, false);
+  }
   return rows;
 }
 

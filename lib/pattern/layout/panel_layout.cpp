@@ -52,7 +52,10 @@ private:
       if (m_roles[k].region != region || !m_roles[k].dv) continue;
       m_spots[k].offset.y() = *m_roles[k].dv;
       m_done[k] = true;
-      if (m_roles[k].du) m_spots[k].offset.x() = *m_roles[k].du, m_u_known[k] = true;
+      if (m_roles[k].du) {
+        m_spots[k].offset.x() = *m_roles[k].du;
+        m_u_known[k] = true;
+      }
     }
     for (;;) {
       // The unplaced panel with the longest seam to a placed one; seams within one side count ten
@@ -65,7 +68,11 @@ private:
           const std::size_t o = static_cast<std::size_t>(q);
           if (m_roles[o].region != region || !m_done[o]) continue;
           const double score = seam_length(k, o) * (m_roles[k].side == m_roles[o].side ? 10 : 1);
-          if (score > most) most = score, best = k, partner = o;
+          if (score > most) {
+            most = score;
+            best = k;
+            partner = o;
+          }
         }
       }
       if (best < count()) {
@@ -79,7 +86,10 @@ private:
         if (!trunk)
           for (int q : m_graph.neighbours(static_cast<int>(k)))
             score += m_roles[static_cast<std::size_t>(q)].region == Region::TRUNK ? 10 : 0;
-        if (score > most) most = score, best = k;
+        if (score > most) {
+          most = score;
+          best = k;
+        }
       }
       if (best == count()) break;
       m_spots[best].offset = Vec2(0, 0);
@@ -123,7 +133,10 @@ private:
           if (m_roles[q].side != m_roles[p].side || !same_layer(p, q)) continue;
           if (m_roles[q].du) {
             for (const auto& seam : m_graph.between(static_cast<int>(p), neighbour))
-              for (const auto& s : seam) shift += at(q, s[1]).x() - at(p, s[0]).x(), ++n;
+              for (const auto& s : seam) {
+                shift += at(q, s[1]).x() - at(p, s[0]).x();
+                ++n;
+              }
           } else if (!met[q] && in_row(q) && upright(p, q)) {
             met[q] = true;
             row.push_back(q);
@@ -200,7 +213,11 @@ private:
     Vec2 own = Vec2::Zero(), other = Vec2::Zero();
     int n = 0;
     for (const auto& seam : m_graph.between(static_cast<int>(p), static_cast<int>(q))) {
-      for (const auto& s : seam) own += at(p, s[0]), other += at(q, s[1]), ++n;
+      for (const auto& s : seam) {
+        own += at(p, s[0]);
+        other += at(q, s[1]);
+        ++n;
+      }
     }
     const bool level = !upright(p, q), same_side = m_roles[p].side == m_roles[q].side;
     m_spots[p].offset += (other - own) / std::max(n, 1);
@@ -230,7 +247,10 @@ private:
           m_roles[o].side != m_roles[p].side || !same_layer(p, o) || upright(p, o))
         continue;
       for (const auto& seam : m_graph.between(static_cast<int>(p), neighbour))
-        for (const auto& s : seam) sum += at(o, s[1]).x() - at(p, s[0]).x(), ++count;
+        for (const auto& s : seam) {
+          sum += at(o, s[1]).x() - at(p, s[0]).x();
+          ++count;
+        }
     }
     return std::abs(sum) > ASIDE * count ? sum / count : 0;
   }
@@ -245,14 +265,16 @@ private:
     const long across = 1 - axis;
     double need = 0;
     const auto extent = [&](std::size_t panel, double line, double& low, double& high) {
-      low = 1e300, high = -1e300;
+      low = 1e300;
+      high = -1e300;
       const auto& outline = m_mesh.panels[panel].outline;
       for (std::size_t k = 0; k < outline.size(); ++k) {
         const Vec2 a = at(panel, outline[k]), b = at(panel, outline[(k + 1) % outline.size()]);
         if ((a[across] <= line) == (b[across] <= line)) continue;
         const double x =
             a[axis] + (line - a[across]) / (b[across] - a[across]) * (b[axis] - a[axis]);
-        low = std::min(low, x), high = std::max(high, x);
+        low = std::min(low, x);
+        high = std::max(high, x);
       }
     };
     const auto bp = bounds(p), bq = bounds(q);
@@ -261,7 +283,8 @@ private:
     for (int k = 1; k < 200; ++k) {
       const double line = from + (to - from) * k / 200;
       double pl, ph, ql, qh;
-      extent(p, line, pl, ph), extent(q, line, ql, qh);
+      extent(p, line, pl, ph);
+      extent(q, line, ql, qh);
       if (pl > ph || ql > qh) continue;
       need = std::max(need, sense > 0 ? qh + PANEL_GAP - pl : ph + PANEL_GAP - ql);
     }
@@ -284,7 +307,8 @@ private:
         for (std::size_t k = 0; k < count(); ++k) {
           if (m_block[k] != block) continue;
           const auto b = bounds(k);
-          low = low.cwiseMin(b[0]), high = high.cwiseMax(b[1]);
+          low = low.cwiseMin(b[0]);
+          high = high.cwiseMax(b[1]);
           const std::string& part = m_roles[k].part;
           const std::string& name = m_pattern.panels[k].name;
           const auto ends_with = [&](const std::string& tail) {
@@ -324,7 +348,8 @@ std::array<Vec2, 2> laid_bounds(const PanelMesh& mesh, const PanelRole& role, co
   std::array<Vec2, 2> b = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
   for (int v : mesh.panels[static_cast<std::size_t>(panel)].outline) {
     const Vec2 p = laid(mesh, role, spot, v);
-    b[0] = b[0].cwiseMin(p), b[1] = b[1].cwiseMax(p);
+    b[0] = b[0].cwiseMin(p);
+    b[1] = b[1].cwiseMax(p);
   }
   return b;
 }

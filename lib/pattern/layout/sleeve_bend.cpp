@@ -36,13 +36,19 @@ std::optional<SleeveBend> SleeveBend::find(const std::vector<std::vector<Vec2>>&
                                            double sign, const Vec2& shoulder, double elevation) {
   double low = 1e300, high = -1e300, tip = -1e300;
   for (const auto& loop : outlines)
-    for (const Vec2& p : loop) low = std::min(low, p.y()), high = std::max(high, p.y());
+    for (const Vec2& p : loop) {
+      low = std::min(low, p.y());
+      high = std::max(high, p.y());
+    }
   low = std::max(low, shoulder.y() - BELOW_SHOULDER);
   double trunk = 1e300, crook = low;
   for (double y = low + 0.5 * SLEEVE_ROW; y < high; y += SLEEVE_ROW) {
     const double reach = reach_at(outlines, sign, y);
     if (reach <= 0) continue;
-    if (y < shoulder.y() && reach < trunk + SLEEVE_ROW) trunk = std::min(trunk, reach), crook = y;
+    if (y < shoulder.y() && reach < trunk + SLEEVE_ROW) {
+      trunk = std::min(trunk, reach);
+      crook = y;
+    }
   }
   for (double y = crook; y < high; y += SLEEVE_ROW)
     tip = std::max(tip, reach_at(outlines, sign, y)); // flares are below
@@ -51,11 +57,16 @@ std::optional<SleeveBend> SleeveBend::find(const std::vector<std::vector<Vec2>>&
   double n = 0;
   for (const auto& loop : outlines)
     for (const Vec2& p : loop)
-      if (sign * p.x() > tip - SLEEVE_END && p.y() > crook) end += p, ++n;
+      if (sign * p.x() > tip - SLEEVE_END && p.y() > crook) {
+        end += p;
+        ++n;
+      }
   if (n == 0) return std::nullopt;
   end /= n;
   SleeveBend bend;
-  bend.m_sign = sign, bend.m_shoulder = shoulder, bend.m_crook = crook;
+  bend.m_sign = sign;
+  bend.m_shoulder = shoulder;
+  bend.m_crook = crook;
   bend.m_axis = std::atan2(end.y() - shoulder.y(), sign * (end.x() - shoulder.x()));
   bend.m_angle = std::clamp(elevation - bend.m_axis, -MOST_BEND, MOST_BEND);
   return bend;

@@ -23,7 +23,10 @@ double coarse_for(const Pattern& pattern) {
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
     for (const PanelEdge& e : panel.loops[0])
       for (const Segment& s : e.path)
-        for (double t : {0.0, 0.5, 1.0}) low = low.cwiseMin(s.at(t)), high = high.cwiseMax(s.at(t));
+        for (double t : {0.0, 0.5, 1.0}) {
+          low = low.cwiseMin(s.at(t));
+          high = high.cwiseMax(s.at(t));
+        }
     edge = std::min(edge, PER_PIECE * (high - low).maxCoeff());
   }
   return std::max(edge, FINEST);
@@ -36,8 +39,10 @@ std::string edge_at(const Panel& panel, const Vec2& p) {
   for (int e = 0; e < panel.n_edges(); ++e) {
     const ArcLength arc(panel.edge(e).path);
     for (int k = 0; k <= 64; ++k)
-      if (const double d = (arc.at(arc.length() * k / 64) - p).norm(); d < least - 1e-9)
-        least = d, name = panel.edge(e).name;
+      if (const double d = (arc.at(arc.length() * k / 64) - p).norm(); d < least - 1e-9) {
+        least = d;
+        name = panel.edge(e).name;
+      }
   }
   return name;
 }
@@ -97,7 +102,8 @@ FinishedMeasures finished_measures(const Pattern& pattern, const std::string& fi
   FinishedMeasures out;
   out.openings = openings_of(pattern, mesh);
   TrunkMeasures trunk = measure_trunk(pattern, mesh, out.openings);
-  out.named = std::move(trunk.named), out.around = std::move(trunk.around);
+  out.named = std::move(trunk.named);
+  out.around = std::move(trunk.around);
   const Pattern sewn = with_folds(pattern, file);
   for (const Seam& s : sewn.seams)
     if (s.kind != "pleat")

@@ -41,8 +41,10 @@ public:
     for (std::size_t v = 0; v < m_height.size(); ++v) {
       if (std::isnan(m_height[v])) continue;
       m_bottom = std::min(m_bottom, m_height[v]);
-      if (tells_height(static_cast<int>(v)) && m_height[v] > m_top)
-        m_top = m_height[v], m_highest = v;
+      if (tells_height(static_cast<int>(v)) && m_height[v] > m_top) {
+        m_top = m_height[v];
+        m_highest = v;
+      }
     }
     if (m_top <= m_bottom) return;
     m_shoulder = shoulders();
@@ -134,8 +136,11 @@ private:
           const bool down = level(seam.front()[0]) > level(seam.back()[0]);
           const int top = (down ? seam.front() : seam.back())[0],
                     bottom = (down ? seam.back() : seam.front())[0];
-          line.high = level(top), line.low = level(bottom), line.first = line.length;
-          line.top = m_trunk.welded(top), line.bottom = m_trunk.welded(bottom);
+          line.high = level(top);
+          line.low = level(bottom);
+          line.first = line.length;
+          line.top = m_trunk.welded(top);
+          line.bottom = m_trunk.welded(bottom);
           if (line.high - line.low > RISES * line.length) lines.push_back(line);
         }
       }
@@ -144,9 +149,11 @@ private:
       for (std::size_t i = 0; i < lines.size() && !joined; ++i)
         for (std::size_t j = 0; j < lines.size() && !joined; ++j) {
           if (i == j || lines[i].bottom != lines[j].top) continue;
-          lines[i].bottom = lines[j].bottom, lines[i].low = lines[j].low,
+          lines[i].bottom = lines[j].bottom;
+          lines[i].low = lines[j].low;
           lines[i].length += lines[j].length;
-          lines.erase(lines.begin() + static_cast<long>(j)), joined = true;
+          lines.erase(lines.begin() + static_cast<long>(j));
+          joined = true;
         }
     }
     return lines;
@@ -188,10 +195,15 @@ private:
         for (int v : side) {
           const int panel = m_graph.panel_of(v);
           const double h = region(panel) == Region::NECK ? m_top + 10 : height(v);
-          if (!arm(panel) && !std::isnan(h)) sum += h, ++n;
+          if (!arm(panel) && !std::isnan(h)) {
+            sum += h;
+            ++n;
+          }
         }
-      if (n > 0 && (!best || (highest ? sum / n > level : sum / n < level)))
-        best = &o, level = sum / n;
+      if (n > 0 && (!best || (highest ? sum / n > level : sum / n < level))) {
+        best = &o;
+        level = sum / n;
+      }
     }
     return best;
   }
@@ -238,7 +250,10 @@ private:
     level = m_top; // a front that is open: where the side seams begin
     double longest = 0;
     for (const SeamLine& line : upright_lines(side_seams))
-      if (line.length > longest) longest = line.length, level = line.high;
+      if (line.length > longest) {
+        longest = line.length;
+        level = line.high;
+      }
     return level;
   }
 
@@ -399,7 +414,10 @@ private:
     double high = -1e300, seam_low = 1e300;
     std::size_t highest = 0;
     for (std::size_t v = 0; v < m_arm_height.size(); ++v)
-      if (m_arm_height[v] > high) high = m_arm_height[v], highest = v;
+      if (m_arm_height[v] > high) {
+        high = m_arm_height[v];
+        highest = v;
+      }
     if (high < -1e299) return;
     for (int p = 0; p < static_cast<int>(m_roles.size()); ++p)
       for (int q : m_graph.neighbours(p))
@@ -413,8 +431,10 @@ private:
       double sum = 0;
       for (const auto& side : o.rim)
         sum += m_arm_height[static_cast<std::size_t>(side[0])]; // NaN where the trunk takes part
-      if (const double mean = sum / static_cast<double>(o.rim.size()); mean < level)
-        level = mean, cuff = &o;
+      if (const double mean = sum / static_cast<double>(o.rim.size()); mean < level) {
+        level = mean;
+        cuff = &o;
+      }
     }
     if (cuff) {
       Field start(m_arm_height.size(), UNKNOWN);

@@ -65,9 +65,10 @@ Field SewnCloth::height(const std::vector<PanelRole>& roles, const Field& wanted
   each_triangle([&](std::size_t panel, const Triangle& corners, const Triangle& w) {
     const Vec2 up = roles[panel].turn.row(1).transpose();
     std::array<Vec2, 3> p;
-    for (std::size_t k = 0; k < 3; ++k)
-      p[k] = m_mesh.pattern[static_cast<std::size_t>(corners[k])],
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k] = m_mesh.pattern[static_cast<std::size_t>(corners[k])];
       there[static_cast<std::size_t>(w[k])] = true;
+    }
     const double twice =
         (p[1] - p[0]).x() * (p[2] - p[0]).y() - (p[1] - p[0]).y() * (p[2] - p[0]).x();
     if (std::abs(twice) < 1e-12) return;
@@ -111,7 +112,8 @@ Field SewnCloth::way_from(const Field& start) const {
   const auto at = [&](int v) -> double& { return best[static_cast<std::size_t>(welded(v))]; };
   for (std::size_t v = 0; v < start.size(); ++v)
     if (!std::isnan(start[v]) && start[v] < at(static_cast<int>(v))) {
-      at(static_cast<int>(v)) = start[v], fixed[static_cast<std::size_t>(m_weld[v])] = true;
+      at(static_cast<int>(v)) = start[v];
+      fixed[static_cast<std::size_t>(m_weld[v])] = true;
       queue.emplace(start[v], m_weld[v]);
     }
   const auto drawn = [&](int v) -> const Vec2& {
@@ -129,7 +131,10 @@ Field SewnCloth::way_from(const Field& start) const {
         if (std::isfinite(at(other)))
           way =
               std::min(way, way_across(drawn(from), drawn(other), drawn(to), at(from), at(other)));
-        if (way < at(to) - 1e-12) at(to) = way, queue.emplace(way, welded(to));
+        if (way < at(to) - 1e-12) {
+          at(to) = way;
+          queue.emplace(way, welded(to));
+        }
       }
   }
   Field field(m_weld.size(), AWAY);
@@ -157,7 +162,9 @@ SewnCloth::Ring SewnCloth::around(const Field& field, double level,
       ends.push_back(m_mesh.pattern[i] + (level - field[i]) / (field[j] - field[i]) *
                                              (m_mesh.pattern[j] - m_mesh.pattern[i]));
       Crossed& side = crossed[{std::min(w[k], w[(k + 1) % 3]), std::max(w[k], w[(k + 1) % 3])}];
-      ++side.n, side.a = corners[k], side.b = corners[(k + 1) % 3];
+      ++side.n;
+      side.a = corners[k];
+      side.b = corners[(k + 1) % 3];
     }
     if (ends.size() == 2) ring.length += (ends[1] - ends[0]).norm();
   });

@@ -50,7 +50,8 @@ public:
       return run.from + f * (run.to - run.from);
     };
     const double from = fraction(u0), to = fraction(u1);
-    run.from = from, run.to = to;
+    run.from = from;
+    run.to = to;
     return run;
   }
 
@@ -68,8 +69,10 @@ std::vector<std::array<double, 2>> matched_breaks(const Side& a, const Side& b, 
     const double u = a.corners()[i];
     while (j + 1 < b.corners().size() && b.corners()[j] < u - tolerance) ++j;
     if (j + 1 < b.corners().size() && std::abs(b.corners()[j] - u) <= tolerance &&
-        b.corners()[j] > knots.back()[1])
-      knots.push_back({u, b.corners()[j]}), ++j;
+        b.corners()[j] > knots.back()[1]) {
+      knots.push_back({u, b.corners()[j]});
+      ++j;
+    }
   }
   knots.push_back({1, 1});
   std::vector<std::array<double, 2>> breaks = {{0, 0}};
@@ -169,7 +172,7 @@ private:
     for (const EdgePiece& other : pieces)
       if (piece.from < other.to - 1e-7 && other.from < piece.to - 1e-7)
         throw input_error(
-            m_file, place_of(m_pattern, run),
+            "pattern.sewn-twice"_id, m_file, place_of(m_pattern, run),
             centimetres(
                 (std::min(piece.to, other.to) - std::max(piece.from, other.from)) *
                 length(m_pattern.panels[static_cast<std::size_t>(run.panel)].edge(run.edge).path)) +
@@ -193,10 +196,12 @@ private:
         pair.n = std::max({pair.n, segments_for_bends(pair.a), segments_for_bends(pair.b)});
       if (pair.n == 0)
         m_out.findings.push_back(
-            place_of(m_pattern, pair.a) + " and " + place_of(m_pattern, pair.b) +
-            ": a stretch of " + centimetres(piece_length(pair.a)) +
-            " is merged into its neighbours (edge length " + centimetres(m_seam_h) + ")");
-      add_piece(pair.a, pair.n), add_piece(pair.b, pair.n);
+            {"mesh.stretch-merged"_id,
+             place_of(m_pattern, pair.a) + " and " + place_of(m_pattern, pair.b) +
+                 ": a stretch of " + centimetres(piece_length(pair.a)) +
+                 " is merged into its neighbours (edge length " + centimetres(m_seam_h) + ")"});
+      add_piece(pair.a, pair.n);
+      add_piece(pair.b, pair.n);
       m_pairs[s].push_back(pair);
     }
   }
@@ -237,8 +242,10 @@ private:
     }
     if (upper.from > upper.to) { // walked as the seam says
       std::reverse(m_pairs[s].begin(), m_pairs[s].end());
-      for (Pair& pair : m_pairs[s])
-        std::swap(pair.a.from, pair.a.to), std::swap(pair.b.from, pair.b.to);
+      for (Pair& pair : m_pairs[s]) {
+        std::swap(pair.a.from, pair.a.to);
+        std::swap(pair.b.from, pair.b.to);
+      }
     }
   }
 
@@ -265,9 +272,10 @@ private:
           piece.n = std::max(piece.n, segments_for_bends({p, static_cast<int>(e), at, to}));
         if (piece.n > 0 && m_seam_h < m_h) grade(piece, (to - at) * total);
         if (piece.n == 0)
-          m_out.findings.push_back(place_of(m_pattern, {p, static_cast<int>(e)}) +
-                                   ": a free stretch of " + centimetres((to - at) * total) +
-                                   " is merged into its neighbours");
+          m_out.findings.push_back({"mesh.stretch-merged"_id,
+                                    place_of(m_pattern, {p, static_cast<int>(e)}) +
+                                        ": a free stretch of " + centimetres((to - at) * total) +
+                                        " is merged into its neighbours"});
         all.push_back(piece);
       };
       for (const EdgePiece& piece : pieces) {
@@ -308,7 +316,8 @@ private:
     if (!start && !end) return;
     std::vector<double> inner = graded_fractions(piece_length, m_h, m_seam_h, start, end);
     if (static_cast<int>(inner.size()) + 1 < piece.n) return;
-    piece.n = static_cast<int>(inner.size()) + 1, piece.inner = std::move(inner);
+    piece.n = static_cast<int>(inner.size()) + 1;
+    piece.inner = std::move(inner);
   }
 
   /// Whether anything is sewn to the edges [first, end) of panel p.
@@ -339,13 +348,16 @@ private:
             points.push_back(arc.at(f * arc.length()));
             out.edge_of.push_back(e);
           }
-          ev.at.push_back(f),
-              ev.vertex.push_back(first_of_loop + static_cast<int>(points.size()) - 1);
+          ev.at.push_back(f);
+          ev.vertex.push_back(first_of_loop + static_cast<int>(points.size()) - 1);
         };
         for (const EdgePiece& piece :
              m_pieces[static_cast<std::size_t>(p)][static_cast<std::size_t>(e)]) {
           if (ev.at.empty() || !merged) put(piece.from);
-          else ev.at.push_back(piece.from), ev.vertex.push_back(ev.vertex.back());
+          else {
+            ev.at.push_back(piece.from);
+            ev.vertex.push_back(ev.vertex.back());
+          }
           merged = piece.n == 0;
           for (int k = 1; k < piece.n; ++k)
             put(piece.from +
@@ -358,14 +370,15 @@ private:
       const int n = static_cast<int>(points.size()), n_kept = n - (merged ? 1 : 0);
       if (n_kept < 3) {
         if (first_edge == 0 || sewn(p, first_edge, e))
-          throw input_error(m_file, panel.name,
+          throw input_error("mesh.outline-too-small"_id, m_file, panel.name,
                             "the outline is too small: " + std::to_string(n_kept) +
                                 " vertices at an edge length of " + centimetres(m_h),
                             "give a smaller --edge-length");
         // An eyelet or a drill hole that the mesh is too coarse for; nothing is sewn to it.
-        m_out.findings.push_back(panel.name + ": the hole at " + loop.front().name +
-                                 " is smaller than the mesh's edges (" + centimetres(m_h) +
-                                 ") and is left out; a smaller --edge-length keeps it");
+        m_out.findings.push_back(
+            {"mesh.hole-left-out"_id, panel.name + ": the hole at " + loop.front().name +
+                                          " is smaller than the mesh's edges (" + centimetres(m_h) +
+                                          ") and is left out; a smaller --edge-length keeps it"});
         out.edge_of.resize(out.edge_of.size() - points.size());
         continue;
       }
@@ -379,7 +392,8 @@ private:
       }
       if (merged) { // the loop's last stretch was merged: its vertex and the first are one
         const int last = first_of_loop + n - 1;
-        points.pop_back(), out.edge_of.pop_back();
+        points.pop_back();
+        out.edge_of.pop_back();
         for (int k = first_edge; k < e; ++k)
           for (int& v : vertices[static_cast<std::size_t>(k)].vertex)
             if (v == last) v = first_of_loop;
@@ -398,7 +412,8 @@ private:
         const double t = pair.n == 0 ? 0.0 : static_cast<double>(k) / pair.n;
         const std::array<int, 2> va = vertex_at(pair.a, t), vb = vertex_at(pair.b, t);
         if (!out.a.empty() && out.a.back() == va && out.b.back() == vb) continue;
-        out.a.push_back(va), out.b.push_back(vb);
+        out.a.push_back(va);
+        out.b.push_back(vb);
       }
     // A corner both of whose edges are in this seam, sewn to each other: a cone's or a dart's tip.
     for (std::size_t k = 0; k < out.a.size(); ++k)
@@ -418,7 +433,8 @@ private:
         m_vertices[static_cast<std::size_t>(run.panel)][static_cast<std::size_t>(run.edge)];
     const int k = ev.find(run.from + (run.to - run.from) * t);
     if (k < 0)
-      throw Error(ErrorKind::INTERNAL, m_file, place_of(m_pattern, run), "a stitch has no vertex");
+      throw Error(ErrorKind::INTERNAL, "general.internal"_id, m_file, place_of(m_pattern, run),
+                  "a stitch has no vertex");
     return {run.panel, ev.vertex[static_cast<std::size_t>(k)]};
   }
 

@@ -58,16 +58,21 @@ std::vector<std::array<Vec2, 3>> geos_triangles(const std::vector<std::vector<Ve
   const Handle polygon(GEOSGeom_createPolygon_r(geos.context, ring(geos, loops[0]), holes.data(),
                                                 static_cast<unsigned>(holes.size())),
                        destroy);
-  if (!polygon) throw Error(ErrorKind::INTERNAL, "", panel, "no polygon: " + geos.message);
+  if (!polygon)
+    throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", panel,
+                "no polygon: " + geos.message);
   if (GEOSisValid_r(geos.context, polygon.get()) != 1) {
     char* reason = GEOSisValidReason_r(geos.context, polygon.get());
     const std::string why = reason ? reason : "not valid";
     GEOSFree_r(geos.context, reason);
-    throw input_error("", panel, "the outline crosses or touches itself (" + why + " m)",
+    throw input_error("pattern.outline-crosses"_id, "", panel,
+                      "the outline crosses or touches itself (" + why + " m)",
                       "run pattern-mesh --check for the edges");
   }
   const Handle found(GEOSConstrainedDelaunayTriangulation_r(geos.context, polygon.get()), destroy);
-  if (!found) throw Error(ErrorKind::INTERNAL, "", panel, "no triangulation: " + geos.message);
+  if (!found)
+    throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", panel,
+                "no triangulation: " + geos.message);
   std::vector<std::array<Vec2, 3>> out;
   for (int k = 0, n = GEOSGetNumGeometries_r(geos.context, found.get()); k < n; ++k) {
     const GEOSGeometry* outer =
@@ -95,8 +100,10 @@ FlatDelaunay::FlatDelaunay(const std::vector<std::vector<Vec2>>& loops, const st
       const auto it = number.find(
           {corners[static_cast<std::size_t>(i)].x(), corners[static_cast<std::size_t>(i)].y()});
       if (it == number.end())
-        throw Error(ErrorKind::INTERNAL, "", panel, "the triangulation has a point of its own");
-      face.v[i] = it->second, face.next[i] = -1;
+        throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", panel,
+                    "the triangulation has a point of its own");
+      face.v[i] = it->second;
+      face.next[i] = -1;
     }
     if (cross(m_points[static_cast<std::size_t>(face.v[0])],
               m_points[static_cast<std::size_t>(face.v[1])],
@@ -184,7 +191,8 @@ void FlatDelaunay::keep(int a, int b, int depth) {
               true))
     return;
   const int middle = static_cast<int>(m_points.size()) - 1;
-  keep(a, middle, depth - 1), keep(middle, b, depth - 1);
+  keep(a, middle, depth - 1);
+  keep(middle, b, depth - 1);
 }
 
 void FlatDelaunay::add_line(const std::vector<Vec2>& points) {
@@ -207,8 +215,12 @@ void FlatDelaunay::split_face(int face, int vertex) {
   std::vector<std::pair<int, int>> stack;
   for (int k = 0; k < 3; ++k) { // face k keeps the edge opposite old corner k
     Face& g = m_faces[static_cast<std::size_t>(f[k])];
-    g.v[0] = vertex, g.v[1] = old.v[(k + 1) % 3], g.v[2] = old.v[(k + 2) % 3];
-    g.next[0] = old.next[k], g.next[1] = f[(k + 1) % 3], g.next[2] = f[(k + 2) % 3];
+    g.v[0] = vertex;
+    g.v[1] = old.v[(k + 1) % 3];
+    g.v[2] = old.v[(k + 2) % 3];
+    g.next[0] = old.next[k];
+    g.next[1] = f[(k + 1) % 3];
+    g.next[2] = f[(k + 2) % 3];
     g.alive = true;
     m_face_of[static_cast<std::size_t>(g.v[1])] = f[k];
     stack.push_back({f[k], 0});
@@ -234,8 +246,8 @@ void FlatDelaunay::split_edge(int face, int k, int vertex) {
   const int apex = old.v[k], a = old.v[(k + 1) % 3], b = old.v[(k + 2) % 3], below = twin.v[j];
   if (is_kept(a, b)) { // in two from now on
     m_kept.erase({std::min(a, b), std::max(a, b)});
-    m_kept.insert({std::min(a, vertex), std::max(a, vertex)}),
-        m_kept.insert({std::min(b, vertex), std::max(b, vertex)});
+    m_kept.insert({std::min(a, vertex), std::max(a, vertex)});
+    m_kept.insert({std::min(b, vertex), std::max(b, vertex)});
     m_pinned[static_cast<std::size_t>(vertex)] = 1;
   }
   const int f2 = static_cast<int>(m_faces.size()), f3 = f2 + 1;
@@ -301,8 +313,10 @@ bool FlatDelaunay::flip(int face, int k) {
   g = Face{{p, q, b}, {n_qb, n_bp, face}, true};
   relink(n_aq, other, face, q, a);
   relink(n_bp, face, other, p, b);
-  m_face_of[static_cast<std::size_t>(p)] = face, m_face_of[static_cast<std::size_t>(a)] = face;
-  m_face_of[static_cast<std::size_t>(q)] = face, m_face_of[static_cast<std::size_t>(b)] = other;
+  m_face_of[static_cast<std::size_t>(p)] = face;
+  m_face_of[static_cast<std::size_t>(a)] = face;
+  m_face_of[static_cast<std::size_t>(q)] = face;
+  m_face_of[static_cast<std::size_t>(b)] = other;
   return true;
 }
 
@@ -316,8 +330,10 @@ void FlatDelaunay::legalize(std::vector<std::pair<int, int>>& stack) {
     if (!m_faces[static_cast<std::size_t>(face)].alive || !wants_flip(face, k)) continue;
     const int other = m_faces[static_cast<std::size_t>(face)].next[k];
     flip(face, k);
-    stack.push_back({face, 0}), stack.push_back({face, 2}), stack.push_back({other, 0}),
-        stack.push_back({other, 1});
+    stack.push_back({face, 0});
+    stack.push_back({face, 2});
+    stack.push_back({other, 0});
+    stack.push_back({other, 1});
   }
 }
 
@@ -359,9 +375,13 @@ double FlatDelaunay::star_quality(const std::vector<int>& faces, int vertex, con
 
 void FlatDelaunay::take(std::vector<Vec2>& points, std::vector<Triangle>& triangles) {
   std::vector<int> number(m_points.size(), -1);
-  points.clear(), triangles.clear();
+  points.clear();
+  triangles.clear();
   for (std::size_t k = 0; k < m_points.size(); ++k)
-    if (!m_dead[k]) number[k] = static_cast<int>(points.size()), points.push_back(m_points[k]);
+    if (!m_dead[k]) {
+      number[k] = static_cast<int>(points.size());
+      points.push_back(m_points[k]);
+    }
   for (const Face& f : m_faces)
     if (f.alive)
       triangles.push_back({number[static_cast<std::size_t>(f.v[0])],

@@ -68,7 +68,8 @@ void FlatDelaunay::smooth() {
           std::sqrt(std::max({p.squaredNorm(), q.squaredNorm(), (p - q).squaredNorm()}));
       Vec2 away = center - middle;
       if (away.norm() > 0.5 * reach) away *= 0.5 * reach / away.norm();
-      sum += area2 * (middle + away), weight += area2;
+      sum += area2 * (middle + away);
+      weight += area2;
     }
     if (weight <= 0) continue;
     const Vec2 old = m_points[static_cast<std::size_t>(v)], target = sum / weight;
@@ -117,7 +118,8 @@ bool FlatDelaunay::remove(int vertex) {
   for (int i = 0; i < 3; ++i) {
     const Face& g = m_faces[static_cast<std::size_t>(faces[static_cast<std::size_t>(i)])];
     const int k = index_in(faces[static_cast<std::size_t>(i)], vertex);
-    ring[i] = g.v[(k + 1) % 3], outer[i] = g.next[k];
+    ring[i] = g.v[(k + 1) % 3];
+    outer[i] = g.next[k];
   }
   // Faces run counter-clockwise, so the new face is ring[0], ring[1], ring[2]; edge ring[i] -
   // ring[i+1] was outer[i].
@@ -125,7 +127,8 @@ bool FlatDelaunay::remove(int vertex) {
     m_faces[static_cast<std::size_t>(faces[static_cast<std::size_t>(i)])].alive = false;
   Face& g = m_faces[static_cast<std::size_t>(f0)];
   for (int i = 0; i < 3; ++i) {
-    g.v[i] = ring[i], g.next[(i + 2) % 3] = outer[i];
+    g.v[i] = ring[i];
+    g.next[(i + 2) % 3] = outer[i];
     m_face_of[static_cast<std::size_t>(ring[i])] = f0;
     if (outer[i] >= 0) {
       Face& n = m_faces[static_cast<std::size_t>(outer[i])];
@@ -175,7 +178,10 @@ bool FlatDelaunay::improve_worst(double good_angle) {
                                   m_points[static_cast<std::size_t>(f.v[1])],
                                   m_points[static_cast<std::size_t>(f.v[2])]) < good_angle)
       for (int v : f.v)
-        if (!on_boundary(v)) look[static_cast<std::size_t>(v)] = 1, any = true;
+        if (!on_boundary(v)) {
+          look[static_cast<std::size_t>(v)] = 1;
+          any = true;
+        }
   if (!any) return false;
   for (int v = m_n_boundary; v < static_cast<int>(m_points.size()); ++v) {
     if (!look[static_cast<std::size_t>(v)] || m_dead[static_cast<std::size_t>(v)] ||
@@ -197,7 +203,11 @@ bool FlatDelaunay::improve_worst(double good_angle) {
         const double angle = d * units::PI / 4;
         const Vec2 p = best + step * Vec2(std::cos(angle), std::sin(angle));
         const double q = star_quality(faces, v, p);
-        if (q > quality + 1e-6) best = p, quality = q, moved = gained = true;
+        if (q > quality + 1e-6) {
+          best = p;
+          quality = q;
+          moved = gained = true;
+        }
       }
       if (!moved) step *= 0.5;
     }

@@ -19,9 +19,9 @@ struct Stretch {
   double target, middle, fold, beyond;
 };
 
-[[noreturn]] void fail(const std::string& file, const Panel& panel, const Pleat& pleat,
-                       const std::string& fact, const std::string& next) {
-  throw input_error(file, panel.name + ": pleat " + pleat.name, fact, next);
+[[noreturn]] void fail(MessageId id, const std::string& file, const Panel& panel,
+                       const Pleat& pleat, const std::string& fact, const std::string& next) {
+  throw input_error(id, file, panel.name + ": pleat " + pleat.name, fact, next);
 }
 
 /// Where a line ends on an edge, or a negative number.
@@ -38,15 +38,15 @@ Stretch stretch_of(const Panel& panel, const Pleat& pleat, int edge, const std::
                length = pattern::length(panel.edge(edge).path);
   for (const auto& [at, line] : {std::pair(f, &fold), std::pair(t, &target)})
     if (at < 0)
-      fail(file, panel, pleat,
+      fail("pleat.line-off-edge"_id, file, panel, pleat,
            "line " + line->name + " does not end on edge " + panel.edge(edge).name,
            "draw it to within 0.20 cm of the edge");
   if (std::abs(f - t) * length < 2 * LINE_ON_EDGE)
-    fail(file, panel, pleat, "it is " + centimetres(std::abs(f - t) * length) + " wide",
-         "draw its lines apart");
+    fail("pleat.does-not-fit"_id, file, panel, pleat,
+         "it is " + centimetres(std::abs(f - t) * length) + " wide", "draw its lines apart");
   const Stretch out{&pleat, edge, t, 0.5 * (f + t), f, f + 0.5 * (f - t)};
   if (out.beyond < 0 || out.beyond > 1)
-    fail(file, panel, pleat,
+    fail("pleat.does-not-fit"_id, file, panel, pleat,
          "its upper layer reaches " + centimetres(std::max(-out.beyond, out.beyond - 1) * length) +
              " past the end of edge " + panel.edge(edge).name,
          "fold less, or move it inwards");
@@ -64,7 +64,7 @@ void check_apart(const Panel& panel, const std::vector<Stretch>& stretches,
                              std::max(std::min(a.target, a.beyond), std::min(b.target, b.beyond));
       const double metres = overlap * pattern::length(panel.edge(a.edge).path);
       if (metres > 1e-4)
-        fail(file, panel, *b.pleat,
+        fail("pleat.does-not-fit"_id, file, panel, *b.pleat,
              "overlaps pleat " + a.pleat->name + " by " + centimetres(metres) + " on edge " +
                  panel.edge(a.edge).name,
              "a pleat takes one and a half times the distance of its lines");
@@ -163,7 +163,7 @@ void fold_panel(Pattern& pattern, int p, const std::string& file) {
                                    }),
                     side->end());
         if (side->empty())
-          throw input_error(file, "seam " + seam.name,
+          throw input_error("pleat.does-not-fit"_id, file, "seam " + seam.name,
                             "pleat " + s.pleat->name + " covers all of one side of the seam",
                             "sew the upper layer");
       }
@@ -171,10 +171,11 @@ void fold_panel(Pattern& pattern, int p, const std::string& file) {
                            back = pieces(s, s.fold, s.middle), upper = pieces(s, s.fold, s.beyond);
     for (const auto* side : {&under, &back, &upper})
       if (side->size() != 1)
-        throw input_error(
-            file, pattern.panels[static_cast<std::size_t>(p)].name + ": pleat " + s.pleat->name,
-            "another line ends between its lines",
-            "move the end of that line off the cloth of the pleat");
+        throw input_error("pleat.does-not-fit"_id, file,
+                          pattern.panels[static_cast<std::size_t>(p)].name + ": pleat " +
+                              s.pleat->name,
+                          "another line ends between its lines",
+                          "move the end of that line off the cloth of the pleat");
     pattern.seams.push_back({s.pleat->name + "-under", "pleat", under, upper, ""});
     pattern.seams.push_back({s.pleat->name + "-back", "pleat", back, upper, ""});
   }
@@ -212,9 +213,10 @@ Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh) {
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     const Panel& panel = pattern.panels[p];
     for (const Pleat& pleat : panel.pleats) {
-      if (out.shift.empty())
-        out.shift.assign(mesh.pattern.size(), Vec2::Zero()),
-            out.depth.assign(mesh.pattern.size(), 0);
+      if (out.shift.empty()) {
+        out.shift.assign(mesh.pattern.size(), Vec2::Zero());
+        out.depth.assign(mesh.pattern.size(), 0);
+      }
       const Path &fold = panel.lines[static_cast<std::size_t>(pleat.fold)].path,
                  &target = panel.lines[static_cast<std::size_t>(pleat.target)].path;
       const Vec2 f0 = fold.front().p[0], f1 = fold.back().p[3];
@@ -293,7 +295,10 @@ std::vector<std::array<double, 3>> tape_scales(const PanelMesh& mesh) {
             const Vec2 d = points[i + 1] - points[i];
             const double s = std::clamp((middle - points[i]).dot(d) / d.squaredNorm(), 0.0, 1.0),
                          off = (middle - points[i] - s * d).norm();
-            if (off < least) least = off, along = d.normalized();
+            if (off < least) {
+              least = off;
+              along = d.normalized();
+            }
           }
           if (along.squaredNorm() > 0) // a stretch by `factor` along the tape, none across it
             out[static_cast<std::size_t>(f)][k] *= std::sqrt(

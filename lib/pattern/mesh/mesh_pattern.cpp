@@ -24,7 +24,10 @@ void list_small_angles(PanelMesh& mesh, const PanelInfo& panel) {
     const auto at = [&](std::size_t k) { return mesh.pattern[static_cast<std::size_t>(tri[k])]; };
     const double angle = smallest_angle(at(0), at(1), at(2));
     if (angle < units::radians(25)) ++n;
-    if (angle < worst) worst = angle, where = (at(0) + at(1) + at(2)) / 3;
+    if (angle < worst) {
+      worst = angle;
+      where = (at(0) + at(1) + at(2)) / 3;
+    }
   }
   if (n == 0) return;
   char text[160];
@@ -32,7 +35,7 @@ void list_small_angles(PanelMesh& mesh, const PanelInfo& panel) {
                 "%s: %d triangle%s below 25 degrees, the smallest %.1f at (%.1f, %.1f) cm",
                 panel.name.c_str(), n, n == 1 ? "" : "s", units::degrees(worst), where.x() * 100,
                 where.y() * 100);
-  mesh.findings.push_back(text);
+  mesh.findings.push_back({"mesh.small-angle"_id, text});
 }
 
 /// Fine along the seams of a panel where that is asked for.
@@ -69,7 +72,7 @@ double distance_to_line(const std::vector<Vec2>& loop, bool closed, const Vec2& 
 /// before it, it is left out and told.
 std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel,
                                              const Boundary::PanelBoundary& boundary, double h,
-                                             std::vector<std::string>& findings) {
+                                             std::vector<Message>& findings) {
   constexpr double CLEAR = 0.55; // edge lengths
   std::vector<std::vector<Vec2>> out;
   for (const InnerLine& line : panel.lines) {
@@ -92,17 +95,21 @@ std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel,
       }
       for (const auto& other : out) fits = fits && distance_to_line(other, false, p) > CLEAR * h;
       if (fits) chains.back().push_back(p);
-      else ++n_left_out, chains.push_back({});
+      else {
+        ++n_left_out;
+        chains.push_back({});
+      }
     }
     for (auto& chain : chains)
       if (chain.size() >= 2) out.push_back(std::move(chain));
     if (n_left_out > 2 ||
         n_left_out ==
             n + 1) // the ends of a line may be a little short of an outline that it does not reach
-      findings.push_back(panel.name + ": line " + line.name + " runs within " +
-                         centimetres(CLEAR * h) + " of the outline or of another line; " +
-                         std::to_string(n_left_out) + " of its " + std::to_string(n + 1) +
-                         " points are left out");
+      findings.push_back({"mesh.line-left-out"_id,
+                          panel.name + ": line " + line.name + " runs within " +
+                              centimetres(CLEAR * h) + " of the outline or of another line; " +
+                              std::to_string(n_left_out) + " of its " + std::to_string(n + 1) +
+                              " points are left out"});
   }
   return out;
 }
@@ -119,7 +126,7 @@ void require_few_vertices(const Pattern& pattern, const PanelMesh& mesh, const s
   }
   const double n = area / (mesh.edge_length * mesh.edge_length * std::sqrt(0.75));
   if (!(n <= MOST_VERTICES))
-    throw input_error(file, pattern.name,
+    throw input_error("mesh.too-many-vertices"_id, file, pattern.name,
                       "would have " + std::to_string(std::lround(std::min(n, 1e15))) +
                           " vertices at an edge length of " + centimetres(mesh.edge_length),
                       "give a larger --edge-length, or check the pattern's unit");
@@ -183,22 +190,28 @@ PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::stri
   });
   for (std::size_t p = 0; p < flat.size(); ++p)
     if (!failed[p].empty())
-      throw input_error(file, pattern.panels[p].name, failed[p],
+      throw input_error("pattern.outline-crosses"_id, file, pattern.panels[p].name, failed[p],
                         "pattern-mesh --check names the edges");
 
   for (std::size_t p = 0; p < flat.size(); ++p) {
     const Panel& source = pattern.panels[p];
     PanelInfo info;
-    info.name = source.name, info.grain = source.grain, info.material = source.material,
-    info.layer = source.layer, info.part = source.hint.part;
-    info.first_vertex = static_cast<int>(mesh.pattern.size()),
+    info.name = source.name;
+    info.grain = source.grain;
+    info.material = source.material;
+    info.layer = source.layer;
+    info.part = source.hint.part;
+    info.first_vertex = static_cast<int>(mesh.pattern.size());
     info.n_vertices = static_cast<int>(flat[p].points.size());
-    info.first_triangle = static_cast<int>(mesh.triangles.size()),
+    info.first_triangle = static_cast<int>(mesh.triangles.size());
     info.n_triangles = static_cast<int>(flat[p].triangles.size());
     for (std::size_t k = 0; k < boundary.panels[p].loops[0].size(); ++k)
       info.outline.push_back(info.first_vertex + static_cast<int>(k));
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
-    for (const Vec2& q : flat[p].points) low = low.cwiseMin(q), high = high.cwiseMax(q);
+    for (const Vec2& q : flat[p].points) {
+      low = low.cwiseMin(q);
+      high = high.cwiseMax(q);
+    }
     const Mat4 rigid = source.hint.rigid.value_or(Mat4::Identity());
     for (const Vec2& q : flat[p].points) {
       mesh.pattern.push_back(q);
@@ -224,8 +237,9 @@ PanelMesh mesh_pattern(const Pattern& drawn, double edge_length, const std::stri
       out.b.push_back(mesh.panels[static_cast<std::size_t>(b[0])].first_vertex + b[1]);
     }
     if (out.a.size() < 2) {
-      mesh.findings.push_back("seam " + seam.name +
-                              " is shorter than a fifth of the edge length and is left out");
+      mesh.findings.push_back(
+          {"mesh.seam-left-out"_id,
+           "seam " + seam.name + " is shorter than a fifth of the edge length and is left out"});
       continue;
     }
     mesh.seams.push_back(std::move(out));

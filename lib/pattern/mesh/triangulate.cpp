@@ -24,8 +24,11 @@ public:
         m_segments.push_back({line[k], line[k + 1]});
     m_low = Vec2::Constant(1e300);
     Vec2 high = Vec2::Constant(-1e300);
-    for (const auto& s : m_segments) m_low = m_low.cwiseMin(s[0]), high = high.cwiseMax(s[0]);
-    m_nx = static_cast<int>((high.x() - m_low.x()) / h) + 1,
+    for (const auto& s : m_segments) {
+      m_low = m_low.cwiseMin(s[0]);
+      high = high.cwiseMax(s[0]);
+    }
+    m_nx = static_cast<int>((high.x() - m_low.x()) / h) + 1;
     m_ny = static_cast<int>((high.y() - m_low.y()) / h) + 1;
     m_cells.resize(static_cast<std::size_t>(m_nx) * static_cast<std::size_t>(m_ny));
     for (std::size_t k = 0; k < m_segments.size(); ++k) {
@@ -74,7 +77,10 @@ private:
 std::vector<Vec2> lattice(const std::vector<std::vector<Vec2>>& loops,
                           const std::vector<std::vector<Vec2>>& lines, double h, double clearance) {
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
-  for (const Vec2& p : loops[0]) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  for (const Vec2& p : loops[0]) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
   const SegmentGrid grid(loops, lines, h);
   const double step_y = h * std::sqrt(0.75);
   const int rows = static_cast<int>((high.y() - low.y()) / step_y) + 1;
@@ -129,7 +135,10 @@ std::vector<Vec2> graded_lattice(const std::vector<std::vector<Vec2>>& loops,
         if (const auto near = taken.find({i, j}); near != taken.end())
           room = std::none_of(near->second.begin(), near->second.end(),
                               [&](const Vec2& q) { return (p - q).norm() < ROOM * h; });
-    if (room) taken[{x, y}].push_back(p), points.push_back(p);
+    if (room) {
+      taken[{x, y}].push_back(p);
+      points.push_back(p);
+    }
   }
   return points;
 }
@@ -212,7 +221,10 @@ FlatMesh triangulate(const std::vector<std::vector<Vec2>>& loops, const SizeFiel
   for (double spacing : {0.9, 0.8, 1.1, 0.7}) {
     if (least == 0 || !size.uniform()) break;
     FlatMesh other = attempt(loops, lines, size, spacing, must_split, panel);
-    if (const int n = n_small(other); n < least) best = std::move(other), least = n;
+    if (const int n = n_small(other); n < least) {
+      best = std::move(other);
+      least = n;
+    }
   }
   return best;
 }

@@ -17,7 +17,8 @@ std::array<Vec2, 2> Placer::bounds(const PanelGroup& group) const {
   std::array<Vec2, 2> all = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
   for (std::size_t k : group.panels) {
     const auto b = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
-    all[0] = all[0].cwiseMin(b[0]), all[1] = all[1].cwiseMax(b[1]);
+    all[0] = all[0].cwiseMin(b[0]);
+    all[1] = all[1].cwiseMax(b[1]);
   }
   return all;
 }
@@ -49,7 +50,8 @@ std::optional<Sector> Placer::sector_of(std::size_t k) const {
   double spread = 0;
   for (const auto& [in, out] : sides) {
     const Vec2 along = (out - in).normalized(), across(-along.y(), along.x());
-    a += across * across.transpose(), c += across.dot(in) * across;
+    a += across * across.transpose();
+    c += across.dot(in) * across;
     spread +=
         std::atan2((&in == &sides[0][0] ? -1 : 1) * along.x(), -along.y()); // from straight down
   }
@@ -148,8 +150,10 @@ std::vector<std::vector<std::size_t>> Placer::hanging_pieces() const {
     met[first] = 1;
     for (std::size_t at = 0; at < sewn_together.size(); ++at)
       for (int q : m_graph.neighbours(static_cast<int>(sewn_together[at])))
-        if (const auto k = static_cast<std::size_t>(q); !met[k])
-          met[k] = 1, sewn_together.push_back(k);
+        if (const auto k = static_cast<std::size_t>(q); !met[k]) {
+          met[k] = 1;
+          sewn_together.push_back(k);
+        }
     pieces.emplace_back();
     for (std::size_t k : sewn_together)
       if (m_roles[k].region == Region::TRUNK && m_mesh.panels[k].layer == m_innermost)
@@ -183,17 +187,22 @@ std::pair<std::vector<double>, double> Placer::lengths_around(const std::vector<
         return sewn(v) && std::abs(uv(k, v).x() - sector->tip.x()) < 0.2 * waist &&
                (uv(k, v) - sector->tip).norm() < sector->inner + 0.02;
       });
-      if (!band && sector->top() > top - 0.06)
-        length += waist, height += waist * sector->top(), dip = std::min(dip, sector->top());
+      if (!band && sector->top() > top - 0.06) {
+        length += waist;
+        height += waist * sector->top();
+        dip = std::min(dip, sector->top());
+      }
       continue;
     }
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const int a = outline[i], b = outline[(i + 1) % outline.size()];
       const Vec2 p = uv(k, a), q = uv(k, b);
       if (std::min(p.y(), q.y()) > top - 0.06 &&
-          std::abs(p.x() - q.x()) > std::abs(p.y() - q.y()) && !(sewn(a) && sewn(b)))
-        length += (p - q).norm(), height += 0.5 * (p - q).norm() * (p.y() + q.y()),
-            dip = std::min({dip, p.y(), q.y()});
+          std::abs(p.x() - q.x()) > std::abs(p.y() - q.y()) && !(sewn(a) && sewn(b))) {
+        length += (p - q).norm();
+        height += 0.5 * (p - q).norm() * (p.y() + q.y());
+        dip = std::min({dip, p.y(), q.y()});
+      }
     }
   }
   if (!(length > 0.1)) return {{}, top};
@@ -248,7 +257,8 @@ void Placer::face_neck() {
           const double at = m_roles[trunk].side == Side::FRONT ? aside : units::PI + aside;
           const double middle =
               at - 2 * units::PI * (uv(k, here).x() - 0.5 * (own[0].x() + own[1].x())) / AROUND;
-          sum += Vec2(std::cos(middle), std::sin(middle)), ++stitches;
+          sum += Vec2(std::cos(middle), std::sin(middle));
+          ++stitches;
         }
     }
     if (stitches > 0 && sum.norm() > 0.3 * stitches)
@@ -266,7 +276,10 @@ void Placer::level_neck() {
       if (m_roles[k].region == Region::NECK &&
           m_roles[static_cast<std::size_t>(q)].region == Region::TRUNK)
         for (const auto& seam : m_graph.between(static_cast<int>(k), q))
-          for (const auto& s : seam) sum += uv(k, s[0]).y(), ++stitches;
+          for (const auto& s : seam) {
+            sum += uv(k, s[0]).y();
+            ++stitches;
+          }
     if (stitches == 0) continue;
     raise[k] = -sum / stitches;
     lowest = std::min(lowest, sum / stitches);

@@ -23,7 +23,8 @@ BodySpace::BodySpace(const body::Body& body)
   m_stature =
       body.scan.stature_m > 0 ? body.scan.stature_m : bounding_box(body.skin.positions).high.y();
   if (body.skin.triangles.empty())
-    throw input_error("", "body", "the body has no skin", "make it with scan-landmarks");
+    throw input_error("body.no-skin"_id, "", "body", "the body has no skin",
+                      "make it with scan-landmarks");
 }
 
 std::vector<Vec2> BodySpace::points(const Axis& axis, const std::vector<Part>& parts, double low,

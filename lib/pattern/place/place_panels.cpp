@@ -12,6 +12,8 @@
 namespace sloper::pattern {
 
 constexpr int ROUNDS = 60;
+constexpr double MOST_ARM_SHIFT = 0.25; // m, by which sleeves make way for the trunk
+constexpr double SKIN_REACH = 0.05;     // m: what a face through the skin is that near to
 
 Placer::Placer(const Pattern& pattern, const body::Body& body, PanelMesh& mesh,
                const Folding& folding)
@@ -69,13 +71,16 @@ int Placer::find_untold() {
       continue;
     names += (count++ ? ", " : "") + panel.name;
   }
-  if (!shaped.empty()) m_mesh.findings.push_back("start: placed by their shapes: " + shaped);
+  if (!shaped.empty())
+    m_mesh.findings.push_back(
+        {"placement.by-shape"_id, "start: placed by their shapes: " + shaped});
   if (count > 0)
-    m_mesh.findings.push_back("start: nothing says where " + names +
-                              (count > 1 ? " belong" : " belongs") +
-                              ": taken for the front, or for front and back where they are sewn to "
-                              "each other at both sides; put a word such as front, back, sleeve, "
-                              "cuff, collar, skirt or trousers into the name, or give a hint");
+    m_mesh.findings.push_back(
+        {"placement.guessed"_id,
+         "start: nothing says where " + names + (count > 1 ? " belong" : " belongs") +
+             ": taken for the front, or for front and back where they are sewn to "
+             "each other at both sides; put a word such as front, back, sleeve, "
+             "cuff, collar, skirt or trousers into the name, or give a hint"});
   return count;
 }
 
@@ -124,6 +129,22 @@ std::map<std::pair<int, int>, int> Placer::crossings() const {
   return count;
 }
 
+bool Placer::meets_trunk(const PanelGroup& group, const std::vector<Triangle>& triangles,
+                         const std::vector<int>& through) const {
+  const bool left = group.region == Region::ARM_L;
+  if ((!left && group.region != Region::ARM_R) || m_arm_shift[left] < -MOST_ARM_SHIFT) return false;
+  const body::Part arm = left ? body::Part::ARM_L : body::Part::ARM_R;
+  int elsewhere = 0;
+  for (const int t : through) {
+    const Triangle& corner = triangles[static_cast<std::size_t>(t)];
+    Vec3 middle = Vec3::Zero();
+    for (const int v : corner) middle += m_mesh.placed[static_cast<std::size_t>(v)] / 3;
+    const int skin = m_collider.signed_distance(middle, SKIN_REACH, -1).triangle;
+    if (skin >= 0 && m_space.body().face_part[static_cast<std::size_t>(skin)] != arm) ++elsewhere;
+  }
+  return 2 * elsewhere > static_cast<int>(through.size());
+}
+
 PlacementReport Placer::push_free() {
   PlacementReport report;
   for (int round = 0; round < ROUNDS; ++round) {
@@ -138,7 +159,10 @@ PlacementReport Placer::push_free() {
                         q = static_cast<std::size_t>(pair.second);
       if (m_roles[p].region == Region::NECK || m_roles[q].region == Region::NECK) {
         if (m_roles[p].region == m_roles[q].region) {
-          if (p != q) ++m_depth[area(p) > area(q) ? q : p], changed = true;
+          if (p != q) {
+            ++m_depth[area(p) > area(q) ? q : p];
+            changed = true;
+          }
         } else raise_neck = true;
       } else if (is_arm(p) != is_arm(q)) {
         // Out along the arm first; a hanging arm never leaves the wings of a wide skirt that way,
@@ -149,18 +173,30 @@ PlacementReport Placer::push_free() {
           moved_arms.insert(left);
         else widen.insert(m_group_of[is_arm(p) ? q : p]);
       } else if (is_arm(p)) {
-        if (m_group_of[p] != m_group_of[q]) grow.insert(m_group_of[p]), grow.insert(m_group_of[q]);
-        else grow.insert(m_group_of[p]);
+        if (m_group_of[p] != m_group_of[q]) {
+          grow.insert(m_group_of[p]);
+          grow.insert(m_group_of[q]);
+        } else grow.insert(m_group_of[p]);
       } else if (m_group_of[p] == m_group_of[q] && p != q && m_roles[p].side == m_roles[q].side) {
-        if (m_depth[p] == m_depth[q]) ++m_depth[area(p) > area(q) ? q : p], changed = true;
-        else ++m_depth[m_depth[p] > m_depth[q] ? p : q], changed = true;
-      } else grow.insert(m_group_of[p]), grow.insert(m_group_of[q]);
+        if (m_depth[p] == m_depth[q]) {
+          ++m_depth[area(p) > area(q) ? q : p];
+          changed = true;
+        } else {
+          ++m_depth[m_depth[p] > m_depth[q] ? p : q];
+          changed = true;
+        }
+      } else {
+        grow.insert(m_group_of[p]);
+        grow.insert(m_group_of[q]);
+      }
     }
-    for (int left : moved_arms)
-      if (m_arm_shift[left] > -0.4) m_arm_shift[left] -= 0.01, changed = true;
-    for (std::size_t g : widen) m_groups[g].wing += 0.01, changed = true;
+    for (std::size_t g : widen) {
+      m_groups[g].wing += 0.01;
+      changed = true;
+    }
     if (raise_neck && m_raised < 0.15) {
-      m_raised += 0.01, changed = true;
+      m_raised += 0.01;
+      changed = true;
       for (std::size_t k = 0; k < m_roles.size(); ++k)
         if (m_roles[k].region == Region::NECK) m_spots[k].offset.y() += 0.01;
     }
@@ -174,26 +210,39 @@ PlacementReport Placer::push_free() {
         triangles.insert(triangles.end(), m_mesh.triangles.begin() + info.first_triangle,
                          m_mesh.triangles.begin() + info.first_triangle + info.n_triangles);
       }
-      const int through =
-          static_cast<int>(m_collider.faces_through(m_mesh.placed, triangles).size());
-      report.vertices_inside += inside, report.faces_through += through;
-      if (inside + through > 0) grow.insert(g);
+      const std::vector<int> through = m_collider.faces_through(m_mesh.placed, triangles);
+      report.vertices_inside += inside;
+      report.faces_through += static_cast<int>(through.size());
+      if (inside == 0 && through.empty()) continue;
+      if (meets_trunk(m_groups[g], triangles, through))
+        moved_arms.insert(m_groups[g].region == Region::ARM_L);
+      else grow.insert(g);
     }
+    for (int left : moved_arms)
+      if (m_arm_shift[left] > -0.4) {
+        m_arm_shift[left] -= 0.01;
+        changed = true;
+      }
     for (std::size_t g : grow)
-      if (m_groups[g].extra < 0.25) m_groups[g].extra += 0.005, changed = true;
+      if (m_groups[g].extra < 0.25) {
+        m_groups[g].extra += 0.005;
+        changed = true;
+      }
     if (!changed) break;
     place_all();
   }
   if (report.crossings)
     for (const auto& [pair, n] : crossings())
       m_mesh.findings.push_back(
-          "start: " + m_mesh.panels[static_cast<std::size_t>(pair.first)].name + " and " +
-          m_mesh.panels[static_cast<std::size_t>(pair.second)].name + " cross in " +
-          std::to_string(n) + " pairs of triangles");
+          {"placement.not-free"_id,
+           "start: " + m_mesh.panels[static_cast<std::size_t>(pair.first)].name + " and " +
+               m_mesh.panels[static_cast<std::size_t>(pair.second)].name + " cross in " +
+               std::to_string(n) + " pairs of triangles"});
   if (report.vertices_inside + report.faces_through)
-    m_mesh.findings.push_back("start: " + std::to_string(report.vertices_inside) +
-                              " vertices inside the body, " + std::to_string(report.faces_through) +
-                              " faces through its skin");
+    m_mesh.findings.push_back(
+        {"placement.not-free"_id,
+         "start: " + std::to_string(report.vertices_inside) + " vertices inside the body, " +
+             std::to_string(report.faces_through) + " faces through its skin"});
   return report;
 }
 
@@ -204,7 +253,8 @@ void Placer::find_impossible(PlacementReport& report) const {
     double low = 1e300, high = -1e300;
     for (int v : info.outline) {
       const double y = m_mesh.placed[static_cast<std::size_t>(v)].y();
-      low = std::min(low, y), high = std::max(high, y);
+      low = std::min(low, y);
+      high = std::max(high, y);
     }
     if (high < -BELOW_FLOOR)
       report.impossible.push_back(info.name + " starts below the floor, down to " +
@@ -233,7 +283,8 @@ void Placer::measure_gaps(PlacementReport& report) const {
       const double gap = (m_mesh.placed[static_cast<std::size_t>(s.a[k])] -
                           m_mesh.placed[static_cast<std::size_t>(s.b[k])])
                              .norm();
-      sum += gap, ++n;
+      sum += gap;
+      ++n;
       report.seam_gap_max = std::max(report.seam_gap_max, gap);
     }
   report.seam_gap_mean = n ? sum / n : 0;
@@ -259,16 +310,18 @@ void lay_flat(const Pattern& pattern, PanelMesh& mesh) {
   double x = 0;
   for (const PanelInfo& info : mesh.panels) {
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
-    for (int v : info.outline)
-      low = low.cwiseMin(mesh.pattern[static_cast<std::size_t>(v)]),
+    for (int v : info.outline) {
+      low = low.cwiseMin(mesh.pattern[static_cast<std::size_t>(v)]);
       high = high.cwiseMax(mesh.pattern[static_cast<std::size_t>(v)]);
+    }
     for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
       const Vec2 p = mesh.pattern[static_cast<std::size_t>(v)] - low;
       mesh.placed[static_cast<std::size_t>(v)] = Vec3(x + p.x(), p.y(), 0);
     }
     x += high.x() - low.x() + 0.05;
   }
-  mesh.findings.emplace_back("no body is given: the panels lie flat side by side");
+  mesh.findings.emplace_back("placement.flat"_id,
+                             "no body is given: the panels lie flat side by side");
 }
 
 } // namespace sloper::pattern

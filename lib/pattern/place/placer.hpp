@@ -65,6 +65,11 @@ private:
   /// Pushes what crosses apart, arms outwards along their axis, collars up, the smaller of two
   /// panels of one side outwards, and grows the gap of groups that meet the body.
   PlacementReport push_free();
+  /// Whether it is a sleeve, and most of what is through the skin meets other parts than its arm:
+  /// a wider tube does not leave the trunk, one farther out along the arm does.
+  /// @param through  of `triangles`, which are the group's
+  bool meets_trunk(const PanelGroup& group, const std::vector<Triangle>& triangles,
+                   const std::vector<int>& through) const;
   void measure_gaps(PlacementReport& report) const;
   void find_impossible(PlacementReport& report) const;
   /// Names panels of which neither name nor hint nor seams tell where they go, in the findings;

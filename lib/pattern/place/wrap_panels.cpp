@@ -75,7 +75,10 @@ double Placer::row_width(const PanelGroup& group, std::size_t k) const {
 double Placer::wing_limit(const PanelGroup& group, const Axis& axis, const std::array<Vec2, 2>& b,
                           const std::vector<Vec2>& hull) const {
   double low = 1e300, high = -1e300;
-  for (const Vec2& p : hull) low = std::min(low, p.y()), high = std::max(high, p.y());
+  for (const Vec2& p : hull) {
+    low = std::min(low, p.y());
+    high = std::max(high, p.y());
+  }
   // Fronts and backs share the middle plane of the hull; plane z of the back axis is turned.
   double limit = 0.5 * (low + high) + 0.5 * WING;
   const double reach = std::max(std::abs(b[0].x()), std::abs(b[1].x())) + 0.03;
@@ -135,8 +138,10 @@ double Placer::folded_beside_arm(const PanelGroup& group, const Axis& axis, cons
   double most = 1;
   for (double y = m_space.level("chest_axilla", 0.76) - BELOW_PIT; y > b[0].y(); y -= ARM_ROW) {
     double inner = 1e300, outer = -1e300;
-    for (const Vec2& p : m_space.points(axis, {arm}, y - 0.5 * ARM_ROW, y + 0.5 * ARM_ROW))
-      inner = std::min(inner, sign * p.x()), outer = std::max(outer, sign * p.x());
+    for (const Vec2& p : m_space.points(axis, {arm}, y - 0.5 * ARM_ROW, y + 0.5 * ARM_ROW)) {
+      inner = std::min(inner, sign * p.x());
+      outer = std::max(outer, sign * p.x());
+    }
     if (inner > outer) continue;
     double edge = 0; // of the cloth in this row, m from its middle
     for (std::size_t k : group.panels) {
@@ -164,8 +169,10 @@ void Placer::place_trunk(const PanelGroup& all) {
   if (group.panels.empty()) return;
   const auto b = bounds(group);
   std::vector<Part> parts = {Part::TORSO};
-  if (b[0].y() < m_space.level("hip", 0.5))
-    parts.push_back(Part::LEG_L), parts.push_back(Part::LEG_R);
+  if (b[0].y() < m_space.level("hip", 0.5)) {
+    parts.push_back(Part::LEG_L);
+    parts.push_back(Part::LEG_R);
+  }
   const Axis axis = m_space.trunk(group.side == Side::BACK);
   std::vector<Vec2> hull = m_space.points(axis, parts, b[0].y() - 0.02, b[1].y() + 0.02);
   if (hull.size() < 3) hull = m_space.points(axis, {Part::TORSO, Part::LEG_L, Part::LEG_R}, -1, 3);
@@ -308,8 +315,10 @@ void Placer::place_arm(const PanelGroup& group) {
   double low = 1e300, high = -1e300;
   for (const PanelGroup& g :
        m_groups) // front, back and ring of one arm share one axis and one hull
-    if (g.region == group.region)
-      low = std::min(low, bounds(g)[0].y()), high = std::max(high, bounds(g)[1].y());
+    if (g.region == group.region) {
+      low = std::min(low, bounds(g)[0].y());
+      high = std::max(high, bounds(g)[1].y());
+    }
   const Axis axis = m_space.arm(left,
                                 group.side == Side::FRONT  ? 0
                                 : group.side == Side::BACK ? 1
@@ -320,7 +329,7 @@ void Placer::place_arm(const PanelGroup& group) {
                                           low + shift - 0.02, high + shift + 0.02);
   if (hull.size() < 3) hull = m_space.points(axis, {left ? Part::ARM_L : Part::ARM_R}, -3, 3);
   if (hull.size() < 3)
-    throw input_error("", "body",
+    throw input_error("placement.limb-not-scanned"_id, "", "body",
                       std::string("the ") + (left ? "left" : "right") + " arm has no skin",
                       "scan the arms, or leave the sleeves out");
   const auto b = bounds(group);
@@ -352,7 +361,10 @@ void Placer::place_arm(const PanelGroup& group) {
     return;
   }
   double back = 1e300, front = -1e300;
-  for (const Vec2& p : hull) back = std::min(back, p.y()), front = std::max(front, p.y());
+  for (const Vec2& p : hull) {
+    back = std::min(back, p.y());
+    front = std::max(front, p.y());
+  }
   const WrapCurve curve =
       WrapCurve::front_of(hull, GAP + group.extra, 0.5 * (back + front) + 0.5 * WING + group.extra,
                           0.04, 0.5 * (plane_low(hull) + plane_high(hull)));

@@ -24,7 +24,8 @@ std::vector<bool> named(const Pattern& pattern, const std::vector<std::string>& 
     if (found) continue;
     std::string list;
     for (const Panel& panel : pattern.panels) list += (list.empty() ? "" : ", ") + panel.name;
-    throw input_error(file, name, "no piece has this name", "its pieces are " + list);
+    throw input_error("dxf.no-piece"_id, file, name, "no piece has this name",
+                      "its pieces are " + list);
   }
   return out;
 }
@@ -55,7 +56,8 @@ void remove_panels(Pattern& pattern, const std::vector<bool>& remove) {
       }
     if (whole) seams.push_back(std::move(seam));
     else
-      pattern.findings.push_back("seam " + seam.name + " is left out with a piece that it joins");
+      pattern.findings.push_back({"pattern.seam-left-out"_id,
+                                  "seam " + seam.name + " is left out with a piece that it joins"});
   }
   pattern.seams = std::move(seams);
 }

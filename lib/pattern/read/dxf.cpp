@@ -44,7 +44,10 @@ int edge_near(const Panel& panel, const Vec2& p) {
     const double to_curve = distance_to_path(panel.edge(k).path, p);
     const ArcLength arc(panel.edge(k).path);
     const double score = to_curve + 1e-3 * (arc.at(0.5 * arc.length()) - p).norm();
-    if (score < least) least = score, best = k;
+    if (score < least) {
+      least = score;
+      best = k;
+    }
   }
   return best;
 }
@@ -65,7 +68,7 @@ public:
       for (const std::string& size : m_choice.rules->sizes)
         list += (list.empty() ? "" : ", ") + size;
       if (m_size < 0)
-        throw input_error(m_file, "", "there is no size '" + m_choice.size + "'",
+        throw input_error("dxf.no-size"_id, m_file, "", "there is no size '" + m_choice.size + "'",
                           "the grade rule table has " + list);
     }
     const std::vector<const DxfBlock*> blocks = chosen_blocks();
@@ -77,7 +80,8 @@ public:
     }
     for (const DxfBlock* block : blocks) read_piece(*block);
     if (m_pattern.panels.empty())
-      throw input_error(m_file, "", "no block has a closed outline on layer 14 or 1",
+      throw input_error("dxf.no-outline"_id, m_file, "",
+                        "no block has a closed outline on layer 14 or 1",
                         "export the pieces as AAMA or ASTM DXF");
     m_sewing.make_seams(m_pattern, m_file);
     leave_out();
@@ -105,8 +109,10 @@ private:
     default: break;
     }
     const double guess = m_dxf.measurement == 0 ? units::INCH : units::MM;
-    m_pattern.findings.push_back(std::string("the file states no unit; ") +
-                                 (guess == units::MM ? "millimetres" : "inches") + " are assumed");
+    m_pattern.findings.push_back(
+        {"dxf.unit-assumed"_id, std::string("the file states no unit; ") +
+                                    (guess == units::MM ? "millimetres" : "inches") +
+                                    " are assumed"});
     return guess;
   }
 
@@ -117,7 +123,8 @@ private:
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
     for (const DxfLine& line : block.lines)
       for (std::size_t k = 0; k < line.points.size(); ++k) {
-        low = low.cwiseMin(line.points[k]), high = high.cwiseMax(line.points[k]);
+        low = low.cwiseMin(line.points[k]);
+        high = high.cwiseMax(line.points[k]);
         if (k > 0) length += (line.points[k] - line.points[k - 1]).norm();
       }
     return {-length, high.x() - low.x(), high.y() - low.y(), low.x(), low.y()};
@@ -157,18 +164,20 @@ private:
       if (!pick && !m_choice.size.empty() && !m_choice.rules) {
         std::string list;
         for (const auto& [size, n] : sizes) list += (list.empty() ? "" : ", ") + size;
-        throw input_error(m_file, piece, "there is no size '" + m_choice.size + "'",
-                          "its sizes are " + list);
+        throw input_error("dxf.no-size"_id, m_file, piece,
+                          "there is no size '" + m_choice.size + "'", "its sizes are " + list);
       }
       if (!pick) pick = blocks[blocks.size() / 2];
       out.push_back(pick);
-      m_pattern.findings.push_back(piece + ": " + std::to_string(blocks.size()) + " sizes; size " +
-                                   find_value(pick->texts, "Size") + " is taken");
+      m_pattern.findings.push_back(
+          {"dxf.size-taken"_id, piece + ": " + std::to_string(blocks.size()) + " sizes; size " +
+                                    find_value(pick->texts, "Size") + " is taken"});
     }
     if (!m_choice.size.empty() && known.empty() && !m_choice.rules)
-      throw input_error(
-          m_file, "", "size '" + m_choice.size + "' was asked for, but the file has only one size",
-          "give its grade rule table too");
+      throw input_error("dxf.no-size"_id, m_file, "",
+                        "size '" + m_choice.size +
+                            "' was asked for, but the file has only one size",
+                        "give its grade rule table too");
     return out;
   }
 
@@ -188,7 +197,7 @@ private:
         continue;
       ++n_texts;
       if (!m_choice.rules->moves.count(number))
-        throw input_error(m_file, panel,
+        throw input_error("grading.no-rule"_id, m_file, panel,
                           "uses grade rule " + std::to_string(number) + ", which the table lacks",
                           "give the table that belongs to the file");
       std::size_t best = 0;
@@ -201,12 +210,15 @@ private:
           if ((ring[k] - t.p * m_unit).norm() < (ring[best] - t.p * m_unit).norm()) best = k;
       }
       const double distance = (ring[best] - t.p * m_unit).norm();
-      if (distance < AT_CORNER && distance < nearest[best])
-        nearest[best] = distance, rule[best] = number;
+      if (distance < AT_CORNER && distance < nearest[best]) {
+        nearest[best] = distance;
+        rule[best] = number;
+      }
     }
     if (n_texts == 0)
       m_pattern.findings.push_back(
-          panel + ": no grade rules at its points; it is taken in the sample size");
+          {"grading.not-used"_id,
+           panel + ": no grade rules at its points; it is taken in the sample size"});
     grade_ring(ring, rule, *m_choice.rules, m_size);
   }
 
@@ -229,7 +241,10 @@ private:
       if (!slits.empty() && layers.back() == line.layer &&
           (slits.back().back() - p).norm() < SIDE_BY_SIDE)
         slits.back().push_back(p);
-      else slits.push_back({p}), layers.push_back(line.layer);
+      else {
+        slits.push_back({p});
+        layers.push_back(line.layer);
+      }
     }
     for (std::size_t k = 0; k < slits.size(); ++k) {
       Vec2 sum = Vec2::Zero();
@@ -245,7 +260,10 @@ private:
       double best = 1e300, at = 0;
       for (int k = 0; k <= 1000; ++k) {
         const double d = (arc.at(arc.length() * k / 1000) - p).norm();
-        if (d < best) best = d, at = k / 1000.0;
+        if (d < best) {
+          best = d;
+          at = k / 1000.0;
+        }
       }
       if (best < reach) panel.notches.push_back({e, at, "layer " + std::to_string(layer)});
     }
@@ -272,18 +290,22 @@ private:
           100 * std::abs(ring_area(outer[0])) /
           std::max(std::abs(ring_area(cut[0])), 1e-12); // an outline may have no area
       m_pattern.findings.push_back(
-          panel.name + ": the sew line encloses " +
-          std::to_string(std::lround(std::min(1e6, percent))) +
-          " % of the piece and does not follow its outline; it is left out");
+          {"dxf.sew-line"_id,
+           panel.name + ": the sew line encloses " +
+               std::to_string(std::lround(std::min(1e6, percent))) +
+               " % of the piece and does not follow its outline; it is left out"});
       outer.clear();
     }
     if (outer.empty() && !cut.empty()) {
-      outer = cut, sewn = false;
-      m_pattern.findings.push_back(panel.name + ": no sew line; the cut line is used in its place");
+      outer = cut;
+      sewn = false;
+      m_pattern.findings.push_back(
+          {"dxf.sew-line"_id, panel.name + ": no sew line; the cut line is used in its place"});
     }
     if (outer.empty()) {
-      m_pattern.findings.push_back("block " + block.name +
-                                   " has no closed outline and is left out");
+      m_pattern.findings.push_back(
+          {"dxf.piece-left-out"_id,
+           "block " + block.name + " has no closed outline and is left out"});
       return;
     }
     PointRing ring = outer[0];
@@ -293,13 +315,15 @@ private:
       if (p.layer == 2) turns.push_back(p.p * m_unit);
     const std::vector<Vec2> slits = take_slits_off(ring);
     if (!slits.empty())
-      m_pattern.findings.push_back(panel.name + ": " + std::to_string(slits.size()) +
-                                   " slits in its outline are taken for notches");
+      m_pattern.findings.push_back(
+          {"dxf.slits"_id, panel.name + ": " + std::to_string(slits.size()) +
+                               " slits in its outline are taken for notches"});
     std::vector<std::size_t> corners = corners_of(ring, turns);
     if (!sewn && m_choice.allowance > 0) {
       ring = without_allowance(ring, block, m_unit, m_choice.allowance, corners);
-      m_pattern.findings.push_back(panel.name + ": an allowance of " +
-                                   centimetres(m_choice.allowance) + " is taken off its cut line");
+      m_pattern.findings.push_back({"dxf.allowance"_id, panel.name + ": an allowance of " +
+                                                            centimetres(m_choice.allowance) +
+                                                            " is taken off its cut line"});
     }
     panel.loops.push_back(edges_of(ring, corners, "edge"));
     for (PointRing hole : rings_of(block, 11, m_unit, join)) {
@@ -344,14 +368,16 @@ private:
     const std::string name = drawn.name + MIRRORED;
     const bool wanted = m_choice.sewn.empty() || m_choice.sewn.count(name) > 0;
     if (notes.mirrored < 1 || m_states_seams || (alike && !limb) || !wanted) {
-      m_pattern.findings.push_back(drawn.name + ": to be cut " + std::to_string(notes.copies) +
-                                   " times; one copy is used");
+      m_pattern.findings.push_back({"dxf.copies"_id, drawn.name + ": to be cut " +
+                                                         std::to_string(notes.copies) +
+                                                         " times; one copy is used"});
       return;
     }
     Panel image = mirror_image(drawn);
     image.name = name;
-    m_pattern.findings.push_back(drawn.name + ": to be cut " + std::to_string(notes.copies) +
-                                 " times; " + name + " is its mirror image");
+    m_pattern.findings.push_back({"dxf.copies"_id, drawn.name + ": to be cut " +
+                                                       std::to_string(notes.copies) + " times; " +
+                                                       name + " is its mirror image"});
     m_pattern.panels.push_back(std::move(image));
     m_why_out.push_back(m_why_out.back());
   }
@@ -370,8 +396,9 @@ private:
     if (std::find(remove.begin(), remove.end(), false) == remove.end()) return;
     for (std::size_t k = 0; k < remove.size(); ++k)
       if (remove[k])
-        m_pattern.findings.push_back(m_pattern.panels[k].name + " " + m_why_out[k] +
-                                     " and is left out; name it in --pieces to take it");
+        m_pattern.findings.push_back(
+            {"dxf.piece-left-out"_id, m_pattern.panels[k].name + " " + m_why_out[k] +
+                                          " and is left out; name it in --pieces to take it"});
     remove_panels(m_pattern, remove);
   }
 
@@ -403,7 +430,8 @@ private:
         distance_to_path(panel.edge(e).path, middle) < 1e-3)
       return e;
     m_pattern.findings.push_back(
-        panel.name + ": its mirror line is not on a straight edge; the piece is taken as whole");
+        {"dxf.mirror-line"_id,
+         panel.name + ": its mirror line is not on a straight edge; the piece is taken as whole"});
     return -1;
   }
 
@@ -418,7 +446,9 @@ private:
       sewn.push_back({t, panel.edge(t->edge).name});
     if (!unfold(panel, fold, "", "_mirror")) {
       m_pattern.findings.push_back(
-          panel.name + ": its mirror line is not on a straight edge; the piece is taken as whole");
+          {"dxf.mirror-line"_id,
+           panel.name +
+               ": its mirror line is not on a straight edge; the piece is taken as whole"});
       return;
     }
     for (auto& [text, name] : sewn) text->edge = panel.find_edge(name);
@@ -427,7 +457,8 @@ private:
       for (const bool mirror : {false, true})
         if (const int e = panel.find_edge(mirror ? name + "_mirror" : name); e >= 0)
           panel.notches.push_back({e, mirror ? 1 - notch.at : notch.at, notch.kind});
-    m_pattern.findings.push_back(panel.name + ": a half piece, unfolded about its mirror line");
+    m_pattern.findings.push_back(
+        {"dxf.unfolded"_id, panel.name + ": a half piece, unfolded about its mirror line"});
   }
 
   void read_sewing(const DxfBlock& block, Panel& panel, int index) {
@@ -452,12 +483,13 @@ private:
 
 Pattern read_dxf(const std::string& text, const std::string& file, const DxfChoice& choice) {
   if (text.find('\0') != std::string::npos)
-    throw input_error(file, "", "this is a binary file", "give a pattern JSON or a text DXF");
+    throw input_error("pattern.unknown-format"_id, file, "", "this is a binary file",
+                      "give a pattern JSON or a text DXF");
   DxfFile dxf = parse_dxf(text, file);
   if (dxf.blocks.empty()) {
     dxf.blocks = pieces_of_drawing(dxf);
     if (dxf.blocks.empty())
-      throw input_error(file, "",
+      throw input_error("dxf.no-outline"_id, file, "",
                         "there are no blocks, and the lines of the drawing form no closed outline",
                         "give an AAMA or ASTM DXF, one block per piece");
   }

@@ -39,7 +39,10 @@ std::string utf8(std::string_view s) {
   for (char raw : s) {
     const unsigned char c = static_cast<unsigned char>(raw);
     if (c < 0x80) out += raw;
-    else out += static_cast<char>(0xC0 | (c >> 6)), out += static_cast<char>(0x80 | (c & 0x3F));
+    else {
+      out += static_cast<char>(0xC0 | (c >> 6));
+      out += static_cast<char>(0x80 | (c & 0x3F));
+    }
   }
   return out;
 }
@@ -79,7 +82,8 @@ public:
     return static_cast<int>(x);
   }
   [[noreturn]] void fail(const std::string& fact) const {
-    throw input_error(m_file, "line " + std::to_string(m_line), fact, "give a text DXF");
+    throw input_error("dxf.malformed"_id, m_file, "line " + std::to_string(m_line), fact,
+                      "give a text DXF");
   }
 
   int code = 0;
@@ -195,7 +199,7 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
   const bool flat = std::none_of(out.blocks.begin(), out.blocks.end(),
                                  [](const DxfBlock& b) { return !b.lines.empty(); });
   if (!any || (flat && out.loose.lines.empty()))
-    throw input_error(file, "", "there are no blocks, so there are no pieces",
+    throw input_error("dxf.no-outline"_id, file, "", "there are no blocks, so there are no pieces",
                       "give an AAMA or ASTM DXF, one block per piece");
   if (flat) out.blocks.clear();
   return out;

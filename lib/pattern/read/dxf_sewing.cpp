@@ -18,7 +18,7 @@ void DxfSewing::read(const std::string& text, Panel& panel, int index, int edge,
   if (what != "SEW" || !(words >> seam >> side >> order >> direction >> run)) return;
   panel.edge(edge).name = run;
   if ((side != "a" && side != "b") || (direction != "+" && direction != "-"))
-    throw input_error(file, panel.name, "'" + text + "' is not a sewing text",
+    throw input_error("dxf.sewing-text"_id, file, panel.name, "'" + text + "' is not a sewing text",
                       "write SEW <seam> <a|b> <order> <+|-> <run>");
   if (std::find(m_order.begin(), m_order.end(), seam) == m_order.end()) m_order.push_back(seam);
   Said& said = m_seams[seam];
@@ -52,7 +52,7 @@ void DxfSewing::make_seams(Pattern& pattern, const std::string& file) const {
             .push_back({t.panel, t.edge, t.with_outline ? 0.0 : 1.0, t.with_outline ? 1.0 : 0.0});
     }
     if (seam.a.empty() || seam.b.empty())
-      throw input_error(file, "seam " + name,
+      throw input_error("dxf.sewing-text"_id, file, "seam " + name,
                         std::string("side ") + (seam.a.empty() ? "a" : "b") + " has no run",
                         "add its SEW text");
     if (seam.a.size() == 1 && seam.b.size() == 1 && seam.a[0].panel == seam.b[0].panel &&
@@ -62,7 +62,8 @@ void DxfSewing::make_seams(Pattern& pattern, const std::string& file) const {
     if (ratio > MOST_UNEVEN || ratio < 1 / MOST_UNEVEN) seam.kind = "gather";
     if (name.find("clos") != std::string::npos) seam.kind = "closure";
     if (!said.kind.empty()) seam.kind = said.kind;
-    seam.open = said.open, seam.ease = said.ease;
+    seam.open = said.open;
+    seam.ease = said.ease;
     pattern.seams.push_back(std::move(seam));
   }
 }

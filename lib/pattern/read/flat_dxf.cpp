@@ -23,7 +23,10 @@ bool encloses(const PointRing& ring, const Vec2& p) {
 double extent_of(const DxfBlock& block) {
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
   for (const DxfLine& line : block.lines)
-    for (const Vec2& p : line.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    for (const Vec2& p : line.points) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
   return block.lines.empty() ? 0 : (high - low).maxCoeff();
 }
 

@@ -39,10 +39,12 @@ struct EdgeReader {
       };
       const double radius = params.at(0).number() * unit;
       if (!(radius > 0))
-        params.fail("the radius is " + std::to_string(radius) + " m", "give a positive radius");
+        params.fail("json.out-of-range"_id, "the radius is " + std::to_string(radius) + " m",
+                    "give a positive radius");
       return circle_arc(a, b, radius, flag(1), flag(2));
     }
-    curvature.fail("unknown curve type '" + type + "'", "known are quadratic, cubic and circle");
+    curvature.fail("json.unknown-word"_id, "unknown curve type '" + type + "'",
+                   "known are quadratic, cubic and circle");
   }
 };
 
@@ -55,7 +57,10 @@ bool faces_body(const Panel& panel) {
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
   for (const PanelEdge& e : panel.loops[0]) {
     outline.push_back(e.path);
-    for (const Segment& s : e.path) low = low.cwiseMin(s.p[0]), high = high.cwiseMax(s.p[0]);
+    for (const Segment& s : e.path) {
+      low = low.cwiseMin(s.p[0]);
+      high = high.cwiseMax(s.p[0]);
+    }
   }
   const Vec2 middle = 0.5 * (low + high);
   const Vec3 center = (*panel.hint.rigid * Eigen::Vector4d(middle.x(), middle.y(), 0, 1)).head<3>(),
@@ -82,20 +87,24 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
     const io::Node properties = root.at("properties");
     const double per_meter = properties.number("units_in_meter", 100);
     if (!(per_meter > 0))
-      properties.fail("units_in_meter is not positive", "it is 100 for centimetres");
+      properties.fail("json.out-of-range"_id, "units_in_meter is not positive",
+                      "it is 100 for centimetres");
     reader.unit = 1 / per_meter;
     reader.relative = properties.string("curvature_coords", "relative") == "relative";
   }
   std::vector<char> against; // #panels: listed against their loops' sense
-  if (!panels.is_object() || panels.size() == 0) panels.fail("there are no panels");
+  if (!panels.is_object() || panels.size() == 0)
+    panels.fail("pattern.no-panels"_id, "there are no panels");
   const EulerOrder order = euler_order(source);
   if (order == EulerOrder::ZYX)
     pattern.findings.push_back(
-        "rotations are taken as Rz Ry Rx, as Garment-Pattern-Generator writes them");
+        {"pattern.rotation-order"_id,
+         "rotations are taken as Rz Ry Rx, as Garment-Pattern-Generator writes them"});
   const bool placed = tells_placement(panels);
   if (!placed)
-    pattern.findings.push_back("all panels are placed in one plane, so the placement is "
-                               "ignored: names and seams decide where they go");
+    pattern.findings.push_back({"pattern.placement-ignored"_id,
+                                "all panels are placed in one plane, so the placement is "
+                                "ignored: names and seams decide where they go"});
   for (const std::string& name : panels.keys()) {
     const io::Node node = panels.at(name), vertices = node.at("vertices"), edges = node.at("edges");
     Panel panel;
@@ -105,19 +114,22 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
     for (std::size_t k = 0; k < vertices.size(); ++k)
       points.push_back(vertices.at(k).vec2() * reader.unit);
     std::vector<PanelEdge> loop;
-    if (edges.size() < 2) edges.fail("the outline of panel " + name + " has fewer than two edges");
+    if (edges.size() < 2)
+      edges.fail("pattern.too-few-edges"_id,
+                 "the outline of panel " + name + " has fewer than two edges");
     int last = -1, first = -1;
     for (std::size_t k = 0; k < edges.size(); ++k) {
       const io::Node edge = edges.at(k), ends = edge.at("endpoints");
       const int a = ends.at(0).integer(), b = ends.at(1).integer();
       for (int v : {a, b})
         if (v < 0 || v >= static_cast<int>(points.size()))
-          ends.fail("panel " + name + " has no vertex " + std::to_string(v));
+          ends.fail("json.bad-index"_id, "panel " + name + " has no vertex " + std::to_string(v));
       if (k == 0) first = a;
       else if (a != last) {
         const double gap =
             (points[static_cast<std::size_t>(a)] - points[static_cast<std::size_t>(last)]).norm();
-        edge.fail("the outline of panel " + name + " is open: edge " + std::to_string(k) +
+        edge.fail("pattern.outline-open"_id,
+                  "the outline of panel " + name + " is open: edge " + std::to_string(k) +
                       " starts " + centimetres(gap) + " from where edge " + std::to_string(k - 1) +
                       " ends",
                   "list the edges in order along the outline");
@@ -130,7 +142,8 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
     if (last != first) {
       const double gap =
           (points[static_cast<std::size_t>(first)] - points[static_cast<std::size_t>(last)]).norm();
-      edges.fail("the outline of panel " + name + " is open: its last edge ends " +
+      edges.fail("pattern.outline-open"_id,
+                 "the outline of panel " + name + " is open: its last edge ends " +
                      centimetres(gap) + " from where edge 0 starts",
                  "close the loop");
     }
@@ -140,8 +153,9 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
     against.push_back(panel.hint.rigid && faces_body(panel));
     if (against.back()) {
       reverse_sense(panel.loops[0]);
-      pattern.findings.push_back(name + ": placed with its outside towards the body, so its "
-                                        "outline is reversed");
+      pattern.findings.push_back(
+          {"pattern.turned-over"_id, name + ": placed with its outside towards the body, so its "
+                                            "outline is reversed"});
     }
     pattern.panels.push_back(std::move(panel));
   }
@@ -160,22 +174,25 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
         const std::string panel_name = item.at("panel").string();
         const int panel = pattern.find_panel(panel_name), edge = item.at("edge").integer();
         if (panel < 0)
-          item.fail("stitch " + std::to_string(k) + " refers to panel '" + panel_name +
-                    "', which does not exist");
+          item.fail("pattern.no-panel"_id, "stitch " + std::to_string(k) + " refers to panel '" +
+                                               panel_name + "', which does not exist");
         if (edge < 0 || edge >= pattern.panels[static_cast<std::size_t>(panel)].n_edges())
-          item.fail("stitch " + std::to_string(k) + " refers to edge " + std::to_string(edge) +
-                    " of panel " + panel_name + ", which has " +
-                    std::to_string(pattern.panels[static_cast<std::size_t>(panel)].n_edges()));
+          item.fail("pattern.no-edge"_id,
+                    "stitch " + std::to_string(k) + " refers to edge " + std::to_string(edge) +
+                        " of panel " + panel_name + ", which has " +
+                        std::to_string(pattern.panels[static_cast<std::size_t>(panel)].n_edges()));
         if (item.has("right_wrong"))
           same_direction = same_direction || item.boolean("right_wrong", false);
         auto& runs = seam.a.empty() ? seam.a : seam.b;
         if (!seam.b.empty())
-          item.fail("stitch " + std::to_string(k) + " joins more than two edges");
+          item.fail("pattern.stitch-edges"_id,
+                    "stitch " + std::to_string(k) + " joins more than two edges");
         const auto p = static_cast<std::size_t>(panel);
         runs.push_back({panel, against[p] ? pattern.panels[p].n_edges() - 1 - edge : edge, 0, 1});
       }
       if (seam.b.empty())
-        stitch.fail("stitch " + std::to_string(k) + " joins fewer than two edges");
+        stitch.fail("pattern.stitch-edges"_id,
+                    "stitch " + std::to_string(k) + " joins fewer than two edges");
       const auto& pa = pattern.panels[static_cast<std::size_t>(seam.a[0].panel)];
       const auto& pb = pattern.panels[static_cast<std::size_t>(seam.b[0].panel)];
       seam.name = pa.name + "." + pa.edge(seam.a[0].edge).name + "-" + pb.name + "." +
@@ -185,6 +202,7 @@ Pattern read_garmentcode(const io::Json& json, const std::string& file) {
       pattern.seams.push_back(std::move(seam));
     }
   }
+  mend_translation(pattern);
   return pattern;
 }
 

@@ -25,7 +25,10 @@ std::vector<std::string> split_words(const std::string& text) {
   std::string word;
   for (char c : text + " ") {
     if (c != ' ' && c != '\t' && c != '\r' && c != ',' && c != ';') word += c;
-    else if (!word.empty()) out.push_back(word), word.clear();
+    else if (!word.empty()) {
+      out.push_back(word);
+      word.clear();
+    }
   }
   return out;
 }
@@ -44,7 +47,7 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
   int number_of_rule = 0, line_number = 0, first_line = 0;
   std::vector<double> numbers;
   const auto fail = [&](int line, const std::string& fact, const std::string& next) {
-    throw input_error(file, "line " + std::to_string(line), fact, next);
+    throw input_error("grading.malformed"_id, file, "line " + std::to_string(line), fact, next);
   };
   const auto finish = [&] {
     if (number_of_rule == 0) return;
@@ -59,7 +62,8 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
     if (!rules.moves.emplace(number_of_rule, moves).second)
       fail(first_line, "rule " + std::to_string(number_of_rule) + " is given twice",
            "give each rule once");
-    number_of_rule = 0, numbers.clear();
+    number_of_rule = 0;
+    numbers.clear();
   };
   const auto add_number = [&](const std::string& word) {
     double x = 0;
@@ -105,14 +109,15 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
   }
   finish();
   if (rules.sizes.empty())
-    throw input_error(file, "", "there is no SIZE LIST", "give an AAMA / ASTM grade rule table");
+    throw input_error("grading.malformed"_id, file, "", "there is no SIZE LIST",
+                      "give an AAMA / ASTM grade rule table");
   rules.sample = rules.find_size(sample);
   if (rules.sample < 0)
-    throw input_error(file, "SAMPLE SIZE", "'" + sample + "' is not in the size list",
-                      "name one of the sizes");
+    throw input_error("grading.malformed"_id, file, "SAMPLE SIZE",
+                      "'" + sample + "' is not in the size list", "name one of the sizes");
   for (const auto& [number, moves] : rules.moves)
     if (const double off = moves[static_cast<std::size_t>(rules.sample)].norm(); off > 1e-6)
-      throw input_error(file, "rule " + std::to_string(number),
+      throw input_error("grading.moves-sample"_id, file, "rule " + std::to_string(number),
                         "moves the sample size by " + sloper::centimetres(off, 2),
                         "count the moves from the sample size, which itself stays");
   return rules;

@@ -103,7 +103,8 @@ PieceNotes piece_notes(const DxfBlock& block) {
   notes.material = without_blanks(find_value(block.texts, "Material"));
   if (notes.material.empty()) notes.material = without_blanks(find_value(block.texts, "Fabric"));
   const Quantity quantity = read_quantity(block);
-  notes.copies = quantity.copies, notes.mirrored = quantity.mirrored;
+  notes.copies = quantity.copies;
+  notes.mirrored = quantity.mirrored;
   // Of what it is cut stands in an annotation too: "1XINTERLINING", but not "1XFABRIC 1X INTERLIN".
   std::string cut_of = find_value(block.texts, "Annotation");
   if (const std::size_t x = cut_of.find_first_of("xX"); annotation_quantity(cut_of))

@@ -1,4 +1,5 @@
 #include <pattern/read/choose_pieces.hpp>
+#include <pattern/read/clo_json.hpp>
 #include <sloper/base/text.hpp>
 #include <sloper/io/files.hpp>
 #include <sloper/io/json.hpp>
@@ -14,8 +15,9 @@ namespace {
 constexpr double LARGEST_PANEL = 20, SMALLEST_PANEL = 0.05; // m, of the largest panel of a garment
 constexpr double FARTHEST_CONTROL = 2 * LARGEST_PANEL;      // m, from where its curve begins
 constexpr int HIGHEST_LAYER = 1000;
-constexpr const char* READABLE =
-    "give a pattern JSON, a GarmentCode specification, a sewing-spec JSON or a text DXF";
+constexpr const char* READABLE = "give a pattern JSON, a GarmentCode specification, a sewing-spec "
+                                 "JSON, a pattern JSON of CLO or "
+                                 "a text DXF";
 
 bool finite_path(const Path& path) {
   return std::all_of(path.begin(), path.end(), [](const Segment& s) {
@@ -32,7 +34,10 @@ std::optional<PanelFault> fault_of(const Panel& panel) {
       if (!finite_path(e.path))
         return PanelFault{e.name, "a coordinate is not a finite number", "write the file again"};
       for (const Segment& s : e.path) {
-        if (l == 0) low = low.cwiseMin(s.p[0]), high = high.cwiseMax(s.p[0]);
+        if (l == 0) {
+          low = low.cwiseMin(s.p[0]);
+          high = high.cwiseMax(s.p[0]);
+        }
         for (const Vec2& p : {s.p[1], s.p[2]})
           if (const double off = (p - s.p[0]).norm(); !s.line && !(off <= FARTHEST_CONTROL))
             return PanelFault{
@@ -67,37 +72,44 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
     Panel& panel = pattern.panels[k];
     if (const auto fault = fault_of(panel);
         fault && !fault->place.empty()) // sizes are told of the largest panel
-      throw input_error(file, panel.name + ": " + fault->place, fault->fact, fault->next);
+      throw input_error("pattern.faulty-outline"_id, file, panel.name + ": " + fault->place,
+                        fault->fact, fault->next);
     for (std::size_t l = 0; l < panel.loops.size(); ++l) {
       std::vector<Path> paths;
       Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
       for (const PanelEdge& e : panel.loops[l]) {
         paths.push_back(e.path);
-        for (const Segment& s : e.path) low = low.cwiseMin(s.p[0]), high = high.cwiseMax(s.p[0]);
+        for (const Segment& s : e.path) {
+          low = low.cwiseMin(s.p[0]);
+          high = high.cwiseMax(s.p[0]);
+        }
         if (!(length(e.path) > 1e-6))
-          throw input_error(file, panel.name + ": " + e.name,
+          throw input_error("pattern.too-small"_id, file, panel.name + ": " + e.name,
                             "the edge is 0.00 cm long (duplicate points)",
                             "take it out of the outline");
       }
-      if (const double size = (high - low).maxCoeff(); !(size <= largest))
-        largest = size, largest_name = panel.name;
+      if (const double size = (high - low).maxCoeff(); !(size <= largest)) {
+        largest = size;
+        largest_name = panel.name;
+      }
       const double area = signed_area(paths);
       if (!(std::abs(area) >= 1e-6))
-        throw input_error(file, panel.name,
+        throw input_error("pattern.too-small"_id, file, panel.name,
                           "the outline encloses only " + decimals(std::abs(area) * 1e4, 4) + " cm2",
                           "give the panel an area");
       if ((area > 0) == (l == 0)) continue;
       if (l > 0)
-        throw input_error(file, panel.name,
+        throw input_error("pattern.hole-direction"_id, file, panel.name,
                           "hole " + std::to_string(l) + " is drawn counter-clockwise",
                           "draw holes clockwise");
       pattern.findings.push_back(
-          panel.name + ": drawn clockwise, so it is taken as seen from inside and turned over");
+          {"pattern.turned-over"_id,
+           panel.name + ": drawn clockwise, so it is taken as seen from inside and turned over"});
       for (std::size_t h = 1; h < panel.loops.size(); ++h) {
         std::vector<Path> hole;
         for (const PanelEdge& e : panel.loops[h]) hole.push_back(e.path);
         if (signed_area(hole) < 0)
-          throw input_error(file, panel.name,
+          throw input_error("pattern.hole-direction"_id, file, panel.name,
                             "hole " + std::to_string(h) +
                                 " runs in the same direction as the outline");
       }
@@ -121,7 +133,7 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
     }
   }
   if (!(largest <= LARGEST_PANEL && largest >= SMALLEST_PANEL))
-    throw input_error(file, largest_name,
+    throw input_error("pattern.wrong-unit"_id, file, largest_name,
                       "the largest panel measures " + centimetres(largest) +
                           ", so the unit is wrong",
                       "check the unit that the file states, and the outline of this panel");
@@ -133,7 +145,8 @@ io::Json read_sidecar(const std::string& path) {
   io::Json sidecar = io::read_json(path);
   if (const std::string format = io::Node(sidecar, path).string("format", "");
       format == "panels" || format == "garment" || format == "body")
-    throw input_error(path, "/format", "is a \"" + format + "\" document, not a sidecar with seams",
+    throw input_error("json.wrong-format"_id, path, "/format",
+                      "is a \"" + format + "\" document, not a sidecar with seams",
                       "give what answers the questions of pattern-mesh");
   return sidecar;
 }
@@ -158,13 +171,13 @@ Pattern read_by_format(const io::Json& json, const std::string& path) {
   if (format == "pattern") return read_pattern_json(json, path);
   if (format == "sewing-spec") return read_sewing_spec(json, path);
   if (format == "panels" || format == "garment")
-    throw input_error(path, "/format", "is a \"" + format + "\" document, which is already meshed",
+    throw input_error("pattern.already-meshed"_id, path, "/format",
+                      "is a \"" + format + "\" document, which is already meshed",
                       "give the pattern that it was made from");
   if (json.is_object() && json.contains("pattern")) return read_garmentcode(json, path);
-  if (json.is_object() && json.contains("PatternList"))
-    throw input_error(path, "", "is a pattern of CLO in its own JSON, whose outlines are not read",
-                      "export it from CLO as DXF (AAMA or ASTM) and give that");
-  throw input_error(path, "/format", "'" + format + "' is not a known pattern format", READABLE);
+  if (json.is_object() && json.contains("PatternList")) return read_clo_json(json, path);
+  throw input_error("pattern.unknown-format"_id, path, "/format",
+                    "'" + format + "' is not a known pattern format", READABLE);
 }
 
 } // namespace
@@ -174,19 +187,21 @@ Pattern read_pattern(const std::string& path, const PatternChoice& choice) {
   Pattern pattern;
   const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == std::string::npos)
-    throw input_error(path, "", "the file is empty", "give a pattern");
+    throw input_error("file.empty"_id, path, "", "the file is empty", "give a pattern");
   io::Json sidecar;
   if (!choice.sewing.empty()) sidecar = read_sidecar(choice.sewing);
   if (text[first] == '{' || text[first] == '[') {
     pattern = read_by_format(io::parse_json(text, path), path);
     if (!choice.size.empty() || !choice.rules.empty())
-      throw input_error(path, "", "this format holds one size",
+      throw input_error("pattern.option-not-for-format"_id, path, "", "this format holds one size",
                         "leave out --size and --grade-rules");
     if (choice.unit > 0 || choice.allowance > 0)
-      throw input_error(path, "", "this format states its unit, and its outlines are sewn along",
+      throw input_error("pattern.option-not-for-format"_id, path, "",
+                        "this format states its unit, and its outlines are sewn along",
                         "leave out --unit and --allowance");
   } else if (text[first] < '0' || text[first] > '9') { // a DXF starts with a group code
-    throw input_error(path, "line 1", "is neither JSON nor a text DXF", READABLE);
+    throw input_error("pattern.unknown-format"_id, path, "line 1", "is neither JSON nor a text DXF",
+                      READABLE);
   } else {
     DxfChoice dxf{choice.size, nullptr, choice.unit, choice.allowance, choice.pieces, {}};
     if (!choice.sewing.empty()) dxf.sewn = sewn_panels(sidecar, choice.sewing);
@@ -202,7 +217,8 @@ Pattern read_pattern(const std::string& path, const PatternChoice& choice) {
   choose_pieces(pattern, choice.pieces, choice.without, path);
   if (pattern.name.empty())
     pattern.name = path == "-" ? "pattern" : std::filesystem::path(path).stem().string();
-  if (pattern.panels.empty()) throw input_error(path, "", "there are no panels");
+  if (pattern.panels.empty())
+    throw input_error("pattern.no-panels"_id, path, "", "there are no panels");
   finish_pattern(pattern, path);
   return pattern;
 }

@@ -22,7 +22,10 @@ double wedge(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(
 
 std::array<Vec2, 2> bounds_of(const PointRing& ring) {
   std::array<Vec2, 2> b = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
-  for (const Vec2& p : ring) b[0] = b[0].cwiseMin(p), b[1] = b[1].cwiseMax(p);
+  for (const Vec2& p : ring) {
+    b[0] = b[0].cwiseMin(p);
+    b[1] = b[1].cwiseMax(p);
+  }
   return b;
 }
 
@@ -99,8 +102,10 @@ PointRing inset(const PointRing& ring, const std::vector<double>& by,
     std::size_t worst = m;
     double most = -1e-9; // m backwards
     for (std::size_t i = 0; i < m; ++i)
-      if (const double length = (out[(i + 1) % m] - out[i]).dot(along[sides[i]]); length < most)
-        most = length, worst = i;
+      if (const double length = (out[(i + 1) % m] - out[i]).dot(along[sides[i]]); length < most) {
+        most = length;
+        worst = i;
+      }
     if (worst == m || m <= 3) break;
     sides.erase(sides.begin() + static_cast<long>(worst));
   }

@@ -15,17 +15,21 @@ std::vector<Run> read_side(const io::Node& node, const Pattern& pattern) {
     Run run;
     run.panel = panel_named(pattern, item.at("panel"));
     run.edge = edge_named(pattern.panels[static_cast<std::size_t>(run.panel)], item.at("run"));
-    if (item.has("range"))
-      run.from = item.at("range").at(0).number(), run.to = item.at("range").at(1).number();
+    if (item.has("range")) {
+      run.from = item.at("range").at(0).number();
+      run.to = item.at("range").at(1).number();
+    }
     const std::string direction = item.string("dir", "+");
     if (direction != "+" && direction != "-")
-      item.at("dir").fail("the direction is '" + direction + "'", "give + or -");
+      item.at("dir").fail("json.unknown-word"_id, "the direction is '" + direction + "'",
+                          "give + or -");
     if (direction == "-") std::swap(run.from, run.to);
     if (run.from < 0 || run.from > 1 || run.to < 0 || run.to > 1 || run.from == run.to)
-      item.fail("the range is empty or outside of the run", "give two fractions from 0 to 1");
+      item.fail("json.out-of-range"_id, "the range is empty or outside of the run",
+                "give two fractions from 0 to 1");
     side.push_back(run);
   }
-  if (side.empty()) node.fail("a side of the seam is empty");
+  if (side.empty()) node.fail("pattern.seam-side-empty"_id, "a side of the seam is empty");
   return side;
 }
 
@@ -35,10 +39,12 @@ static void read_seams(Pattern& pattern, const io::Node& seams) {
   for (std::size_t k = 0; k < seams.size(); ++k) {
     const io::Node node = seams.at(k);
     Seam seam;
-    seam.name = node.string("name", "seam " + std::to_string(k)),
-    seam.kind = node.string("kind", "seam"), seam.ease = node.string("ease", "");
+    seam.name = node.string("name", "seam " + std::to_string(k));
+    seam.kind = node.string("kind", "seam");
+    seam.ease = node.string("ease", "");
     seam.open = node.boolean("open", false);
-    seam.a = read_side(node.at("a"), pattern), seam.b = read_side(node.at("b"), pattern);
+    seam.a = read_side(node.at("a"), pattern);
+    seam.b = read_side(node.at("b"), pattern);
     pattern.seams.push_back(std::move(seam));
     if (node.has("and")) read_seams(pattern, node.at("and")); // its mirror image
   }
@@ -55,13 +61,14 @@ Pattern read_sewing_spec(const io::Json& json, const std::string& file) {
   pattern.source_format = "sewing-spec";
   pattern.name = root.string("name", "");
   const io::Node panels = root.at("panels");
-  if (!panels.is_array() || panels.size() == 0) panels.fail("there are no panels");
+  if (!panels.is_array() || panels.size() == 0)
+    panels.fail("pattern.no-panels"_id, "there are no panels");
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const io::Node node = panels.at(k);
     Panel panel;
     panel.name = node.at("name").string();
     if (pattern.find_panel(panel.name) >= 0)
-      node.fail("there are two panels named '" + panel.name + "'");
+      node.fail("pattern.name-twice"_id, "there are two panels named '" + panel.name + "'");
     panel.loops.push_back(read_loop(node.at("outline"), "run", unit, panel.name));
     if (node.has("holes"))
       for (std::size_t h = 0; h < node.at("holes").size(); ++h)

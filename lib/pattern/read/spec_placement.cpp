@@ -113,4 +113,95 @@ bool tells_placement(const io::Node& panels) {
   return names.size() < 2;
 }
 
+namespace {
+
+/// m by which the seams of a panel may lead away from it on the mean, across, up and to front or
+/// back. Of 1,311 panels of 140 specifications as their makers wrote them the largest were 0.63
+/// (godets), 0.21 and 0.45.
+constexpr double FAR_OFF[3] = {0.8, 0.3, 0.7};
+
+struct SeamOffset {
+  std::size_t a, b; ///< panels
+  Vec3 way;         ///< m, from a's side to b's, at the mean
+  double length;    ///< m
+};
+
+std::vector<SeamOffset> seam_offsets(const Pattern& pattern) {
+  const auto middle = [&](const Run& run) {
+    const Panel& panel = pattern.panels[static_cast<std::size_t>(run.panel)];
+    const Path& path = panel.edge(run.edge).path;
+    const Vec2 p = 0.5 * (path.front().p[0] + path.back().p[3]);
+    return Vec3((*panel.hint.rigid * Eigen::Vector4d(p.x(), p.y(), 0, 1)).head<3>());
+  };
+  std::vector<SeamOffset> out;
+  for (const Seam& seam : pattern.seams) {
+    const Run &a = seam.a[0], &b = seam.b[0];
+    if (a.panel != b.panel)
+      out.push_back({static_cast<std::size_t>(a.panel), static_cast<std::size_t>(b.panel),
+                     middle(b) - middle(a), run_length(pattern, a)});
+  }
+  return out;
+}
+
+/// Of each panel the mean way to what it is sewn to, m.
+std::vector<Vec3> ways_to_seams(const std::vector<SeamOffset>& offsets, std::size_t n) {
+  std::vector<Vec3> sum(n, Vec3::Zero());
+  std::vector<double> length(n, 0);
+  for (const SeamOffset& o : offsets) {
+    sum[o.a] += o.length * o.way;
+    sum[o.b] -= o.length * o.way;
+    length[o.a] += o.length;
+    length[o.b] += o.length;
+  }
+  for (std::size_t k = 0; k < n; ++k)
+    if (length[k] > 0) sum[k] /= length[k];
+  return sum;
+}
+
+bool is_far(const Vec3& way) {
+  for (long k = 0; k < 3; ++k)
+    if (std::abs(way[k]) > FAR_OFF[k]) return true;
+  return false;
+}
+
+} // namespace
+
+void mend_translation(Pattern& pattern) {
+  const std::size_t n = pattern.panels.size();
+  if (!std::all_of(pattern.panels.begin(), pattern.panels.end(),
+                   [](const Panel& p) { return p.hint.rigid.has_value(); }))
+    return;
+  const std::vector<SeamOffset> offsets = seam_offsets(pattern);
+  const std::vector<Vec3> ways = ways_to_seams(offsets, n);
+  if (std::none_of(ways.begin(), ways.end(), is_far)) return;
+  std::size_t best = n;
+  double least = 1e300;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!is_far(ways[k])) continue;
+    std::vector<SeamOffset> moved = offsets;
+    for (SeamOffset& o : moved) {
+      if (o.a == k) o.way -= ways[k];
+      if (o.b == k) o.way += ways[k];
+    }
+    const std::vector<Vec3> left = ways_to_seams(moved, n);
+    if (std::any_of(left.begin(), left.end(), is_far)) continue;
+    double sum = 0;
+    for (const SeamOffset& o : moved) sum += o.length * o.way.norm();
+    if (sum < least) {
+      least = sum;
+      best = k;
+    }
+  }
+  if (best == n) return;
+  Panel& panel = pattern.panels[best];
+  // Front and back start apart, whatever their seams say.
+  Vec3 way = ways[best];
+  for (long k = 0; k < 3; ++k)
+    if (std::abs(way[k]) <= FAR_OFF[k]) way[k] = 0;
+  panel.hint.rigid->topRightCorner<3, 1>() += way;
+  pattern.findings.push_back({"pattern.placement-by-seams"_id,
+                              panel.name + ": its translation puts it " + centimetres(way.norm()) +
+                                  " away from all that it is sewn to; it is placed by its seams"});
+}
+
 } // namespace sloper::pattern

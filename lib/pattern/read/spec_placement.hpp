@@ -25,4 +25,9 @@ Mat4 spec_placement(const io::Node& panel, double unit, EulerOrder order);
 /// a file was never placed, and its names and seams tell more. @param panels  the object "panels"
 bool tells_placement(const io::Node& panels);
 
+/// Finds the one panel whose translation is wrong: all that it is sewn to lies far from it, and
+/// with that panel brought to its seams all panels of the pattern lie near theirs. It is brought
+/// there, and a finding says from where. Nothing is done where one panel does not explain it.
+void mend_translation(Pattern& pattern);
+
 } // namespace sloper::pattern

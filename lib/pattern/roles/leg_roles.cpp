@@ -27,8 +27,10 @@ private:
   }
   std::array<Vec2, 2> bounds(std::size_t k) const {
     std::array<Vec2, 2> b = {Vec2::Constant(1e300), Vec2::Constant(-1e300)};
-    for (int v : m_mesh.panels[k].outline)
-      b[0] = b[0].cwiseMin(at(k, v)), b[1] = b[1].cwiseMax(at(k, v));
+    for (int v : m_mesh.panels[k].outline) {
+      b[0] = b[0].cwiseMin(at(k, v));
+      b[1] = b[1].cwiseMax(at(k, v));
+    }
     return b;
   }
   double middle_u(std::size_t k) const { return 0.5 * (bounds(k)[0].x() + bounds(k)[1].x()); }
@@ -47,6 +49,12 @@ private:
     for (std::size_t k = 0; k < count(); ++k)
       if (m_roles[k].region == Region::TRUNK && m_roles[k].side == Side::RING && upright(k, k))
         tubes.push_back(k);
+    double tallest = 0; // a waistband and cuffs are tubes as well
+    const auto height = [&](std::size_t k) { return bounds(k)[1].y() - bounds(k)[0].y(); };
+    for (std::size_t k : tubes) tallest = std::max(tallest, height(k));
+    tubes.erase(std::remove_if(tubes.begin(), tubes.end(),
+                               [&](std::size_t k) { return height(k) < 0.5 * tallest; }),
+                tubes.end());
     if (tubes.size() != 2 || !upright(tubes[0], tubes[1])) return false;
     double back[2];
     for (std::size_t i : {0, 1}) {
@@ -61,7 +69,7 @@ private:
       back[i] += (says_left(words) ? 1e3 : 0) - (says_right(words) ? 1e3 : 0);
     }
     const bool first_left = back[0] >= back[1];
-    m_roles[tubes[0]].part = first_left ? "leg_l" : "leg_r",
+    m_roles[tubes[0]].part = first_left ? "leg_l" : "leg_r";
     m_roles[tubes[1]].part = first_left ? "leg_r" : "leg_l";
     return true;
   }
@@ -76,9 +84,10 @@ private:
     std::vector<SewnSide> sides;
     for (const auto& seam : between(k, q)) {
       SewnSide own;
-      for (const auto& s : seam)
-        own.low = std::min(own.low, at(k, s[0]).y()),
+      for (const auto& s : seam) {
+        own.low = std::min(own.low, at(k, s[0]).y());
         own.high = std::max(own.high, at(k, s[0]).y());
+      }
       for (const auto& end : {seam.front(), seam.back()})
         own.ends.insert(own.ends.end(), end.begin(), end.end());
       for (std::size_t i = sides.size(); i-- > 0;) {
@@ -86,7 +95,8 @@ private:
         if (std::find_first_of(own.ends.begin(), own.ends.end(), other.ends.begin(),
                                other.ends.end()) == own.ends.end())
           continue;
-        own.low = std::min(own.low, other.low), own.high = std::max(own.high, other.high);
+        own.low = std::min(own.low, other.low);
+        own.high = std::max(own.high, other.high);
         own.ends.insert(own.ends.end(), other.ends.begin(), other.ends.end());
         sides.erase(sides.begin() + static_cast<long>(i));
       }
@@ -155,7 +165,8 @@ private:
               end = end && at(o, s[0]).y() < b[0].y() + LOWER_END * (b[1].y() - b[0].y());
         }
         if (leg.empty() || !end) continue;
-        m_roles[k].part = leg, changed = true;
+        m_roles[k].part = leg;
+        changed = true;
       }
     }
   }
@@ -177,11 +188,14 @@ bool at_their_sides(const PanelMesh& mesh, const std::vector<PanelRole>& roles, 
       return Vec2(roles[panel].turn * mesh.pattern[static_cast<std::size_t>(vertex)]);
     };
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300), sum = Vec2::Zero();
-    for (int v : mesh.panels[panel].outline) low = low.cwiseMin(at(v)), high = high.cwiseMax(at(v));
+    for (int v : mesh.panels[panel].outline) {
+      low = low.cwiseMin(at(v));
+      high = high.cwiseMax(at(v));
+    }
     for (const auto& stitch : seam) sum += at(stitch[end]);
     const Vec2 off =
         (sum / static_cast<double>(seam.size()) - 0.5 * (low + high)).cwiseQuotient(high - low);
-    if (!(std::abs(off.x()) > 1.2 * std::abs(off.y()))) return false;
+    if (!(std::abs(off.x()) > std::abs(off.y()))) return false;
     out[end] = off.x();
   }
   return out[0] * out[1] < 0 || roles[k].side != roles[q].side; // one's left is the other's right
@@ -193,7 +207,8 @@ bool upright_seam(const PanelMesh& mesh, const SeamGraph& graph,
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
     for (const auto& s : seam) {
       const Vec2 p = roles[k].turn * mesh.pattern[static_cast<std::size_t>(s[0])];
-      low = low.cwiseMin(p), high = high.cwiseMax(p);
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
     }
     if (high.y() > low.y() && (!goes_level(high - low) || at_their_sides(mesh, roles, k, q, seam)))
       return true;

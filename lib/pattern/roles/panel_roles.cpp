@@ -31,9 +31,7 @@ public:
     for (std::size_t k = 0; k < n; ++k) rings(k);
     ring_of_gores();
     one_ring_all_ring();
-    for (std::size_t k = 0; k < n; ++k)
-      if (m_roles[k].region == Region::ARM_L || m_roles[k].region == Region::ARM_R)
-        turn_arm_panel(k);
+    turn_arm_panels(m_pattern, m_mesh, m_graph, m_roles);
     assign_legs(m_pattern, m_mesh, m_graph, m_roles);
     return std::move(m_roles);
   }
@@ -42,9 +40,10 @@ private:
   Vec2 middle(std::size_t k) const {
     const PanelInfo& p = m_mesh.panels[k];
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
-    for (int v : p.outline)
-      low = low.cwiseMin(m_mesh.pattern[static_cast<std::size_t>(v)]),
+    for (int v : p.outline) {
+      low = low.cwiseMin(m_mesh.pattern[static_cast<std::size_t>(v)]);
       high = high.cwiseMax(m_mesh.pattern[static_cast<std::size_t>(v)]);
+    }
     return 0.5 * (low + high);
   }
   double width(std::size_t k) const {
@@ -52,7 +51,8 @@ private:
     double low = 1e300, high = -1e300;
     for (int v : p.outline) {
       const double u = (m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(v)]).x();
-      low = std::min(low, u), high = std::max(high, u);
+      low = std::min(low, u);
+      high = std::max(high, u);
     }
     return high - low;
   }
@@ -77,11 +77,13 @@ private:
                     : hint.part == "neck" || hint.part == "head" ? Region::NECK
                                                                  : Region::TRUNK;
       if (role.region == Region::NECK) {
-        role.side = Side::RING, role.theta = hint.theta.value_or(units::PI);
+        role.side = Side::RING;
+        role.theta = hint.theta.value_or(units::PI);
         return;
       }
       if (role.region != Region::TRUNK) { // arms: theta 0 is the outer, upper side
-        role.side = Side::RING, role.theta = 0;
+        role.side = Side::RING;
+        role.theta = 0;
         return;
       }
       side_from_theta(role, hint.theta.value_or(says_back(m_words[k]) ? units::PI : 0));
@@ -128,7 +130,8 @@ private:
   static void around_neck(PanelRole& role) {
     if (role.side == Side::FRONT) role.theta = 0;
     role.side = Side::RING;
-    role.du.reset(), role.dv.reset();
+    role.du.reset();
+    role.dv.reset();
   }
 
   /// Whether level seams at its top join the panel to one of the other side, over more than a
@@ -140,8 +143,10 @@ private:
       return false; // the sides of a circle skirt are drawn level
     double level = 0;
     double low = 1e300, high = -1e300;
-    for (int v : m_mesh.panels[k].outline)
-      low = std::min(low, turned(k, v).y()), high = std::max(high, turned(k, v).y());
+    for (int v : m_mesh.panels[k].outline) {
+      low = std::min(low, turned(k, v).y());
+      high = std::max(high, turned(k, v).y());
+    }
     for (int q : m_graph.neighbours(static_cast<int>(k))) {
       const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
       if (other.region != Region::TRUNK || other.side == m_roles[k].side) continue;
@@ -190,8 +195,11 @@ private:
       }
       if (above && trunk) found.push_back(k);
     }
-    for (std::size_t k : found)
-      m_roles[k].region = Region::NECK, m_roles[k].part.clear(), around_neck(m_roles[k]);
+    for (std::size_t k : found) {
+      m_roles[k].region = Region::NECK;
+      m_roles[k].part.clear();
+      around_neck(m_roles[k]);
+    }
   }
 
   void by_name(std::size_t k) {
@@ -201,9 +209,11 @@ private:
     const bool legs = says_legs(words) || says_skirt(words);
     if (!legs && (says_sleeve(words) || cuff_of_sleeve(k)))
       role.region = says_left(words) ? Region::ARM_L : Region::ARM_R;
-    else if (!legs && says_neck(words))
-      role.region = Region::NECK, role.side = Side::RING, role.theta = units::PI;
-    else role.part = legs || says_cuff(words) ? "lower_body" : "torso";
+    else if (!legs && says_neck(words)) {
+      role.region = Region::NECK;
+      role.side = Side::RING;
+      role.theta = units::PI;
+    } else role.part = legs || says_cuff(words) ? "lower_body" : "torso";
     role.theta = role.region == Region::NECK || role.side == Side::BACK ? units::PI : 0;
   }
 
@@ -222,20 +232,56 @@ private:
         faces += (m_roles[k].side == Side::BACK) == shapes[k].back ? 1 : -1;
     for (std::size_t k : untold) {
       const ShapeRole& shape = shapes[k];
+      if (closed_sleeve(k)) {
+        m_roles[k].region = Region::ARM_R; // or the left: what it is sewn to tells
+        continue;
+      }
       if (shape.sure < SURE) continue;
       PanelRole& role = m_roles[k];
       const bool back = shape.back != (faces < 0);
       const int hand = shape.hand * (faces < 0 ? -1 : 1);
       const std::string part = SHAPE_PART_NAMES[shape.part];
       if (part == "arm" && hand == 0) continue;
-      role.by_shape = true, role.part.clear();
-      role.side = back ? Side::BACK : Side::FRONT, role.theta = back ? units::PI : 0;
+      role.by_shape = true;
+      role.part.clear();
+      role.side = back ? Side::BACK : Side::FRONT;
+      role.theta = back ? units::PI : 0;
       if (part == "arm") role.region = hand > 0 ? Region::ARM_L : Region::ARM_R;
-      else if (part == "neck")
-        role.region = Region::NECK, role.side = Side::RING, role.theta = units::PI;
-      else if (part == "leg" && hand != 0) role.part = hand > 0 ? "leg_l" : "leg_r";
+      else if (part == "neck") {
+        role.region = Region::NECK;
+        role.side = Side::RING;
+        role.theta = units::PI;
+      } else if (part == "leg" && hand != 0) role.part = hand > 0 ? "leg_l" : "leg_r";
       else role.part = part == "torso" ? "torso" : "lower_body";
     }
+  }
+
+  /// A piece that closes on itself and is sewn, at one end, to larger pieces.
+  bool closed_sleeve(std::size_t k) const {
+    constexpr double ACROSS = 0.3, SMALLER = 0.7; // of its size; of the area of what it hangs on
+    const int p = static_cast<int>(k);
+    Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+    for (int v : m_mesh.panels[k].outline) {
+      low = low.cwiseMin(m_mesh.pattern[static_cast<std::size_t>(v)]);
+      high = high.cwiseMax(m_mesh.pattern[static_cast<std::size_t>(v)]);
+    }
+    const double size = (high - low).norm();
+    bool tube = false;
+    for (const auto& seam : m_graph.between(p, p)) {
+      double apart = 0;
+      for (const auto& s : seam)
+        apart += (m_mesh.pattern[static_cast<std::size_t>(s[0])] -
+                  m_mesh.pattern[static_cast<std::size_t>(s[1])])
+                     .norm();
+      tube = tube || apart > ACROSS * size * static_cast<double>(seam.size());
+    }
+    int hangs_on = 0;
+    for (int q : m_graph.neighbours(p)) {
+      if (q == p) continue;
+      if (area(k) > SMALLER * area(static_cast<std::size_t>(q))) return false;
+      ++hangs_on;
+    }
+    return tube && hangs_on >= 2;
   }
 
   /// Two panels of which nothing tells the side, sewn to each other at both of their sides: the
@@ -253,7 +299,8 @@ private:
           for (const auto& b : seams) apart = std::max(apart, (middle_of(a) - middle_of(b)).norm());
         if (apart < ACROSS * width(p)) continue;
         const std::size_t back = area(p) > area(q) ? p : q;
-        m_roles[back].side = Side::BACK, m_roles[back].theta = units::PI;
+        m_roles[back].side = Side::BACK;
+        m_roles[back].theta = units::PI;
       }
   }
   bool tells_no_side(std::size_t k) const {
@@ -338,7 +385,10 @@ private:
       for (int q : m_graph.neighbours(static_cast<int>(k)))
         partner = partner || (m_roles[static_cast<std::size_t>(q)].region == role.region &&
                               m_graph.between(static_cast<int>(k), q).size() >= 2);
-      if (!partner) role.side = Side::RING, role.theta = 0;
+      if (!partner) {
+        role.side = Side::RING;
+        role.theta = 0;
+      }
     }
   }
 
@@ -355,8 +405,10 @@ private:
           if (other.region != Region::TRUNK || other.side == Side::RING ||
               other.part != m_roles[k].part)
             continue;
-          if (upright_seam(m_mesh, m_graph, m_roles, k, static_cast<std::size_t>(q)))
-            other.side = Side::RING, changed = true;
+          if (upright_seam(m_mesh, m_graph, m_roles, k, static_cast<std::size_t>(q))) {
+            other.side = Side::RING;
+            changed = true;
+          }
         }
       }
     }
@@ -388,8 +440,10 @@ private:
       if (beside[k].size() == 2 && joins(beside[k][0], beside[k][1]) &&
           m_mesh.panels[k].n_triangles < std::min(m_mesh.panels[beside[k][0]].n_triangles,
                                                   m_mesh.panels[beside[k][1]].n_triangles) /
-                                             2)
-        godets.push_back(k), joined.push_back({beside[k][0], beside[k][1]});
+                                             2) {
+        godets.push_back(k);
+        joined.push_back({beside[k][0], beside[k][1]});
+      }
     for (std::size_t g = 0; g < godets.size(); ++g) {
       for (std::size_t k : joined[g])
         beside[k].erase(std::find(beside[k].begin(), beside[k].end(), godets[g]));
@@ -427,59 +481,13 @@ private:
     for (std::size_t i : {0, 1}) {
       double n = 0;
       for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(two[i])))
-        for (const auto& s : seam)
-          u[i] += (m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(s[0])]).x(), ++n;
+        for (const auto& s : seam) {
+          u[i] += (m_roles[k].turn * m_mesh.pattern[static_cast<std::size_t>(s[0])]).x();
+          ++n;
+        }
       u[i] /= std::max(n, 1.0);
     }
     return two[u[0] >= u[1] ? 0 : 1];
-  }
-
-  /// (u, v) of an arm panel: v runs along the seams that close the tube, towards the end that is
-  /// sewn to the trunk (or to the sleeve).
-  void turn_arm_panel(std::size_t k) {
-    PanelRole& role = m_roles[k];
-    const int p = static_cast<int>(k);
-    std::vector<Vec2> directions;
-    const auto add = [&](const std::vector<std::array<int, 2>>& seam, std::size_t side) {
-      const Vec2 d = m_mesh.pattern[static_cast<std::size_t>(seam.back()[side])] -
-                     m_mesh.pattern[static_cast<std::size_t>(seam.front()[side])];
-      if (d.norm() > 1e-6) directions.push_back(d);
-    };
-    for (const auto& seam : m_graph.between(p, p)) add(seam, 0), add(seam, 1);
-    for (int q : m_graph.neighbours(p)) {
-      const auto seams = m_graph.between(p, q);
-      if (m_roles[static_cast<std::size_t>(q)].region == role.region && seams.size() >= 2)
-        for (const auto& seam : seams) add(seam, 0);
-    }
-    Vec2 up(0, 1);
-    if (!directions.empty()) {
-      Vec2 sum = Vec2::Zero();
-      for (const Vec2& d : directions) sum += d.dot(directions[0]) < 0 ? Vec2(-d) : d;
-      if (sum.norm() > 1e-6) up = sum.normalized();
-    } else if (m_pattern.panels[k].hint.rigid) up = Vec2(1, 0);
-    // Towards the body: away from the middle, where the trunk (else another arm panel that leads to
-    // it) is sewn on.
-    double sense = 0;
-    for (bool trunk : {true, false}) {
-      for (int q : m_graph.neighbours(p)) {
-        const PanelRole& other = m_roles[static_cast<std::size_t>(q)];
-        if ((other.region == Region::TRUNK) != trunk) continue;
-        const auto seams = m_graph.between(p, q);
-        if (!trunk && (seams.size() >= 2 || !touches_trunk(q))) continue;
-        for (const auto& seam : seams)
-          for (const auto& s : seam)
-            sense += (m_mesh.pattern[static_cast<std::size_t>(s[0])] - middle(k)).dot(up);
-      }
-      if (sense != 0) break;
-    }
-    if (sense < 0) up = -up;
-    role.turn << up.y(), -up.x(), up.x(), up.y(); // rows: u = up turned clockwise, v = up
-  }
-
-  bool touches_trunk(int p) const {
-    for (int q : m_graph.neighbours(p))
-      if (m_roles[static_cast<std::size_t>(q)].region == Region::TRUNK) return true;
-    return false;
   }
 
   const Pattern& m_pattern;

@@ -39,14 +39,21 @@ public:
       double most = 0;
       for (std::size_t k = 0; k < n; ++k)
         if (open(k))
-          if (const double length = seam_length(k); length > most) most = length, best = k;
-      if (best < n) follow(best);
-      else {
+          if (const double length = seam_length(k); length > most) {
+            most = length;
+            best = k;
+          }
+      if (best < n) {
+        if (!stand_as_leg(best)) follow(best);
+      } else {
         for (std::size_t k = 0; k < n; ++k)
           if (open(k))
-            if (const double size = area(k); size > most) most = size, best = k;
+            if (const double size = area(k); size > most) {
+              most = size;
+              best = k;
+            }
         if (best == n) break;
-        stand(best);
+        if (!stand_as_leg(best)) stand(best);
       }
       m_known[best] = true;
     }
@@ -149,7 +156,10 @@ private:
   /// are none.
   bool seam_below(std::size_t k) {
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300), sum = Vec2::Zero();
-    for (int v : m_mesh.panels[k].outline) low = low.cwiseMin(at(v)), high = high.cwiseMax(at(v));
+    for (int v : m_mesh.panels[k].outline) {
+      low = low.cwiseMin(at(v));
+      high = high.cwiseMax(at(v));
+    }
     double count = 0;
     for (const bool trunk :
          {true, false}) { // its own other half only where it is not sewn to the trunk
@@ -157,7 +167,10 @@ private:
         if (const std::size_t o = static_cast<std::size_t>(q);
             m_known[o] && (m_roles[o].region == Region::TRUNK) == trunk)
           for (const auto& seam : m_graph.between(static_cast<int>(k), q))
-            for (const auto& s : seam) sum += at(s[0]), ++count;
+            for (const auto& s : seam) {
+              sum += at(s[0]);
+              ++count;
+            }
       if (count > 0) break;
     }
     if (count == 0) return false;
@@ -178,8 +191,10 @@ private:
     if (m_roles[k].part != "torso") return 0;
     const auto& outline = m_mesh.panels[k].outline;
     double low = 1e300, high = -1e300;
-    for (int v : outline)
-      low = std::min(low, (turn * at(v)).y()), high = std::max(high, (turn * at(v)).y());
+    for (int v : outline) {
+      low = std::min(low, (turn * at(v)).y());
+      high = std::max(high, (turn * at(v)).y());
+    }
     std::map<int, bool> sewn;
     double seams = 0, hem = 0;
     for (int q : m_graph.neighbours(static_cast<int>(k)))
@@ -198,6 +213,40 @@ private:
         hem += std::abs(b.x() - a.x());
     }
     return seams > 0 && hem > seams ? seams : 0;
+  }
+
+  /// A leg in one piece, sewn to itself across most of its width: with what else it is sewn to, the
+  /// crotch, at its upper end. False for others, and where it is drawn upright.
+  bool stand_as_leg(std::size_t k) {
+    constexpr double ACROSS = 0.3; // of the panel's size: wider than darts
+    if (m_roles[k].part != "lower_body" && !is_leg(m_roles[k])) return false;
+    const std::vector<Turn> turns = candidates(k);
+    if (std::abs((turns[0] * m_pattern.panels[k].grain).y()) >= DRAWN_UPRIGHT) return false;
+    Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300), up = Vec2::Zero();
+    for (int v : m_mesh.panels[k].outline) {
+      low = low.cwiseMin(at(v));
+      high = high.cwiseMax(at(v));
+    }
+    bool tube = false;
+    for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(k))) {
+      double apart = 0;
+      for (const auto& s : seam) apart += (at(s[0]) - at(s[1])).norm();
+      tube = tube || apart > ACROSS * (high - low).norm() * static_cast<double>(seam.size());
+    }
+    double stitches = 0;
+    for (int q : m_graph.neighbours(static_cast<int>(k)))
+      if (static_cast<std::size_t>(q) != k)
+        for (const auto& seam : m_graph.between(static_cast<int>(k), q))
+          for (const auto& s : seam) {
+            up += at(s[0]) - 0.5 * (low + high);
+            ++stitches;
+          }
+    if (!tube || stitches == 0) return false;
+    m_roles[k].turn =
+        *std::max_element(turns.begin(), turns.end(), [&](const Turn& a, const Turn& b) {
+          return (a * up).y() < (b * up).y() - 1e-9;
+        });
+    return true;
   }
 
   /// Upright as drawn, else along its grain with what is longest and free below.
@@ -222,10 +271,12 @@ private:
     double length = 0;
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const int a = outline[i], b = outline[(i + 1) % outline.size()];
-      low = low.cwiseMin(at(a)), high = high.cwiseMax(at(a));
+      low = low.cwiseMin(at(a));
+      high = high.cwiseMax(at(a));
       if (sewn[static_cast<std::size_t>(a)] && sewn[static_cast<std::size_t>(b)]) continue;
       const double l = (at(b) - at(a)).norm();
-      sum += 0.5 * l * (at(a) + at(b)), length += l;
+      sum += 0.5 * l * (at(a) + at(b));
+      length += l;
     }
     const Vec2 down = length > 0 ? Vec2(sum / length - 0.5 * (low + high)) : Vec2(0, 0);
     m_roles[k].turn = (turns[1] * down).y() <= (turns[2] * down).y() ? turns[1] : turns[2];
@@ -243,6 +294,108 @@ private:
 void turn_trunk_panels(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph,
                        std::vector<PanelRole>& roles) {
   Turning(pattern, mesh, graph, roles).run();
+}
+
+namespace {
+
+class ArmTurning {
+public:
+  ArmTurning(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph,
+             std::vector<PanelRole>& roles)
+      : m_pattern(pattern), m_mesh(mesh), m_graph(graph), m_roles(roles),
+        m_steps(roles.size(), FAR) {}
+
+  void run() {
+    count_steps();
+    for (std::size_t k = 0; k < m_roles.size(); ++k)
+      if (is_arm(k)) turn(k);
+  }
+
+private:
+  static constexpr int FAR = 1 << 20;
+
+  bool is_arm(std::size_t k) const {
+    return m_roles[k].region == Region::ARM_L || m_roles[k].region == Region::ARM_R;
+  }
+  const Vec2& at(int vertex) const { return m_mesh.pattern[static_cast<std::size_t>(vertex)]; }
+  Vec2 middle(std::size_t k) const {
+    Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+    for (int v : m_mesh.panels[k].outline) {
+      low = low.cwiseMin(at(v));
+      high = high.cwiseMax(at(v));
+    }
+    return 0.5 * (low + high);
+  }
+
+  /// Of each arm panel, over how many panels it hangs on the trunk.
+  void count_steps() {
+    std::vector<std::size_t> front;
+    for (std::size_t k = 0; k < m_roles.size(); ++k)
+      if (m_roles[k].region == Region::TRUNK) {
+        m_steps[k] = 0;
+        front.push_back(k);
+      }
+    for (std::size_t i = 0; i < front.size(); ++i) // it grows
+      for (int q : m_graph.neighbours(static_cast<int>(front[i]))) {
+        const std::size_t o = static_cast<std::size_t>(q);
+        if (m_steps[o] < FAR || !is_arm(o)) continue;
+        m_steps[o] = m_steps[front[i]] + 1;
+        front.push_back(o);
+      }
+  }
+
+  /// From the panel's middle to where it hangs, by the stitches there.
+  Vec2 way_in(std::size_t k) const {
+    Vec2 sum = Vec2::Zero();
+    for (int q : m_graph.neighbours(static_cast<int>(k))) {
+      if (m_steps[static_cast<std::size_t>(q)] >= m_steps[k]) continue;
+      for (const auto& seam : m_graph.between(static_cast<int>(k), q))
+        for (const auto& s : seam) sum += at(s[0]) - middle(k);
+    }
+    return sum;
+  }
+
+  void turn(std::size_t k) {
+    const int p = static_cast<int>(k);
+    PanelRole& role = m_roles[k];
+    std::vector<Vec2> directions;
+    const auto add = [&](const std::vector<std::array<int, 2>>& seam, std::size_t side) {
+      const Vec2 d = at(seam.back()[side]) - at(seam.front()[side]);
+      if (d.norm() > 1e-6) directions.push_back(d);
+    };
+    for (const auto& seam : m_graph.between(p, p)) {
+      add(seam, 0);
+      add(seam, 1);
+    }
+    for (int q : m_graph.neighbours(p)) {
+      const auto seams = m_graph.between(p, q);
+      if (m_roles[static_cast<std::size_t>(q)].region == role.region && seams.size() >= 2)
+        for (const auto& seam : seams) add(seam, 0);
+    }
+    const Vec2 in = way_in(k);
+    Vec2 up(0, 1);
+    if (!directions.empty()) {
+      const Vec2 guide = in.norm() > 1e-9 ? in : directions[0]; // sides of a flounce lean far out
+      Vec2 sum = Vec2::Zero();
+      for (const Vec2& d : directions) sum += d.dot(guide) < 0 ? Vec2(-d) : d;
+      if (sum.norm() > 1e-6) up = sum.normalized();
+    } else if (m_pattern.panels[k].hint.rigid) up = Vec2(1, 0);
+    if (in.dot(up) < 0) up = -up;
+    role.turn << up.y(), -up.x(), up.x(), up.y(); // rows: u = up turned clockwise, v = up
+  }
+
+  const Pattern& m_pattern;
+  const PanelMesh& m_mesh;
+  const SeamGraph& m_graph;
+  std::vector<PanelRole>& m_roles;
+  std::vector<int> m_steps;
+};
+
+} // namespace
+
+void turn_arm_panels(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph,
+                     std::vector<PanelRole>& roles) {
+  ArmTurning(pattern, mesh, graph, roles).run();
 }
 
 } // namespace sloper::pattern

@@ -15,4 +15,9 @@ namespace sloper::pattern {
 void turn_trunk_panels(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph,
                        std::vector<PanelRole>& roles);
 
+/// The same of panels about the arms, of all: v runs along the seams that close the tube, however
+/// these lean, towards what is sewn on nearer to the trunk: of a cuff's flounce its cuff.
+void turn_arm_panels(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph,
+                     std::vector<PanelRole>& roles);
+
 } // namespace sloper::pattern

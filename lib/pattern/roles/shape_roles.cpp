@@ -12,6 +12,7 @@ namespace {
 
 constexpr double AT_THE_SIDE = 0.25; // of a panel's width, from its middle
 constexpr double CLEAR_VOTE = 0.2;   // of all that is cast
+constexpr double SAME_FACE = 100;    // log-odds
 
 using Parts = std::vector<std::array<double, SHAPE_PARTS>>;
 
@@ -23,13 +24,19 @@ public:
   }
   std::pair<std::size_t, bool> root(std::size_t k) const {
     bool turned = false;
-    while (m_parent[k] != k) turned = turned != m_turned[k], k = m_parent[k];
+    while (m_parent[k] != k) {
+      turned = turned != m_turned[k];
+      k = m_parent[k];
+    }
     return {k, turned};
   }
   void join(std::size_t a, std::size_t b, bool opposite) {
     const auto [p, ta] = root(a);
     const auto [q, tb] = root(b);
-    if (p != q) m_parent[q] = p, m_turned[q] = (ta != tb) != opposite;
+    if (p != q) {
+      m_parent[q] = p;
+      m_turned[q] = (ta != tb) != opposite;
+    }
   }
 
 private:
@@ -42,9 +49,14 @@ Parts look(const ShapeWitness& witness, const std::vector<SeamTrees>& trees, con
   for (std::size_t k = 0; k < witness.count(); ++k) {
     const Evidence evidence = before ? witness.panel(k, *before) : witness.panel(k);
     double most = -1e300, sum = 0;
-    for (std::size_t c = 0; c < SHAPE_PARTS; ++c)
-      out[k][c] = trees[c](evidence), most = std::max(most, out[k][c]);
-    for (double& x : out[k]) x = std::exp(x - most), sum += x;
+    for (std::size_t c = 0; c < SHAPE_PARTS; ++c) {
+      out[k][c] = trees[c](evidence);
+      most = std::max(most, out[k][c]);
+    }
+    for (double& x : out[k]) {
+      x = std::exp(x - most);
+      sum += x;
+    }
     for (double& x : out[k]) x /= sum;
   }
   return out;
@@ -59,7 +71,8 @@ const RoleModel& role_model() {
     for (std::size_t look : {0, 1})
       for (const io::Json& trees : json.at("parts").at(look))
         out.parts[look].push_back(read_trees(trees));
-    out.back = read_trees(json.at("back")), out.same_face = read_trees(json.at("same_face"));
+    out.back = read_trees(json.at("back"));
+    out.same_face = read_trees(json.at("same_face"));
     return out;
   }();
   return model;
@@ -73,7 +86,9 @@ void tell_sides(const ShapeWitness& witness, const RoleModel& model, const Parts
   std::vector<std::pair<double, std::size_t>> order;
   std::vector<double> same;
   for (const auto& l : witness.links()) {
-    same.push_back(model.same_face(witness.link(l, own)));
+    // What is sewn to its own image, and is no symmetric piece, is the other half of one face.
+    const bool halves = l.middle && !witness.symmetric(l.a);
+    same.push_back(halves ? SAME_FACE : model.same_face(witness.link(l, own)));
     order.push_back({-std::abs(same.back()), same.size() - 1});
   }
   std::sort(order.begin(), order.end());
@@ -101,8 +116,8 @@ void tell_sides(const ShapeWitness& witness, const RoleModel& model, const Parts
     if (own[l.a] == 1 || own[l.a] != own[l.b]) continue;
     const double weight = l.middle ? 10 : roles[l.a].back == roles[l.b].back ? 3 : -1;
     if (!l.middle && std::min(std::abs(l.x_a - 0.5), std::abs(l.x_b - 0.5)) < AT_THE_SIDE) continue;
-    votes[l.a] -= weight * l.length * hand(l.a, l.x_a),
-        votes[l.b] -= weight * l.length * hand(l.b, l.x_b);
+    votes[l.a] -= weight * l.length * hand(l.a, l.x_a);
+    votes[l.b] -= weight * l.length * hand(l.b, l.x_b);
     for (std::size_t k : {l.a, l.b}) cast[k] += std::abs(weight) * l.length;
   }
   for (std::size_t k = 0; k < n; ++k)
@@ -114,10 +129,13 @@ void tell_sides(const ShapeWitness& witness, const RoleModel& model, const Parts
       for (const bool turn : {false, true}) {
         const std::size_t a = turn ? l.b : l.a, b = turn ? l.a : l.b;
         if (l.middle || roles[b].hand != 0) continue;
-        if (roles[a].hand != 0 && (own[b] == own[a] || own[b] == 1) && (own[b] != 3))
-          roles[b].hand = roles[a].hand, changed = true;
-        else if (roles[a].hand == 0 && own[b] == 1 && own[a] != 1 && witness.symmetric(a))
-          roles[b].hand = hand(a, turn ? l.x_b : l.x_a), changed = true;
+        if (roles[a].hand != 0 && (own[b] == own[a] || own[b] == 1) && (own[b] != 3)) {
+          roles[b].hand = roles[a].hand;
+          changed = true;
+        } else if (roles[a].hand == 0 && own[b] == 1 && own[a] != 1 && witness.symmetric(a)) {
+          roles[b].hand = hand(a, turn ? l.x_b : l.x_a);
+          changed = true;
+        }
       }
   }
 }
@@ -129,7 +147,8 @@ std::vector<ShapeRole> shape_roles(const Pattern& pattern, const RoleModel& mode
   std::vector<ShapeRole> roles(witness.count());
   for (std::size_t k = 0; k < roles.size(); ++k) {
     const auto best = std::max_element(parts[k].begin(), parts[k].end());
-    roles[k].part = static_cast<std::size_t>(best - parts[k].begin()), roles[k].sure = *best;
+    roles[k].part = static_cast<std::size_t>(best - parts[k].begin());
+    roles[k].sure = *best;
   }
   tell_sides(witness, model, parts, roles);
   return roles;

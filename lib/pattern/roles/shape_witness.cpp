@@ -52,10 +52,14 @@ ShapeWitness::ShapeWitness(const Pattern& pattern) {
       self[p] += sides[i].length;
       continue;
     }
-    neighbours[p].push_back(q), neighbours[q].push_back(p);
+    neighbours[p].push_back(q);
+    neighbours[q].push_back(p);
     Link link;
-    link.a = p, link.b = q, link.length = side_length(pattern, seam.a);
-    link.x_a = sides[i].place.x(), link.x_b = sides[j].place.x();
+    link.a = p;
+    link.b = q;
+    link.length = side_length(pattern, seam.a);
+    link.x_a = sides[i].place.x();
+    link.x_b = sides[j].place.x();
     if (!pairs.look(i, j, link.evidence)) link.evidence = {};
     link.middle = link.evidence[static_cast<std::size_t>(Clue::KINSHIP)] == 5;
     m_links.push_back(link);
@@ -73,11 +77,13 @@ ShapeWitness::ShapeWitness(const Pattern& pattern) {
       for (int k = 0; k < 6; ++k) {
         const Vec2 v = arc.at(arc.length() * k / 6),
                    g(panel.grain.y() * v.x() - panel.grain.x() * v.y(), v.dot(panel.grain));
-        low = low.cwiseMin(g), high = high.cwiseMax(g);
+        low = low.cwiseMin(g);
+        high = high.cwiseMax(g);
       }
     }
     size[p] = (high - low).cwiseMax(1e-6);
-    m_panels[p].area = std::abs(signed_area(loop)), m_panels[p].height = size[p].y();
+    m_panels[p].area = std::abs(signed_area(loop));
+    m_panels[p].height = size[p].y();
     largest = std::max(largest, m_panels[p].area);
   }
   for (std::size_t p = 0; p < n; ++p) {
@@ -96,7 +102,8 @@ ShapeWitness::ShapeWitness(const Pattern& pattern) {
         if (s.place.y() < 0.25 && !sewn[k]) bottom += across;
         if (s.place.y() > 0.6) (sewn[k] ? top_sewn : top) += across;
       } else if (!sewn[k]) upright_free += s.length;
-      longer = std::max(longer, partner[k]), shorter = std::max(shorter, -partner[k]);
+      longer = std::max(longer, partner[k]);
+      shorter = std::max(shorter, -partner[k]);
       darts += s.corner_end > 4.7;
     }
     own.symmetric = false;
@@ -106,9 +113,10 @@ ShapeWitness::ShapeWitness(const Pattern& pattern) {
       others += static_cast<std::size_t>(m.panel) != p;
     }
     double side_area = 0, side_height = 0;
-    for (std::size_t q : neighbours[p])
-      side_area = std::max(side_area, m_panels[q].area),
+    for (std::size_t q : neighbours[p]) {
+      side_area = std::max(side_area, m_panels[q].area);
       side_height = std::max(side_height, m_panels[q].height);
+    }
     std::sort(neighbours[p].begin(), neighbours[p].end());
     neighbours[p].erase(std::unique(neighbours[p].begin(), neighbours[p].end()),
                         neighbours[p].end());
@@ -159,9 +167,10 @@ Evidence ShapeWitness::panel(std::size_t k,
     if (l.a != k && l.b != k) continue;
     const std::size_t q = l.a == k ? l.b : l.a;
     for (std::size_t c = 0; c < SHAPE_PARTS; ++c) most[c] = std::max(most[c], parts[q][c]);
-    if (parts[q][own] > 0.5)
-      relative[0] = std::max(relative[0], m_panels[q].area),
+    if (parts[q][own] > 0.5) {
+      relative[0] = std::max(relative[0], m_panels[q].area);
       relative[1] = std::max(relative[1], m_panels[q].height);
+    }
   }
   for (const auto& p : parts)
     for (std::size_t c = 0; c < SHAPE_PARTS; ++c) all[c] = std::max(all[c], p[c]);

@@ -40,9 +40,11 @@ Sampled sample(const Panel& panel) {
         const int n = s.line ? 1
                              : static_cast<int>(std::ceil(
                                    std::max(8.0, std::min(400.0, s.length(0, 1) / SAMPLE))));
-        for (int k = 0; k < n; ++k)
-          out.points.push_back(s.at(static_cast<double>(k) / n)), out.edge.push_back(e),
-              out.loop.push_back(l);
+        for (int k = 0; k < n; ++k) {
+          out.points.push_back(s.at(static_cast<double>(k) / n));
+          out.edge.push_back(e);
+          out.loop.push_back(l);
+        }
       }
       ++e;
     }
@@ -104,10 +106,15 @@ private:
     const Panel* which = nullptr;
     for (const Panel& panel : m_pattern.panels) {
       Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
-      for (const Vec2& q : sample(panel).points) low = low.cwiseMin(q), high = high.cwiseMax(q);
+      for (const Vec2& q : sample(panel).points) {
+        low = low.cwiseMin(q);
+        high = high.cwiseMax(q);
+      }
       if (const Vec2 size = high - low;
-          size.prod() > largest.prod() || (size.prod() == largest.prod() && !which))
-        largest = size, which = &panel;
+          size.prod() > largest.prod() || (size.prod() == largest.prod() && !which)) {
+        largest = size;
+        which = &panel;
+      }
     }
     if (!which) return;
     const bool small = largest.maxCoeff() < LEAST;
@@ -329,8 +336,10 @@ io::Json findings_sarif(const std::vector<PatternFinding>& findings, const std::
   io::Json rules = io::Json::array(), results = io::Json::array();
   std::vector<std::string> known;
   for (const PatternFinding& f : findings) {
-    if (std::find(known.begin(), known.end(), f.rule) == known.end())
-      known.push_back(f.rule), rules.push_back({{"id", f.rule}});
+    if (std::find(known.begin(), known.end(), f.rule) == known.end()) {
+      known.push_back(f.rule);
+      rules.push_back({{"id", f.rule}});
+    }
     const io::Json location = {
         {"physicalLocation", {{"artifactLocation", {{"uri", io::file_name(file)}}}}},
         {"logicalLocations", io::Json::array({io::Json{{"fullyQualifiedName", f.place}}})}};
@@ -354,7 +363,8 @@ bool forbids_sewing(const PatternFinding& f) {
 void require_sewable(const Pattern& pattern, const std::string& file) {
   for (const PatternFinding& f : Check(pattern).run(false))
     if (forbids_sewing(f))
-      throw input_error(file, f.place, f.fact, "pattern-mesh --check lists all findings");
+      throw input_error("pattern.cannot-be-sewn"_id, file, f.place, f.fact,
+                        "pattern-mesh --check lists all findings");
 }
 
 } // namespace sloper::pattern

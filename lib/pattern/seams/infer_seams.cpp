@@ -1,5 +1,7 @@
 #include <pattern/panel_words.hpp>
+#include <pattern/seams/rim_seams.hpp>
 #include <pattern/seams/seam_assembly.hpp>
+#include <pattern/seams/seam_order.hpp>
 #include <sloper/base/units.hpp>
 #include <sloper/geometry/disjoint_sets.hpp>
 #include <sloper/io/json.hpp>
@@ -65,9 +67,21 @@ private:
     return odds;
   }
   /// Two sides of one panel, equally long, on either side of a third: the panel may be a tube.
-  static bool is_tube(const SeamSide& a, const SeamSide& b) {
-    const bool flank = a.after == b.before || b.after == a.before;
-    return a.panel == b.panel && flank && std::abs(std::log(a.length / b.length)) < SAME_LENGTH;
+  bool is_tube(const SeamSide& a, const SeamSide& b) const {
+    constexpr double LEAST_HEM = 0.3; // of a side: the third is no notch between halves of a hem
+    if (a.panel != b.panel || std::abs(std::log(a.length / b.length)) >= SAME_LENGTH) return false;
+    for (const auto& [third, last] : {std::pair{a.after, b.before}, std::pair{b.after, a.before}})
+      if (third >= 0 && third == last &&
+          m_sides[static_cast<std::size_t>(third)].length > LEAST_HEM * a.length)
+        return third == a.after ? at_hem(a.corner_end, b.corner_start)
+                                : at_hem(b.corner_end, a.corner_start);
+    return false;
+  }
+  /// Whether the cloth at both ends of the third side is square enough for a hem: a cap that is cut
+  /// up into several edges has flat corners.
+  static bool at_hem(double first, double second) {
+    constexpr double FLATTEST_CORNER = 130; // degrees
+    return std::max(first, second) < units::radians(FLATTEST_CORNER);
   }
   const Words& words(const SeamSide& side) const {
     return m_words[static_cast<std::size_t>(side.panel)];
@@ -121,7 +135,8 @@ public:
       SeamGuess guess = guess_of(pair, -cost);
       guess.certain = -cost >= CERTAIN;
       if (guess.certain) used[index(pair[0])] = used[index(pair[1])] = 1;
-      out.push_back(std::move(guess)), taken.push_back(pair);
+      out.push_back(std::move(guess));
+      taken.push_back(pair);
     }
     for (std::size_t k = 0; k < out.size(); ++k) {
       if (out[k].certain) continue;
@@ -156,7 +171,8 @@ private:
     const SeamSide &a = side(pair[0]), &b = side(pair[1]);
     SeamGuess guess;
     guess.seam.name = name(a) + "-" + name(b);
-    guess.seam.a = runs(a, true), guess.seam.b = runs(b, false);
+    guess.seam.a = runs(a, true);
+    guess.seam.b = runs(b, false);
     if (a.panel == b.panel && (a.after == pair[1] || b.after == pair[0])) guess.seam.kind = "dart";
     else if (std::abs(std::log(a.length / b.length)) > GATHERED) guess.seam.kind = "gather";
     guess.score = probability(odds);
@@ -209,14 +225,21 @@ std::vector<SeamGuess> infer_seams(const Pattern& pattern) {
   const SideCorners all = all_corners(pattern),
                     sharp = sharp_corners(pattern, units::radians(STRAIGHT_ON));
   const Inference edges(pattern, all);
-  if (sharp == all) return edges.guesses();
+  const auto completed = [&](std::vector<SeamGuess> guesses) {
+    settle_by_order(pattern, guesses);
+    drop_bags(pattern, guesses);
+    return with_rim_seams(pattern, std::move(guesses));
+  };
+  if (sharp == all) return completed(edges.guesses());
   const Inference sides(pattern, sharp);
-  return (sides.worth() > edges.worth() ? sides : edges).guesses();
+  return completed((sides.worth() > edges.worth() ? sides : edges).guesses());
 }
 
 std::vector<std::string> panels_apart(const Pattern& pattern) {
   DisjointSets joined(pattern.panels.size());
-  for (const Seam& seam : pattern.seams) joined.unite(seam.a[0].panel, seam.b[0].panel);
+  for (const Seam& seam : pattern.seams)
+    for (const auto* side : {&seam.a, &seam.b})
+      for (const Run& run : *side) joined.unite(seam.a[0].panel, run.panel);
   std::map<int, int> size;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) ++size[joined.find(static_cast<int>(p))];
   const auto most = std::max_element(
@@ -230,7 +253,8 @@ std::vector<std::string> panels_apart(const Pattern& pattern) {
 io::Json sewing_questions(const Pattern& pattern, const std::vector<SeamGuess>& guesses,
                           const std::string& tool) {
   io::Json doc = io::new_document("sewing-seams", 1, tool);
-  doc["seams"] = io::Json::array(), doc["questions"] = io::Json::array();
+  doc["seams"] = io::Json::array();
+  doc["questions"] = io::Json::array();
   std::vector<char> asked(guesses.size(), 0);
   for (std::size_t k = 0; k < guesses.size(); ++k) {
     const SeamGuess& guess = guesses[k];
@@ -247,6 +271,10 @@ io::Json sewing_questions(const Pattern& pattern, const std::vector<SeamGuess>& 
       candidates[0]["and"] = io::Json::array({seam_json(pattern, twin)});
       if (candidates.size() > 1 && !twin.instead.empty())
         candidates[1]["and"] = io::Json::array({seam_json(pattern, twin.instead[0])});
+    }
+    for (const int other : guess.with) {
+      asked[static_cast<std::size_t>(other)] = 1;
+      candidates[0]["and"].push_back(seam_json(pattern, guesses[static_cast<std::size_t>(other)]));
     }
     const Run& run = guess.seam.a[0];
     const Panel& panel = pattern.panels[static_cast<std::size_t>(run.panel)];

@@ -95,9 +95,10 @@ private:
     std::vector<double> ends = {0, 1}; // of runs, on the way along the seam
     for (const auto* side : {&seam.a, &seam.b}) {
       double sum = 0;
-      for (const Run& run : *side)
-        sum += run_length(m_pattern, run),
-            ends.push_back(std::min(1.0, sum / std::max(total[side == &seam.b], 1e-9)));
+      for (const Run& run : *side) {
+        sum += run_length(m_pattern, run);
+        ends.push_back(std::min(1.0, sum / std::max(total[side == &seam.b], 1e-9)));
+      }
     }
     for (double end : ends) {
       int first = -1;
@@ -226,7 +227,10 @@ private:
     Vec2 middle[2] = {Vec2::Zero(), Vec2::Zero()};
     double n[2] = {0, 0};
     for (std::size_t l = 0; l < panel(p).loops.size(); ++l)
-      for (const PanelEdge& e : panel(p).loops[l]) middle[l > 0] += e.path.front().p[0], ++n[l > 0];
+      for (const PanelEdge& e : panel(p).loops[l]) {
+        middle[l > 0] += e.path.front().p[0];
+        ++n[l > 0];
+      }
     return n[1] > 0 ? by_grain(p, middle[1] / n[1] - middle[0] / n[0]) : Vec2::Zero();
   }
 

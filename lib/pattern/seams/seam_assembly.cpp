@@ -82,7 +82,9 @@ SeamAssembly::Settled SeamAssembly::settle(const SeamTrees& trees, const SeamWit
       if (best(pair[0])[0] != -cost || best(pair[1])[0] != -cost ||
           !(-cost - std::max(best(pair[0])[1], best(pair[1])[1]) > CLEAR))
         continue;
-      commit(now, pair), out.at[pair] = -cost, any = true;
+      commit(now, pair);
+      out.at[pair] = -cost;
+      any = true;
     }
     if (!any) { // partners that are alike: one of them has to be the first
       const auto tie = std::find_if(open.begin(), open.end(), [&](const auto& item) {
@@ -93,7 +95,8 @@ SeamAssembly::Settled SeamAssembly::settle(const SeamTrees& trees, const SeamWit
         out.odds = std::move(now);
         break;
       }
-      commit(now, tie->second), out.at[tie->second] = -tie->first;
+      commit(now, tie->second);
+      out.at[tie->second] = -tie->first;
     }
     out.odds = std::move(now);
     odds = m_witness.sum_up(out.odds);
@@ -131,7 +134,8 @@ SeamAssembly::Result SeamAssembly::run(const SeamModel& model) const {
   std::set<SidePair> ban;
   for (int round = 0;; ++round) {
     const Settled settled = settle(model.settle, base, keep, ban);
-    keep.clear(), verdicts.clear();
+    keep.clear();
+    verdicts.clear();
     const std::size_t banned = ban.size();
     for (const auto& [pair, odds] : settled.at) {
       const double verdict = model.judge(judged(base, settled, pair)) + prior(pair[0], pair[1]);

@@ -27,7 +27,8 @@ SeamModel read_model() {
   const io::Json json = io::Json::parse(SEAM_MODEL);
   SeamModel model;
   for (const io::Json& look : json.at("looks")) model.looks.push_back(read_trees(look));
-  model.settle = read_trees(json.at("settle")), model.judge = read_trees(json.at("judge"));
+  model.settle = read_trees(json.at("settle"));
+  model.judge = read_trees(json.at("judge"));
   return model;
 }
 

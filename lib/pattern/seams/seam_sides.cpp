@@ -54,7 +54,9 @@ double interior_angle(const Path& in, const Path& out) {
 SeamSide measure_side(const Pattern& pattern, int panel_index, int first, int count) {
   const Panel& panel = pattern.panels[static_cast<std::size_t>(panel_index)];
   SeamSide side;
-  side.panel = panel_index, side.first = first, side.count = count;
+  side.panel = panel_index;
+  side.first = first;
+  side.count = count;
   for (const auto& loop : panel.loops) {
     side.loop_size = static_cast<int>(loop.size());
     if (first < side.loop_begin + side.loop_size) break;
@@ -84,7 +86,7 @@ SeamSide measure_side(const Pattern& pattern, int panel_index, int first, int co
     side.offset[static_cast<std::size_t>(k)] = (p - start).dot(left) / std::max(side.length, 1e-9);
     side.bulge += side.offset[static_cast<std::size_t>(k)] / SeamSide::SAMPLES;
   }
-  side.corner_start = interior_angle(panel.edge(edge_at(-1)).path, panel.edge(first).path),
+  side.corner_start = interior_angle(panel.edge(edge_at(-1)).path, panel.edge(first).path);
   side.corner_end =
       interior_angle(panel.edge(edge_at(count - 1)).path, panel.edge(edge_at(count)).path);
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
@@ -94,7 +96,8 @@ SeamSide measure_side(const Pattern& pattern, int panel_index, int first, int co
     around += own.length();
     for (int k = 0; k < 4; ++k) {
       const Vec2 p = by_grain(panel.grain, own.at(own.length() * k / 4));
-      low = low.cwiseMin(p), high = high.cwiseMax(p);
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
     }
   }
   side.place = (by_grain(panel.grain, arc.at(0.5 * side.length)) - low)
@@ -137,8 +140,10 @@ std::vector<SeamSide> seam_sides(const Pattern& pattern, const SideCorners& corn
     for (std::size_t j = 0; j < sides.size(); ++j)
       if (sides[i].panel == sides[j].panel && sides[i].loop_begin == sides[j].loop_begin) {
         const int n = sides[i].loop_size, begin = sides[i].loop_begin;
-        if ((sides[i].first - begin + sides[i].count) % n == sides[j].first - begin)
-          sides[i].after = static_cast<int>(j), sides[j].before = static_cast<int>(i);
+        if ((sides[i].first - begin + sides[i].count) % n == sides[j].first - begin) {
+          sides[i].after = static_cast<int>(j);
+          sides[j].before = static_cast<int>(i);
+        }
       }
   return sides;
 }
@@ -165,7 +170,10 @@ static void cut_unlike(const Pattern& pattern, SideCorners& corners) {
       if (std::min(first, second) < SHORTEST_PART) continue;
       if (alike(first, s.panel, LIKE_PART).empty() || alike(second, s.panel, LIKE_PART).empty())
         continue;
-      if (const double off = std::abs(first - second); off < best) best = off, at = k;
+      if (const double off = std::abs(first - second); off < best) {
+        best = off;
+        at = k;
+      }
     }
     if (at < 0) continue;
     auto& own = corners[static_cast<std::size_t>(s.panel)];
@@ -191,7 +199,10 @@ SideCorners sharp_corners(const Pattern& pattern, double straight_on) {
       std::stable_sort(turns.begin(), turns.end());
       std::size_t kept = 0;
       for (const auto& [turn, k] : turns)
-        if (-turn >= straight_on || kept < 2) out.back().push_back(begin + k), ++kept;
+        if (-turn >= straight_on || kept < 2) {
+          out.back().push_back(begin + k);
+          ++kept;
+        }
       begin += n;
     }
     std::sort(out.back().begin(), out.back().end());
@@ -209,9 +220,10 @@ std::vector<std::vector<PanelMirror>> panel_mirrors(const Pattern& pattern) {
   std::vector<Outline> outlines;
   for (const Panel& panel : pattern.panels) {
     Outline& o = outlines.emplace_back();
-    for (const PanelEdge& e : panel.loops[0])
-      o.lengths.push_back(length(e.path)),
-          o.chords.push_back(by_grain(panel.grain, e.path.back().p[3] - e.path.front().p[0]));
+    for (const PanelEdge& e : panel.loops[0]) {
+      o.lengths.push_back(length(e.path));
+      o.chords.push_back(by_grain(panel.grain, e.path.back().p[3] - e.path.front().p[0]));
+    }
   }
   std::vector<std::vector<PanelMirror>> out(outlines.size());
   for (std::size_t p = 0; p < outlines.size(); ++p)

@@ -23,7 +23,7 @@ ArmTube::ArmTube(const BodySpace& space, const Axis& axis, bool left, double low
     any = true;
   }
   if (!any)
-    throw input_error("", "body",
+    throw input_error("placement.limb-not-scanned"_id, "", "body",
                       std::string("the ") + (left ? "left" : "right") +
                           " arm has no skin where the sleeve lies",
                       "scan the arms, or leave the sleeves out");

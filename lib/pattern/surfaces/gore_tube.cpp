@@ -42,7 +42,8 @@ std::vector<double> GoreTube::gaps(double height) const {
 
 void GoreTube::trace(Row& row, const Ring& radius, double out, double fold) const {
   constexpr int FINER = 3, FOLDS = 12;
-  row.points.clear(), row.s.clear();
+  row.points.clear();
+  row.s.clear();
   for (int k = 0; k <= FINER * RING_ANGLES; ++k) {
     const std::size_t a = static_cast<std::size_t>(k / FINER) % RING_ANGLES,
                       b = (a + 1) % RING_ANGLES;
@@ -76,9 +77,13 @@ void GoreTube::spread(Row& row, double height) const {
     const Gore &p = a.godet ? m_ring.gores[main_from(k, n - 1)] : a,
                &q = b.godet ? m_ring.gores[main_from(k, 1)] : b;
     if (p.side != q.side || p.side == Side::RING) share[k] = a.godet || b.godet ? 0.5 : 1;
-    shares += share[k], cloth += 2 * a.half_width(height) + least[k];
+    shares += share[k];
+    cloth += 2 * a.half_width(height) + least[k];
   }
-  if (shares == 0) share.assign(n, 1), shares = static_cast<double>(n);
+  if (shares == 0) {
+    share.assign(n, 1);
+    shares = static_cast<double>(n);
+  }
   row.scale = std::min(1.0, row.length / cloth);
   const double open = std::max(row.length - cloth, 0.0) / shares;
   double s = 0;

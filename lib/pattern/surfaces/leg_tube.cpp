@@ -23,7 +23,8 @@ LegTube::LegTube(const BodySpace& space, bool left) : m_left(left) {
   m_crotch = body.has_landmark("crotch") ? body.landmark("crotch").y() : 0.47 * space.stature();
   m_low = -0.02;
   const std::size_t n = static_cast<std::size_t>(std::ceil((space.stature() - m_low) / BIN)) + 2;
-  m_skin.assign(n, empty_ring()), m_trunk = m_skin;
+  m_skin.assign(n, empty_ring());
+  m_trunk = m_skin;
   m_arms.resize(n);
   std::vector<std::array<double, 2>> inner(
       n, {1e300, 1e300}); // of the left and the right leg, each outwards
@@ -46,12 +47,13 @@ LegTube::LegTube(const BodySpace& space, bool left) : m_left(left) {
         m_skin[k][static_cast<std::size_t>(d)] =
             std::max(m_skin[k][static_cast<std::size_t>(d)], h);
     }
-    if (leg)
-      any = any || own,
+    if (leg) {
+      any = any || own;
       inner[k][own ? 0 : 1] = std::min(inner[k][own ? 0 : 1], own ? q.x() : -q.x());
+    }
   }
   if (!any)
-    throw input_error("", "body",
+    throw input_error("placement.limb-not-scanned"_id, "", "body",
                       std::string("the ") + (left ? "left" : "right") + " leg has no skin",
                       "scan the legs, or leave the trousers out");
   // The plane between the legs: the mean over heights where both are there, below the crotch.
@@ -59,8 +61,10 @@ LegTube::LegTube(const BodySpace& space, bool left) : m_left(left) {
   int count = 0;
   for (std::size_t k = 0; k < n; ++k)
     if (inner[k][0] < 1e299 && inner[k][1] < 1e299 &&
-        m_low + BIN * static_cast<double>(k) < m_crotch - 0.02)
-      sum += 0.5 * (inner[k][0] - inner[k][1]), ++count;
+        m_low + BIN * static_cast<double>(k) < m_crotch - 0.02) {
+      sum += 0.5 * (inner[k][0] - inner[k][1]);
+      ++count;
+    }
   m_middle = count ? sum / count : 0;
 
   m_skin = joined(filled(m_skin), 2);
@@ -127,7 +131,8 @@ void LegTube::shape(const std::vector<double>& heights, const std::vector<LegRow
   std::vector<double> front_reach(n), back_reach(n), grown(n, gap);
   for (std::size_t j = 0; j < n; ++j) {
     Curve& c = m_curves[j];
-    c.y = heights[j], c.cloth = rows[j];
+    c.y = heights[j];
+    c.cloth = rows[j];
     outline(c, gap);
     // How far the row may go around inwards: to the plane between the legs where there is no way
     // between them, else up to a skin that is too near that plane.
@@ -144,11 +149,13 @@ void LegTube::shape(const std::vector<double>& heights, const std::vector<LegRow
       (back ? back_reach : front_reach)[j] = std::max(reach - 0.5, 0.0);
     }
   }
-  front_reach = averaged(least(front_reach, 3), 8), back_reach = averaged(least(back_reach, 3), 8);
+  front_reach = averaged(least(front_reach, 3), 8);
+  back_reach = averaged(least(back_reach, 3), 8);
   const auto trace = [&](std::size_t j) {
     Curve& c = m_curves[j];
     outline(c, grown[j]);
-    c.points.clear(), c.s.clear();
+    c.points.clear();
+    c.s.clear();
     const double from = -front_reach[j], to = 0.5 * RING_ANGLES + back_reach[j];
     const int steps = 160;
     for (int k = 0; k <= steps; ++k) {
@@ -188,7 +195,8 @@ void LegTube::shape(const std::vector<double>& heights, const std::vector<LegRow
     const double open = std::max(length - PANEL_GAP - c.scale * cloth, 0.0);
     const double share = 0.25 * std::clamp((m_crotch - c.y) / INTO_LEGS, 0.0,
                                            1.0); // the middle seams of the hips stay in the middle
-    c.inner_gap = share * open, c.outer_gap = PANEL_GAP + (1 - 2 * share) * open;
+    c.inner_gap = share * open;
+    c.outer_gap = PANEL_GAP + (1 - 2 * share) * open;
     c.seam = c.inner_gap + c.scale * rows[j].front.width() + 0.5 * c.outer_gap;
   }
 }

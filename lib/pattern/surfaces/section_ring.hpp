@@ -36,7 +36,8 @@ template<class T> std::vector<T> averaged(const std::vector<T>& in, int reach) {
     double weight = 0;
     for (int o = -reach; o <= reach; ++o) {
       const double w = 1 + reach - std::abs(o);
-      sum = sum + w * in[static_cast<std::size_t>(std::clamp(k + o, 0, n - 1))], weight += w;
+      sum = sum + w * in[static_cast<std::size_t>(std::clamp(k + o, 0, n - 1))];
+      weight += w;
     }
     out[static_cast<std::size_t>(k)] = sum * (1 / weight);
   }

@@ -47,7 +47,9 @@ public:
     const GEOSGeometry* outer = GEOSGeomTypeId_r(m_context, g) == GEOS_POLYGON
                                     ? GEOSGetExteriorRing_r(m_context, g)
                                     : nullptr;
-    if (!outer) throw Error(ErrorKind::INTERNAL, "", "placement", "no outline around the body");
+    if (!outer)
+      throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", "placement",
+                  "no outline around the body");
     const GEOSCoordSequence* c = GEOSGeom_getCoordSeq_r(m_context, outer);
     unsigned n = 0;
     GEOSCoordSeq_getSize_r(m_context, c, &n);
@@ -64,7 +66,9 @@ public:
 
 private:
   GEOSGeometry* keep(GEOSGeometry* g) {
-    if (!g) throw Error(ErrorKind::INTERNAL, "", "placement", "GEOS gave no geometry");
+    if (!g)
+      throw Error(ErrorKind::INTERNAL, "general.internal"_id, "", "placement",
+                  "GEOS gave no geometry");
     m_all.push_back(g);
     return g;
   }
@@ -126,14 +130,20 @@ WrapCurve WrapCurve::around(const std::vector<Vec2>& points, double gap, double 
     gap += (length - out.length()) / (2 * 3.14159265358979) + 1e-5;
   }
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
-  for (const Vec2& p : out.m_points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  for (const Vec2& p : out.m_points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
   const double x = 0.5 * (low.x() + high.x());
   double best = -1e300;
   for (std::size_t k = 0; k + 1 < out.m_points.size(); ++k) {
     const Vec2 &a = out.m_points[k], &b = out.m_points[k + 1];
     if ((a.x() <= x) == (b.x() <= x)) continue;
     const double t = (x - a.x()) / (b.x() - a.x()), z = a.y() + t * (b.y() - a.y());
-    if (z > best) best = z, out.m_origin = out.m_s[k] + t * (b - a).norm();
+    if (z > best) {
+      best = z;
+      out.m_origin = out.m_s[k] + t * (b - a).norm();
+    }
   }
   return out;
 }

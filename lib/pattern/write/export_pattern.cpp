@@ -20,14 +20,18 @@ double rounded(double x, double unit) {
 io::Json path_json(const Path& path, double unit) {
   io::Json out = io::Json::array();
   const auto point = [&](io::Json& item, const Vec2& p) {
-    item.push_back(rounded(p.x(), unit)), item.push_back(rounded(p.y(), unit));
+    item.push_back(rounded(p.x(), unit));
+    item.push_back(rounded(p.y(), unit));
   };
   io::Json start = io::Json::array({"M"});
   point(start, path.front().p[0]);
   out.push_back(start);
   for (const Segment& s : path) {
     io::Json item = io::Json::array({s.line ? "L" : "C"});
-    if (!s.line) point(item, s.p[1]), point(item, s.p[2]);
+    if (!s.line) {
+      point(item, s.p[1]);
+      point(item, s.p[2]);
+    }
     point(item, s.p[3]);
     out.push_back(item);
   }
@@ -60,21 +64,37 @@ public:
     std::snprintf(text, sizeof text, "%.4f", value);
     tag(code, std::string(text));
   }
-  void point(const Vec2& p) { tag(10, p.x() * 1000), tag(20, p.y() * 1000); }
-  void entity(const char* kind, int layer) { tag(0, kind), tag(8, std::to_string(layer)); }
-  void text(int layer, const Vec2& at, const std::string& words) {
-    entity("TEXT", layer), point(at);
-    tag(40, 5.0), tag(1, words);
+  void point(const Vec2& p) {
+    tag(10, p.x() * 1000);
+    tag(20, p.y() * 1000);
   }
-  void mark(int layer, const Vec2& at) { entity("POINT", layer), point(at); }
+  void entity(const char* kind, int layer) {
+    tag(0, kind);
+    tag(8, std::to_string(layer));
+  }
+  void text(int layer, const Vec2& at, const std::string& words) {
+    entity("TEXT", layer);
+    point(at);
+    tag(40, 5.0);
+    tag(1, words);
+  }
+  void mark(int layer, const Vec2& at) {
+    entity("POINT", layer);
+    point(at);
+  }
   void ring(int layer, const std::vector<Vec2>& points) { polyline(layer, points, "1"); }
   void chain(int layer, const std::vector<Vec2>& points) { polyline(layer, points, "0"); }
   const std::string& str() const { return m_text; }
 
 private:
   void polyline(int layer, const std::vector<Vec2>& points, const char* closed) {
-    entity("POLYLINE", layer), tag(66, "1"), tag(70, closed);
-    for (const Vec2& p : points) entity("VERTEX", layer), point(p);
+    entity("POLYLINE", layer);
+    tag(66, "1");
+    tag(70, closed);
+    for (const Vec2& p : points) {
+      entity("VERTEX", layer);
+      point(p);
+    }
     entity("SEQEND", layer);
   }
   std::string m_text;
@@ -152,8 +172,10 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNu
       for (const InnerLine& line : p.lines) {
         lines.push_back(
             {{"name", line.name}, {"kind", line.kind}, {"path", path_json(line.path, unit)}});
-        if (line.kind == "tape")
-          lines.back()["factor"] = line.factor, lines.back()["width"] = line.width / unit;
+        if (line.kind == "tape") {
+          lines.back()["factor"] = line.factor;
+          lines.back()["width"] = line.width / unit;
+        }
       }
       panel["lines"] = lines;
     }
@@ -202,19 +224,27 @@ io::Json pattern_json(const Pattern& pattern, const std::string& tool, PatternNu
     if (s.open) seam["open"] = true;
     seams.push_back(seam);
   }
-  doc["panels"] = panels, doc["seams"] = seams;
+  doc["panels"] = panels;
+  doc["seams"] = seams;
   return doc;
 }
 
 std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_out) {
   DxfWriter out;
   std::vector<std::string> hinted; // panels
-  out.tag(0, "SECTION"), out.tag(2, "HEADER"), out.tag(9, "$ACADVER"), out.tag(1, "AC1009"),
-      out.tag(0, "ENDSEC");
-  out.tag(0, "SECTION"), out.tag(2, "BLOCKS");
+  out.tag(0, "SECTION");
+  out.tag(2, "HEADER");
+  out.tag(9, "$ACADVER");
+  out.tag(1, "AC1009");
+  out.tag(0, "ENDSEC");
+  out.tag(0, "SECTION");
+  out.tag(2, "BLOCKS");
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     const Panel& panel = pattern.panels[p];
-    out.entity("BLOCK", 1), out.tag(2, word(panel.name)), out.tag(70, "64"), out.point(Vec2(0, 0));
+    out.entity("BLOCK", 1);
+    out.tag(2, word(panel.name));
+    out.tag(70, "64");
+    out.point(Vec2(0, 0));
     out.text(1, Vec2(0, 0), "Piece Name: " + panel.name);
     out.text(1, Vec2(0, 0), "Quantity: 1");
     if (!panel.material.empty()) out.text(1, Vec2(0, 0), "Material: " + panel.material);
@@ -287,7 +317,10 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
     for (const Pleat& pleat : panel.pleats)
       left_out.push_back(panel.name + ": pleat " + pleat.name + " is written as two lines");
     const Vec2 from = panel.loops[0][0].path.front().p[0], to = from + 0.1 * panel.grain;
-    out.entity("LINE", 7), out.point(from), out.tag(11, to.x() * 1000), out.tag(21, to.y() * 1000);
+    out.entity("LINE", 7);
+    out.point(from);
+    out.tag(11, to.x() * 1000);
+    out.tag(21, to.y() * 1000);
     out.entity("ENDBLK", 1);
   }
   if (!hinted.empty()) // one line: nearly all panels of a garment have a hint, and names and seams
@@ -296,13 +329,19 @@ std::string pattern_dxf(const Pattern& pattern, std::vector<std::string>& left_o
         hinted[0] +
         (hinted.size() > 1 ? " and " + std::to_string(hinted.size() - 1) + " more" : "") +
         ": where it is to be placed is not written");
-  out.tag(0, "ENDSEC"), out.tag(0, "SECTION"), out.tag(2, "ENTITIES");
-  for (const Panel& panel : pattern.panels)
-    out.entity("INSERT", 1), out.tag(2, word(panel.name)), out.point(Vec2(0, 0));
+  out.tag(0, "ENDSEC");
+  out.tag(0, "SECTION");
+  out.tag(2, "ENTITIES");
+  for (const Panel& panel : pattern.panels) {
+    out.entity("INSERT", 1);
+    out.tag(2, word(panel.name));
+    out.point(Vec2(0, 0));
+  }
   out.text(1, Vec2(0, 0), "Style Name: " + pattern.name);
   out.text(1, Vec2(0, 0), "Units: METRIC");
   out.text(1, Vec2(0, 0), "ANSI/AAMA VERSION: 1.0.0");
-  out.tag(0, "ENDSEC"), out.tag(0, "EOF");
+  out.tag(0, "ENDSEC");
+  out.tag(0, "EOF");
   return out.str();
 }
 
@@ -314,9 +353,10 @@ std::string pattern_svg(const Pattern& pattern) {
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
     for (const PanelEdge& e : panel.loops[0]) {
       const ArcLength arc(e.path);
-      for (int k = 0; k <= 32; ++k)
-        low = low.cwiseMin(arc.at(arc.length() * k / 32)),
+      for (int k = 0; k <= 32; ++k) {
+        low = low.cwiseMin(arc.at(arc.length() * k / 32));
         high = high.cwiseMax(arc.at(arc.length() * k / 32));
+      }
     }
     const auto at = [&](const Vec2& q) {
       return number(x + (q.x() - low.x()) * 1000) + " " + number(40 + (high.y() - q.y()) * 1000);
@@ -347,8 +387,10 @@ std::string pattern_svg(const Pattern& pattern) {
       for (std::size_t s = 0; s < pattern.seams.size(); ++s)
         for (const auto* side : {&pattern.seams[s].a, &pattern.seams[s].b})
           for (const Run& run : *side)
-            if (run.panel == static_cast<int>(p) && run.edge == e)
-              color = "hsl(" + std::to_string(s * 137 % 360) + ",75%,42%)", width = 3;
+            if (run.panel == static_cast<int>(p) && run.edge == e) {
+              color = "hsl(" + std::to_string(s * 137 % 360) + ",75%,42%)";
+              width = 3;
+            }
       const ArcLength arc(panel.edge(e).path);
       body += "<path d=\"" + path(panel.edge(e).path, true) + "\" fill=\"none\" stroke=\"" + color +
               "\" stroke-width=\"" + number(width) + "\"/>\n";

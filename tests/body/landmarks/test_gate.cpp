@@ -58,7 +58,10 @@ TEST(Parts, a_hand_is_arm_where_the_elbow_is_bent) {
     agree += same;
     const Vec3& p = bent.before.skin.positions[bent.before.skin.triangles[t][0]];
     for (const char* tip : {"hand_tip_l", "hand_tip_r"})
-      if ((p - bent.before.landmark(tip)).norm() < wrist) ++hands, hands_agree += same;
+      if ((p - bent.before.landmark(tip)).norm() < wrist) {
+        ++hands;
+        hands_agree += same;
+      }
   }
   EXPECT_EQ(hands_agree, hands);
   EXPECT_GT(static_cast<double>(agree), 0.98 * static_cast<double>(bent.skin.triangles.size()));

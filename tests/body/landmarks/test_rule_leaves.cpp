@@ -73,7 +73,10 @@ TriangleMesh with_scarf(TriangleMesh mesh, double s, bool over_throat) {
     if (over_throat && normals[v].z() > 0.1)
       p.z() = std::max(p.z(), s * (0.09 - 0.3 * (p.y() / s - 0.78)));
     const double r = std::hypot(p.x(), p.z()), wanted = s * (0.055 + 0.9 * (0.90 - p.y() / s));
-    if (p.y() > 0.79 * s && r < wanted && r > 1e-6) p.x() *= wanted / r, p.z() *= wanted / r;
+    if (p.y() > 0.79 * s && r < wanted && r > 1e-6) {
+      p.x() *= wanted / r;
+      p.z() *= wanted / r;
+    }
   }
   return mesh;
 }
@@ -163,7 +166,10 @@ TEST(RuleLeaves, every_rule_of_the_tree_is_reached) {
   visit(with_breeches(woman, f));
   visit(with_bat_sleeves(test::mannequin("m-185-t").mesh, 1.85));
   samples::Mannequin pressed; // arms that touch the trunk far down
-  pressed.sex = "m", pressed.stature_m = 1.64, pressed.bmi = 31, pressed.arm_deg = 16;
+  pressed.sex = "m";
+  pressed.stature_m = 1.64;
+  pressed.bmi = 31;
+  pressed.arm_deg = 16;
   visit(samples::make_mannequin(pressed).mesh);
   visit(with_sleeves(woman, whole));
   visit(with_muscles(woman, whole));

@@ -87,7 +87,9 @@ TEST(Rules, the_tree_names_its_numbers_and_says_why) {
 TEST(Rules, conditions_ask_for_figure_stance_and_skin) {
   RuleChoice rule;
   EXPECT_TRUE(rule.applies({true, 'A', false}));
-  rule.figure = "male", rule.stance = "AI", rule.skin = "own";
+  rule.figure = "male";
+  rule.stance = "AI";
+  rule.skin = "own";
   EXPECT_TRUE(rule.applies({false, 'I', false}));
   EXPECT_FALSE(rule.applies({true, 'I', false}));
   EXPECT_FALSE(rule.applies({false, 'T', false}));

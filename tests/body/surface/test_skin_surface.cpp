@@ -56,8 +56,10 @@ TEST(Skin, of_a_mesh_without_soles_and_crown_keeps_its_own_faces) {
   const std::size_t whole = mesh.triangles.size();
   std::erase_if(mesh.triangles, [&](const Triangle& t) {
     double low = 1e300, high = -1e300;
-    for (const int v : t)
-      low = std::min(low, mesh.positions[v].y()), high = std::max(high, mesh.positions[v].y());
+    for (const int v : t) {
+      low = std::min(low, mesh.positions[v].y());
+      high = std::max(high, mesh.positions[v].y());
+    }
     return low < 0.012 || high > 1.70;
   });
   ASSERT_LT(mesh.triangles.size(), whole - 100);

@@ -230,3 +230,14 @@ case_interfacing_is_of_panels_that_are_there() {
   grep -q '"cotton-poplin+fusible"' out.json || fail "no panel is interfaced"
   grep -A2 orthotropic_bending report.json | grep -q '"active": true' || fail "it does not bend as it is fused"
 }
+
+case_warnings_and_findings_of_the_report_have_one_id() {
+  run 4 "$program" --panels panels.json --accuracy draft --set max_steps=3 --messages json -o out.json --report report.json
+  json_lines warning garment.body-absent drape.not-at-rest
+  grep -qF '"finding_ids": ["garment.body-absent"]' report.json || fail "the report has no id"
+  run 4 "$program" --panels panels.json --accuracy draft --set max_steps=3 -o out.json
+  ! grep -qF '[' stderr || fail "an id without -v"
+  run 4 "$program" -v --panels panels.json --accuracy draft --set max_steps=3 -o out.json
+  says " [garment.body-absent]"
+  says " [drape.not-at-rest]"
+}

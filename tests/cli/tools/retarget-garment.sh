@@ -64,3 +64,48 @@ case_a_skirt_too_wide_slides_to_where_the_hip_bears_it() {
   slip=$(python3 -c 'import json; print(round(1e3 * json.load(open("fit.json"))["slip_m"]))')
   ((slip > 90 && slip < 140)) || fail "it slid $slip mm; solved finely, 118"
 }
+
+# A mesh without a pattern comes out with the lines that it came with, but for coordinates; its materials go along.
+case_a_mesh_without_a_pattern_comes_out_as_it_came_in() {
+  cp "$data"/a.body.{json,obj} .
+  mkdir in out
+  { echo "mtllib cloth.mtl"; awk '/^v /{print} /^f /{if (!n++) print "usemtl cloth"; printf "f"; for (i = 2; i <= 4; i++) { split($i, a, "/"); printf " %s", a[1] } print ""}' skirt.obj; } > in/skirt.obj
+  printf 'newmtl cloth\nmap_Kd weave.png\n' > in/cloth.mtl
+  echo picture > in/weave.png
+  run 0 "$program" --no-drape --garment in/skirt.obj --from a.body.json --to b.body.json --report report.json -o out/skirt-b.obj
+  cmp <(grep -v '^v ' in/skirt.obj) <(grep -v '^v ' out/skirt-b.obj) || fail "more than coordinates differ"
+  cmp in/cloth.mtl out/cloth.mtl || fail "the materials did not go along"
+  cmp in/weave.png out/weave.png || fail "the texture did not go along"
+  [[ $(grep -c '^v ' out/skirt-b.obj) -eq $(grep -c '^v ' in/skirt.obj) ]] || fail "vertices are missing"
+  grep -q '"rest_shape": "mesh"' report.json || fail "the report does not say what the mesh was taken for"
+  run 0 "$program" --no-drape --garment in/skirt.obj --from a.body.json --to b.body.json -o out/skirt-b.json
+  [[ -s out/skirt-b.json && -s out/skirt-b.obj && -s out/skirt-b.mesh.obj ]] || fail "document, its mesh and the garment's own are not all there"
+  run 0 "$program" --no-drape --garment skirt.obj --from a.body.json --to b.body.json --report report.json -o out/skirt-b.obj
+  grep -q '"rest_shape": "texture"' report.json || fail "the flat pattern in its texture coordinates was not seen"
+}
+
+case_what_a_mesh_needs_and_what_it_does_not() {
+  cp "$data"/a.body.{json,obj} .
+  run 2 "$program" --garment skirt.obj --to b.body.json -o out.json
+  says "give the body.json of that body"
+  run 2 "$program" --garment skirt.json --from a.body.json --to b.body.json -o out.json
+  run 2 "$program" --garment skirt.json --to b.body.json -o out.obj
+  run 2 "$program" --garment skirt.obj --from a.body.json --to b.body.json -o out.ply
+  says "comes out as it came in"
+  awk '/^v /{$4 += 9} {print}' skirt.obj > far.obj
+  run 3 "$program" --garment far.obj --from a.body.json --to b.body.json -o out.json
+  says "far.obj: lies nowhere near the body"
+  [[ ! -e out.json && ! -e out.obj ]] || fail "something was written"
+}
+
+case_of_several_sizes_the_nearest_is_taken() {
+  cp skirt.json skirt@M.json && cp skirt.obj skirt@M.obj
+  sed -i 's/"skirt.obj"/"skirt@M.obj"/' skirt@M.json
+  sed 's/\("level:[a-z_]*": \)[0-9.]*/\19/g; s/"skirt@M.obj"/"skirt@XXL.obj"/' skirt@M.json > skirt@XXL.json
+  cp skirt.obj skirt@XXL.obj
+  run 0 "$program" -v --no-drape --nearest-size --garment skirt@XXL.json --to b.body.json --report report.json -o out.json
+  says "skirt@M.json"
+  grep -q '"sureness"' report.json || fail "the report does not rank the sizes"
+  run 3 "$program" --no-drape --nearest-size --garment skirt.json --to b.body.json -o out.json
+  says "its name has no size"
+}

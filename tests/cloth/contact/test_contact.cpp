@@ -181,7 +181,10 @@ TEST(Contact, ForceOfClothOnItselfIsTheGradientOfItsEnergy) {
   Grid a = make_grid(8, 0.1); // folded: the second half turned over onto the first
   Random random(4);
   for (Vec3& p : a.x) {
-    if (p.x() > 0.05) p.x() = 0.1 - p.x() + 0.0037, p.y() = 0.0016;
+    if (p.x() > 0.05) {
+      p.x() = 0.1 - p.x() + 0.0037;
+      p.y() = 0.0016;
+    }
     p.z() += p.y() > 0 ? 0.003 : 0;
     p.y() += 0.0003 * random.uniform(-1, 1);
   }
@@ -493,7 +496,8 @@ TEST(Contact, PlanesThatFollowLeaveTheElementsOnTheirSides) {
       guard.n_above = g % 10 == 0 ? 4 : 1 + g % 2;
       for (int k = 0; k < 4; ++k) guard.particle[k] = static_cast<int>(random() % N);
       guard.normal = point().normalized();
-      guard.above = 1e300, guard.below = -1e300;
+      guard.above = 1e300;
+      guard.below = -1e300;
       for (int k = 0; k < 4; ++k) {
         const double height = guard.normal.dot(x[guard.particle[k]]);
         if (k < guard.n_above) guard.above = std::min(guard.above, height - 0.02);

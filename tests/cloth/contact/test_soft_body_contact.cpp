@@ -70,3 +70,23 @@ TEST(SoftBodyContact, a_skin_that_came_nearer_is_looked_for_again) {
   effect.body_moved(1.5 * LEVEL);
   EXPECT_GT(force_of(effect, grid.mesh.n_particles, x, matrix)[4].y(), 0);
 }
+
+TEST(SoftBodyContact, a_thumb_below_the_middle_of_a_face_is_felt_there) {
+  const Grid grid = make_grid(3, 0.06);
+  const Triangle t = grid.mesh.particle_triangles()[0];
+  TriangleMesh thumb = block();
+  for (Vec3& p : thumb.positions) {
+    p *= 0.004;
+    for (int i : t) p += Vec3(grid.x[i].x(), 0, grid.x[i].z()) / 3;
+  }
+  const collision::BodyCollider body(thumb);
+  SoftBodyContactEffect effect(grid.mesh, body, {.reach_m = 0.005, .stiffness_n_m3 = 1e4});
+  Couplings couplings;
+  effect.declare(couplings);
+  BlockMatrix matrix(grid.mesh.n_particles, couplings);
+  effect.bind(matrix);
+  std::vector<Vec3> x = grid.x;
+  for (Vec3& p : x) p.y() = 0.002;
+  const std::vector<Vec3> force = force_of(effect, grid.mesh.n_particles, x, matrix);
+  for (int i : t) EXPECT_GT(force[static_cast<std::size_t>(i)].y(), 0);
+}

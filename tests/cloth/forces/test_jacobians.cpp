@@ -50,8 +50,10 @@ double jacobian_error(Effect& effect, const ClothMesh& mesh, const Field& x, con
   fill(x, matrix, elements);
   expect_blocks_as_declared(matrix);
   Field plus = x, minus = x, product(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i)
-    plus[i] += step * direction[i], minus[i] -= step * direction[i];
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    plus[i] += step * direction[i];
+    minus[i] -= step * direction[i];
+  }
   const Field fp = fill(plus, unused, of_plus), fm = fill(minus, unused, of_minus);
   matrix.multiply(direction, product);
   for (const ContactElement& e : elements) {

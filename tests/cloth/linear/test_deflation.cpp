@@ -152,11 +152,16 @@ TEST(Deflation, systems_that_recur_take_far_fewer_iterations_to_the_same_solutio
                          with = solve_in_turn(cloth, true, in_turn);
   EXPECT_EQ(with[0], each[0]);
   int all = 0, fewer = 0;
-  for (std::size_t k = 1; k < each.size(); ++k) all += each[k], fewer += with[k];
+  for (std::size_t k = 1; k < each.size(); ++k) {
+    all += each[k];
+    fewer += with[k];
+  }
   EXPECT_LT(2 * fewer, all) << fewer << " against " << all;
   double difference = 0, length = 0;
-  for (std::size_t i = 0; i < alone.size(); ++i)
-    difference += (alone[i] - in_turn[i]).squaredNorm(), length += alone[i].squaredNorm();
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    difference += (alone[i] - in_turn[i]).squaredNorm();
+    length += alone[i].squaredNorm();
+  }
   EXPECT_LT(std::sqrt(difference / length), 0.02);
 }
 

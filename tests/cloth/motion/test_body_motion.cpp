@@ -26,16 +26,20 @@ TriangleMesh slab(double half, int n) {
   for (int r = 0; r < n; ++r)
     for (int c = 0; c < n; ++c) {
       const int a = r * row + c, b = a + 1, d = a + row, e = d + 1;
-      m.triangles.push_back({a, d, b}), m.triangles.push_back({b, d, e});
-      m.triangles.push_back({below + a, below + b, below + d}),
-          m.triangles.push_back({below + b, below + e, below + d});
+      m.triangles.push_back({a, d, b});
+      m.triangles.push_back({b, d, e});
+      m.triangles.push_back({below + a, below + b, below + d});
+      m.triangles.push_back({below + b, below + e, below + d});
     }
   for (int k = 0; k < n; ++k) { // walls
     const auto wall = [&](int p, int q) {
-      m.triangles.push_back({p, q, below + p}), m.triangles.push_back({q, below + q, below + p});
+      m.triangles.push_back({p, q, below + p});
+      m.triangles.push_back({q, below + q, below + p});
     };
-    wall(k, k + 1), wall(n * row + k + 1, n * row + k), wall((k + 1) * row, k * row),
-        wall(k * row + n, (k + 1) * row + n);
+    wall(k, k + 1);
+    wall(n * row + k + 1, n * row + k);
+    wall((k + 1) * row, k * row);
+    wall(k * row + n, (k + 1) * row + n);
   }
   return m;
 }

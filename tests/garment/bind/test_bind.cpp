@@ -147,8 +147,10 @@ TEST(bind, levels_go_to_their_like) {
     double sum = 0, n = 0;
     for (std::size_t i = 0; i < placed.size(); ++i)
       if (std::abs(g.position[i].x()) < 0.1 &&
-          std::abs(g.position[i].y() - from.levels.at(level).y) < 0.01)
-        sum += placed[i].y(), ++n;
+          std::abs(g.position[i].y() - from.levels.at(level).y) < 0.01) {
+        sum += placed[i].y();
+        ++n;
+      }
     ASSERT_GT(n, 5);
     EXPECT_NEAR(sum / n, to.levels.at(level).y, 0.02) << level;
   }
@@ -169,8 +171,10 @@ TEST(bind, a_waist_whose_places_lie_the_other_way_round_is_met_between_them) {
     double sum = 0, n = 0;
     for (std::size_t i = 0; i < placed.size(); ++i)
       if (std::abs(g.position[i].x()) < 0.1 &&
-          std::abs(g.position[i].y() - height(from, level)) < 0.01)
-        sum += placed[i].y(), ++n;
+          std::abs(g.position[i].y() - height(from, level)) < 0.01) {
+        sum += placed[i].y();
+        ++n;
+      }
     ASSERT_GT(n, 5);
     EXPECT_NEAR(sum / n, height(to, level), off) << level;
   }

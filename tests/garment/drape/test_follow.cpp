@@ -145,7 +145,8 @@ TEST(Follow, the_same_lines_give_the_same_bytes_and_no_edit_leaves_the_drape_whe
   EXPECT_LT(most, 0.003);
   const std::vector<std::string> lines = {HEAD,
                                           R"({"edit": "take-in", "seam": "left", "by": 0.5})"};
-  play(one, pillar, lines), play(two, pillar, lines);
+  play(one, pillar, lines);
+  play(two, pillar, lines);
   EXPECT_EQ(strict_hash(one), strict_hash(two));
 }
 
@@ -204,7 +205,8 @@ TEST(Follow, a_garment_read_from_its_document_ends_in_the_same_bytes) { // the p
   auto source = std::make_shared<pattern::Pattern>(*start.panels.source);
   source->panels[0].hint.rigid = Mat4(Mat4::Identity() * 1.0);
   (*source->panels[0].hint.rigid)(2, 3) = 0.2 / 3;
-  source->panels[1].hint.part = "torso", source->panels[1].hint.theta = std::acos(-1.0) / 3,
+  source->panels[1].hint.part = "torso";
+  source->panels[1].hint.theta = std::acos(-1.0) / 3;
   source->panels[1].hint.height = 1.0 / 3;
   source->panels[1].grain = Vec2(1, 3).normalized();
   start.panels.source = source;

@@ -36,7 +36,7 @@ Garment tube(double radius, double around, double along) {
       g.panels.triangles.push_back({a, b, d + 1});
       g.panels.triangles.push_back({a, d + 1, d});
     }
-  p.n_vertices = static_cast<int>(g.position.size()),
+  p.n_vertices = static_cast<int>(g.position.size());
   p.n_triangles = static_cast<int>(g.panels.triangles.size());
   g.panels.panels.push_back(p);
   g.panels.placed = g.position;
@@ -56,8 +56,10 @@ TEST(cloth_strain, the_largest_is_that_of_a_place_and_not_of_one_triangle) {
   const ClothState cloth(g, skin);
   double single = 0;
   std::vector<int> all;
-  for (std::size_t f = 0; f < cloth.strains.size(); ++f)
-    single = std::max(single, cloth.strains[f].thread()), all.push_back(static_cast<int>(f));
+  for (std::size_t f = 0; f < cloth.strains.size(); ++f) {
+    single = std::max(single, cloth.strains[f].thread());
+    all.push_back(static_cast<int>(f));
+  }
   const StrainFigures figures = strain_of(cloth, all);
   EXPECT_GT(single, 0.3);
   EXPECT_LT(figures.max, 0.5 * single);

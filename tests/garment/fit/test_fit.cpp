@@ -58,7 +58,8 @@ SectionChain arc(double a, double b, double radius, bool backwards = false) {
     const Vec3 p(radius * std::sin(u), 0, radius * std::cos(u)),
         q(radius * std::sin(v), 0, radius * std::cos(v));
     chain.segments.push_back({0, p, q, (q - p).norm(), 0});
-    chain.length += (q - p).norm(), chain.rest_length += (q - p).norm();
+    chain.length += (q - p).norm();
+    chain.rest_length += (q - p).norm();
   }
   if (backwards) chain.reverse();
   return chain;
@@ -72,7 +73,8 @@ TEST(FitPolicy, what_is_borne_on_its_own_body_is_borne_on_another) {
   EXPECT_EQ(policy.too_small_ease(limits, -0.06, "bust", "top", ""), limits.too_small_ease)
       << "nothing is known of it";
   EXPECT_EQ(policy.strain_p99("top", ""), 0.05);
-  policy.worn_p99 = 0.07, policy.worn_max = 0.1;
+  policy.worn_p99 = 0.07;
+  policy.worn_max = 0.1;
   EXPECT_NEAR(policy.strain_p99("top", ""), 0.077, 1e-12);
   EXPECT_EQ(policy.strain_max("top", ""), 0.30) << "what any cloth bears stays";
   EXPECT_NEAR(policy.too_small_ease(limits, -0.06, "bust", "top", ""), -0.07, 1e-12);
@@ -188,8 +190,10 @@ TEST(fit, a_level_that_a_slanting_hem_crosses_is_left_out) {
   const double level = body.levels.at("waist_semantic").y;
   double front = -1e9, back = 1e9;
   for (const Vec3& p : whole.position)
-    if (std::abs(p.y() - level) < 0.02 && std::abs(p.x()) < 0.1)
-      front = std::max(front, p.z()), back = std::min(back, p.z());
+    if (std::abs(p.y() - level) < 0.02 && std::abs(p.x()) < 0.1) {
+      front = std::max(front, p.z());
+      back = std::min(back, p.z());
+    }
   for (const bool both : {false, true}) { // the hem rises to the front, where it leaves a fifth of
                                           // the level bare; or to front and back
     const double middle = 0.5 * (front + back);

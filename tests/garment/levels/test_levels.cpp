@@ -5,15 +5,20 @@
 #include <garment/levels/finer_mesh.hpp>
 #include <garment/levels/soft_sewing.hpp>
 #include <gtest/gtest.h>
+#include <mannequin.hpp>
+#include <measures.hpp>
 #include <sloper/base/parallel.hpp>
 #include <sloper/base/progress.hpp>
 #include <sloper/body/body_json.hpp>
+#include <sloper/body/measure_scan.hpp>
+#include <sloper/garment/body_model/collision_body.hpp>
 #include <sloper/garment/drape/drape.hpp>
 #include <sloper/garment/scene/scene.hpp>
 #include <sloper/garment/sewing.hpp>
 #include <sloper/garment/simulate/checkpoint.hpp>
 #include <sloper/io/json.hpp>
 #include <sloper/pattern/mesh/mesh_pattern.hpp>
+#include <sloper/pattern/place/place_panels.hpp>
 #include <sloper/pattern/read/read_pattern.hpp>
 #include <support/drape_scene.hpp>
 
@@ -52,6 +57,37 @@ pattern::PanelMesh two_pieces(double edge, double half = 20) {
     }
   return mesh;
 }
+
+/// A shirt drafted for a figure, placed around it on the coarse mesh.
+struct PlacedShirt {
+  body::Body body;
+  Garment garment;
+
+  explicit PlacedShirt(const samples::Mannequin& figure) {
+    const samples::MadeMannequin made = samples::make_mannequin(figure);
+    body = body::measure_scan(made.mesh, "figure", "", {}, silent_reporter()).body;
+    samples::Draft draft = samples::draft_shirt(samples::measures_from_body(made.truth, "figure"));
+    draft.remove("collar");
+    const pattern::Pattern source =
+        pattern::read_pattern_json(samples::pattern_document(draft), "shirt");
+    garment.panels = pattern::mesh_pattern(source, 0.048, "shirt");
+    pattern::place_panels(source, body, garment.panels);
+  }
+  /// m, the mean over the stitches by which sleeves close on themselves.
+  double sleeve_gap() const {
+    double sum = 0;
+    int n = 0;
+    for (const pattern::MeshSeam& seam : garment.panels.seams)
+      for (std::size_t k = 0; k < seam.a.size(); ++k) {
+        if (seam.name.find("under_front") == std::string::npos) continue;
+        sum += (garment.panels.placed[static_cast<std::size_t>(seam.a[k])] -
+                garment.panels.placed[static_cast<std::size_t>(seam.b[k])])
+                   .norm();
+        ++n;
+      }
+    return n ? sum / n : 1e300;
+  }
+};
 
 double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   double largest = 0;
@@ -120,6 +156,25 @@ TEST(SoftSewing, starts_a_micrometre_apart_end_micrometres_apart_where_no_body_h
   EXPECT_LT(largest_difference(ends[0].position, ends[1].position), 2e-5);
 }
 
+TEST(SoftSewing, sleeves_close_around_the_arms_before_they_are_sewn_in) {
+  samples::Mannequin tall; // an arm left the sleeve by its open seam: gaps of 20 mm
+  tall.sex = "m";
+  tall.stature_m = 1.85;
+  PlacedShirt shirt(tall);
+  CollisionBody met(&shirt.body, 1e-3, silent_reporter());
+  met.prepare(met.ends_near(shirt.garment.panels.placed));
+  const SoftSewing sewing = sew_softly(shirt.garment, met, silent_reporter());
+  EXPECT_TRUE(sewing.finite);
+  EXPECT_LT(sewing.widest_gap_m, 0.012);
+}
+
+TEST(SoftSewing, a_sleeve_that_would_start_in_the_trunk_starts_farther_out_and_is_not_opened) {
+  samples::Mannequin stout; // sides of its sleeves started 20 cm apart
+  stout.bmi = 28;
+  stout.arm_deg = 20;
+  EXPECT_LT(PlacedShirt(stout).sleeve_gap(), 0.13);
+}
+
 TEST(DrapeLevels, panels_without_their_pattern_are_draped_on_their_own_mesh_to_the_same_bytes) {
   const body::Body pillar = make_pillar();
   Garment once = make_skirt(0.76, 0.28, 0.03), through = once;
@@ -174,7 +229,7 @@ TEST(DrapeLevels, draft_ends_where_the_coarse_rest_is_clear_and_finer_presets_go
   EXPECT_EQ(standard.drape_to("standard").stop_reason, StopReason::AT_REST);
   Garment on = draft.garment;
   const DrapeReport climbed =
-      drape(on, &draft.body, preset_settings("standard"), silent_reporter());
+      drape(on, &draft.body, preset_settings("standard"), silent_reporter(), {.carried = true});
   EXPECT_TRUE(climbed.converged);
   EXPECT_EQ(largest_difference(on.position, standard.garment.position), 0) << "the same ladder";
 }

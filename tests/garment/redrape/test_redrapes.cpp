@@ -96,7 +96,9 @@ TEST(Redrapes, what_all_thrown_errors_leave_is_the_first) {
   set_thread_count(2);
   try {
     run_alone(5, [](std::size_t k) {
-      if (k > 1) throw Error(ErrorKind::INPUT, "", "task " + std::to_string(k), "went wrong");
+      if (k > 1)
+        throw Error(ErrorKind::INPUT, "test.fact"_id, "", "task " + std::to_string(k),
+                    "went wrong");
     });
     FAIL();
   } catch (const Error& e) {

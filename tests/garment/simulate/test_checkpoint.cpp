@@ -49,7 +49,10 @@ Case sleeve() { // its end is held while the body is inflated
   c.name = "sleeve";
   drape(c.garment, &c.body, {}, silent_reporter());
   c.garment.bind = bind_as_sleeve(c.garment, 0.8);
-  for (Vec3& p : c.body.skin.positions) p.x() *= 1.05, p.z() *= 1.05;
+  for (Vec3& p : c.body.skin.positions) {
+    p.x() *= 1.05;
+    p.z() *= 1.05;
+  }
   return c;
 }
 

@@ -89,7 +89,10 @@ TEST(SleeveEnds, are_held_while_the_body_is_inflated_unless_that_is_switched_off
   body::Body pillar = make_pillar();
   Garment garment = hung(pillar);
   garment.bind = bind_as_sleeve(garment, lowest(garment));
-  for (Vec3& p : pillar.skin.positions) p.x() *= 1.05, p.z() *= 1.05;
+  for (Vec3& p : pillar.skin.positions) {
+    p.x() *= 1.05;
+    p.z() *= 1.05;
+  }
   DrapeSettings settings;
   for (const char* effects : {"auto", "auto,-pins"}) {
     settings.effects = effects;

@@ -301,7 +301,8 @@ TEST(Edits, AnyLogIsTakenBackToTheLastByteAndReplaysTheSame) {
       } catch (const Error&) {
         continue;
       }
-      log += (log.empty() ? "" : ",") + edit, ++n_edits;
+      log += (log.empty() ? "" : ",") + edit;
+      ++n_edits;
     }
     SCOPED_TRACE(log);
     const Pattern replayed = edited(start, log);

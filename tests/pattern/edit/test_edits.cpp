@@ -65,7 +65,8 @@ TEST(Edits, ReplayGivesTheSameOutline) {
   const std::string log =
       R"({"edit": "lengthen", "panel": "front", "at": [0, 30], "along": [0, 1], "by": 4}, {"edit": "scale", "x": 1.1, "y": 0.95}, {"edit": "shrink", "panel": "back", "warp": 0.8, "weft": 1})";
   Pattern one = own(tube_text()), two = own(tube_text());
-  edit(one, log), edit(two, log);
+  edit(one, log);
+  edit(two, log);
   EXPECT_EQ(points(one), points(two));
   EXPECT_NEAR(outline_area(one.panels[0]), 0.4 * 1.1 * 0.64 * 0.95, 1e-8);
   EXPECT_NEAR(outline_area(one.panels[1]), 0.4 * 1.1 * 0.6 * 0.95 * 0.8, 1e-8);

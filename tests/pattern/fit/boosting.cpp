@@ -32,11 +32,13 @@ public:
       for (std::size_t k : m_rows) {
         if (m_node[k] < first || m_node[k] == DONE) continue;
         const std::size_t x = m_node[k] - first;
-        sum[x] += slope[k], weight[x] += curve[k];
+        sum[x] += slope[k];
+        weight[x] += curve[k];
         for (std::size_t c = 0; c < m_clues && depth < m_how.depth; ++c) {
           if (!m_used[c]) continue;
           const std::size_t at = (x * m_clues + c) * CLASSES + m_samples[k]->evidence[c];
-          g[at] += slope[k], h[at] += curve[k];
+          g[at] += slope[k];
+          h[at] += curve[k];
         }
       }
       for (std::size_t x = 0; x < count; ++x) {
@@ -72,13 +74,17 @@ private:
     for (std::size_t c = 0; c < m_clues; ++c) {
       double below = 0, own = 0;
       for (std::size_t q = 0; q + 1 < CLASSES && m_used[c]; ++q) {
-        below += g[c * CLASSES + q], own += h[c * CLASSES + q];
+        below += g[c * CLASSES + q];
+        own += h[c * CLASSES + q];
         const double rest = weight - own;
         if (own < m_how.least_weight || rest < m_how.least_weight) continue;
         const double gain = below * below / (own + m_how.ridge) +
                             (sum - below) * (sum - below) / (rest + m_how.ridge) - base;
-        if (gain > best)
-          best = gain, node.clue = static_cast<int>(c), node.at = static_cast<int>(q);
+        if (gain > best) {
+          best = gain;
+          node.clue = static_cast<int>(c);
+          node.at = static_cast<int>(q);
+        }
       }
     }
     return node.clue >= 0;
@@ -110,7 +116,10 @@ private:
 SeamTrees boost(const std::vector<const Sample*>& samples, std::size_t clues, const Boosting& how) {
   SeamTrees out;
   double sewn = 0, all = 0;
-  for (const Sample* s : samples) sewn += s->sewn ? s->weight : 0, all += s->weight;
+  for (const Sample* s : samples) {
+    sewn += s->sewn ? s->weight : 0;
+    all += s->weight;
+  }
   out.constant = std::round(std::log(sewn / std::max(all - sewn, 1e-9)) * 1000) / 1000;
   std::mt19937_64 random(12345);
   std::vector<double> odds(samples.size(), out.constant);
@@ -118,7 +127,7 @@ SeamTrees boost(const std::vector<const Sample*>& samples, std::size_t clues, co
   for (int t = 0; t < how.trees; ++t) {
     for (std::size_t k = 0; k < samples.size(); ++k) {
       const double p = 1 / (1 + std::exp(-odds[k])), w = samples[k]->weight;
-      slope[k] = static_cast<float>(w * (samples[k]->sewn - p)),
+      slope[k] = static_cast<float>(w * (samples[k]->sewn - p));
       curve[k] = static_cast<float>(w * std::max(p * (1 - p), 1e-9));
     }
     SeamTrees one;
@@ -137,7 +146,8 @@ static void node_text(const std::vector<SeamTrees::Node>& tree, std::size_t k, s
     return;
   }
   text += std::to_string(node.clue) + ',' + std::to_string(node.at);
-  node_text(tree, k + 1, text), node_text(tree, node.second, text);
+  node_text(tree, k + 1, text);
+  node_text(tree, node.second, text);
 }
 
 std::string trees_text(const SeamTrees& trees) {

@@ -77,11 +77,13 @@ int main(int argc, char** argv) {
   std::vector<std::unique_ptr<Garment>> all;
   for (int k = 2; k < argc; ++k) {
     auto g = std::make_unique<Garment>();
-    g->path = argv[k], g->kept = g->path.find("keep") != std::string::npos;
+    g->path = argv[k];
+    g->kept = g->path.find("keep") != std::string::npos;
     g->pattern = read_pattern(argv[k], PatternChoice{});
     if (g->pattern.seams.empty()) continue;
     for (Panel& panel : g->pattern.panels) {
-      g->names.push_back(panel.name), g->truth.push_back(told(panel.name));
+      g->names.push_back(panel.name);
+      g->truth.push_back(told(panel.name));
       panel.hint = {}, panel.label.clear();
     }
     g->witness = std::make_unique<ShapeWitness>(g->pattern);
@@ -89,7 +91,8 @@ int main(int argc, char** argv) {
   }
   RoleModel model;
   Boosting how;
-  how.trees = 60, how.depth = 3;
+  how.trees = 60;
+  how.depth = 3;
   for (std::size_t look : {0, 1}) {
     std::vector<std::vector<SeamTrees>> trees(FOLDS + 1);
     for (std::size_t fold = 0; fold <= FOLDS; ++fold)
@@ -132,7 +135,8 @@ int main(int argc, char** argv) {
         faces.push_back(
             {{}, g->witness->link(l, parts), g->truth[l.a].face == g->truth[l.b].face, 1});
   }
-  model.back = learn(backs, how), model.same_face = learn(faces, how);
+  model.back = learn(backs, how);
+  model.same_face = learn(faces, how);
   std::size_t panels = 0, parts = 0, right = 0, whole = 0, garments = 0;
   for (const auto& g : all) {
     if (!g->kept) continue;
@@ -143,7 +147,9 @@ int main(int argc, char** argv) {
       const bool part = roles[k].part == t.part,
                  side = (t.face == 0 || (t.face > 0) == roles[k].back) &&
                         (t.hand == 0 || t.hand == roles[k].hand || t.part == 2);
-      ++panels, parts += part, right += part && (side || t.part == 2);
+      ++panels;
+      parts += part;
+      right += part && (side || t.part == 2);
       if (!part || !(side || t.part == 2))
         wrong += " " + g->names[k] + "=" + SHAPE_PART_NAMES[roles[k].part] +
                  (roles[k].back ? " back" : " front") +
@@ -151,7 +157,8 @@ int main(int argc, char** argv) {
                   : roles[k].hand < 0 ? " right"
                                       : "");
     }
-    ++garments, whole += wrong.empty();
+    ++garments;
+    whole += wrong.empty();
     if (!wrong.empty()) std::printf("%s:%s\n", g->path.c_str(), wrong.c_str());
   }
   std::printf("%zu panels: part right %.3f, side too %.3f; %zu of %zu garments wholly\n", panels,

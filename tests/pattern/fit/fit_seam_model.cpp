@@ -67,14 +67,17 @@ std::vector<Seam> through_dxf(Pattern& pattern) {
 
 std::unique_ptr<Garment> prepare(const std::string& path, Pattern pattern) {
   auto g = std::make_unique<Garment>();
-  g->path = path, g->kept = path.find("keep") != std::string::npos;
+  g->path = path;
+  g->kept = path.find("keep") != std::string::npos;
   g->pattern = std::move(pattern);
   const std::vector<Seam> seams = through_dxf(g->pattern);
   g->sides = seam_sides(g->pattern, all_corners(g->pattern), SHORTEST);
   std::map<std::array<int, 2>, int> at;
-  for (std::size_t k = 0; k < g->sides.size(); ++k)
-    g->sides[k].name.clear(), g->sides[k].hand = 0,
-                              at[{g->sides[k].panel, g->sides[k].first}] = static_cast<int>(k);
+  for (std::size_t k = 0; k < g->sides.size(); ++k) {
+    g->sides[k].name.clear();
+    g->sides[k].hand = 0;
+    at[{g->sides[k].panel, g->sides[k].first}] = static_cast<int>(k);
+  }
   for (const Seam& s : seams) {
     if (s.a.size() != 1 || s.b.size() != 1) continue;
     const auto a = at.find({s.a[0].panel, s.a[0].edge}), b = at.find({s.b[0].panel, s.b[0].edge});
@@ -118,7 +121,8 @@ public:
         g.odds = g.assembly->look(trees[fold], look ? &g.odds : nullptr);
       });
       model.looks.push_back(trees.back());
-      std::printf("look %d\n", look), std::fflush(stdout);
+      std::printf("look %d\n", look);
+      std::fflush(stdout);
     }
     for (Garment* g : m_train) sample_states(*g);
     const auto settle = folds(m_train, plain, m_how);
@@ -171,8 +175,10 @@ private:
       for (const SidePair& t : g.truth) {
         const double own =
             odds[static_cast<std::size_t>(t[0]) * n + static_cast<std::size_t>(t[1])];
-        if (share() < part * (0.3 + 1.4 / (1 + std::exp(-own))))
-          g.assembly->commit(odds, t), done.insert(t);
+        if (share() < part * (0.3 + 1.4 / (1 + std::exp(-own)))) {
+          g.assembly->commit(odds, t);
+          done.insert(t);
+        }
       }
       const SeamWitness::Odds sums = g.witness->sum_up(odds);
       for (const auto& pair : g.assembly->pairs()) {
@@ -198,11 +204,14 @@ private:
       std::set<SidePair> guess;
       for (const auto& [pair, odds] : found) guess.insert(pair);
       const std::set<SidePair> right = right_ones(g->pattern, g->sides, guess, g->truth);
-      hits += right.size(), guessed += guess.size(), sewn += g->truth.size();
+      hits += right.size();
+      guessed += guess.size();
+      sewn += g->truth.size();
       whole += right.size() == guess.size() && guess.size() == g->truth.size();
       for (const auto& [pair, odds] : found) {
         auto& grade = grades[static_cast<int>(std::floor(std::min(odds, 8.0) * 2))];
-        ++grade[0], grade[1] += static_cast<int>(right.count(pair));
+        ++grade[0];
+        grade[1] += static_cast<int>(right.count(pair));
       }
       if (!verbose) continue;
       std::printf("%s: %zu seams, %zu guessed, %zu right\n", g->path.c_str(), g->truth.size(),

@@ -74,7 +74,10 @@ void join(Pattern& pattern, std::size_t index) {
     for (auto* side : {&s.a, &s.b})
       for (Run& run : *side) {
         if (run.panel == p) run.edge = (run.edge - e - 1 + n) % n;
-        else if (run.panel == q) run.panel = p, run.edge = n - 1 + (run.edge - f - 1 + m) % m;
+        else if (run.panel == q) {
+          run.panel = p;
+          run.edge = n - 1 + (run.edge - f - 1 + m) % m;
+        }
         if (run.panel > q) --run.panel;
       }
   pattern.panels.erase(pattern.panels.begin() + q);

@@ -16,8 +16,10 @@ void join(Pattern& pattern, std::size_t seam);
 
 template<class Keep> Pattern joined(Pattern pattern, Keep keep) {
   for (std::size_t k = 0; k < pattern.seams.size();)
-    if (detail::can_join(pattern, pattern.seams[k]) && !keep()) detail::join(pattern, k), k = 0;
-    else ++k;
+    if (detail::can_join(pattern, pattern.seams[k]) && !keep()) {
+      detail::join(pattern, k);
+      k = 0;
+    } else ++k;
   return pattern;
 }
 

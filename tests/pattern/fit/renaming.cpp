@@ -22,10 +22,17 @@ public:
 
   std::set<SidePair> right_ones(const std::set<SidePair>& guess, const std::set<SidePair>& truth) {
     std::map<int, int> guessed, sewn;
-    for (const SidePair& x : guess) guessed[x[0]] = x[1], guessed[x[1]] = x[0];
-    for (const SidePair& x : truth) sewn[x[0]] = x[1], sewn[x[1]] = x[0];
+    for (const SidePair& x : guess) {
+      guessed[x[0]] = x[1];
+      guessed[x[1]] = x[0];
+    }
+    for (const SidePair& x : truth) {
+      sewn[x[0]] = x[1];
+      sewn[x[1]] = x[0];
+    }
     const int n = static_cast<int>(m_outlines.size());
-    m_image.assign(m_outlines.size(), {-1, 0}), m_used.assign(m_outlines.size(), 0);
+    m_image.assign(m_outlines.size(), {-1, 0});
+    m_used.assign(m_outlines.size(), 0);
     for (int p = 0; p < n; ++p) {
       std::size_t like = 0;
       for (int q = 0; q < n; ++q) like += shifts(p, q).size();

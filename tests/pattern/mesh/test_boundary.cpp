@@ -46,7 +46,7 @@ TEST(Boundary, AHoleTooSmallForTheMeshIsLeftOutAndTold) {
   EXPECT_EQ(sew(fine).boundary_loops, 2);
   const auto told = [](const PanelMesh& m) {
     return std::any_of(m.findings.begin(), m.findings.end(),
-                       [](const std::string& f) { return f.find("p: the hole at h1") == 0; });
+                       [](const Message& f) { return f.text.find("p: the hole at h1") == 0; });
   };
   EXPECT_TRUE(told(coarse));
   EXPECT_FALSE(told(fine));
@@ -79,8 +79,9 @@ TEST(Boundary, TinyEdgesAreMergedAndReported) {
     {"name": "p", "outline": [{"edge": "b", "path": [["M", 0, 0], ["L", 40, 0]]}, {"edge": "chamfer", "path": [["L", 40.1, 0.1]]}, {"edge": "r", "path": [["L", 40.1, 30]]},
       {"edge": "t", "path": [["L", 0, 30]]}, {"edge": "l", "path": [["L", 0, 0]]}]}]})";
   const PanelMesh mesh = mesh_pattern(own(text), 0.015, "test.json");
-  EXPECT_TRUE(std::any_of(mesh.findings.begin(), mesh.findings.end(), [](const std::string& f) {
-    return f.find("p: chamfer") != std::string::npos && f.find("0.14 cm") != std::string::npos;
+  EXPECT_TRUE(std::any_of(mesh.findings.begin(), mesh.findings.end(), [](const Message& f) {
+    return f.text.find("p: chamfer") != std::string::npos &&
+           f.text.find("0.14 cm") != std::string::npos;
   }));
   EXPECT_GT(smallest_angle_deg(mesh), 25);
 }

@@ -33,11 +33,15 @@ TEST(Mesh, AMemoryOfPanelsChangesNothing) {
     EXPECT_EQ(with.findings, without.findings);
   };
   Pattern pattern = own(tube_text());
-  same(pattern, 0.015, 0), same(pattern, 0.015, 0);
+  same(pattern, 0.015, 0);
+  same(pattern, 0.015, 0);
   pattern.panels[0].lines = {{"pocket", "mark", {Segment::straight({-0.1, 0.2}, {0.1, 0.25})}}};
-  same(pattern, 0.015, 0);                           // a line
-  pattern.seams.pop_back(), same(pattern, 0.015, 0); // a seam
-  same(pattern, 0.015, 0.006), same(pattern, 0.012, 0.006), same(pattern, 0.012, 0);
+  same(pattern, 0.015, 0); // a line
+  pattern.seams.pop_back();
+  same(pattern, 0.015, 0); // a seam
+  same(pattern, 0.015, 0.006);
+  same(pattern, 0.012, 0.006);
+  same(pattern, 0.012, 0);
 }
 
 TEST(Mesh, AnEdgeLengthFarTooSmallIsRefusedBeforeTheMemoryIsFull) {
@@ -127,8 +131,8 @@ TEST(Mesh, ASharpCornerIsListedAndTheRestIsGood) {
     {"name": "godet", "outline": [{"edge": "a", "path": [["M", 0, 0], ["L", 12, 0]]}, {"edge": "b", "path": [["L", 6, 50]]}, {"edge": "c", "path": [["L", 0, 0]]}]}]})";
   const PanelMesh mesh = mesh_pattern(own(text), 0.015, "test.json");
   EXPECT_LT(smallest_angle_deg(mesh), 25);
-  EXPECT_TRUE(std::any_of(mesh.findings.begin(), mesh.findings.end(), [](const std::string& f) {
-    return f.find("godet: ") == 0 && f.find("below 25 degrees") != std::string::npos;
+  EXPECT_TRUE(std::any_of(mesh.findings.begin(), mesh.findings.end(), [](const Message& f) {
+    return f.text.find("godet: ") == 0 && f.text.find("below 25 degrees") != std::string::npos;
   }));
 }
 
@@ -171,7 +175,8 @@ TEST(Mesh, DocumentReadsBackAsItWasWritten) {
   const std::string path = (std::filesystem::temp_directory_path() /
                             ("sloper_panels_" + std::to_string(::getpid()) + ".json"))
                                .string();
-  mesh.placement = Placement::BODY, mesh.body_sha256 = "of a skin";
+  mesh.placement = Placement::BODY;
+  mesh.body_sha256 = "of a skin";
   write_panel_mesh(path, mesh, "test");
   const PanelMesh back = read_panel_mesh(path);
   EXPECT_EQ(back.name, mesh.name);

@@ -188,8 +188,10 @@ TEST(Placement, SleevesCutInOneWithTheTrunkLieAlongTheArmsHoweverTheyHang) {
           int n = 0;
           for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v)
             if (const double u = (p == 0 ? 1 : -1) * mesh.pattern[static_cast<std::size_t>(v)].x();
-                side * u > 0.585)
-              end += mesh.placed[static_cast<std::size_t>(v)], ++n;
+                side * u > 0.585) {
+              end += mesh.placed[static_cast<std::size_t>(v)];
+              ++n;
+            }
           end /= n;
           const Vec3 off = end - shoulder - (end - shoulder).dot(along) * along;
           EXPECT_LT(std::hypot(off.x(), off.y()), 0.06)
@@ -252,17 +254,18 @@ TEST(Placement, ChineseJapaneseAndKoreanNamesTellWhereAPieceGoes) {
 
 TEST(Placement, WhereNoNameTellsWhereAPieceGoesThatIsFound) {
   Pattern pattern = box_skirt(42);
-  pattern.panels[0].name = "P1", pattern.panels[1].name = "P2";
+  pattern.panels[0].name = "P1";
+  pattern.panels[1].name = "P2";
   PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
   EXPECT_TRUE(place_panels(pattern, waisted_body(), mesh).is_guess);
   ASSERT_FALSE(mesh.findings.empty());
-  EXPECT_EQ(mesh.findings.back().rfind("start: placed by their shapes: P1 (lower_body", 0), 0u)
-      << mesh.findings.back();
+  EXPECT_EQ(mesh.findings.back().text.rfind("start: placed by their shapes: P1 (lower_body", 0), 0u)
+      << mesh.findings.back().text;
   pattern.panels[1].name = "rear";
   mesh = mesh_pattern(pattern, 0.02, "t");
   EXPECT_FALSE(place_panels(pattern, waisted_body(), mesh).is_guess);
-  EXPECT_EQ(mesh.findings.back().rfind("start: placed by their shapes: P1 (lower_body", 0), 0u)
-      << mesh.findings.back();
+  EXPECT_EQ(mesh.findings.back().text.rfind("start: placed by their shapes: P1 (lower_body", 0), 0u)
+      << mesh.findings.back().text;
 }
 
 TEST(Placement, LeggingsInOnePieceGoAroundTheirLegs) {
@@ -273,7 +276,11 @@ TEST(Placement, LeggingsInOnePieceGoAroundTheirLegs) {
     {"name": "one", "outline": [{"edge": "hem", "path": [["M", -18, 0], ["L", 18, 0]]}, {"edge": "in_back", "path": [["L", 32, 70]]},
       {"edge": "seat", "path": [["L", 24, 102]]}, {"edge": "waist", "path": [["L", -24, 98]]}, {"edge": "front", "path": [["L", -30, 70]]},
       {"edge": "in_front", "path": [["L", -18, 0]]}]},
-    {"name": "two", "mirror_of": "one"}], "seams": [
+    {"name": "two", "mirror_of": "one"}, {"name": "waistband", "outline": [{"edge": "low", "path": [["M", 0, 0], ["L", 96, 0]]},
+      {"edge": "a", "path": [["L", 96, 5]]}, {"edge": "up", "path": [["L", 0, 5]]}, {"edge": "b", "path": [["L", 0, 0]]}]}], "seams": [
+    {"name": "ends", "a": [{"panel": "waistband", "edge": "a"}], "b": [{"panel": "waistband", "edge": "b", "from": 1, "to": 0}]},
+    {"name": "waist", "a": [{"panel": "waistband", "edge": "low"}],
+     "b": [{"panel": "one", "edge": "waist", "from": 1, "to": 0}, {"panel": "two", "edge": "waist", "from": 1, "to": 0}]},
     {"name": "in one", "a": [{"panel": "one", "edge": "in_back"}], "b": [{"panel": "one", "edge": "in_front"}]},
     {"name": "in two", "a": [{"panel": "two", "edge": "in_back"}], "b": [{"panel": "two", "edge": "in_front"}]},
     {"name": "seat", "a": [{"panel": "one", "edge": "seat"}], "b": [{"panel": "two", "edge": "seat"}]},
@@ -286,7 +293,7 @@ TEST(Placement, LeggingsInOnePieceGoAroundTheirLegs) {
   EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
   EXPECT_EQ(mesh.panels[0].part, "leg_l");
   EXPECT_EQ(mesh.panels[1].part, "leg_r");
-  for (const PanelInfo& info : mesh.panels)
+  for (const PanelInfo& info : {mesh.panels[0], mesh.panels[1]})
     for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v)
       EXPECT_GT(mesh.placed[static_cast<std::size_t>(v)].x() * (info.part == "leg_l" ? 1 : -1),
                 0.004)
@@ -530,8 +537,8 @@ TEST(Placement, PiecesOfACollarStandWhereTheyAreSewnOn) {
   };
   const int front = pattern.find_panel("front"), back = pattern.find_panel("back"),
             first = static_cast<int>(pattern.panels.size());
-  pattern.panels.push_back(piece("collar 1", 20.8, 20)),
-      pattern.panels.push_back(piece("collar 2", 20.8, 20));
+  pattern.panels.push_back(piece("collar 1", 20.8, 20));
+  pattern.panels.push_back(piece("collar 2", 20.8, 20));
   const auto sew = [&](const std::string& name, pattern::Run a, pattern::Run b) {
     pattern.seams.push_back({name, "seam", {a}, {b}, "", false});
   };
@@ -593,7 +600,7 @@ TEST(Placement, WithoutABodyPanelsLieFlatAndSaySo) {
   lay_flat(pattern, mesh);
   EXPECT_EQ(mesh.placement, Placement::FLAT);
   for (const Vec3& p : mesh.placed) EXPECT_EQ(p.z(), 0);
-  EXPECT_NE(mesh.findings.back().find("lie flat"), std::string::npos);
+  EXPECT_NE(mesh.findings.back().text.find("lie flat"), std::string::npos);
 }
 
 TEST(Placement, SharedPatternsStandFreeAroundAFigure) {

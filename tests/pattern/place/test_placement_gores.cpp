@@ -40,7 +40,8 @@ struct Placed {
                           b = static_cast<std::size_t>(t[(k + 1) % 3]);
         const double ratio =
             (mesh.placed[a] - mesh.placed[b]).norm() / (mesh.pattern[a] - mesh.pattern[b]).norm();
-        within += ratio >= low && ratio <= high, ++all;
+        within += ratio >= low && ratio <= high;
+        ++all;
       }
     return within / all;
   }
@@ -170,7 +171,8 @@ TEST(PlacementGores, GoresStandBesideEachOtherHoweverFlatTheirSidesLean) {
     double low = 1e300, high = -1e300;
     for (const std::string& gore : gore_names(4)) {
       const Vec2 y = skirt.heights(gore);
-      low = std::min(low, y.x()), high = std::max(high, y.y());
+      low = std::min(low, y.x());
+      high = std::max(high, y.y());
     }
     EXPECT_LT(high - low, 0.01 * std::hypot(0.5 * hem - 9, 34) + 0.1)
         << "in one row, no taller than its sides are long";
@@ -253,15 +255,16 @@ TEST(PlacementOfGores, PrincessSeamsOfAFlaredDressLieClosedFromTheShouldersToThe
         {"hem", 32, -100}, {"out3", 18, -58},  {"out2", 15, -38},
         {"out1", 15, -20}, {"arm", 4, -4},     {"shoulder", 0, -2},
         {"in1", 1.5, -38}, {"in2", -0.5, -58}, {"in3", -12.5, -100}};
-    drawn.panel(side + "_side_a", beside),
-        drawn.panel(side + "_side_b",
-                    seen_in_mirror(beside)); // to the right and the left as they are drawn
+    drawn.panel(side + "_side_a", beside);
+    drawn.panel(side + "_side_b",
+                seen_in_mirror(beside)); // to the right and the left as they are drawn
     for (const char* part : {"1", "2", "3"})
       for (const char* at : {"a", "b"})
         drawn.seam(side + "_centre", std::string(at) + part, side + "_side_" + at,
                    std::string("in") + part);
   };
-  front("front"), front("back");
+  front("front");
+  front("back");
   for (const auto& [a, b] : {std::pair("a", "b"), std::pair("b", "a")}) {
     for (const char* part : {"1", "2", "3"})
       drawn.seam(std::string("front_side_") + a, std::string("out") + part,

@@ -12,12 +12,15 @@ Pattern two_box_skirts(double inner, double outer) {
   Pattern both = box_skirt(inner);
   const Pattern other = box_skirt(outer);
   const int panels = static_cast<int>(both.panels.size());
-  for (Panel panel : other.panels)
-    both.panels.push_back(std::move(panel)), both.panels.back().name += "_over";
+  for (Panel panel : other.panels) {
+    both.panels.push_back(std::move(panel));
+    both.panels.back().name += "_over";
+  }
   for (Seam seam : other.seams) {
     for (auto* side : {&seam.a, &seam.b})
       for (auto& part : *side) part.panel += panels;
-    both.seams.push_back(std::move(seam)), both.seams.back().name += "_over";
+    both.seams.push_back(std::move(seam));
+    both.seams.back().name += "_over";
   }
   return both;
 }
@@ -75,8 +78,8 @@ TEST(Placement, ACircleSkirtHangsOnTheWaistInFoldsThoughItsSidesAreDrawnLevel) {
   const auto& hem = mesh.panels[0].outline;
   for (std::size_t i = 0; i < hem.size(); ++i) {
     const int a = hem[i], b = hem[(i + 1) % hem.size()];
-    drawn += (mesh.pattern[a] - mesh.pattern[b]).norm(),
-        placed += (mesh.placed[a] - mesh.placed[b]).norm();
+    drawn += (mesh.pattern[a] - mesh.pattern[b]).norm();
+    placed += (mesh.placed[a] - mesh.placed[b]).norm();
   }
   EXPECT_NEAR(placed / drawn, 1, 0.1) << "folds take up what is too wide";
 }
@@ -117,15 +120,20 @@ Pattern four_panel_skirt() {
              R"("}], "b": [{"panel": ")" + b + R"(", "edge": ")" + edge_b +
              (against ? R"("}]})" : R"(", "from": 0, "to": 1}]})");
   };
-  for (const char* edge : {"side", "side_hip"})
-    sew("front_l", edge, "back_l", edge, true), sew("front_r", edge, "back_r", edge, true);
-  for (const char* edge : {"middle", "middle_hip"})
-    sew("front_l", edge, "front_r", edge, true), sew("back_l", edge, "back_r", edge, true);
-  sew("front_l", "waist", "band_front", "low_l", true),
-      sew("front_r", "waist", "band_front", "low_r", true);
-  sew("back_r", "waist", "band_back", "low_l", true),
-      sew("back_l", "waist", "band_back", "low_r", true);
-  sew("band_front", "l", "band_back", "r", true), sew("band_front", "r", "band_back", "l", true);
+  for (const char* edge : {"side", "side_hip"}) {
+    sew("front_l", edge, "back_l", edge, true);
+    sew("front_r", edge, "back_r", edge, true);
+  }
+  for (const char* edge : {"middle", "middle_hip"}) {
+    sew("front_l", edge, "front_r", edge, true);
+    sew("back_l", edge, "back_r", edge, true);
+  }
+  sew("front_l", "waist", "band_front", "low_l", true);
+  sew("front_r", "waist", "band_front", "low_r", true);
+  sew("back_r", "waist", "band_back", "low_l", true);
+  sew("back_l", "waist", "band_back", "low_r", true);
+  sew("band_front", "l", "band_back", "r", true);
+  sew("band_front", "r", "band_back", "l", true);
   return own(text + R"(], "seams": [)" + seams + "]}");
 }
 
@@ -233,6 +241,35 @@ TEST(Placement, ASkirtInQuartersIsNoTrousersThoughItsSidesAreDrawnInTwoEdges) {
   const PlacementReport report = place_panels(pattern, waisted_body(), mesh);
   for (const PanelInfo& panel : mesh.panels) EXPECT_EQ(panel.part, "torso") << panel.name;
   EXPECT_EQ(report.crossings + report.vertices_inside + report.faces_through, 0);
+}
+
+TEST(Placement, AWholeCircleInThreeSectorsStandsAroundTheBodyInOneRow) {
+  const double waist = 11.5, hem = 61.5, turn = M_PI / 3; // cm; half of a third of a circle
+  const auto at = [&](double radius, double angle) {
+    return std::to_string(radius * std::sin(angle)) + ", " +
+           std::to_string(-radius * std::cos(angle));
+  };
+  std::string panels, seams;
+  for (int k = 0; k < 3; ++k) {
+    const std::string name = "skirt_panel_" + std::to_string(k),
+                      next = "skirt_panel_" + std::to_string((k + 1) % 3), comma = k ? ", " : "";
+    panels += comma + R"({"name": ")" + name + R"(", "outline": [{"edge": "hem", "path": [["M", )" +
+              at(hem, -turn) + R"(], ["A", )" + std::to_string(hem) + ", 0, 1, " + at(hem, turn) +
+              R"(]]}, {"edge": "l", "path": [["L", )" + at(waist, turn) +
+              R"(]]}, {"edge": "waist", "path": [["A", )" + std::to_string(waist) + ", 0, 0, " +
+              at(waist, -turn) + R"(]]}, {"edge": "r", "path": [["L", )" + at(hem, -turn) + "]]}]}";
+    seams += comma + R"({"name": "s)" + std::to_string(k) + R"(", "a": [{"panel": ")" + name +
+             R"(", "edge": "l"}], "b": [{"panel": ")" + next +
+             R"(", "edge": "r", "from": 1, "to": 0}]})";
+  }
+  const Pattern pattern =
+      own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "n", "panels": [)" +
+          panels + R"(], "seams": [)" + seams + "]}");
+  PanelMesh mesh = mesh_pattern(pattern, 0.03, "t");
+  const PlacementReport report = place_panels(pattern, waisted_body(), mesh);
+  EXPECT_TRUE(report.impossible.empty());
+  EXPECT_LT(report.seam_gap_mean, 0.1);
+  for (int k = 1; k < 3; ++k) EXPECT_NEAR(middle(mesh, k).y(), middle(mesh, 0).y(), 0.05);
 }
 
 } // namespace

@@ -48,8 +48,10 @@ double height_at(const PanelMesh& mesh, std::size_t panel, double at, bool lying
   double sum = 0, n = 0;
   for (int v : mesh.panels[panel].outline) {
     const Vec2& p = mesh.pattern[static_cast<std::size_t>(v)];
-    if (std::abs((lying ? p.x() : p.y()) - at) < 0.03)
-      sum += mesh.placed[static_cast<std::size_t>(v)].y(), ++n;
+    if (std::abs((lying ? p.x() : p.y()) - at) < 0.03) {
+      sum += mesh.placed[static_cast<std::size_t>(v)].y();
+      ++n;
+    }
   }
   return sum / n;
 }
@@ -85,7 +87,8 @@ TEST(PlacementUnnamed, WhatCannotBeMeantIsTold) {
     Mat4 placed = Mat4::Identity();
     if (k == 1)
       placed.topLeftCorner<3, 3>() = Eigen::AngleAxisd(M_PI, Vec3::UnitY()).toRotationMatrix();
-    placed(1, 3) = k == 2 ? -3 : 0.8, placed(2, 3) = k == 1 ? -0.3 : 0.3;
+    placed(1, 3) = k == 2 ? -3 : 0.8;
+    placed(2, 3) = k == 1 ? -0.3 : 0.3;
     pattern.panels[k].hint.rigid = placed;
   }
   PanelMesh mesh = mesh_pattern(pattern, 0.03, "t");
@@ -93,6 +96,79 @@ TEST(PlacementUnnamed, WhatCannotBeMeantIsTold) {
   ASSERT_FALSE(report.impossible.empty());
   EXPECT_NE(report.impossible.front().find("front_low starts below the floor"), std::string::npos)
       << report.impossible.front();
+}
+
+/// A closed outline of named edges, cm.
+std::string outline_text(const std::string& name,
+                         const std::vector<std::pair<const char*, Vec2>>& corners) {
+  const auto point = [](const Vec2& p) {
+    return std::to_string(p.x()) + ", " + std::to_string(p.y());
+  };
+  std::string outline;
+  for (const auto& [edge, to] : corners)
+    outline += std::string(outline.empty() ? R"({"edge": ")" : R"(, {"edge": ")") + edge +
+               R"(", "path": [)" +
+               (outline.empty() ? R"(["M", )" + point(corners.back().second) + "], " : "") +
+               R"(["L", )" + point(to) + "]]}";
+  return R"({"name": ")" + name + R"(", "outline": [)" + outline + "]}";
+}
+
+TEST(PlacementUnnamed, AFlounceAtASleeveLiesAlongTheArmThoughItsSidesLeanFarOut) {
+  const std::vector<std::pair<const char*, Vec2>>
+      trunk = {{"hem", {25, 0}},        {"side_l", {25, 40}}, {"arm_l", {20, 60}},
+               {"shoulder_l", {8, 63}}, {"neck", {-8, 63}},   {"shoulder_r", {-20, 60}},
+               {"arm_r", {-25, 40}},    {"side_r", {-25, 0}}},
+      sleeve = {{"hem", {14, 0}}, {"one", {17, 20}}, {"cap", {-3, 20}}, {"two", {0, 0}}},
+      flounce = {{"low", {30, 0}}, {"one", {22, 6}}, {"top", {8, 6}}, {"two", {0, 0}}};
+  std::string seams;
+  const auto sew = [&](const std::string& a, const std::string& b) {
+    const auto run = [](const std::string& text) {
+      const std::size_t dot = text.find('.');
+      return R"({"panel": ")" + text.substr(0, dot) + R"(", "edge": ")" + text.substr(dot + 1) +
+             '"';
+    };
+    seams += std::string(seams.empty() ? "" : ", ") + R"({"name": ")" + a + R"(", "a": [)" +
+             run(a) + R"(}], "b": [)" + run(b) + R"(, "from": 1, "to": 0}]})";
+  };
+  for (const char* edge : {"side", "shoulder"}) {
+    sew(std::string("front.") + edge + "_l", std::string("back.") + edge + "_r");
+    sew(std::string("front.") + edge + "_r", std::string("back.") + edge + "_l");
+  }
+  for (const char* part : {"left_sleeve", "sl_left_cuff_skirt"}) {
+    sew(std::string(part) + "_f.one", std::string(part) + "_b.two");
+    sew(std::string(part) + "_f.two", std::string(part) + "_b.one");
+  }
+  for (const char* half : {"_f", "_b"})
+    sew(std::string("left_sleeve") + half + ".hem",
+        std::string("sl_left_cuff_skirt") + half + ".top");
+  sew("front.arm_l", "left_sleeve_f.cap");
+  sew("back.arm_r", "left_sleeve_b.cap");
+  const Pattern pattern =
+      own(R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "n", "panels": [)" +
+          outline_text("front", trunk) + ", " + outline_text("back", trunk) + ", " +
+          outline_text("left_sleeve_f", sleeve) + ", " + outline_text("left_sleeve_b", sleeve) +
+          ", " + outline_text("sl_left_cuff_skirt_f", flounce) + ", " +
+          outline_text("sl_left_cuff_skirt_b", flounce) + R"(], "seams": [)" + seams + "]}");
+  PanelMesh mesh = mesh_pattern(pattern, 0.03, "t");
+  const PlacementReport report = place_panels(pattern, stick_body(45), mesh);
+  EXPECT_LT(report.seam_gap_mean, 0.2);
+  const Vec3 shoulder = middle(mesh, 2);
+  for (const std::size_t panel : {4u, 5u}) {
+    EXPECT_EQ(mesh.panels[panel].part, "arm_l");
+    double near = 0, far = 0, n_near = 0, n_far = 0;
+    for (int v : mesh.panels[panel].outline) {
+      const double reach = (mesh.placed[static_cast<std::size_t>(v)] - shoulder).norm();
+      if (mesh.pattern[static_cast<std::size_t>(v)].y() > 0.059) {
+        near += reach;
+        ++n_near;
+      }
+      if (mesh.pattern[static_cast<std::size_t>(v)].y() < 0.001) {
+        far += reach;
+        ++n_far;
+      }
+    }
+    EXPECT_GT(far / n_far, near / n_near + 0.03) << panel;
+  }
 }
 
 TEST(PlacementUnnamed, NamesAreReadAsPatternMakersWriteThem) {
@@ -103,6 +179,7 @@ TEST(PlacementUnnamed, NamesAreReadAsPatternMakersWriteThem) {
   }
   EXPECT_FALSE(says_sleeve(words_of("sleeveless_front")));
   EXPECT_TRUE(says_legs(words_of("shorts_l")));
+  EXPECT_FALSE(says_skirt(words_of("sl_left_cuff_skirt_b"))) << "the skirt of a cuff";
   EXPECT_TRUE(says_back(words_of("REGULAR TEEBK")));
   EXPECT_TRUE(name_suggests_front(words_of("REGULAR TEEFR")));
 }
@@ -111,10 +188,12 @@ TEST(PlacementUnnamed, TheKindOfPieceTellsWhereACodeDoesNot) {
   Pattern pattern;
   pattern.source_format = "dxf";
   pattern.panels.resize(3);
-  pattern.panels[0].name = "GMX1006S18X", pattern.panels[0].label = "SLEEVE SHORT";
-  pattern.panels[1].name = "GLX0924S16_NEW_BK",
+  pattern.panels[0].name = "GMX1006S18X";
+  pattern.panels[0].label = "SLEEVE SHORT";
+  pattern.panels[1].name = "GLX0924S16_NEW_BK";
   pattern.panels[1].label = "FRONT"; // copied from the front, as it happens
-  pattern.panels[2].name = "Y12", pattern.panels[2].label = "BACK";
+  pattern.panels[2].name = "Y12";
+  pattern.panels[2].label = "BACK";
   EXPECT_TRUE(says_sleeve(words_of(pattern, 0)));
   EXPECT_TRUE(says_back(words_of(pattern, 1)));
   EXPECT_FALSE(name_suggests_front(words_of(pattern, 1)));

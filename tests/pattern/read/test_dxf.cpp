@@ -129,9 +129,14 @@ TEST(Dxf, TheOrderOfPiecesDoesNotMatter) {
     const Pattern p = read_dxf(file(all), "p.dxf");
     std::vector<std::string> got;
     std::vector<double> area;
-    for (const Panel& panel : p.panels)
-      got.push_back(panel.name), area.push_back(outline_area(panel));
-    if (names.empty()) names = got, areas = area;
+    for (const Panel& panel : p.panels) {
+      got.push_back(panel.name);
+      area.push_back(outline_area(panel));
+    }
+    if (names.empty()) {
+      names = got;
+      areas = area;
+    }
     EXPECT_EQ(got, names);
     EXPECT_EQ(area, areas);
   } while (std::next_permutation(order.begin(), order.end()));
@@ -180,8 +185,8 @@ TEST(Dxf, PiecesToBeCutTwiceAreSaid) {
   for (const char* words : {"Quantity: 2", "Fabric, Cut 2"}) {
     const Pattern p = read_dxf(
         file(block("a", polyline("14", box(400, 300)) + text_entity("1", 0, 0, words))), "p.dxf");
-    EXPECT_TRUE(std::any_of(p.findings.begin(), p.findings.end(), [](const std::string& f) {
-      return f == "a: to be cut 2 times; one copy is used";
+    EXPECT_TRUE(std::any_of(p.findings.begin(), p.findings.end(), [](const Message& f) {
+      return f.text == "a: to be cut 2 times; one copy is used";
     })) << words;
   }
   EXPECT_EQ(read_dxf(file(block("a", polyline("14", box(400, 300)) +
@@ -210,8 +215,8 @@ TEST(Dxf, ASewLineOnLayerEightIsToldFromAnInternalLine) {
   // A sew line that leaves out most of the piece is a fault of the exporting program.
   const Pattern p = read_dxf(file(block("a", cut + polyline("14", box(150, 300)))), "p.dxf");
   EXPECT_NEAR(outline_area(p.panels[0]), 0.42 * 0.32, 1e-9);
-  EXPECT_TRUE(std::any_of(p.findings.begin(), p.findings.end(), [](const std::string& f) {
-    return f.find("does not follow its outline") != std::string::npos;
+  EXPECT_TRUE(std::any_of(p.findings.begin(), p.findings.end(), [](const Message& f) {
+    return f.text.find("does not follow its outline") != std::string::npos;
   }));
 }
 

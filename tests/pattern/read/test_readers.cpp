@@ -73,7 +73,7 @@ TEST(GarmentCode, APanelPlacedWithItsOutsideTowardsTheBodyIsTheOneDrawnTheOtherW
   finish_pattern(p, "spec.json");
   const Pattern right = garmentcode();
   EXPECT_TRUE(right.findings.size() == 1 && p.findings.size() == 2 &&
-              p.findings[0].starts_with("back: placed with its outside towards the body"));
+              p.findings[0].text.starts_with("back: placed with its outside towards the body"));
   EXPECT_TRUE(p.panels[1].hint.rigid->isApprox(*right.panels[1].hint.rigid));
   for (std::size_t k = 0; k < p.seams.size(); ++k) {
     const pattern::Run &run = p.seams[k].b[0], &same = right.seams[k].b[0];
@@ -183,8 +183,8 @@ TEST(Dxf, OpenPolylinesAreChainedAndSewingTextsRead) {
 TEST(Dxf, UnitsAreWordsAndTheCutLineServesWithoutASewLine) {
   Pattern p = read_dxf(dxf("ENGLISH", "1", false), "p.dxf");
   EXPECT_NEAR(outline_area(p.panels[0]), 400 * 300 * 0.0254 * 0.0254, 1e-6);
-  EXPECT_TRUE(std::any_of(p.findings.begin(), p.findings.end(), [](const std::string& f) {
-    return f.find("no sew line") != std::string::npos;
+  EXPECT_TRUE(std::any_of(p.findings.begin(), p.findings.end(), [](const Message& f) {
+    return f.text.find("no sew line") != std::string::npos;
   }));
 }
 

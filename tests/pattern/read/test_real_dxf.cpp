@@ -45,7 +45,7 @@ Points sleeve() {
 
 bool found(const Pattern& p, const std::string& words) {
   return std::any_of(p.findings.begin(), p.findings.end(),
-                     [&](const std::string& f) { return f.find(words) != std::string::npos; });
+                     [&](const Message& f) { return f.text.find(words) != std::string::npos; });
 }
 
 std::vector<std::string> names(const Pattern& p) {

@@ -78,9 +78,24 @@ TEST(SpecPlacement, PanelsThatAllLieInOnePlaneWereNeverPlaced) {
   const Pattern flat = read_garmentcode(io::parse_json(spec(0), "spec.json"), "spec.json");
   for (const Panel& panel : flat.panels) EXPECT_FALSE(panel.hint.rigid) << panel.name;
   ASSERT_EQ(flat.findings.size(), 1u);
-  EXPECT_NE(flat.findings[0].find("placed in one plane"), std::string::npos);
+  EXPECT_NE(flat.findings[0].text.find("placed in one plane"), std::string::npos);
   const Pattern placed = read_garmentcode(io::parse_json(spec(-40), "spec.json"), "spec.json");
   for (const Panel& panel : placed.panels) EXPECT_TRUE(panel.hint.rigid) << panel.name;
+}
+
+TEST(SpecPlacement, OnePanelThatIsPlacedWrongIsBroughtToItsSeams) {
+  io::Json json = io::parse_json(ring_of_gores(false, "typed"), "spec.json");
+  const Pattern right = read_garmentcode(json, "spec.json");
+  json["pattern"]["panels"]["gore_2"]["translation"][1] = -35.0; // 60 in the others
+  const Pattern mended = read_garmentcode(json, "spec.json");
+  const Vec3 off =
+      (mended.panels[2].hint.rigid->col(3) - right.panels[2].hint.rigid->col(3)).head<3>();
+  EXPECT_LT(off.norm(), 0.05);
+  ASSERT_EQ(mended.findings.size(), right.findings.size() + 1);
+  EXPECT_EQ(mended.findings.back().text.rfind("gore_2: its translation puts it 95", 0), 0u)
+      << mended.findings.back().text;
+  for (std::size_t k : {0u, 1u, 3u, 4u, 5u})
+    EXPECT_TRUE(mended.panels[k].hint.rigid->isApprox(*right.panels[k].hint.rigid));
 }
 
 } // namespace

@@ -20,13 +20,14 @@ Pattern skirt(const std::vector<std::string>& left_out = {}) {
                  {"side", "side_hip"}, {"middle", "middle_hip"});
   const std::vector<DrawnEdge> band = {
       {"low_a", 0, 0}, {"low_b", 20, 0}, {"end_b", 20, 4}, {"top", -20, 4}, {"end_a", -20, 0}};
-  drawn.panel("band_front", band), drawn.panel("band_back", band);
-  drawn.seam("band_front", "end_a", "band_back", "end_b"),
-      drawn.seam("band_front", "end_b", "band_back", "end_a");
-  drawn.seam("band_front", "low_a", "front_r", "waist"),
-      drawn.seam("band_front", "low_b", "front_l", "waist");
-  drawn.seam("band_back", "low_a", "back_l", "waist"),
-      drawn.seam("band_back", "low_b", "back_r", "waist");
+  drawn.panel("band_front", band);
+  drawn.panel("band_back", band);
+  drawn.seam("band_front", "end_a", "band_back", "end_b");
+  drawn.seam("band_front", "end_b", "band_back", "end_a");
+  drawn.seam("band_front", "low_a", "front_r", "waist");
+  drawn.seam("band_front", "low_b", "front_l", "waist");
+  drawn.seam("band_back", "low_a", "back_l", "waist");
+  drawn.seam("band_back", "low_b", "back_r", "waist");
   Pattern pattern = drawn.pattern();
   std::erase_if(pattern.seams, [&](const Seam& s) {
     return std::find(left_out.begin(), left_out.end(), s.name) != left_out.end();
@@ -85,7 +86,8 @@ TEST(MissingSeams, ADartWhoseMouthIsSewnShutIsTold) {
   drawn.panel(
       "band",
       {{"low_r", 0, 0}, {"low_l", 20, 0}, {"end_l", 20, 4}, {"top", -20, 4}, {"end_r", -20, 0}});
-  drawn.seam("front", "waist_l", "band", "low_l"), drawn.seam("front", "waist_r", "band", "low_r");
+  drawn.seam("front", "waist_l", "band", "low_l");
+  drawn.seam("front", "waist_r", "band", "low_r");
   EXPECT_EQ(told(drawn.pattern()), "front: leg_a + front: leg_b; ");
   DrawnPattern neckline; // the same shape between shoulders
   neckline.panel("front", {{"hem", 22, -50},
@@ -111,7 +113,8 @@ TEST(MissingSeams, ThreeLikePiecesWrappedAroundAreLeftOpen) {
   DrawnPattern wrap;
   for (const char* name : {"front_l", "back", "front_r"})
     wrap.panel(name, {{"hem", 20, -50}, {"a", 20, 0}, {"waist", -20, 0}, {"b", -20, -50}});
-  wrap.seam("back", "a", "front_r", "b"), wrap.seam("front_l", "a", "back", "b");
+  wrap.seam("back", "a", "front_r", "b");
+  wrap.seam("front_l", "a", "back", "b");
   EXPECT_EQ(told(wrap.pattern()), "");
 }
 

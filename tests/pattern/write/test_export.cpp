@@ -38,7 +38,8 @@ TEST(Export, DxfReadsBackWithItsSeams) {
 TEST(Export, DxfKeepsWhatASeamIsAndWhetherItIsOpen) {
   Pattern pattern = own(tube_text(
       R"(, {"name": "placket", "kind": "closure", "open": true, "ease": "room for the button stand", "a": [{"panel": "front", "edge": "top"}], "b": [{"panel": "back", "edge": "top"}]})"));
-  pattern.seams[0].open = true, pattern.seams[1].kind = "gather";
+  pattern.seams[0].open = true;
+  pattern.seams[1].kind = "gather";
   pattern.panels[0].notches = {{1, 0.25, "layer 81"}, {1, 0.75, "slit"}};
   std::vector<std::string> left_out;
   Pattern back = read_dxf(pattern_dxf(pattern, left_out), "x.dxf");

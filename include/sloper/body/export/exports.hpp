@@ -1,6 +1,7 @@
 #pragma once
-/// A body for other programs and eyes: a table of measurements, a skeleton, and the body without
-/// its skin.
+/// A body for other programs: a table of measurements, files of pattern programs, a
+/// skeleton, and the body without its skin.
+/// Test: tests/body/export/test_pattern_exports.cpp
 #include <sloper/body/body.hpp>
 namespace sloper::body {
 
@@ -13,10 +14,10 @@ std::string valentina_measurements(const Body& body);
 /// A body file for GarmentCode (YAML, cm and degrees). Needs the skin; arm_pose_angle is measured
 /// down from level.
 std::string garmentcode_body(const Body& body);
-/// OBJ text of the bones as lines, in the body frame: what a viewer shows as a skeleton.
+/// OBJ text of the bones as lines, in the body frame, for viewers.
 std::string skeleton_obj(const Body& body);
-/// Keeps landmarks, levels, girths, frames and bones; drops the skin and what names the scan, so
-/// that nobody can be recognised.
+/// Removes the skin and all data that identify the scan, so that nobody can be
+/// recognised; keeps landmarks, levels, girths, frames and bones.
 void anonymise(Body& body);
 
 } // namespace sloper::body

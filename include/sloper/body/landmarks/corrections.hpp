@@ -1,8 +1,10 @@
 #pragma once
-/// What a population says of the rules' results: for each landmark an offset that is linear in the
-/// body's shape, and where the rest of the body lets expect it, learned from bodies whose landmarks
-/// are known (scripts/derive-corrections; ridge regression, Hoerl and Kennard 1970). The bodies are
-/// of several makes; one that is unlike all of them is neither corrected nor judged.
+/// Statistics of a population that correct the rules' results: for each landmark an
+/// offset that is linear in the body's shape, and the height that the rest of the body
+/// predicts, learned from bodies whose landmarks are known (scripts/derive-corrections;
+/// ridge regression, Hoerl and Kennard 1970). The bodies are of several makes; one that
+/// is unlike all of them is neither corrected nor judged.
+/// Test: tests/body/landmarks/test_corrections.cpp
 #include <map>
 #include <optional>
 #include <sloper/body/landmarks/shape_features.hpp>
@@ -12,6 +14,8 @@ class Node;
 }
 namespace sloper::body {
 
+/// Learned offsets of landmarks and their expected heights, with the distance of a body
+/// from the population that they were learned on.
 class Corrections {
 public:
   /// Standard deviations between a rule's height and the expected one beyond which they disagree:
@@ -27,31 +31,36 @@ public:
   /// does not know
   static Corrections parse(const std::string& text, const std::string& name);
 
+  /// Whether an offset was learned for this place (a landmark without its side).
   bool has(const std::string& place) const { return m_points.count(place) != 0; }
-  /// How far the body is from those that were learned from: root mean square of its features'
-  /// distances from theirs, in standard deviations; 0 where nothing was learned. On the bodies
-  /// learned from it is 1 on average.
+  /// Distance of a body from the bodies that were learned from: root mean square of the
+  /// distances of its features from their means, in standard deviations; 0 where nothing
+  /// was learned. It is 1 on average over the bodies learned from.
   double unlikeness(const ShapeFeatures& features) const;
-  /// How far the body is from each make of bodies: of z its features in standard deviations about
-  /// the make's mean, and B the main directions in which bodies of all makes differ, the larger of
-  /// sqrt(mean (B z)_k^2 / s_k^2) and sqrt(|z - B^T B z|^2 / r) (Mahalanobis distance within and
-  /// outside of the directions; r is what the bodies left of their fold have there). Both sides'
-  /// mean; empty where nothing was learned.
+  /// Distance of a body from each make of bodies. With z its features in standard
+  /// deviations about the make's mean, and B the main directions in which bodies of all
+  /// makes differ: the larger of sqrt(mean (B z)_k^2 / s_k^2) and sqrt(|z - B^T B z|^2 /
+  /// r) (Mahalanobis distance within and outside of the directions; r is the residual of
+  /// bodies that were left out of their fold). Mean of both sides; empty where nothing
+  /// was learned.
   std::vector<double> distances(const ShapeFeatures& features) const;
-  /// Whether the body is like any make, 0 to 1: 1 as near as 97 of 100 of its own bodies that were
-  /// not learned from, 0 a fifth farther.
+  /// Membership of a body in any make, 0 to 1: 1 where it is as near as 97 of 100 of the
+  /// make's own bodies that were not learned from, 0 a fifth farther.
   double likeness(const ShapeFeatures& features) const;
-  /// Offset of a landmark as shares of stature, x away from the middle plane; zero for what was not
-  /// learned and for bodies unlike the others.
-  /// @param side 0 left, 1 right, -1 for a landmark in the middle: its x is zero
+  /// Offset of a landmark as shares of stature, x away from the middle plane; zero for
+  /// places that were not learned and for bodies unlike the others.
+  /// @param place  a landmark without its side
+  /// @param features  of the body
+  /// @param side  0 left, 1 right, -1 for a landmark in the middle: its x is zero
   Vec3 offset(const std::string& place, const ShapeFeatures& features, int side) const;
 
+  /// Height that a linear model of the body's shape predicts for a landmark.
   struct Expected {
     double height = 0; ///< of stature
     double sd = 0;     ///< of stature, of bodies that were not learned from
   };
-  /// The height at which the rest of the body lets expect a landmark; nothing where that was not
-  /// learned or the body is unlike the others.
+  /// The height that the rest of the body predicts for a landmark; empty for places that
+  /// were not learned and for bodies unlike the others. Arguments as of offset().
   std::optional<Expected> expected(const std::string& place, const ShapeFeatures& features,
                                    int side) const;
 

@@ -6,35 +6,42 @@
 #include <sloper/body/measure/level_stack.hpp>
 namespace sloper::body {
 
+/// One section of an arm, square to its centre line.
 struct LimbSection {
   Vec3 center = Vec3::Zero(); ///< centroid of the loop
   Vec3 axis = Vec3::UnitY();  ///< unit, towards the trunk
-  Plane plane;
-  Loop loop;
-  double girth = 0; ///< taut, m
-  double along = 0; ///< m from the hand tip along the centres
+  Plane plane;                ///< of the cut
+  Loop loop;                  ///< the arm's outline in that plane
+  double girth = 0;           ///< taut, m
+  double along = 0;           ///< m from the hand tip along the centres
 };
 
+/// An arm in sections from hand to trunk, with the arm pit beside it.
 struct ArmTrace {
-  bool left = true;
+  bool left = true;                  ///< the body's own side
   Vec3 tip = Vec3::Zero();           ///< the point farthest from the trunk over the skin
   std::vector<LimbSection> sections; ///< from the hand to just before the trunk
   std::vector<int> triangles;        ///< of the arm and the shoulder's surroundings
-  std::vector<double> from_tip; ///< per vertex of the skin: m over the skin from the finger's end;
-                                ///< 1e300 where it is no arm's reach
-  Vec3 out = Vec3::UnitX();     ///< unit, from shoulder to hand, over the upper arm
-  std::optional<Vec3> axilla;   ///< roof of the arm pit
-  bool pit_hidden = false; ///< no gap closes where an arm pit can be: it is placed by proportion
+  /// Distance of each skin vertex from the finger's end over the skin, m; 1e300 beyond
+  /// the arm.
+  std::vector<double> from_tip;
+  Vec3 out = Vec3::UnitX();   ///< unit, from shoulder to hand, over the upper arm
+  std::optional<Vec3> axilla; ///< roof of the arm pit
+  bool pit_hidden = false;    ///< no gap closes where an arm pit can be: it is placed by proportion
+  /// Front and back fold beside the arm pit, m, body frame.
   std::optional<Vec3> axilla_front, axilla_back;
   double lifted_m = 0;       ///< by which pit and folds were lifted towards those of the other arm
   std::optional<Vec3> merge; ///< where, going up, the level sections of arm and trunk become one
-  /// Point of the centre line at `along` m from the tip, carried on straight beyond its ends.
+  /// Point of the centre line at `along` m from the tip, extended straight beyond its
+  /// ends.
   Vec3 at(double along) const;
   double length() const { return sections.empty() ? 0 : sections.back().along; }
 };
 
-/// Fills the arm pit's roof and the folds beside it: where, along the arm, the gap between arm and
-/// trunk closes; else by proportion, `pit_hidden`.
+/// Fills the arm pit's roof and the folds beside it: the place along the arm where the
+/// gap between arm and trunk closes; else by proportion, `pit_hidden`.
+/// @param arm  with its sections, in and out
+/// @param rules  with the proportions
 void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules);
 
 /// Fills `merge`: going up, the level at which the loops of a hanging arm and of the trunk become
@@ -42,9 +49,12 @@ void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules);
 /// each other.
 void find_merge(ArmTrace& arm, const LevelStack& levels);
 
-/// Both arms (left first); an arm that cannot be told from the trunk has no sections.
-/// @param scan_points the scan's own points where the skin was rebuilt and has lost the fingers'
-/// ends; else empty
+/// Traces both arms (left first); an arm that cannot be separated from the trunk has no
+/// sections.
+/// @param levels, graph  of the same skin
+/// @param scan_points  the scan's own points where the skin was rebuilt and has lost the
+/// fingers' ends; else empty
+/// @param rules  with the numbers of the search
 std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& graph,
                                    const std::vector<Vec3>& scan_points, const Rules& rules);
 

@@ -1,50 +1,64 @@
 #pragma once
 /// The skin in level slices: the legs followed up to the crotch, the trunk from there to the neck,
 /// the head above it.
+/// Test: tests/body/measure/test_level_stack.cpp
 #include <map>
 #include <optional>
 #include <sloper/body/measure/section.hpp>
 namespace sloper::body {
 
-constexpr double CROTCH_BEFORE_LEGS = 0.0235; ///< crotch in front of the middles of the legs just
-                                              ///< below it, share of stature (sd 0.0075)
+/// Crotch in front of the middles of the legs just below it, share of stature (sd 0.0075)
+constexpr double CROTCH_BEFORE_LEGS = 0.0235;
 
-/// What stands in one level.
+/// All loops of the skin at one height, and which of them are legs and trunk.
 struct Slice {
-  double y = 0;
-  std::vector<Loop> loops;
-  int leg[2] = {-1, -1}; ///< loop of the left (0) and right (1) leg, below the crotch
-  int trunk = -1;        ///< loop of the trunk, neck or head; arms may hang on it
+  double y = 0;            ///< m, body frame
+  std::vector<Loop> loops; ///< largest area first
+  int leg[2] = {-1, -1};   ///< loop of the left (0) and right (1) leg, below the crotch
+  int trunk = -1;          ///< loop of the trunk, neck or head; arms may hang on it
 };
 
-/// All level slices of a closed skin that stands in (about) the body frame. For one thread: it
-/// remembers cuts.
+/// All level slices of a closed skin that stands in (about) the body frame. It caches
+/// cuts: use it from one thread at a time.
 class LevelStack {
 public:
-  /// @param spacing m between levels
-  /// @param roughness m by which heights of a rebuilt skin are uncertain; 0 for a scan's own faces
+  /// Cuts the skin and follows legs and trunk. O(slices and the triangles they meet).
+  /// @param skin  outlives this
+  /// @param stature  m
+  /// @param spacing  m between levels
+  /// @param roughness  m by which heights of a rebuilt skin are uncertain; 0 for a scan's
+  /// own faces
   LevelStack(const TriangleMesh& skin, double stature, double spacing, double roughness = 0);
+  /// Slices from the soles upwards.
   const std::vector<Slice>& slices() const { return m_slices; }
-  const Slice& at(double y) const; ///< the nearest slice
+  /// The slice whose band holds height y, m, and its index in slices(); clamped to the
+  /// first and last.
+  const Slice& at(double y) const;
+  /// Index in slices() of the band that holds height y, m; clamped.
   int index(double y) const;
+  /// Distance between levels, stature, m, and the skin, as given to the constructor.
   double spacing() const { return m_spacing; }
   double stature() const { return m_stature; }
   const TriangleMesh& skin() const { return *m_skin; }
-  /// Loops of an exact cut at any height (only the triangles of that level are visited).
+  /// Loops of an exact cut at height y, m. Only the triangles of that level are visited.
   std::vector<Loop> exact(double y) const;
-  /// The trunk (neck, head) loop of an exact cut; empty when there is none. Stays as long as the
-  /// stack.
+  /// The trunk (neck, head) loop of an exact cut at y, m; empty when there is none. The
+  /// reference is valid as long as the stack.
   const std::optional<Loop>& trunk_at(double y) const;
+  /// Loop of a leg in an exact cut at y, m. Thighs that touch are cut apart in the middle
+  /// plane.
+  /// @param side  0 left, 1 right
+  /// @return empty above the crotch or where there is none
   std::optional<Loop> leg_at(double y, int side) const;
   /// Height at which the two leg loops become one, m, by bisection to 0.2 mm; empty when the legs
   /// are never apart.
   std::optional<double> crotch() const { return m_crotch; }
   Vec2 crotch_point() const { return m_crotch_point; } ///< (x, z) where they meet
-  /// A place before or behind that is as low within what the vertical is known to: either may be
-  /// the crotch. Empty where there is none.
+  /// A place before or behind that is as low as the crotch within the uncertainty of the
+  /// vertical: either may be the crotch. Empty where there is none.
   const std::optional<Vec3>& other_crotch() const { return m_other_crotch; }
 
-  /// Puts the crotch elsewhere, where the scan does not show it: legs are cut apart in the middle
+  /// Sets the crotch where the scan does not show it, m: legs are cut apart in the middle
   /// plane up to there.
   void move_crotch(double y, double z);
 
@@ -65,8 +79,8 @@ private:
   double m_stature, m_spacing, m_roughness;
   std::vector<Slice> m_slices;
   LevelledMesh m_levelled;
-  mutable std::map<double, std::optional<Loop>>
-      m_trunk_at; ///< cuts made before: several rules ask for the same heights
+  /// Cuts made before: several rules ask for the same heights.
+  mutable std::map<double, std::optional<Loop>> m_trunk_at;
   std::optional<double> m_crotch;
   Vec2 m_crotch_point = Vec2::Zero();
   std::optional<Vec3> m_other_crotch;

@@ -1,18 +1,23 @@
 #pragma once
-/// Plane cuts of a closed skin. A section is a set of loops; a loop keeps its oriented segments,
-/// which suffice for area, centroid, extent and taut girth, so that nothing has to be chained and a
-/// small gap harms nothing.
+/// Plane cuts of a closed skin. A section is a set of loops. A loop keeps its oriented
+/// segments unchained: they suffice for area, centroid, extent and taut girth, and a
+/// small gap does no harm.
+/// Test: tests/body/measure/test_section.cpp
 #include <optional>
 #include <sloper/geometry/triangle_mesh.hpp>
 #include <string>
 #include <vector>
 namespace sloper::body {
 
-/// A plane with 2D coordinates (along u, along v); u, v, n = u x v are unit and right-handed.
+/// A plane with 2D coordinates (along u, along v); u, v, n = u x v are unit and
+/// right-handed.
 struct Plane {
-  Vec3 origin = Vec3::Zero(), u = Vec3::UnitX(), v = Vec3::UnitY();
+  Vec3 origin = Vec3::Zero(), u = Vec3::UnitX(), v = Vec3::UnitY(); ///< origin in m
+  /// Unit normal u x v.
   Vec3 normal() const { return u.cross(v); }
+  /// Coordinates (u, v) of the foot of p on the plane, m.
   Vec2 flat(const Vec3& p) const { return {(p - origin).dot(u), (p - origin).dot(v)}; }
+  /// The point with coordinates q, m: the inverse of flat().
   Vec3 point(const Vec2& q) const { return origin + q.x() * u + q.y() * v; }
 };
 
@@ -21,14 +26,16 @@ Plane level_plane(double height);
 /// A plane through `origin` square to `axis`; u is chosen as level as it can be.
 Plane cross_plane(const Vec3& origin, const Vec3& axis);
 
-/// One loop of a section.
+/// One closed outline of a section, or an open one where the skin ends.
 struct Loop {
-  std::vector<std::array<Vec2, 2>>
-      segments;                 ///< m, in the plane; walking along one has the body on the left
+  /// m, in the plane; walking along one has the body on the left
+  std::vector<std::array<Vec2, 2>> segments;
   bool closed = true;           ///< false where the skin, or the subset that was cut, ends
   double area = 0;              ///< m2, positive for an outer loop
   Vec2 centroid = Vec2::Zero(); ///< of the area
+  /// Corners of the bounding box, m; low > high for an empty loop.
   Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+  /// Middle of the bounding box and its extents, m.
   Vec2 center() const { return 0.5 * (low + high); }
   Vec2 size() const { return high - low; }
 };
@@ -36,9 +43,9 @@ struct Loop {
 /// Fills area, centroid and extent from the segments.
 void measure_loop(Loop& loop);
 
-/// Loops of the cut, the one with the largest |area| first; ties keep mesh order. Loops of less
-/// than 1e-6 m2 are left out.
-/// @param subset triangle numbers to look at; all when null
+/// Loops of the cut of a mesh by a plane, the one with the largest |area| first; ties
+/// keep mesh order. Loops of less than 1e-6 m2 are left out. O(triangles looked at).
+/// @param subset  triangle numbers to look at; all when null
 std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane,
                       const std::vector<int>* subset = nullptr);
 
@@ -46,6 +53,7 @@ std::vector<Loop> cut(const TriangleMesh& mesh, const Plane& plane,
 /// each corner.
 class TriangleSpheres {
 public:
+  /// @param subset  triangle numbers of the mesh; only their spheres are kept
   TriangleSpheres(const TriangleMesh& mesh, const std::vector<int>& subset);
   /// The triangles of the subset that the plane may meet, in its order; valid until the next call.
   const std::vector<int>& near(const Plane& plane);
@@ -88,13 +96,13 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points);
 double closed_length(const std::vector<Vec2>& polygon);
 /// Taut (convex) girth of a loop.
 double taut_girth(const Loop& loop);
-/// The piece of a segment whose x (axis 0) or y (axis 1) lies within low .. high; nothing where
-/// there is none. What is asked of a band of the outline then does not depend on where the mesh has
-/// its vertices.
+/// The piece of a segment whose x (axis 0) or y (axis 1) lies within low .. high; empty
+/// where there is none. Measures of a band of an outline then do not depend on the places
+/// of mesh vertices.
 std::optional<std::array<Vec2, 2>> clipped(const std::array<Vec2, 2>& segment, int axis, double low,
                                            double high);
-/// The outermost place of a loop along the unit `direction`: of an outline that is nearly square to
-/// it, the middle of what is within `flat`, m.
+/// The outermost place of a loop along the unit `direction`: of an outline that is nearly
+/// square to it, the middle of the part within `flat`, m, of the extreme.
 Vec2 outermost(const Loop& loop, const Vec2& direction, double flat);
 /// True when the loop's outline winds around q.
 bool encloses(const Loop& loop, const Vec2& q);

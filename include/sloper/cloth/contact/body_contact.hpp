@@ -22,7 +22,7 @@
 
 namespace sloper::cloth {
 
-/// What cloth is compared with the skin by, each with all that stands before it.
+/// Elements of cloth and skin that are compared; each level includes those before it.
 enum class ContactLevel {
   VERTEX = 1, ///< cloth vertex against body face
   FACE,       ///< body vertex against cloth face
@@ -30,17 +30,20 @@ enum class ContactLevel {
   CONTINUOUS  ///< and no step passes through: what starts outside stays outside
 };
 
+/// Numbers of contact with the body.
 struct BodyContactOptions {
   double gap_m = 0.003;        ///< distance to the skin at which contact begins
   double stiffness_n_m3 = 3e5; ///< k: pressure per depth; skin gives way about as much
-  double friction = 0.0;       ///< mu
+  double friction = 0.0;       ///< mu, Coulomb
   double tangent_ratio = 0.5;  ///< tangent over normal stiffness while sticking
   double slide_ratio = 0.05;   ///< the same while sliding: only steadies the step
-  ContactLevel level = ContactLevel::CONTINUOUS;
-  double slack_m = 0.003; ///< pairs are kept up to this distance beyond the reach, so that they
-                          ///< serve several steps
+  ContactLevel level = ContactLevel::CONTINUOUS; ///< elements that are compared
+  /// Pairs are kept up to this distance beyond the activation distance, so that they
+  /// serve several steps.
+  double slack_m = 0.003;
 };
 
+/// The contact effect of one cloth and one body.
 class BodyContactEffect : public Effect {
 public:
   /// `mesh` and `body` outlive the effect.
@@ -62,8 +65,8 @@ public:
   }
   bool crosses() const override { return m_n_crossing > 0; }
   void add(StepContext& c) override;
-  double energy(const std::vector<Vec3>& x)
-      const override; ///< of the pairs of the last search and of the ties of friction
+  /// Potential of the pairs of the last search and of the ties of friction, J.
+  double energy(const std::vector<Vec3>& x) const override;
   bool add_separating_planes(const std::vector<Vec3>& x, const std::vector<Vec3>& dx,
                              MotionLimits& limits, bool last) override;
 
@@ -71,43 +74,52 @@ public:
   /// distance to the cloth, and no farther than the search has seen. Cloth that already crosses the
   /// skin does not count. Searches. Only after a first step.
   std::vector<double> max_safe_skin_displacement(const std::vector<Vec3>& x);
-  /// Pushes a predictor off the skin where cloth at x + carry would come nearer to it than half of
-  /// what collision_free_step_fraction() allows.
-  /// @param way  #V by 3, m: displacement of the skin   @param carry  #P by 3, m, in and out: the
-  /// predictor; small pushes only. Cost: O(near pairs)
+  /// Pushes a predictor off the skin where cloth at x + carry would come nearer to it
+  /// than half of what collision_free_step_fraction() allows. O(near pairs).
+  /// @param way  #V by 3, m: displacement of the skin
+  /// @param carry  #P by 3, m, in and out: the predictor; small pushes only
   void push_predictor_off_skin(const std::vector<Vec3>& x, const std::vector<Vec3>& way,
                                std::vector<Vec3>& carry);
-  /// The largest fraction of a displacement of the skin that is free of collisions, while the cloth
-  /// moves by the same fraction of its predictor: each pair comes nearer by at most a third of its
-  /// distance, sideways and apart without limit, and no farther than the search has seen. Searches
-  /// when it must. Cloth that already crosses the skin does not count.
-  /// @param way  #V by 3, m: displacement of the skin   @param carry  #P by 3, m: predictor @return
-  /// in [0, 1]; 0 before the first step
+  /// The largest fraction of a displacement of the skin that is free of collisions, while
+  /// the cloth moves by the same fraction of its predictor: each pair comes nearer by at
+  /// most a third of its distance, sideways and apart without limit, and no farther than
+  /// the search has seen. Searches when it must. Cloth that already crosses the skin does
+  /// not count.
+  /// @param way  #V by 3, m: displacement of the skin
+  /// @param carry  #P by 3, m: predictor
+  /// @return in [0, 1]; 0 before the first step
   double collision_free_step_fraction(const std::vector<Vec3>& x, const std::vector<Vec3>& way,
                                       const std::vector<Vec3>& carry);
-  /// Moves the body, with the same topology. Anchors of friction move with their skin; near pairs
-  /// hold as far as skin and the cloth near it move alike.
-  /// @param positions  #V by 3, m   @param carry  #P by 3, m: displacement of the cloth at x
-  /// meanwhile; empty: it stays
+  /// Moves the body, with the same topology. Anchors of friction move with their skin;
+  /// near pairs hold as far as skin and the cloth near it move alike.
+  /// @param positions  #V by 3, m
+  /// @param carry  #P by 3, m: displacement of the cloth at x meanwhile; empty: none
   void move_body(const std::vector<Vec3>& positions, const std::vector<Vec3>& x,
                  const std::vector<Vec3>& carry = {});
-  /// How far beyond the reach pairs are kept, m: wide where skin and cloth pass each other fast.
-  void set_slack(double slack_m) { m_options.slack_m = slack_m, m_stale = true; }
+  /// Distance beyond the activation distance up to which pairs are kept, m: large where
+  /// skin and cloth pass each other fast.
+  void set_slack(double slack_m) {
+    m_options.slack_m = slack_m;
+    m_stale = true;
+  }
+  /// Coulomb coefficient from the next step on.
   void set_friction(double mu) { m_options.friction = mu; }
-  /// Positions were changed from outside: look for crossings at the next search, which comes before
-  /// the next step.
+  /// Positions were changed by the caller: crossings are looked for at the next search,
+  /// which comes before the next step.
   void refresh();
-  /// What it remembers from step to step and could not find again from positions: the ties of
-  /// friction, how hard it pushes crossed pairs.
+  /// State that persists from step to step and cannot be derived from positions: the ties
+  /// of friction, and how hard crossed pairs are pushed.
   struct Memory {
     std::vector<Vec3> anchor;     ///< #P by 3, m
     std::vector<char> has_anchor; ///< #P
-    double push = 1;
+    double push = 1;              ///< factor on the stiffness of crossed pairs
   };
+  /// For checkpoints.
   Memory memory() const { return {m_anchor, m_has_anchor, m_push}; }
+  /// Takes the memory of a checkpoint.
   void recall(const Memory& memory);
-  /// Cloth triangles through the skin or with a vertex inside, at the last search; none once
-  /// guarded.
+  /// Cloth triangles through the skin or with a vertex inside, at the last search; 0 once
+  /// all are free.
   std::size_t n_crossing() const { return m_n_crossing; }
   Vec3 crossing_place() const; ///< where the first of them was, m; only when there is one
   long searches = 0;           ///< for near pairs, so far
@@ -141,8 +153,8 @@ private:
     bool valid;
   };
   Closest closest(const Pair& pair, const std::vector<Vec3>& x) const;
-  double share_of(const Pair& pair,
-                  const std::vector<Vec3>& x) const; ///< see edge_edge_mollifier()
+  /// See edge_edge_mollifier()
+  double share_of(const Pair& pair, const std::vector<Vec3>& x) const;
   void measure_way(const std::vector<Vec3>& x) const;
   double farthest(const Pair& pair) const;
   static double against(const Pair& pair, const std::vector<Vec3>& way,

@@ -8,7 +8,9 @@
 /// (collision/ccd_candidates.hpp) get planes too, so cloth that moves as one may move far. If
 /// particles outrun the search in each step, only the repulsion radius is searched. So a state free
 /// of crossings stays free of them. Pairs that can neither repel each other nor meet in the step
-/// are not measured. Repulsion: see contact_potential.hpp; friction between layers is viscous.
+/// are not measured. Repulsion: see contact_potential.hpp; friction between layers is
+/// Coulomb's, regularised, on the slide of the last step.
+/// Test: tests/cloth/contact/test_contact.cpp
 #include <set>
 #include <sloper/cloth/cloth_mesh.hpp>
 #include <sloper/cloth/contact/contact_potential.hpp>
@@ -19,14 +21,18 @@
 
 namespace sloper::cloth {
 
+/// Numbers of contact of cloth with cloth.
 struct SelfContactOptions {
-  double thickness_m = 0.003; ///< distance at which cloth feels cloth; less where the mesh is finer
-  double search_m = 0.008;    ///< pairs up to this distance are kept while cloth moves little; less
-                              ///< where the mesh is finer
+  /// Activation distance of cloth with cloth; less where the mesh is finer.
+  double thickness_m = 0.003;
+  /// Pairs up to this distance are kept while cloth moves little; less where the mesh is
+  /// finer.
+  double search_m = 0.008;
   double stiffness_n_m3 = 1e6; ///< pressure per depth
-  double friction = 0.0;
+  double friction = 0.0;       ///< mu; Coulomb, regularised for small slides
 };
 
+/// The self-contact effect of one cloth.
 class SelfContactEffect : public Effect {
 public:
   /// @param seam_class  #P or empty: particles that a seam will weld share a number >= 0, all
@@ -48,17 +54,20 @@ public:
   bool add_separating_planes(const std::vector<Vec3>& x, const std::vector<Vec3>& dx,
                              MotionLimits& limits, bool last) override;
   void end_step(const std::vector<Vec3>& x) override;
+  /// Coefficient from the next step on.
   void set_friction(double mu) { m_options.friction = mu; }
-  /// @param passes #P or empty: elements all of whose particles are marked neither repel each other
-  /// nor bind each other's motion from now on
+  /// Switches contact off within a set of particles.
+  /// @param passes  #P or empty: elements all of whose particles are marked neither repel
+  /// each other nor limit each other's motion from now on
   void let_pass(std::vector<char> passes);
   /// Crossing pairs of triangles at the last search; while there are any, each search looks for
   /// them anew.
   const std::vector<std::array<int, 2>>& crossings() const { return m_crossings; }
-  /// The same at x, looked for now: pairs that crossed and came apart are watched less closely for
-  /// a while.
+  /// The crossings at x, searched now. Pairs that crossed and came apart are watched less
+  /// closely for a while.
   const std::vector<std::array<int, 2>>& find_crossings(const std::vector<Vec3>& x);
-  /// All particles went this way together, m: what was found out about them holds.
+  /// All particles moved by this common displacement, m: what the last search found still
+  /// holds.
   void moved_by(const Vec3& common) {
     for (Vec3& p : m_searched_at) p += common;
   }
@@ -106,8 +115,8 @@ private:
     double distance;              // m
   };
   Closest closest(const Near& near, const std::vector<Vec3>& x) const;
-  double stiffness_of(const Near& near, const Closest& c,
-                      const std::vector<Vec3>& x) const; ///< N/m, at x
+  /// At x, N/m.
+  double stiffness_of(const Near& near, const Closest& c, const std::vector<Vec3>& x) const;
   /// What a pair's ends can close in at most when particles move by these lengths, m.
   static double closing(const Near& near, const std::vector<double>& length);
   bool guard_near(const std::vector<Vec3>& x, const std::vector<Vec3>& dx, MotionLimits& limits);

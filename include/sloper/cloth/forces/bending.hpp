@@ -2,6 +2,7 @@
 /// Bending by the isometric model of Bergou et al. 2006 ("A quadratic bending model for
 /// inextensible surfaces"): E = 1/2 B / (A0 + A1) |sum_k c_k x_k|^2 per hinge, rest state flat. Its
 /// stiffness is constant and definite.
+/// Test: tests/cloth/forces/test_jacobians.cpp
 #include <sloper/cloth/cloth_mesh.hpp>
 #include <sloper/cloth/effect.hpp>
 #include <sloper/cloth/linear/block_matrix.hpp>
@@ -9,14 +10,24 @@
 namespace sloper::cloth {
 
 using HingeSlots = std::array<int, 6>; ///< blocks (0,1) (0,2) (0,3) (1,2) (1,3) (2,3)
+/// Slots of all hinges in a matrix that has their pairs. #hinges
 std::vector<HingeSlots> find_hinge_slots(const ClothMesh& mesh, const BlockMatrix& matrix);
+/// Sum of E over all hinges, J.
 double bending_energy(const ClothMesh& mesh, const std::vector<Vec3>& x);
+/// Adds force, stiffness and damping of all hinges. The damping time is that of the first
+/// fabric.
+/// @param x  #P by 3, m
+/// @param h  time step, s
+/// @param slots  of find_hinge_slots()
+/// @param force  #P by 3, N, added to
 void add_bending(const ClothMesh& mesh, const std::vector<Vec3>& x, double h,
                  const std::vector<HingeSlots>& slots, std::vector<Vec3>& force,
                  BlockMatrix& stiffness);
 
+/// The isometric bending effect; reads hinges from the mesh in every step.
 class BendingEffect : public Effect {
 public:
+  /// @param mesh  outlives the effect
   explicit BendingEffect(const ClothMesh& mesh) : m_mesh(mesh) {}
   const char* name() const override { return "bending"; }
   void declare(Couplings& couplings) const override;

@@ -6,15 +6,18 @@
 
 namespace sloper::cloth {
 
+/// Two particles that are held together.
 struct Closure {
   int i, j;                    ///< particles, not the same
   double rest_length = 0;      ///< l0, m
   double stiffness_n_m = 2000; ///< k
 };
 
+/// The effect of all closures.
 class ClosuresEffect : public Effect {
 public:
-  static constexpr double REACH = 0.01; ///< m
+  static constexpr double REACH = 0.01; ///< m beyond l0 up to which the force grows
+  /// @param closures  particles within the cloth
   explicit ClosuresEffect(std::vector<Closure> closures) : m_closures(std::move(closures)) {}
   const char* name() const override { return "closures"; }
   void declare(Couplings& couplings) const override;

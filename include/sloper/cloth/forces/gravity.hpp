@@ -1,13 +1,16 @@
 #pragma once
 /// Weight of the particles: f_i = m_i g.
+/// Test: tests/cloth/forces/test_jacobians.cpp
 #include <sloper/cloth/cloth_mesh.hpp>
 #include <sloper/cloth/effect.hpp>
 
 namespace sloper::cloth {
 
+/// The weight of a cloth.
 class GravityEffect : public Effect {
 public:
-  /// @param acceleration m/s2, pointing down
+  /// @param mesh  outlives the effect
+  /// @param acceleration  m/s2, pointing down
   GravityEffect(const ClothMesh& mesh, const Vec3& acceleration)
       : m_mesh(mesh), m_acceleration(acceleration) {}
   const char* name() const override { return "gravity"; }

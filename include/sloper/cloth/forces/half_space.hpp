@@ -1,15 +1,18 @@
 #pragma once
-/// Keeps particles on their side of a plane, each with a spring that begins at the plane: E = k/2
-/// min(0, n . (x - p))^2. What has two sides that must not mix, as trouser legs, needs no contact
-/// between them then. Test: tests/cloth/forces/test_half_space.cpp
+/// Keeps particles on their side of a plane, each with a spring that begins at the plane:
+/// E = k/2 min(0, n . (x - p))^2. Two sides that must not mix, such as trouser legs, then
+/// need no contact between them. Test: tests/cloth/forces/test_half_space.cpp
 #include <sloper/cloth/effect.hpp>
 
 namespace sloper::cloth {
 
+/// The effect of one plane on some particles.
 class HalfSpaceEffect : public Effect {
 public:
-  /// @param normal unit, to the side where particles belong   @param stiffness N/m, of each
-  /// particle
+  /// @param particles  that are kept on their side
+  /// @param point  of the plane, m
+  /// @param normal  unit, to the side where particles belong
+  /// @param stiffness  N/m, of each particle
   HalfSpaceEffect(std::vector<int> particles, const Vec3& point, const Vec3& normal,
                   double stiffness)
       : m_particles(std::move(particles)), m_point(point), m_normal(normal),

@@ -5,6 +5,7 @@
 /// model: the stiffness is constant where the fabric does not soften. With rest angles it is |e|
 /// (theta - theta0), as in the dihedral model. The stiffness keeps the secant of the softening and,
 /// with rest angles, J^T K J: both are definite.
+/// Test: tests/cloth/forces/test_orthotropic_bending.cpp
 #include <sloper/cloth/bending_plates.hpp>
 #include <sloper/cloth/effect.hpp>
 #include <sloper/cloth/forces/dihedral_bending.hpp>
@@ -13,6 +14,7 @@
 
 namespace sloper::cloth {
 
+/// Bending by direction of a cloth.
 class OrthotropicBendingEffect : public Effect {
 public:
   /// @param rest_angle  none: flat, by curvature vectors; else #hinges, rad, in the sign of

@@ -4,12 +4,16 @@
 ///
 /// On a closed cloth this is the gradient of p V. The derivative of the force is left out of the
 /// matrix: it turns with the surface and is not definite; Newton's direction stays one of descent.
+/// Test: tests/cloth/forces/test_jacobians.cpp
 #include <sloper/cloth/effect.hpp>
 
 namespace sloper::cloth {
 
+/// Pressure on all given triangles.
 class PressureEffect : public Effect {
 public:
+  /// @param triangles  counter-clockwise seen from outside
+  /// @param pressure_pa  positive pushes outwards
   PressureEffect(std::vector<Triangle> triangles, double pressure_pa)
       : m_triangles(std::move(triangles)), m_pressure(pressure_pa) {}
   const char* name() const override { return "pressure"; }

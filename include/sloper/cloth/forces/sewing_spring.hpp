@@ -1,15 +1,18 @@
 #pragma once
-/// Springs of no rest length between the two sides of every open seam: they pull a seam shut,
-/// welding ends them.
+/// Springs of zero rest length between the two sides of every open seam. They pull a seam
+/// shut until it is welded.
+/// Test: tests/cloth/forces/test_jacobians.cpp
 #include <sloper/cloth/effect.hpp>
 
 namespace sloper::cloth {
 
+/// The effect of all open stitches.
 class SewingSpringEffect : public Effect {
 public:
-  /// @param stitches   #S by 2 particles
-  /// @param reach_m    the pull grows with the gap up to here and stays constant beyond, so that
-  /// far panels come gently
+  /// @param stitches  #S by 2 particles
+  /// @param stiffness_n_m  of each stitch, N/m
+  /// @param reach_m  the pull grows with the gap up to here and stays constant beyond, so
+  /// that far panels are drawn gently
   SewingSpringEffect(std::vector<std::array<int, 2>> stitches, double stiffness_n_m, double reach_m)
       : m_stitches(std::move(stitches)), m_stiffness(stiffness_n_m), m_reach(reach_m) {}
   const char* name() const override { return "sewing"; }
@@ -20,13 +23,16 @@ public:
   /// Potential at x, J: k/2 gap^2 within reach, growing linearly beyond.
   double energy(const std::vector<Vec3>& x) const override;
   void add(StepContext& c) override;
+  /// Stiffness of each stitch from the next step on, N/m.
   void set_stiffness(double stiffness_n_m) { m_stiffness = stiffness_n_m; }
+  /// How far a stitch is open.
   struct Gap {
-    double length = 0; ///< m
-    Vec3 middle = Vec3::Zero();
+    double length = 0;          ///< m
+    Vec3 middle = Vec3::Zero(); ///< of its two particles, m
   };
   /// The stitch that is farthest from closed at x.
   Gap widest(const std::vector<Vec3>& x) const;
+  /// As given.
   const std::vector<std::array<int, 2>>& stitches() const { return m_stitches; }
 
 private:

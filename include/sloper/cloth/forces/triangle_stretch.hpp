@@ -8,24 +8,25 @@
 /// tension per width at unit strain, N/m.) The stiffness is k a [du_i du_j (s (I - u u^T) + u u^T)]
 /// with s = 1 - b/|w| clamped at 0: below rest the exact matrix is indefinite, as it is for edge
 /// springs.
+/// Test: tests/cloth/forces/test_jacobians.cpp
 #include <sloper/cloth/effect.hpp>
 #include <sloper/cloth/forces/triangle_map.hpp>
 
 namespace sloper::cloth {
 
-/// What a triangle shrinks to, relative to its rest shape.
+/// Rest lengths of a triangle relative to its rest shape.
 struct Shrink {
   double weft = 1, warp = 1; ///< b_u, b_v > 0
 };
 
+/// The triangle stretch effect of a cloth.
 class TriangleStretchEffect : public Effect {
 public:
   /// @param shrink  #F or empty (no triangle shrinks)
   explicit TriangleStretchEffect(const ClothMesh& mesh, std::vector<Shrink> shrink = {});
   const char* name() const override { return "triangle_stretch"; }
-  bool set_rest(const ClothMesh& /*mesh*/) override {
-    return false;
-  } ///< made with settings of the scene
+  /// False: it is made with settings of the scene.
+  bool set_rest(const ClothMesh& /*mesh*/) override { return false; }
   void declare(Couplings& couplings) const override { declare_pairs(m_maps, couplings.symmetric); }
   void bind(const BlockMatrix& matrix) override { find_slots(m_maps, matrix); }
   void add(StepContext& c) override;

@@ -6,10 +6,12 @@
 /// The factors |q.n| and |q_t| are those of the last step, so that the force is linear in v and can
 /// only take energy from cloth that moves through still air, at any time step. c_n = 1.2 is a flat
 /// plate across the stream (Hoerner 1965, p. 3-16), c_t = 0.02 skin friction of rough cloth.
+/// Test: tests/cloth/forces/test_jacobians.cpp
 #include <sloper/cloth/effect.hpp>
 
 namespace sloper::cloth {
 
+/// Air and its drag.
 struct WindOptions {
   Vec3 velocity = Vec3::Zero(); ///< of the air, m/s
   double air_density = 1.2;     ///< rho, kg/m3
@@ -17,8 +19,10 @@ struct WindOptions {
   double tangent_drag = 0.02;   ///< c_t
 };
 
+/// Drag of the air on all given triangles.
 class WindEffect : public Effect {
 public:
+  /// @param triangles  of the cloth; both sides count alike
   WindEffect(std::vector<Triangle> triangles, const WindOptions& options)
       : m_triangles(std::move(triangles)), m_options(options) {}
   const char* name() const override { return "wind"; }
@@ -31,8 +35,8 @@ public:
 private:
   std::vector<Triangle> m_triangles;
   WindOptions m_options;
-  std::vector<Vec3> m_last_x, m_velocity,
-      m_push; ///< #P; push: force of the last add at no velocity
+  /// #P; push: force of the last add at no velocity.
+  std::vector<Vec3> m_last_x, m_velocity, m_push;
 };
 
 } // namespace sloper::cloth

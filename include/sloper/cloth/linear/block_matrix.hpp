@@ -10,14 +10,16 @@ namespace sloper::cloth {
 /// Rows of blocks that one thread takes at a time.
 inline constexpr std::size_t ROW_GRAIN = 512;
 
-/// Pairs of particles whose blocks of a matrix may be filled, in any order and any number of times;
-/// one that is in several lists is what the first of them says.
+/// Pairs of particles whose blocks of a matrix may be filled, in any order and any number
+/// of times; a pair in several lists is of the kind of the first of them.
 struct Couplings {
+  /// Pairs (i, j), i != j, with any blocks.
   std::vector<std::array<int, 2>> full;
   std::vector<std::array<int, 2>> symmetric; ///< with symmetric blocks only
   std::vector<std::array<int, 2>> isotropic; ///< with multiples of the identity only
 };
 
+/// A symmetric matrix of n by n blocks of 3 by 3.
 class BlockMatrix {
 public:
   BlockMatrix() = default;
@@ -25,15 +27,18 @@ public:
   /// @param couplings  the off-diagonal blocks that may be filled
   BlockMatrix(int n, Couplings couplings);
 
+  /// Block rows.
   int size() const { return m_n; }
-  bool all_symmetric() const {
-    return m_all_symmetric;
-  } ///< every block, not only the whole; by what was declared
+  /// Whether every block is symmetric by itself, by what was declared.
+  bool all_symmetric() const { return m_all_symmetric; }
   /// Index of block (min(i,j), max(i,j)) for add_off_diagonal and add_isotropic. O(log row).
   /// @throws Error  it is not in the pattern
   int slot(int i, int j) const;
+  /// Keeps the pattern.
   void set_zero();
+  /// Adds to block (i, i).
   void add_diagonal(int i, const Mat3& block) { m_diagonal[i] += block; }
+  /// Adds value times the identity to block (i, i).
   void add_isotropic_diagonal(int i, double value) { m_diagonal[i].diagonal().array() += value; }
   /// Adds to a block (i, j) that was declared full, with i < j in the order in which slot() was
   /// asked; pass the transpose otherwise.
@@ -44,6 +49,7 @@ public:
     if (at < m_value.size()) m_value[at].diagonal().array() += value;
     else m_isotropic_value[at - m_value.size()] += value;
   }
+  /// Block (i, i).
   const Mat3& diagonal(int i) const { return m_diagonal[i]; }
   /// y = A x. Sizes n. Row by row, on all threads.
   void multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) const;
@@ -59,14 +65,16 @@ public:
     return sum;
   }
 
+  /// The stored upper triangle, compressed by rows: row i has the blocks value()[k] at
+  /// column()[k] for k from row_start()[i] to row_start()[i + 1] - 1.
   const std::vector<int>& row_start() const { return m_row_start; } ///< n + 1
+  /// Columns of the stored blocks, and the blocks.
   const std::vector<int>& column() const { return m_column; }
+  /// The stored blocks.
   const std::vector<Mat3>& value() const { return m_value; }
-  /// The lower triangle, which is not stored: row i has the transposes of the blocks
-  /// value()[lower()[k].slot], at column lower()[k].column, for k from lower_start()[i] to
-  /// lower_start()[i + 1] - 1, by rising column.
+  /// Place of a block and its column.
   struct Entry {
-    int slot, column;
+    int slot, column; ///< index into the values; block column
   };
   const std::vector<int>& lower_start() const { return m_lower_start; } ///< n + 1
   const std::vector<Entry>& lower() const { return m_lower; }

@@ -8,6 +8,7 @@
 
 namespace sloper::cloth {
 
+/// An exact preconditioner.
 class Factorisation : public Preconditioner {
 public:
   void update(const LinearSystem& system) override; ///< contact elements too

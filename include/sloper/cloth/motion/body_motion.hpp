@@ -19,6 +19,7 @@
 
 namespace sloper::cloth {
 
+/// Moves the skin of one body under one cloth.
 class BodyMotion {
 public:
   /// All outlive this; `contact` is an effect of `solver`.
@@ -26,21 +27,24 @@ public:
   BodyMotion(ClothSolver& solver, BodyContactEffect& contact, collision::BodyCollider& body,
              SelfContactEffect* self_contact = nullptr);
 
-  /// The skin goes straight to `target` (#V by 3, m) and the cloth steps meanwhile; both take
-  /// options.h seconds.
-  /// @param options  of each part, whose h is its share of options.h (with inertia 0 all of it:
-  /// that flow knows no time)
-  /// @return the last step's result, `finite` false when one was not: the skin is then where it was
-  /// at that moment
-  /// @param step  makes the cloth's steps where it is not the solver's own step()
+  /// Moves the skin straight to `target` while the cloth steps; both take options.h
+  /// seconds.
+  /// @param target  #V by 3, m
+  /// @param options  of each substep, whose h is its share of options.h (with inertia 0
+  /// all of it: that flow has no time)
+  /// @param step  makes the cloth's steps in place of the solver's own step()
+  /// @return the last step's result; `finite` is false when one was not: the skin then
+  /// stays where it was at that moment
   StepResult advance(const std::vector<Vec3>& target, const StepOptions& options,
                      const std::function<StepResult(const StepOptions&)>& step = {});
 
-  long calls = 0;           ///< of advance()
-  long parts = 0;           ///< steps
-  long forced = 0;          ///< advances in which the skin had to go through cloth
-  double largest_way_m = 0; ///< of a skin vertex in one advance
-  double wall_s = 0;        ///< of moving the skin and carrying cloth, without the cloth's steps
+  long calls = 0;  ///< of advance()
+  long parts = 0;  ///< substeps
+  long forced = 0; ///< advances in which the skin had to go through cloth
+  /// Largest displacement of a skin vertex in one advance, m.
+  double largest_way_m = 0;
+  /// Wall seconds of moving the skin and computing predictors, without the cloth's steps.
+  double wall_s = 0;
 
 private:
   void predict_from_skin(const std::vector<Vec3>& way, double time);

@@ -3,6 +3,7 @@
 ///   (M/h^2 + D/h + K) dx = f0 + inertia * M v0 / h,   K = -df/dx (definite part), D = -df/dv.
 /// With inertia 1 this is (M - h df/dv - h^2 df/dx) dv = h (f0 + h df/dx v0); with inertia 0 it is
 /// the overdamped flow that goes to rest in few large steps.
+/// Test: tests/cloth/solver/test_implicit_step.cpp
 #include <memory>
 #include <sloper/cloth/cloth_mesh.hpp>
 #include <sloper/cloth/effect.hpp>
@@ -10,19 +11,23 @@
 
 namespace sloper::cloth {
 
+/// How one step is made.
 struct StepOptions {
   double h = 1.0 / 30; ///< s
-  double inertia = 0;  ///< 0..1: share of the velocity that is carried over
-  double cg_tolerance =
-      1e-2; ///< relative residual; near rest, with a line search, relative to that without outliers
+  /// 0..1: share of the velocity that is kept; 0 is the overdamped flow.
+  double inertia = 0;
+  /// Relative residual of a solve; near rest, with a line search, relative to the
+  /// residual without outliers.
+  double cg_tolerance = 1e-2;
   /// A solve also ends where this share of its error is left in the energy norm
   /// (CgTolerance::energy; 0: never): of the energy that the step's model gains, all but the square
   /// of that share.
   double cg_energy_tolerance = 0;
-  /// What a solve near rest need not go below, root mean square over the particles, over the mean
-  /// weight of a particle: no more than the residual that counts as rest.
+  /// Residual below which a solve near rest need not go: root mean square over the
+  /// particles, over the mean weight of a particle; no more than the residual that counts
+  /// as rest.
   double least_residual_ratio = 0;
-  int cg_max_iterations = 400;
+  int cg_max_iterations = 400; ///< of one solve
   /// With inertia and without line_search: the most solves of a step. 1 is the linearised step of
   /// the paper: inaccurate for large rotations, which it turns into stretch and spurious energy.
   /// More are Newton iterations on the incremental potential E(x) + |x - x0 - h v0|^2_M / (2 h^2)
@@ -34,6 +39,7 @@ struct StepOptions {
   /// not burst. Other steps cost two evaluations of the energy more. Not where cloth crosses
   /// something: there contact is meant to push it out.
   bool guard_energy = false;
+  /// Most solves of a step with guard_energy.
   static constexpr int GUARD_SOLVES = 8;
   /// Halves the step until the energy falls, doubles it while the energy goes on falling, and
   /// halves a step that takes back the last one; where no step lowers the energy, nothing moves.
@@ -57,6 +63,7 @@ struct StepOptions {
   double largest_move_m = 0.05; ///< no particle moves farther in one step
 };
 
+/// Outcome of a step.
 struct StepResult {
   CgResult cg;               ///< iterations: of all solves
   int newton_iterations = 1; ///< solves
@@ -66,8 +73,9 @@ struct StepResult {
   /// weight of a particle. The percentile decides: single particles may flip between two facets of
   /// the skin for ever without moving anything.
   double residual_force_ratio = 0, residual_force_ratio_max = 0;
-  std::size_t held = 0; ///< particles that a contact limit holds back: it carries their force
-  bool finite = true;   ///< false: nothing was moved
+  /// Particles that a contact limit stopped: contact carries their force.
+  std::size_t held = 0;
+  bool finite = true; ///< false: nothing was moved
 };
 
 /// State and effects of one cloth. Allocates at the first step only, apart from growing contact
@@ -82,45 +90,62 @@ public:
   ClothSolver(const ClothMesh& mesh, std::vector<Vec3> x);
   ClothSolver(const ClothSolver&) = delete;
   ClothSolver& operator=(const ClothSolver&) = delete;
-  /// Effects run in the order in which they are added.
+  /// Adds an effect; effects run in the order in which they are added.
+  /// @param effect  not null
+  /// @return the effect, owned by the solver
   Effect& add(std::unique_ptr<Effect> effect);
+  /// Makes an effect of type T and adds it.
+  /// @return the effect, owned by the solver
   template<class T, class... Args> T& emplace(Args&&... args) {
     return static_cast<T&>(add(std::make_unique<T>(std::forward<Args>(args)...)));
   }
-  /// Takes an effect out; it costs nothing from then on. Returns it, so that its counts can be
-  /// reported.
+  /// Removes an effect, which costs nothing from then on.
+  /// @return the effect, so that its counts can be reported; null for one that is not
+  /// here
   std::unique_ptr<Effect> remove(const Effect& effect);
+  /// Makes one step: contacts, assembly, solve, limits, line search. A step whose result
+  /// is not finite moves nothing. Cost: one sparse solve or as many as
+  /// StepResult::newton_iterations says.
   StepResult step(const StepOptions& options);
-  /// Searches now for what the next step of h seconds would search for first: for callers that have
-  /// time now and none later. The step is the same with and without.
+  /// Makes the first search of the next step of h seconds now: for callers that have time
+  /// now and none later. The step is the same with and without.
   void prefetch_contacts(double h);
   /// Instead of smoothed aggregation. @param preconditioner  not null
   void set_preconditioner(std::unique_ptr<Preconditioner> preconditioner) {
     m_preconditioner = std::move(preconditioner);
   }
 
+  /// Positions, m, and velocities, m/s; #P by 3.
   const std::vector<Vec3>& x() const { return m_x; }
   const std::vector<Vec3>& v() const { return m_v; }
+  /// Replaces the positions, #P by 3, m; velocity is zero from now on.
   void set_positions(std::vector<Vec3> x);
-  /// The caller moved x: velocity is zero from now on, and nothing is known of the way so far.
+  /// The caller moved x: velocity is zero from now on, and the history of steps is
+  /// dropped.
   void positions_changed() { stop(); }
-  /// Adds to positions and to velocities; for what carries cloth beside its steps (BodyMotion).
-  /// Sizes #P.
+  /// Adds to positions, m, and velocities, m/s, without dropping the history of steps
+  /// (BodyMotion). Sizes #P.
   void shift(const std::vector<Vec3>& dx, const std::vector<Vec3>& dv) {
-    for (std::size_t i = 0; i < m_x.size(); ++i) m_x[i] += dx[i], m_v[i] += dv[i];
+    for (std::size_t i = 0; i < m_x.size(); ++i) {
+      m_x[i] += dx[i];
+      m_v[i] += dv[i];
+    }
   }
-  /// Lets go what a line search keeps in place for a while, a pinch that would stop all other
-  /// cloth. @return whether there was any
+  /// Releases the particles that a line search has blocked for a while, because a pinch
+  /// there would stop all other cloth.
+  /// @return whether there was any
   bool release_blocked_particles() {
     const std::vector<int> none(m_x.size(), 0);
     const bool any = m_blocked_for != none;
     m_block_for = m_blocked_for = none;
     return any;
   }
+  /// Sets the velocity to zero and drops the history of steps.
   void stop() {
     m_v.assign(m_v.size(), Vec3::Zero());
     forget();
   }
+  /// In the order in which they run, and the rest state.
   const std::vector<std::unique_ptr<Effect>>& effects() const { return m_effects; }
   const ClothMesh& mesh() const { return m_mesh; }
   double assembly_s = 0, solve_s = 0, contact_s = 0, search_s = 0; ///< wall seconds so far
@@ -129,8 +154,8 @@ private:
   void begin(); ///< of both constructors
   void rebuild_pattern();
   void assemble(double h, bool again = false); ///< @param again  the step has come some of its way
-  StepResult newton_step(const StepOptions& options, int most_solves,
-                         bool begun);     ///< @param begun  effects have begun this step
+  /// @param begun effects have begun this step.
+  StepResult newton_step(const StepOptions& options, int most_solves, bool begun);
   bool gains(const StepOptions& options); ///< m_dx, in the incremental potential without damping
   void assemble_drag(double h);
   void drag_of(const std::vector<Vec3>& way, std::vector<Vec3>& drag);
@@ -148,9 +173,8 @@ private:
   /// N2.
   bool assembled_finite() const;
   std::array<double, 2> measure_rhs();
-  double
-  near_tolerance(const StepOptions& options,
-                 const std::array<double, 2>& squares) const; ///< of the solve for m_rhs, near rest
+  /// Of the solve for m_rhs, near rest.
+  double near_tolerance(const StepOptions& options, const std::array<double, 2>& squares) const;
   CgResult solve(const StepOptions& options);
 
   const ClothMesh& m_mesh;

@@ -8,6 +8,7 @@
 /// map that brings the marks of the first body (hip, waist, bust, ...) to their like. On the body
 /// it was bound to every F_k gives x itself, so that placing there is the identity to rounding
 /// whatever the weights are.
+/// Test: tests/garment/bind/test_bind.cpp
 #include <sloper/body/body.hpp>
 #include <sloper/garment/garment.hpp>
 
@@ -19,15 +20,18 @@ namespace sloper::garment {
 /// hang on
 void bind_garment(Garment& garment, const body::Body& body);
 
-/// Where a garment's waist goes.
+/// Which height of the other body the waist of a garment is mapped to.
 enum class Waist {
-  SEMANTIC, ///< level waist_semantic to its like: cloth slides from there to where it is held
-  OF_ALL ///< between all levels that tell it (with_one_waist): cloth that is graded has its girth
-         ///< from where it is placed
+  /// Level waist_semantic to the same level: cloth slides from there to where it is held.
+  SEMANTIC,
+  /// Weighted mean of all levels that both bodies have for a waist: for graded cloth,
+  /// whose girth is taken where it is placed.
+  OF_ALL
 };
 
-/// Positions of the particles on `body`, #P by 3, m. Pure geometry: no collision, no strain is
-/// looked at.
+/// Positions of the particles on `body`, #P by 3, m. Pure geometry: collisions and strain
+/// are not considered.
+/// @param waist  height that the waist is mapped to
 /// @throws Error INPUT when the garment is not bound or hangs on a part that `body` lacks
 std::vector<Vec3> place_garment(const Garment& garment, const body::Body& body,
                                 Waist waist = Waist::SEMANTIC);

@@ -1,10 +1,11 @@
 #pragma once
-/// A body drawn in towards its bones, so that panels which start inside it come to lie outside; it
-/// is inflated again while the cloth gives way.
+/// A body drawn in towards its bones, so that panels that begin inside it lie outside. It
+/// is inflated again while the cloth gives way (simulate/phases/inflate.hpp).
 #include <sloper/body/body.hpp>
 
 namespace sloper::garment {
 
+/// The skin with the point of its bones that each vertex is drawn towards.
 class BodyShrink {
 public:
   /// Finds for each skin vertex the nearest point on the bones of its own part. @throws Error INPUT
@@ -12,7 +13,7 @@ public:
   explicit BodyShrink(const body::Body& body);
   /// Skin at scale s: b + s (p - b); 1 is the body itself, 0 the bones.
   std::vector<Vec3> positions(double s) const;
-  /// Largest way of a skin vertex from its bone, m.
+  /// Largest distance of a skin vertex from its bone point, m.
   double reach() const { return m_reach; }
 
 private:

@@ -1,15 +1,19 @@
 #pragma once
-/// Hands as mittens, toes as in a sock: the skin that sleeves and trousers meet has each hand, and
-/// the front of each foot, inside a convex shell, so that no hem is caught between fingers or toes.
-/// A shell holds all skin beyond the wrist, or of the toes and the ball of the foot, so cloth
-/// outside it is outside of that. Test: tests/garment/body_model/test_extremity_hulls.cpp
+/// Hands in mittens, toes in socks: the skin that sleeves and trousers meet has each
+/// hand, and the front of each foot, inside a convex hull, so that no hem is caught
+/// between fingers or toes. A hull holds all skin beyond the wrist, or of the toes and
+/// the ball of the foot, so cloth outside it is outside of that skin. Test:
+/// tests/garment/body_model/test_extremity_hulls.cpp
 #include <sloper/body/body.hpp>
 
 namespace sloper::garment {
 
+/// The skin with the hulls of its ends added.
 class ExtremityHulls {
 public:
+  /// Bits for the ends that can be covered.
   enum Ends : unsigned { HANDS = 1, FEET = 2 };
+  /// Both hands and both feet.
   static constexpr unsigned ALL_ENDS = HANDS | FEET;
   /// Hands and feet whose landmarks were not found stay as they are. Cost O(vertices of an end
   /// times shell faces).

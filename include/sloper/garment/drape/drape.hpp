@@ -1,5 +1,7 @@
 #pragma once
 /// Drape: from placed panels or a kept garment to cloth at rest on a body.
+/// docs/architecture.md describes the phases.
+/// Test: tests/garment/drape/test_drape.cpp
 #include <sloper/base/progress.hpp>
 #include <sloper/body/body.hpp>
 #include <sloper/garment/garment.hpp>
@@ -13,35 +15,42 @@ namespace sloper::garment {
 
 struct DrapeCheckpoint; ///< checkpoint.hpp
 
-/// Sews (when seams are open), repairs the start, drapes until at rest.
-/// @param garment  in: placed panels (particle_of empty: unsewn) or a sewn garment with positions
-/// near the body; out: the state reached
-/// @param body     nullptr for none
-/// @return what happened; not converging is a result, not an exception
+/// Drapes a garment: sews open seams, frees the start of the body, brings the cloth to
+/// rest and audits it. 2 to 9 CPU seconds for garments of 3,200 to 5,700 particles from
+/// panels with standard settings (README.md).
+/// @param garment  in: placed panels (particle_of empty: unsewn) or a sewn garment with
+/// positions near the body; out: the state reached, whether or not at rest
+/// @param body  nullptr for none
+/// @param settings  of preset_settings() or changed by set_knob()
+/// @param request  checkpoints, bounds of fit, facts of the start
+/// @return the outcome; not converging is a result, not an exception
 /// @throws Error INPUT for a garment that cannot be simulated
 DrapeReport drape(Garment& garment, const body::Body* body, const DrapeSettings& settings,
                   Reporter& reporter, const DrapeRequest& request = {});
 
-/// Goes on from a checkpoint to the same garment, bit by bit, that the undisturbed run would have
-/// come to; settings are the checkpoint's.
-/// @param garment  in: body_sha256 of the body, or empty to trust the caller; out: the state
-/// reached   @param body  the one that the run began with   @param file  new checkpoints go there;
-/// empty: nowhere
-/// @throws Error INPUT for what is no checkpoint, for another body, or for one of drape_layers() or
-/// drape_in_motion(), which drape_job.hpp goes on with
+/// Continues a checkpoint to the garment that the uninterrupted run would have ended
+/// with, bit by bit; settings are the checkpoint's.
+/// @param garment  in: body_sha256 of the body, or empty to trust the caller; out: the
+/// state reached
+/// @param body  the one that the run began with
+/// @param file  new checkpoints are written there; empty: nowhere
+/// @throws Error INPUT for a file that is no checkpoint, for another body, or for a
+/// checkpoint of drape_layers() or drape_in_motion(), which resume_job() continues
 DrapeReport resume_drape(const std::string& checkpoint, Garment& garment, const body::Body* body,
                          Reporter& reporter, const std::string& file = "");
 
-/// The same from what was read. @param checkpoints  as for drape(); how often is the checkpoint's
+/// The same from a checkpoint in memory.
+/// @param checkpoints  as for drape(); how often is the checkpoint's
 DrapeReport resume_drape(const DrapeCheckpoint& checkpoint, Garment& garment,
                          const body::Body* body, Reporter& reporter,
                          const Checkpoints& checkpoints);
 
-/// Draws crossing cloth apart and out of the body without draping: only what crosses moves, by
-/// short steps; where that does not do, the body is drawn in and inflated again under the whole
-/// garment, without weight. `quality.untangled` has the counts before and after; they are told.
-/// @return converged: nothing crosses any more; a garment that was clean stays as it was, to the
-/// bit
+/// Draws crossing cloth apart and out of the body without draping: only cloth that
+/// crosses moves, by short steps; where that does not suffice, the body is drawn in and
+/// inflated again under the whole garment, without weight. Counts before and after are in
+/// `quality.untangled` of the report.
+/// @return converged: nothing crosses any more; a garment that was clean is unchanged, to
+/// the bit
 /// @throws Error INPUT for a garment that is not sewn
 DrapeReport untangle_only(Garment& garment, const body::Body* body, const DrapeSettings& settings,
                           Reporter& reporter);

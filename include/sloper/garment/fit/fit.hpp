@@ -1,19 +1,23 @@
 #pragma once
-/// How a draped garment fits the body it hangs on: ease, strain, gap and pressure per girth, hems,
-/// coverage, balance, a verdict.
+/// How a draped garment fits the body it hangs on: ease, strain, gap and pressure per
+/// girth, hems, coverage, balance, a verdict.
 ///
-/// Trunk levels are cut level, without what hangs on the arms, as the body's own girths are; limb
-/// girths are cut square to the limb. A garment's girth is the length of the line of cloth in the
-/// cut: `lying` as it hangs, `rest` as it would be unstretched; ease = rest - body girth, so a
-/// garment that only goes on by stretching has negative ease. Free edges (neck, sleeves, legs, the
-/// top of what hangs from the waist) are measured along themselves, against the skin in their
-/// plane. Strain and contact pressure are those of cloth_strain.hpp. Uncertainties: of the body's
-/// girth its spread, or what the next level tells of its slope; of the garment's the change within
-/// the error of the level's height and the chord's shortfall against its arc; of strain the change
-/// when half the band is taken; of the gap the sagitta of an edge; of pressure as of the strain. A
-/// garment that was draped again and again (Garment::redrapes) adds its standard deviations. A
-/// drape that did not come to rest adds `convergence_m` to lengths and gaps, and its strain and
-/// slip decide nothing (only the ease of its girths does), unless it was ended for them.
+/// Trunk levels are cut level, without cloth that hangs on the arms, as the body's own
+/// girths are; limb girths are cut square to the limb. A garment's girth is the length of
+/// the line of cloth in the cut: `lying` as it hangs, `rest` as it would be unstretched.
+/// Ease = rest - body girth, so a garment that must stretch to be put on has negative
+/// ease. Free edges (neck, sleeves, legs, the top of cloth that hangs from the waist) are
+/// measured along themselves, against the skin in their plane. cloth_strain.hpp defines
+/// strain and contact pressure.
+///
+/// Uncertainties: of the body's girth its spread, or the slope to the next level; of the
+/// garment's girth its change within the error of the level's height, and the chord's
+/// shortfall against its arc; of strain its change when half the band is taken; of the
+/// gap the sagitta of an edge; of pressure as of the strain. A garment that was re-draped
+/// (Garment::redrapes) adds its standard deviations. A drape that did not come to rest
+/// adds `convergence_m` to lengths and gaps, and its strain and slip decide nothing (only
+/// the ease of its girths does), unless it was ended for them.
+/// Test: tests/garment/fit/test_fit.cpp
 #include <sloper/body/body.hpp>
 #include <sloper/collision/body_collider.hpp>
 #include <sloper/garment/fit/fit_policy.hpp>
@@ -24,39 +28,45 @@
 
 namespace sloper::garment {
 
-/// @param garment draped on `body` and bound to it (bind_garment)
-/// @param placed  positions before the drape, #P, or nullptr: how far the garment slid is measured
-/// from them
-/// @param made_for  Garment::body_girths_m of the body it was cut for, if known: what was cut wide
-/// is not too large for being wide, and what
-///                 was cut tight not too small for being tight (see FitPolicy::too_large_ease,
-///                 too_small_ease)
-/// @param unfit  misfit_text(DrapeReport::misfit): where FitBounds ended the drape, strain and slip
-/// decide although it is not at rest, and the answer is no
-/// @throws Error INPUT when it is not bound
+/// Measures the fit of a draped garment and judges it by a policy.
+/// @param garment  draped on `body` and bound to it (bind_garment)
+/// @param placed  positions before the drape, #P by 3, m, from which the slip is
+/// measured, or nullptr
+/// @param made_for  Garment::body_girths_m of the body it was cut for, if known: a design
+/// that was cut wide is not too large for being wide, and one that was cut tight not too
+/// small for being tight (FitPolicy::too_large_ease, too_small_ease)
+/// @param source  positions of the particles on the body that the garment comes from, #P by
+/// 3, m, or nullptr: a girth may be stretched as it was there (FitPolicy::too_small_strain)
+/// @param unfit  misfit_text(DrapeReport::misfit): where FitBounds ended the drape,
+/// strain and slip decide although it is not at rest, and the answer is no
+/// @throws Error INPUT when the garment is not bound
 FitReport fit_garment(const Garment& garment, const body::Body& body,
                       const collision::BodyCollider& skin, const FitPolicy& policy,
                       const std::vector<Vec3>* placed = nullptr, const std::string& unfit = {},
-                      const std::map<std::string, double>& made_for = {});
+                      const std::map<std::string, double>& made_for = {},
+                      const std::vector<Vec3>* source = nullptr);
 
-/// Bounds for a drape beyond which the garment will not fit by the policy: a tenth more slip and
-/// half as much strain again as it bears.
+/// Bounds for a drape beyond which the garment will not fit by the policy: 1.1 times the
+/// slip and 1.5 times the strain that the policy allows.
 /// @param before  of fit_before_drape(), for the class, the fabric and the least ease
 FitBounds early_termination_bounds(const FitPolicy& policy, const FitReport& before);
 
-/// Whether a garment can go on at all, before any drape: only girths, and the top edge of what
-/// hangs from the waist, that the cloth does not reach round. That is so where the girth is too
-/// small by the policy though the garment slides 6 cm up or down, which no tight cloth does, or, to
-/// be told of less of the body, though it slides 3 cm and is stretched by all that the policy
-/// bears; and as far as it was stretched on the first body where that is further (an elastic band).
-/// Only `fits`, `verdict`, `reason`, the refused rows and, where it may go on, a `margin_m` below
-/// zero for a tight girth, class, fabric and `slip_borne_m` are told.
-/// @param placed on `body`, bound to any body   @param source_position #P: where it hung when it
-/// was at rest
+/// Refuses, before any drape, garments whose cloth does not reach round the body: by
+/// girths, and by the top edge of cloth that hangs from the waist. A girth is refused in
+/// either of two cases. Stretched as far as the policy allows, or as on the first body
+/// where that is further (an elastic band), it closes around no level within 3 cm. Or,
+/// unstretched, it is too small by the policy at every level within 6 cm, farther than
+/// tight cloth slides. Only `fits`, `verdict`, `reason`, the refused rows and, where it
+/// passes, a `margin_m` below zero for a tight girth, class, fabric and `slip_borne_m`
+/// are set.
+/// @param placed  on `body`, bound to any body
+/// @param source_position  #P by 3, m: where it hung when it was at rest
 FitReport fit_before_drape(const Garment& placed, const std::vector<Vec3>& source_position,
                            const body::Body& body, const FitPolicy& policy);
 
-/// A report that says no for a reason that needs no measuring.
+/// A report that says no without measuring.
+/// @param reason  a sentence
+/// @param policy  for its name
 FitReport impossible_fit(const std::string& reason, const FitPolicy& policy);
 
 /// fit.json without its envelope's inputs.

@@ -8,82 +8,96 @@
 
 namespace sloper::garment {
 
+/// Version of the policy document that is read.
 inline constexpr int FIT_POLICY_VERSION = 1;
 
-enum class FitVerdict {
-  OK,
-  LOOSE,
-  TIGHT,
-  TOO_LARGE,
-  TOO_SMALL,
-  IMPOSSIBLE
-}; ///< from good to worst
-const char* verdict_name(
-    FitVerdict verdict); ///< "ok", "loose", "tight", "too large", "too small", "impossible"
+/// Verdict on a girth or on the garment, from good to worst.
+enum class FitVerdict { OK, LOOSE, TIGHT, TOO_LARGE, TOO_SMALL, IMPOSSIBLE };
+/// "ok", "loose", "tight", "too large", "too small", "impossible".
+const char* verdict_name(FitVerdict verdict);
 
+/// Thresholds of one girth. Ease is a ratio to the body girth, strain l/l0 - 1.
 struct FitLimits {
   double too_small_ease = -0.03; ///< of the body girth: below, the cloth does not go round
-  double too_small_strain =
-      0.08;                 ///< girth stretched further than this does not hold, whatever the ease
+  /// Girth stretched further than this does not hold, whatever the ease.
+  double too_small_strain = 0.08;
   double tight_ease = 0.01; ///< of the body girth: below, it is tight
   double loose_ease = 0.50; ///< of the body girth: above, it is loose
-  double too_large_ease =
-      std::numeric_limits<double>::infinity(); ///< of the body girth: above, it is another size;
-                                               ///< infinite: there is no such limit
+  /// Of the body girth: above, it is another size; infinite: there is no such limit.
+  double too_large_ease = std::numeric_limits<double>::infinity();
 };
 
-/// Limits of which some are said.
+/// Limits of which some are given.
 struct FitOverride {
+  /// As in FitLimits; empty: not given.
   std::optional<double> too_small_ease, too_small_strain, tight_ease, loose_ease, too_large_ease;
+  /// Replaces those of `limits` that are given here.
   void apply(FitLimits& limits) const;
 };
 
-/// What a policy says for all garments, for a class of garments, or for a fabric.
+/// Rules of a policy for all garments, for a class of garments, or for a fabric.
 struct FitRules {
-  FitOverride standard;
-  std::map<std::string, FitOverride> girths;
+  FitOverride standard;                      ///< for girths that `girths` does not name
+  std::map<std::string, FitOverride> girths; ///< by girth or level, without _l or _r
+  /// Limits of the cloth's strain and of the slip, m; FitPolicy has the meaning.
   std::optional<double> strain_p99, strain_max, slip_m;
 };
 
-/// Rules for all garments, and those that go before them.
+/// Rules for all garments, and those that take precedence over them.
 struct FitRuleSet {
-  FitRules all;
+  FitRules all; ///< for every garment
+  /// By garment class; by material name.
   std::map<std::string, FitRules> classes, fabrics;
 };
 
-/// policy.json: {"format": "fit-policy", "version": 1, "name", "refuse": ["too small", ...], RULES,
-/// "classes": {CLASS: {RULES}}, "fabrics": {MATERIAL: {RULES}}}; RULES: "default": {limits},
-/// "girths": {NAME: {limits}}, "strain_p99", "strain_max", "slip_m". NAME is a girth or level of
-/// the body document, without _l or _r; CLASS is top, dress, skirt, trousers or whole. What is said
-/// for a fabric goes before a class, a class before all garments, a girth before the default; all
-/// of it before the standard policy's. Unknown keys are errors.
+/// policy.json: {"format": "fit-policy", "version": 1, "name", "refuse": ["too small",
+/// ...], RULES, "classes": {CLASS: {RULES}}, "fabrics": {MATERIAL: {RULES}}}; RULES:
+/// "default": {limits}, "girths": {NAME: {limits}}, "strain_p99", "strain_max", "slip_m".
+/// NAME is a girth or level of the body document, without _l or _r; CLASS is top, dress,
+/// skirt, trousers or whole. A fabric takes precedence over a class, a class over all
+/// garments, a girth over the default, and the document over the standard policy. Unknown
+/// keys are errors.
 struct FitPolicy {
-  std::string name = "woven";
-  FitRuleSet standard, own;          ///< what Sloper says, and what the document says
-  double worn_p99 = 0, worn_max = 0; ///< strain of a garment on the body that it comes from, or 0:
-                                     ///< a tenth more is borne on another
-  bool refuse_loose = false,
-       refuse_tight = false; ///< "too small" and "too large" are always refused
+  std::string name = "woven"; ///< of the policy, for reports
+  FitRuleSet standard, own;   ///< built in; of the document
+  /// Strain of the garment on the body that it comes from, or 0: a tenth more is allowed
+  /// on another body.
+  double worn_p99 = 0, worn_max = 0;
+  /// The garment comes from this very body, on which it came to rest without a finding: by
+  /// girth its ease there, a share of the body's. The same ease is allowed again.
+  std::optional<std::map<std::string, double>> worn_here;
+  /// "too small" and "too large" are always refused.
+  bool refuse_loose = false, refuse_tight = false;
 
+  /// The limits that hold for a girth of such a garment.
+  /// @param girth  name without _l or _r
+  /// @param garment_class  empty: none
+  /// @param fabric  material name; empty: none
   FitLimits limits(const std::string& girth, const std::string& garment_class = {},
                    const std::string& fabric = {}) const;
-  /// too_large_ease of `limits` (of limits()) for a garment that was cut with `designed` ease, a
-  /// share of the girth of the body it was cut for: where that is more, the ease that the design
-  /// has on a body whose girth goes into that of the other 1 plus half of that limit times. A limit
-  /// that the document says holds.
+  /// too_large_ease for a garment that was cut with ease on purpose: the larger of the
+  /// limit L and (1 + designed) (1 + L / 2) - 1, the ease that the design has on a body
+  /// whose girth is smaller by the factor 1 + L / 2. A limit of the document is returned as it is.
+  /// @param limits  of limits()
+  /// @param designed  ease as a ratio to the girth of the body that the garment was cut for
   double too_large_ease(const FitLimits& limits, double designed, const std::string& girth,
                         const std::string& garment_class, const std::string& fabric) const;
-  /// too_small_ease of `limits` for a garment that is worn with `designed` ease: where that is
-  /// less, a hundredth less than that. A limit that the document says holds, and any where worn_p99
-  /// is 0.
+  /// too_small_strain of `limits` for a girth that is stretched by `worn` on the body that
+  /// the garment comes from: the larger of the limit and a tenth more than `worn`. A limit of
+  /// the document, and any limit where worn_p99 is 0, is returned as it is.
+  double too_small_strain(const FitLimits& limits, double worn, const std::string& girth,
+                          const std::string& garment_class, const std::string& fabric) const;
+  /// too_small_ease for a garment that was cut tight on purpose: the smaller of the limit
+  /// and `designed` - 0.01. A limit of the document, and any limit where worn_p99 is 0, is
+  /// returned as it is.
   double too_small_ease(const FitLimits& limits, double designed, const std::string& girth,
                         const std::string& garment_class, const std::string& fabric) const;
-  double
-  strain_p99(const std::string& garment_class,
-             const std::string& fabric) const; ///< of all edges: stretched further, it does not fit
-  double strain_max(const std::string& garment_class,
-                    const std::string& fabric) const; ///< of any edge
-  /// m that it may sink before it counts as falling off; infinite: as far as the hip holds it
+  /// Largest 99th percentile of strain over all cloth with which the garment still fits.
+  double strain_p99(const std::string& garment_class, const std::string& fabric) const;
+  /// Largest strain of any triangle with which it still fits.
+  double strain_max(const std::string& garment_class, const std::string& fabric) const;
+  /// Distance that the garment may sink before it counts as falling off, m; infinite: as
+  /// far as the hip holds it.
   double slip_m(const std::string& garment_class, const std::string& fabric) const;
 };
 
@@ -91,6 +105,16 @@ struct FitPolicy {
 /// must hold there, what hangs from the shoulders may stand off; skirts flare. The figures are in
 /// the man page.
 FitPolicy standard_fit_policy();
-FitPolicy read_fit_policy(const std::string& path); ///< @throws Error INPUT
+/// Rules for a fabric that gives more than woven cloth. A wearing load of 50 N/m (half of the
+/// load from which stretch.hpp makes a finding) stretches its softer direction by a strain that
+/// is allowed in a girth and over the whole garment, and by which a girth may be smaller than
+/// the body; half of it is tight, twice it is allowed at one place. Empty where woven cloth is
+/// allowed more.
+/// @param stiffness_n_m  of the softer of warp and weft, above 0
+FitRules elastic_fabric_rules(double stiffness_n_m);
+
+/// Reads a policy document over the standard one.
+/// @throws Error INPUT with its place
+FitPolicy read_fit_policy(const std::string& path);
 
 } // namespace sloper::garment

@@ -1,6 +1,6 @@
 #pragma once
-/// What is found out about how a garment fits: rows by girth, regions, free edges, the verdict.
-/// fit.hpp says how it is measured.
+/// What is measured of a garment's fit: rows by girth, regions, free edges, the verdict.
+/// fit.hpp defines the measures; fit.json(5) describes the document.
 #include <sloper/garment/fit/fit_lines.hpp>
 #include <sloper/garment/fit/fit_policy.hpp>
 
@@ -11,44 +11,59 @@
 
 namespace sloper::garment {
 
+/// The limit of the policy that decided a verdict.
+struct FitRule {
+  std::string key;  ///< in the document: "too_small_ease", "strain_p99", ...; empty: none did
+  double limit = 0; ///< a ratio
+};
+
+/// One girth of the body, or one free edge, and the cloth around it.
 struct FitRow {
-  std::string name;    ///< "bust", "upper_arm_l", ...: as in the body document, or a free edge:
-                       ///< "neck_edge", "sleeve_hem_l", ...
-  std::string kind;    ///< "level", "limb", "neck" or "edge"
-  double height_m = 0; ///< of the cut's centre
-  double body_m = 0;   ///< body girth
+  /// "bust", "upper_arm_l", ...: as in the body document, or a free edge: "neck_edge",
+  /// "sleeve_hem_l", ...
+  std::string name;
+  std::string kind;               ///< "level", "limb", "neck" or "edge"
+  double height_m = 0;            ///< of the cut's centre
+  double body_m = 0;              ///< body girth
   double lying_m = 0, rest_m = 0; ///< garment girth as it hangs and unstretched
-  double ease_m = 0;              ///< rest_m - body_m
-  double bridged_m = 0;  ///< of the girth, where there is no trunk cloth: openings, under the arms
-  bool open = false;     ///< something is bridged
-  double strain_p99 = 0; ///< of the triangles within 2 cm of the cut, or along the edge
+  double ease_m = 0;              ///< rest_m - body_m; lying_m - body_m where it is gathered
+  bool gathered = false;  ///< pressed together as a whole, by gathers that a narrower piece holds:
+                          ///< it opens no further than it lies
+  double worn_strain = 0; ///< strain_girth of the same line on the body that the garment comes from
+  double bridged_m = 0;   ///< of the girth, where there is no trunk cloth: openings, under the arms
+  bool open = false;      ///< something is bridged
+  double strain_p99 = 0;  ///< of the triangles within 2 cm of the cut, or along the edge
   double strain_girth = 0;      ///< lying_m / rest_m - 1: how far the girth as a whole is stretched
   std::string strain_direction; ///< "warp" or "weft": of the triangles beyond the 99th percentile
   double gap_p05_m = 0, gap_p50_m = 0; ///< cloth to skin, signed
-  double pressure_p95_pa = 0;
+  double pressure_p95_pa = 0;          ///< 95th percentile of contact pressure near the cut
+  /// Uncertainties of the body's girth, the garment's and the ease (fit.hpp).
   double body_uncertainty_m = 0, garment_uncertainty_m = 0, ease_uncertainty_m = 0;
+  /// The same of strain, gap and pressure.
   double strain_uncertainty = 0, gap_uncertainty_m = 0, pressure_uncertainty_pa = 0;
   FitLimits limits;    ///< of the policy, for this girth
   double margin_m = 0; ///< ease to the nearer limit of "ok"; negative when it is not ok
-  FitVerdict verdict = FitVerdict::OK;
-  std::string reason; ///< of a verdict that is not OK
+  FitVerdict verdict = FitVerdict::OK; ///< of this girth alone
+  std::string reason;                  ///< of a verdict that is not OK
+  FitRule rule;                        ///< that decided it
 };
 
 /// Strain over one region of the garment: where it is stretched though no girth says so (across the
 /// shoulders, over a sleeve).
 struct FitRegion {
-  std::string
-      name; ///< "shoulders", "trunk", "left sleeve", "left leg", "skirt", "collar" (or a hood)
-  int triangles = 0;
-  double strain_p50 = 0, strain_p99 = 0, strain_max = 0;
-  std::string strain_direction;
+  /// "shoulders", "trunk", "left sleeve", "left leg", "skirt", "collar" (or a hood)
+  std::string name;
+  int triangles = 0;                                     ///< of the garment in this region
+  double strain_p50 = 0, strain_p99 = 0, strain_max = 0; ///< quantiles by area, l/l0 - 1
+  std::string strain_direction;                          ///< as FitRow::strain_direction
 };
 
+/// The whole report of one garment on one body.
 struct FitReport {
-  std::string garment_class; ///< "top", "dress", "skirt", "trousers" or "whole"
-  std::string fabric;        ///< name of the material of most of it
-  std::vector<FitRow> rows;
-  std::vector<FitRegion> regions;
+  std::string garment_class;             ///< "top", "dress", "skirt", "trousers" or "whole"
+  std::string fabric;                    ///< name of the material of most of it
+  std::vector<FitRow> rows;              ///< one per girth that could be measured
+  std::vector<FitRegion> regions;        ///< one per region that has cloth
   FitLines lines;                        ///< hems, coverage, balance
   double strain_p99 = 0, strain_max = 0; ///< over all cloth
   double slip_m = 0; ///< how far the garment as a whole sank from where it was placed
@@ -59,14 +74,16 @@ struct FitReport {
   std::string margin_at;                                     ///< its girth
   std::vector<std::pair<std::string, std::string>> left_out; ///< girth, why
   double hem_height_m = 0, top_height_m = 0; ///< lowest and highest point of the garment
-  double below_soles_m = 0; ///< how far it reaches below the feet; 0 where it does not
-  double convergence_m = 0; ///< how far it may still move: 0 at rest
-  bool fits = true;
+  double below_soles_m = 0;            ///< how far it reaches below the feet; 0 where it does not
+  double convergence_m = 0;            ///< how far it may still move: 0 at rest
+  bool fits = true;                    ///< whether the policy accepts it
   FitVerdict verdict = FitVerdict::OK; ///< the worst of all
   std::string reason; ///< "closes at the bust only stretched by 4 %: it is 3.6 cm too small there"
+  FitRule rule;       ///< that gave the verdict
   std::string policy; ///< its name
-  std::string state;  ///< of the cloth that was measured: "at rest", "not at rest", "placed" (not
-                      ///< draped), "not placed" (not measured)
+  /// Of the cloth that was measured: "at rest", "not at rest", "placed" (not draped),
+  /// "not placed" (not measured)
+  std::string state;
 };
 
 } // namespace sloper::garment

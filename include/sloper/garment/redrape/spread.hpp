@@ -1,5 +1,6 @@
 #pragma once
-/// What re-drapes have in common and how they differ.
+/// Statistics over re-drapes: their common result and their spread.
+/// Test: tests/garment/redrape/test_redrapes.cpp
 #include <sloper/garment/redrape/redrapes.hpp>
 #include <sloper/io/json_fwd.hpp>
 
@@ -9,12 +10,14 @@ namespace sloper::garment {
 
 /// Mean and standard deviation (n - 1) of one number over the drapes that came to rest.
 struct SpreadFigure {
-  int n = 0;
-  double mean = 0, sd = 0;
-  double error() const; ///< standard error of the mean: sd / sqrt(n); 0 for none
+  int n = 0;               ///< values
+  double mean = 0, sd = 0; ///< in the unit of the values
+  double error() const;    ///< standard error of the mean: sd / sqrt(n); 0 for none
 };
+/// Mean and standard deviation of values; sd is 0 for fewer than two.
 SpreadFigure spread_figure(const std::vector<double>& values);
 
+/// Statistics over the drapes that came to rest.
 struct Spread {
   int count = 0, at_rest = 0; ///< drapes; those that came to rest, which alone count below
   int medoid = 0; ///< number of the drape whose squared distances to the others are least in sum

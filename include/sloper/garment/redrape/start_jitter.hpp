@@ -1,5 +1,5 @@
 #pragma once
-/// Starts of one drape that differ as a person's hands do.
+/// Starts of one drape that differ as if each was placed by hand.
 #include <sloper/garment/garment.hpp>
 
 #include <cstdint>
@@ -14,14 +14,16 @@ struct StartJitter {
   /// first, 0..0.02 m: a sum of waves of WAVE_M and longer, so that layers that lie on each other
   /// move together and do not cross.
   double order_m = 0.002;
-  static constexpr double WAVE_M = 0.25;
+  static constexpr double WAVE_M = 0.25; ///< m; shortest wave of order_m
 };
 
 /// Sets one bound from "turn_deg=2", "offset_mm=3" or "order_mm=2". @throws Error USAGE
 void set_jitter(StartJitter& jitter, const std::string& assignment);
 
-/// Moves the positions to start number `index`; number 0 is the start as it is. The same for any
-/// index wherever it is called. @param seed  of all starts
+/// Moves the positions to start number `index`; number 0 is the start as it is. Depends
+/// on its arguments only.
+/// @param position  #P by 3, m, in and out
+/// @param seed  of all starts
 void jitter_start(std::vector<Vec3>& position, const StartJitter& jitter, std::uint64_t seed,
                   int index);
 

@@ -1,6 +1,7 @@
 #pragma once
-/// What a drape is asked for: accuracy presets, knobs by name, and the scene document that people
-/// write.
+/// The request of a drape: accuracy presets, knobs by name, and the scene document that
+/// people write.
+/// Test: tests/garment/scene/test_scene_effects.cpp
 #include <sloper/garment/composite.hpp>
 #include <sloper/garment/scene/effect_report.hpp>
 #include <sloper/garment/scene/settings.hpp>
@@ -8,50 +9,61 @@
 
 namespace sloper::garment {
 
+/// Version of the scene document.
 inline constexpr int SCENE_VERSION = 1;
 
 /// scene.json: {"format": "scene", "version": 1, "body", "panels", "accuracy", "effects",
-/// "materials", "settings"} and the keys of scene_effects_json.hpp; every key but the first two is
-/// optional, an unknown one is an error. Paths are relative to the scene's folder. A material is a
-/// preset's name, a CSV file of measurements (kes.hpp), or {"preset", "density_kg_m2", ...}.
+/// "materials", "settings"} and keys for additions (effect_inputs.hpp); every key but the
+/// first two is optional, an unknown one is an error. Paths are relative to the scene's
+/// folder. A material is a preset's name, a CSV file of measurements, or {"preset",
+/// "density_kg_m2", ...}. scene.schema.json has all keys.
 struct Scene {
   std::string body, panels; ///< resolved paths, empty when not named
   std::string accuracy;     ///< empty when not named
   std::string effects;      ///< "auto" or names joined by ","; empty when not named
-  std::map<std::string, Material>
-      materials; ///< by panel material name; "" is the garment's default
+  /// By panel material name; "" is the garment's default.
+  std::map<std::string, Material> materials;
   std::vector<std::pair<std::string, double>> settings; ///< knob, value; checked by set_knob
   SceneEffects extras;                                  ///< pins, elastic bands, wind ...
   /// "interfacing": layers that are put on some panels, whatever these are of.
   struct Interfacing {
-    std::vector<std::string> panels;
+    std::vector<std::string> panels; ///< names
+    /// Layer that is put on each of them.
     ClothLayer layer;
   };
-  std::vector<Interfacing> interfacing;
+  std::vector<Interfacing> interfacing; ///< in the order of the document
 };
 
-/// @throws Error INPUT
+/// Reads a scene document.
+/// @throws Error INPUT with its place
 Scene read_scene(const std::string& path);
 
-/// Gives the garment the scene's materials and effects; what the scene does not name stays as it
-/// is.
+/// Gives the garment the scene's materials and effects; parts that the scene does not
+/// name stay unchanged.
 void apply_scene(const Scene& scene, Garment& garment);
 
-/// Puts the scene's interfacing on its panels, once all materials are known: each gets a material
-/// of its own, layered() on the one that it had, under a name such as "cotton-poplin+fusible".
-/// @throws Error INPUT for a panel that is not there
+/// Puts the scene's interfacing on its panels, once all materials are known: each of them
+/// gets a material of its own, layered() on the present one, under a name such as
+/// "cotton-poplin+fusible".
+/// @throws Error INPUT for an unknown panel
 void apply_interfacing(const Scene& scene, Garment& garment);
 
-/// The settings of a preset: draft, standard, fine, reference. @throws Error USAGE
+/// The settings of a preset.
+/// @param accuracy  draft, standard, fine or reference
+/// @throws Error USAGE
 DrapeSettings preset_settings(const std::string& accuracy);
+/// Names of the presets from coarse to fine.
 std::vector<std::string> accuracy_names();
 
-/// Sets one knob by its name in report.json's `settings`. @throws Error USAGE naming the knobs, or
-/// the range
+/// Sets one knob by its name in report.json's `settings`.
+/// @param value  in the unit of the name
+/// @throws Error USAGE naming the knobs, or the range
 void set_knob(DrapeSettings& settings, const std::string& name, double value);
-/// From a document. @throws Error INPUT at the value
+/// The same from a document.
+/// @throws Error INPUT at the value
 void set_knob(DrapeSettings& settings, const std::string& name, const io::Node& value);
-/// "name=value"
+/// The same from "name=value".
+/// @throws Error USAGE
 void set_knob(DrapeSettings& settings, const std::string& assignment);
 
 /// All resolved settings, for the report.

@@ -19,11 +19,13 @@ public:
   /// Between two steps: takes a checkpoint where one is due. @return whether the solver was built
   /// anew
   virtual bool offer() = 0;
-  /// For a phase that counts in its own way: takes one when `count` has come far enough beyond
-  /// `last`. @param last in and out
+  /// For a phase with a counter of its own: takes one when `count` is far enough beyond
+  /// `last`.
+  /// @param last  in and out
   virtual bool offer(int count, int& last) = 0;
 };
 
+/// Settings, body, cloth and services of one drape.
 struct SimContext {
   /// All outlive this. @throws Error INPUT for a garment that cannot be simulated
   SimContext(Garment& garment, const body::Body* body_model, const DrapeSettings& drape_settings,
@@ -36,26 +38,28 @@ struct SimContext {
   SimContext(const SimContext&) = delete;
   SimContext& operator=(const SimContext&) = delete;
 
-  /// Cloth, solver and effects for the garment as it stands; what helps for a moment is applied
-  /// again.
+  /// Builds cloth, solver and effects for the garment as it stands, and applies the
+  /// temporary supports again. Arguments as of SimulatedCloth::build().
   void build_cloth(bool open_seams, bool keep_velocity = false) {
     supports.forget_effects();
     cloth.build(open_seams, keep_velocity);
     supports.apply();
   }
 
-  const DrapeSettings settings;
-  Telemetry telemetry;
-  CollisionBody body;
-  SimulatedCloth cloth;
-  StepController stepper;
-  PenetrationResolver resolver;
-  TemporarySupports supports;
-  FitMonitor fit;
-  CheckpointSink* checkpoints = nullptr;
-  bool disturbed = false;  ///< the start is strained, by sewing, by a body that was drawn in or by
-                           ///< StartFacts: it first relaxes without load
+  const DrapeSettings settings;          ///< of the whole drape
+  Telemetry telemetry;                   ///< report and times
+  CollisionBody body;                    ///< as cloth meets it
+  SimulatedCloth cloth;                  ///< solver and effects
+  StepController stepper;                ///< guarded steps
+  PenetrationResolver resolver;          ///< moves what crosses
+  TemporarySupports supports;            ///< until weight comes
+  FitMonitor fit;                        ///< early end
+  CheckpointSink* checkpoints = nullptr; ///< set by the session
+  /// The start is strained, by sewing, by a body that was drawn in or by StartFacts: it
+  /// first relaxes without load.
+  bool disturbed = false;
   bool only_clear = false; ///< DrapeRequest::only_clear
+  bool carried = false;    ///< DrapeRequest::carried
 };
 
 } // namespace sloper::garment

@@ -1,20 +1,22 @@
 #pragma once
-/// What a drape may be given beside the garment, the body and the settings.
+/// Optional inputs of a drape besides the garment, the body and the settings.
 #include <optional>
 #include <string>
 
 namespace sloper::garment {
 
-/// Where a garment that is not yet at rest stands when it is plain that it will not fit; 0: never.
+/// Bounds beyond which a garment that is not yet at rest will not fit; 0: no bound.
 struct FitBounds {
   double slip_m = 0; ///< half of the particles have sunk farther than this since the start
-  double strain_p99 =
-      0; ///< along the threads (cloth_strain.hpp), and by how it falls it will not come below
-  bool tight = true; ///< the garment is tight at some girth; where it has ease all around, strain
-                     ///< is waited for twice as long
+  /// 99th percentile of strain along the threads (cloth_strain.hpp) that the extrapolated
+  /// strain must not exceed.
+  double strain_p99 = 0;
+  /// The garment is tight at some girth. With ease all around, the decay of strain is
+  /// extrapolated twice as far.
+  bool tight = true;
 };
 
-/// What a checkpoint knows of the motion that the drape takes part in, for whoever gives it again.
+/// Identity of the motion that a drape takes part in, for a run that resumes it.
 struct MotionInput {
   std::string sha256; ///< motion_sha256() of its file; empty: not known, and not checked
   double fps = 0;     ///< 1/s, as it was asked for
@@ -23,19 +25,23 @@ struct MotionInput {
 struct LayersProgress; ///< checkpoint.hpp
 struct LevelsProgress; ///< checkpoint.hpp
 
-/// Where a drape notes its state now and then, so that it can go on from there after it was killed.
+/// Where a drape saves its state now and then, so that it can be resumed after it was
+/// killed.
 struct Checkpoints {
-  std::string file; ///< replaced as a whole each time; empty: none is written
-  int every_steps = 100;
-  bool renew = false; ///< without a file too: what a run with a file does, to the bit
-  std::optional<MotionInput> motion = {}; ///< of a drape in motion; drape_in_motion() and
-                                          ///< drape_layers() fill it in where it is not given
+  std::string file;      ///< replaced as a whole each time; empty: none is written
+  int every_steps = 100; ///< solver steps between two; substeps in a motion
+  /// Rebuild the solver at the same steps without writing a file: the result is that of a
+  /// run with a file, to the bit.
+  bool renew = false;
+  /// Of a drape in motion; drape_in_motion() and drape_layers() fill it in where it is
+  /// not given.
+  std::optional<MotionInput> motion = {};
   const LayersProgress* layers = nullptr; ///< set by drape_layers(): of the drapes around this one
-  const LevelsProgress* levels =
-      nullptr; ///< set by drape_through_levels(): of the drapes before this one
+  /// Set by drape_through_levels(): of the drapes before this one.
+  const LevelsProgress* levels = nullptr;
 };
 
-/// What the caller knows of the garment's start and no drape can see.
+/// Facts about the garment's start that the caller knows and no drape can see.
 struct StartFacts {
   /// Sleeves are longer than the arms and their ends are at the wrists (retarget()): they are held
   /// there until the cloth above them has found its folds (sleeve_ends.hpp).
@@ -49,19 +55,25 @@ struct StartFacts {
   bool around_body = false;
 };
 
-/// What a drape may be given beside the garment, the body and the settings.
+/// Optional inputs of a drape, besides garment, body and settings.
 struct DrapeRequest {
-  FitBounds bounds = {}; ///< end the drape, with the reason in DrapeReport::misfit, once the
-                         ///< garment is beyond them
-  /// With a file: from one to the next the solver begins anew, so the result is another, as good,
-  /// than without.
+  /// End the drape, with the reason in DrapeReport::misfit, once the garment is beyond
+  /// them.
+  FitBounds bounds = {};
+  /// Where and how often the state is saved. The solver is rebuilt at each checkpoint, so
+  /// the result differs from that of a drape without, at the same accuracy.
   Checkpoints checkpoints = {};
+  /// Facts of the start that the drape cannot see.
   StartFacts start = {};
-  /// Ends as soon as nothing crosses body or cloth, however fast the cloth moves: for a state that
-  /// was brought to rest on a coarser mesh.
+  /// Ends as soon as nothing crosses body or cloth, at any speed of the cloth: for a
+  /// state that was brought to rest on a coarser mesh.
   bool only_clear = false;
-  /// Looks for what is unclean at the end. Off: only where it does not come to rest; another drape
-  /// follows.
+  /// Continues from cloth carried from a coarser mesh (drape_through_levels()): solves are
+  /// more exact and inertia starts later, because both make drapes differ whose starts
+  /// differ by a micrometre.
+  bool carried = false;
+  /// Audits the end state exactly. Off: only where it does not come to rest, because
+  /// another drape follows.
   bool audit = true;
 };
 

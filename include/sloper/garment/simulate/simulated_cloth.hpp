@@ -13,6 +13,7 @@
 
 namespace sloper::garment {
 
+/// Mesh, solver and effects of one garment; rebuilt when seams are welded.
 class SimulatedCloth {
 public:
   /// All outlive this. @throws Error INPUT for a garment that cannot be simulated
@@ -35,30 +36,34 @@ public:
   /// Adds the solver's counts to the report.
   void report_effects();
 
+  /// The garment that is stepped in place.
   Garment& garment() { return m_garment; }
   const Garment& garment() const { return m_garment; }
   const std::vector<Vec3>& x() const { return m_garment.position; } ///< #P by 3, m
   const std::vector<Vec3>& v() const { return m_velocity; }         ///< #P by 3, m/s
-  void set_velocity(std::vector<Vec3> v) {
-    m_velocity = std::move(v);
-  } ///< before build() with keep_velocity
+  /// Sets v(), #P by 3, m/s; before build() with keep_velocity.
+  void set_velocity(std::vector<Vec3> v) { m_velocity = std::move(v); }
   /// The caller moved the garment's positions: contacts are searched anew, velocity is zero.
   void positions_changed();
+  /// Searches contacts anew at the present positions.
   void refresh_contacts();
 
+  /// Solver and rest state; only after build().
   cloth::ClothSolver& solver() { return *m_solver; }
   const cloth::ClothMesh& mesh() const { return *m_mesh; }
+  /// Whether the effect of that name takes part, as the report says.
   bool is_active(const char* effect) const { return m_telemetry.is_active(effect); }
   cloth::BodyContactEffect* body_contact() { return m_handles.body_contact; } ///< null without
   const cloth::BodyContactEffect* body_contact() const { return m_handles.body_contact; }
   cloth::SelfContactEffect* self_contact() { return m_handles.self_contact; } ///< null without
   cloth::SewingSpringEffect* sewing() { return m_handles.sewing; } ///< null once seams are closed
 
+  /// Mean rest length of the mesh edges, m.
   double mean_edge() const { return m_mesh->mean_edge(); }
-  double tension_ratio()
-      const; ///< force in an edge at a strain of one over the weight of a particle: means of all
-  std::string
-  crossing_text() const; ///< for the log: what is through the skin, and where; empty: nothing
+  /// Mean force of an edge at a strain of one over the mean weight of a particle.
+  double tension_ratio() const;
+  /// For the log: how many cloth faces cross the skin, and where; empty: none.
+  std::string crossing_text() const;
 
 private:
   void add_stage(EffectStage stage);

@@ -1,5 +1,5 @@
 #pragma once
-/// What a drape writes down while it runs: the report, and how long its phases took.
+/// The record of a drape while it runs: the report, and how long its phases took.
 #include <sloper/base/progress.hpp>
 #include <sloper/garment/simulate/report.hpp>
 #include <sloper/geometry/types.hpp>
@@ -9,22 +9,29 @@
 
 namespace sloper::garment {
 
+/// Collects the report of one session.
 class Telemetry {
 public:
+  /// Starts the clock.
+  /// @param reporter  outlives this
   Telemetry(const DrapeSettings& settings, Reporter& reporter);
 
   /// s of wall clock since the drape began, those of the runs before a checkpoint included.
   double elapsed() const;
   /// The runs before this one took so long, s.
   void add_elapsed_before(double wall_s) { m_elapsed_before = wall_s; }
+  /// Adds wall seconds to a phase by name; the same name again adds to it.
   void add_phase_time(const std::string& phase, double wall_s);
+  /// Adds a sentence to DrapeReport::repairs.
   void add_repair(std::string repair) { report.repairs.push_back(std::move(repair)); }
-  /// Switches an effect on that comes for a while.
+  /// Marks an effect as active that a phase adds for a while.
+  /// @param why  for the report
   void activate(const char* effect, const char* why);
+  /// Whether the effect of that name takes part.
   bool is_active(const char* effect) const;
 
-  DrapeReport report;
-  Reporter& reporter;
+  DrapeReport report; ///< filled by all parts of the session
+  Reporter& reporter; ///< log, progress and warnings
 
 private:
   std::chrono::steady_clock::time_point m_start;
@@ -34,6 +41,8 @@ private:
 /// Times a phase, into the report, and names it in the log.
 class PhaseTimer {
 public:
+  /// Starts timing.
+  /// @param telemetry  outlives this
   PhaseTimer(Telemetry& telemetry, std::string name);
   PhaseTimer(const PhaseTimer&) = delete;
   PhaseTimer& operator=(const PhaseTimer&) = delete;

@@ -1,7 +1,8 @@
 #pragma once
-/// What helps a garment for a moment after sewing or placing, until weight and friction come: a
-/// little pressure from within, sleeve ends held at the wrists, cloth that sewing left tangled
-/// passing through itself. They come with effects = auto only, and not where they are switched off.
+/// Helps a garment after sewing or placing, until weight and friction come: a little
+/// pressure from within, sleeve ends held at the wrists, tangled cloth that may pass
+/// through itself. They come with effects = auto only, and not where they are switched
+/// off.
 #include <sloper/garment/simulate/penetration_resolver.hpp>
 #include <sloper/garment/simulate/simulated_cloth.hpp>
 #include <sloper/io/json_fwd.hpp>
@@ -11,13 +12,15 @@
 
 namespace sloper::garment {
 
+/// Adds and removes the temporary supports of one session.
 class TemporarySupports {
 public:
-  /// What a checkpoint keeps.
+  /// State that a checkpoint keeps.
   struct State {
     std::vector<Vec3> held;   ///< m, where sleeve ends are held (sleeve_ends.hpp)
     std::vector<int> tangles; ///< particles that may pass through each other
 
+    /// Adds its keys to a checkpoint's object; read() is the inverse.
     void write(io::Json& state) const;
     /// @throws Error INPUT, for particles that are not there too
     static State read(const io::Node& state, std::size_t n_particles);
@@ -30,6 +33,7 @@ public:
   /// A flared hem that sewing has dented inwards may stay so: a cone turned in is a state of rest
   /// too. Pressure from within turns it out. Not for cloth without seams, which would fly off.
   void add_inflation_pressure();
+  /// Ends the pressure; nothing where there is none.
   void remove_inflation_pressure();
 
   /// Holds sleeve ends where they are now, from the next apply() on.
@@ -41,10 +45,15 @@ public:
   void find_tangles();
   /// Holds sleeve ends and lets tangles pass, on a solver that was just built.
   void apply();
+  /// Ends what find_sleeve_ends() began; nothing where it found nothing.
   void release_sleeve_ends();
+  /// Ends what find_tangles() began: self-contact acts everywhere again, and remaining
+  /// crossings are drawn apart.
   void close_tangles();
 
+  /// For checkpoints.
   const State& state() const { return m_state; }
+  /// Takes the state of a checkpoint; apply() puts it into effect.
   void restore(State state) { m_state = std::move(state); }
   /// The solver is built anew: its effects are gone.
   void forget_effects();

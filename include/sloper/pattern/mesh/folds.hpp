@@ -1,38 +1,43 @@
 #pragma once
-/// Inner lines and pleats on their way into the mesh: edges cut where lines end on them, pleats
-/// sewn layer on layer, and the panels folded in their start position.
+/// Inner lines and pleats as the mesher needs them: edges cut where lines end on them,
+/// pleats sewn layer on layer, and the panels folded in their start position.
+/// Test: tests/pattern/mesh/test_folds.cpp
 #include <sloper/pattern/panel_mesh.hpp>
 #include <sloper/pattern/pattern.hpp>
 
 namespace sloper::pattern {
 
-constexpr double LINE_ON_EDGE =
-    0.002; ///< m: an end of a line nearer to the outline than this lies on it
+/// An end of a line nearer to the outline than this lies on it, m.
+constexpr double LINE_ON_EDGE = 0.002;
 
 /// Where a point lies on the outer loop of a panel: edge and fraction of its length; edge -1 where
 /// it is further off than LINE_ON_EDGE.
 struct OnOutline {
-  int edge = -1;
-  double at = 0;
+  int edge = -1; ///< of the outer loop
+  double at = 0; ///< 0..1
 };
+/// The nearest place of the outer loop to p, m.
 OnOutline on_outline(const Panel& panel, const Vec2& p);
 
-/// The pattern as it is meshed. Panels without lines stay as they are; on the others
-/// - edges are cut where lines end on them (names get _1, _2), and the ends brought there;
-/// - each pleat gets the line in the middle between its two, along which it is folded back; the
-/// cloth under it leaves the seams of
-///   the pleat's edges, and two seams of kind "pleat" sew the three layers together.
-/// With w the distance from target to fold along an edge, the upper layer's stretch reaches w / 2
-/// beyond the fold.
-/// @throws Error INPUT naming the pleat where it does not fit on its edge, or meets another
+/// The pattern as it is meshed. Panels without lines stay unchanged. On the others
+/// - edges are cut where lines end on them (names get _1, _2), and the ends moved there;
+/// - each pleat gets a line in the middle between its two, along which it is folded back.
+/// The cloth under it is removed from the seams of the pleat's edges, and two seams of
+/// kind "pleat" sew the three layers together.
+/// With w the distance from target to fold along an edge, the upper layer's stretch
+/// reaches w / 2 beyond the fold.
+/// @throws Error INPUT naming the pleat where it does not fit on its edge, or meets
+/// another
 Pattern with_folds(const Pattern& pattern, const std::string& file);
 
-/// How far each vertex of a mesh has to go so that its pleats lie folded: the shift in the plane of
+/// Displacement of each vertex of a mesh that folds its pleats: the shift in the plane of
 /// the panel, and the depth behind it.
 struct Folding {
   std::vector<Vec2> shift;   ///< #V or empty: m, in pattern coordinates
   std::vector<double> depth; ///< #V or empty: m, towards the body
 };
+/// The folding of all pleats of a mesh.
+/// @param pattern  the one that `mesh` was made from
 Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh);
 
 /// Edges of a mesh along which its pleats are folded, as vertex pairs in rising order: on their

@@ -8,14 +8,16 @@
 
 namespace sloper::pattern {
 
-/// Panels as they were meshed last: for a pattern that is meshed again and again, of which an edit
-/// changes a panel or two. One whose boundary and inner lines are the same to the last bit has the
-/// same triangles, so that a mesh made with a memory is the one without.
+/// Panels of the last mesh, for a pattern that is meshed repeatedly while an edit changes
+/// a panel or two. A panel whose boundary and inner lines are the same to the last bit
+/// keeps its triangles, so a mesh made with a memory is the same as one without.
 class MeshMemory {
 public:
+  /// An empty memory.
   MeshMemory();
   ~MeshMemory();
   MeshMemory(MeshMemory&&) noexcept;
+  /// Private contents.
   struct Panels;
 
 private:
@@ -23,11 +25,13 @@ private:
   std::unique_ptr<Panels> m_panels;
 };
 
-/// @param edge_length aimed at, m
-/// @param file        for messages
-/// @param seam_length aimed at along seams and darts, m, growing to edge_length away from them; 0
-/// for edge_length everywhere
-/// @param memory      may be null; holds the panels of this mesh afterwards
+/// Meshes a pattern; the result does not depend on the number of threads or on the
+/// memory.
+/// @param edge_length  aimed at, m
+/// @param file  for messages
+/// @param seam_length  aimed at along seams and darts, m, growing to edge_length away
+/// from them; 0 for edge_length everywhere
+/// @param memory  may be null; holds the panels of this mesh afterwards
 /// @throws Error INPUT where a panel cannot be meshed
 PanelMesh mesh_pattern(const Pattern& pattern, double edge_length, const std::string& file,
                        double seam_length = 0, MeshMemory* memory = nullptr);

@@ -9,12 +9,13 @@
 
 namespace sloper::pattern {
 
+/// A grade rule table.
 struct GradeRules {
   std::string table;              ///< name, or empty
   std::vector<std::string> sizes; ///< in the file's order
   int sample = 0;                 ///< index of the size that the DXF draws
-  std::map<int, std::vector<Vec2>>
-      moves; ///< by rule number: m from the sample size, one for each size
+  /// By rule number: m from the sample size, one for each size.
+  std::map<int, std::vector<Vec2>> moves;
 
   int find_size(const std::string& name) const; ///< -1 when there is none
 };
@@ -24,9 +25,12 @@ struct GradeRules {
 /// @throws Error INPUT naming the line
 GradeRules parse_grade_rules(const std::string& text, const std::string& file);
 
-/// Moves a ring by the rules of some of its vertices; what lies between two graded vertices follows
-/// in proportion to the way along the ring. A ring with one graded vertex moves as a whole.
+/// Moves a ring by the rules of some of its vertices; vertices between two graded ones
+/// follow in proportion to the distance along the ring. A ring with one graded vertex
+/// moves as a whole.
+/// @param ring  m, closed implicitly, in and out
 /// @param rule  of each vertex; 0 where it has none
+/// @param size  index into GradeRules::sizes
 void grade_ring(std::vector<Vec2>& ring, const std::vector<int>& rule, const GradeRules& rules,
                 int size);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A pattern file of any known format, told apart by its content.
+/// Reads a pattern file of any known format, recognised by its content.
 #include <sloper/io/json_fwd.hpp>
 #include <sloper/pattern/pattern.hpp>
 #include <sloper/pattern/read/grade_rules.hpp>
@@ -8,28 +8,31 @@
 
 namespace sloper::pattern {
 
-/// Which of the sizes in a DXF is meant. Neither field: the sample size.
+/// Choices for a DXF: size, unit, pieces. Without `size` it is the sample size.
 struct DxfChoice {
-  std::string size;
-  const GradeRules* rules = nullptr;    ///< of the file's grade rule table
-  double unit = 0;                      ///< m per unit of the file; 0: as it states
-  double allowance = 0;                 ///< m, taken off cut lines of pieces without a sew line
-  std::vector<std::string> pieces = {}; ///< taken though they are linings and the like
-  std::set<std::string> sewn = {};      ///< panels that a sidecar sews; empty without one
+  std::string size;                  ///< name of a size of the table; empty: the sample size
+  const GradeRules* rules = nullptr; ///< of the file's grade rule table
+  double unit = 0;                   ///< m per unit of the file; 0: as it states
+  double allowance = 0;              ///< m, taken off cut lines of pieces without a sew line
+  /// Names of pieces to take although they are linings and the like.
+  std::vector<std::string> pieces = {};
+  /// Panels that a sidecar sews; empty without one.
+  std::set<std::string> sewn = {};
 };
 
-/// What a user says of a file besides its name.
+/// Choices of the user for one file: sizes and pieces.
 struct PatternChoice {
   std::string sewing;             ///< sidecar with the seams of a DXF
   std::string size;               ///< of a graded DXF; empty for the sample size
   std::string rules;              ///< path of the .rul file of a DXF
   double unit = 0, allowance = 0; ///< of a DXF; see DxfChoice
-  std::vector<std::string> pieces,
-      without; ///< names of pieces to take, all where it is empty, and of those to leave
+  /// Names of pieces to take, all where it is empty, and of those to leave.
+  std::vector<std::string> pieces, without;
 };
 
-/// Reads a pattern of any format, and of it what `choice` names. @throws Error INPUT naming file,
-/// panel, edge and centimetres
+/// Reads a pattern of any format, and the part of it that `choice` names.
+/// @param path  file, or "-" for standard input
+/// @throws Error INPUT naming file, panel, edge and centimetres
 Pattern read_pattern(const std::string& path, const PatternChoice& choice);
 
 /// Reads our pattern JSON, a GarmentCode specification, a sewing-spec JSON or an AAMA / ASTM DXF.
@@ -58,18 +61,22 @@ Pattern read_dxf(const std::string& text, const std::string& file, const DxfChoi
 /// Seams of a "sewing-seams" sidecar, added to a pattern whose panels and edges have names.
 void read_sewing_seams(Pattern& pattern, const io::Json& json, const std::string& file);
 
-/// Why a panel cannot be worked with, at all: `place` is an edge or a line of it, or empty.
+/// Reason why a panel cannot be processed at all: `place` is an edge or a line of it, or
+/// empty.
 struct PanelFault {
+  /// Edge or line; what is wrong; what to do.
   std::string place, fact, next;
 };
 
-/// Numbers that no later step could bear: coordinates that are not finite, control points and sizes
-/// of more than metres, lines that leave the panel. Holds for what readers make and for what edits
-/// make of it. Nothing where all is well.
+/// A number that no later step can handle: coordinates that are not finite, control
+/// points and sizes of more than metres, lines that leave the panel. For panels from
+/// readers and from edits.
+/// @return empty where there is none
 std::optional<PanelFault> fault_of(const Panel& panel);
 
-/// What every reader ends with: finite, closed, non-empty outlines of a plausible size; a panel
-/// drawn clockwise is one seen from inside and is mirrored. @throws Error INPUT
+/// Last step of every reader: checks that outlines are finite, closed, non-empty and of a
+/// plausible size, and mirrors panels that are drawn clockwise, as seen from inside.
+/// @throws Error INPUT
 void finish_pattern(Pattern& pattern, const std::string& file);
 
 } // namespace sloper::pattern

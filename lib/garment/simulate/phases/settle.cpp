@@ -21,6 +21,8 @@ constexpr int RESOLVE_EVERY = 40; // steps between looks whether cloth still cro
                                   // faces are still through the skin
 constexpr int JUDGE_EVERY = 10;   // steps between looks whether the garment can still fit
 constexpr int CALM_STEPS = 3;     // within the tolerances, one after the other: at rest
+constexpr double NEARLY = 4;      // times the tolerances: nearly at rest
+constexpr int LATELY = 100;       // steps
 constexpr double SUNK =
     2e-4; // m that all cloth together may sink, when what was blocked is released, and be at rest
 constexpr double NEAR_RESIDUAL = 1;      // weights: below, steps may grow faster
@@ -33,13 +35,14 @@ constexpr double MUCH_MOVED = 0.01;     // m, likewise
 constexpr double BETTER_RESIDUAL = 0.9; // of the best so far: progress
 constexpr double HUNG_SPEED =
     0.02; // m/s: slower, a skirt hangs, and arms that were held up can come down beside it
-constexpr double HUNG_RESIDUAL = 10;    // weights: likewise
-constexpr double LARGEST_STEP_S = 0.2;  // s
-constexpr int PROBE_EVERY = 60;         // steps between looks whether cloth still drifts
-constexpr int PROBE_STEPS = 20;         // before a look: over these drift is measured
-constexpr double DRIFTS = 5e-4;         // m root mean square in them
-constexpr int DYNAMIC_STEPS = 60;       // with inertia, at most
-constexpr int LEAST_DYNAMIC_STEPS = 10; // likewise, at least: it begins to move
+constexpr double HUNG_RESIDUAL = 10;     // weights: likewise
+constexpr double LARGEST_STEP_S = 0.2;   // s
+constexpr int PROBE_EVERY = 60;          // steps between looks whether cloth still drifts
+constexpr int FIRST_PROBE_CARRIED = 240; // likewise, the first of cloth from a coarser mesh
+constexpr int PROBE_STEPS = 20;          // before a look: over these drift is measured
+constexpr double DRIFTS = 5e-4;          // m root mean square in them
+constexpr int DYNAMIC_STEPS = 60;        // with inertia, at most
+constexpr int LEAST_DYNAMIC_STEPS = 10;  // likewise, at least: it begins to move
 constexpr double DYNAMIC_STEP_S = 1.0 / 60;
 constexpr double DYNAMIC_INERTIA = 0.98; // share of the velocity that is carried over
 constexpr double ARRIVED_SPEED = 0.005;  // m/s of the fastest particle
@@ -89,7 +92,8 @@ void SettlePhase::look_for_drift(SimContext& context) {
   const int unloaded = unloaded_steps(context);
   if (k < unloaded || m_state.dynamic_steps > 0) return;
   const std::vector<Vec3>& x = context.cloth.x();
-  if (k == unloaded) m_state.probe_step = k;
+  if (k == unloaded)
+    m_state.probe_step = context.carried ? k + FIRST_PROBE_CARRIED - PROBE_EVERY : k;
   if (k == m_state.probe_step + PROBE_EVERY - PROBE_STEPS) m_state.probe_position = x;
   if (k < m_state.probe_step + PROBE_EVERY) return;
   m_state.probe_step = k;
@@ -155,6 +159,17 @@ bool SettlePhase::has_stalled(SimContext& context) {
   return m_state.best_residual > 1 && m_state.step > m_state.best_residual_step + STALLED_STEPS;
 }
 
+/// Whether it would be a pity to stop: cloth that is all but at rest, or that came nearer to it
+/// lately.
+bool SettlePhase::nears_rest(SimContext& context) const {
+  if (context.only_clear || m_state.step <= unloaded_steps(context)) return false;
+  const StepController& stepper = context.stepper;
+  const bool nearly =
+      stepper.speed() < NEARLY * context.settings.settle_speed_m_s &&
+      stepper.last().residual_force_ratio < NEARLY * context.settings.settle_force_ratio;
+  return nearly || m_state.step < m_state.best_residual_step + LATELY;
+}
+
 void SettlePhase::judge_fit(SimContext& context) {
   const Misfit misfit = context.fit.judge(m_state.start_height, context.stepper.last(),
                                           context.telemetry.report.steps);
@@ -176,11 +191,15 @@ PhaseStatus SettlePhase::iterate(SimContext& context) {
   const int k = m_state.step;
   const int unloaded = unloaded_steps(context);
   const bool dynamic = m_state.dynamic_steps > 0;
-  StepRequest request{.h = m_state.h, .kind = StepKind::DESCEND, .unloaded = k < unloaded};
+  StepRequest request{.h = m_state.h,
+                      .kind = StepKind::DESCEND,
+                      .unloaded = k < unloaded,
+                      .exact = context.carried};
   if (dynamic) {
     request.kind = StepKind::PLAIN;
     request.inertia = DYNAMIC_INERTIA;
   }
+  context.stepper.set_patient(nears_rest(context));
   if (!context.stepper.advance(request)) return PhaseStatus::STOP;
   const cloth::StepResult& last = context.stepper.last();
   const double speed = last.largest_move_m / m_state.h, residual = last.residual_force_ratio;

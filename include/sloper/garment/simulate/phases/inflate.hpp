@@ -12,15 +12,17 @@
 
 namespace sloper::garment {
 
+/// The phase after sewing in a body that was drawn in.
 class InflatePhase : public Phase {
 public:
-  /// What a checkpoint keeps.
+  /// State that a checkpoint keeps.
   struct State {
     double max_skin_lag_m = 0; ///< how far skin may stay back
     double skin_lag_m = 0;     ///< how far it does
-    std::vector<Vec3>
-        skin; ///< #V of the collider by 3, m; only in a checkpoint taken in this phase
+    /// #V of the collider by 3, m; only in a checkpoint taken in this phase.
+    std::vector<Vec3> skin;
 
+    /// Adds its keys to a checkpoint's object; read() is the inverse.
     void write(io::Json& state) const;
     static State read(const io::Node& state); ///< @throws Error INPUT
   };
@@ -32,7 +34,9 @@ public:
   PhaseStatus step(SimContext& context) override;
   void end(SimContext& context) override;
 
+  /// For checkpoints.
   const State& state() const { return m_state; }
+  /// Takes the state of a checkpoint.
   void restore(State state) { m_state = std::move(state); }
 
 private:

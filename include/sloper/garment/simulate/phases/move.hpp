@@ -10,13 +10,19 @@
 
 namespace sloper::garment {
 
-/// For how long cloth has been at rest on a body that holds still: not by its speed or its force,
-/// since single particles between two states of contact go to and fro for good, but by how far it
-/// came.
+/// How long cloth has been at rest on a body that stands still. It goes by the distance
+/// from one place, not by speed or force, since single particles can flip between two
+/// states of contact for ever.
 class RestClock {
 public:
+  /// Something moves near the cloth: the rest begins anew.
   void reset() { m_from.clear(); }
+  /// Adds a simulated frame: its time counts while every particle stays near the place
+  /// where the rest began.
+  /// @param x  #P by 3, m
+  /// @param frame_s  s
   void note(const std::vector<Vec3>& x, double frame_s);
+  /// Whether that has lasted long enough for the cloth to sleep.
   bool is_at_rest() const;
 
 private:
@@ -24,22 +30,30 @@ private:
   double m_s = 0;
 };
 
+/// The phase that advances the body; skipped without a motion.
 class MovePhase : public Phase {
 public:
-  /// What a checkpoint keeps: where the motion is, with the sums that its report will have.
+  /// State that a checkpoint keeps: where the motion is, with the sums that its report will have.
   struct State {
-    std::size_t frame =
-        0; ///< the next one; while the body moves the skin is that of the frame before it
+    /// The next one; while the body moves the skin is that of the frame before it.
+    std::size_t frame = 0;
     bool over = false;          ///< all frames are done, the cloth settles in the last pose
     std::vector<Vec3> velocity; ///< #P by 3, m/s; only in a checkpoint taken in this phase
-    int parts = 0, forced = 0;  ///< see cloth/motion/body_motion.hpp
-    int noted = 0;              ///< parts at the last checkpoint
+    /// Substeps; advances in which skin was forced through cloth
+    /// (cloth/motion/body_motion.hpp).
+    int parts = 0, forced = 0;
+    int noted = 0; ///< substeps at the last checkpoint
+    /// Frames in which skin was forced through cloth; frames in which the cloth slept and
+    /// was not simulated.
     int forced_frames = 0, asleep_frames = 0;
-    int bad_frames[3] = {},
-        most[3] = {}; ///< faces through the body, vertices inside it, self intersections
-    double largest_way_m = 0, simulated_s = 0; ///< m, of a skin vertex in one frame; s
-    double wall_s = 0, elapsed_s = 0;          ///< of moving the skin alone; of all of it
+    /// Frames with, and largest count in a frame of: faces through the body, vertices
+    /// inside it, self-intersections.
+    int bad_frames[3] = {}, most[3] = {};
+    /// Largest displacement of a skin vertex in one frame, m; simulated time, s.
+    double largest_way_m = 0, simulated_s = 0;
+    double wall_s = 0, elapsed_s = 0; ///< of moving the skin alone; of all of it
 
+    /// For a checkpoint; read() is the inverse.
     io::Json to_json() const;
     static State read(const io::Node& state); ///< @throws Error INPUT
   };
@@ -58,12 +72,15 @@ public:
   bool is_loaded(const SimContext&) const override { return true; }
   bool keeps_velocity() const override { return true; }
 
+  /// As given; null: the body stands still.
   const BodyMoves* moves() const { return m_moves; }
   /// As it is now, the seconds that it took too.
   State state(const SimContext& context) const;
+  /// Takes the state of a checkpoint.
   void restore(State state) { m_state = std::move(state); }
-  int bad_frames() const; ///< with faces through the body, vertices inside it or self
-                          ///< intersections: the largest of the three counts
+  /// Frames with faces through the body, vertices inside it or self-intersections: the
+  /// largest of the three counts.
+  int bad_frames() const;
   /// `quality.motion` of report.json.
   io::Json report() const;
 

@@ -7,15 +7,17 @@
 
 namespace sloper::garment {
 
+/// The first phase of unsewn panels.
 class SewPhase : public Phase {
 public:
-  /// What a checkpoint keeps.
+  /// State that a checkpoint keeps.
   struct State {
     int step = 0;             ///< the next one
     double pull = 0;          ///< N, of a stitch at SEW_REACH
     int pull_changed = 0;     ///< step
     std::vector<double> gaps; ///< m, largest, by step
 
+    /// Adds its keys to a checkpoint's object; read() is the inverse.
     void write(io::Json& state) const;
     static State read(const io::Node& state); ///< @throws Error INPUT
   };
@@ -27,7 +29,9 @@ public:
   PhaseStatus step(SimContext& context) override;
   bool has_open_seams() const override { return true; }
 
+  /// For checkpoints.
   const State& state() const { return m_state; }
+  /// Takes the state of a checkpoint.
   void restore(State state) { m_state = std::move(state); }
 
 private:

@@ -1,0 +1,40 @@
+#pragma once
+/// Which size of a garment was draped on the body most like another one.
+#include <sloper/body/body.hpp>
+#include <sloper/io/json_fwd.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sloper::garment {
+
+/// One size, and how unlike the body is that it was draped on.
+struct SizeRank {
+  std::string file; ///< NAME@SIZE.json
+  /// Root mean square of the differences of girths, shares of the body's, between the body that it
+  /// was draped on and the other: of all girths and levels that both have.
+  double distance = 0;
+  int girths = 0; ///< how many
+};
+/// All sizes in order.
+struct SizeRanking {
+  std::vector<SizeRank> sizes; ///< the nearest first; by name where they are as near
+  /// How likely the first is nearer than the second, given what the girths of the body are
+  /// uncertain by (taken as independent and normal); 1 where there is one size.
+  double sureness = 1;
+};
+
+/// The files NAME@*.json beside a garment document NAME@SIZE.json, itself among them.
+/// @throws Error INPUT where its name has no size
+std::vector<std::string> sizes_beside(const std::string& garment);
+
+/// @param files  garment documents, one at least
+/// @throws Error INPUT: a document that is no garment, or does not know its body's girths
+SizeRanking rank_sizes(const std::vector<std::string>& files, const body::Body& body);
+
+/// "of 3 sizes shirt@M.json is nearest (2.1 %), with a probability of 93 %; then ..."
+std::string ranking_text(const SizeRanking& ranking);
+/// For report.json.
+io::Json ranking_json(const SizeRanking& ranking);
+
+} // namespace sloper::garment

@@ -1,0 +1,136 @@
+#include <sloper/garment/retarget/nearest_size.hpp>
+
+#include <sloper/base/error.hpp>
+#include <sloper/base/text.hpp>
+#include <sloper/garment/garment_json.hpp>
+#include <sloper/io/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+namespace sloper::garment {
+
+namespace {
+
+constexpr double LEAST_SPREAD_M = 0.002; // of a girth: nothing is known better
+
+struct KnownGirth {
+  double value_m, spread_m;
+};
+
+std::map<std::string, KnownGirth> girths_known(const body::Body& body) {
+  std::map<std::string, KnownGirth> known;
+  for (const auto& [name, girth] : body.girths)
+    if (girth.value_m > 0) known[name] = {girth.value_m, std::max(girth.spread_m, LEAST_SPREAD_M)};
+  for (const auto& [name, level] : body.levels)
+    if (level.girth_m > 0)
+      known["level:" + name] = {level.girth_m, std::max(level.girth_spread_m, LEAST_SPREAD_M)};
+  return known;
+}
+
+using Girths = std::map<std::string, double>;
+
+Girths girths_of_document(const std::string& file) {
+  const io::Json document = io::read_document(file, "garment", GARMENT_VERSION);
+  const io::Node root(document, file);
+  Girths girths;
+  if (root.has("body") && root.at("body").has("girths_m"))
+    for (const std::string& name : root.at("body").at("girths_m").keys())
+      girths[name] = root.at("body").at("girths_m").at(name).number();
+  if (girths.empty())
+    throw input_error("garment.no-girths"_id, file, "/body/girths_m",
+                      "does not know the girths of the body it hangs on", "drape it again");
+  return girths;
+}
+
+} // namespace
+
+std::vector<std::string> sizes_beside(const std::string& garment) {
+  namespace fs = std::filesystem;
+  const std::string name = io::file_name(garment);
+  const std::size_t at = name.find('@');
+  if (at == std::string::npos)
+    throw input_error("garment.no-size"_id, garment, "", "its name has no size",
+                      "call its sizes NAME@SIZE.json");
+  const std::string begin = name.substr(0, at + 1);
+  std::vector<std::string> files;
+  const fs::path folder = fs::path(garment).parent_path();
+  std::error_code error;
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(folder.empty() ? fs::path(".") : folder, error)) {
+    const std::string other = entry.path().filename().string();
+    if (other.rfind(begin, 0) == 0 && other.ends_with(".json"))
+      files.push_back((folder / other).string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+SizeRanking rank_sizes(const std::vector<std::string>& files, const body::Body& body) {
+  const auto known = girths_known(body);
+  struct Candidate {
+    SizeRank rank;
+    Girths girths;
+  };
+  std::vector<Candidate> candidates;
+  for (const std::string& file : files) {
+    Candidate c;
+    c.girths = girths_of_document(file);
+    c.rank.file = file;
+    double sum = 0;
+    for (const auto& [name, girth] : known) {
+      const auto own = c.girths.find(name);
+      if (own == c.girths.end()) continue;
+      const double share = (own->second - girth.value_m) / girth.value_m;
+      sum += share * share;
+      ++c.rank.girths;
+    }
+    if (c.rank.girths == 0)
+      throw input_error("garment.no-girths"_id, file, "/body/girths_m",
+                        "has no girth that the other body has");
+    c.rank.distance = std::sqrt(sum / c.rank.girths);
+    candidates.push_back(std::move(c));
+  }
+  std::stable_sort(
+      candidates.begin(), candidates.end(),
+      [](const Candidate& a, const Candidate& b) { return a.rank.distance < b.rank.distance; });
+  SizeRanking ranking;
+  for (const Candidate& c : candidates) ranking.sizes.push_back(c.rank);
+  if (candidates.size() < 2) return ranking;
+  // d2^2 - d1^2 is linear in the girths g of the body, up to the g^2 below: its change with g is
+  // 2 (a1 - a2) / g^2 each.
+  double lead = 0, variance = 0;
+  for (const auto& [name, g] : known) {
+    const auto first = candidates[0].girths.find(name), second = candidates[1].girths.find(name);
+    if (first == candidates[0].girths.end() || second == candidates[1].girths.end()) continue;
+    const double a = first->second, b = second->second, square = g.value_m * g.value_m;
+    lead += ((b - g.value_m) * (b - g.value_m) - (a - g.value_m) * (a - g.value_m)) / square;
+    variance += std::pow(2 * (a - b) / square * g.spread_m, 2);
+  }
+  ranking.sureness = variance > 0 ? 0.5 * std::erfc(-lead / std::sqrt(2 * variance)) : 0.5;
+  return ranking;
+}
+
+std::string ranking_text(const SizeRanking& ranking) {
+  const auto one = [&](const SizeRank& size) {
+    return io::file_name(size.file) + " (" + percent(size.distance) + " off)";
+  };
+  std::string text = "of " + std::to_string(ranking.sizes.size()) + " sizes " +
+                     one(ranking.sizes.front()) + " is nearest";
+  if (ranking.sizes.size() > 1)
+    text += ", with a probability of " + whole_percent(ranking.sureness) + "; then";
+  for (std::size_t i = 1; i < ranking.sizes.size(); ++i) text += " " + one(ranking.sizes[i]);
+  return text;
+}
+
+io::Json ranking_json(const SizeRanking& ranking) {
+  io::Json j = {{"sureness", ranking.sureness}, {"nearest_first", io::Json::array()}};
+  for (const SizeRank& size : ranking.sizes)
+    j["nearest_first"].push_back(
+        {{"file", io::file_name(size.file)}, {"distance", size.distance}, {"girths", size.girths}});
+  return j;
+}
+
+} // namespace sloper::garment

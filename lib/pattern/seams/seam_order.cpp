@@ -1,0 +1,186 @@
+#include <pattern/seams/rims.hpp>
+#include <pattern/seams/seam_order.hpp>
+#include <pattern/seams/seam_sides.hpp>
+#include <sloper/base/units.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace sloper::pattern {
+namespace {
+
+constexpr double LIKELY_TWINS = 0.75;  // probability of a guess, and of its mirror image
+constexpr double UNLIKELY_RIVAL = 0.1; // of what else could be meant
+
+bool one_panel(const std::vector<Run>& side) {
+  return !side.empty() && std::all_of(side.begin(), side.end(),
+                                      [&](const Run& r) { return r.panel == side.front().panel; });
+}
+
+/// The panels of a seam between two, the lower number first.
+std::array<int, 2> panels_of(const Seam& seam) {
+  if (!one_panel(seam.a) || !one_panel(seam.b)) return {-1, -1};
+  return {std::min(seam.a[0].panel, seam.b[0].panel), std::max(seam.a[0].panel, seam.b[0].panel)};
+}
+
+int edge_on(const Seam& seam, int panel) {
+  return (seam.a[0].panel == panel ? seam.a : seam.b)[0].edge;
+}
+
+/// 1 where x, y, z come in that order around, -1 where they come the other way.
+int sense(int x, int y, int z) { return (x < y) + (y < z) + (z < x) == 2 ? 1 : -1; }
+
+} // namespace
+
+bool in_order(const Pattern& pattern, const Seam& a, const Seam& b, const Seam& c) {
+  const auto [p, q] = panels_of(a);
+  if (p < 0 || p == q || panels_of(b) != panels_of(a) || panels_of(c) != panels_of(a)) return true;
+  for (const int panel : {p, q}) // of one loop
+    if (const int n =
+            static_cast<int>(pattern.panels[static_cast<std::size_t>(panel)].loops[0].size());
+        std::max({edge_on(a, panel), edge_on(b, panel), edge_on(c, panel)}) >= n)
+      return true;
+  return sense(edge_on(a, p), edge_on(b, p), edge_on(c, p)) !=
+         sense(edge_on(a, q), edge_on(b, q), edge_on(c, q));
+}
+
+namespace {
+
+constexpr double EXCHANGEABLE = 0.08; // logarithm of the lengths of sides that change places
+
+/// Whether an edge next to a side of `seam` is in one of the seams that are known: with it, a
+/// corner would be sewn shut, as of a hem.
+bool closes_corner(const Pattern& pattern, const Seam& seam,
+                   const std::vector<const Seam*>& known) {
+  const auto takes = [&](int panel, int edge) {
+    return std::any_of(known.begin(), known.end(), [&](const Seam* s) {
+      for (const auto* side : {&s->a, &s->b})
+        for (const Run& r : *side)
+          if (r.panel == panel && r.edge == edge) return true;
+      return false;
+    });
+  };
+  for (const auto* side : {&seam.a, &seam.b})
+    for (const Run& r : *side) {
+      const Panel& panel = pattern.panels[static_cast<std::size_t>(r.panel)];
+      for (int e = 0; e < panel.n_edges(); ++e)
+        if ((next_edge(panel, e) == r.edge && takes(r.panel, e)) ||
+            (e == next_edge(panel, r.edge) && takes(r.panel, e)))
+          return true;
+    }
+  return false;
+}
+
+/// The sides of two seams between the same panels, sewn the other way about; nothing where they are
+/// not as long.
+std::optional<std::array<Seam, 2>> exchanged(const Pattern& pattern, const Seam& one,
+                                             const Seam& other) {
+  Seam first = one, second = other;
+  if (one.a[0].panel == other.a[0].panel) std::swap(first.b, second.b);
+  else std::swap(first.b, second.a);
+  for (const Seam* s : {&first, &second})
+    if (std::abs(std::log(side_length(pattern, s->a) / side_length(pattern, s->b))) > EXCHANGEABLE)
+      return std::nullopt;
+  std::swap(first.name, second.name);
+  return std::array<Seam, 2>{first, second};
+}
+
+bool same_sides(const Seam& x, const Seam& y) {
+  const auto has = [](const Seam& s, const Run& r) {
+    return (s.a[0].panel == r.panel && s.a[0].edge == r.edge) ||
+           (s.b[0].panel == r.panel && s.b[0].edge == r.edge) ||
+           (s.a.back().panel == r.panel && s.a.back().edge == r.edge) ||
+           (s.b.back().panel == r.panel && s.b.back().edge == r.edge);
+  };
+  return has(x, y.a[0]) && has(x, y.b[0]);
+}
+
+} // namespace
+
+namespace {
+
+constexpr double BAG = 90; // degrees that both outlines together turn by where a bag has its corner
+
+/// Degrees by which the outline turns to the left between two edges of a panel.
+double turn_between(const Panel& panel, int edge, int next) {
+  const ArcLength in(panel.edge(edge).path), out(panel.edge(next).path);
+  const Vec2 u = in.tangent(in.length()), v = out.tangent(0);
+  return units::degrees(std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v)));
+}
+
+/// The turn of a panel's outline between an edge of one seam and an edge of another; nothing where
+/// they are not next to each other.
+std::optional<double> turn_between(const Pattern& pattern, int p, const Seam& one,
+                                   const Seam& other) {
+  const Panel& panel = pattern.panels[static_cast<std::size_t>(p)];
+  for (const Run& a : one.a[0].panel == p ? one.a : one.b)
+    for (const Run& b : other.a[0].panel == p ? other.a : other.b) {
+      if (next_edge(panel, a.edge) == b.edge) return turn_between(panel, a.edge, b.edge);
+      if (next_edge(panel, b.edge) == a.edge) return turn_between(panel, b.edge, a.edge);
+    }
+  return std::nullopt;
+}
+
+} // namespace
+
+void drop_bags(const Pattern& pattern, std::vector<SeamGuess>& guesses) {
+  const auto mirrors = panel_mirrors(pattern);
+  const auto mirrored = [&](int p, int q) {
+    const auto& own = mirrors[static_cast<std::size_t>(p)];
+    return std::any_of(own.begin(), own.end(), [&](const PanelMirror& m) { return m.panel == q; });
+  };
+  std::vector<Seam> known;
+  for (const SeamGuess& g : guesses)
+    if (g.certain) known.push_back(g.seam);
+  drop_unsure(guesses, [&](const Seam& seam) {
+    const auto [p, q] = panels_of(seam);
+    if (p < 0 || p == q || mirrored(p, q)) return false;
+    return std::any_of(known.begin(), known.end(), [&](const Seam& other) {
+      if (panels_of(other) != panels_of(seam)) return false;
+      const auto a = turn_between(pattern, p, seam, other),
+                 b = turn_between(pattern, q, seam, other);
+      return a && b && *a + *b > BAG;
+    });
+  });
+}
+
+void settle_by_order(const Pattern& pattern, std::vector<SeamGuess>& guesses) {
+  for (std::size_t k = 0; k < guesses.size(); ++k) {
+    SeamGuess& guess = guesses[k];
+    const auto panels = panels_of(guess.seam);
+    if (guess.certain || guess.twin < 0 || panels[0] < 0 || panels[0] == panels[1]) continue;
+    SeamGuess& twin = guesses[static_cast<std::size_t>(guess.twin)];
+    if (twin.certain || panels_of(twin.seam) != panels) continue;
+    std::vector<const Seam*> known;
+    for (const SeamGuess& g : guesses)
+      if (g.certain && panels_of(g.seam) == panels) known.push_back(&g.seam);
+    if (known.size() < 2 || closes_corner(pattern, guess.seam, known)) continue;
+    const auto fits = [&](const Seam& one, const Seam& other) {
+      return in_order(pattern, *known[0], one, other) && in_order(pattern, *known[1], one, other);
+    };
+    double score = std::min(guess.score, twin.score);
+    const auto swapped = exchanged(pattern, guess.seam, twin.seam);
+    const bool twisted = !fits(guess.seam, twin.seam);
+    if (twisted && (!swapped || !fits((*swapped)[0], (*swapped)[1]))) continue;
+    bool rival = false;
+    for (const SeamGuess* g : {&guess, &twin})
+      for (const SeamGuess& other : g->instead) {
+        const bool exchange = swapped && (same_sides((*swapped)[0], other.seam) ||
+                                          same_sides((*swapped)[1], other.seam));
+        if (exchange) score = std::max(score, other.score);
+        rival = rival || (!exchange && other.score >= UNLIKELY_RIVAL);
+      }
+    if (twisted) {
+      guess.seam = (*swapped)[0];
+      twin.seam = (*swapped)[1];
+    }
+    if (twisted) {
+      guess.instead.clear();
+      twin.instead.clear();
+    }
+    if (score >= LIKELY_TWINS && !rival) guess.certain = twin.certain = true;
+  }
+}
+
+} // namespace sloper::pattern
