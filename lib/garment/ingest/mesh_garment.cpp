@@ -164,6 +164,11 @@ void find_doubts(MeshGarment& m) {
     m.findings.push_back(
         {"import.through-body"_id, name + " has " + counted(m.faces_through, "face", "faces") +
                                        " through the body that it comes from, as it came"});
+  if (!m.rest_from_texture)
+    m.findings.push_back(
+        {"import.strain-unknown"_id,
+         name + " has no flat pattern in its texture coordinates: its shape as worn counts as "
+                "unstretched, so a garment that is tight there is judged too kindly"});
   if (m.garment.panels.edge_length > COARSE_M)
     m.findings.push_back(
         {"import.coarse"_id, name + " is coarse: its edges are " +

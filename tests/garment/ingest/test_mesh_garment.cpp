@@ -119,6 +119,11 @@ std::vector<Vec3> dressed_positions(const MeshGarment& m, const Garment& worn) {
       .positions;
 }
 
+bool says_strain_is_unknown(const MeshGarment& m) {
+  return std::any_of(m.findings.begin(), m.findings.end(),
+                     [](const Message& f) { return f.id == "import.strain-unknown"; });
+}
+
 } // namespace
 
 TEST(MeshGarment, has_the_edge_lengths_of_its_mesh_and_no_strain) {
@@ -127,6 +132,7 @@ TEST(MeshGarment, has_the_edge_lengths_of_its_mesh_and_no_strain) {
   EXPECT_EQ(m.garment.panels.triangles.size(), 2u * 72 * 30);
   EXPECT_EQ(m.roles.shells + m.roles.patches + m.roles.rigid_parts, 0);
   EXPECT_FALSE(m.rest_from_texture);
+  EXPECT_TRUE(says_strain_is_unknown(m)) << "a tight garment would be judged too kindly in silence";
   EXPECT_LT(stretch_of(m.garment).max, 1e-6);
   EXPECT_FALSE(m.garment.bind.empty());
   EXPECT_LT(m.panels, 6); // a tube is unrolled whole, or nearly
@@ -193,6 +199,7 @@ TEST(MeshGarment, texture_that_is_the_flat_pattern_gives_the_rest_shape) {
     }
   const MeshGarment m = read(out.str());
   EXPECT_TRUE(m.rest_from_texture);
+  EXPECT_FALSE(says_strain_is_unknown(m));
   EXPECT_GT(m.texture_share, 0.99);
   EXPECT_EQ(m.panels, 1);
   EXPECT_TRUE(m.garment.rest_scale.empty());
