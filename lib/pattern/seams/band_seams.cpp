@@ -109,11 +109,7 @@ private:
                                     name_suggests_front(words(p)) || says_back(words(p)));
   }
   void add(Seam seam, bool sure) {
-    SeamGuess guess;
-    guess.seam = std::move(seam);
-    guess.score = sure ? 0.999 : BAND_SCORE;
-    guess.certain = sure;
-    m_guesses.push_back(std::move(guess));
+    m_guesses.push_back(rim_guess(std::move(seam), sure, BAND_SCORE));
   }
 
   /// A leg in one piece: its inseams, and the crotch curves behind and before them.

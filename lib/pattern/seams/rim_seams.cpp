@@ -260,11 +260,7 @@ private:
   }
 
   void add(Seam seam, bool sure) {
-    SeamGuess guess;
-    guess.seam = std::move(seam);
-    guess.score = sure ? 0.999 : RIM_SCORE;
-    guess.certain = sure;
-    m_guesses.push_back(std::move(guess));
+    m_guesses.push_back(rim_guess(std::move(seam), sure, RIM_SCORE));
   }
 
   /// The whole cap as one seam around the armhole, parted at the shoulder.

@@ -148,6 +148,15 @@ std::vector<Run> turned(std::vector<Run> runs) {
   return runs;
 }
 
+SeamGuess rim_guess(Seam seam, bool sure, double score) {
+  constexpr double SURE = 0.999; // the probability of what names or lengths leave no doubt about
+  SeamGuess guess;
+  guess.seam = std::move(seam);
+  guess.score = sure ? SURE : score;
+  guess.certain = sure;
+  return guess;
+}
+
 bool touches(const Seam& seam, const std::set<int>& panels) {
   for (const auto* side : {&seam.a, &seam.b})
     for (const Run& r : *side)

@@ -46,6 +46,9 @@ std::vector<Run> whole(Edges edges, bool with_outline);
 std::vector<Run> stretch(const Edges& edges, double from, double to);
 std::vector<Run> turned(std::vector<Run> runs); ///< walked the other way
 
+/// A guess that rests on rims. @param score  its probability where it is not sure
+SeamGuess rim_guess(Seam seam, bool sure, double score);
+
 bool touches(const Seam& seam, const std::set<int>& panels);
 bool takes_any(const Seam& seam, const Edges& edges);
 /// Guesses as seams that are likely, without those of some panels.
