@@ -18,7 +18,9 @@ namespace {
 
 constexpr std::uint32_t GLB_MAGIC = 0x46546C67, JSON_CHUNK = 0x4E4F534A, BIN_CHUNK = 0x004E4942;
 constexpr int BYTE = 5121, SHORT = 5123, INT = 5125, FLOAT = 5126; // component types, unsigned
-constexpr int TRIANGLES = 4, STRIP = 5, FAN = 6;                   // modes of a primitive
+constexpr int SIGNED_BYTE = 5120, SIGNED_SHORT = 5122; // of normals and textures that are packed
+constexpr std::size_t DEEPEST = 1000;                  ///< nodes above a node
+constexpr int TRIANGLES = 4, STRIP = 5, FAN = 6;       // modes of a primitive
 
 /// Where the numbers of an accessor stand in the binary chunk.
 struct Numbers {
@@ -103,10 +105,8 @@ public:
     if (buffer.has("uri") || view.at("buffer").integer() != 0)
       buffer.fail("import.malformed"_id, "stands in a file of its own",
                   "write one .glb that holds everything");
-    const int component_size = n.component == BYTE    ? 1
-                               : n.component == SHORT ? 2
-                                                      : static_cast<int>(sizeof(float));
-    const std::size_t own = static_cast<std::size_t>(component_size * width);
+    const std::size_t own =
+        size_of_component(node.at("componentType")) * static_cast<std::size_t>(width);
     n.begin = size_at(view, "byteOffset") + size_at(node, "byteOffset");
     n.stride = view.has("byteStride") ? size_of(view.at("byteStride")) : own;
     if (n.count == 0 || n.stride < own || n.begin > m_binary.size() || n.count > m_binary.size() ||
@@ -115,6 +115,7 @@ public:
     return n;
   }
 
+  /// @param n  unsigned whole numbers or floats
   double read(const Numbers& n, std::size_t i, int k) const {
     const char* at = m_binary.data() + n.begin + i * n.stride;
     const auto as = [&](auto x) {
@@ -154,7 +155,7 @@ public:
         if (!below.count(static_cast<int>(i))) roots.push_back(static_cast<int>(i));
     }
     std::set<int> met;
-    for (const int r : roots) visit_node(r, Mat4::Identity(), met, visit);
+    for (const int r : roots) visit_node(r, Mat4::Identity(), 0, met, visit);
   }
 
   Node entry(const char* list, int index) const {
@@ -175,6 +176,17 @@ private:
     if (n < 0) node.fail("import.malformed"_id, "is negative");
     return static_cast<std::size_t>(n);
   }
+  static std::size_t size_of_component(const Node& type) {
+    switch (type.integer()) {
+    case BYTE:
+    case SIGNED_BYTE: return sizeof(std::uint8_t);
+    case SHORT:
+    case SIGNED_SHORT: return sizeof(std::uint16_t);
+    case INT:
+    case FLOAT: return sizeof(float);
+    default: type.fail("import.malformed"_id, "is no component type of glTF");
+    }
+  }
   static std::size_t size_at(const Node& node, const char* key) {
     return node.has(key) ? size_of(node.at(key)) : 0;
   }
@@ -193,16 +205,17 @@ private:
     }
   }
 
-  void visit_node(int index, const Mat4& above, std::set<int>& met,
+  void visit_node(int index, const Mat4& above, std::size_t depth, std::set<int>& met,
                   const std::function<void(int, const Mat4&, const Node&)>& visit) const {
     const Node node = entry("nodes", index);
     if (!met.insert(index).second)
       node.fail("import.malformed"_id, "is met twice: the nodes are no tree");
+    if (depth > DEEPEST) node.fail("import.malformed"_id, "lies below more than 1,000 others");
     const Mat4 place = above * transform_of(node);
     if (node.has("mesh")) visit(node.at("mesh").integer(), place, node);
     if (!node.has("children")) return;
     for (std::size_t k = 0; k < node.at("children").size(); ++k)
-      visit_node(node.at("children").at(k).integer(), place, met, visit);
+      visit_node(node.at("children").at(k).integer(), place, depth + 1, met, visit);
   }
 
   static Mat4 transform_of(const Node& node) {
@@ -244,8 +257,8 @@ std::vector<int> corners_of(const Glb& glb, const Node& primitive, std::size_t n
     return corners;
   }
   const Numbers n = glb.numbers(primitive.at("indices").integer(), "SCALAR", 1);
-  if (n.component == FLOAT)
-    primitive.at("indices").fail("import.malformed"_id, "are no whole numbers");
+  if (n.component != BYTE && n.component != SHORT && n.component != INT)
+    primitive.at("indices").fail("import.malformed"_id, "are no unsigned whole numbers");
   for (std::size_t i = 0; i < n.count; ++i) {
     const double x = glb.read(n, i, 0);
     if (x >= static_cast<double>(n_vertices))
@@ -291,6 +304,10 @@ std::vector<GlbVertices> read_glb(const Glb& glb, MeshFile* file) {
       vertices.normal = attributes.integer("NORMAL", -1);
       vertices.tangent = attributes.integer("TANGENT", -1);
       const auto [found, is_new] = known.emplace(vertices.accessor, all.size());
+      if (!is_new && !all[found->second].place.isApprox(place))
+        node.fail("import.malformed"_id,
+                  "shares its vertices with a mesh that stands elsewhere in the scene",
+                  "give each mesh vertices of its own");
       if (is_new) {
         vertices.first = n_positions;
         vertices.place = place;

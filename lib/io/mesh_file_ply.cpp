@@ -191,12 +191,15 @@ PlyPlaces read_ply(PlyWalk& walk, MeshFile* file) {
   PlyPlaces places;
   for (const PlyPart& part : walk.parts()) {
     const bool is_vertex = part.name == "vertex", is_face = part.name == "face";
-    int axes = 0, normals = 0;
+    int axes = 0;
+    std::array<bool, 3> normals = {};
     bool has_u = false, has_v = false;
     for (const PlyField& field : part.fields) {
       if (field.list_size > 0) continue;
       axes += index_in(COORDINATES, field.name) >= 0;
-      normals += index_in(NORMALS, field.name) >= 0;
+      // whole numbers are scaled in ways of their own: such normals stay as they are
+      if (const int k = index_in(NORMALS, field.name); k >= 0 && field.kind == 'f')
+        normals[k] = true;
       has_u |= index_in(U_NAMES, field.name) >= 0;
       has_v |= index_in(V_NAMES, field.name) >= 0;
     }
@@ -227,7 +230,7 @@ PlyPlaces read_ply(PlyWalk& walk, MeshFile* file) {
           p[k] = x;
           at[k] = place;
         }
-        if (const int k = index_in(NORMALS, field.name); k >= 0) {
+        if (const int k = index_in(NORMALS, field.name); k >= 0 && field.kind == 'f') {
           n[k] = x;
           normal_at[k] = place;
         }
@@ -236,7 +239,7 @@ PlyPlaces read_ply(PlyWalk& walk, MeshFile* file) {
       }
       if (!is_vertex) continue;
       places.position.push_back(at);
-      if (normals == 3) {
+      if (normals[0] && normals[1] && normals[2]) {
         places.normal_at.push_back(normal_at);
         places.normal.push_back(n);
       }
@@ -278,6 +281,7 @@ MeshFile parse_ply_mesh(std::string bytes, const std::string& name) {
       if (part.name == "vertex" && index_in(COORDINATES, field.name) >= 0 && field.kind != 'f')
         walk.fail("header", "coordinates are whole numbers, and a garment cannot move by less",
                   "write it with float coordinates");
+  if (file.texture.size() != file.positions.size()) file.texture.clear(); // some vertices have none
   if (!file.texture.empty()) file.face_texture = file.faces; // texture stands at the vertices
   file.bytes = std::move(bytes);
   return file;
@@ -290,7 +294,7 @@ std::string moved_ply_mesh(const MeshFile& file, const std::vector<Vec3>& positi
   const auto each = [&](auto&& put) {
     for (std::size_t v = 0; v < places.position.size(); ++v) {
       for (int k = 0; k < 3; ++k) put(places.position[v][k], positions[v][k]);
-      if (places.normal.empty()) continue;
+      if (places.normal.size() != places.position.size()) continue;
       const Vec3 n = turned[v] * places.normal[v];
       for (int k = 0; k < 3; ++k) put(places.normal_at[v][k], n[k]);
     }

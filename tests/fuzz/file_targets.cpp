@@ -3,6 +3,7 @@
 #include <io/pcd.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/io/json.hpp>
+#include <sloper/io/mesh_file.hpp>
 #include <sloper/io/obj.hpp>
 #include <sloper/io/scan_reader.hpp>
 
@@ -21,6 +22,11 @@ void must_be_sound(const TriangleMesh& mesh) {
       if (v < 0 || v >= static_cast<int>(mesh.positions.size())) std::abort();
 }
 
+std::string format_of_mesh(char kind) {
+  if (kind == 'o') return "obj";
+  return kind == 'p' ? "ply" : "glb";
+}
+
 } // namespace
 
 void read_scan_bytes(std::string_view bytes) {
@@ -36,6 +42,27 @@ void read_scan_bytes(std::string_view bytes) {
     else if (kind == '3') must_be_sound(io::parse_3ds(bytes, "fuzz.3ds"));
     else if (kind == 'd') must_be_sound(io::parse_pcd(bytes, "fuzz.pcd"));
     else must_be_sound(io::parse_xyz(bytes, "fuzz.xyz"));
+  } catch (const Error& e) {
+    if (e.kind() != ErrorKind::INPUT) std::abort();
+  }
+}
+
+void read_mesh_file_bytes(std::string_view bytes) {
+  if (bytes.empty()) return;
+  const char kind = bytes[0];
+  bytes.remove_prefix(1);
+  const std::string format = format_of_mesh(kind);
+  try {
+    const io::MeshFile file = io::parse_mesh_file(std::string(bytes), format, "fuzz");
+    for (const std::vector<int>& corners : file.face_texture)
+      for (const int t : corners)
+        if (t < -1 || t >= static_cast<int>(file.texture.size())) std::abort();
+    std::vector<Vec3> moved = file.positions;
+    for (Vec3& p : moved) p = 0.5 * p + Vec3(0.1, 0.2, 0.3);
+    const std::vector<Mat3> turned(moved.size(), Mat3::Identity());
+    const std::string again = io::moved_mesh_file(file, moved, turned);
+    const io::MeshFile back = io::parse_mesh_file(again, format, "again");
+    if (back.faces != file.faces || back.positions.size() != moved.size()) std::abort();
   } catch (const Error& e) {
     if (e.kind() != ErrorKind::INPUT) std::abort();
   }

@@ -7,6 +7,9 @@
 namespace sloper::fuzz {
 /// The first byte picks the format: o OBJ, p PLY, s STL, x XYZ, 3 3DS, d PCD; the rest is the file.
 void read_scan_bytes(std::string_view bytes);
+/// A garment mesh of another program. The first byte picks the format: o OBJ, p PLY, g GLB; the
+/// rest is the file. What is read comes out again with its vertices elsewhere.
+void read_mesh_file_bytes(std::string_view bytes);
 /// A JSON document; what we write of it, we read again.
 void read_json_bytes(std::string_view bytes);
 /// A file as a body document, a pose and landmark rules.

@@ -41,6 +41,9 @@ void read_all(const char* folder, const Reader& reader) {
 } // namespace
 
 TEST(FuzzCorpus, scans_are_read_or_refused) { read_all("scan", sloper::fuzz::read_scan_bytes); }
+TEST(FuzzCorpus, garment_meshes_are_read_or_refused) {
+  read_all("mesh_file", sloper::fuzz::read_mesh_file_bytes);
+}
 TEST(FuzzCorpus, json_is_read_or_refused) { read_all("json", sloper::fuzz::read_json_bytes); }
 TEST(FuzzCorpus, documents_are_read_or_refused) {
   const std::string path = ::testing::TempDir() + "sloper-fuzz-document.json";

@@ -215,4 +215,65 @@ TEST(MeshFile, what_cannot_be_meant_is_refused_with_its_place) {
   EXPECT_NE(broken("\"version\":\"2.0\"", "\"version\":\"2.0"), std::string());
 }
 
+/// The same file with one text of the JSON replaced by one as long.
+std::string with_text(std::string glb, const std::string& from, const std::string& to) {
+  const std::size_t at = glb.find(from);
+  EXPECT_NE(at, std::string::npos);
+  EXPECT_EQ(from.size(), to.size());
+  return glb.replace(at, from.size(), to);
+}
+
+TEST(MeshFile, indices_of_a_glb_are_unsigned_whole_numbers) {
+  const std::string index = R"("componentType":5123)";
+  const auto with_type = [&](const char* type) {
+    return refused(with_text(square_glb(), index, type), "glb");
+  };
+  EXPECT_NE(with_type(R"("componentType":5122)").find("unsigned whole numbers"), std::string::npos);
+  EXPECT_NE(with_type(R"("componentType":5126)"), ""); // as many floats do not fit
+  EXPECT_NE(with_type(R"("componentType":5199)").find("no component type"), std::string::npos);
+}
+
+TEST(MeshFile, meshes_of_a_glb_that_share_vertices_stand_in_one_place) {
+  const std::string nodes = R"("scale":[2,2,2]}],"meshes":[{)";
+  const std::string twice = R"("scale":[2,2,2]},{"mesh":1}],"meshes":[{"primitives":[)"
+                            R"({"attributes":{"POSITION":0},"indices":2}]},{)";
+  std::string glb = square_glb();
+  glb = with_text(glb, R"("nodes":[0])", R"("nodes":[ ])");
+  EXPECT_NE(refused(glb, "glb"), "");
+  const std::string json = glb.substr(20, glb.find("BIN") - 24);
+  std::string changed = json;
+  changed.replace(changed.find(nodes), nodes.size(), twice);
+  changed.replace(changed.find("\"nodes\":[ ]"), 11, "\"nodes\":[0,1]");
+  changed.resize((changed.size() + 3) / 4 * 4, ' ');
+  const auto size = static_cast<std::uint32_t>(changed.size());
+  std::string out = glb.substr(0, 12);
+  out.append(reinterpret_cast<const char*>(&size), 4);
+  out += "JSON" + changed + glb.substr(20 + json.size());
+  EXPECT_NE(refused(out, "glb").find("shares its vertices"), std::string::npos)
+      << refused(out, "glb");
+}
+
+TEST(MeshFile, normals_of_a_ply_that_are_whole_numbers_stay_as_they_are) {
+  const std::string text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                           "property float y\nproperty float z\nproperty char nx\n"
+                           "property char ny\nproperty char nz\nelement face 1\n"
+                           "property list uchar int vertex_index\nend_header\n"
+                           "0 0 0 0 0 127\n1 0 0 0 0 127\n1 1 0 0 0 127\n3 0 1 2\n";
+  const MeshFile file = parse_mesh_file(text, "ply", "flag.ply");
+  const Mat3 turn = Eigen::AngleAxisd(1, Vec3::UnitX()).toRotationMatrix();
+  EXPECT_EQ(moved_mesh_file(file, file.positions, std::vector<Mat3>(3, turn)), text);
+}
+
+TEST(MeshFile, a_ply_whose_vertices_stand_in_two_lists_has_texture_for_all_or_none) {
+  const MeshFile file = parse_mesh_file(
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+      "property float z\nproperty float s\nproperty float t\nelement vertex 1\n"
+      "property float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_index\nend_header\n"
+      "0 0 0 0 0\n1 0 0 1 0\n1 1 0\n3 0 1 2\n",
+      "ply", "flag.ply");
+  EXPECT_TRUE(file.texture.empty());
+  EXPECT_TRUE(file.face_texture.empty());
+}
+
 } // namespace sloper::io
