@@ -3,12 +3,21 @@
 /// one cause, one cure, however many places find it. Programs and scripts may rely on it where
 /// words change: an id keeps its meaning and is never used again for another. docs/messages.md
 /// lists all, and tests/cli/test-messages compares that list with the code.
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
 
 namespace sloper {
+
+/// The characters of an id, as the argument of a template, which is checked when it is compiled. (A
+/// consteval literal would do, but clang before 17 leaves calls of it in templates.)
+template<std::size_t N> struct IdText {
+  /// @param text  of the literal, with the 0 at its end
+  constexpr IdText(const char (&text)[N]) { std::copy_n(text, N, characters); }
+  char characters[N]; ///< with the 0 at their end
+};
 
 /// Made by the literal alone, "pattern.outline-open"_id, so that a search finds every one. The form
 /// is checked when it is compiled: a topic of letters, a dot, and words of letters and digits with
@@ -22,7 +31,7 @@ public:
   friend constexpr bool operator==(MessageId a, MessageId b) { return a.m_text == b.m_text; }
 
 private:
-  friend consteval MessageId operator""_id(const char* text, std::size_t length);
+  template<IdText TEXT> friend constexpr MessageId operator""_id();
   constexpr explicit MessageId(std::string_view text) : m_text(text) {}
   std::string_view m_text; // of a literal, which outlives all
 };
@@ -45,9 +54,10 @@ constexpr bool is_message_id(std::string_view text) {
 }
 
 /// "pattern.outline-open"_id. Another form does not compile.
-consteval MessageId operator""_id(const char* text, std::size_t length) {
-  if (!is_message_id({text, length})) throw "a message id is topic.fact in small letters";
-  return MessageId({text, length});
+template<IdText TEXT> constexpr MessageId operator""_id() {
+  constexpr std::string_view ID{TEXT.characters, sizeof TEXT.characters - 1};
+  static_assert(is_message_id(ID), "a message id is topic.fact in small letters");
+  return MessageId(ID);
 }
 
 /// A warning, or a finding that may become one.
