@@ -134,7 +134,9 @@ void drop_bags(const Pattern& pattern, std::vector<SeamGuess>& guesses) {
   for (const SeamGuess& g : guesses)
     if (g.certain) known.push_back(g.seam);
   drop_unsure(guesses, [&](const Seam& seam) {
-    const auto [p, q] = panels_of(seam);
+    const auto ends = panels_of(seam);
+    const int p = ends[0];
+    const int q = ends[1];
     if (p < 0 || p == q || mirrored(p, q)) return false;
     return std::any_of(known.begin(), known.end(), [&](const Seam& other) {
       if (panels_of(other) != panels_of(seam)) return false;
