@@ -103,9 +103,9 @@ public:
     if (buffer.has("uri") || view.at("buffer").integer() != 0)
       buffer.fail("import.malformed"_id, "stands in a file of its own",
                   "write one .glb that holds everything");
-    const int component_size = n.component == BYTE    ? 1
-                               : n.component == SHORT ? 2
-                                                      : static_cast<int>(sizeof(float));
+    int component_size = static_cast<int>(sizeof(float));
+    if (n.component == BYTE) component_size = 1;
+    if (n.component == SHORT) component_size = 2;
     const std::size_t own = static_cast<std::size_t>(component_size * width);
     n.begin = size_at(view, "byteOffset") + size_at(node, "byteOffset");
     n.stride = view.has("byteStride") ? size_of(view.at("byteStride")) : own;
