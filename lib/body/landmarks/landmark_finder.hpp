@@ -29,11 +29,13 @@ template<class T> struct LandmarkRule {
   std::function<std::optional<T>()> find; ///< nothing where the body does not show it
 };
 
+/// What a rule found, and which rule it was.
 template<class T> struct Chosen {
   T value;
   const RuleChoice* rule;
 };
 
+/// What the rules work on, and where they put what they find.
 struct Finder {
   const LevelStack& levels;
   const std::array<ArmTrace, 2>& arms;

@@ -11,6 +11,7 @@
 
 namespace sloper::body {
 
+/// How far skin was drawn back.
 struct OpenedSkin {
   int vertices = 0;     ///< moved by more than 0.1 mm
   double largest_m = 0; ///< displacement of a vertex

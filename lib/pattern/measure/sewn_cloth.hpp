@@ -14,6 +14,7 @@ namespace sloper::pattern {
 /// the cloth.
 using Field = std::vector<double>;
 
+/// The surface that panels sewn together make.
 class SewnCloth {
 public:
   /// @param panels  which of the mesh's panels the cloth is made of, #panels

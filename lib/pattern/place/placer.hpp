@@ -37,6 +37,7 @@ struct Sector {
   } ///< mean height of the waist
 };
 
+/// Places the panels of one pattern on one body.
 class Placer {
 public:
   Placer(const Pattern& pattern, const body::Body& body, PanelMesh& mesh, const Folding& folding);
