@@ -1,5 +1,5 @@
 # Thin: every target is one command that can be typed by hand. `make` builds the programs into build/tools/ and build/samples/, `make test` the tests too.
-.PHONY: all pictures package test demo population check sanitize install format man bench bench-rivals validation figure4 accuracy fuzz hard soak accuracy-cost presets compare-builds nightly clean
+.PHONY: all pictures package test demo population check tidy sanitize install format man bench bench-rivals validation figure4 accuracy fuzz hard soak accuracy-cost presets compare-builds nightly clean
 
 all:
 	@scripts/build release programs
@@ -19,6 +19,10 @@ population:
 check:
 	@scripts/setup --check || true
 	@scripts/check
+
+# clang-tidy over the library and the programs, each finding an error.
+tidy: all
+	@scripts/tidy
 
 # The tests of the library, hard cases among them, under the address, undefined-behaviour and thread sanitizers.
 sanitize:

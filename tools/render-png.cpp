@@ -201,9 +201,9 @@ void write_pictures(const Options& o, const std::vector<io::Image>& images, cons
   if (images.size() > 1 && o.as == "animation") {
     io::write_file(o.output, io::apng_bytes(images, o.seconds, texts));
   } else {
+    const int most_columns = images.size() > 8 ? 6 : 4;
     const int columns =
-        o.columns > 0 ? o.columns
-                      : std::min<int>(images.size() > 8 ? 6 : 4, static_cast<int>(images.size()));
+        o.columns > 0 ? o.columns : std::min(most_columns, static_cast<int>(images.size()));
     io::write_png(o.output,
                   images.size() == 1 ? images[0]
                                      : render::contact_sheet(images, split(o.labels), columns),

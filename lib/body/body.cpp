@@ -7,6 +7,12 @@
 
 namespace sloper::body {
 
+std::string stance_of(double arms_deg) {
+  constexpr double T_FROM_DEG = 70, A_FROM_DEG = 15;
+  if (arms_deg > T_FROM_DEG) return "T";
+  return arms_deg > A_FROM_DEG ? "A" : "I";
+}
+
 namespace {
 constexpr const char* NAMES[N_PARTS] = {"head", "torso", "arm_l", "arm_r", "leg_l", "leg_r"};
 }

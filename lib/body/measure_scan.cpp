@@ -72,8 +72,7 @@ void describe_stance(Body& body, const std::array<ArmTrace, 2>& arms) {
     sum += deg;
     ++n;
   }
-  const double mean = n ? sum / n : 0;
-  body.stance_class = mean > 70 ? "T" : mean > 15 ? "A" : "I";
+  body.stance_class = stance_of(n ? sum / n : 0);
 }
 
 /// What a user should know of this scan, good or bad.
@@ -335,10 +334,9 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
       !(shows_a_person(sorted) && sorted.up_score > 0.8); // hanging arms look a little like legs
   if (is_torso) {
     torso = complete_torso(given, options.up, file);
-    sorted =
-        segment_scan(torso.scan, {"xyz"[torso.up.cwiseAbs().maxCoeff() == std::abs(torso.up.x()) ? 0
-                                        : torso.up.y() != 0                                      ? 1
-                                                            : 2]});
+    int up_axis = torso.up.y() != 0 ? 1 : 2;
+    if (torso.up.cwiseAbs().maxCoeff() == std::abs(torso.up.x())) up_axis = 0;
+    sorted = segment_scan(torso.scan, {"xyz"[up_axis]});
   }
   const std::vector<char> labelled = sorted.is_body; // the rim of a torso is body, but no skin
   for (std::size_t v = 0; v < torso.is_cut.size(); ++v)
@@ -386,9 +384,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
     body.scan.findings.insert(body.scan.findings.end(), opinions.begin(), opinions.end());
   }
   phases.done("rules");
-  const int jitter = options.jitter >= 0                                 ? options.jitter
-                     : body.skin.triangles.size() < MOST_FACES_TO_JITTER ? STANDARD_JITTER
-                                                                         : 0;
+  const int usual_jitter = body.skin.triangles.size() < MOST_FACES_TO_JITTER ? STANDARD_JITTER : 0;
+  const int jitter = options.jitter >= 0 ? options.jitter : usual_jitter;
   if (jitter > 0) measure_spread(input, jitter, skin.noise_m, body, reporter);
   if (jitter > 0) phases.done("spread");
   else result.trail.push_back("spread: not measured, the usual one of each rule is given");

@@ -57,8 +57,8 @@ Quaterniond clavicle_lift(const Body& body, bool left, const Quaterniond& arm_tu
   for (const Bone& b : body.bones)
     if (b.name == (left ? "upper_arm_l" : "upper_arm_r")) {
       const Vec3 out = (b.tail - b.head).normalized();
-      const auto beyond = [](const Vec3& way) {
-        return std::max(0.0, std::acos(std::clamp(-way.y(), -1.0, 1.0)) - LIFT_FROM);
+      const auto beyond = [](const Vec3& direction) {
+        return std::max(0.0, std::acos(std::clamp(-direction.y(), -1.0, 1.0)) - LIFT_FROM);
       };
       const double lift = LIFT_SHARE * (beyond(arm_turn * out) - beyond(out));
       return Quaterniond(Eigen::AngleAxisd(left ? lift : -lift, Vec3::UnitZ()));
@@ -170,7 +170,7 @@ Body posed_body(const Body& body, const SkinWeights& weights, const Pose& pose) 
         sum += deg;
         ++n;
       }
-  if (n) out.stance_class = sum / n > 70 ? "T" : sum / n > 15 ? "A" : "I";
+  if (n) out.stance_class = stance_of(sum / n);
   out.frames.clear();
   build_frames(out);
   out.scan.findings.push_back(

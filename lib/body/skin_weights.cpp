@@ -126,8 +126,9 @@ SkinWeights skin_weights(const Body& body) {
   for (const char* name : {"clavicle_l", "clavicle_r"})
     if (const int j = joint(name); j >= 0) clavicles.emplace_back(bone(name), j);
   const auto of_clavicle = [&](const Bone& b, const Vec3& p) {
-    const Vec3 way = b.tail - b.head;
-    const double along = (p.x() - b.head.x()) * way.x() / std::max(way.x() * way.x(), 1e-12),
+    const Vec3 along_bone = b.tail - b.head;
+    const double along = (p.x() - b.head.x()) * along_bone.x() /
+                         std::max(along_bone.x() * along_bone.x(), 1e-12),
                  below = (b.tail.y() - p.y()) / s;
     return smooth_step((along - CLAVICLE_NEAR) / (CLAVICLE_FAR - CLAVICLE_NEAR)) *
            smooth_step((CLAVICLE_LOW - below) / (CLAVICLE_LOW - CLAVICLE_HIGH));

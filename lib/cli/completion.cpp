@@ -57,28 +57,49 @@ static std::string quoted(const std::string& text) {
   return out + "'";
 }
 
+/// A description within a specification of zsh, whose fields brackets and colons delimit.
+static std::string zsh_text(const std::string& description) {
+  std::string out;
+  for (const char c : description) {
+    if (c == '[') out += "(";
+    else if (c == ']') out += ")";
+    else if (c == ':') out += "\\:";
+    else out += c;
+  }
+  return out;
+}
+
+/// How zsh completes the value of an option.
+static std::string zsh_action(const OptionRow& row) {
+  if (!row.choices.empty()) return std::string("(").append(join(row.choices)).append(")");
+  const bool file = row.is_file || !row.operand.empty();
+  return file ? "_files" : " ";
+}
+
 static std::string zsh(const ToolDescription& tool) {
   std::string out = "#compdef " + tool.name + "\n_arguments -s -S";
-  const std::string all = "*:", open = "[", colon = ":";
+  const std::string separator = " \\\n  ", all = "*:", open = "[", colon = ":";
   for (const OptionRow& row : tool.rows) {
-    std::string text; // brackets and colons delimit the fields of a specification
-    for (const char c : row.description)
-      text += c == '[' ? "(" : c == ']' ? ")" : c == ':' ? "\\:" : std::string(1, c);
-    const std::string action = !row.choices.empty()
-                                   ? std::string("(").append(join(row.choices)).append(")")
-                               : row.is_file || !row.operand.empty() ? "_files"
-                                                                     : " ";
-    if (!row.operand.empty()) out += " \\\n  " + quoted(all + row.operand + ":_files");
-    for (const std::string& name : spellings(row)) {
-      const std::string star = row.repeats ? "*" : "";
-      out += " \\\n  " +
-             quoted(star + name + open + text + "]" +
-                    (row.value.empty()
-                         ? ""
-                         : colon + (row.choices.empty() ? row.value : "choice") + colon + action));
-    }
+    if (!row.operand.empty()) out += separator + quoted(all + row.operand + ":_files");
+    const std::string star = row.repeats ? "*" : "";
+    const std::string text = zsh_text(row.description);
+    std::string value;
+    if (!row.value.empty())
+      value = colon + (row.choices.empty() ? row.value : "choice") + colon + zsh_action(row);
+    for (const std::string& name : spellings(row))
+      out += separator + quoted(star + name + open + text + "]" + value);
   }
   return out + "\n";
+}
+
+/// A description within the quotes of fish, which has its own escapes.
+static std::string fish_text(const std::string& description) {
+  std::string out;
+  for (const char c : description) {
+    if (c == '\'' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out;
 }
 
 static std::string fish(const ToolDescription& tool) {
@@ -90,10 +111,7 @@ static std::string fish(const ToolDescription& tool) {
     for (const std::string& l : row.longs) out += " -l " + l;
     if (!row.value.empty()) out += row.is_file ? " -r -F" : " -x";
     if (!row.choices.empty()) out += " -a " + quoted(join(row.choices));
-    std::string text; // fish has its own escape for a quote
-    for (const char c : row.description)
-      text += c == '\'' ? "\\'" : c == '\\' ? "\\\\" : std::string(1, c);
-    out += " -d '" + text + "'\n";
+    out += " -d '" + fish_text(row.description) + "'\n";
   }
   return out;
 }

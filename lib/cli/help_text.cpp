@@ -21,10 +21,11 @@ std::string help_text(const ToolDescription& tool) {
   for (const Example& example : tool.examples)
     out += "  " + example.command_line + "\n      " + wrap(example.what, WIDTH, 6) + "\n";
   std::string operands, own, common;
-  for (const OptionRow& row : tool.rows)
-    (!row.operand.empty()            ? operands
-     : row.group == "Common options" ? common
-                                     : own) += help_row(row);
+  for (const OptionRow& row : tool.rows) {
+    if (!row.operand.empty()) operands += help_row(row);
+    else if (row.group == "Common options") common += help_row(row);
+    else own += help_row(row);
+  }
   if (!operands.empty()) out += "\nOperands:\n" + operands;
   if (!own.empty()) out += "\nOptions:\n" + own;
   out += "\nCommon options:\n" + common;

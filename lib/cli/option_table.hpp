@@ -10,6 +10,7 @@ class App;
 
 namespace sloper::cli {
 
+/// One option, flag or operand, as the user sees it.
 struct OptionRow {
   std::vector<std::string> shorts;  ///< "o", without the dash
   std::vector<std::string> longs;   ///< "output", without the dashes
@@ -23,6 +24,7 @@ struct OptionRow {
   std::string spelling() const;
 };
 
+/// A command line of the help, and what it does.
 struct Example {
   std::string command_line, what;
 };

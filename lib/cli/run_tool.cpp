@@ -219,6 +219,12 @@ static bool has_validator(CLI::Option* option, const std::string& name) {
   }
 }
 
+static std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  if (slash == std::string::npos) return ".";
+  return slash == 0 ? "/" : path.substr(0, slash);
+}
+
 /// Minutes of work must not end in a folder that does not exist.
 static void check_outputs(CLI::App& app) {
   for (CLI::Option* option : app.get_options([](const CLI::Option*) { return true; })) {
@@ -232,10 +238,7 @@ static void check_outputs(CLI::App& app) {
       if (stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode))
         throw Error(ErrorKind::OUTPUT, "file.is-folder"_id, path, "", "is a folder, not a file",
                     "name a file");
-      const std::size_t slash = path.rfind('/');
-      const std::string folder = slash == std::string::npos ? "."
-                                 : slash == 0               ? "/"
-                                                            : path.substr(0, slash);
+      const std::string folder = folder_of(path);
       if (stat(folder.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
         throw Error(ErrorKind::OUTPUT, "file.no-folder"_id, path, "",
                     "cannot write: there is no folder " + folder, "make it first");
@@ -345,12 +348,13 @@ static std::string example_of(const std::vector<Example>& examples) {
 /// CLI11's "--size: At Most 1 required but received 2" and "--output is required" in words that say
 /// what to do.
 static Error parse_error(const std::string& text, const std::vector<Example>& examples) {
-  const std::size_t twice = text.find(": At Most 1 required but received "),
-                    missing = text.rfind(" is required");
+  const std::string is_required = " is required";
+  const std::size_t twice = text.find(": At Most 1 required but received ");
+  const std::size_t missing = text.rfind(is_required);
   if (twice != std::string::npos)
     return usage_error("option.repeated"_id, text.substr(0, twice) + " is given more than once",
                        "give it once");
-  if (missing == std::string::npos || missing + 12 != text.size())
+  if (missing == std::string::npos || missing + is_required.size() != text.size())
     return usage_error("option.wrong-value"_id, text);
   return usage_error("option.missing"_id, text.substr(0, missing) + " is missing",
                      example_of(examples));
@@ -412,9 +416,10 @@ int Tool::run(int argc, char** argv, const std::function<int()>& body) {
     }
     auto parsed = [&m] {
       m.reporter.show_progress = !m.no_progress;
-      set_thread_count(m.threads > 0    ? m.threads
-                       : m.threads == 0 ? available_processors()
-                                        : std::min(available_processors(), MOST_DEFAULT_THREADS));
+      int threads = m.threads;
+      if (threads < 0) threads = std::min(available_processors(), MOST_DEFAULT_THREADS);
+      if (m.threads == 0) threads = available_processors();
+      set_thread_count(threads);
     };
     const int code = parse_and_run(m.app, words, m.examples, m.reporter, parsed, body);
     m.reporter.clear_line();

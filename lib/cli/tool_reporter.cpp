@@ -111,12 +111,14 @@ void ToolReporter::tell(const std::string& text) {
 
 bool ToolReporter::stop_requested() const { return g_stop != 0; }
 
+static constexpr double LEAST_TO_FORETELL = 0.02; // of a phase, for a guess of the time left
+
 static std::string clock_text(double seconds) {
+  constexpr long MINUTE = 60, HOUR = 60 * MINUTE; // s
+  const long whole = std::lround(seconds), minutes = whole % HOUR / MINUTE, rest = whole % MINUTE;
   char text[32];
-  const long whole = std::lround(seconds);
-  if (whole >= 3600)
-    std::snprintf(text, sizeof text, "%ld h %02ld min", whole / 3600, whole % 3600 / 60);
-  else if (whole >= 60) std::snprintf(text, sizeof text, "%ld min %02ld s", whole / 60, whole % 60);
+  if (whole >= HOUR) std::snprintf(text, sizeof text, "%ld h %02ld min", whole / HOUR, minutes);
+  else if (whole >= MINUTE) std::snprintf(text, sizeof text, "%ld min %02ld s", minutes, rest);
   else std::snprintf(text, sizeof text, "%ld s", whole);
   return text;
 }
@@ -135,7 +137,8 @@ void ToolReporter::progress(const std::string& phase, double fraction) {
     fraction = std::min(fraction, 1.0);
     text.append(" ").append(std::to_string(std::lround(100 * fraction))).append(" %");
     const double elapsed = std::chrono::duration<double>(now - m_phase_start).count();
-    if (fraction > 0.02 && fraction < 1 && elapsed > 1)
+    const bool known = fraction > LEAST_TO_FORETELL && fraction < 1 && elapsed > 1;
+    if (known)
       text.append(", ").append(clock_text(elapsed * (1 - fraction) / fraction)).append(" left");
   }
   std::fprintf(stderr, "\r\033[K%s", text.c_str());

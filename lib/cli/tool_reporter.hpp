@@ -8,6 +8,7 @@
 
 namespace sloper::cli {
 
+/// The reporter of one tool: what a library says goes to stderr, in words or as JSON.
 class ToolReporter : public Reporter {
 public:
   explicit ToolReporter(const std::string& tool_name);

@@ -13,6 +13,9 @@ namespace {
 constexpr double TOUCHING =
     1e-12; ///< m; nearer than this the direction to the skin is the skin's normal
 constexpr int RIM = -1, NOT_OWNED = -2;
+constexpr int OWNED_VERTICES = 7, FIRST_OWNED_EDGE = 8; // bits of m_owned
+constexpr std::size_t GRAIN_OF_NORMALS = 8192;          // triangles or vertices to a chunk
+constexpr double LEAST_SINE = 1e-6; // of the angle of a point's direction to the skin, for a side
 
 } // namespace
 
@@ -59,10 +62,13 @@ PreparedSkin BodyCollider::prepared() const {
   for (int f = 0; f < static_cast<int>(m_mesh.triangles.size()); ++f) {
     if (!m_trusted_face[f]) found.untrusted_faces.push_back(f);
     const std::array<int, 3>& sides = m_topology.triangle_edges[f];
-    for (int k = 0; k < 3; ++k) // a triangle of no width may have one edge twice
-      if (!m_trusted_edge[sides[k]] && m_topology.triangles_of_edge(sides[k])[0] == f &&
-          std::find(sides.begin(), sides.begin() + k, sides[k]) == sides.begin() + k)
+    for (int k = 0; k < 3; ++k) {
+      const int edge = sides[k];
+      if (m_trusted_edge[edge] || m_topology.triangles_of_edge(edge)[0] != f) continue;
+      const auto before = sides.begin() + k; // a triangle of no width may have one edge twice
+      if (std::find(sides.begin(), before, edge) == before)
         found.untrusted_edges.push_back(3 * f + k);
+    }
   }
   for (int v = 0; v < static_cast<int>(m_trusted_vertex.size()); ++v)
     if (!m_trusted_vertex[v]) found.untrusted_vertices.push_back(v);
@@ -88,7 +94,7 @@ void BodyCollider::compute_normals() {
   const std::size_t n = m_mesh.triangles.size();
   m_face_normals.resize(n);
   std::vector<Vec3> angles(n);
-  parallel_for(n, 8192, [&](std::size_t begin, std::size_t end) {
+  parallel_for(n, GRAIN_OF_NORMALS, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       const Triangle& t = m_mesh.triangles[f];
       const Vec3 corner[3] = {m_mesh.positions[t[0]], m_mesh.positions[t[1]],
@@ -108,7 +114,7 @@ void BodyCollider::compute_normals() {
   for (std::size_t f = 0; f < n; ++f)
     for (int k = 0; k < 3; ++k)
       m_vertex_normals[m_mesh.triangles[f][k]] += angles[f][k] * m_face_normals[f];
-  parallel_for(m_mesh.positions.size(), 8192, [&](std::size_t begin, std::size_t end) {
+  parallel_for(m_mesh.positions.size(), GRAIN_OF_NORMALS, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v)
       if (const double length = m_vertex_normals[v].norm(); length > 0)
         m_vertex_normals[v] /= length;
@@ -119,7 +125,7 @@ void BodyCollider::compute_normals() {
 void BodyCollider::assign_features() {
   m_owned.assign(m_mesh.triangles.size(), 0);
   m_beyond.assign(m_mesh.triangles.size(), {NOT_OWNED, NOT_OWNED, NOT_OWNED});
-  parallel_for(m_mesh.triangles.size(), 8192, [&](std::size_t begin, std::size_t end) {
+  parallel_for(m_mesh.triangles.size(), GRAIN_OF_NORMALS, [&](std::size_t begin, std::size_t end) {
     for (auto f = static_cast<int>(begin); f < static_cast<int>(end); ++f)
       for (int k = 0; k < 3; ++k) {
         if (m_topology.triangles_of_vertex(m_mesh.triangles[f][k])[0] == f) m_owned[f] |= 1 << k;
@@ -133,21 +139,21 @@ void BodyCollider::find_convex_edges() {
   // An edge in a hollow or on flat skin is never the nearest feature: its faces are at least as
   // near.
   constexpr double FLAT_SINE = 1e-3;
-  parallel_for(m_mesh.triangles.size(), 8192, [&](std::size_t begin, std::size_t end) {
+  parallel_for(m_mesh.triangles.size(), GRAIN_OF_NORMALS, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
-      m_owned[f] &= 7;
+      m_owned[f] &= OWNED_VERTICES;
       for (int k = 0; k < 3; ++k) {
         const int beyond = m_beyond[f][k];
         if (beyond == NOT_OWNED) continue;
-        bool convex =
-            beyond == RIM; // at a rim or where sheets meet there is no hollow side to rule out
+        // At a rim or where sheets meet there is no hollow side to rule out.
+        bool convex = beyond == RIM;
         if (!convex) {
           const Triangle& t = m_mesh.triangles[f];
           const Vec3 along = m_mesh.positions[t[(k + 1) % 3]] - m_mesh.positions[t[k]];
-          convex =
-              m_face_normals[f].cross(m_face_normals[beyond]).dot(along) > FLAT_SINE * along.norm();
+          const Vec3 turn = m_face_normals[f].cross(m_face_normals[beyond]);
+          convex = turn.dot(along) > FLAT_SINE * along.norm();
         }
-        if (convex) m_owned[f] |= 8 << k;
+        if (convex) m_owned[f] |= FIRST_OWNED_EDGE << k;
       }
     }
   });
@@ -189,15 +195,16 @@ SignedDistance BodyCollider::signed_distance(const Vec3& p, double max_distance,
   result.triangle = closest.triangle;
   result.point = closest.point;
   result.barycentric = closest.barycentric;
-  const Vec3 away = p - closest.point, pseudo = pseudonormal(closest.triangle, closest.feature);
-  const double distance = away.norm(), height = away.dot(pseudo);
-  // a pseudonormal at right angles to the way to p says nothing: rounding, or a fold of the mesh
-  // onto itself
-  const bool clear = std::abs(height) > 1e-6 * distance * pseudo.norm();
-  bool inside;
-  if (distance <= TOUCHING) inside = height < 0;
-  else if (clear && is_trusted(closest.triangle, closest.feature)) inside = height < 0;
-  else inside = is_inside(p);
+  const Vec3 away = p - closest.point;
+  const Vec3 pseudo = pseudonormal(closest.triangle, closest.feature);
+  const double distance = away.norm();
+  const double height = away.dot(pseudo);
+  // A pseudonormal at right angles to the direction of p says nothing: rounding, or a fold of the
+  // mesh onto itself.
+  const bool clear = std::abs(height) > LEAST_SINE * distance * pseudo.norm();
+  const bool by_normal =
+      distance <= TOUCHING || (clear && is_trusted(closest.triangle, closest.feature));
+  const bool inside = by_normal ? height < 0 : is_inside(p);
   result.distance = inside ? -distance : distance;
   if (distance > TOUCHING) result.normal = away / result.distance;
   else result.normal = pseudo.norm() > 0 ? Vec3(pseudo.normalized()) : Vec3(0, 1, 0);

@@ -201,7 +201,8 @@ std::vector<char> BodyCollider::ask_winding_numbers() {
         if (!(side > 0)) continue; // has no sides; its neighbours answer for it
         const Vec3 center = (a + b + c) / 3, offset = 1e-3 * side * m_face_normals[front[i]];
         const bool outer = is_inside(center + offset), inner = is_inside(center - offset);
-        answer[i] = outer && inner ? BURIED : !outer && inner ? RIGHT : WRONG;
+        if (outer && inner) answer[i] = BURIED;
+        else answer[i] = inner ? RIGHT : WRONG;
       }
     });
     const std::vector<int> answered = std::move(front);

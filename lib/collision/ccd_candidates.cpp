@@ -64,7 +64,7 @@ void visit_meeting(const TriangleTree& tree, const TriangleTree& motion, const M
     const int index = stack[--top];
     const TriangleTree::Node &node = tree.nodes()[index], &moves = motion.nodes()[index];
     int mask = lanes ? lanes[index] : 15;
-    for (int a = 0; a < 3 && mask; ++a) { // the node's way as the element sees it
+    for (int a = 0; a < 3 && mask; ++a) { // the node's displacement relative to the element
       const Float4 back = min(zero, Float4::load(moves.low[a]) - e.fast[a]) * stretch,
                    on = max(zero, Float4::load(moves.high[a]) - e.slow[a]) * stretch;
       mask &= both_less_equal(Float4::load(node.low[a]) + back, e.high[a], e.low[a],

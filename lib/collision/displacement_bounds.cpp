@@ -16,9 +16,9 @@ void merge(Box3& box, const Box3& other) {
 
 } // namespace
 
-double DisplacementBounds::farthest(const Box3& ways, const Vec3& carry) {
-  if (ways.empty()) return 0;
-  return (carry - ways.low).cwiseAbs().cwiseMax((ways.high - carry).cwiseAbs()).norm();
+double DisplacementBounds::farthest(const Box3& bounds, const Vec3& own) {
+  if (bounds.empty()) return 0;
+  return (own - bounds.low).cwiseAbs().cwiseMax((bounds.high - own).cwiseAbs()).norm();
 }
 
 std::array<int, 3> DisplacementBounds::cube_of(const Vec3& place) const {
@@ -29,7 +29,7 @@ std::array<int, 3> DisplacementBounds::cube_of(const Vec3& place) const {
   return cube;
 }
 
-void DisplacementBounds::build(const TriangleMesh& skin, const std::vector<Vec3>& way,
+void DisplacementBounds::build(const TriangleMesh& skin, const std::vector<Vec3>& displacement,
                                const Box3& region, double radius) {
   m_all = {};
   m_low = region.low;
@@ -41,30 +41,30 @@ void DisplacementBounds::build(const TriangleMesh& skin, const std::vector<Vec3>
                     static_cast<std::size_t>(m_n[2]),
                 Box3{});
   for (const Triangle& t : skin.triangles) {
-    Box3 place, ways;
+    Box3 place, bounds;
     for (int v : t) place.add(skin.positions[v]);
     if (!((place.low.array() <= region.high.array()).all() &&
           (place.high.array() >= region.low.array()).all()))
       continue;
-    for (int v : t) ways.add(way[v]);
-    merge(m_all, ways);
+    for (int v : t) bounds.add(displacement[v]);
+    merge(m_all, bounds);
     const std::array<int, 3> first = cube_of(place.low), last = cube_of(place.high);
     for (int i = first[0]; i <= last[0]; ++i)
       for (int j = first[1]; j <= last[1]; ++j)
-        for (int k = first[2]; k <= last[2]; ++k) merge(at(i, j, k), ways);
+        for (int k = first[2]; k <= last[2]; ++k) merge(at(i, j, k), bounds);
   }
 }
 
-double DisplacementBounds::max_relative_displacement(const Vec3& carry, const Vec3& place,
+double DisplacementBounds::max_relative_displacement(const Vec3& own, const Vec3& place,
                                                      double radius) const {
   if (m_all.empty()) return 0;
   const Vec3 around = Vec3::Constant(radius);
   const std::array<int, 3> first = cube_of(place - around), last = cube_of(place + around);
-  Box3 ways;
+  Box3 bounds;
   for (int i = first[0]; i <= last[0]; ++i)
     for (int j = first[1]; j <= last[1]; ++j)
-      for (int k = first[2]; k <= last[2]; ++k) merge(ways, at(i, j, k));
-  return farthest(ways, carry);
+      for (int k = first[2]; k <= last[2]; ++k) merge(bounds, at(i, j, k));
+  return farthest(bounds, own);
 }
 
 } // namespace sloper::collision

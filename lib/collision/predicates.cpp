@@ -17,7 +17,10 @@ template<int CAPACITY> struct Expansion {
   void push(double x) {
     if (x != 0) term[size++] = x;
   }
-  int sign() const { return size == 0 ? 0 : term[size - 1] > 0 ? 1 : -1; }
+  int sign() const {
+    if (size == 0) return 0;
+    return term[size - 1] > 0 ? 1 : -1;
+  }
 };
 
 /// a + b = sum + error exactly (Knuth).

@@ -302,8 +302,9 @@ Dop TriangleTree::dop_of(const Box3& box) const {
     const Vec3& d = DOP_DIRECTIONS[direction_index(a, m_axes)];
     double low = 0, high = 0;
     for (int i = 0; i < 3; ++i) {
-      low += d[i] == 0 ? 0 : d[i] > 0 ? box.low[i] : -box.high[i];
-      high += d[i] == 0 ? 0 : d[i] > 0 ? box.high[i] : -box.low[i];
+      if (d[i] == 0) continue;
+      low += d[i] > 0 ? box.low[i] : -box.high[i];
+      high += d[i] > 0 ? box.high[i] : -box.low[i];
     }
     dop.low[a] = float_below(low);
     dop.high[a] = float_above(high);
@@ -327,17 +328,18 @@ Dop TriangleTree::dop_of_slot(int slot, double margin) const {
 
 double TriangleTree::first_hit(const Vec3& a, const Vec3& b) const {
   double least = std::numeric_limits<double>::infinity();
-  const Vec3 way = b - a;
+  const Vec3 direction = b - a;
   visit_slots(dop_of(bounding_box({a, b})), 0, [&](int slot) {
     const std::array<Vec3, 3>& p = m_corners[slot];
-    const Vec3 e1 = p[1] - p[0], e2 = p[2] - p[0], h = way.cross(e2); // Moeller and Trumbore 1997
+    const Vec3 e1 = p[1] - p[0], e2 = p[2] - p[0],
+               h = direction.cross(e2); // Moeller and Trumbore 1997
     const double det = e1.dot(h);
     if (std::abs(det) < 1e-18) return;
     const Vec3 s = a - p[0];
     const double u = s.dot(h) / det;
     if (u < 0 || u > 1) return;
     const Vec3 q = s.cross(e1);
-    const double v = way.dot(q) / det, at = e2.dot(q) / det;
+    const double v = direction.dot(q) / det, at = e2.dot(q) / det;
     if (v < 0 || u + v > 1 || at < 0 || at > 1) return;
     least = std::min(least, at);
   });

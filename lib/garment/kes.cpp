@@ -65,7 +65,8 @@ struct Value {
   double warp = NAN, weft = NAN;
   double bias = NAN; ///< at 45 degrees, where it was given as such
   double mean() const {
-    return std::isnan(warp) ? weft : std::isnan(weft) ? warp : 0.5 * (warp + weft);
+    if (std::isnan(warp)) return weft;
+    return std::isnan(weft) ? warp : 0.5 * (warp + weft);
   }
   bool given() const { return !std::isnan(mean()); }
 };
@@ -81,10 +82,18 @@ std::string lower(std::string text) {
   return text;
 }
 
+/// Of a column of a table with one property a row: warp, weft, bias, their mean; a space of others.
+char direction_of(const std::string& column) {
+  if (column == "warp") return '1';
+  if (column == "weft") return '2';
+  if (column == "bias") return '3';
+  return column == "mean" || column == "value" ? 'm' : ' ';
+}
+
 std::vector<std::string> cells(const std::string& line) {
-  const char separator = line.find(';') != std::string::npos    ? ';'
-                         : line.find('\t') != std::string::npos ? '\t'
-                                                                : ',';
+  char separator = ',';
+  if (line.find('\t') != std::string::npos) separator = '\t';
+  if (line.find(';') != std::string::npos) separator = ';';
   std::vector<std::string> out;
   std::stringstream stream(line);
   for (std::string cell; std::getline(stream, cell, separator);) out.push_back(trimmed(cell));
@@ -260,12 +269,7 @@ Material read_kes(const std::string& path) {
       for (std::size_t c = 1; c < row.size() && c < header.size(); ++c)
         if (lower(header[c]) == "unit") unit = row[c];
       for (std::size_t c = 1; c < row.size() && c < header.size(); ++c) {
-        const std::string column = lower(header[c]);
-        const char d = column == "warp"                        ? '1'
-                       : column == "weft"                      ? '2'
-                       : column == "bias"                      ? '3'
-                       : column == "mean" || column == "value" ? 'm'
-                                                               : ' ';
+        const char d = direction_of(lower(header[c]));
         if (d == ' ' || row[c].empty() || (d == 'm' && values.count(h.property))) continue;
         put(values, {h.property, unit, d},
             reader.number(number, row[c]) * reader.factor(number, h.property, unit));

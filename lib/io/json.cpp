@@ -324,7 +324,7 @@ std::string path_beside(const std::string& document_path, const std::string& nam
 }
 
 std::string file_beside(const Node& name) {
-  const std::string path = path_beside(name.file(), name.string());
+  std::string path = path_beside(name.file(), name.string());
   if (!std::filesystem::exists(path))
     name.fail("file.missing-beside"_id, "there is no " + path,
               "keep it beside the document under this name, or write both again");

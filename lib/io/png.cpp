@@ -10,6 +10,8 @@
 
 namespace sloper::io {
 
+static constexpr unsigned LARGEST = 16384; // pixels a side of a picture that is read
+
 static void append_bytes(png_structp png, png_bytep data, png_size_t size) {
   static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
 }
@@ -56,6 +58,9 @@ void write_png(const std::string& path, const Image& image,
 
 namespace {
 
+// Bytes of a file's signature; of a chunk before its data (length, name) and around it (and check).
+constexpr std::size_t SIGNATURE = 8, BEFORE_DATA = 8, AROUND_DATA = 12;
+
 std::string big_endian(std::uint32_t x, int n_bytes = 4) {
   std::string bytes;
   for (int k = n_bytes - 1; k >= 0; --k) bytes += static_cast<char>(x >> (8 * k) & 255);
@@ -71,12 +76,12 @@ void append_chunk(std::string& to, const std::string& name, std::string_view dat
 
 /// Calls visit(name, data) for the chunks of a PNG of our own.
 template<class F> void for_chunks(const std::string& png, F&& visit) {
-  for (std::size_t at = 8; at + 12 <= png.size();) {
+  for (std::size_t at = SIGNATURE; at + AROUND_DATA <= png.size();) {
     std::uint32_t size = 0;
     for (int k = 0; k < 4; ++k)
       size = size << 8 | static_cast<unsigned char>(png[at + static_cast<std::size_t>(k)]);
-    visit(png.substr(at + 4, 4), std::string_view(png).substr(at + 8, size));
-    at += 12 + size;
+    visit(png.substr(at + 4, 4), std::string_view(png).substr(at + BEFORE_DATA, size));
+    at += AROUND_DATA + size;
   }
 }
 
@@ -94,7 +99,7 @@ std::string apng_bytes(const std::vector<Image>& images, double seconds,
                   "the pictures of an animation differ in size");
     const bool first = &image == &images[0];
     const std::string png = png_bytes(image, first ? texts : decltype(texts){});
-    if (first) out = png.substr(0, 8);
+    if (first) out = png.substr(0, SIGNATURE);
     bool opened = false;
     for_chunks(png, [&](const std::string& name, std::string_view data) {
       if (name == "IDAT" && !opened) {
@@ -130,9 +135,10 @@ Image read_png(const std::string& path) {
   Image image;
   image.width = static_cast<int>(png.width);
   image.height = static_cast<int>(png.height);
-  if (png.width > 16384 || png.height > 16384) {
+  if (png.width > LARGEST || png.height > LARGEST) {
     png_image_free(&png);
-    throw input_error("png.unreadable"_id, path, "", "is larger than 16384 pixels a side",
+    throw input_error("png.unreadable"_id, path, "",
+                      "is larger than " + std::to_string(LARGEST) + " pixels a side",
                       "give a smaller picture");
   }
   image.rgba.resize(PNG_IMAGE_SIZE(png));

@@ -270,24 +270,28 @@ TriangleMesh parse_ply(std::string_view bytes, const std::string& name) {
   return PlyReader(bytes, name).run();
 }
 
+// Bytes of a binary STL: a title, with the number of facets behind it; a facet.
+static constexpr std::size_t STL_TITLE = 80, STL_HEAD = 84, STL_FACET = 50;
+
 TriangleMesh parse_stl(std::string_view bytes, const std::string& name) {
   TriangleMesh mesh;
   std::uint32_t count = 0;
-  if (bytes.size() >= 84) std::memcpy(&count, bytes.data() + 80, 4);
+  if (bytes.size() >= STL_HEAD) std::memcpy(&count, bytes.data() + STL_TITLE, sizeof count);
   const bool is_text = bytes.substr(0, 5) == "solid" &&
                        bytes.substr(0, 2000).find("facet") != std::string_view::npos;
   if (!is_text) {
-    if (bytes.size() < 84)
+    if (bytes.size() < STL_HEAD)
       throw input_error("scan.truncated"_id, name, "", "is too short for an STL file",
                         "the copy is probably truncated");
-    if (84 + 50 * static_cast<std::size_t>(count) > bytes.size())
+    if (STL_HEAD + STL_FACET * static_cast<std::size_t>(count) > bytes.size())
       throw input_error("scan.truncated"_id, name, "header",
                         "promises " + std::to_string(count) + " facets, but the file ends early",
                         "the copy is probably truncated");
     mesh.positions.reserve(3 * static_cast<std::size_t>(count));
     for (std::uint32_t f = 0; f < count; ++f) {
       float raw[12];
-      std::memcpy(raw, bytes.data() + 84 + 50 * static_cast<std::size_t>(f), sizeof raw);
+      std::memcpy(raw, bytes.data() + STL_HEAD + STL_FACET * static_cast<std::size_t>(f),
+                  sizeof raw);
       Vec3 corner[3];
       for (int k = 0; k < 3; ++k) {
         corner[k] = Vec3(raw[3 + 3 * k], raw[4 + 3 * k], raw[5 + 3 * k]);

@@ -20,6 +20,8 @@ enum Chunk : std::uint16_t {
   VERTICES = 0x4110,
   FACES = 0x4120
 };
+constexpr std::size_t POINT_BYTES = 12; // three floats
+constexpr std::size_t FACE_BYTES = 8;   // three vertices and flags, two bytes each
 constexpr int DEPTH = 8;
 constexpr std::size_t HEADER = 6; ///< of a chunk: u16 kind, u32 length with the header
 
@@ -73,14 +75,15 @@ private:
 
   void read_vertices(std::size_t at, std::size_t end) {
     const std::size_t n = read<std::uint16_t>(at);
-    if (at + 2 + 12 * n > end)
+    if (at + 2 + POINT_BYTES * n > end)
       fail("scan.truncated"_id, at,
            "promises " + std::to_string(n) + " vertices, but its chunk ends early");
     for (std::size_t v = 0; v < n; ++v) {
       Vec3 p;
       for (std::size_t axis = 0; axis < 3; ++axis)
-        p[static_cast<int>(axis)] = read<float>(at + 2 + 12 * v + 4 * axis);
-      if (!p.allFinite()) fail("scan.not-finite"_id, at + 2 + 12 * v, "a coordinate is not finite");
+        p[static_cast<int>(axis)] = read<float>(at + 2 + POINT_BYTES * v + 4 * axis);
+      if (!p.allFinite())
+        fail("scan.not-finite"_id, at + 2 + POINT_BYTES * v, "a coordinate is not finite");
       m_mesh.positions.push_back(p);
     }
   }
@@ -88,15 +91,15 @@ private:
   void read_faces(std::size_t at, std::size_t end) {
     const std::size_t n = read<std::uint16_t>(at),
                       vertices = m_mesh.positions.size() - static_cast<std::size_t>(m_first);
-    if (at + 2 + 8 * n > end)
+    if (at + 2 + FACE_BYTES * n > end)
       fail("scan.truncated"_id, at,
            "promises " + std::to_string(n) + " faces, but its chunk ends early");
     for (std::size_t f = 0; f < n; ++f) {
       Triangle t;
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t v = read<std::uint16_t>(at + 2 + 8 * f + 2 * k);
+        const std::size_t v = read<std::uint16_t>(at + 2 + FACE_BYTES * f + 2 * k);
         if (v >= vertices)
-          fail("scan.malformed"_id, at + 2 + 8 * f,
+          fail("scan.malformed"_id, at + 2 + FACE_BYTES * f,
                "a face refers to vertex " + std::to_string(v) + ", but there are only " +
                    std::to_string(vertices));
         t[k] = m_first + static_cast<int>(v);

@@ -16,6 +16,7 @@ struct RimTriangle {
   std::array<Vec3, 3> corners; ///< m
 };
 
+/// Finds and moves smooth cloth that would cross.
 class ClothClearance {
 public:
   /// Cost: O(n log n) in the draped triangles and in those of other meshes, O(n) in the smooth

@@ -36,13 +36,16 @@ int mid_vertex(DrawMesh& mesh, int a, int b) {
   mesh.panel_of.push_back(mesh.panel_of[a]);
   if (!mesh.values.empty()) {
     const double x = mesh.values[a], y = mesh.values[b];
-    mesh.values.push_back(x == NO_VALUE ? y : y == NO_VALUE ? x : 0.5 * (x + y));
+    double middle = 0.5 * (x + y);
+    if (y == NO_VALUE) middle = x;
+    if (x == NO_VALUE) middle = y;
+    mesh.values.push_back(middle);
   }
   return m;
 }
 
 /// Every triangle into four.
-void split(DrawMesh& mesh) {
+void quarter_triangles(DrawMesh& mesh) {
   std::unordered_map<std::uint64_t, int> middle;
   middle.reserve(mesh.triangles.size() * 2);
   auto mid = [&](int a, int b) {
@@ -90,13 +93,17 @@ void measure_borders(DrawMesh& mesh) {
     std::vector<int> lines;
   };
   std::unordered_map<std::uint64_t, Cell> grid;
+  constexpr int CELL_BITS = 24; // a panel's number and two cells in 64 bits
+  constexpr std::int64_t MIDDLE = 1 << (CELL_BITS - 2);
+  static constexpr double MOST_CELLS = 4e6; // to either side; less than MIDDLE
   auto key = [](int panel, std::int64_t x, std::int64_t y) {
-    return static_cast<std::uint64_t>(panel) << 48 ^
-           static_cast<std::uint64_t>(x + (1 << 22)) << 24 ^
-           static_cast<std::uint64_t>(y + (1 << 22));
+    return static_cast<std::uint64_t>(panel) << 2 * CELL_BITS ^
+           static_cast<std::uint64_t>(x + MIDDLE) << CELL_BITS ^
+           static_cast<std::uint64_t>(y + MIDDLE);
   };
   auto cell = [](double x) {
-    return static_cast<std::int64_t>(std::floor(std::clamp(x / BORDER_REACH, -4e6, 4e6)));
+    const double number = std::clamp(x / BORDER_REACH, -MOST_CELLS, MOST_CELLS);
+    return static_cast<std::int64_t>(std::floor(number));
   };
   for (std::size_t k = 0; k < mesh.lines.size(); ++k) {
     const Vec2 a = mesh.uv[mesh.lines[k][0]], b = mesh.uv[mesh.lines[k][1]], low = a.cwiseMin(b),
@@ -194,7 +201,7 @@ void smooth_cloth(std::vector<DrawMesh>& meshes) {
     double edge = sum / static_cast<double>(mesh.triangles.size());
     for (int round = 0; round < 3 && edge > FINE && mesh.triangles.size() * 4 <= MOST_TRIANGLES;
          ++round, edge *= 0.5)
-      split(mesh);
+      quarter_triangles(mesh);
     measure_borders(mesh);
   }
   ClothClearance clearance(meshes);

@@ -200,9 +200,11 @@ struct Renderer::Impl {
     std::vector<GLuint> indices, line_indices;
     std::vector<LineVertex> lines;
     for (bool cloth : {true, false})
-      for (const DrawMesh& mesh : meshes)
-        if (mesh.is_cloth == cloth)
-          append(mesh, mesh.is_flat ? FLAT : cloth ? CLOTH : BODY, indices, lines, line_indices);
+      for (const DrawMesh& mesh : meshes) {
+        if (mesh.is_cloth != cloth) continue;
+        const auto solid = cloth ? CLOTH : BODY;
+        append(mesh, mesh.is_flat ? FLAT : solid, indices, lines, line_indices);
+      }
     if (!ground.positions.empty()) append(ground, GROUND, indices, lines, line_indices);
     if (options.occlusion_directions > 0) {
       occlusion = std::make_unique<Occlusion>(meshes);

@@ -16,6 +16,12 @@ namespace sloper::render {
 
 namespace {
 
+// Numbers of OpenGL that glTF 2.0 takes over: types of components, and what a view is for.
+constexpr int GLTF_UNSIGNED_SHORT = 5123, GLTF_UNSIGNED_INT = 5125, GLTF_FLOAT = 5126;
+constexpr int GLTF_ARRAY = 34962, GLTF_ELEMENTS = 34963;
+constexpr std::size_t GLB_HEADER = 12, GLB_CHUNK_HEADER = 8; // bytes
+constexpr double SKIN_ROUGHNESS = 0.7, CLOTH_ROUGHNESS = 0.9;
+
 std::string extension(const std::string& path) {
   const std::size_t dot = path.rfind('.');
   return dot == std::string::npos || path.find('/', dot) != std::string::npos
@@ -45,7 +51,7 @@ class GlbBuffer {
 public:
   std::string bytes;
   io::Json views = io::Json::array(), accessors = io::Json::array();
-  /// @param target 34962 vertices, 34963 indices
+  /// @param target  GLTF_ARRAY for vertices, GLTF_ELEMENTS for indices
   int add(const void* data, std::size_t n_bytes, std::size_t count, int component, const char* type,
           int target) {
     views.push_back(
@@ -66,7 +72,8 @@ public:
     return views.size() - 1;
   }
   int add_floats(const std::vector<float>& data, int width, const char* type) {
-    return add(data.data(), data.size() * sizeof(float), data.size() / width, 5126, type, 34962);
+    return add(data.data(), data.size() * sizeof(float), data.size() / width, GLTF_FLOAT, type,
+               GLTF_ARRAY);
   }
 };
 
@@ -110,19 +117,18 @@ io::Json add_mesh(GlbBuffer& buffer, const DrawMesh& mesh, const Legend& legend,
         joints.push_back(static_cast<std::uint16_t>(skin->joint[v][k]));
         weights.push_back(static_cast<float>(skin->weight[v][k]));
       }
-    attributes["JOINTS_0"] = buffer.add(joints.data(), joints.size() * sizeof(std::uint16_t),
-                                        mesh.positions.size(), 5123, "VEC4", 34962);
+    attributes["JOINTS_0"] =
+        buffer.add(joints.data(), joints.size() * sizeof(std::uint16_t), mesh.positions.size(),
+                   GLTF_UNSIGNED_SHORT, "VEC4", GLTF_ARRAY);
     attributes["WEIGHTS_0"] = buffer.add_floats(weights, 4, "VEC4");
   }
   const int elements = buffer.add(indices.data(), indices.size() * sizeof(std::uint32_t),
-                                  indices.size(), 5125, "SCALAR", 34963);
+                                  indices.size(), GLTF_UNSIGNED_INT, "SCALAR", GLTF_ELEMENTS);
+  int material = mesh.is_cloth ? 1 : 0;
+  if (printed) material = 2;
   return {{"name", mesh.name},
           {"primitives",
-           {{{"attributes", attributes},
-             {"indices", elements},
-             {"material", printed         ? 2
-                          : mesh.is_cloth ? 1
-                                          : 0}}}}};
+           {{{"attributes", attributes}, {"indices", elements}, {"material", material}}}}};
 }
 
 /// Joint nodes after `nodes`, each placed from its parent's, and the skin that names them. In the
@@ -143,10 +149,10 @@ io::Json add_skin(GlbBuffer& buffer, io::Json& nodes, const Rig& rig) {
     joints.push_back(first + j);
     Mat4 matrix = Mat4::Identity();
     matrix.block<3, 1>(0, 3) = -rig.head[j];
-    for (int k = 0; k < 16; ++k)
-      inverse.push_back(static_cast<float>(matrix(k % 4, k / 4))); // columns
+    for (int column = 0; column < 4; ++column)
+      for (int row = 0; row < 4; ++row) inverse.push_back(static_cast<float>(matrix(row, column)));
   }
-  const int matrices = buffer.add_floats(inverse, 16, "MAT4");
+  const int matrices = buffer.add_floats(inverse, 4 * 4, "MAT4");
   buffer.views.back().erase("target"); // no vertex attribute
   return {{"skeleton", first}, {"joints", joints}, {"inverseBindMatrices", matrices}};
 }
@@ -278,9 +284,10 @@ std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend,
         {"doubleSided", two_sided},
         {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", roughness}}}};
   };
-  document["materials"] = {material("skin", 0.7, false), material("cloth", 0.9, true)};
+  document["materials"] = {material("skin", SKIN_ROUGHNESS, false),
+                           material("cloth", CLOTH_ROUGHNESS, true)};
   if (print) {
-    document["materials"].push_back(material("printed cloth", 0.9, true));
+    document["materials"].push_back(material("printed cloth", CLOTH_ROUGHNESS, true));
     document["materials"].back()["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
     document["textures"] = {{{"source", 0}}}; // without a sampler it repeats
     document["images"] = {{{"mimeType", "image/png"},
@@ -293,7 +300,8 @@ std::string glb_bytes(const std::vector<DrawMesh>& meshes, const Legend& legend,
   text.resize((text.size() + 3) / 4 * 4, ' ');
   std::string bytes = "glTF";
   append(bytes, std::uint32_t{2});
-  append(bytes, static_cast<std::uint32_t>(12 + 8 + text.size() + 8 + buffer.bytes.size()));
+  append(bytes, static_cast<std::uint32_t>(GLB_HEADER + GLB_CHUNK_HEADER + text.size() +
+                                           GLB_CHUNK_HEADER + buffer.bytes.size()));
   append(bytes, static_cast<std::uint32_t>(text.size()));
   bytes += "JSON" + text;
   append(bytes, static_cast<std::uint32_t>(buffer.bytes.size()));

@@ -6,6 +6,7 @@
 #include <GL/glcorearb.h>
 namespace sloper::render {
 
+/// Functions by their OpenGL names without the prefix.
 struct Gl {
   /// @throws Error INTERNAL naming the function that is missing
   explicit Gl(const Context& context);

@@ -5,6 +5,7 @@
 #include <sloper/render/maps.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -150,16 +151,18 @@ std::vector<double> ease_values(const Garment& g, const body::Body& body,
   return values;
 }
 
+constexpr double ALMOST_ALL = 0.99, ALMOST_NONE = 0.01; // quantiles of the area
+
 /// The legend's quantiles, by area. @returns the size that 99 of 100 parts do not exceed
 double summarise(std::vector<garment::Weighted> all, Legend& legend) {
   if (all.empty()) return 0;
   legend.p50 = garment::area_quantile(all, 0.5);
-  legend.p1 = garment::area_quantile(all, 0.01);
-  legend.p99 = garment::area_quantile(all, 0.99);
+  legend.p1 = garment::area_quantile(all, ALMOST_NONE);
+  legend.p99 = garment::area_quantile(all, ALMOST_ALL);
   legend.least = all.front().value;
   legend.largest = all.back().value;
   for (garment::Weighted& v : all) v.value = std::abs(v.value);
-  return garment::area_quantile(all, 0.99);
+  return garment::area_quantile(all, ALMOST_ALL);
 }
 
 /// How much lies beyond the ends of the scale, by the weights of the quantiles, so that both say
@@ -178,58 +181,50 @@ void count_outside(const std::vector<garment::Weighted>& values, Legend& legend)
   }
 }
 
-/// The first of the ranges that holds the value, or the last.
-double choose_range(double most, std::initializer_list<double> ranges) {
-  for (double r : ranges)
-    if (most <= r) return r;
-  return *(ranges.end() - 1);
+/// What the legend of a map says, and the ends that its scale may have: such that the borders
+/// between eight colours are round numbers.
+struct Scale {
+  Map map;
+  const char *title, *unit;
+  bool diverging;              ///< from -end to end
+  std::array<double, 10> ends; ///< rising; 0: no more
+};
+
+constexpr Scale SCALES[] = {
+    {Map::GAP, "gap to the skin", "mm", false, {40, 80, 120, 160, 240, 320}},
+    {Map::PENETRATION, "depth in the skin", "mm", false, {0.8, 4, 8, 16, 40, 80}},
+    {Map::PRESSURE, "contact pressure", "Pa", false, {80, 160, 400, 800, 1600, 4000, 8000, 40000}},
+    {Map::EASE, "ease at the level", "cm", true, {8, 16, 24, 32, 48, 80}},
+    {Map::DIFFERENCE, "difference", "mm", false, {0.8, 1.6, 4, 8, 16, 40, 80, 160, 400, 800}},
+    {Map::SPREAD, "spread of re-drapes", "mm", false, {0.8, 1.6, 4, 8, 16, 40, 80, 160}},
+    {Map::LIMIT, "share of strain limit", "%", false, {8, 16, 40, 80, 160, 400, 1600}},
+    {Map::STRAIN, "strain", "%", true, {4, 8, 12, 20, 40}}};
+
+constexpr int N_COLORS = 8; // of a scale
+constexpr int NO_PART_COLOR = 0x909090;
+constexpr double NO_VALUE_LIGHT = 0.24; // of cloth without a value, in linear light
+
+/// The first end that holds the value, or the last.
+double choose_end(double most, const std::array<double, 10>& ends) {
+  double last = 0;
+  for (double end : ends) {
+    if (end == 0) break;
+    last = end;
+    if (most <= end) break;
+  }
+  return last;
 }
 
 /// Title, unit and range of a map. @param most of the values that the range should hold
 void choose_scale(Map map, double most, Legend& legend) {
-  switch (map) {
-  case Map::GAP:
-    legend.title = "gap to the skin";
-    legend.unit = "mm";
-    legend.high = choose_range(most, {40, 80, 120, 160, 240, 320});
-    break;
-  case Map::PENETRATION:
-    legend.title = "depth in the skin";
-    legend.unit = "mm";
-    legend.high = choose_range(legend.largest, {0.8, 4, 8, 16, 40, 80});
-    break;
-  case Map::PRESSURE:
-    legend.title = "contact pressure";
-    legend.unit = "Pa";
-    legend.high = choose_range(most, {80, 160, 400, 800, 1600, 4000, 8000, 40000});
-    break;
-  case Map::EASE:
-    legend.title = "ease at the level";
-    legend.unit = "cm";
-    legend.high = choose_range(most, {8, 16, 24, 32, 48, 80});
-    legend.diverging = true;
-    break;
-  case Map::DIFFERENCE:
-    legend.title = "difference";
-    legend.unit = "mm";
-    legend.high = choose_range(most, {0.8, 1.6, 4, 8, 16, 40, 80, 160, 400, 800});
-    break;
-  case Map::SPREAD:
-    legend.title = "spread of re-drapes";
-    legend.unit = "mm";
-    legend.high = choose_range(most, {0.8, 1.6, 4, 8, 16, 40, 80, 160});
-    break;
-  case Map::LIMIT:
-    legend.title = "share of strain limit";
-    legend.unit = "%";
-    legend.high = choose_range(most, {8, 16, 40, 80, 160, 400, 1600});
-    break;
-  default:
-    legend.title = map == Map::STRAIN ? "strain" : "strain, " + map_names()[static_cast<int>(map)];
-    legend.unit = "%";
-    legend.high = choose_range(most, {4, 8, 12, 20, 40});
-    legend.diverging = true;
-  }
+  const Scale* scale = &SCALES[std::size(SCALES) - 1]; // strain, of all directions
+  for (const Scale& known : SCALES)
+    if (known.map == map) scale = &known;
+  legend.title = scale->title;
+  if (scale->map != map) legend.title += ", " + map_names()[static_cast<int>(map)];
+  legend.unit = scale->unit;
+  legend.diverging = scale->diverging;
+  legend.high = choose_end(map == Map::PENETRATION ? legend.largest : most, scale->ends);
 }
 
 void color_parts(Scene& scene) {
@@ -251,7 +246,7 @@ void color_parts(Scene& scene) {
       if (is_new) {
         split.positions.push_back(mesh.positions[v]);
         split.normals.push_back(mesh.normals[v]);
-        split.colors.push_back(linear_color(part < body::N_PARTS ? colors[part] : 0x909090));
+        split.colors.push_back(linear_color(part < body::N_PARTS ? colors[part] : NO_PART_COLOR));
       }
       v = found->second;
     }
@@ -286,7 +281,7 @@ Vec3 scale_color(double t, bool diverging) {
   return anchors[k] + (s - k) * (anchors[k + 1] - anchors[k]);
 }
 
-Vec3 no_value_color() { return Vec3::Constant(0.24); }
+Vec3 no_value_color() { return Vec3::Constant(NO_VALUE_LIGHT); }
 
 Legend apply_map(Scene& scene, Map map, double limit) {
   Legend legend;
@@ -343,9 +338,12 @@ Legend apply_map(Scene& scene, Map map, double limit) {
   count_outside(by_area, legend);
   for (const auto& list : values)
     legend.has_gaps |= std::count(list.begin(), list.end(), NO_VALUE) > 0;
-  for (int k = 0; k < 8; ++k)
+  constexpr double LAST = N_COLORS - 1;
+  for (int k = 0; k < N_COLORS; ++k) {
+    const double from_middle = (k - 0.5 * LAST) / (0.5 * LAST);
     legend.steps.push_back(
-        scale_color(legend.diverging ? (k - 3.5) / 3.5 : k / 7.0, legend.diverging));
+        scale_color(legend.diverging ? from_middle : k / LAST, legend.diverging));
+  }
   for (std::size_t g = 0; g < values.size(); ++g)
     scene.meshes[scene.garment_mesh[g]].values = values[g];
   return legend;

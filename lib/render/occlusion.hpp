@@ -8,6 +8,7 @@
 #include <sloper/render/scene.hpp>
 namespace sloper::render {
 
+/// Light that reaches the vertices of one scene.
 class Occlusion {
 public:
   /// Cost: about 0.15 s on one core for 300,000 triangles.
@@ -22,6 +23,7 @@ public:
 
 private:
   struct DepthMap;
+  void add_thinned(const DrawMesh& mesh, const Vec3& low, double cell);
   DepthMap depth_from(const Vec3& direction) const;
   static void receive(const DepthMap& map, const std::vector<Vec3>& points,
                       const std::vector<Vec3>& normals, std::vector<float>& lit,

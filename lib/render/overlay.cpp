@@ -14,6 +14,14 @@ namespace sloper::render {
 
 namespace {
 
+constexpr int FULL = 255, BITS = 8;                      // of a channel
+constexpr int FREETYPE_BITS = 6;                         // its lengths are in 64ths of a pixel
+constexpr int LARGEST_SHEET = 16384;                     // pixels: more than most programs open
+constexpr int BRIGHT = 128;                              // of 255: a mask counts from here
+constexpr int DIFFERENT_RED = 220, DIFFERENT_PALE = 120; // channels of a pixel that differs
+constexpr double RED_LIGHT = 0.2126, GREEN_LIGHT = 0.7152, BLUE_LIGHT = 0.0722; // ITU-R BT.709
+constexpr int BLOCK = 8, PIXELS = BLOCK * BLOCK; // of the structural similarity
+
 /// One FreeType face, opened once.
 FT_Face face() {
   static FT_Face opened = [] {
@@ -28,12 +36,27 @@ FT_Face face() {
 }
 
 void blend(std::uint8_t* pixel, int color, double alpha) {
-  const double under = pixel[3] / 255.0 * (1 - alpha), all = alpha + under;
+  const double under = pixel[3] / static_cast<double>(FULL) * (1 - alpha), all = alpha + under;
   if (all <= 0) return;
-  for (int k = 0; k < 3; ++k)
-    pixel[k] = static_cast<std::uint8_t>(
-        std::lround(((color >> (16 - 8 * k) & 255) * alpha + pixel[k] * under) / all));
-  pixel[3] = static_cast<std::uint8_t>(std::lround(255 * all));
+  for (int k = 0; k < 3; ++k) {
+    const int over = color >> BITS * (2 - k) & FULL;
+    pixel[k] = static_cast<std::uint8_t>(std::lround((over * alpha + pixel[k] * under) / all));
+  }
+  pixel[3] = static_cast<std::uint8_t>(std::lround(FULL * all));
+}
+
+// UTF-8: the first byte of a code point of two, three and four bytes is at least this; each that
+// follows has its first bit set, not its second, and six bits of the code point.
+constexpr unsigned char CONTINUED = 0x80, OF_TWO = 0xc0, OF_THREE = 0xe0, OF_FOUR = 0xf0;
+constexpr int CODE_BITS = 6, CODE_MASK = 0x3f;
+constexpr unsigned long NO_CODE_POINT = 0xfffd; // U+FFFD, drawn in its place
+
+/// Bytes that follow the first byte `c` of a code point; -1 where none begins with it.
+int bytes_after(unsigned char c) {
+  if (c < CONTINUED) return 0;
+  if (c >= OF_FOUR) return 3;
+  if (c >= OF_THREE) return 2;
+  return c >= OF_TWO ? 1 : -1;
 }
 
 /// Calls visit(code point) for UTF-8; bytes that are none become U+FFFD.
@@ -41,11 +64,11 @@ template<class F> void for_code_points(const std::string& text, F&& visit) {
   for (std::size_t i = 0; i < text.size();) {
     const auto c = static_cast<unsigned char>(text[i++]);
     unsigned long code = c;
-    int more = c < 0x80 ? 0 : c >= 0xf0 ? 3 : c >= 0xe0 ? 2 : c >= 0xc0 ? 1 : -1;
-    if (more > 0) code = c & (0x3f >> more);
-    for (; more > 0 && i < text.size() && (text[i] & 0xc0) == 0x80; --more)
-      code = code << 6 | (text[i++] & 0x3f);
-    visit(more == 0 ? code : 0xfffdUL);
+    int more = bytes_after(c);
+    if (more > 0) code = c & (CODE_MASK >> more);
+    for (; more > 0 && i < text.size() && (text[i] & OF_TWO) == CONTINUED; --more)
+      code = code << CODE_BITS | (text[i++] & CODE_MASK);
+    visit(more == 0 ? code : NO_CODE_POINT);
   }
 }
 
@@ -69,19 +92,20 @@ void fill(io::Image& image, int x0, int y0, int x1, int y1, const Vec3& linear) 
   for (int y = std::max(y0, 0); y < std::min(y1, image.height); ++y)
     for (int x = std::max(x0, 0); x < std::min(x1, image.width); ++x) {
       std::uint8_t* pixel = image.at(x, y);
-      for (int k = 0; k < 3; ++k)
-        pixel[k] =
-            static_cast<std::uint8_t>(std::lround(255 * std::clamp(to_srgb(linear[k]), 0.0, 1.0)));
-      pixel[3] = 255;
+      for (int k = 0; k < 3; ++k) {
+        const double number = std::clamp(to_srgb(linear[k]), 0.0, 1.0);
+        pixel[k] = static_cast<std::uint8_t>(std::lround(FULL * number));
+      }
+      pixel[3] = FULL;
     }
 }
 
-/// The end of a colour bar: pointed where values lie beyond it. @param way -1 up, 1 down @param
-/// linear null: nothing does
-void draw_tip(io::Image& image, int left, int end, int width, int way, const Vec3* linear) {
+/// The end of a colour bar: pointed where values lie beyond it. @param direction -1 up, 1 down
+/// @param linear null: nothing does
+void draw_tip(io::Image& image, int left, int end, int width, int direction, const Vec3* linear) {
   if (!linear) return;
   for (int k = 0; k < width / 2; ++k) {
-    const int y = way > 0 ? end + k : end - 1 - k;
+    const int y = direction > 0 ? end + k : end - 1 - k;
     fill(image, left + k, y, left + width - k, y + 1, *linear);
   }
 }
@@ -93,7 +117,7 @@ int text_width(const std::string& text, int size) {
   int width = 0;
   for_code_points(text, [&](unsigned long code) {
     if (!FT_Load_Char(face(), code, FT_LOAD_DEFAULT))
-      width += static_cast<int>(face()->glyph->advance.x >> 6);
+      width += static_cast<int>(face()->glyph->advance.x >> FREETYPE_BITS);
   });
   return width;
 }
@@ -104,18 +128,16 @@ void draw_text(io::Image& image, const std::string& text, int x, int y, int size
   FT_Set_Pixel_Sizes(face(), 0, static_cast<FT_UInt>(size));
   for_code_points(text, [&](unsigned long code) {
     if (FT_Load_Char(face(), code, FT_LOAD_RENDER)) return;
-    const FT_GlyphSlot glyph = face()->glyph;
+    const auto* const glyph = face()->glyph;
     for (unsigned r = 0; r < glyph->bitmap.rows; ++r)
       for (unsigned q = 0; q < glyph->bitmap.width; ++q) {
         const int px = x + glyph->bitmap_left + static_cast<int>(q),
                   py = y - glyph->bitmap_top + static_cast<int>(r);
-        if (px >= 0 && py >= 0 && px < image.width && py < image.height)
-          blend(image.at(px, py), color,
-                glyph->bitmap
-                        .buffer[static_cast<int>(r) * glyph->bitmap.pitch + static_cast<int>(q)] /
-                    255.0);
+        if (px < 0 || py < 0 || px >= image.width || py >= image.height) continue;
+        const int at = static_cast<int>(r) * glyph->bitmap.pitch + static_cast<int>(q);
+        blend(image.at(px, py), color, glyph->bitmap.buffer[at] / static_cast<double>(FULL));
       }
-    x += static_cast<int>(glyph->advance.x >> 6);
+    x += static_cast<int>(glyph->advance.x >> FREETYPE_BITS);
   });
 }
 
@@ -228,11 +250,11 @@ io::Image contact_sheet(const std::vector<io::Image>& images,
   io::Image sheet;
   sheet.width = left.back();
   sheet.height = top.back();
-  if (sheet.width > 16384 || sheet.height > 16384)
+  if (sheet.width > LARGEST_SHEET || sheet.height > LARGEST_SHEET)
     throw Error(ErrorKind::USAGE, "render.too-large"_id, "", "--sheet",
-                "the sheet would be larger than 16384 pixels");
+                "the sheet would be larger than " + std::to_string(LARGEST_SHEET) + " pixels");
   sheet.rgba.assign(
-      4 * static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height), 255);
+      4 * static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height), FULL);
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t column = k % across, row = k / across;
     const int x0 = left[column] + (width[column] - images[k].width) / 2, y0 = top[row];
@@ -255,13 +277,13 @@ Comparison compare(const io::Image& a, const io::Image& b, const io::Image* mask
     throw input_error("compare.sizes-differ"_id, "", "",
                       "the mask's size is not that of the pictures");
   auto counts = [&](int x, int y) {
-    return !mask || (mask->at(x, y)[0] >= 128 && mask->at(x, y)[3] >= 128);
+    return !mask || (mask->at(x, y)[0] >= BRIGHT && mask->at(x, y)[3] >= BRIGHT);
   };
   constexpr int FAR = 32; // of 255: another colour, not another rounding
   Comparison result;
   result.picture = a;
   auto luminance = [](const std::uint8_t* p) {
-    return (0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]) * p[3] / 255.0;
+    return (RED_LIGHT * p[0] + GREEN_LIGHT * p[1] + BLUE_LIGHT * p[2]) * p[3] / FULL;
   };
   for (int y = 0; y < a.height; ++y)
     for (int x = 0; x < a.width; ++x) {
@@ -274,9 +296,9 @@ Comparison compare(const io::Image& a, const io::Image& b, const io::Image* mask
       result.counted += counts(x, y);
       std::uint8_t* out = result.picture.at(x, y);
       const auto grey = static_cast<std::uint8_t>(200 + luminance(a.at(x, y)) / 5);
-      out[0] = d > 2 ? 220 : grey;
-      out[1] = out[2] = d > 2 ? static_cast<std::uint8_t>(std::max(0, 120 - d)) : grey;
-      out[3] = 255;
+      out[0] = d > 2 ? DIFFERENT_RED : grey;
+      out[1] = out[2] = d > 2 ? static_cast<std::uint8_t>(std::max(0, DIFFERENT_PALE - d)) : grey;
+      out[3] = FULL;
     }
   if (result.counted == 0)
     throw input_error("compare.mask-dark"_id, "", "",
@@ -284,24 +306,25 @@ Comparison compare(const io::Image& a, const io::Image& b, const io::Image* mask
                       "make it bright where pixels are to be compared");
   double sum = 0;
   long blocks = 0;
-  for (int y = 0; y + 8 <= a.height; y += 8)
-    for (int x = 0; x + 8 <= a.width; x += 8) {
+  for (int y = 0; y + BLOCK <= a.height; y += BLOCK)
+    for (int x = 0; x + BLOCK <= a.width; x += BLOCK) {
       double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
       bool whole = true;
-      for (int k = 0; k < 64; ++k) whole &= counts(x + k % 8, y + k / 8);
+      for (int k = 0; k < PIXELS; ++k) whole &= counts(x + k % BLOCK, y + k / BLOCK);
       if (!whole) continue;
-      for (int k = 0; k < 64; ++k) {
-        const double la = luminance(a.at(x + k % 8, y + k / 8)),
-                     lb = luminance(b.at(x + k % 8, y + k / 8));
+      for (int k = 0; k < PIXELS; ++k) {
+        const int px = x + k % BLOCK, py = y + k / BLOCK;
+        const double la = luminance(a.at(px, py)), lb = luminance(b.at(px, py));
         sa += la;
         sb += lb;
         saa += la * la;
         sbb += lb * lb;
         sab += la * lb;
       }
-      const double ma = sa / 64, mb = sb / 64, va = saa / 64 - ma * ma, vb = sbb / 64 - mb * mb,
-                   cov = sab / 64 - ma * mb;
-      const double c1 = 6.5025, c2 = 58.5225;
+      const double ma = sa / PIXELS, mb = sb / PIXELS;                       // means
+      const double va = saa / PIXELS - ma * ma, vb = sbb / PIXELS - mb * mb; // variances
+      const double cov = sab / PIXELS - ma * mb;
+      const double c1 = 6.5025, c2 = 58.5225; // (0.01 * 255)^2, (0.03 * 255)^2: Wang et al. 2004
       sum += (2 * ma * mb + c1) * (2 * cov + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
       ++blocks;
     }

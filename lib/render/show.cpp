@@ -252,12 +252,14 @@ void draw_show(io::Image& image, const Scene& scene, const Camera& camera, const
                const Show& show, int legend_width) {
   Pen pen(image, camera, renderer);
   std::vector<Label> labels;
-  if (!scene.body && (show.landmarks || show.bones || show.frames || show.slices))
-    lacks(show.landmarks ? "landmarks"
-          : show.bones   ? "bones"
-          : show.frames  ? "frames"
-                         : "slices",
-          "a body.json");
+  if (!scene.body) {
+    const std::pair<bool, const char*> of_body[] = {{show.landmarks, "landmarks"},
+                                                    {show.bones, "bones"},
+                                                    {show.frames, "frames"},
+                                                    {show.slices, "slices"}};
+    for (const auto& [shown, name] : of_body)
+      if (shown) lacks(name, "a body.json");
+  }
   if (scene.garments.empty() && (show.seams || show.names))
     lacks(show.seams ? "seams" : "names", "a shirt.json or panels.json");
   if (show.seams) show_seams(pen, scene);

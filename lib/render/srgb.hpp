@@ -3,11 +3,20 @@
 #include <cmath>
 namespace sloper::render {
 
+/// The curve is linear near black, a power beyond.
+inline constexpr double SRGB_LINEAR_TO = 0.0031308, SRGB_LINEAR_TO_NUMBER = 0.04045,
+                        SRGB_SLOPE = 12.92, SRGB_SCALE = 1.055, SRGB_OFFSET = 0.055,
+                        SRGB_POWER = 2.4;
+
+/// The number in a picture, 0..1, of light, 0..1.
 inline double to_srgb(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-} ///< 0..1
+  if (linear <= SRGB_LINEAR_TO) return SRGB_SLOPE * linear;
+  return SRGB_SCALE * std::pow(linear, 1 / SRGB_POWER) - SRGB_OFFSET;
+}
+/// The light, 0..1, of a number in a picture, 0..1.
 inline double from_srgb(double number) {
-  return number <= 0.04045 ? number / 12.92 : std::pow((number + 0.055) / 1.055, 2.4);
-} ///< 0..1
+  if (number <= SRGB_LINEAR_TO_NUMBER) return number / SRGB_SLOPE;
+  return std::pow((number + SRGB_OFFSET) / SRGB_SCALE, SRGB_POWER);
+}
 
 } // namespace sloper::render

@@ -13,8 +13,9 @@ namespace sloper::render {
 std::array<int, 2> parse_size(const std::string& text) {
   int w = 0, h = 0;
   char end = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &w, &h, &end) != 2 || w < 16 || h < 16 || w > 8192 ||
-      h > 8192)
+  constexpr int SMALLEST = 16, LARGEST = 8192; // pixels
+  const bool is_size = std::sscanf(text.c_str(), "%dx%d%c", &w, &h, &end) == 2;
+  if (!is_size || std::min(w, h) < SMALLEST || std::max(w, h) > LARGEST)
     throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", "--size " + text,
                 "is not a size from 16x16 to 8192x8192", "write for example --size 800x1000");
   return {w, h};
@@ -46,9 +47,10 @@ std::vector<int> parse_colors(const std::string& text) {
 
 std::optional<int> parse_background(const std::string& text) {
   if (text == "transparent") return std::nullopt;
-  return text == "white"  ? 0xffffff
-         : text == "grey" ? 0xdbdbdb
-                          : parse_color("--background", text, "white, grey, transparent or ");
+  constexpr int WHITE = 0xffffff, GREY = 0xdbdbdb;
+  if (text == "white") return WHITE;
+  if (text == "grey") return GREY;
+  return parse_color("--background", text, "white, grey, transparent or ");
 }
 
 ClothColors choose_fabric(const std::string& fabric, bool colors_given, const Scene& scene,

@@ -157,15 +157,21 @@ void BodyField::build_arm(const GirthFactors& g) {
                                  {0.50, 0.00, 0.0265, 0.0260, 0.0280, 0.0270, 1, 2},
                                  {0.20, 0.00, 0.0305, 0.0290, 0.0320, 0.0310, 0.8, 2},
                                  {-0.06, 0.00, 0.0330, 0.0300, 0.0340, 0.0330, 0.6, 2}};
+  const auto height_at = [&](double t) {
+    if (t < 1) return t * le;
+    if (t < 2) return le - (t - 1) * forearm_length;
+    return lw - (t - 2) * hand_length;
+  };
+  const auto growth_at = [&](double factor) {
+    if (factor == 0) return std::sqrt(std::sqrt(g.wrist)); // hands hardly grow
+    if (factor <= 1) return 1 + (g.upper_arm - 1) * factor;
+    if (factor <= 2) return g.upper_arm + (g.forearm - g.upper_arm) * (factor - 1);
+    return g.forearm + (g.wrist - g.forearm) * (factor - 2);
+  };
   std::vector<TubeKnot> knots;
   for (const ArmSection& s : sections) {
-    const double y = s.t < 1   ? s.t * le
-                     : s.t < 2 ? le - (s.t - 1) * forearm_length
-                               : lw - (s.t - 2) * hand_length;
-    const double k = s.factor == 0   ? std::sqrt(std::sqrt(g.wrist)) // hands hardly grow
-                     : s.factor <= 1 ? 1 + (g.upper_arm - 1) * s.factor
-                     : s.factor <= 2 ? g.upper_arm + (g.forearm - g.upper_arm) * (s.factor - 1)
-                                     : g.forearm + (g.wrist - g.forearm) * (s.factor - 2);
+    const double y = height_at(s.t);
+    const double k = growth_at(s.factor);
     knots.push_back({y, 0, s.z * forward, s.outer * u * k, s.inner * u * k, s.front * u * k,
                      s.back * u * k, s.exponent});
   }

@@ -10,6 +10,14 @@ namespace sloper::samples {
 inline constexpr double
     LONGEST = 2.5,
     SHORTEST = 0.1; ///< m, of what is measured on a person: more is meant in another unit
+/// Metres in a unit; 1 without one, 0 of a unit that is not known.
+inline double metres_in(const std::string& unit) {
+  if (unit.empty() || unit == "m") return 1;
+  if (unit == "cm") return 0.01;
+  if (unit == "mm") return 0.001;
+  return unit == "in" ? 0.0254 : 0;
+}
+
 /// @param option  for messages: "--measure". @throws Error USAGE with the form that is expected
 /// and, where a unit can be guessed, with the number in it
 inline std::pair<std::string, double> named_length(const std::string& option,
@@ -20,11 +28,7 @@ inline std::pair<std::string, double> named_length(const std::string& option,
   double value = 0;
   const auto [rest, failure] = std::from_chars(length.data(), length.data() + length.size(), value);
   const std::string unit(rest, length.data() + length.size());
-  const double factor = unit.empty() || unit == "m" ? 1
-                        : unit == "cm"              ? 0.01
-                        : unit == "mm"              ? 0.001
-                        : unit == "in"              ? 0.0254
-                                                    : 0;
+  const double factor = metres_in(unit);
   if (name.empty() || failure != std::errc() || factor == 0 || !std::isfinite(value))
     throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", option,
                 "\"" + text + "\" is not NAME=METRES", "for example " + option + " waist=0.75");
@@ -40,11 +44,11 @@ inline std::pair<std::string, double> named_length(const std::string& option,
   if (value > LONGEST) {
     const bool mm = value > 100 * LONGEST;
     const double meant = value / (mm ? 1000 : 100);
+    std::string hint = "for example " + say(0.75);
+    if (meant >= SHORTEST)
+      hint = "where " + length + (mm ? " mm" : " cm") + " are meant, say " + say(meant);
     throw Error(ErrorKind::USAGE, "option.wrong-value"_id, "", option,
-                "\"" + text + "\" would be " + length + " m: lengths are in metres",
-                meant < SHORTEST
-                    ? "for example " + say(0.75)
-                    : "where " + length + (mm ? " mm" : " cm") + " are meant, say " + say(meant));
+                "\"" + text + "\" would be " + length + " m: lengths are in metres", hint);
   }
   return {name, value};
 }

@@ -52,14 +52,14 @@ void add_box(TriangleMesh& mesh, const Vec3& low, const Vec3& high) {
 
 TEST(MeasureScan, a_missing_hand_is_told) {
   const samples::MadeMannequin& made = test::mannequin("f-165-a");
-  auto told = [](const Body& body) {
+  auto reported = [](const Body& body) {
     int n = 0;
     for (const Finding& f : body.scan.findings)
       n += f.what.find("the hand is missing") != std::string::npos;
     return n;
   };
   const Body whole = measure(made.mesh).body;
-  EXPECT_EQ(told(whole), 0);
+  EXPECT_EQ(reported(whole), 0);
   const Vec3 wrist = test::in_scan(whole, "wrist_l"), tip = test::in_scan(whole, "hand_tip_l");
   TriangleMesh cut = made.mesh;
   std::erase_if(cut.triangles, [&](const Triangle& t) {
@@ -79,7 +79,7 @@ TEST(MeasureScan, a_missing_hand_is_told) {
     cut.triangles.push_back(t);
   }
   const Body body = measure(cut).body;
-  EXPECT_EQ(told(body), 1);
+  EXPECT_EQ(reported(body), 1);
   EXPECT_LT(body.landmarks.at("hand_tip_l").confidence, 0.15);
   EXPECT_GT(body.landmarks.at("hand_tip_r").confidence, 0.5);
   EXPECT_LT((test::in_scan(body, "wrist_l") - wrist).norm(), 0.035) << "where the arm ends";
@@ -365,10 +365,10 @@ TEST(MeasureScan, an_arm_that_touches_the_trunk_hides_the_pit_and_the_waist) {
     EXPECT_FALSE(body.has_landmark(name)) << name;
   for (const char* name : {"waist_width_min", "waist_girth_min"})
     EXPECT_FALSE(body.levels.count(name)) << name;
-  std::set<std::string> told;
-  for (const Finding& finding : body.scan.findings) told.insert(finding.place);
+  std::set<std::string> reported;
+  for (const Finding& finding : body.scan.findings) reported.insert(finding.place);
   for (const char* place : {"axilla_l", "axilla_r", "waist"})
-    EXPECT_TRUE(told.count(place)) << place;
+    EXPECT_TRUE(reported.count(place)) << place;
   EXPECT_TRUE(body.has_landmark("shoulder_joint_l"));
 }
 
@@ -382,11 +382,12 @@ TEST(MeasureScan, each_wide_hole_is_told_with_its_place) {
   }
   const Body body = measure(mesh).body;
   for (const char* name : {"head_tip", "crotch", "heel_l"}) {
-    int told = 0;
+    int reported = 0;
     for (const Finding& f : body.scan.findings)
-      told += f.severity == "warning" && f.what.find("a hole ") == 0 &&
-              f.what.find(std::string("near ") + name) != std::string::npos && f.place[0] == '(';
-    EXPECT_EQ(told, 1) << name;
+      reported += f.severity == "warning" && f.what.find("a hole ") == 0 &&
+                  f.what.find(std::string("near ") + name) != std::string::npos &&
+                  f.place[0] == '(';
+    EXPECT_EQ(reported, 1) << name;
   }
 }
 

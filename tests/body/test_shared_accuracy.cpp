@@ -22,7 +22,7 @@ struct Errors {
 
 /// Whether the findings say that an arm which touches the trunk hides the pit that a landmark
 /// belongs to: what cannot be seen is not found.
-bool told_hidden(const Body& body, const std::string& name) {
+bool reported_hidden(const Body& body, const std::string& name) {
   const bool of_pit = name.rfind("axilla", 0) == 0;
   return of_pit &&
          std::any_of(body.scan.findings.begin(), body.scan.findings.end(), [&](const Finding& f) {
@@ -48,7 +48,7 @@ Errors errors_of(const std::filesystem::path& truth_file) {
   for (const auto& [name, entry] : truth["landmarks"].items()) {
     if (!entry.contains("p") || entry["p"].is_null() || entry.value("trust", "") == "low") continue;
     if (!measured.body.has_landmark(name)) {
-      errors.missing += !told_hidden(measured.body, name);
+      errors.missing += !reported_hidden(measured.body, name);
       continue;
     }
     const Vec3 off = to_body * (test::in_scan(measured.body, name) -

@@ -55,8 +55,9 @@ Sets brute_force(const TriangleMesh& cloth, const Topology& topology, const Tria
       int far = -1;
       for (int v : body.triangles[around[1]])
         if (v != b0 && v != b1) far = v;
-      const Vec3 way = y[far] - y[b0], line = (y[b1] - y[b0]).normalized();
-      const double below = -n.dot(way) / (way - way.dot(line) * line).norm(); // sine of the angle
+      const Vec3 outwards = y[far] - y[b0], line = (y[b1] - y[b0]).normalized();
+      const double below =
+          -n.dot(outwards) / (outwards - outwards.dot(line) * line).norm(); // sine of the angle
       EXPECT_GT(std::abs(below - 1e-3), 1e-6) << "the case is on the threshold";
       if (below <= 1e-3) continue;
     }

@@ -84,11 +84,9 @@ TEST(SelfProximity, FindsThePairsOfBruteForceOnAMovingCrumpledSheet) {
   SelfProximity proximity(mesh.positions.size(), mesh.triangles);
   const double edge = 1.0 / 14;
   for (int step = 0; step < 12; ++step) {
-    shapes::jitter(mesh,
-                   step == 6  ? 0.1
-                   : step % 2 ? 0.0008
-                              : 0.002,
-                   60 + step); // small moves use remembered pairs, a large one must not
+    const double small = step % 2 ? 0.0008 : 0.002; // is answered from remembered pairs
+    const double large = 0.1;                       // is not
+    shapes::jitter(mesh, step == 6 ? large : small, 60 + step);
     expect_like_brute_force(proximity, mesh.positions, (step % 3 == 2 ? 0.45 : 0.6) * edge);
   }
   EXPECT_LT(proximity.n_rebuilds(), 12);

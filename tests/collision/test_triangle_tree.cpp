@@ -31,11 +31,10 @@ void expect_like_brute_force(const TriangleTree& tree, const TriangleMesh& mesh,
   for (int i = 0; i < n_points; ++i) {
     const Vec3 p = i % 5 == 0 ? mesh.positions[random.next() % mesh.positions.size()]
                               : random_point(random, 1.5);
-    const double reach = i % 3 == 0   ? 0.2
-                         : i % 3 == 1 ? 1e300
-                                      : std::numeric_limits<double>::infinity();
-    const ClosestPoint found = tree.closest_point(p, reach, hint),
-                       expected = brute_closest(mesh, p, reach);
+    const double radii[] = {0.2, 1e300, std::numeric_limits<double>::infinity()};
+    const double radius = radii[i % 3];
+    const ClosestPoint found = tree.closest_point(p, radius, hint),
+                       expected = brute_closest(mesh, p, radius);
     ASSERT_EQ(found.triangle, expected.triangle) << "point " << i;
     if (found.triangle >= 0) {
       ASSERT_EQ(found.squared_distance, expected.squared_distance);

@@ -16,20 +16,20 @@ namespace {
 /// Where the body is at time t, for the motion that the parameters name.
 struct Motion {
   std::string kind;
-  double speed, way;
+  double speed, distance;
 
   std::vector<Vec3> at(const std::vector<Vec3>& rest, double t) const {
     std::vector<Vec3> x = rest;
     if (kind == "through") { // along +z
-      for (Vec3& p : x) p.z() += std::min(speed * t, way);
+      for (Vec3& p : x) p.z() += std::min(speed * t, distance);
     } else if (kind == "close") { // two halves towards each other and, after a rest of 2 s, back
-      const double there = way / speed, d = t < there ? speed * t
-                                            : t < there + 2
-                                                ? way
-                                                : std::max(way - speed * (t - there - 2), 0.0);
+      const double arrival = distance / speed, departure = arrival + 2;
+      double d = distance;
+      if (t < arrival) d = speed * t;
+      else if (t >= departure) d = std::max(distance - speed * (t - arrival - 2), 0.0);
       for (Vec3& p : x) p.z() += p.z() > 0 ? -d : d;
     } else if (kind == "shake") {
-      for (Vec3& p : x) p.x() += way * std::sin(speed / way * t);
+      for (Vec3& p : x) p.x() += distance * std::sin(speed / distance * t);
     }
     return x;
   }
@@ -139,7 +139,7 @@ Outcome contact_scene(const Parameters& p, std::uint64_t seed) {
   std::vector<Vec3> before_pinch;
   Watch watch(solver, o.inertia);
   cloth::BodyMotion swept(solver, touch, body, self);
-  const double there = motion.kind == "close" ? motion.way / motion.speed : 0;
+  const double there = motion.kind == "close" ? motion.distance / motion.speed : 0;
   int k = 0;
   for (double t = o.h; t < duration + 0.5 * o.h; t += o.h, ++k) {
     const std::vector<Vec3> before = solver.x();

@@ -236,7 +236,8 @@ Outcome drape_scene(const Parameters& p, std::uint64_t seed) {
   settings.settle_force_ratio = p.number("settle_force_ratio", settings.settle_force_ratio);
   settings.settle_speed_m_s = p.number("settle_speed_m_s", settings.settle_speed_m_s);
   settings.gravity_m_s2 = p.number("gravity_m_s2", settings.gravity_m_s2);
-  settings.max_steps = p.whole("max_steps", settings.max_steps);
+  if (const int limit = p.whole("max_steps", 0); limit > 0)
+    garment::set_knob(settings, "max_steps", limit);
   settings.effects = p.text("effects", "auto");
 
   const body::Body* on = skin.triangles.empty() && shape == "none" ? nullptr : &body;

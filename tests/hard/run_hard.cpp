@@ -233,12 +233,10 @@ int main_of(const Options& o) {
     whole += good == n;
     char seconds[16];
     std::snprintf(seconds, sizeof seconds, "%.1f", cpu);
+    std::string same_bytes = "-";
+    if (bytes) same_bytes = same ? "yes" : "**no**";
     table << "| " << cell(c.name) << " | " << cell(c.elsewhere) << " | " << cell(c.invariant)
-          << " | " << good << " of " << n << " | "
-          << (!bytes ? "-"
-              : same ? "yes"
-                     : "**no**")
-          << " | " << seconds << " |\n";
+          << " | " << good << " of " << n << " | " << same_bytes << " | " << seconds << " |\n";
   }
   std::ostringstream head;
   head << cases.size() << " cases, " << points.size() << " points, " << runs << " runs: " << held

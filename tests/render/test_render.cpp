@@ -187,7 +187,10 @@ TEST(Render,
     }
     mesh.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};
     mesh.is_flat = true;
-    if (has_seam) mesh.lines = {{1, 4}}, mesh.is_hem = {0};
+    if (has_seam) {
+      mesh.lines = {{1, 4}};
+      mesh.is_hem = {0};
+    }
     return mesh;
   };
   const auto drawn = [](const std::vector<DrawMesh>& meshes) {

@@ -15,9 +15,9 @@ inline body::Body make_pillar(int n_around = 64, int n_up = 60) {
   auto radius = [](double y) {
     if (y > 1.0) return 0.12 + 0.3 * (y - 1.0) * (y - 1.0);
     const double t = (1.0 - y) / 0.2;
-    return t < 2 ? 0.12 + 0.008 * (1 - std::cos(M_PI * std::min(t, 1.0))) -
-                       (t > 1 ? 0.003 * (1 - std::cos(M_PI * (t - 1))) : 0)
-                 : 0.13;
+    if (t >= 2) return 0.13;
+    const double inwards = t > 1 ? 0.003 * (1 - std::cos(M_PI * (t - 1))) : 0;
+    return 0.12 + 0.008 * (1 - std::cos(M_PI * std::min(t, 1.0))) - inwards;
   };
   std::vector<shapes::Ring> rings;
   for (int r = 0; r <= n_up; ++r) {
@@ -114,17 +114,17 @@ inline Garment make_skirt(double girth, double length, double edge, double top_y
   return garment;
 }
 
-/// The pillar swings to its side, by `way` m at most, and turns, as hips do; 30 frames a second.
-/// `body` outlives it.
-inline BodyMoves swinging(const body::Body& body, std::size_t frames, double way) {
+/// The pillar swings to its side, by `distance` m at most, and turns, as hips do; 30 frames a
+/// second. `body` outlives it.
+inline BodyMoves swinging(const body::Body& body, std::size_t frames, double distance) {
   BodyMoves moves;
   moves.n_frames = frames;
-  moves.skin = [&body, way](std::size_t k) {
+  moves.skin = [&body, distance](std::size_t k) {
     const double t = (static_cast<double>(k) + 1) / 30;
     std::vector<Vec3> x = body.skin.positions;
     for (Vec3& p : x)
       p = Eigen::AngleAxisd(0.3 * std::sin(6 * t), Vec3::UnitY()) * p +
-          Vec3(way * std::sin(2 * M_PI * t), 0, 0);
+          Vec3(distance * std::sin(2 * M_PI * t), 0, 0);
     return x;
   };
   return moves;

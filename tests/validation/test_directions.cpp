@@ -64,10 +64,9 @@ void expect_strips(bool by_angles, int across, double bound) {
   const double weight = 0.2 * 9.80665 * 1e-3; // rho g L^3
   for (double scale : {0.3, 1.0, 4.0})
     for (int degrees : {0, 45, 90}) {
-      const double rigidity = scale * (degrees == 0    ? 2e-4
-                                       : degrees == 45 ? 1.2e-4
-                                                       : 1e-4),
-                   exact = elastica_ratio(weight / rigidity),
+      double of_direction = degrees == 45 ? 1.2e-4 : 1e-4; // N m
+      if (degrees == 0) of_direction = 2e-4;
+      const double rigidity = scale * of_direction, exact = elastica_ratio(weight / rigidity),
                    ours = strip(degrees * M_PI / 180, scale, 16, across, by_angles);
       print_figure("H/W of a strip cut at " + std::to_string(degrees) + " degrees, Gamma " +
                        std::to_string(weight / rigidity).substr(0, 4),

@@ -25,7 +25,8 @@ constexpr double G = 9.80665;
 enum class Model { SPRINGS, TRIANGLES, FEM };
 constexpr Model MODELS[] = {Model::SPRINGS, Model::TRIANGLES, Model::FEM};
 const char* name_of(Model m) {
-  return m == Model::SPRINGS ? "springs" : m == Model::TRIANGLES ? "triangles" : "fem";
+  if (m == Model::SPRINGS) return "springs";
+  return m == Model::TRIANGLES ? "triangles" : "fem";
 }
 
 void add_stretch(ClothSolver& solver, const ClothMesh& mesh, Model model) {

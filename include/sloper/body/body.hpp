@@ -116,7 +116,7 @@ struct Body {
   ScanInfo scan; ///< where it comes from
   /// Brings scan coordinates, in the scan's unit, into the body frame.
   Mat4 scan_to_body = Mat4::Identity();
-  std::string stance_class;                  ///< "T", "A" or "I"
+  std::string stance_class;                  ///< "T", "A" or "I": stance_of()
   double arm_l_deg = 0, arm_r_deg = 0;       ///< angle of the arm from hanging down
   std::map<std::string, Landmark> landmarks; ///< by name; only what was found
   std::map<std::string, Level> levels;       ///< by name: "waist", "bust", "hip", ...
@@ -138,5 +138,9 @@ struct Body {
   /// Whether the landmark was found.
   bool has_landmark(const std::string& name) const { return landmarks.count(name) != 0; }
 };
+
+/// The stance of a body whose arms are `arms_deg` from hanging down, on average of both: "T" beyond
+/// 70 degrees, "A" beyond 15, else "I".
+std::string stance_of(double arms_deg);
 
 } // namespace sloper::body

@@ -4,6 +4,7 @@
 #include <body/ingest/segmentation.hpp>
 namespace sloper::body {
 
+/// How a scan is brought into the body frame, and how that was found.
 struct CanonicalFrame {
   Mat4 scan_to_body = Mat4::Identity(); ///< similarity; feet at y = 0, legs' middle at x = z = 0
   std::string unit, front; ///< name of a LengthUnit, "given scale" or "given stature"; "+z" or a
@@ -12,6 +13,7 @@ struct CanonicalFrame {
   std::vector<Finding> findings;
 };
 
+/// A unit that a scan may be in.
 struct LengthUnit {
   const char* name;
   double metres;

@@ -384,9 +384,11 @@ SegmentedScan segment_scan(const TriangleMesh& scan, const std::string& up_axis)
   double most = -1e300;
   for (const int n_cells : {N_CELLS, N_CELLS * 5 / 8, N_CELLS * 2 / 5}) {
     SegmentedScan sorted = sort_in_cells(scan, up_axis, n_cells, n_cells == N_CELLS ? 1 : 2);
-    const bool whole = shows_a_person(sorted) && !sorted.falls_apart;
+    const bool person = shows_a_person(sorted);
+    const bool whole = person && !sorted.falls_apart;
     if (whole && sorted.up_score > CLEAR_SCORE) return sorted;
-    const double worth = sorted.up_score + (whole ? 2 : shows_a_person(sorted) ? 1 : 0);
+    const int completeness = person + whole;
+    const double worth = sorted.up_score + completeness;
     if (worth > most + 0.1) {
       most = worth;
       best = std::move(sorted); // the finer cells unless the larger ones are clearly better

@@ -6,6 +6,7 @@
 #include <sloper/body/body.hpp>
 namespace sloper::body {
 
+/// A scan parted into the body and the rest.
 struct SegmentedScan {
   Vec3 up = Vec3::UnitY();             ///< axis direction in the scan's frame
   std::string up_name;                 ///< "+y", "-z", ...

@@ -9,6 +9,7 @@
 #include <string>
 namespace sloper::body {
 
+/// A scan of a torso with plain legs under it.
 struct CompletedTorso {
   TriangleMesh
       scan; ///< the scan's own vertices first, then points of plain legs; the file's unit and axes

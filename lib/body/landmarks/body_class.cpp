@@ -135,7 +135,8 @@ void name_body_class(const Finder& f) {
       body.levels.count("waist_girth_min") != 0 || body.levels.count("waist_width_min") != 0;
   const bool hidden = std::any_of(body.scan.findings.begin(), body.scan.findings.end(),
                                   [](const Finding& finding) { return finding.place == "waist"; });
-  body.body_class += indented ? ", indented waist" : hidden ? ", hidden waist" : ", straight waist";
+  const char* const other_waist = hidden ? ", hidden waist" : ", straight waist";
+  body.body_class += indented ? ", indented waist" : other_waist;
   if (!indented && !hidden)
     body.body_class_why.emplace_back("neither girth nor breadth has a minimum between chest and "
                                      "hip: the waist is taken by proportion");

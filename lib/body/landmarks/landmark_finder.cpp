@@ -51,7 +51,9 @@ Vec3 nearest_skin(const TriangleMesh& skin, const Vec3& p, double reach) {
 } // namespace
 
 Vec3 Finder::correction(const std::string& place, const std::string& suffix) const {
-  const int side = suffix == "_l" ? 0 : suffix == "_r" ? 1 : -1;
+  int side = -1; // places without one
+  if (suffix == "_l") side = 0;
+  if (suffix == "_r") side = 1;
   Vec3 offset = s * corrections.offset(place, shape, side);
   if (side == 1) offset.x() = -offset.x();
   return offset;
@@ -85,8 +87,8 @@ Vec3 Finder::corrected(const std::string& place, const std::string& suffix, cons
 }
 
 bool Finder::find(const std::string& place, const std::string& suffix, int step,
-                  std::initializer_list<Way<Vec3>> ways) const {
-  const auto chosen = choose<Vec3>(place, place + suffix, ways);
+                  std::initializer_list<LandmarkRule<Vec3>> known) const {
+  const auto chosen = choose<Vec3>(place, place + suffix, known);
   if (chosen)
     put(place + suffix, corrected(place, suffix, chosen->value, lies_on_skin(place)), step,
         *chosen->rule);

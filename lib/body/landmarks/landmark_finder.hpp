@@ -2,6 +2,7 @@
 /// The landmark rules: step 1 terminal points, step 2 curvature points, each in the file of its
 /// region. All work on a closed skin in the body frame and fill body.landmarks, body.levels and
 /// body.girths; nothing is guessed silently.
+#include <algorithm>
 #include <body/measure/relief.hpp>
 #include <functional>
 #include <initializer_list>
@@ -22,17 +23,19 @@ FigureClass classify_figure(const LevelStack& levels, const std::array<ArmTrace,
                             const std::vector<Vec3>& normals, const Rules& rules,
                             std::vector<std::string>& trail);
 
-/// A way of the program to find something, under the name that the tree calls it by.
-template<class T> struct Way {
+/// How the program finds something, under the name that the tree calls it by.
+template<class T> struct LandmarkRule {
   const char* rule;
   std::function<std::optional<T>()> find; ///< nothing where the body does not show it
 };
 
+/// What a rule found, and which rule it was.
 template<class T> struct Chosen {
   T value;
   const RuleChoice* rule;
 };
 
+/// What the rules work on, and where they put what they find.
 struct Finder {
   const LevelStack& levels;
   const std::array<ArmTrace, 2>& arms;
@@ -49,19 +52,19 @@ struct Finder {
   std::vector<std::string>& trail; ///< the decision path, for --explain
   double s;                        ///< stature, m
 
-  /// Tries the ways in the tree's order for `place`; the path goes to the trail under `label`, as
+  /// Tries the rules in the tree's order for `place`; the path goes to the trail under `label`, as
   /// "LABEL: RULE" for what was taken.
-  /// @throws Error INTERNAL where the tree names a rule that is no way of the program
+  /// @throws Error INTERNAL where the tree names a rule that the program does not have
   template<class T>
   std::optional<Chosen<T>> choose(const std::string& place, const std::string& label,
-                                  std::initializer_list<Way<T>> ways) const {
+                                  std::initializer_list<LandmarkRule<T>> known) const {
     for (const RuleChoice& rule : rules.order(place)) {
       if (!rule.applies(situation)) continue;
-      const Way<T>* way = nullptr;
-      for (const Way<T>& known : ways)
-        if (rule.name == known.rule) way = &known;
-      if (!way) no_such_rule(place, rule.name);
-      if (auto value = way->find()) {
+      const auto named = std::find_if(known.begin(), known.end(), [&](const LandmarkRule<T>& k) {
+        return rule.name == k.rule;
+      });
+      if (named == known.end()) no_such_rule(place, rule.name);
+      if (auto value = named->find()) {
         explain(label + ": " + rule.name);
         return Chosen<T>{std::move(*value), &rule};
       }
@@ -85,7 +88,7 @@ struct Finder {
   /// The landmark `place` + `suffix`, put, corrected, where the first rule of the tree finds it.
   /// @return whether one did
   bool find(const std::string& place, const std::string& suffix, int step,
-            std::initializer_list<Way<Vec3>> ways) const;
+            std::initializer_list<LandmarkRule<Vec3>> rules) const;
   void put(const std::string& name, const Vec3& p, int step, const RuleChoice& rule) const;
   /// What another rule gives for a landmark that was put: kept as an alternative when it is more
   /// than a millimetre away.

@@ -86,8 +86,9 @@ void put_level(const Finder& f, const std::string& name, double y, const std::st
   }
 }
 
-void find_level(const Finder& f, const std::string& name, std::initializer_list<Way<Level>> ways) {
-  const auto chosen = f.choose<Level>(name, name, ways);
+void find_level(const Finder& f, const std::string& name,
+                std::initializer_list<LandmarkRule<Level>> rules) {
+  const auto chosen = f.choose<Level>(name, name, rules);
   if (!chosen) return;
   f.body.levels[name] = chosen->value;
   f.body.levels[name].rule = chosen->rule->name;

@@ -3,6 +3,7 @@
 #include <body/landmarks/landmark_finder.hpp>
 namespace sloper::body {
 
+/// The place of a trunk that stands out most.
 struct Foremost {
   Vec3 p;           ///< on the skin, body frame
   double spread_m;  ///< root mean square height of what is as far out, about p: the place is no
@@ -10,6 +11,7 @@ struct Foremost {
   double low, high; ///< heights between which the skin is as far out, m
 };
 
+/// Heights, or places across, between which it is searched, m.
 struct Span {
   double low, high;
 };

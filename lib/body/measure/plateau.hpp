@@ -5,6 +5,7 @@
 #include <vector>
 namespace sloper::body {
 
+/// A flat minimum.
 struct Lowest {
   double middle; ///< weighted mean of the places around `least` whose value is less than `flat`
                  ///< above its own, the lower the heavier

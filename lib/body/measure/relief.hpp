@@ -5,6 +5,7 @@
 #include <sloper/geometry/triangle_mesh.hpp>
 namespace sloper::body {
 
+/// The tip of a bump or the bottom of a dimple.
 struct ReliefPoint {
   Vec3 p = Vec3::Zero();
   double height = 0; ///< m, above (below when negative) the ring around it

@@ -5,12 +5,14 @@
 #include <vector>
 namespace sloper::body {
 
+/// A side of a face; both sides of an edge have one key.
 struct HalfEdge {
   std::uint64_t key;
   int face;
   bool forward; ///< from the lower to the higher vertex
 };
 
+/// Edges of a mesh that no closed, oriented surface has.
 struct EdgeCounts {
   int border = 0;  ///< edges with one face
   int crowded = 0; ///< with more than two

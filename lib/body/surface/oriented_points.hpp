@@ -5,6 +5,7 @@
 #include <vector>
 namespace sloper::body {
 
+/// Samples of a surface, #S each.
 struct OrientedPoints {
   std::vector<Vec3> position, normal; ///< m; unit, outward
   std::vector<double> area;           ///< m2 that each sample stands for

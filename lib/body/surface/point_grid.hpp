@@ -7,6 +7,7 @@
 #include <vector>
 namespace sloper::body {
 
+/// The grid of one list of points, which it does not own.
 class PointGrid {
 public:
   /// @param cell m; queries reach one cell in every direction

@@ -5,6 +5,7 @@
 #include <sloper/body/body.hpp>
 namespace sloper::body {
 
+/// The skin of a scan, and where its vertices come from.
 struct SkinSurface {
   TriangleMesh mesh; ///< outward
   std::vector<int>

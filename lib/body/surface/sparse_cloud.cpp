@@ -17,7 +17,7 @@ constexpr std::array<double, 7> REACH = {1.5, 2.1, 3.0, 4.2,
                                          6.0, 8.5, 12.0}; ///< of the spacing wanted
 constexpr double DENSE = 2.1;  ///< eight points within so many spacings: nothing to add
 constexpr double AGREE = 0.55; ///< cosine of two normals on one side of the body
-constexpr double ALONG = 0.45; ///< sine of the way between two points against the surface
+constexpr double ALONG = 0.45; ///< sine of the angle of the line between two points to the surface
 
 struct Neighbourhood {
   double reach = 0; ///< 0: alone
@@ -59,17 +59,17 @@ std::vector<Neighbourhood> neighbourhoods(const std::vector<Vec3>& points, doubl
 
 /// The middle of the curve between two points of one surface; none when they are on two.
 std::optional<Vec3> middle_between(const Vec3& p, const Vec3& n, const Vec3& q, Vec3 m) {
-  const Vec3 way = q - p;
-  const double length = way.norm();
+  const Vec3 line = q - p;
+  const double length = line.norm();
   double agree = n.dot(m);
   if (agree < 0) {
     m = -m;
     agree = -agree;
   }
-  if (agree < AGREE || std::abs(way.dot(n)) > ALONG * length ||
-      std::abs(way.dot(m)) > ALONG * length)
+  if (agree < AGREE || std::abs(line.dot(n)) > ALONG * length ||
+      std::abs(line.dot(m)) > ALONG * length)
     return std::nullopt;
-  return Vec3(0.5 * (p + q) - 0.125 * (way.dot(n) * n - way.dot(m) * m));
+  return Vec3(0.5 * (p + q) - 0.125 * (line.dot(n) * n - line.dot(m) * m));
 }
 
 } // namespace

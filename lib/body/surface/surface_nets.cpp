@@ -145,9 +145,9 @@ TriangleMesh zero_surface(NodeGrid grid) {
       for (int x = 1; x + 1 < grid.n[0]; ++x) {
         const std::size_t i = grid.at(x, y, z);
         for (int axis = 0; axis < 3; ++axis) {
-          const std::size_t j = axis == 0   ? grid.at(x + 1, y, z)
-                                : axis == 1 ? grid.at(x, y + 1, z)
-                                            : grid.at(x, y, z + 1);
+          int next[3] = {x, y, z};
+          ++next[axis];
+          const std::size_t j = grid.at(next[0], next[1], next[2]);
           if (inside[i] == inside[j]) continue;
           const int u = (axis + 1) % 3, v = (axis + 2) % 3;
           auto cell = [&](int du, int dv) {

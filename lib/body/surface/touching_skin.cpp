@@ -13,10 +13,10 @@ namespace sloper::body {
 namespace {
 
 constexpr int PARTING_ROUNDS = 6, SMOOTHINGS = 3;
-constexpr double OPPOSED = -0.5;      ///< cosine of the two normals
-constexpr double DEEPEST = 0.006;     ///< m: skin that passes farther into other skin is left alone
-constexpr double LARGEST_WAY = 0.003; ///< m
-constexpr double LEAST_TURN = 0.5;    ///< cosine of the angle by which a triangle may turn
+constexpr double OPPOSED = -0.5;  ///< cosine of the two normals
+constexpr double DEEPEST = 0.006; ///< m: skin that passes farther into other skin is left alone
+constexpr double LARGEST_DISPLACEMENT = 0.003; ///< m
+constexpr double LEAST_TURN = 0.5;             ///< cosine of the angle by which a triangle may turn
 
 /// Unit normals of the vertices, weighted by area: all that is asked of them is which way the skin
 /// faces.
@@ -31,20 +31,20 @@ std::vector<Vec3> rough_normals(const TriangleMesh& skin, const std::vector<Tria
   return normals;
 }
 
-/// One round of spreading: the ways of the marked vertices go halfway to the mean of their
+/// One round of spreading: the displacements of the marked vertices go halfway to the mean of their
 /// neighbours'.
 void spread(const std::vector<std::array<int, 2>>& edges, const std::vector<char>& mark,
-            std::vector<Vec3>& way) {
-  std::vector<Vec3> sum(way.size(), Vec3::Zero());
-  std::vector<int> count(way.size(), 0);
+            std::vector<Vec3>& displacement) {
+  std::vector<Vec3> sum(displacement.size(), Vec3::Zero());
+  std::vector<int> count(displacement.size(), 0);
   for (const auto& [a, b] : edges) {
-    sum[a] += way[b];
-    sum[b] += way[a];
+    sum[a] += displacement[b];
+    sum[b] += displacement[a];
     ++count[a];
     ++count[b];
   }
-  for (std::size_t v = 0; v < way.size(); ++v)
-    if (mark[v] && count[v] > 0) way[v] = 0.5 * way[v] + 0.5 * sum[v] / count[v];
+  for (std::size_t v = 0; v < displacement.size(); ++v)
+    if (mark[v] && count[v] > 0) displacement[v] = 0.5 * displacement[v] + 0.5 * sum[v] / count[v];
 }
 
 /// The triangles within so many rings of the marked vertices: `mark` grows with them.
@@ -84,8 +84,10 @@ std::vector<char> facing_candidates(const TriangleMesh& skin, const std::vector<
                            static_cast<int>(faced.size()));
     if (is_new) faced.emplace_back(at->first, 0);
     cell_of[v] = at->second;
-    for (int a = 0; a < 3; ++a)
-      faced[at->second].second |= normals[v][a] > 0.5 ? 1 << a : normals[v][a] < -0.5 ? 8 << a : 0;
+    for (int a = 0; a < 3; ++a) {
+      if (normals[v][a] > 0.5) faced[at->second].second |= 1 << a;
+      if (normals[v][a] < -0.5) faced[at->second].second |= 8 << a;
+    }
   }
   const std::size_t n = faced.size();
   std::vector<int> order(n), place(n);
@@ -112,21 +114,23 @@ std::vector<char> facing_candidates(const TriangleMesh& skin, const std::vector<
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
     if (!may_move[v]) continue;
     int against = 0;
-    for (int a = 0; a < 3; ++a)
-      against |= normals[v][a] > 0.25 ? 8 << a : normals[v][a] < -0.25 ? 1 << a : 0;
+    for (int a = 0; a < 3; ++a) {
+      if (normals[v][a] > 0.25) against |= 8 << a;
+      if (normals[v][a] < -0.25) against |= 1 << a;
+    }
     candidate[v] = (around[place[cell_of[v]]] & against) != 0;
   }
   return candidate;
 }
 
 /// Ways that part the skin by what is missing; `wants` marks the vertices that have one.
-std::vector<Vec3> wanted_ways(const TriangleMesh& skin, const std::vector<char>& candidate,
-                              const std::vector<Triangle>& near, double gap_m,
-                              std::vector<char>& wants) {
+std::vector<Vec3> wanted_displacements(const TriangleMesh& skin, const std::vector<char>& candidate,
+                                       const std::vector<Triangle>& near, double gap_m,
+                                       std::vector<char>& wants) {
   const std::vector<Vec3> normals = rough_normals(skin, near);
   const collision::TriangleTree tree(skin.positions, near);
   const double reach = std::max(gap_m, DEEPEST);
-  std::vector<Vec3> way(skin.positions.size(), Vec3::Zero());
+  std::vector<Vec3> displacement(skin.positions.size(), Vec3::Zero());
   wants.assign(skin.positions.size(), 0);
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
     if (!candidate[v]) continue;
@@ -143,33 +147,34 @@ std::vector<Vec3> wanted_ways(const TriangleMesh& skin, const std::vector<char>&
       const double gap = away.dot(facing);
       if (gap >= least || gap < -DEEPEST || (away - gap * facing).norm() > 0.5 * gap_m) return;
       least = gap;
-      way[v] = 0.5 * (gap_m - gap) * facing;
+      displacement[v] = 0.5 * (gap_m - gap) * facing;
       wants[v] = 1;
     });
   }
-  return way;
+  return displacement;
 }
 
-/// Evens out the ways around triangles that they turn over or nearly so: where the walls of a slot
-/// meet, each vertex would go its own way, and fine skin would lie in folds across the slot.
+/// Evens out displacements around triangles that they turn over or nearly so: where the walls of a
+/// slot meet, each vertex would go by itself, and fine skin would lie in folds across the slot.
 void unfold(const std::vector<Vec3>& before, const std::vector<Triangle>& triangles,
             const std::vector<std::array<int, 2>>& edges, const std::vector<char>& may_move,
-            std::vector<Vec3>& way) {
+            std::vector<Vec3>& displacement) {
   constexpr int MOST_ROUNDS = 100;
-  std::vector<char> folded(way.size());
+  std::vector<char> folded(displacement.size());
   for (int round = 0; round < MOST_ROUNDS; ++round) {
     std::fill(folded.begin(), folded.end(), 0);
     bool any = false;
     for (std::size_t f = 0; f < triangles.size(); ++f) {
       const auto& [a, b, c] = triangles[f];
       const Vec3 was = area_normal(before[a], before[b], before[c]);
-      const Vec3 is = area_normal(before[a] + way[a], before[b] + way[b], before[c] + way[c]);
+      const Vec3 is = area_normal(before[a] + displacement[a], before[b] + displacement[b],
+                                  before[c] + displacement[c]);
       if (is.dot(was) >= LEAST_TURN * is.norm() * was.norm()) continue;
       for (const int v : {a, b, c}) folded[v] = may_move[v];
       any = true;
     }
     if (!any) return;
-    spread(edges, folded, way);
+    spread(edges, folded, displacement);
   }
 }
 
@@ -181,32 +186,34 @@ OpenedSkin open_touching_skin(TriangleMesh& skin, const std::vector<char>& may_m
   if (std::find(candidate.begin(), candidate.end(), 1) == candidate.end()) return {};
   std::vector<char> wants;
   const std::vector<Triangle> near = triangles_around(skin, candidate, 0);
-  std::vector<Triangle> around; // what a way can spread to
+  std::vector<Triangle> around; // triangles to which a displacement can spread
   std::vector<std::array<int, 2>> edges;
   for (int round = 0; round < PARTING_ROUNDS; ++round) {
-    std::vector<Vec3> way = wanted_ways(skin, candidate, near, gap_m, wants);
+    std::vector<Vec3> displacement = wanted_displacements(skin, candidate, near, gap_m, wants);
     if (std::find(wants.begin(), wants.end(), 1) == wants.end()) break;
     if (edges.empty()) {
       around = triangles_around(skin, candidate, SMOOTHINGS);
       edges = edges_of(around);
     }
-    std::vector<char> rim(way.size()); // takes part; what must move keeps its own way
-    for (std::size_t v = 0; v < way.size(); ++v) rim[v] = may_move[v] && !wants[v];
-    for (int k = 0; k < SMOOTHINGS; ++k) spread(edges, rim, way);
-    for (std::size_t v = 0; v < way.size(); ++v) {
-      way[v] += skin.positions[v] - before[v];
-      const double length = way[v].norm();
-      if (length > LARGEST_WAY) way[v] *= LARGEST_WAY / length;
+    std::vector<char> rim(
+        displacement.size()); // takes part; what must move keeps its own displacement
+    for (std::size_t v = 0; v < displacement.size(); ++v) rim[v] = may_move[v] && !wants[v];
+    for (int k = 0; k < SMOOTHINGS; ++k) spread(edges, rim, displacement);
+    for (std::size_t v = 0; v < displacement.size(); ++v) {
+      displacement[v] += skin.positions[v] - before[v];
+      const double length = displacement[v].norm();
+      if (length > LARGEST_DISPLACEMENT) displacement[v] *= LARGEST_DISPLACEMENT / length;
     }
-    unfold(before, around, edges, may_move, way);
-    for (std::size_t v = 0; v < way.size(); ++v) skin.positions[v] = before[v] + way[v];
+    unfold(before, around, edges, may_move, displacement);
+    for (std::size_t v = 0; v < displacement.size(); ++v)
+      skin.positions[v] = before[v] + displacement[v];
   }
   OpenedSkin opened;
   for (std::size_t v = 0; v < before.size(); ++v) {
-    const double way = (skin.positions[v] - before[v]).norm();
-    opened.vertices += way > 1e-4;
-    if (way <= opened.largest_m) continue;
-    opened.largest_m = way;
+    const double moved = (skin.positions[v] - before[v]).norm();
+    opened.vertices += moved > 1e-4;
+    if (moved <= opened.largest_m) continue;
+    opened.largest_m = moved;
     opened.place = skin.positions[v];
   }
   return opened;

@@ -1,6 +1,6 @@
 #pragma once
 /// Parts of a body that touch in a scan (thighs, an arm and the trunk) are drawn back a little, so
-/// that cloth finds a way between.
+/// that cloth finds room between.
 ///
 /// Flesh gives way to cloth; scanned skin does not. Where skin comes nearer than `gap_m` to skin
 /// that faces it, both are moved apart along the normal by half of what is missing, by 3 mm at most
@@ -11,9 +11,10 @@
 
 namespace sloper::body {
 
+/// How far skin was drawn back.
 struct OpenedSkin {
   int vertices = 0;     ///< moved by more than 0.1 mm
-  double largest_m = 0; ///< way of a vertex
+  double largest_m = 0; ///< displacement of a vertex
   Vec3 place{0, 0, 0};  ///< where that is, m
 };
 

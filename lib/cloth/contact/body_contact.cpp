@@ -18,8 +18,8 @@ constexpr double DEEPEST = 0.002;
 /// Each time that crossings are looked for and found, crossed pairs are pushed harder by this
 /// factor, up to a limit.
 constexpr double HARDER = 1.3, HARDEST = 100;
-/// The way between a crossed pair is its normal only within 60 degrees of the skin's: beyond, its
-/// sign would be noise.
+/// The line between a crossed pair is along its normal only within 60 degrees of the skin's:
+/// beyond, its sign would be noise.
 constexpr double CONE = 0.5;
 
 /// Of a crossed pair, d <= 0 below the skin: a spring of constant stiffness beyond the reach.
@@ -260,7 +260,7 @@ BodyContactEffect::Closest BodyContactEffect::closest(const Pair& pair,
   if (c.valid && std::abs(height) >= CONE * c.distance) {
     if (height < 0) c.distance = -c.distance;
     c.normal = away / c.distance;
-  } else { // the way between the two tells no side: the skin's normal does
+  } else { // the line between the two shows no side: the skin's normal does
     c.normal = skin_normal;
     c.distance = height;
     c.valid = skin_normal.squaredNorm() > 0.5;
@@ -275,16 +275,16 @@ double BodyContactEffect::share_of(const Pair& pair, const std::vector<Vec3>& x)
                              skin[pair.body[1]] - skin[pair.body[0]]);
 }
 
-void BodyContactEffect::measure_way(const std::vector<Vec3>& x) const {
-  m_way.assign(x.size(), 0);
+void BodyContactEffect::measure_moved(const std::vector<Vec3>& x) const {
+  m_moved.assign(x.size(), 0);
   if (m_added_at.size() == x.size())
-    for (std::size_t i = 0; i < x.size(); ++i) m_way[i] = (x[i] - m_added_at[i]).norm();
+    for (std::size_t i = 0; i < x.size(); ++i) m_moved[i] = (x[i] - m_added_at[i]).norm();
 }
 
-/// Of the pair's particles, by m_way.
+/// Of the pair's particles, by m_moved.
 double BodyContactEffect::farthest(const Pair& pair) const {
-  double most = m_way[pair.particle[0]];
-  for (int k = 1; k < pair.n; ++k) most = std::max(most, m_way[pair.particle[k]]);
+  double most = m_moved[pair.particle[0]];
+  for (int k = 1; k < pair.n; ++k) most = std::max(most, m_moved[pair.particle[k]]);
   return most;
 }
 
@@ -336,7 +336,7 @@ void BodyContactEffect::add(StepContext& context) {
   std::fill(m_load.begin(), m_load.end(), Vec3::Zero());
   std::fill(m_load_stiffness.begin(), m_load_stiffness.end(), 0);
   const std::vector<Vec3>& x = context.x;
-  measure_way(x);
+  measure_moved(x);
   m_added_at = x;
   for (Pair& pair : m_pairs) {
     pair.guarded = false;
@@ -372,8 +372,8 @@ bool BodyContactEffect::add_separating_planes(const std::vector<Vec3>& x,
                                               const std::vector<Vec3>& dx, MotionLimits& limits,
                                               bool) {
   if (!guarded()) return false;
-  m_way.resize(dx.size());
-  for (std::size_t i = 0; i < dx.size(); ++i) m_way[i] = dx[i].norm();
+  m_moved.resize(dx.size());
+  for (std::size_t i = 0; i < dx.size(); ++i) m_moved[i] = dx[i].norm();
   bool added = false;
   for (Pair& pair : m_pairs) {
     if (pair.guarded || pair.crossed || farthest(pair) <= APPROACH * pair.clear) continue;
@@ -388,7 +388,7 @@ bool BodyContactEffect::add_separating_planes(const std::vector<Vec3>& x,
 
 double BodyContactEffect::energy(const std::vector<Vec3>& x) const {
   double sum = 0;
-  measure_way(x);
+  measure_moved(x);
   for (const Pair& pair : m_pairs) {
     if (!pair.crossed && pair.clear - farthest(pair) >= pair.reach) continue;
     const Closest c = closest(pair, x);

@@ -18,8 +18,8 @@ void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx,
   constexpr double ROUNDING = 1e-12; // m
   std::vector<double> share(dx.size()), length(dx.size());
   for (std::size_t i = 0; i < dx.size(); ++i) length[i] = dx[i].norm();
-  // by how much particle k of a guard may still come towards the plane where it is, and its motion
-  // that way
+  // by how much particle k of a plane may still come towards the plane where it is, and its motion
+  // towards it
   const auto room = [&](const SeparatingPlane& g, int k) {
     const double height = g.normal.dot(x[g.particle[k]]);
     return std::max(0.0, k < g.n_above ? height - g.above : g.below - height);
@@ -29,7 +29,7 @@ void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx,
     return k < g.n_above ? -along : along;
   };
   struct Active {
-    int guard;
+    int plane; // of `planes`
     bool stays;
   };
   std::vector<Active>
@@ -44,43 +44,44 @@ void MotionLimits::apply(const std::vector<Vec3>& x, std::vector<Vec3>& dx,
   }
   // How far a plane may go along its normal: at least `least` for what is below it, at most `most`
   // for what is above.
-  struct Way {
+  struct Interval {
     double least, most;
   };
-  const auto way_of = [&](const SeparatingPlane& g) {
-    Way way{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    for (int k = 0; k < g.n_above; ++k) way.most = std::min(way.most, room(g, k) - toward(g, k));
+  const auto free_interval = [&](const SeparatingPlane& g) {
+    Interval free{-std::numeric_limits<double>::infinity(),
+                  std::numeric_limits<double>::infinity()};
+    for (int k = 0; k < g.n_above; ++k) free.most = std::min(free.most, room(g, k) - toward(g, k));
     for (int k = g.n_above; k < g.n; ++k)
-      way.least = std::max(way.least, toward(g, k) - room(g, k));
-    return way;
+      free.least = std::max(free.least, toward(g, k) - room(g, k));
+    return free;
   };
   for (int round = 0; round < ROUNDS; ++round)
     for (const Active& at : active) {
-      const SeparatingPlane& g = planes[at.guard];
-      double plane = 0; // where it goes
+      const SeparatingPlane& g = planes[at.plane];
+      double shift = 0; // of the plane along its normal
       if (!at.stays) {
-        const Way way = way_of(g);
-        if (way.least <= way.most) continue;
-        plane = std::clamp(0.0, way.most, way.least); // what is faster is cut
+        const Interval free = free_interval(g);
+        if (free.least <= free.most) continue;
+        shift = std::clamp(0.0, free.most, free.least); // what is faster is cut
       }
       for (int k = 0; k < g.n; ++k) {
         const int i = g.particle[k];
-        const double excess = toward(g, k) - room(g, k) + (k < g.n_above ? plane : -plane);
+        const double excess = toward(g, k) - room(g, k) + (k < g.n_above ? shift : -shift);
         if (excess <= 0) continue;
         dx[i] += (k < g.n_above ? excess : -excess) * g.normal;
         held[i] = 1;
       }
     }
-  // Towards planes that stay, less of a way is free too. So where the ways of a pair still cross,
-  // its plane stays.
+  // Towards planes that stay, less of a displacement is free too. So where both sides of a pair
+  // still pass it, its plane stays.
   for (bool more = true; more;) {
     more = false;
     std::fill(share.begin(), share.end(), 1);
     for (Active& at : active) {
-      const SeparatingPlane& g = planes[at.guard];
+      const SeparatingPlane& g = planes[at.plane];
       if (!at.stays) {
-        const Way way = way_of(g);
-        if (way.least <= way.most + ROUNDING) continue;
+        const Interval free = free_interval(g);
+        if (free.least <= free.most + ROUNDING) continue;
         at.stays = true;
       }
       for (int k = 0; k < g.n; ++k) {

@@ -20,9 +20,13 @@ SoftBodyContactEffect::SoftBodyContactEffect(const ClothMesh& mesh,
     : m_body(body), m_options(options) {
   const double share = options.on_edges ? 1.0 / 3 : 1; // of the area, to the particles
   for (int i = 0; i < mesh.n_particles; ++i)
-    m_samples.push_back(
-        {.particle = {i, i, i}, .n = 1, .area = share * mesh.area[static_cast<std::size_t>(i)]});
-  if (!options.on_edges) return;
+    m_samples.push_back({.particle = {i, i, i}, .n = 1, .area = share * mesh.area[i]});
+  if (options.on_edges) add_edges_and_faces(mesh);
+}
+
+/// A third of each triangle's area goes to its corners, a third to its three edges, a third to its
+/// middle.
+void SoftBodyContactEffect::add_edges_and_faces(const ClothMesh& mesh) {
   m_edges = mesh.edges;
   std::vector<double> edge_area(m_edges.size(), 0), face_area;
   const std::vector<Triangle> triangles = mesh.particle_triangles();
@@ -33,16 +37,17 @@ SoftBodyContactEffect::SoftBodyContactEffect(const ClothMesh& mesh,
     std::array<int, 3>& edges = m_face_edges.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       const int i = triangles[f][k], j = triangles[f][(k + 1) % 3];
-      const auto edge = std::lower_bound(m_edges.begin(), m_edges.end(),
-                                         std::array{std::min(i, j), std::max(i, j)});
+      const std::array pair{std::min(i, j), std::max(i, j)};
+      const auto edge = std::lower_bound(m_edges.begin(), m_edges.end(), pair);
       edges[k] = static_cast<int>(edge - m_edges.begin());
-      edge_area[static_cast<std::size_t>(edges[k])] += area / 9;
+      edge_area[edges[k]] += area / (3 * 3); // a third of its edges' third
     }
     face_area.push_back(area / 3);
   }
-  for (std::size_t e = 0; e < m_edges.size(); ++e)
-    m_samples.push_back(
-        {.particle = {m_edges[e][0], m_edges[e][1], 0}, .n = 2, .area = edge_area[e]});
+  for (std::size_t e = 0; e < m_edges.size(); ++e) {
+    const auto& [i, j] = m_edges[e];
+    m_samples.push_back({.particle = {i, j, 0}, .n = 2, .area = edge_area[e]});
+  }
   for (std::size_t f = 0; f < triangles.size(); ++f)
     m_samples.push_back({.particle = triangles[f], .n = 3, .area = face_area[f]});
 }
@@ -56,27 +61,30 @@ void SoftBodyContactEffect::bind(const BlockMatrix& matrix) {
   for (const auto& e : m_edges) m_slots.push_back({matrix.slot(e[0], e[1]), -1, -1});
   for (const auto& edges : m_face_edges) {
     std::array<int, 3>& slots = m_slots.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) slots[k] = m_slots[static_cast<std::size_t>(edges[k])][0];
+    for (std::size_t k = 0; k < 3; ++k) slots[k] = m_slots[edges[k]][0];
   }
 }
 
-void SoftBodyContactEffect::body_moved(double largest_way) {
-  for (Sample& s : m_samples) s.clear -= largest_way;
+void SoftBodyContactEffect::body_moved(double largest_displacement) {
+  for (Sample& s : m_samples) s.clear -= largest_displacement;
 }
 
 void SoftBodyContactEffect::push(const Sample& sample, const int* slots,
                                  const collision::SignedDistance& d, StepContext& context) const {
-  const double reach = m_options.reach_m, k = m_options.stiffness_n_m3 * sample.area;
+  const double reach = m_options.reach_m;
+  const double k = m_options.stiffness_n_m3 * sample.area;
   const double depth = std::min(reach - d.distance, m_options.deepest_m);
+  // The force rises as a parabola within the reach and on along its tangent below it.
   const double force = depth < reach ? 0.5 * k * depth * depth / reach : k * (depth - 0.5 * reach);
   const double stiffness = std::max(k * std::min(1.0, depth / reach), LEAST_STIFFNESS * k);
   const double share = 1.0 / sample.n;
-  const Mat3 block =
-      share * share * stiffness *
-      (m_options.drag * Mat3::Identity() + (1 - m_options.drag) * d.normal * d.normal.transpose());
-  for (std::size_t p = 0; p < static_cast<std::size_t>(sample.n); ++p) {
-    context.force[static_cast<std::size_t>(sample.particle[p])] += share * force * d.normal;
-    context.stiffness.add_diagonal(sample.particle[p], block);
+  const double drag = m_options.drag;
+  const Mat3 block = share * share * stiffness *
+                     (drag * Mat3::Identity() + (1 - drag) * d.normal * d.normal.transpose());
+  for (int p = 0; p < sample.n; ++p) {
+    const int i = sample.particle[p];
+    context.force[i] += share * force * d.normal;
+    context.stiffness.add_diagonal(i, block);
   }
   const int n_slots = sample.n == 1 ? 0 : 2 * sample.n - 3;
   for (int s = 0; s < n_slots; ++s) context.stiffness.add_off_diagonal(slots[s], block);
@@ -86,11 +94,8 @@ void SoftBodyContactEffect::add(StepContext& context) {
   const std::size_t n_particles = m_samples.size() - m_slots.size();
   for (std::size_t s = 0; s < m_samples.size(); ++s) {
     Sample& sample = m_samples[s];
-    const auto x = [&](std::size_t p) -> const Vec3& {
-      return context.x[static_cast<std::size_t>(sample.particle[p])];
-    };
-    Vec3 at = x(0);
-    for (std::size_t p = 1; p < static_cast<std::size_t>(sample.n); ++p) at += x(p);
+    Vec3 at = context.x[sample.particle[0]];
+    for (int p = 1; p < sample.n; ++p) at += context.x[sample.particle[p]];
     at /= sample.n;
     if (sample.clear - (at - sample.at).norm() > m_options.reach_m) continue;
     collision::SignedDistance d = m_body.signed_distance(at, FAR, sample.triangle);

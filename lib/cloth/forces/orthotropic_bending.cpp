@@ -21,40 +21,61 @@ Eigen::Index place_of(std::vector<int>& list, int value) {
 OrthotropicBendingEffect::OrthotropicBendingEffect(const ClothMesh& mesh,
                                                    std::optional<std::vector<double>> rest_angle)
     : m_mesh(mesh), m_plates(make_bending_plates(mesh)), m_rest_angle(std::move(rest_angle)) {
-  std::vector<Pair> pairs;
+  std::vector<Pair> pairs; // of plates whose stiffness is constant
   for (const BendingPlate& plate : m_plates) {
-    Stencil s;
-    for (int h : plate.hinge)
-      for (int p : mesh.hinges[h].particle) place_of(s.particle, p);
-    const auto m = static_cast<Eigen::Index>(plate.hinge.size()),
-               n = static_cast<Eigen::Index>(s.particle.size());
-    s.coefficient = Eigen::MatrixXd::Zero(m, n);
-    for (Eigen::Index e = 0; e < m; ++e)
-      for (int k = 0; k < 4; ++k) {
-        const Hinge& hinge = mesh.hinges[plate.hinge[e]];
-        s.coefficient(e, place_of(s.particle, hinge.particle[k])) += hinge.coefficient[k];
+    m_stencils.push_back(stencil_of(plate));
+    const Stencil& s = m_stencils.back();
+    const bool constant = !m_rest_angle && plate.soft_share <= 0;
+    if (!constant) continue;
+    const auto n = static_cast<Eigen::Index>(s.particle.size());
+    for (Eigen::Index a = 0; a < n; ++a)
+      for (Eigen::Index b = a; b < n; ++b) {
+        const auto [low, high] = std::minmax(s.particle[a], s.particle[b]);
+        pairs.push_back({low, high, s.stiffness(a, b)});
       }
-    s.stiffness = s.coefficient.transpose() * plate.stiffness * s.coefficient;
-    if (!m_rest_angle && plate.soft_share <= 0)
-      for (Eigen::Index a = 0; a < n; ++a)
-        for (Eigen::Index b = a; b < n; ++b)
-          pairs.push_back({std::min(s.particle[a], s.particle[b]),
-                           std::max(s.particle[a], s.particle[b]), s.stiffness(a, b)});
-    m_stencils.push_back(std::move(s));
   }
+  keep_sums(std::move(pairs));
+  if (m_rest_angle) sign_lengths();
+}
+
+/// The particles of a plate's hinges, and what their places say of its curvature.
+OrthotropicBendingEffect::Stencil
+OrthotropicBendingEffect::stencil_of(const BendingPlate& plate) const {
+  Stencil s;
+  for (int h : plate.hinge)
+    for (int p : m_mesh.hinges[h].particle) place_of(s.particle, p);
+  const auto m = static_cast<Eigen::Index>(plate.hinge.size());
+  const auto n = static_cast<Eigen::Index>(s.particle.size());
+  s.coefficient = Eigen::MatrixXd::Zero(m, n);
+  for (Eigen::Index e = 0; e < m; ++e) {
+    const Hinge& hinge = m_mesh.hinges[plate.hinge[e]];
+    for (int k = 0; k < 4; ++k)
+      s.coefficient(e, place_of(s.particle, hinge.particle[k])) += hinge.coefficient[k];
+  }
+  s.stiffness = s.coefficient.transpose() * plate.stiffness * s.coefficient;
+  return s;
+}
+
+/// Plates overlap: one entry for each pair of particles.
+void OrthotropicBendingEffect::keep_sums(std::vector<Pair> pairs) {
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
     return std::tie(a.i, a.j) < std::tie(b.i, b.j);
   });
-  for (const Pair& p : pairs)
-    if (!m_pairs.empty() && m_pairs.back().i == p.i && m_pairs.back().j == p.j)
-      m_pairs.back().stiffness += p.stiffness;
+  for (const Pair& p : pairs) {
+    const bool again = !m_pairs.empty() && m_pairs.back().i == p.i && m_pairs.back().j == p.j;
+    if (again) m_pairs.back().stiffness += p.stiffness;
     else m_pairs.push_back(p);
-  if (!m_rest_angle) return;
+  }
+}
+
+/// Rest length of each hinge's edge, negative where the hinge runs against its first triangle.
+void OrthotropicBendingEffect::sign_lengths() {
+  const ClothMesh& mesh = m_mesh;
   m_rest_angle->resize(mesh.hinges.size(), 0);
   for (const Hinge& h : mesh.hinges) {
-    const std::array<int, 2> edge{std::min(h.particle[0], h.particle[1]),
-                                  std::max(h.particle[0], h.particle[1])};
-    const auto found = std::lower_bound(mesh.edges.begin(), mesh.edges.end(), edge);
+    const auto [low, high] = std::minmax(h.particle[0], h.particle[1]);
+    const auto found =
+        std::lower_bound(mesh.edges.begin(), mesh.edges.end(), std::array<int, 2>{low, high});
     const double length = mesh.springs[found - mesh.edges.begin()].rest_length;
     const bool forward = mesh.triangles[h.triangle[0]].particle[h.corner[0]] == h.particle[0];
     m_signed_length.push_back(forward ? length : -length);
@@ -168,41 +189,46 @@ void OrthotropicBendingEffect::add_angles(StepContext& c, double damping) {
   std::vector<HingeAngle> angle(m_mesh.hinges.size());
   for (std::size_t h = 0; h < angle.size(); ++h)
     angle[h] = measure_hinge(m_mesh.hinges[h], c.x, true);
-  for (std::size_t k = 0; k < m_plates.size(); ++k) {
-    const BendingPlate& plate = m_plates[k];
-    const Stencil& s = m_stencils[k];
-    const auto m = static_cast<Eigen::Index>(plate.hinge.size()),
-               n = static_cast<Eigen::Index>(s.particle.size());
-    Eigen::VectorXd q(m);
-    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(m, 3 * n);
-    for (Eigen::Index e = 0; e < m; ++e) {
-      const int h = plate.hinge[e];
-      q[e] = turning(h, angle[h]);
-      for (int i = 0; i < 4; ++i) {
-        const auto at =
-            std::find(s.particle.begin(), s.particle.end(), m_mesh.hinges[h].particle[i]);
-        jacobian.block<1, 3>(e, 3 * (at - s.particle.begin())) +=
-            m_signed_length[h] * angle[h].gradient[i].transpose();
-      }
-    }
-    const Eigen::VectorXd moments = plate.stiffness * q;
-    const double secant = m_mesh.bend_scale * plate.secant(q.dot(moments));
-    const Eigen::VectorXd force = jacobian.transpose() * moments;
-    const Eigen::MatrixXd stiffness =
-        secant * (1 + damping) * jacobian.transpose() * plate.stiffness * jacobian;
-    std::size_t at = 0;
-    for (Eigen::Index a = 0; a < n; ++a) {
-      c.force[s.particle[a]] -= secant * force.segment<3>(3 * a);
-      c.stiffness.add_diagonal(s.particle[a], stiffness.block<3, 3>(3 * a, 3 * a));
-      for (Eigen::Index b = a + 1; b < n; ++b, ++at) {
-        const bool upper = s.particle[a] < s.particle[b];
-        c.stiffness.add_off_diagonal(s.slot[at], upper ? Mat3(stiffness.block<3, 3>(3 * a, 3 * b))
-                                                       : Mat3(stiffness.block<3, 3>(3 * b, 3 * a)));
-      }
-    }
-  }
+  for (std::size_t k = 0; k < m_plates.size(); ++k) add_angles_of_plate(c, k, angle, damping);
   for (std::size_t h = 0; h < angle.size(); ++h)
     if (m_mesh.hinges[h].firmness > 0) add_firmness(c, h, angle[h], damping);
+}
+
+/// Gauss-Newton: the second derivatives of the angles are left out. @param angle  of every hinge
+void OrthotropicBendingEffect::add_angles_of_plate(StepContext& c, std::size_t plate_index,
+                                                   const std::vector<HingeAngle>& angle,
+                                                   double damping) {
+  const BendingPlate& plate = m_plates[plate_index];
+  const Stencil& s = m_stencils[plate_index];
+  const auto m = static_cast<Eigen::Index>(plate.hinge.size());
+  const auto n = static_cast<Eigen::Index>(s.particle.size());
+  Eigen::VectorXd q(m); // how far each hinge is turned
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(m, 3 * n);
+  for (Eigen::Index e = 0; e < m; ++e) {
+    const int h = plate.hinge[e];
+    q[e] = turning(h, angle[h]);
+    for (int i = 0; i < 4; ++i) {
+      const auto found =
+          std::find(s.particle.begin(), s.particle.end(), m_mesh.hinges[h].particle[i]);
+      const Eigen::Index column = 3 * (found - s.particle.begin());
+      jacobian.block<1, 3>(e, column) += m_signed_length[h] * angle[h].gradient[i].transpose();
+    }
+  }
+  const Eigen::VectorXd moments = plate.stiffness * q;
+  const double secant = m_mesh.bend_scale * plate.secant(q.dot(moments));
+  const Eigen::VectorXd force = jacobian.transpose() * moments;
+  const Eigen::MatrixXd stiffness =
+      secant * (1 + damping) * jacobian.transpose() * plate.stiffness * jacobian;
+  std::size_t at = 0;
+  for (Eigen::Index a = 0; a < n; ++a) {
+    c.force[s.particle[a]] -= secant * force.segment<3>(3 * a);
+    c.stiffness.add_diagonal(s.particle[a], stiffness.block<3, 3>(3 * a, 3 * a));
+    for (Eigen::Index b = a + 1; b < n; ++b, ++at) {
+      const bool upper = s.particle[a] < s.particle[b];
+      const Eigen::Index row = 3 * (upper ? a : b), column = 3 * (upper ? b : a);
+      c.stiffness.add_off_diagonal(s.slot[at], Mat3(stiffness.block<3, 3>(row, column)));
+    }
+  }
 }
 
 void OrthotropicBendingEffect::add_firmness(StepContext& c, std::size_t h, const HingeAngle& angle,

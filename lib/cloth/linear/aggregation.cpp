@@ -8,14 +8,14 @@ namespace sloper::cloth {
 
 namespace {
 
-constexpr double STRONG = 0.08; // |A_ij|^2 > STRONG^2 |A_ii| |A_jj|
-constexpr int COARSEST = 64;    // block rows that are factorised
+constexpr double STRENGTH_THRESHOLD = 0.08; // |A_ij|^2 > STRENGTH_THRESHOLD^2 |A_ii| |A_jj|
+constexpr int COARSEST_ROWS = 64;           // block rows that are factorised
 constexpr double LAMBDA_LIMIT =
     4.0; // an element has at most four particles, which bounds the eigenvalues of D^-1 A
-constexpr int PATIENCE =
+constexpr int STALE_HIERARCHY_EXTRA_ITERATIONS =
     12; // iterations beyond those of a fresh hierarchy that are borne: about what a new one costs
-constexpr int LONG = 5; // iterations of a solve that went some way along what is soft: shorter ones
-                        // mend what is stiff
+constexpr int SOFT_SOLVE_ITERATIONS = 5; // iterations of a solve that reached into soft modes:
+                                         // shorter ones mend what is stiff
 
 /// Aggregate of every row; greedy: whole free neighbourhoods first, then leftovers join their
 /// strongest neighbour. Rows without a strong neighbour, such as particles that a contact all but
@@ -25,8 +25,8 @@ std::vector<int> aggregates(const BlockRows& a, const std::vector<Mat3>& diagona
   std::vector<double> size(a.rows);
   for (int i = 0; i < a.rows; ++i) size[i] = diagonal[i].norm();
   auto strong = [&](int i, int k) {
-    return a.column[k] != i &&
-           a.value[k].squaredNorm() > STRONG * STRONG * size[i] * size[a.column[k]];
+    return a.column[k] != i && a.value[k].squaredNorm() > STRENGTH_THRESHOLD * STRENGTH_THRESHOLD *
+                                                              size[i] * size[a.column[k]];
   };
   std::vector<int> of(a.rows, -1);
   std::vector<char> alone(a.rows, 1);
@@ -207,7 +207,7 @@ void Aggregation::build(const LinearSystem& system) {
     for (auto* v : {&fine.r, &fine.z, &fine.t, &fine.d}) v->assign(a.rows, Float4::all(0));
     fine.a = m_levels.size() == 1 ? to_float(system.matrix) : to_float(a);
     if (m_levels.size() == 1) copy_finest(system); // which has the contacts apart
-    if (a.rows <= COARSEST || m_levels.size() > 8) break;
+    if (a.rows <= COARSEST_ROWS || m_levels.size() > 8) break;
     estimate_lambda(m_levels.size() - 1, 8);
     int count = 0;
     const std::vector<int> of = aggregates(a, diagonal, count);
@@ -221,7 +221,7 @@ void Aggregation::build(const LinearSystem& system) {
     m_levels.emplace_back();
   }
   const int n = a.rows;
-  m_coarsened = n <= 4 * COARSEST;
+  m_coarsened = n <= 4 * COARSEST_ROWS;
   if (m_coarsened) {
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(3 * n, 3 * n);
     for (int i = 0; i < n; ++i)
@@ -243,7 +243,7 @@ double Aggregation::complexity() const {
 
 void Aggregation::update(const LinearSystem& system) {
   m_jacobi.update(system);
-  const bool tired = m_last_iterations > m_iterations_when_fresh + PATIENCE;
+  const bool tired = m_last_iterations > m_iterations_when_fresh + STALE_HIERARCHY_EXTRA_ITERATIONS;
   if (m_levels.empty() || !m_coarsened ||
       static_cast<int>(m_levels[0].d_inverse.size()) != system.matrix.size() || tired)
     build(system);
@@ -252,7 +252,8 @@ void Aggregation::update(const LinearSystem& system) {
 }
 
 bool Aggregation::renew(const LinearSystem& system, int iterations) {
-  if (m_age == 1 || iterations < m_iterations_when_fresh + PATIENCE) return false;
+  if (m_age == 1 || iterations < m_iterations_when_fresh + STALE_HIERARCHY_EXTRA_ITERATIONS)
+    return false;
   build(system);
   m_age = 1;
   return true;
@@ -371,12 +372,12 @@ struct Aggregation::SingleSpace {
     return dot(a.m_p, a.m_q, a.m_part);
   }
   double advance(double alpha) {
-    const Float4 way = Float4::all(static_cast<float>(alpha));
+    const Float4 step = Float4::all(static_cast<float>(alpha));
     std::vector<Float4>& r = a.m_levels[0].r;
     parallel_for(r.size(), ROW_GRAIN, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        a.m_x[i] = a.m_x[i] + way * a.m_p[i];
-        r[i] = r[i] - way * a.m_q[i];
+        a.m_x[i] = a.m_x[i] + step * a.m_p[i];
+        r[i] = r[i] - step * a.m_q[i];
       }
     });
     return dot(r, r, a.m_part);
@@ -391,7 +392,7 @@ struct Aggregation::SingleSpace {
   }
 };
 
-/// Starts the solve for r, which the finest level has as its own, from the ways of the last ones,
+/// Starts the solve for r, which the finest level has as its own, from the basis of the last ones,
 /// if the system recurs and they lead no farther than the radius.
 void Aggregation::deflate(const LinearSystem& system, const std::vector<Vec3>& r, double radius) {
   m_deflation.leave_out();
@@ -399,7 +400,7 @@ void Aggregation::deflate(const LinearSystem& system, const std::vector<Vec3>& r
   m_deflation.prepare(r.size(), [&](const std::vector<Float4>& x, std::vector<Float4>& y) {
     multiply_system(x, y);
   });
-  if (m_deflation.n_ways() == 0) return;
+  if (m_deflation.size() == 0) return;
   m_deflation.start(m_x, m_levels[0].r);
   if (longest(m_x) < radius) return;
   m_deflation.leave_out();
@@ -418,7 +419,7 @@ bool Aggregation::solve_in_single(const LinearSystem& system, const std::vector<
   const int before = result.iterations;
   conjugate_gradient_loop(SingleSpace{*this, system}, dot(residual, residual, m_part), target2,
                           tolerance.energy, max_iterations, radius / scale, result);
-  if (system.recurs && result.iterations >= before + LONG) m_deflation.keep(m_x);
+  if (system.recurs && result.iterations >= before + SOFT_SOLVE_ITERATIONS) m_deflation.keep(m_x);
   hand_out(m_x, scale, x);
   return true;
 }

@@ -7,8 +7,8 @@
 /// is rebuilt, within a solve too, only where the iterations that it costs have grown by what a new
 /// one costs; the finest level always sees the current matrix. It is built in double and applied in
 /// single precision, and the conjugate gradients run on the finest level in single precision too:
-/// refinement in double has the last word. Of systems that recur, solves begin with the ways of the
-/// last ones (Deflation).
+/// refinement in double has the last word. Of systems that recur, solves begin with the basis of
+/// the last ones (Deflation).
 #include <Eigen/Dense>
 #include <cloth/linear/deflation.hpp>
 #include <cloth/linear/float_rows.hpp>
@@ -16,6 +16,7 @@
 
 namespace sloper::cloth {
 
+/// The hierarchy of one system that changes from step to step.
 class Aggregation : public Preconditioner {
 public:
   void update(const LinearSystem& system) override;
@@ -80,7 +81,7 @@ private:
   std::vector<Float4> m_contact_pull;
   const ContactIndex* m_index = nullptr; // of the system that the finest level is a copy of
   std::vector<Level> m_levels;
-  bool m_coarsened = false; // whether the last build found its way to a coarsest level
+  bool m_coarsened = false; // whether the last build reached a coarsest level
   Eigen::LLT<Eigen::MatrixXd> m_coarsest;
   Eigen::VectorXd m_coarse_vector;
   int m_iterations_when_fresh = 0, m_last_iterations = 0, m_age = 0;

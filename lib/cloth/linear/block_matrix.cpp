@@ -17,41 +17,61 @@ static void tidy(std::vector<std::array<int, 2>>& pairs) {
       pairs.end());
 }
 
+/// Turns counts, each one place after its own, into where each row begins.
+static void sum_up(std::vector<int>& start) {
+  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+}
+
 BlockMatrix::BlockMatrix(int n, Couplings couplings)
     : m_n(n), m_all_symmetric(couplings.full.empty()) {
   couplings.full.insert(couplings.full.end(), couplings.symmetric.begin(),
                         couplings.symmetric.end());
   tidy(couplings.full);
   tidy(couplings.isotropic);
-  m_row_start.assign(static_cast<std::size_t>(n) + 1, 0);
-  for (const auto& p : couplings.full) {
+  std::vector<std::array<int, 2>> isotropic; // those that no full block holds
+  std::set_difference(couplings.isotropic.begin(), couplings.isotropic.end(),
+                      couplings.full.begin(), couplings.full.end(), std::back_inserter(isotropic));
+  lay_out_full(couplings.full);
+  lay_out_isotropic(isotropic);
+  m_diagonal.assign(static_cast<std::size_t>(n), Mat3::Zero());
+}
+
+/// Rows of the upper triangle, and for each row where its transposed blocks are.
+void BlockMatrix::lay_out_full(const std::vector<std::array<int, 2>>& pairs) {
+  m_row_start.assign(static_cast<std::size_t>(m_n) + 1, 0);
+  for (const auto& p : pairs) {
     ++m_row_start[p[0] + 1];
     m_column.push_back(p[1]);
   }
-  for (int i = 0; i < n; ++i) m_row_start[i + 1] += m_row_start[i];
-  m_lower_start.assign(static_cast<std::size_t>(n) + 1, 0);
+  sum_up(m_row_start);
+  m_lower_start.assign(static_cast<std::size_t>(m_n) + 1, 0);
   for (int j : m_column) ++m_lower_start[j + 1];
-  for (int i = 0; i < n; ++i) m_lower_start[i + 1] += m_lower_start[i];
+  sum_up(m_lower_start);
   m_lower.resize(m_column.size());
-  std::vector<int> at(m_lower_start.begin(), m_lower_start.end() - 1);
-  for (int i = 0; i < n; ++i)
-    for (int k = m_row_start[i]; k < m_row_start[i + 1]; ++k) m_lower[at[m_column[k]]++] = {k, i};
-  std::vector<std::array<int, 2>> isotropic;
-  std::set_difference(couplings.isotropic.begin(), couplings.isotropic.end(),
-                      couplings.full.begin(), couplings.full.end(), std::back_inserter(isotropic));
-  m_isotropic_start.assign(static_cast<std::size_t>(n) + 1, 0);
-  for (const auto& p : isotropic)
-    for (int i : p) ++m_isotropic_start[i + 1];
-  for (int i = 0; i < n; ++i) m_isotropic_start[i + 1] += m_isotropic_start[i];
-  m_isotropic.resize(2 * isotropic.size());
-  at.assign(m_isotropic_start.begin(), m_isotropic_start.end() - 1);
-  for (int side : {1, 0}) // sorted by their first, pairs give each row its lower columns by rising
-                          // order, and then its upper ones
-    for (std::size_t k = 0; k < isotropic.size(); ++k)
-      m_isotropic[at[isotropic[k][side]]++] = {static_cast<int>(k), isotropic[k][1 - side]};
-  m_isotropic_value.assign(isotropic.size(), 0);
+  std::vector<int> next(m_lower_start.begin(), m_lower_start.end() - 1);
+  for (int i = 0; i < m_n; ++i)
+    for (int k = m_row_start[i]; k < m_row_start[i + 1]; ++k) {
+      const int at = next[m_column[k]]++;
+      m_lower[at] = {k, i};
+    }
   m_value.assign(m_column.size(), Mat3::Zero());
-  m_diagonal.assign(static_cast<std::size_t>(n), Mat3::Zero());
+}
+
+/// Each row has all its columns. Pairs are sorted by their first particle: going over their second
+/// ones first gives a row its lower columns in rising order, and then its upper ones.
+void BlockMatrix::lay_out_isotropic(const std::vector<std::array<int, 2>>& pairs) {
+  m_isotropic_start.assign(static_cast<std::size_t>(m_n) + 1, 0);
+  for (const auto& p : pairs)
+    for (int i : p) ++m_isotropic_start[i + 1];
+  sum_up(m_isotropic_start);
+  m_isotropic.resize(2 * pairs.size());
+  std::vector<int> next(m_isotropic_start.begin(), m_isotropic_start.end() - 1);
+  for (int side : {1, 0})
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const int at = next[pairs[k][side]]++;
+      m_isotropic[at] = {static_cast<int>(k), pairs[k][1 - side]};
+    }
+  m_isotropic_value.assign(pairs.size(), 0);
 }
 
 int BlockMatrix::slot(int i, int j) const {

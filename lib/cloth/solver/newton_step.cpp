@@ -20,18 +20,18 @@ double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return sum;
 }
 
-double farthest_of(const std::vector<Vec3>& way) {
+double farthest_of(const std::vector<Vec3>& displacement) {
   double most2 = 0;
-  for (const Vec3& w : way) most2 = std::max(most2, w.squaredNorm());
+  for (const Vec3& w : displacement) most2 = std::max(most2, w.squaredNorm());
   return std::sqrt(most2);
 }
 
 } // namespace
 
-/// Damping and drag cost 1/(2h) way' D way, with D = -df/dv as it is where the step begins:
-/// quadratic, so that no way, however far cloth turns on it, gains by them. Effects say no more of
-/// D than what they add of it to their stiffness, so it is the difference to a step of endless
-/// time.
+/// Damping and drag cost 1/(2h) dx' D dx, with D = -df/dv as it is where the step begins:
+/// quadratic, so that no displacement, however far cloth turns on it, gains by them. Effects say no
+/// more of D than what they add of it to their stiffness, so it is the difference to a step of
+/// endless time.
 void ClothSolver::assemble_drag(double h) {
   std::vector<Vec3> unused(m_x.size(), Vec3::Zero());
   std::vector<ContactElement> none;
@@ -46,10 +46,10 @@ void ClothSolver::assemble_drag(double h) {
   fill(m_without_drag, std::numeric_limits<double>::infinity());
 }
 
-/// (D/h) way, N.
-void ClothSolver::drag_of(const std::vector<Vec3>& way, std::vector<Vec3>& drag) {
-  m_with_drag.multiply(way, drag);
-  m_without_drag.multiply(way, m_trial_dx);
+/// (D/h) displacement, N.
+void ClothSolver::drag_of(const std::vector<Vec3>& displacement, std::vector<Vec3>& drag) {
+  m_with_drag.multiply(displacement, drag);
+  m_without_drag.multiply(displacement, m_trial_dx);
   for (std::size_t i = 0; i < drag.size(); ++i) drag[i] -= m_trial_dx[i];
 }
 
@@ -68,14 +68,14 @@ bool ClothSolver::gains(const StepOptions& o) {
 StepResult ClothSolver::newton_step(const StepOptions& o, int most_solves, bool begun) {
   const std::size_t n = m_x.size();
   const std::vector<Vec3> start = m_x;
-  std::vector<Vec3> aim = m_x, way(n, Vec3::Zero()), drag(n, Vec3::Zero()),
+  std::vector<Vec3> aim = m_x, displacement(n, Vec3::Zero()), drag(n, Vec3::Zero()),
                     trial_drag(n); // aim: where inertia alone would bring it
   for (std::size_t i = 0; i < n; ++i) aim[i] += o.inertia * o.h * m_v[i];
   const auto mass_h2 = [&](std::size_t i) { return m_mesh.mass[i] / (o.h * o.h); };
   const auto potential = [&](const std::vector<Vec3>& x, std::vector<Vec3>& drag_there) {
-    for (std::size_t i = 0; i < n; ++i) way[i] = x[i] - start[i];
-    drag_of(way, drag_there);
-    double sum = energy(x) + 0.5 * dot(way, drag_there);
+    for (std::size_t i = 0; i < n; ++i) displacement[i] = x[i] - start[i];
+    drag_of(displacement, drag_there);
+    double sum = energy(x) + 0.5 * dot(displacement, drag_there);
     for (std::size_t i = 0; i < n; ++i) sum += 0.5 * mass_h2(i) * (x[i] - aim[i]).squaredNorm();
     return sum;
   };

@@ -16,6 +16,7 @@ namespace sloper::garment {
 
 using Marks = std::map<std::string, double>; ///< z of named heights on a body
 
+/// One frame of a body, with the skin around it and the heights that all bodies share.
 struct BindFrame {
   std::string name; ///< torso, head, upper_arm_l, forearm_l, ..., leg_l, leg_r, lower_body
   PartFrame frame;
@@ -23,6 +24,7 @@ struct BindFrame {
   Marks marks;
 };
 
+/// All frames that a body has.
 struct BindFrames {
   std::vector<BindFrame> frames;
   std::vector<int> frame_of_face; ///< #F of the skin, index into frames, -1 for what is not body;

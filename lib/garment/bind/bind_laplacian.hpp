@@ -8,6 +8,7 @@
 
 namespace sloper::garment {
 
+/// Mass and stiffness, #P by #P.
 struct SurfaceOperators {
   Eigen::VectorXd mass; ///< m2, a third of the area around each particle, never zero
   Eigen::SparseMatrix<double>

@@ -143,7 +143,7 @@ bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<T
   for (int k = 0; k < LEG_LINES; ++k) {
     const double y = lowest + (k + 0.5) / LEG_LINES * (highest - lowest);
     const Vec3 a = axis_at(l, y), b = axis_at(r, y);
-    const Vec2 from(a.x(), a.z()), way(b.x() - a.x(), b.z() - a.z()), aside(-way.y(), way.x());
+    const Vec2 from(a.x(), a.z()), line(b.x() - a.x(), b.z() - a.z()), aside(-line.y(), line.x());
     passed += std::any_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
       if (piece[t[0]] != which) return false;
       Vec2 cut[2]; // where the triangle's edges are at this height
@@ -157,7 +157,8 @@ bool wraps_legs_together(const std::vector<Vec3>& positions, const std::vector<T
       if (n != 2) return false;
       const double u = cut[0].dot(aside), v = cut[1].dot(aside);
       if ((u <= 0) == (v <= 0)) return false;
-      const double along = (cut[0] + u / (u - v) * (cut[1] - cut[0])).dot(way) / way.squaredNorm();
+      const double along =
+          (cut[0] + u / (u - v) * (cut[1] - cut[0])).dot(line) / line.squaredNorm();
       return along > 0 && along < 1;
     });
   }

@@ -12,9 +12,9 @@ struct Measure {
   double value = 0, spread = 0; // m
 };
 
-/// Way along landmarks of one side.
-std::optional<Measure> way(const body::Body& body, const std::vector<std::string>& names,
-                           const std::string& side) {
+/// Length of the line through landmarks of one side.
+std::optional<Measure> length_along(const body::Body& body, const std::vector<std::string>& names,
+                                    const std::string& side) {
   Measure m;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto here = body.landmarks.find(names[i] + side);
@@ -51,7 +51,7 @@ std::vector<SideDifference> uneven_sides(const body::Body& body) {
   };
   const auto lengths = [&](const char* limb, const char* what,
                            const std::vector<std::string>& names) {
-    compare(limb, what, "longer", way(body, names, "_l"), way(body, names, "_r"));
+    compare(limb, what, "longer", length_along(body, names, "_l"), length_along(body, names, "_r"));
   };
   const auto girths = [&](const char* limb, const char* what, const char* name) {
     compare(limb, what, "more around", girth(body, name, "_l"), girth(body, name, "_r"));

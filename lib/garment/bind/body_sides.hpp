@@ -8,6 +8,7 @@ inline constexpr double GRADED_SIDES_M =
     0.02; ///< left and right may differ by so much, beside their uncertainty, before each has a
           ///< pattern of its own
 
+/// A limb that is not as long, or as wide, on both sides.
 struct SideDifference {
   std::string limb; ///< "arm", "leg" or "torso": the panels on it
   std::string text; ///< "the left arm is 3.1 cm longer than the right one"

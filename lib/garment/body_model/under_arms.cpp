@@ -139,13 +139,13 @@ std::size_t bring_under_arms(std::vector<Vec3>& positions, const std::vector<cha
   for (std::size_t i : hanging) {
     const collision::ClosestPoint from = within.closest_point(positions[i], REACH);
     if (from.triangle < 0) continue;
-    const Vec3 way = positions[i] - from.point;
-    const double length = way.norm();
+    const Vec3 line = positions[i] - from.point;
+    const double length = line.norm();
     if (length <= 0) continue;
     const double seen = length + gap,
-                 hit = seen * arms.first_hit(from.point, from.point + seen / length * way);
+                 hit = seen * arms.first_hit(from.point, from.point + seen / length * line);
     if (!(hit < seen)) continue;
-    positions[i] = from.point + std::max(hit - gap, 0.5 * hit) / length * way;
+    positions[i] = from.point + std::max(hit - gap, 0.5 * hit) / length * line;
     ++moved;
   }
   return moved;

@@ -42,39 +42,46 @@ DrapeReport resume_over(const DrapeCheckpoint& c, Garment& garment, std::vector<
   return report;
 }
 
-/// @param fps   1/s   @param done  frames that are written already   @param drape  makes the drape
-/// with what it needs for it
-template<class Drape>
-DrapeReport with_motion(const DrapeJob& job, double fps, std::size_t done, Garment& garment,
-                        std::vector<Garment>& under, const body::Body& body, std::ostream& stream,
-                        const Drape& drape) {
-  const BodyMoves moves = read_moves(body, job.motion, 1 / fps);
-  FrameWriter write(job.frames, "frame of " + generator_stamp(job.tool), stream, done);
-  DrapeReport report =
-      drape(moves, OnMotionFrame([&](const MotionFrame& f, const Garment& g) { write(f, g); }));
-  const auto leave = [&](Garment& g) {
-    g.body_sha256.clear(); // it hangs on the last skin
-    if (moves.end) bind_garment(g, *moves.end);
-    else g.bind = {};
-  };
-  leave(garment);
-  for (Garment& g : under) leave(g);
-  return report;
-}
+/// The motion of a job, and where its frames go.
+class MovingJob {
+public:
+  /// @param fps  frames a second of the motion   @param done  frames that are written already
+  MovingJob(const DrapeJob& job, const body::Body& body, double fps, std::size_t done,
+            std::ostream& stream)
+      : moves(read_moves(body, job.motion, 1 / fps)),
+        m_write(job.frames, "frame of " + generator_stamp(job.tool), stream, done) {}
+
+  /// What writes a frame when it is done. This outlives it.
+  OnMotionFrame writer() {
+    return [this](const MotionFrame& frame, const Garment& garment) { m_write(frame, garment); };
+  }
+  /// The garment hangs on the last skin from now on.
+  void leave(Garment& garment) const {
+    garment.body_sha256.clear();
+    if (moves.end) bind_garment(garment, *moves.end);
+    else garment.bind = {};
+  }
+
+  const BodyMoves moves;
+
+private:
+  FrameWriter m_write;
+};
 
 DrapeReport drape_with_motion(const DrapeJob& job, Garment& garment, std::vector<Garment>& under,
                               const body::Body& body, const DrapeSettings& settings,
                               std::ostream& stream, Reporter& reporter) {
   Checkpoints checkpoints = job.checkpoints;
   if (!checkpoints.file.empty()) checkpoints.motion = {motion_sha256(job.motion), job.motion_fps};
-  return with_motion(job, job.motion_fps, 0, garment, under, body, stream,
-                     [&](const BodyMoves& moves, const OnMotionFrame& on_frame) {
-                       if (!under.empty())
-                         return drape_over(garment, under, &body, settings, reporter, checkpoints,
-                                           &moves, on_frame);
-                       return drape_in_motion(garment, body, moves, settings, on_frame, reporter,
-                                              {.checkpoints = checkpoints});
-                     });
+  MovingJob moving(job, body, job.motion_fps, 0, stream);
+  DrapeReport report = under.empty()
+                           ? drape_in_motion(garment, body, moving.moves, settings, moving.writer(),
+                                             reporter, {.checkpoints = checkpoints})
+                           : drape_over(garment, under, &body, settings, reporter, checkpoints,
+                                        &moving.moves, moving.writer());
+  moving.leave(garment);
+  for (Garment& g : under) moving.leave(g);
+  return report;
 }
 
 DrapeReport resume_with_motion(const DrapeJob& job, const DrapeCheckpoint& c, Garment& garment,
@@ -88,13 +95,14 @@ DrapeReport resume_with_motion(const DrapeJob& job, const DrapeCheckpoint& c, Ga
     throw input_error("checkpoint.other-run"_id, job.motion, "",
                       "is not the motion with which this drape began",
                       "give the same --motion as before");
-  return with_motion(
-      job, c.motion->fps, c.state.move.frame, garment, under, body, stream,
-      [&](const BodyMoves& moves, const OnMotionFrame& on_frame) {
-        if (c.layers)
-          return resume_over(c, garment, under, &body, reporter, job.checkpoints, &moves, on_frame);
-        return resume_in_motion(c, garment, body, moves, on_frame, reporter, job.checkpoints);
-      });
+  MovingJob moving(job, body, c.motion->fps, c.state.move.frame, stream);
+  DrapeReport report = c.layers ? resume_over(c, garment, under, &body, reporter, job.checkpoints,
+                                              &moving.moves, moving.writer())
+                                : resume_in_motion(c, garment, body, moving.moves, moving.writer(),
+                                                   reporter, job.checkpoints);
+  moving.leave(garment);
+  for (Garment& g : under) moving.leave(g);
+  return report;
 }
 
 /// A document of edits is whole, and nothing more comes after it: followed as lines, it would be
@@ -143,13 +151,14 @@ DrapeOutcome do_drape(const DrapeJob& job, Garment& garment, std::vector<Garment
   if (under.empty() && job.goal) return drape_towards(job, garment, body, reporter);
   if (under.empty() && !job.follow.empty())
     return follow_edits(job, garment, body, settings, stream, reporter);
-  DrapeReport report =
-      !job.motion.empty()
-          ? drape_with_motion(job, garment, under, *body, settings, stream, reporter)
-      : !under.empty() ? drape_over(garment, under, body, settings, reporter, job.checkpoints)
-      : job.untangle_only
-          ? untangle_only(garment, body, settings, reporter)
-          : drape(garment, body, settings, reporter, {.checkpoints = job.checkpoints});
+  DrapeReport report = [&] {
+    if (!job.motion.empty())
+      return drape_with_motion(job, garment, under, *body, settings, stream, reporter);
+    if (!under.empty())
+      return drape_over(garment, under, body, settings, reporter, job.checkpoints);
+    if (job.untangle_only) return untangle_only(garment, body, settings, reporter);
+    return drape(garment, body, settings, reporter, {.checkpoints = job.checkpoints});
+  }();
   io::Json document = report_json(report, job.tool);
   return {std::move(report), std::move(document), 0};
 }
@@ -161,10 +170,11 @@ DrapeOutcome resume_job(const DrapeJob& job, const DrapeCheckpoint& c, Garment& 
   if (!c.motion && !job.motion.empty())
     throw input_error("checkpoint.other-run"_id, c.file, "", "this drape began without a motion",
                       "leave --motion out");
-  DrapeReport report = c.motion
-                           ? resume_with_motion(job, c, garment, under, *body, stream, reporter)
-                       : c.layers ? resume_over(c, garment, under, body, reporter, job.checkpoints)
-                                  : resume_drape(c, garment, body, reporter, job.checkpoints);
+  DrapeReport report = [&] {
+    if (c.motion) return resume_with_motion(job, c, garment, under, *body, stream, reporter);
+    if (c.layers) return resume_over(c, garment, under, body, reporter, job.checkpoints);
+    return resume_drape(c, garment, body, reporter, job.checkpoints);
+  }();
   io::Json document = report_json(report, job.tool);
   return {std::move(report), std::move(document), 0};
 }

@@ -16,6 +16,7 @@ enum class Finish {
   COLD,
 };
 
+/// Takes the lines one by one and holds them against what may stand where.
 class EditLines {
 public:
   /// @param has_body  without one the panels cannot be placed for a cold finish

@@ -37,6 +37,7 @@ struct FollowSession {
   std::function<void(const FollowFrame&, const Garment&)> on_frame; ///< may be empty
 };
 
+/// What a live session came to.
 struct FollowReport {
   DrapeReport drape; ///< of the state at the end, at rest
   int edits = 0, remeshed = 0, frames = 0;

@@ -7,6 +7,7 @@
 
 namespace sloper::garment {
 
+/// Writes each frame as an OBJ with its line in an index, or as a line of JSON.
 class FrameWriter {
 public:
   /// @param where   a folder, made when it is not there, for an OBJ each and frames.jsonl; "-" for

@@ -13,6 +13,7 @@
 
 namespace sloper::garment {
 
+/// The pattern and the mesh that stands for it at present.
 class LivePattern {
 public:
   /// @param garment  sewn, with the pattern that it was meshed from; outlives this

@@ -147,8 +147,8 @@ void set_directions(MaterialFit& fit) {
     fit.cannot_tell.push_back("bias: softer than warp and weft allow; the softest is taken");
   }
   // One direction that stands for both is known no better by being counted twice.
-  const double mean_sd =
-      warp && weft ? 0.5 * std::hypot(warp->sd, weft->sd) : (warp ? warp : weft)->sd;
+  const double sd_of_one = (warp ? warp : weft)->sd;
+  const double mean_sd = warp && weft ? 0.5 * std::hypot(warp->sd, weft->sd) : sd_of_one;
   fit.mean = FittedValue{m.bend_n_m, mean_sd};
 }
 

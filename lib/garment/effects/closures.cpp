@@ -34,8 +34,8 @@ std::vector<cloth::Closure> closures_of(const Garment& garment, double apart) {
                               along_b = shares_along(garment, b);
     const int n = c.count > 0 ? c.count : static_cast<int>(a.size()); // a zip has no number
     for (int k = 0; k < n; ++k) {
-      const double share =
-          c.count > 0 ? (n > 1 ? static_cast<double>(k) / (n - 1) : 0.5) : along_a[k];
+      const double evenly = n > 1 ? static_cast<double>(k) / (n - 1) : 0.5;
+      const double share = c.count > 0 ? evenly : along_a[k];
       const int i = particle_at(garment, a[nearest(along_a, share)]),
                 j = particle_at(garment, b[nearest(along_b, share)]);
       if (i != j) closures.push_back({i, j, apart, c.stiffness_n_m});

@@ -174,17 +174,17 @@ void judge_strain(const FitPolicy& policy, FitReport& report) {
   for (const FitRegion& r : report.regions)
     if (!worst || (by_p99 ? r.strain_p99 > worst->strain_p99 : r.strain_max > worst->strain_max))
       worst = &r;
-  const std::string where =
-      worst ? (worst->name == "trunk" || worst->name == "shoulders" ? " over the " : " on the ") +
-                  worst->name
-            : "";
+  std::string where;
+  if (worst) {
+    const bool wraps = worst->name == "trunk" || worst->name == "shoulders";
+    where = (wraps ? " over the " : " on the ") + worst->name;
+  }
   report.verdict = FitVerdict::TOO_SMALL;
   report.rule = {by_p99 ? "strain_p99" : "strain_max", by_p99 ? p99 : most};
-  report.reason = by_p99 ? "is stretched by " +
-                               whole_percent(worst ? worst->strain_p99 : report.strain_p99) +
-                               where + "; the cloth bears " + whole_percent(p99)
-                         : "is stretched by " + whole_percent(report.strain_max) + " at one place" +
-                               where + "; the cloth bears " + whole_percent(most);
+  const double strain_p99 = worst ? worst->strain_p99 : report.strain_p99;
+  const double strain = by_p99 ? strain_p99 : report.strain_max;
+  report.reason = "is stretched by " + whole_percent(strain) + (by_p99 ? "" : " at one place") +
+                  where + "; the cloth bears " + whole_percent(by_p99 ? p99 : most);
 }
 
 /// A cuff that is too small because it lies on the hand: that the sleeve is too long is the reason.

@@ -73,7 +73,7 @@ FitHem measure_hem(const Garment& garment, const std::vector<std::array<int, 2>>
 /// whole line's.
 void cover(const body::Body& body, const std::vector<std::string>& names, const Vec3& at,
            const std::string& key, FitLines& lines) {
-  double best = 1e300, way = 0, whole = 0;
+  double best = 1e300, covered = 0, whole = 0;
   for (const std::string& name : names)
     if (!body.has_landmark(name)) return;
   for (std::size_t i = 0; i + 1 < names.size(); ++i) {
@@ -84,13 +84,13 @@ void cover(const body::Body& body, const std::vector<std::string>& names, const 
                          : std::clamp(free, 0.0, 1.0); // may reach over the hand or the floor
     if (const double distance = (a + t * d - at).norm(); distance < best) {
       best = distance;
-      way = whole + t * d.norm();
+      covered = whole + t * d.norm();
     }
     whole += d.norm();
   }
   if (whole <= 0) return;
-  lines.coverage_m[key] = way;
-  lines.coverage[key] = way / whole;
+  lines.coverage_m[key] = covered;
+  lines.coverage[key] = covered / whole;
 }
 
 } // namespace
@@ -115,7 +115,8 @@ FitLines fit_lines(const Garment& garment, const body::Body& body) {
       const bool up = hem.height_m > 0.5 * (low + high);
       const bool neck =
           body.has_landmark("axilla_l") && hem.height_m > body.landmark("axilla_l").y();
-      hem.name = !up ? "hem" : neck ? "neck" : "top";
+      hem.name = neck ? "neck" : "top";
+      if (!up) hem.name = "hem";
     }
     const std::string side = hem.name.rfind("left", 0) == 0 ? "_l" : "_r";
     if (hem.name.find("sleeve") != std::string::npos)

@@ -18,6 +18,7 @@ struct ClothState {
         pressures(contact_pressures(draped, strains, body)) {}
 };
 
+/// Strain of the triangles of one row.
 struct StrainFigures {
   std::size_t n = 0; ///< triangles
   double p50 = 0, p99 = 0;

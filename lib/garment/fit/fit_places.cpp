@@ -89,8 +89,8 @@ double girth_in(const body::Body& body, const body::Plane& plane, const std::vec
   return body::taut_girth(whole);
 }
 
-/// Where along a way from `from` the section square to it is as long as `girth`, within a tenth: of
-/// those the nearest in length.
+/// How far along a line from `from` the section square to it is as long as `girth`, within a tenth:
+/// of those the nearest in length.
 std::optional<Vec3> like_girth(const body::Body& body, const std::vector<body::Part>& parts,
                                const Vec3& from, const Vec3& direction, double reach,
                                double girth) {
@@ -98,8 +98,8 @@ std::optional<Vec3> like_girth(const body::Body& body, const std::vector<body::P
   body::TriangleSpheres spheres(body.skin, faces);
   std::optional<Vec3> best;
   double least = 0.1 * girth;
-  for (double way = 0; way <= reach; way += STRIDE) {
-    const Vec3 at = from + way * direction.normalized();
+  for (double distance = 0; distance <= reach; distance += STRIDE) {
+    const Vec3 at = from + distance * direction.normalized();
     const body::Plane plane = body::cross_plane(at, direction);
     const double difference = std::abs(girth_in(body, plane, spheres.near(plane)) - girth);
     if (difference < least) {

@@ -144,10 +144,10 @@ void FitOverride::apply(FitLimits& limits) const {
                                                             &loose_ease, &too_large_ease};
   for (std::size_t k = 0; k < ladder.size(); ++k) {
     if (!*said[k]) continue;
-    for (std::size_t j = 0; j < ladder.size(); ++j)
-      *ladder[j] = j < k   ? std::min(*ladder[j], **said[k])
-                   : j > k ? std::max(*ladder[j], **said[k])
-                           : **said[k];
+    for (std::size_t j = 0; j < k; ++j) *ladder[j] = std::min(*ladder[j], **said[k]);
+    *ladder[k] = **said[k];
+    for (std::size_t j = k + 1; j < ladder.size(); ++j)
+      *ladder[j] = std::max(*ladder[j], **said[k]);
   }
 }
 

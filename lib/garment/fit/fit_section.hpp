@@ -7,6 +7,7 @@
 
 namespace sloper::garment {
 
+/// The line of cloth that the plane cuts from one triangle.
 struct SectionSegment {
   int triangle;         ///< of the garment
   Vec3 a, b;            ///< m

@@ -61,7 +61,8 @@ void move_rigidly(const Carried& carried, const collision::BodyCollider* skin, M
       moved.place[i] = to + rotation * (carried.place[i] - from);
       moved.turned[i] = rotation;
       if (!skin) continue;
-      if (const Vec3 way = way_out(moved.place[i], *skin); way.norm() > out.norm()) out = way;
+      if (const Vec3 outwards = way_out(moved.place[i], *skin); outwards.norm() > out.norm())
+        out = outwards;
     }
     for (const int i : places) moved.place[i] += out;
   }

@@ -53,12 +53,18 @@ double mean_weight(const cloth::ClothMesh& mesh) {
          static_cast<double>(mesh.n_particles);
 }
 
+/// Of a part such as "leg_l": 1 left, 2 right; 0 of parts other than this limb.
+char side_of(const std::string& part, const std::string& limb) {
+  if (part == limb + "_l") return 1;
+  return part == limb + "_r" ? 2 : 0;
+}
+
 /// Which trouser leg each particle belongs to: 1 left, 2 right, 0 none, and none where both are
 /// joined.
 std::vector<char> leg_sides(const Garment& garment) {
   std::vector<char> side(garment.position.size(), 0), joins(garment.position.size(), 0);
   for (const pattern::PanelInfo& p : garment.panels.panels) {
-    const char now = p.part == "leg_l" ? 1 : p.part == "leg_r" ? 2 : 0;
+    const char now = side_of(p.part, "leg");
     for (int v = p.first_vertex; now && v < p.first_vertex + p.n_vertices; ++v) {
       const auto i = static_cast<std::size_t>(garment.particle_of[static_cast<std::size_t>(v)]);
       joins[i] = static_cast<char>(joins[i] || (side[i] && side[i] != now));
@@ -77,7 +83,7 @@ std::vector<char> leg_sides(const Garment& garment) {
 std::vector<std::array<int, 2>> sleeve_stitches(const Garment& garment) {
   std::vector<char> arm(garment.position.size(), 0);
   for (const pattern::PanelInfo& p : garment.panels.panels) {
-    const char now = p.part == "arm_l" ? 1 : p.part == "arm_r" ? 2 : 0;
+    const char now = side_of(p.part, "arm");
     for (int v = p.first_vertex; v < p.first_vertex + p.n_vertices; ++v)
       arm[static_cast<std::size_t>(garment.particle_of[static_cast<std::size_t>(v)])] = now;
   }

@@ -16,6 +16,7 @@
 
 namespace sloper::garment {
 
+/// What sewing came to.
 struct SoftSewing {
   int steps = 0;
   double widest_gap_m = 0; ///< of the stitches, when they were welded
@@ -36,6 +37,7 @@ struct SoftRelaxing {
   double cg_tolerance = 1e-4;                   ///< relative residual of a solve
 };
 
+/// What relaxing came to.
 struct SoftRelaxed {
   bool finite = true;              ///< false: the garment is as it came
   double residual_force_ratio = 0; ///< StepResult's, of the last step

@@ -8,6 +8,7 @@
 
 namespace sloper::garment {
 
+/// The outlines of a garment, and the edges of the pattern that they follow.
 struct DrawnPattern {
   const pattern::Pattern* pattern = nullptr; ///< PanelMesh::source of the garment
   std::vector<std::vector<int>> edge_of; ///< by panel, as PanelInfo::outline: the edge that starts

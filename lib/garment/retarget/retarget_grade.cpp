@@ -388,9 +388,9 @@ std::string limb_of(const Garment& garment, const pattern::PanelInfo& panel) {
        v < panel.first_vertex + panel.n_vertices && !garment.bind.empty(); ++v)
     for (const BindWeight& w : garment.bind.particles[garment.particle_of[v]]) {
       const std::string& frame = garment.bind.frames[w.frame];
-      share[frame.find("arm_") != std::string::npos ? "arm"
-            : frame.rfind("leg_", 0) == 0           ? "leg"
-                                                    : "torso"] += w.weight;
+      std::string part = frame.rfind("leg_", 0) == 0 ? "leg" : "torso";
+      if (frame.find("arm_") != std::string::npos) part = "arm";
+      share[part] += w.weight;
     }
   const auto most = std::max_element(
       share.begin(), share.end(), [](const auto& a, const auto& b) { return a.second < b.second; });

@@ -13,6 +13,7 @@ struct GradeSides {
   std::map<std::string, std::string> apart;
 };
 
+/// What grading did to the pattern.
 struct GradeReport {
   int mirrored_panels = 0; ///< graded together with their mirror images
   double largest_seam_change_m =

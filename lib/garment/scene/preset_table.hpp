@@ -3,11 +3,12 @@
 /// scenes going on from sewn starts. Each is the cheapest of those that come to rest on all and
 /// bring 95 % of the particles within its budget of the reference from all starts but one in nine:
 /// draft 1.5 mm, standard 1 mm, fine 0.2 mm; one that keeps its budget and costs up to 25 % more
-/// than the cheapest stays what it was. The reference is a definition: docs/accuracy-cost.md tells
+/// than the cheapest stays what it was. The reference is a definition: docs/accuracy-cost.md says
 /// how far it moves when it is halved. Measured: skirt 854, shirt 1334, trousers 1415 particles,
 /// edges of 30 mm, 18 starts, on AMD EPYC.
 namespace sloper::garment {
 
+/// One preset: its settings, and what they were measured to cost and to miss.
 struct Preset {
   const char* name;
   double cg_tolerance, settle_force_ratio, settle_speed_m_s;

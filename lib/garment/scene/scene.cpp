@@ -148,6 +148,7 @@ DrapeSettings preset_settings(const std::string& accuracy) {
       s.settle_force_ratio = p.settle_force_ratio;
       s.settle_speed_m_s = p.settle_speed_m_s;
       s.max_steps = p.max_steps;
+      s.extra_steps = p.max_steps / 2;
       return s;
     }
   throw Error(ErrorKind::USAGE, "option.unknown-word"_id, "", "--accuracy",
@@ -164,6 +165,7 @@ void set_knob(DrapeSettings& settings, const std::string& name, double value) {
                     "give a value from " + std::to_string(k.low) + " to " + std::to_string(k.high));
       if (k.real) settings.*k.real = value;
       else settings.*k.whole = static_cast<int>(value);
+      if (k.whole == &DrapeSettings::max_steps) settings.extra_steps = 0;
       return;
     }
     words.emplace_back(k.name);
@@ -204,6 +206,7 @@ io::Json settings_json(const DrapeSettings& settings) {
     if (k.real) out[k.name] = settings.*k.real;
     else out[k.name] = settings.*k.whole;
   }
+  out["extra_steps"] = settings.extra_steps;
   return out;
 }
 

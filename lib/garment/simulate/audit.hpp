@@ -5,6 +5,7 @@
 
 namespace sloper::garment {
 
+/// The crossings of one state, by triangle and particle.
 struct Audit {
   std::vector<int> through;             ///< garment triangles that cross the skin
   std::vector<int> inside;              ///< particles inside the body

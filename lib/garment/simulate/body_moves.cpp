@@ -16,10 +16,11 @@ constexpr double LEAD_IN_SPEED = 0.5, SHORTEST_LEAD_IN = 0.2; // m/s, s
 
 std::size_t lead_in_frames(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
                            double frame_s) {
-  double way = 0;
-  for (std::size_t v = 0; v < from.size(); ++v) way = std::max(way, (to[v] - from[v]).norm());
+  double farthest = 0;
+  for (std::size_t v = 0; v < from.size(); ++v)
+    farthest = std::max(farthest, (to[v] - from[v]).norm());
   return static_cast<std::size_t>(
-      std::ceil(std::max(SHORTEST_LEAD_IN, way / LEAD_IN_SPEED) / frame_s));
+      std::ceil(std::max(SHORTEST_LEAD_IN, farthest / LEAD_IN_SPEED) / frame_s));
 }
 
 /// Starts and ends gently: 3 t^2 - 2 t^3.

@@ -15,6 +15,7 @@ namespace {
 using io::Json;
 using io::Node;
 
+constexpr int MOST_EXTRA_STEPS = 1000000; // as many as max_steps allows
 constexpr const char* PHASES[] = {"start", "sew", "inflate", "settle", "move"};
 
 Json contact_json(const cloth::BodyContactEffect::Memory& contact) {
@@ -115,10 +116,16 @@ Json progress_json(const DrapeReport& r) {
 
 DrapeSettings read_settings(const Node& node) {
   DrapeSettings s;
-  for (const std::string& name : node.keys())
+  for (const std::string& name : node.keys()) {
     if (name == "accuracy") s.accuracy = node.at(name).string();
     else if (name == "effects") s.effects = node.at(name).string();
-    else set_knob(s, name, node.at(name));
+    else if (name != "extra_steps") set_knob(s, name, node.at(name));
+  }
+  if (!node.has("extra_steps")) return s; // written before there was one: the limit holds
+  const Node extra = node.at("extra_steps");
+  s.extra_steps = extra.integer();
+  if (s.extra_steps < 0 || s.extra_steps > MOST_EXTRA_STEPS)
+    extra.fail("checkpoint.damaged"_id, "is out of range");
   return s;
 }
 
@@ -283,10 +290,11 @@ void DrapeCheckpoint::check_body(const body::Body* body, const std::string& body
   const bool same =
       has_body == (body != nullptr) && (body_sha256.empty() || body_sha256 == began_on);
   if (same) return;
-  throw input_error("checkpoint.other-run"_id, file, "",
-                    !has_body ? "this drape began without a body"
-                    : !body   ? "this drape began on a body"
-                              : "the body is not the one on which this drape began",
+  std::string fact = "this drape began without a body";
+  if (has_body)
+    fact =
+        body ? "the body is not the one on which this drape began" : "this drape began on a body";
+  throw input_error("checkpoint.other-run"_id, file, "", fact,
                     has_body ? "give the same --body as before" : "leave --body out");
 }
 

@@ -25,6 +25,7 @@ struct SessionInputs {
   DrapeRequest request = {};
 };
 
+/// One drape, from its start or from a checkpoint.
 class DrapeSession : private CheckpointSink {
 public:
   /// A fresh start. @throws Error INPUT for a garment that cannot be simulated

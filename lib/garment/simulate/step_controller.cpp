@@ -1,4 +1,3 @@
-#include <garment/scene/preset_table.hpp>
 #include <sloper/garment/simulate/step_controller.hpp>
 #include <sloper/io/json.hpp>
 #include <sloper/io/json_lists.hpp>
@@ -19,20 +18,12 @@ constexpr double LEFT_AT_REST = 0.025; // likewise, where all is as slow as at r
 constexpr double ROUGH = 0.01;         // relative residual; who asks for less means it
 constexpr double SEW_TOLERANCE = 0.05; // relative residual of a step while sewing
 
-/// Steps that may be made beyond the limit: half as many, where it is the preset's own.
-int patience(const DrapeSettings& settings) {
-  for (const Preset& preset : PRESETS)
-    if (settings.accuracy == preset.name && settings.max_steps == preset.max_steps)
-      return settings.max_steps / 2;
-  return 0;
-}
-
 } // namespace
 
 StepController::StepController(SimulatedCloth& cloth, const DrapeSettings& settings,
                                Telemetry& telemetry)
     : m_cloth(cloth), m_settings(settings), m_telemetry(telemetry),
-      m_step_limit(settings.max_steps), m_patience(patience(settings)) {}
+      m_step_limit(settings.max_steps) {}
 
 cloth::StepOptions StepController::options_for(const StepRequest& request) const {
   cloth::StepOptions options;
@@ -74,7 +65,7 @@ bool StepController::advance(const StepRequest& request) {
   m_state.last_h = request.h;
   if (!note(result, "step " + std::to_string(report.steps))) return false;
   check_time();
-  const int limit = m_step_limit + (m_patient ? m_patience : 0);
+  const int limit = m_step_limit + (m_patient ? m_settings.extra_steps : 0);
   if (!m_stopped && report.steps >= limit) stop(StopReason::STEP_LIMIT);
   return !m_stopped;
 }

@@ -51,11 +51,11 @@ void add_dart(Pattern& pattern, const io::Node& node, double unit) {
   if (node.has("center")) { // a fisheye: a hole whose two sides are sewn together
     const double half = 0.5 * node.at("length").number() * unit;
     const Vec2 center = node.at("center").vec2() * unit,
-               way = node.has("along") ? node.at("along").vec2() : Vec2(0, 1);
-    if (!(half > width) || !(way.norm() > 0))
+               direction = node.has("along") ? node.at("along").vec2() : Vec2(0, 1);
+    if (!(half > width) || !(direction.norm() > 0))
       node.at("length").fail("edit.bad-dart"_id, "a fisheye dart must be longer than it is wide",
                              "give its length along the middle");
-    const Vec2 u = way.normalized(), v(-u.y(), u.x());
+    const Vec2 u = direction.normalized(), v(-u.y(), u.x());
     const Vec2 corner[4] = {
         snapped(Vec2(center - half * u)), snapped(Vec2(center + 0.5 * width * v)),
         snapped(Vec2(center + half * u)), snapped(Vec2(center - 0.5 * width * v))};

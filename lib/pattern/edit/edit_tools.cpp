@@ -176,7 +176,8 @@ void replace_panel(Pattern& pattern, int p, std::vector<Rebuilt> panels, const i
                        span = s.to - s.from;
           if (to - from < 1e-9) continue;
           const auto local = [&](double f) {
-            return f - s.from < 1e-9 ? 0.0 : s.to - f < 1e-9 ? 1.0 : (f - s.from) / span;
+            if (f - s.from < 1e-9) return 0.0;
+            return s.to - f < 1e-9 ? 1.0 : (f - s.from) / span;
           };
           parts.push_back({s.panel, s.edge, local(from), local(to)});
         }

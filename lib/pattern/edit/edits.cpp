@@ -58,10 +58,10 @@ void set_length(Panel& panel, int edge, double length, const std::string& fixed)
   const Place place = place_of_edge(panel, edge);
   Path& path = place.edge().path;
   const double factor = length / pattern::length(path);
-  const Vec2 a = path.front().p[0], b = path.back().p[3],
-             about = fixed == "end"      ? b
-                     : fixed == "middle" ? Vec2(0.5 * (a + b))
-                                         : a;
+  const Vec2 a = path.front().p[0], b = path.back().p[3];
+  Vec2 about = a;
+  if (fixed == "end") about = b;
+  if (fixed == "middle") about = 0.5 * (a + b);
   for (Segment& s : path)
     for (Vec2& p : s.p) p = snapped(Vec2(about + factor * (p - about)));
   if (place.loop->size() == 1) return;
@@ -206,11 +206,11 @@ void move_edge(Pattern& pattern, const io::Node& node, double unit) {
   }
 }
 
-/// Inwards along one edge, or half of it along each side of a seam. @param way 1 takes in, -1 lets
+/// Inwards along one edge, or half of it along each side of a seam. @param sign 1 takes in, -1 lets
 /// out
-void take_in(Pattern& pattern, const io::Node& node, double unit, double way) {
+void take_in(Pattern& pattern, const io::Node& node, double unit, double sign) {
   node.allow_only({"edit", "panel", "edge", "seam", "by"});
-  const double by = way * node.at("by").number() * unit;
+  const double by = sign * node.at("by").number() * unit;
   if (!node.has("seam")) {
     Panel& p = edited_panel(pattern, node);
     move_inward(node, p, edited_edge(p, node), by);
@@ -225,7 +225,7 @@ void take_in(Pattern& pattern, const io::Node& node, double unit, double way) {
 void bend(Pattern& pattern, const io::Node& node, double unit) {
   node.allow_only({"edit", "panel", "edge", "by"});
   Panel& p = edited_panel(pattern, node);
-  // The middle of a cubic lies three quarters of the way from its chord to its two handles.
+  // The middle of a cubic lies at three quarters from its chord to its two handles.
   const Vec2 by = node.at("by").vec2() * (unit * 4 / 3);
   Path& path = place_of_edge(p, edited_edge(p, node)).edge().path;
   const double n = static_cast<double>(path.size());
@@ -268,15 +268,15 @@ void set_lengths(Pattern& pattern, const io::Node& node, double unit) {
   }
 }
 
-/// What lies beyond a line goes along. @param way 1 lengthens, -1 shortens
-void lengthen(Pattern& pattern, const io::Node& node, double unit, double way) {
+/// What lies beyond a line goes along. @param sign 1 lengthens, -1 shortens
+void lengthen(Pattern& pattern, const io::Node& node, double unit, double sign) {
   node.allow_only({"edit", "panel", "at", "along", "by"});
   const Vec2 at = node.at("at").vec2() * unit, direction = node.at("along").vec2();
   if (!(direction.norm() > 0))
     node.at("along").fail("edit.no-direction"_id,
                           "the vector has no length, so it gives no direction");
   const Vec2 along = direction.normalized(),
-             by = snapped(Vec2(along * node.at("by").number() * unit * way));
+             by = snapped(Vec2(along * node.at("by").number() * unit * sign));
   map_panel(edited_panel(pattern, node),
             [&](const Vec2& p) { return (p - at).dot(along) > 0 ? Vec2(p + by) : p; });
 }
@@ -350,12 +350,12 @@ void add_tape(Panel& p, const io::Node& node, double unit) {
 void shrink_strip(Panel& p, const io::Node& node, double unit) {
   const io::Node strip = node.at("strip");
   strip.allow_only({"from", "to"});
-  const Vec2 from = strip.at("from").vec2() * unit, way = strip.at("to").vec2() * unit - from;
-  const double width = way.norm(), f = factor(node, "factor");
+  const Vec2 from = strip.at("from").vec2() * unit, across = strip.at("to").vec2() * unit - from;
+  const double width = across.norm(), f = factor(node, "factor");
   if (!(width > 1e-4))
     strip.fail("edit.too-small"_id, "the strip is too narrow (" + centimetres(width) + ")",
                "give more than 0.01 cm");
-  const Vec2 along = way / width, c = from + 0.5 * way;
+  const Vec2 along = across / width, c = from + 0.5 * across;
   map_panel(p, [&](const Vec2& q) {
     const double s = (q - c).dot(along), inside = std::clamp(s, -0.5 * width, 0.5 * width);
     return Vec2(q + (f - 1) * inside * along);
@@ -415,10 +415,9 @@ const Edit& edit_named(const io::Node& node) {
   std::string known;
   for (const Edit& edit : EDITS) {
     if (what == edit.name) return edit;
-    known += (names.empty()                  ? ""
-              : &edit == std::end(EDITS) - 1 ? " and "
-                                             : ", ") +
-             std::string(edit.name);
+    const bool last = &edit == std::end(EDITS) - 1;
+    if (!names.empty()) known += last ? " and " : ", ";
+    known += edit.name;
     names.emplace_back(edit.name);
   }
   node.at("edit").fail("edit.unknown"_id, "unknown edit '" + what + "'" + did_you_mean(what, names),

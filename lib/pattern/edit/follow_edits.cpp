@@ -55,7 +55,10 @@ PlaceOnEdge locate(const Panel& panel, const std::vector<ArcLength>& arcs, const
     }
     for (double s : {0.5 * (low + high), 0.0, arc.length()}) {
       const double d = (arc.at(s) - p).squaredNorm();
-      if (d < least - 1e-16) least = d, best = {e, s / arc.length(), std::sqrt(d)};
+      if (d < least - 1e-16) {
+        least = d;
+        best = {e, s / arc.length(), std::sqrt(d)};
+      }
     }
   }
   return best;

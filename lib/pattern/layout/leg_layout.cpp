@@ -127,9 +127,9 @@ std::vector<LegRow> leg_rows(const PanelMesh& mesh, const std::vector<PanelRole>
   for (std::size_t p : panels) {
     const Side side = roles[p].side;
     const double sign = (left ? 1 : -1) * (side == Side::BACK ? -1 : 1);
-    const auto span = side == Side::FRONT  ? &LegRow::front
-                      : side == Side::BACK ? &LegRow::back
-                                           : &LegRow::ring;
+    auto span = &LegRow::ring;
+    if (side == Side::FRONT) span = &LegRow::front;
+    if (side == Side::BACK) span = &LegRow::back;
     const auto& outline = mesh.panels[p].outline;
     const auto take = [&](double row, double t) {
       if (row < -0.5 || row > static_cast<double>(n) - 0.5) return;

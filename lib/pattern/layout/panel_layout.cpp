@@ -319,7 +319,10 @@ private:
           right = right && (part == "leg_r" || ends_with("_r") || ends_with("right"));
         }
         double shift = -0.5 * (low.x() + high.x());
-        const double sense = (left ? 1 : right ? -1 : 0) * (side == Side::BACK ? -1.0 : 1.0);
+        double hand = 0;
+        if (right) hand = -1;
+        if (left) hand = 1;
+        const double sense = hand * (side == Side::BACK ? -1.0 : 1.0);
         if (region == Region::TRUNK && side != Side::RING && sense != 0)
           shift = sense > 0 ? 0.5 * PANEL_GAP - low.x() : -0.5 * PANEL_GAP - high.x();
         for (std::size_t k = 0; k < count(); ++k)

@@ -7,6 +7,7 @@
 
 namespace sloper::pattern {
 
+/// Where a panel lies on the unrolled surface.
 struct PanelSpot {
   Vec2 offset = Vec2::Zero(); ///< (du, dv), m
 };

@@ -10,6 +10,7 @@
 
 namespace sloper::pattern {
 
+/// The bend of one such sleeve.
 class SleeveBend {
 public:
   /// @param outlines  of the panels on one side of the trunk, closed, m: x along the cloth from the

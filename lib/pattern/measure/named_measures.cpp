@@ -181,7 +181,8 @@ private:
         }
       }
     }
-    return length > 0 ? length : hung ? 1e-6 : 0;
+    if (length > 0) return length;
+    return hung ? 1e-6 : 0;
   }
 
   /// The opening of the trunk whose rim lies highest or lowest; of collars, above all.
@@ -210,7 +211,7 @@ private:
   /// Of a garment that is open at the front, neckline, fronts and hem are one opening.
   bool one_opening() const { return trunk_opening(true) == trunk_opening(false); }
 
-  /// Where the rim of an opening lies, as the start of a way.
+  /// Where the rim of an opening lies, as the start of a path.
   Field from_rim(const Opening& opening) const {
     Field start(m_mesh.pattern.size(), UNKNOWN);
     for (const auto& side : opening.rim)
@@ -269,13 +270,13 @@ private:
     for (std::size_t v = 0; v < start.size(); ++v)
       if (m_height[v] >= m_chest && tells_height(static_cast<int>(v)))
         start[v] = m_top - m_height[v];
-    m_depth = m_trunk.way_from(start);
+    m_depth = m_trunk.distance_from(start);
   }
 
   /// Levels of what hangs on the waist: along the cloth from its top.
   void depth_below_waist() {
     const Opening* top = trunk_opening(true);
-    if (top && !one_opening()) m_depth = m_trunk.way_from(from_rim(*top));
+    if (top && !one_opening()) m_depth = m_trunk.distance_from(from_rim(*top));
     else {
       m_depth = m_height;
       for (double& d : m_depth) d = m_top - d;
@@ -374,13 +375,13 @@ private:
   void lengths() {
     const Opening* hem = trunk_opening(false);
     double length = m_top - m_bottom;
-    if (hem && !one_opening()) { // the shortest way that leads there
-      const Field way = m_shoulder > 0 ? m_trunk.way_from(from_rim(*hem)) : m_depth;
-      if (m_shoulder > 0) length = way[m_highest];
+    if (hem && !one_opening()) { // the shortest path there
+      const Field distance = m_shoulder > 0 ? m_trunk.distance_from(from_rim(*hem)) : m_depth;
+      if (m_shoulder > 0) length = distance[m_highest];
       else {
         length = 1e300;
         for (const auto& side : hem->rim)
-          if (const double d = way[static_cast<std::size_t>(side[0])]; !std::isnan(d))
+          if (const double d = distance[static_cast<std::size_t>(side[0])]; !std::isnan(d))
             length = std::min(length, d);
       }
     }
@@ -440,8 +441,8 @@ private:
       Field start(m_arm_height.size(), UNKNOWN);
       for (const auto& side : cuff->rim)
         for (int v : side) start[static_cast<std::size_t>(v)] = 0;
-      if (const double way = m_left_arm.way_from(start)[highest]; !std::isnan(way))
-        add("sleeve", way, "from the sleeve's highest point to its hem");
+      if (const double length = m_left_arm.distance_from(start)[highest]; !std::isnan(length))
+        add("sleeve", length, "from the sleeve's highest point to its hem");
     }
     if (const SewnCloth::Ring ring = m_left_arm.around(m_arm_height, seam_low - BELOW_SEAM);
         ring.whole)

@@ -21,10 +21,10 @@ constexpr double PART_OF_TRUNK =
 constexpr double AWAY = std::numeric_limits<double>::quiet_NaN();
 
 /// Least of f(x) + |c - x| over the side from a to b, along which f goes linearly from fa to fb.
-double way_across(const Vec2& a, const Vec2& b, const Vec2& c, double fa, double fb) {
+double length_across(const Vec2& a, const Vec2& b, const Vec2& c, double fa, double fb) {
   const double best = std::min(fa + (c - a).norm(), fb + (c - b).norm()), length = (b - a).norm();
   if (length < 1e-12 || std::abs(fb - fa) >= length) return best;
-  // Where the way meets the side at the angle that the slope along it asks for.
+  // Where the path meets the side at the angle that the slope along it asks for.
   const Vec2 along = (b - a) / length;
   const double slope = (fb - fa) / length, at = (c - a).dot(along),
                off = std::abs(along.x() * (c - a).y() - along.y() * (c - a).x());
@@ -98,7 +98,7 @@ Field SewnCloth::height(const std::vector<PanelRole>& roles, const Field& wanted
   return field;
 }
 
-Field SewnCloth::way_from(const Field& start) const {
+Field SewnCloth::distance_from(const Field& start) const {
   std::vector<std::vector<std::array<int, 3>>> fan(
       m_weld.size()); // corners of the mesh, by the welded first
   each_triangle([&](std::size_t, const Triangle& c, const Triangle& w) {
@@ -119,7 +119,7 @@ Field SewnCloth::way_from(const Field& start) const {
   const auto drawn = [&](int v) -> const Vec2& {
     return m_mesh.pattern[static_cast<std::size_t>(v)];
   };
-  while (!queue.empty()) { // a vertex comes again whenever a shorter way to it is found
+  while (!queue.empty()) { // a vertex comes again whenever a shorter path to it is found
     const auto [value, v] = queue.top();
     queue.pop();
     if (value > best[static_cast<std::size_t>(v)]) continue;
@@ -127,13 +127,13 @@ Field SewnCloth::way_from(const Field& start) const {
       for (const auto& [from, other, to] :
            {std::array<int, 3>{a, c, b}, std::array<int, 3>{a, b, c}}) {
         if (fixed[static_cast<std::size_t>(welded(to))]) continue;
-        double way = at(from) + (drawn(to) - drawn(from)).norm();
+        double length = at(from) + (drawn(to) - drawn(from)).norm();
         if (std::isfinite(at(other)))
-          way =
-              std::min(way, way_across(drawn(from), drawn(other), drawn(to), at(from), at(other)));
-        if (way < at(to) - 1e-12) {
-          at(to) = way;
-          queue.emplace(way, welded(to));
+          length = std::min(
+              length, length_across(drawn(from), drawn(other), drawn(to), at(from), at(other)));
+        if (length < at(to) - 1e-12) {
+          at(to) = length;
+          queue.emplace(length, welded(to));
         }
       }
   }

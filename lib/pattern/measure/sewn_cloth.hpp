@@ -1,6 +1,6 @@
 #pragma once
 /// Panels as one surface, welded along their seams, on which a tailor's tape is laid: levels,
-/// girths and ways along the cloth. Every triangle keeps the shape that it is drawn with, so that
+/// girths and paths along the cloth. Every triangle keeps the shape that it is drawn with, so that
 /// nothing of it depends on where panels lie on the table.
 #include <pattern/roles/panel_role.hpp>
 #include <pattern/seam_graph.hpp>
@@ -14,6 +14,7 @@ namespace sloper::pattern {
 /// the cloth.
 using Field = std::vector<double>;
 
+/// The surface that panels sewn together make.
 class SewnCloth {
 public:
   /// @param panels  which of the mesh's panels the cloth is made of, #panels
@@ -29,9 +30,9 @@ public:
   /// @param weight  how much a panel's v axis counts; empty: all count the same
   Field height(const std::vector<PanelRole>& roles, const Field& wanted,
                const std::function<double(int)>& weight) const;
-  /// Shortest way along the cloth from what has a value in `start`, in addition to that value, m.
+  /// Shortest path along the cloth from what has a value in `start`, in addition to that value, m.
   /// NaN in `start`: to be found.
-  Field way_from(const Field& start) const;
+  Field distance_from(const Field& start) const;
 
   struct Ring {
     double length = 0;  ///< m, of all cloth on the level

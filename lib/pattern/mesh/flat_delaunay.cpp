@@ -137,7 +137,8 @@ void FlatDelaunay::link(int face, int k, int other, int other_k) {
 
 int FlatDelaunay::index_in(int face, int vertex) const {
   const Face& f = m_faces[static_cast<std::size_t>(face)];
-  return f.v[0] == vertex ? 0 : f.v[1] == vertex ? 1 : 2;
+  if (f.v[0] == vertex) return 0;
+  return f.v[1] == vertex ? 1 : 2;
 }
 
 int FlatDelaunay::locate(const Vec2& p) const {
@@ -149,13 +150,13 @@ int FlatDelaunay::locate(const Vec2& p) const {
   int f = m_last;
   for (std::size_t steps = 0; steps < 200 && f >= 0 && m_faces[static_cast<std::size_t>(f)].alive;
        ++steps) {
-    int way = -1;
-    for (int k = 0; k < 3 && way < 0; ++k)
-      if (outside(f, k)) way = k;
-    if (way < 0) return m_last = f;
-    f = m_faces[static_cast<std::size_t>(f)].next[way];
+    int side = -1;
+    for (int k = 0; k < 3 && side < 0; ++k)
+      if (outside(f, k)) side = k;
+    if (side < 0) return m_last = f;
+    f = m_faces[static_cast<std::size_t>(f)].next[side];
   }
-  // The straight way left the polygon: look at every face.
+  // The straight walk left the polygon: look at every face.
   for (f = 0; f < static_cast<int>(m_faces.size()); ++f)
     if (m_faces[static_cast<std::size_t>(f)].alive && !outside(f, 0) && !outside(f, 1) &&
         !outside(f, 2))

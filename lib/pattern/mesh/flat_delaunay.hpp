@@ -11,6 +11,7 @@
 
 namespace sloper::pattern {
 
+/// The triangulation of one panel while it is refined.
 class FlatDelaunay {
 public:
   /// Constrained Delaunay triangulation of the loops. @throws Error INPUT when they cross

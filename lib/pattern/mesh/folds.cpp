@@ -194,8 +194,10 @@ OnOutline on_outline(const Panel& panel, const Vec2& p) {
       const double t = along.squaredNorm() > 0
                            ? std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0)
                            : 0.0;
-      if (const double d = (p - a - t * along).norm(); d < least)
-        least = d, best = {static_cast<int>(e), (k + t) / n};
+      if (const double d = (p - a - t * along).norm(); d < least) {
+        least = d;
+        best = {static_cast<int>(e), (k + t) / n};
+      }
     }
   }
   return best;
@@ -206,6 +208,14 @@ Pattern with_folds(const Pattern& pattern, const std::string& file) {
   for (std::size_t p = 0; p < out.panels.size(); ++p)
     if (!out.panels[p].lines.empty()) fold_panel(out, static_cast<int>(p), file);
   return out;
+}
+
+/// Layers that a pleat lays over the one below it, at `s` across the pleat: 0 at the line that it
+/// is folded to, 1 at the fold.
+static double layers_above(double s) {
+  if (s < -0.5 || s > 1) return 0;
+  if (s < 0) return 4 * (0.5 + s);
+  return s < 0.5 ? 2 + 2 * s : 6 * (1 - s); // 3 in the middle
 }
 
 Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh) {
@@ -226,16 +236,12 @@ Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh) {
       for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
         const Vec2 x = mesh.pattern[static_cast<std::size_t>(v)];
         const double along = std::clamp((x - f0).dot(f1 - f0) / (f1 - f0).squaredNorm(), 0.0, 1.0);
-        const Vec2 f = f0 + along * (f1 - f0), t = t0 + along * (t1 - t0), way = f - t;
-        const double s = (x - t).dot(way) / way.squaredNorm(); // 0 at the target, 1 at the fold
+        const Vec2 f = f0 + along * (f1 - f0), t = t0 + along * (t1 - t0), across = f - t;
+        const double s = (x - t).dot(across) / across.squaredNorm();
         out.shift[static_cast<std::size_t>(v)] -=
-            NEARLY * (s < 0.5 ? 0.0 : std::min(2 * s - 1, 1.0)) * way;
-        const double deep = s < -0.5 || s > 1 ? 0.0
-                            : s < 0           ? 4 * (0.5 + s)
-                            : s < 0.5         ? 2 + 2 * s
-                                              : 6 * (1 - s);
+            NEARLY * (s < 0.5 ? 0.0 : std::min(2 * s - 1, 1.0)) * across;
         out.depth[static_cast<std::size_t>(v)] =
-            std::max(out.depth[static_cast<std::size_t>(v)], LAYER_DEPTH * deep);
+            std::max(out.depth[static_cast<std::size_t>(v)], LAYER_DEPTH * layers_above(s));
       }
     }
   }

@@ -7,6 +7,7 @@
 
 namespace sloper::pattern {
 
+/// Wanted edge length, m, by place on a panel.
 class SizeField {
 public:
   static constexpr double GROWTH = 0.3; ///< m of edge length per m of distance

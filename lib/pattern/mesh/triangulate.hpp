@@ -8,6 +8,7 @@
 
 namespace sloper::pattern {
 
+/// A triangulated polygon, m.
 struct FlatMesh {
   std::vector<Vec2> points;        ///< the loops' points in the order given, then interior points
   std::vector<Triangle> triangles; ///< counter-clockwise

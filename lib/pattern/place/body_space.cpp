@@ -84,9 +84,9 @@ Axis BodySpace::arm(bool left, int facing, double sleeve_length) const {
   axis.origin = shoulder;
   axis.up =
       (shoulder - (sleeve_length > 1.1 * (shoulder - elbow).norm() ? wrist : elbow)).normalized();
-  const Vec3 wanted = facing == 0   ? Vec3(0, 0, 1)
-                      : facing == 1 ? Vec3(0, 0, -1)
-                                    : Vec3(left ? 1 : -1, 1, 0);
+  Vec3 wanted(left ? 1 : -1, 1, 0);
+  if (facing == 0) wanted = Vec3(0, 0, 1);
+  if (facing == 1) wanted = Vec3(0, 0, -1);
   axis.front = (wanted - wanted.dot(axis.up) * axis.up);
   if (axis.front.norm() < 1e-3) axis.front = axis.up.unitOrthogonal();
   axis.front.normalize();

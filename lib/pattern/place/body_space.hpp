@@ -17,6 +17,7 @@ struct Axis {
   double height(const Vec3& p) const { return (p - origin).dot(up); }
 };
 
+/// One body, as placement sees it.
 class BodySpace {
 public:
   explicit BodySpace(const body::Body& body);

@@ -45,25 +45,25 @@ PlacementReport Placer::run() {
         m_roles[k].part.empty() ? region_name(m_roles[k].region) : m_roles[k].part;
   measure_gaps(report);
   find_impossible(report);
-  const int untold = find_untold();
+  const int unclassified = find_unclassified();
   report.is_guess =
       m_roles.size() > 1 &&
-      (untold == static_cast<int>(m_roles.size()) ||
+      (unclassified == static_cast<int>(m_roles.size()) ||
        std::all_of(m_roles.begin(), m_roles.end(), [](const PanelRole& r) { return r.by_shape; }));
   return report;
 }
 
-int Placer::find_untold() {
+int Placer::find_unclassified() {
   std::string names, shaped;
   int count = 0;
   for (std::size_t k = 0; k < m_roles.size(); ++k) {
     const Panel& panel = m_pattern.panels[k];
     if (m_roles[k].by_shape) {
-      shaped += (shaped.empty() ? "" : ", ") + panel.name + " (" + m_mesh.panels[k].part +
-                (m_roles[k].side == Side::FRONT  ? ", front"
-                 : m_roles[k].side == Side::BACK ? ", back"
-                                                 : "") +
-                ")";
+      std::string side;
+      if (m_roles[k].side == Side::FRONT) side = ", front";
+      if (m_roles[k].side == Side::BACK) side = ", back";
+      shaped +=
+          (shaped.empty() ? "" : ", ") + panel.name + " (" + m_mesh.panels[k].part + side + ")";
       continue;
     }
     if (panel.hint.rigid || !panel.hint.part.empty() || m_roles[k].side == Side::RING ||

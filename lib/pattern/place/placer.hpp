@@ -37,6 +37,7 @@ struct Sector {
   } ///< mean height of the waist
 };
 
+/// Places the panels of one pattern on one body.
 class Placer {
 public:
   Placer(const Pattern& pattern, const body::Body& body, PanelMesh& mesh, const Folding& folding);
@@ -44,10 +45,9 @@ public:
 
 private:
   static std::string region_name(Region r) {
-    return r == Region::TRUNK   ? "torso"
-           : r == Region::ARM_L ? "arm_l"
-           : r == Region::ARM_R ? "arm_r"
-                                : "neck";
+    if (r == Region::TRUNK) return "torso";
+    if (r == Region::ARM_L) return "arm_l";
+    return r == Region::ARM_R ? "arm_r" : "neck";
   }
   bool is_arm(std::size_t k) const {
     return m_roles[k].region == Region::ARM_L || m_roles[k].region == Region::ARM_R;
@@ -74,7 +74,7 @@ private:
   void find_impossible(PlacementReport& report) const;
   /// Names panels of which neither name nor hint nor seams tell where they go, in the findings;
   /// their number.
-  int find_untold();
+  int find_unclassified();
 
   // anchor_panels.cpp
   std::array<Vec2, 2> bounds(const PanelGroup& group) const;

@@ -319,11 +319,10 @@ void Placer::place_arm(const PanelGroup& group) {
       low = std::min(low, bounds(g)[0].y());
       high = std::max(high, bounds(g)[1].y());
     }
-  const Axis axis = m_space.arm(left,
-                                group.side == Side::FRONT  ? 0
-                                : group.side == Side::BACK ? 1
-                                                           : 2,
-                                high - low);
+  int facing = 2; // outwards
+  if (group.side == Side::FRONT) facing = 0;
+  if (group.side == Side::BACK) facing = 1;
+  const Axis axis = m_space.arm(left, facing, high - low);
   const double shift = m_arm_shift[left] - high;
   std::vector<Vec2> hull = m_space.points(axis, {left ? Part::ARM_L : Part::ARM_R},
                                           low + shift - 0.02, high + shift + 0.02);

@@ -16,14 +16,17 @@ std::string_view trimmed(std::string_view s) {
   return s;
 }
 
+/// Bytes of the code point that begins with c in UTF-8; 0 where none does.
+std::size_t utf8_length(unsigned char c) {
+  if (c < 0x80) return 1;        // 0.......
+  if ((c >> 5) == 6) return 2;   // 110.....
+  if ((c >> 4) == 14) return 3;  // 1110....
+  return (c >> 3) == 30 ? 4 : 0; // 11110...
+}
+
 bool is_utf8(std::string_view s) {
   for (std::size_t k = 0; k < s.size();) {
-    const unsigned char c = static_cast<unsigned char>(s[k]);
-    const std::size_t n = c < 0x80         ? 1
-                          : (c >> 5) == 6  ? 2
-                          : (c >> 4) == 14 ? 3
-                          : (c >> 3) == 30 ? 4
-                                           : 0;
+    const std::size_t n = utf8_length(static_cast<unsigned char>(s[k]));
     if (n == 0 || k + n > s.size()) return false;
     for (std::size_t i = 1; i < n; ++i)
       if ((static_cast<unsigned char>(s[k + i]) >> 6) != 2) return false;
@@ -135,9 +138,10 @@ DxfFile parse_dxf(const std::string& text, const std::string& file) {
     };
     if (entity.kind == "VERTEX" && in_polyline && !entity.x.empty())
       polyline.points.push_back(point(0));
-    else if (entity.kind == "POLYLINE")
-      polyline = {entity.layer, (entity.flags & 1) != 0, {}}, in_polyline = true;
-    else if (entity.kind == "SEQEND" && in_polyline) {
+    else if (entity.kind == "POLYLINE") {
+      polyline = {entity.layer, (entity.flags & 1) != 0, {}};
+      in_polyline = true;
+    } else if (entity.kind == "SEQEND" && in_polyline) {
       target.lines.push_back(polyline);
       in_polyline = false;
     } else if (entity.kind == "LWPOLYLINE") {

@@ -8,26 +8,35 @@
 
 namespace sloper::pattern {
 
+/// A polyline.
 struct DxfLine {
   int layer = 0;
   bool closed = false;
   std::vector<Vec2> points; ///< file units
 };
+
+/// A POINT: notches, drill holes and turn points are such.
 struct DxfPoint {
   int layer = 0;
   Vec2 p = Vec2::Zero();
 };
+
+/// A TEXT with the place where it begins.
 struct DxfText {
   int layer = 0;
   Vec2 p = Vec2::Zero();
   std::string text; ///< UTF-8
 };
+
+/// A block, which a garment DXF has for each piece.
 struct DxfBlock {
   std::string name;
   std::vector<DxfLine> lines; ///< POLYLINE, LWPOLYLINE and LINE entities
   std::vector<DxfPoint> points;
   std::vector<DxfText> texts;
 };
+
+/// A file.
 struct DxfFile {
   int insunits = -1, measurement = -1; ///< $INSUNITS, $MEASUREMENT; -1 when absent
   std::vector<DxfBlock> blocks;        ///< in file order; names may repeat

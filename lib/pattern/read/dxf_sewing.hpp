@@ -10,6 +10,7 @@
 
 namespace sloper::pattern {
 
+/// The texts of one file that state seams.
 class DxfSewing {
 public:
   struct Text {

@@ -82,11 +82,9 @@ GradeRules parse_grade_rules(const std::string& text, const std::string& file) {
     const std::vector<std::string> words = split_words(value);
     if (key == "UNITS" && !words.empty()) {
       const std::string word = upper_case(words[0]);
-      unit =
-          word.rfind("ENGL", 0) == 0 || word.rfind("INCH", 0) == 0 || word.rfind("IMPERIAL", 0) == 0
-              ? units::INCH
-          : word == "CM" ? units::CM
-                         : units::MM;
+      unit = word == "CM" ? units::CM : units::MM;
+      for (const char* inches : {"ENGL", "INCH", "IMPERIAL"})
+        if (word.rfind(inches, 0) == 0) unit = units::INCH;
     } else if (key == "SIZE LIST") rules.sizes = words;
     else if (key == "SAMPLE SIZE" && !words.empty()) sample = words[0];
     else if (key == "GRADE RULE TABLE" && !words.empty()) rules.table = words[0];

@@ -13,6 +13,14 @@ double unit_of(const io::Node& node) {
   node.fail("json.unknown-word"_id, "unknown unit '" + unit + "'", "known are m, cm, mm and in");
 }
 
+/// Members of a path item with its letter: two for each point; 0 of a letter that is not known.
+static std::size_t size_of_item(const std::string& letter) {
+  if (letter == "M" || letter == "L") return 3;
+  if (letter == "Q") return 5;  // two points
+  if (letter == "C") return 7;  // three points
+  return letter == "A" ? 6 : 0; // radius, two flags, a point
+}
+
 Path read_path(const io::Node& node, double unit, const Vec2* start) {
   Path path;
   std::optional<Vec2> at;
@@ -22,11 +30,7 @@ Path read_path(const io::Node& node, double unit, const Vec2* start) {
     if (!item.is_array() || item.size() == 0)
       item.fail("pattern.bad-path"_id, "a path item is a list like [\"L\", x, y]");
     const std::string what = item.at(0).string();
-    const std::size_t count = what == "M" || what == "L" ? 3
-                              : what == "Q"              ? 5
-                              : what == "C"              ? 7
-                              : what == "A"              ? 6
-                                                         : 0;
+    const std::size_t count = size_of_item(what);
     if (count == 0)
       item.fail("pattern.bad-path"_id, "unknown path letter '" + what + "'",
                 "known are M, L, Q, C and A");

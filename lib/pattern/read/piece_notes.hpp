@@ -10,6 +10,7 @@ std::string value_of(const std::string& text, const std::string& key);
 /// That of the first text with this key, or empty.
 std::string find_value(const std::vector<DxfText>& texts, const std::string& key);
 
+/// What the texts of one piece say.
 struct PieceNotes {
   std::string
       category; ///< "SLEEVE SHORT": what the maker calls the piece, where its name is a code

@@ -122,7 +122,7 @@ constexpr double FAR_OFF[3] = {0.8, 0.3, 0.7};
 
 struct SeamOffset {
   std::size_t a, b; ///< panels
-  Vec3 way;         ///< m, from a's side to b's, at the mean
+  Vec3 gap;         ///< m, from a's side to b's, at the mean
   double length;    ///< m
 };
 
@@ -143,13 +143,13 @@ std::vector<SeamOffset> seam_offsets(const Pattern& pattern) {
   return out;
 }
 
-/// Of each panel the mean way to what it is sewn to, m.
-std::vector<Vec3> ways_to_seams(const std::vector<SeamOffset>& offsets, std::size_t n) {
+/// Of each panel the mean offset to what it is sewn to, m.
+std::vector<Vec3> offsets_to_seams(const std::vector<SeamOffset>& offsets, std::size_t n) {
   std::vector<Vec3> sum(n, Vec3::Zero());
   std::vector<double> length(n, 0);
   for (const SeamOffset& o : offsets) {
-    sum[o.a] += o.length * o.way;
-    sum[o.b] -= o.length * o.way;
+    sum[o.a] += o.length * o.gap;
+    sum[o.b] -= o.length * o.gap;
     length[o.a] += o.length;
     length[o.b] += o.length;
   }
@@ -158,9 +158,9 @@ std::vector<Vec3> ways_to_seams(const std::vector<SeamOffset>& offsets, std::siz
   return sum;
 }
 
-bool is_far(const Vec3& way) {
+bool is_far(const Vec3& offset) {
   for (long k = 0; k < 3; ++k)
-    if (std::abs(way[k]) > FAR_OFF[k]) return true;
+    if (std::abs(offset[k]) > FAR_OFF[k]) return true;
   return false;
 }
 
@@ -172,21 +172,21 @@ void mend_translation(Pattern& pattern) {
                    [](const Panel& p) { return p.hint.rigid.has_value(); }))
     return;
   const std::vector<SeamOffset> offsets = seam_offsets(pattern);
-  const std::vector<Vec3> ways = ways_to_seams(offsets, n);
-  if (std::none_of(ways.begin(), ways.end(), is_far)) return;
+  const std::vector<Vec3> mean_gap = offsets_to_seams(offsets, n);
+  if (std::none_of(mean_gap.begin(), mean_gap.end(), is_far)) return;
   std::size_t best = n;
   double least = 1e300;
   for (std::size_t k = 0; k < n; ++k) {
-    if (!is_far(ways[k])) continue;
+    if (!is_far(mean_gap[k])) continue;
     std::vector<SeamOffset> moved = offsets;
     for (SeamOffset& o : moved) {
-      if (o.a == k) o.way -= ways[k];
-      if (o.b == k) o.way += ways[k];
+      if (o.a == k) o.gap -= mean_gap[k];
+      if (o.b == k) o.gap += mean_gap[k];
     }
-    const std::vector<Vec3> left = ways_to_seams(moved, n);
+    const std::vector<Vec3> left = offsets_to_seams(moved, n);
     if (std::any_of(left.begin(), left.end(), is_far)) continue;
     double sum = 0;
-    for (const SeamOffset& o : moved) sum += o.length * o.way.norm();
+    for (const SeamOffset& o : moved) sum += o.length * o.gap.norm();
     if (sum < least) {
       least = sum;
       best = k;
@@ -195,12 +195,12 @@ void mend_translation(Pattern& pattern) {
   if (best == n) return;
   Panel& panel = pattern.panels[best];
   // Front and back start apart, whatever their seams say.
-  Vec3 way = ways[best];
+  Vec3 move = mean_gap[best];
   for (long k = 0; k < 3; ++k)
-    if (std::abs(way[k]) <= FAR_OFF[k]) way[k] = 0;
-  panel.hint.rigid->topRightCorner<3, 1>() += way;
+    if (std::abs(move[k]) <= FAR_OFF[k]) move[k] = 0;
+  panel.hint.rigid->topRightCorner<3, 1>() += move;
   pattern.findings.push_back({"pattern.placement-by-seams"_id,
-                              panel.name + ": its translation puts it " + centimetres(way.norm()) +
+                              panel.name + ": its translation puts it " + centimetres(move.norm()) +
                                   " away from all that it is sewn to; it is placed by its seams"});
 }
 

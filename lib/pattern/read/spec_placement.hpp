@@ -6,6 +6,7 @@
 
 namespace sloper::pattern {
 
+/// How three angles make a rotation R.
 enum class EulerOrder {
   XYZ, ///< R = Rx Ry Rz: GarmentCode (scipy's "XYZ")
   ZYX  ///< R = Rz Ry Rx: Garment-Pattern-Generator, SewFactory, NeuralTailor, as Maya has it

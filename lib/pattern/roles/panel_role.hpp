@@ -18,18 +18,22 @@ inline bool goes_level(const Vec2& along) {
   return std::abs(along.x()) > 1.05 * std::abs(along.y());
 }
 
+/// Part of the body that a panel covers.
 enum class Region {
   TRUNK,
   ARM_L,
   ARM_R,
   NECK
 }; ///< TRUNK is everything about the vertical axis: bodice, skirt, trouser legs
+
+/// From where it covers it.
 enum class Side {
   FRONT,
   BACK,
   RING
 }; ///< RING goes around: a one-piece sleeve, a waistband in one piece, side gores
 
+/// What one panel is on the body.
 struct PanelRole {
   Region region = Region::TRUNK;
   Side side = Side::FRONT;

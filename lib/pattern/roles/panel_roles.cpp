@@ -11,6 +11,10 @@
 namespace sloper::pattern {
 namespace {
 
+/// Angle about the body from straight ahead up to which a hinted panel is a front, and from which
+/// it is a back; between them it wraps around the side.
+constexpr double FRONT_WITHIN_DEG = 61, BACK_BEYOND_DEG = 119;
+
 class Roles {
 public:
   Roles(const Pattern& pattern, const PanelMesh& mesh, const SeamGraph& graph)
@@ -60,9 +64,9 @@ private:
   void side_from_theta(PanelRole& role, double theta) {
     theta = std::remainder(theta, 2 * units::PI);
     role.theta = theta;
-    role.side = std::abs(theta) <= units::radians(61)    ? Side::FRONT
-                : std::abs(theta) >= units::radians(119) ? Side::BACK
-                                                         : Side::RING;
+    role.side = Side::RING;
+    if (std::abs(theta) <= units::radians(FRONT_WITHIN_DEG)) role.side = Side::FRONT;
+    else if (std::abs(theta) >= units::radians(BACK_BEYOND_DEG)) role.side = Side::BACK;
   }
 
   void by_hint(std::size_t k) {
@@ -72,10 +76,10 @@ private:
     if (!hint.part.empty()) {
       m_known[k] = true;
       role.part = hint.part;
-      role.region = hint.part == "arm_l"                         ? Region::ARM_L
-                    : hint.part == "arm_r"                       ? Region::ARM_R
-                    : hint.part == "neck" || hint.part == "head" ? Region::NECK
-                                                                 : Region::TRUNK;
+      role.region = Region::TRUNK;
+      if (hint.part == "arm_l") role.region = Region::ARM_L;
+      else if (hint.part == "arm_r") role.region = Region::ARM_R;
+      else if (hint.part == "neck" || hint.part == "head") role.region = Region::NECK;
       if (role.region == Region::NECK) {
         role.side = Side::RING;
         role.theta = hint.theta.value_or(units::PI);
@@ -221,16 +225,16 @@ private:
   /// faces and hands so that they agree with those that are told.
   void by_shape() {
     constexpr double SURE = 0.8; // on 60 fresh specifications 695 of 695 parts were right at that
-    std::vector<std::size_t> untold;
+    std::vector<std::size_t> unnamed;
     for (std::size_t k = 0; k < m_roles.size(); ++k)
-      if (!m_known[k] && !says_anything(m_words[k])) untold.push_back(k);
-    if (untold.empty() || m_pattern.seams.empty()) return;
+      if (!m_known[k] && !says_anything(m_words[k])) unnamed.push_back(k);
+    if (unnamed.empty() || m_pattern.seams.empty()) return;
     const std::vector<ShapeRole> shapes = shape_roles(m_pattern);
     double faces = 0; // for and against the shapes' front and back
     for (std::size_t k = 0; k < m_roles.size(); ++k)
       if (says_back(m_words[k]) || name_suggests_front(m_words[k]))
         faces += (m_roles[k].side == Side::BACK) == shapes[k].back ? 1 : -1;
-    for (std::size_t k : untold) {
+    for (std::size_t k : unnamed) {
       const ShapeRole& shape = shapes[k];
       if (closed_sleeve(k)) {
         m_roles[k].region = Region::ARM_R; // or the left: what it is sewn to tells
@@ -418,16 +422,16 @@ private:
   /// other all around: gores.
   void ring_of_gores() {
     std::vector<std::vector<std::size_t>> beside(m_roles.size());
-    const auto untold = [&](std::size_t k) {
+    const auto unnamed = [&](std::size_t k) {
       const auto& hint = m_pattern.panels[k].hint;
       return m_roles[k].region == Region::TRUNK && m_roles[k].side != Side::RING && !hint.rigid &&
              hint.part.empty() && !name_suggests_front(m_words[k]) && !says_back(m_words[k]) &&
              !(m_roles[k].by_shape && m_roles[k].part != "lower_body");
     };
     for (std::size_t k = 0; k < m_roles.size(); ++k)
-      if (untold(k))
+      if (unnamed(k))
         for (int q : m_graph.neighbours(static_cast<int>(k)))
-          if (untold(static_cast<std::size_t>(q)) &&
+          if (unnamed(static_cast<std::size_t>(q)) &&
               upright_seam(m_mesh, m_graph, m_roles, k, static_cast<std::size_t>(q)))
             beside[k].push_back(static_cast<std::size_t>(q));
     // Godets go between two that are joined above them.

@@ -140,9 +140,10 @@ private:
         if (!level)
           along = std::max(along, a.dot(Vec2(-b.x(), b.y())) /
                                       length); // flared panels lean away from each other
-        score[t] += level && !ring && !(known && side_known(o)) ? std::abs(along)
-                    : over                                      ? -along
-                                                                : along;
+        const bool either_way = level && !ring && !(known && side_known(o));
+        if (either_way) along = std::abs(along);
+        else if (over) along = -along;
+        score[t] += along;
       }
     });
     const std::size_t best =

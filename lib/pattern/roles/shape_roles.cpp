@@ -114,7 +114,8 @@ void tell_sides(const ShapeWitness& witness, const RoleModel& model, const Parts
   std::vector<double> votes(n, 0), cast(n, 0);
   for (const auto& l : witness.links()) {
     if (own[l.a] == 1 || own[l.a] != own[l.b]) continue;
-    const double weight = l.middle ? 10 : roles[l.a].back == roles[l.b].back ? 3 : -1;
+    const double weight_aside = roles[l.a].back == roles[l.b].back ? 3 : -1;
+    const double weight = l.middle ? 10 : weight_aside;
     if (!l.middle && std::min(std::abs(l.x_a - 0.5), std::abs(l.x_b - 0.5)) < AT_THE_SIDE) continue;
     votes[l.a] -= weight * l.length * hand(l.a, l.x_a);
     votes[l.b] -= weight * l.length * hand(l.b, l.x_b);

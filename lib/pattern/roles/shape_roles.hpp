@@ -12,6 +12,7 @@ inline constexpr std::size_t SHAPE_PARTS = 5;
 inline constexpr const char* SHAPE_PART_NAMES[SHAPE_PARTS] = {"torso", "arm", "neck", "lower_body",
                                                               "leg"};
 
+/// What one panel is by its shape, as the model sees it.
 struct ShapeRole {
   std::size_t part = 0; ///< of SHAPE_PART_NAMES
   double sure = 0;      ///< probability of the part

@@ -162,7 +162,7 @@ private:
     };
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return left(a) < left(b); });
-    std::map<std::pair<int, int>, bool> told;
+    std::map<std::pair<int, int>, bool> reported;
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = i + 1; j < n && left(order[j]) <= right(order[i]); ++j) {
         const std::size_t a = std::min(order[i], order[j]), b = std::max(order[i], order[j]);
@@ -171,8 +171,8 @@ private:
           continue;
         const std::pair<int, int> edges{std::min(s.edge[a], s.edge[b]),
                                         std::max(s.edge[a], s.edge[b])};
-        if (told[edges]) continue;
-        told[edges] = true;
+        if (reported[edges]) continue;
+        reported[edges] = true;
         const std::string first = panel.edge(edges.first).name,
                           second = panel.edge(edges.second).name;
         add("error", "crossing-outline", panel.name + ": " + first,

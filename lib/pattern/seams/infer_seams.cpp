@@ -185,7 +185,10 @@ private:
       for (int k = 0; k < static_cast<int>(m_sides.size()); ++k) {
         if (k == pair[0] || k == pair[1] || used[index(k)]) continue;
         const double odds = m_result.base[index(own) * m_sides.size() + index(k)];
-        if (odds > most) most = odds, best = {std::min(own, k), std::max(own, k)};
+        if (odds > most) {
+          most = odds;
+          best = {std::min(own, k), std::max(own, k)};
+        }
       }
     if (best[0] < 0) return std::nullopt;
     return guess_of(best, most);

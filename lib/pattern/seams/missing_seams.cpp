@@ -354,7 +354,8 @@ private:
     for (const bool end : {false, true}) {
       std::array<EdgeEnd, 2> ends;
       for (std::size_t s : {0, 1}) {
-        const Run& run = end ? (s ? seam.b : seam.a).back() : (s ? seam.b : seam.a).front();
+        const std::vector<Run>& runs = s ? seam.b : seam.a;
+        const Run& run = end ? runs.back() : runs.front();
         ends[s] = {end ? side[s].back() : side[s].front(),
                    (run.from < run.to) != end}; // an image runs the other way round
       }

@@ -6,6 +6,7 @@
 
 namespace sloper::pattern {
 
+/// Two runs of edges that were meant to be sewn together.
 struct MissingSeam {
   Run a, b;        ///< as they would be sewn
   std::string why; ///< "both ends of this hole are sewn together"

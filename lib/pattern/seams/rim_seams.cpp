@@ -222,7 +222,8 @@ private:
         const Edges a = behind_longest_seam(m_pattern, rims[i], seams),
                     b = behind_longest_seam(m_pattern, rims[k], seams);
         if (a.empty() || b.empty() || !shoulder_of(a) || !shoulder_of(b)) continue;
-        best = std::abs(ease - USUAL_EASE), holes = {a, b};
+        best = std::abs(ease - USUAL_EASE);
+        holes = {a, b};
       }
     if (holes[0].empty()) return false;
     const double shoulder[2] = {*shoulder_of(holes[0]), *shoulder_of(holes[1])};

@@ -20,6 +20,7 @@ struct RimEdge {
 using Edges = std::vector<RimEdge>;
 double length_of(const Edges& edges); ///< m
 
+/// A closed line of free edges.
 struct Rim {
   Edges edges;       ///< in order, the first after the last
   double length = 0; ///< m

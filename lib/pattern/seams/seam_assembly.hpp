@@ -13,6 +13,7 @@ namespace sloper::pattern {
 /// Pairs with log-odds.
 using PairOdds = std::map<SidePair, double>;
 
+/// Settles the seams of one pattern.
 class SeamAssembly {
 public:
   /// @param prior  log-odds that names add to each pair, n by n, symmetric; SeamWitness::IMPOSSIBLE

@@ -59,6 +59,7 @@ using Evidence = std::array<std::uint8_t, CLUES>;
 
 using SidePair = std::array<int, 2>; ///< indices of two sides, ascending
 
+/// The evidence on every pair of sides of one pattern.
 class SeamWitness {
 public:
   static constexpr double IMPOSSIBLE = -30; ///< log-odds

@@ -24,6 +24,7 @@ struct SeamTrees {
 /// From a model's document: {"constant", "trees"}.
 SeamTrees read_trees(const io::Json& json);
 
+/// The trees of each look.
 struct SeamModel {
   std::vector<SeamTrees> looks; ///< one after the other; only the first does without odds of others
   SeamTrees settle;             ///< while pairs are settled one after the other

@@ -38,9 +38,8 @@ int hand_of(const std::string& name) {
   const auto ends = [&](const std::string& t) {
     return name.size() > t.size() && name.compare(name.size() - t.size(), t.size(), t) == 0;
   };
-  return ends("_l") || ends("_left") || ends(" L")    ? 1
-         : ends("_r") || ends("_right") || ends(" R") ? -1
-                                                      : 0;
+  if (ends("_l") || ends("_left") || ends(" L")) return 1;
+  return ends("_r") || ends("_right") || ends(" R") ? -1 : 0;
 }
 
 double interior_angle(const Path& in, const Path& out) {

@@ -7,6 +7,7 @@
 
 namespace sloper::pattern {
 
+/// The tube of one arm.
 class ArmTube {
 public:
   static constexpr double ROW = 0.01; ///< m between rows

@@ -95,10 +95,10 @@ void GoreTube::spread(Row& row, double height) const {
     row.middle[k] = s + half;
     s += 2 * half + row.scale * least[k] + open * share[k];
     if (g.godet) continue;
-    const double wanted = g.side == Side::FRONT  ? 0
-                          : g.side == Side::BACK ? units::PI
-                                                 : g.theta,
-                 is = wanted - 2 * units::PI * row.middle[k] / row.length;
+    double wanted = g.theta;
+    if (g.side == Side::FRONT) wanted = 0;
+    if (g.side == Side::BACK) wanted = units::PI;
+    const double is = wanted - 2 * units::PI * row.middle[k] / row.length;
     off += std::max(half, 1e-3) * Vec2(std::cos(is), std::sin(is));
   }
   const double turn = std::atan2(off.y(), off.x()) / (2 * units::PI) * row.length;
@@ -146,11 +146,10 @@ void GoreTube::shape(double gap, double upright_to) {
       trace(row, radius[j], out[j], high);
     }
     const double grown = j > 0 ? mean[j] + out[j] - mean[j - 1] - out[j - 1] : 0;
-    row.y =
-        j == 0 ? m_ring.top
-        : height(j) >= upright_to
-            ? height(j)
-            : m_rows[j - 1].y - std::sqrt(std::max(STEP * STEP - grown * grown, 0.3 * STEP * STEP));
+    if (j == 0) row.y = m_ring.top;
+    else if (height(j) >= upright_to) row.y = height(j);
+    else
+      row.y = m_rows[j - 1].y - std::sqrt(std::max(STEP * STEP - grown * grown, 0.3 * STEP * STEP));
     spread(row, height(j));
   }
 }

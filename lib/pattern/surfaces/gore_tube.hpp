@@ -7,6 +7,7 @@
 
 namespace sloper::pattern {
 
+/// The tube of one ring of gores.
 class GoreTube {
 public:
   /// @param ring it is kept as a reference

@@ -22,6 +22,7 @@ struct LegRow {
   Span front, back, ring; ///< ring: in is the inner end in front, out the one behind
 };
 
+/// The surface of one leg.
 class LegTube {
 public:
   /// The body's side of it: cost is one pass over the skin.

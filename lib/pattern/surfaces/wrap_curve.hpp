@@ -8,6 +8,7 @@
 
 namespace sloper::pattern {
 
+/// A curve around a part of the body, by arc length u, m.
 class WrapCurve {
 public:
   /// Around the front of some points: the convex hull grown by `gap`, its hollows towards the wings

@@ -126,12 +126,13 @@ int notch_layer(const Notch& notch) {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (char c : text)
-    out += c == '&'   ? "&amp;"
-           : c == '<' ? "&lt;"
-           : c == '>' ? "&gt;"
-           : c == '"' ? "&quot;"
-                      : std::string(1, c);
+  for (char c : text) {
+    if (c == '&') out += "&amp;";
+    else if (c == '<') out += "&lt;";
+    else if (c == '>') out += "&gt;";
+    else if (c == '"') out += "&quot;";
+    else out += c;
+  }
   return out;
 }
 
@@ -374,13 +375,14 @@ std::string pattern_svg(const Pattern& pattern) {
     }
     body += "<g id=\"" + escaped(panel.name) + "\">\n<path d=\"" + fill +
             "\" fill=\"#f4f1ea\" fill-rule=\"evenodd\"/>\n";
-    for (const InnerLine& line : panel.lines)
+    for (const InnerLine& line : panel.lines) {
+      std::string dashes = "1 4";
+      if (line.kind == "fold") dashes = "8 4";
+      if (line.kind == "tape") dashes = "2 2";
       body += "<path d=\"" + path(line.path, true) +
-              "\" fill=\"none\" stroke=\"#555\" stroke-width=\"0.8\" stroke-dasharray=\"" +
-              (line.kind == "fold"   ? "8 4"
-               : line.kind == "tape" ? "2 2"
-                                     : "1 4") +
+              "\" fill=\"none\" stroke=\"#555\" stroke-width=\"0.8\" stroke-dasharray=\"" + dashes +
               "\"/>\n";
+    }
     for (int e = 0; e < panel.n_edges(); ++e) {
       std::string color = "#888";
       double width = 1;

@@ -268,21 +268,21 @@ TEST(ScanReader, pcd_is_read_as_text_binary_and_compressed) {
 
 TEST(ScanReader, a_broken_pcd_is_refused_with_place_and_reason) {
   const std::string points = raw<float>({1, 2, 3, 7, -4, 5.5f, 0.5f, 8});
-  auto told = [](const std::string& bytes) {
+  auto message_of = [](const std::string& bytes) {
     return complaint([&] { parse_pcd(bytes, "a.pcd"); });
   };
-  EXPECT_NE(told(pcd_head(3, "binary") + points).find("truncated"), std::string::npos);
-  EXPECT_NE(told(pcd_head(2, "ascii") + "1 2 3 7\n").find("ends early"), std::string::npos);
-  EXPECT_NE(told(pcd_head(1, "ascii") + "1 2 x 7\n").find("line 12"), std::string::npos);
-  EXPECT_NE(told(pcd_head(1, "zipped")).find("binary_compressed is read"), std::string::npos);
-  EXPECT_NE(told("VERSION 0.7\nFIELDS x y\nSIZE 4 4\nTYPE F F\nPOINTS 1\nDATA ascii\n1 2\n")
+  EXPECT_NE(message_of(pcd_head(3, "binary") + points).find("truncated"), std::string::npos);
+  EXPECT_NE(message_of(pcd_head(2, "ascii") + "1 2 3 7\n").find("ends early"), std::string::npos);
+  EXPECT_NE(message_of(pcd_head(1, "ascii") + "1 2 x 7\n").find("line 12"), std::string::npos);
+  EXPECT_NE(message_of(pcd_head(1, "zipped")).find("binary_compressed is read"), std::string::npos);
+  EXPECT_NE(message_of("VERSION 0.7\nFIELDS x y\nSIZE 4 4\nTYPE F F\nPOINTS 1\nDATA ascii\n1 2\n")
                 .find("no x, y and z"),
             std::string::npos);
   const std::string lies = pcd_head(2, "binary_compressed");
-  told(lies + raw<std::uint32_t>({4, 32}) + std::string("\xff\xff\xff\xff", 4));
-  told(lies + raw<std::uint32_t>({1, 4000000000u}) + "x");
-  told(lies + raw<std::uint32_t>({100, 32}) + "x");
-  told(pcd_head(99999999, "binary"));
+  message_of(lies + raw<std::uint32_t>({4, 32}) + std::string("\xff\xff\xff\xff", 4));
+  message_of(lies + raw<std::uint32_t>({1, 4000000000u}) + "x");
+  message_of(lies + raw<std::uint32_t>({100, 32}) + "x");
+  message_of(pcd_head(99999999, "binary"));
 }
 
 TEST(ScanReader, a_skinned_gltf_is_read_in_the_pose_of_its_joints) {

@@ -12,7 +12,7 @@ using namespace sloper::body;
 
 namespace {
 
-int told_flat(const Body& body) {
+int flat_findings(const Body& body) {
   int n = 0;
   for (const Finding& finding : body.scan.findings)
     n += finding.what.find("the belly is flat") != std::string::npos;
@@ -46,7 +46,7 @@ TEST(FlatBelly, is_given_its_middle_and_told) {
     const Body body = test::measure(pressed(made.mesh, low, high, lean ? 0.004 : -0.004)).body;
     at[lean] = test::in_scan(body, "abdomen_front");
     EXPECT_NEAR(at[lean].y(), 0.5 * (low + high), 0.025);
-    EXPECT_EQ(told_flat(body), 1);
+    EXPECT_EQ(flat_findings(body), 1);
     EXPECT_GT(body.landmarks.at("abdomen_front").spread_m, 0.02);
     EXPECT_LT(body.landmarks.at("abdomen_front").confidence, 0.5);
   }
@@ -56,7 +56,7 @@ TEST(FlatBelly, is_given_its_middle_and_told) {
 
 TEST(FlatBelly, is_not_told_of_a_round_one) {
   const Body body = test::measure(test::mannequin("m-170-stout").mesh).body;
-  EXPECT_EQ(told_flat(body), 0);
+  EXPECT_EQ(flat_findings(body), 0);
 }
 
 TEST(HandTip, is_that_of_the_middle_finger_where_another_reaches_as_far_over_the_skin) {

@@ -513,9 +513,9 @@ TEST(Contact, PlanesThatFollowLeaveTheElementsOnTheirSides) {
     for (const SeparatingPlane& g : limits.planes) {
       double most = 1e300, least = -1e300;
       for (int k = 0; k < 4; ++k) {
-        const double way = g.normal.dot(x[g.particle[k]] + dx[g.particle[k]]);
-        if (k < g.n_above) most = std::min(most, way - g.above);
-        else least = std::max(least, way - g.below);
+        const double height = g.normal.dot(x[g.particle[k]] + dx[g.particle[k]]);
+        if (k < g.n_above) most = std::min(most, height - g.above);
+        else least = std::max(least, height - g.below);
       }
       EXPECT_LE(g.n_above == 4 ? 0 : least, most + 1e-9);
     }

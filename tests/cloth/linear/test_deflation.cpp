@@ -103,15 +103,15 @@ TEST(Deflation, starts_from_the_best_of_the_ways_and_keeps_directions_apart_from
   deflation.keep(to_floats(b));
   deflation.keep(to_floats(Eigen::VectorXd::Zero(N))); // none at all
   deflation.prepare(ROWS, multiply_diagonal);
-  ASSERT_EQ(deflation.n_ways(), 2U);
+  ASSERT_EQ(deflation.size(), 2U);
   std::vector<Float4> x = to_floats(Eigen::VectorXd::Zero(N)), r = to_floats(right),
                       z = to_floats(any_vector(4));
   deflation.start(x, r);
-  Eigen::MatrixXd ways(N, 2);
-  ways << a, b;
-  const Eigen::MatrixXd images = DIAGONAL.asDiagonal() * ways;
+  Eigen::MatrixXd basis(N, 2);
+  basis << a, b;
+  const Eigen::MatrixXd images = DIAGONAL.asDiagonal() * basis;
   const Eigen::VectorXd best =
-      ways * (ways.transpose() * images).ldlt().solve(ways.transpose() * right);
+      basis * (basis.transpose() * images).ldlt().solve(basis.transpose() * right);
   EXPECT_LT((to_doubles(x) - best).norm(), 1e-5 * best.norm());
   EXPECT_LT((to_doubles(r) - (right - DIAGONAL.cwiseProduct(best))).norm(), 1e-5 * right.norm());
   deflation.project(r, z); // r has nothing of the ways left
@@ -121,16 +121,17 @@ TEST(Deflation, starts_from_the_best_of_the_ways_and_keeps_directions_apart_from
 
 TEST(Deflation, the_newest_ways_stay_and_those_of_other_cloth_go) {
   Deflation deflation;
-  for (std::uint64_t k = 0; k < 2 * Deflation::MOST; ++k) deflation.keep(to_floats(any_vector(k)));
+  for (std::uint64_t k = 0; k < 2 * Deflation::MAX_BASIS; ++k)
+    deflation.keep(to_floats(any_vector(k)));
   deflation.prepare(ROWS, multiply_diagonal);
-  EXPECT_EQ(deflation.n_ways(), Deflation::MOST);
-  const Eigen::VectorXd oldest =
-      any_vector(Deflation::MOST); // of those that stay: it is in W, so that nothing of it is left
+  EXPECT_EQ(deflation.size(), Deflation::MAX_BASIS);
+  const Eigen::VectorXd oldest = any_vector(
+      Deflation::MAX_BASIS); // of those that stay: it is in W, so that nothing of it is left
   std::vector<Float4> z = to_floats(oldest);
   deflation.project(to_floats(Eigen::VectorXd::Zero(N)), z);
   EXPECT_LT(to_doubles(z).norm(), 1e-4 * oldest.norm());
   deflation.prepare(ROWS - 1, [](const auto&, auto&) { FAIL(); });
-  EXPECT_EQ(deflation.n_ways(), 0U);
+  EXPECT_EQ(deflation.size(), 0U);
 }
 
 TEST(Deflation, ways_along_which_the_matrix_is_not_definite_are_left_out) {
@@ -139,10 +140,10 @@ TEST(Deflation, ways_along_which_the_matrix_is_not_definite_are_left_out) {
   deflation.prepare(ROWS, [](const std::vector<Float4>& x, std::vector<Float4>& y) {
     y = to_floats(-to_doubles(x));
   });
-  EXPECT_EQ(deflation.n_ways(), 0U);
+  EXPECT_EQ(deflation.size(), 0U);
   deflation.keep(to_floats(Eigen::VectorXd::Constant(N, std::numeric_limits<double>::infinity())));
   deflation.prepare(ROWS, multiply_diagonal);
-  EXPECT_EQ(deflation.n_ways(), 1U);
+  EXPECT_EQ(deflation.size(), 1U);
 }
 
 TEST(Deflation, systems_that_recur_take_far_fewer_iterations_to_the_same_solution) {

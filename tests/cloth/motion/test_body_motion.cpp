@@ -178,22 +178,23 @@ TEST(BodyMotion, what_was_found_out_holds_where_cloth_goes_with_the_skin_beside_
     BareContact contact(grid.mesh, body);
     contact.energy(grid.x);
     for (int part = 0; part < 40; ++part) {
-      std::vector<Vec3> way, carry, positions = body.mesh().positions;
+      std::vector<Vec3> displacement, predictor, positions = body.mesh().positions;
       const double lower = 0.004 * random.uniform(-1, 1), upper = 0.004 * random.uniform(-1, 1),
-                   up = 0.002 * random.uniform(-1, 1);
+                   up = 0.002 * random.uniform(-1, 1), lower_up = from_afar ? 0.003 : 0;
       for (std::size_t v = 0; v < positions.size(); ++v)
-        way.push_back(v < below ? turning(positions[v], lower, from_afar ? 0.003 : 0)
-                                : turning(positions[v], upper, up));
+        displacement.push_back(v < below ? turning(positions[v], lower, lower_up)
+                                         : turning(positions[v], upper, up));
       for (const Vec3& p : grid.x) {
         const double to_side = random.uniform(-1, 1), up_or_down = random.uniform(-1, 1);
-        carry.push_back(turning(p, lower, 0) + 3e-4 * Vec3(to_side, up_or_down, 0));
+        predictor.push_back(turning(p, lower, 0) + 3e-4 * Vec3(to_side, up_or_down, 0));
       }
-      const double share = contact.effect.collision_free_step_fraction(grid.x, way, carry);
-      ASSERT_GT(share, 0);
-      for (std::size_t v = 0; v < positions.size(); ++v) positions[v] += share * way[v];
-      for (Vec3& c : carry) c *= share;
-      contact.effect.move_body(positions, grid.x, carry);
-      for (std::size_t i = 0; i < grid.x.size(); ++i) grid.x[i] += carry[i];
+      const double fraction =
+          contact.effect.collision_free_step_fraction(grid.x, displacement, predictor);
+      ASSERT_GT(fraction, 0);
+      for (std::size_t v = 0; v < positions.size(); ++v) positions[v] += fraction * displacement[v];
+      for (Vec3& p : predictor) p *= fraction;
+      contact.effect.move_body(positions, grid.x, predictor);
+      for (std::size_t i = 0; i < grid.x.size(); ++i) grid.x[i] += predictor[i];
       const double kept = contact.energy(grid.x);
       BareContact anew(grid.mesh, body);
       const double found = anew.energy(grid.x);

@@ -118,10 +118,10 @@ TEST(UnderArms, a_wide_skirt_is_sewn_inside_of_a_hanging_arm) {
   EXPECT_TRUE(report.converged) << stop_text(report);
   const collision::BodyCollider collider(body.skin);
   EXPECT_TRUE(audit(skirt, &collider).clean());
-  const auto told = [](const std::string& r) {
+  const auto names_arms = [](const std::string& r) {
     return r.find("forearms or hands") != std::string::npos;
   };
-  EXPECT_TRUE(std::any_of(report.repairs.begin(), report.repairs.end(), told));
+  EXPECT_TRUE(std::any_of(report.repairs.begin(), report.repairs.end(), names_arms));
   std::vector<Vec3> x = skirt.position;
   EXPECT_EQ(bring_under_arms(x, std::vector<char>(x.size(), 0), body, 0), 0U)
       << "nothing of it is beyond the arm";

@@ -71,9 +71,12 @@ TEST(Motion, cloth_at_rest_sleeps_until_skin_near_it_moves) {
   const std::size_t n_still = 90;
   BodyMoves moves = swing;
   moves.n_frames = 10 + n_still + 5;
-  moves.skin = [&](std::size_t k) { // a swing, a hold in which only the foot of the pillar moves,
-                                    // far below the skirt, and another swing
-    std::vector<Vec3> x = swing.skin(k < 10 ? k : k < 10 + n_still ? 9 : k - n_still);
+  // A swing, a hold in which only the foot of the pillar moves, far below the skirt, and another
+  // swing.
+  moves.skin = [&](std::size_t k) {
+    std::size_t frame_of_swing = k;
+    if (k >= 10) frame_of_swing = k < 10 + n_still ? 9 : k - n_still;
+    std::vector<Vec3> x = swing.skin(frame_of_swing);
     if (k >= 10 && k < 10 + n_still)
       for (Vec3& p : x)
         if (p.y() < 0.3) p.x() += 0.0005 * static_cast<double>(k - 9);
@@ -108,7 +111,7 @@ TEST(Motion, cloth_on_a_body_that_walks_on_evenly_hangs_as_on_one_that_stands_st
   const body::Body pillar = make_pillar(48, 40);
   Garment skirt = make_skirt(0.75, 0.3, 0.04);
   ASSERT_TRUE(drape(skirt, &pillar, {}, silent_reporter()).converged);
-  const auto way = [](std::size_t k) { // up to 1 m/s within half a second
+  const auto shift_at = [](std::size_t k) { // up to 1 m/s within half a second
     const double t = (static_cast<double>(k) + 1) / 30;
     return t < 0.5 ? t * t : 0.25 + t - 0.5;
   };
@@ -117,7 +120,7 @@ TEST(Motion, cloth_on_a_body_that_walks_on_evenly_hangs_as_on_one_that_stands_st
   moves.n_frames = 60;
   moves.skin = [&](std::size_t k) {
     std::vector<Vec3> x = pillar.skin.positions;
-    for (Vec3& p : x) p.z() += way(k);
+    for (Vec3& p : x) p.z() += shift_at(k);
     return x;
   };
   long parts = 0;
@@ -129,7 +132,7 @@ TEST(Motion, cloth_on_a_body_that_walks_on_evenly_hangs_as_on_one_that_stands_st
         if (f.number < 50) return;
         double off2 = 0;
         for (std::size_t i = 0; i < stood.size(); ++i)
-          off2 += (g.position[i] - stood[i] - Vec3(0, 0, way(f.number - 1))).squaredNorm();
+          off2 += (g.position[i] - stood[i] - Vec3(0, 0, shift_at(f.number - 1))).squaredNorm();
         EXPECT_LT(std::sqrt(off2 / static_cast<double>(stood.size())), 0.003) << f.number;
       },
       silent_reporter());

@@ -322,16 +322,16 @@ TEST(fit, a_skirt_that_sank_has_slipped_down_where_the_hip_does_not_hold_it) {
        {"waist_semantic", "waist_girth_min", "waist_width_min", "omphalion", "top_edge"})
     policy.own.classes["skirt"].girths[girth].loose_ease = 9; // only the way counts here
   const collision::BodyCollider skin(body.skin);
-  const auto sunk = [&](double way, double top_edge) { // m
+  const auto sunk = [&](double distance, double top_edge) { // m
     Garment g = tube_skirt(body);
     for (Vec3& p : g.position) p.y() += top_edge - top;
     bind_garment(g, body);
     std::vector<Vec3> placed = g.position;
-    for (Vec3& p : placed) p.y() += way;
+    for (Vec3& p : placed) p.y() += distance;
     const FitReport report = fit_garment(g, body, skin, policy, &placed);
     EXPECT_EQ(report.garment_class, "skirt");
-    EXPECT_NEAR(report.slip_m, way, 1e-9);
-    EXPECT_NEAR(report.slip_borne_m, std::max(0.1, way + top_edge - hip), 0.01);
+    EXPECT_NEAR(report.slip_m, distance, 1e-9);
+    EXPECT_NEAR(report.slip_borne_m, std::max(0.1, distance + top_edge - hip), 0.01);
     return report;
   };
   const FitReport held = sunk(0.15, top);

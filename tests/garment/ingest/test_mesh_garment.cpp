@@ -335,7 +335,8 @@ TEST(FlatPanels, unrolled_cloth_keeps_every_edge_length) {
   CurvedSurface s;
   s.position = shirt.position;
   s.triangles = shirt.particle_triangles();
-  s.region.assign(s.triangles.size(), 0), s.warp_of_region = {Vec3::UnitY()};
+  s.region.assign(s.triangles.size(), 0);
+  s.warp_of_region = {Vec3::UnitY()};
   const FlatPanels flat = unrolled_panels(s);
   ASSERT_EQ(flat.panels.triangles.size(), s.triangles.size());
   std::set<int> met(flat.triangle_of.begin(), flat.triangle_of.end());

@@ -179,7 +179,7 @@ TEST(DrapeLevels, panels_without_their_pattern_are_draped_on_their_own_mesh_to_t
   const body::Body pillar = make_pillar();
   Garment once = make_skirt(0.76, 0.28, 0.03), through = once;
   DrapeSettings settings = preset_settings("draft");
-  settings.max_steps = 20;
+  set_knob(settings, "max_steps", 20);
   settings.levels = 1;
   drape(once, &pillar, settings, silent_reporter());
   settings.levels = 2;
@@ -195,7 +195,7 @@ TEST(DrapeLevels, a_body_without_bones_is_no_error) {
   Garment garment;
   garment.panels = two_pieces(0.03);
   DrapeSettings settings = preset_settings("draft");
-  settings.max_steps = 3;
+  set_knob(settings, "max_steps", 3);
   const DrapeReport report = drape(garment, &pillar, settings, silent_reporter());
   EXPECT_EQ(report.levels.meshes, 1);
   EXPECT_FALSE(report.levels.why.empty());

@@ -151,15 +151,15 @@ TEST(retarget, cloth_that_is_held_at_its_end_does_not_slide_to_its_own_length) {
   std::vector<int> end;
   for (std::size_t i = 0; i < placed.size(); ++i)
     if (g.position[i].y() < 0.63) end.push_back(static_cast<int>(i));
-  double way[2] = {0, 0};
+  double shift[2] = {0, 0};
   for (const bool held : {false, true}) {
     std::vector<Vec3> x = placed;
     settle_shape(x, g.position, g.particle_triangles(), skin, 0.003,
                  held ? end : std::vector<int>());
-    for (int i : end) way[held] += (placed[i].y() - x[i].y()) / static_cast<double>(end.size());
+    for (int i : end) shift[held] += (placed[i].y() - x[i].y()) / static_cast<double>(end.size());
   }
-  EXPECT_GT(way[0], 0.01);
-  EXPECT_LT(std::abs(way[1]), 0.003);
+  EXPECT_GT(shift[0], 0.01);
+  EXPECT_LT(std::abs(shift[1]), 0.003);
 }
 
 TEST(retarget, cloth_is_graded_as_near_to_the_skin_as_it_was_placed) {

@@ -237,7 +237,7 @@ TEST_F(CheckpointTest, a_body_in_motion_is_gone_on_with_from_between_its_frames_
   const body::Body pillar = make_pillar(48, 40);
   BodyMoves moves = swinging(pillar, 12, 0.15);
   struct Frame {
-    MotionFrame told;
+    MotionFrame reported;
     std::vector<Vec3> x;
   };
   const auto keep = [](std::vector<Frame>& list) {
@@ -282,8 +282,8 @@ TEST_F(CheckpointTest, a_body_in_motion_is_gone_on_with_from_between_its_frames_
     ASSERT_EQ(c.state.move.frame + after.size(), frames.size());
     for (std::size_t k = 0; k < after.size(); ++k) {
       EXPECT_EQ(after[k].x, frames[c.state.move.frame + k].x);
-      EXPECT_EQ(after[k].told.parts, frames[c.state.move.frame + k].told.parts);
-      EXPECT_EQ(after[k].told.number, frames[c.state.move.frame + k].told.number);
+      EXPECT_EQ(after[k].reported.parts, frames[c.state.move.frame + k].reported.parts);
+      EXPECT_EQ(after[k].reported.number, frames[c.state.move.frame + k].reported.number);
     }
   }
   EXPECT_TRUE(places.count({DrapePhase::MOVE, false}) &&
@@ -350,7 +350,9 @@ TEST_F(CheckpointTest, a_checkpoint_of_another_body_or_a_damaged_one_is_refused)
   skirt.body_sha256 = "this body";
   DrapeSettings settings;
   settings.max_steps = 12;
+  settings.extra_steps = 7;
   drape(skirt, &pillar, settings, silent_reporter(), {.checkpoints = {file("run.json"), 5}});
+  EXPECT_EQ(read_checkpoint(file("run.json")).report.settings.extra_steps, 7);
   Garment resumed;
   EXPECT_THROW(resume_drape(file("run.json"), resumed, nullptr, silent_reporter()), Error);
   resumed.body_sha256 = "another body";

@@ -35,14 +35,13 @@ bool ends(const std::string& name, const std::string& tail) {
          name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
 }
 
-Truth told(const std::string& n) {
+Truth truth_of(const std::string& n) {
   Truth t{3};
-  t.hand = has(n, "left") || has(n, "_l_") || ends(n, "_l")    ? 1
-           : has(n, "right") || has(n, "_r_") || ends(n, "_r") ? -1
-                                                               : 0;
-  t.face = has(n, "front") || has(n, "ftorso") || ends(n, "_f") || has(n, "_f_")  ? -1
-           : has(n, "back") || has(n, "btorso") || ends(n, "_b") || has(n, "_b_") ? 1
-                                                                                  : 0;
+  t.hand = t.face = 0;
+  if (has(n, "left") || has(n, "_l_") || ends(n, "_l")) t.hand = 1;
+  else if (has(n, "right") || has(n, "_r_") || ends(n, "_r")) t.hand = -1;
+  if (has(n, "front") || has(n, "ftorso") || ends(n, "_f") || has(n, "_f_")) t.face = -1;
+  else if (has(n, "back") || has(n, "btorso") || ends(n, "_b") || has(n, "_b_")) t.face = 1;
   if (has(n, "collar") || has(n, "hood")) t.part = 2;
   else if (has(n, "sleeve") || n.rfind("sl_", 0) == 0) t.part = 1;
   else if (has(n, "torso")) t.part = 0;
@@ -83,8 +82,9 @@ int main(int argc, char** argv) {
     if (g->pattern.seams.empty()) continue;
     for (Panel& panel : g->pattern.panels) {
       g->names.push_back(panel.name);
-      g->truth.push_back(told(panel.name));
-      panel.hint = {}, panel.label.clear();
+      g->truth.push_back(truth_of(panel.name));
+      panel.hint = {};
+      panel.label.clear();
     }
     g->witness = std::make_unique<ShapeWitness>(g->pattern);
     all.push_back(std::move(g));
@@ -150,12 +150,12 @@ int main(int argc, char** argv) {
       ++panels;
       parts += part;
       right += part && (side || t.part == 2);
-      if (!part || !(side || t.part == 2))
+      if (!part || !(side || t.part == 2)) {
         wrong += " " + g->names[k] + "=" + SHAPE_PART_NAMES[roles[k].part] +
-                 (roles[k].back ? " back" : " front") +
-                 (roles[k].hand > 0   ? " left"
-                  : roles[k].hand < 0 ? " right"
-                                      : "");
+                 (roles[k].back ? " back" : " front");
+        if (roles[k].hand > 0) wrong += " left";
+        if (roles[k].hand < 0) wrong += " right";
+      }
     }
     ++garments;
     whole += wrong.empty();

@@ -48,7 +48,9 @@ std::vector<Seam> through_dxf(Pattern& pattern) {
   pattern.seams.clear();
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     Panel& panel = pattern.panels[p];
-    panel.name = "P" + std::to_string(1000 + p), panel.label.clear(), panel.hint = {};
+    panel.name = "P" + std::to_string(1000 + p);
+    panel.label.clear();
+    panel.hint = {};
     for (int e = 0; e < panel.n_edges(); ++e) panel.edge(e).name = std::to_string(e);
   }
   std::vector<std::string> left_out;
@@ -156,7 +158,8 @@ private:
     for (const auto& pair : g.assembly->pairs()) {
       Sample s{{pair.i, pair.j}, pair.evidence, g.truth.count({pair.i, pair.j}) > 0, 1};
       const std::size_t i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
-      const double part = !again ? 0.08 : g.odds.of_pair[i * n + j] < -5 ? 0.025 : 0.4;
+      const double part_again = g.odds.of_pair[i * n + j] < -5 ? 0.025 : 0.4;
+      const double part = again ? part_again : 0.08;
       if (!s.sewn && share() > part) continue;
       if (!s.sewn) s.weight = static_cast<float>(1 / part);
       if (again) g.witness->second_look(i, j, g.odds, s.evidence);

@@ -78,7 +78,9 @@ private:
     return out;
   }
   void put(int p, int q, int shift) {
-    m_image[at(p)] = {q, shift}, m_used[at(q)] = 1, m_queue.push_back(p);
+    m_image[at(p)] = {q, shift};
+    m_used[at(q)] = 1;
+    m_queue.push_back(p);
   }
   int image(int side) const {
     const SeamSide& s = m_sides[at(side)];

@@ -44,12 +44,12 @@ TEST(Boundary, AHoleTooSmallForTheMeshIsLeftOutAndTold) {
                   fine = mesh_pattern(own(text), 0.002, "test.json");
   EXPECT_EQ(sew(coarse).boundary_loops, 1);
   EXPECT_EQ(sew(fine).boundary_loops, 2);
-  const auto told = [](const PanelMesh& m) {
+  const auto has_finding = [](const PanelMesh& m) {
     return std::any_of(m.findings.begin(), m.findings.end(),
                        [](const Message& f) { return f.text.find("p: the hole at h1") == 0; });
   };
-  EXPECT_TRUE(told(coarse));
-  EXPECT_FALSE(told(fine));
+  EXPECT_TRUE(has_finding(coarse));
+  EXPECT_FALSE(has_finding(fine));
 }
 
 TEST(Boundary, SewnOneToNIsAnOrientedManifold) {

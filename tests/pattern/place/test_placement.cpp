@@ -470,9 +470,8 @@ TEST(Placement, CuffsOfTrousersGoAroundTheirLegs) {
                    cuff = panel.name.rfind("cuff", 0) == 0;
         panel.hint.rigid = Mat4::Identity();
         if (!front) panel.hint.rigid->topLeftCorner<3, 3>() = Vec3(-1, 1, -1).asDiagonal();
-        const double middle = cuff
-                                  ? (front ? -0.1 : 0.1) + (panel.name.back() == 'l' ? 0.13 : -0.13)
-                                  : 0; // a cuff is drawn from x = 0 on
+        double middle = 0; // a cuff is drawn from x = 0 on
+        if (cuff) middle = (front ? -0.1 : 0.1) + (panel.name.back() == 'l' ? 0.13 : -0.13);
         panel.hint.rigid->topRightCorner<3, 1>() =
             Vec3(middle, cuff ? -0.06 : 0, front ? 0.3 : -0.3);
       }

@@ -255,9 +255,10 @@ TEST(Readers, CutTextsNeverCrash) { // a truncated or damaged file is refused or
         std::string text = damage ? whole : whole.substr(0, n);
         if (damage) text[n] = static_cast<char>('0' + n % 10);
         try {
-          Pattern p = kind == 0   ? read_pattern_json(io::parse_json(text, "x"), "x")
-                      : kind == 1 ? read_garmentcode(io::parse_json(text, "x"), "x")
-                                  : read_dxf(text, "x");
+          Pattern p;
+          if (kind == 0) p = read_pattern_json(io::parse_json(text, "x"), "x");
+          else if (kind == 1) p = read_garmentcode(io::parse_json(text, "x"), "x");
+          else p = read_dxf(text, "x");
           finish_pattern(p, "x");
         } catch (const Error&) {}
       }

@@ -35,7 +35,7 @@ Pattern skirt(const std::vector<std::string>& left_out = {}) {
   return pattern;
 }
 
-std::string told(const Pattern& pattern) {
+std::string findings_of(const Pattern& pattern) {
   std::string all;
   for (const MissingSeam& s : missing_seams(pattern))
     all += place_of(pattern, s.a) + " + " + place_of(pattern, s.b) + "; ";
@@ -43,35 +43,39 @@ std::string told(const Pattern& pattern) {
 }
 
 TEST(MissingSeams, AWholeGarmentHasNone) {
-  EXPECT_EQ(told(skirt()), "");
-  EXPECT_EQ(told(own(tube_text())), "") << "waist and hem of two panels are as long as each other";
+  EXPECT_EQ(findings_of(skirt()), "");
+  EXPECT_EQ(findings_of(own(tube_text())), "")
+      << "waist and hem of two panels are as long as each other";
 }
 
 TEST(MissingSeams, OneSideOfTwoIsTold) {
-  EXPECT_EQ(told(skirt({"front_lside", "front_lside_hip"})),
+  EXPECT_EQ(findings_of(skirt({"front_lside", "front_lside_hip"})),
             "front_l: side + back_l: side; front_l: side_hip + back_l: side_hip; ");
-  EXPECT_EQ(told(skirt({"band_frontend_a"})), "band_front: end_a + band_back: end_b; ");
+  EXPECT_EQ(findings_of(skirt({"band_frontend_a"})), "band_front: end_a + band_back: end_b; ");
   Pattern tube = own(tube_text());
   tube.seams.pop_back();
-  EXPECT_EQ(told(tube), "front: side_r + back: side_l; ") << "a panel may be its own other half";
+  EXPECT_EQ(findings_of(tube), "front: side_r + back: side_l; ")
+      << "a panel may be its own other half";
 }
 
 TEST(MissingSeams, AStretchLeftOutOfASeamIsTold) {
-  EXPECT_EQ(told(skirt({"front_lmiddle_hip"})), "front_l: middle_hip + front_r: middle_hip; ")
+  EXPECT_EQ(findings_of(skirt({"front_lmiddle_hip"})),
+            "front_l: middle_hip + front_r: middle_hip; ")
       << "the band closes it above";
 }
 
 TEST(MissingSeams, OpeningsAreNotTold) {
-  EXPECT_EQ(told(skirt({"front_lside"})), "") << "a slit";
-  EXPECT_EQ(told(skirt({"front_lside_hip", "band_frontend_b"})), "")
+  EXPECT_EQ(findings_of(skirt({"front_lside"})), "") << "a slit";
+  EXPECT_EQ(findings_of(skirt({"front_lside_hip", "band_frontend_b"})), "")
       << "a placket, through the band";
-  EXPECT_EQ(told(skirt({"front_lmiddle", "front_lmiddle_hip"})), "")
+  EXPECT_EQ(findings_of(skirt({"front_lmiddle", "front_lmiddle_hip"})), "")
       << "an open front below a band";
-  EXPECT_EQ(told(skirt({"front_lside", "front_lside_hip", "front_rside", "front_rside_hip"})), "")
+  EXPECT_EQ(
+      findings_of(skirt({"front_lside", "front_lside_hip", "front_rside", "front_rside_hip"})), "")
       << "an apron before and behind";
   Pattern left_open = skirt();
   left_open.seams[0].open = true;
-  EXPECT_EQ(told(left_open), "") << "a closure left undone";
+  EXPECT_EQ(findings_of(left_open), "") << "a closure left undone";
 }
 
 TEST(MissingSeams, ADartWhoseMouthIsSewnShutIsTold) {
@@ -88,7 +92,7 @@ TEST(MissingSeams, ADartWhoseMouthIsSewnShutIsTold) {
       {{"low_r", 0, 0}, {"low_l", 20, 0}, {"end_l", 20, 4}, {"top", -20, 4}, {"end_r", -20, 0}});
   drawn.seam("front", "waist_l", "band", "low_l");
   drawn.seam("front", "waist_r", "band", "low_r");
-  EXPECT_EQ(told(drawn.pattern()), "front: leg_a + front: leg_b; ");
+  EXPECT_EQ(findings_of(drawn.pattern()), "front: leg_a + front: leg_b; ");
   DrawnPattern neckline; // the same shape between shoulders
   neckline.panel("front", {{"hem", 22, -50},
                            {"side_l", 22, 0},
@@ -106,7 +110,7 @@ TEST(MissingSeams, ADartWhoseMouthIsSewnShutIsTold) {
   for (const auto& [a, b] : {std::pair("_l", "_r"), std::pair("_r", "_l")})
     for (const std::string edge : {"side", "shoulder"})
       neckline.seam("front", edge + a, "back", edge + b);
-  EXPECT_EQ(told(neckline.pattern()), "") << "a slashed neckline";
+  EXPECT_EQ(findings_of(neckline.pattern()), "") << "a slashed neckline";
 }
 
 TEST(MissingSeams, ThreeLikePiecesWrappedAroundAreLeftOpen) {
@@ -115,7 +119,7 @@ TEST(MissingSeams, ThreeLikePiecesWrappedAroundAreLeftOpen) {
     wrap.panel(name, {{"hem", 20, -50}, {"a", 20, 0}, {"waist", -20, 0}, {"b", -20, -50}});
   wrap.seam("back", "a", "front_r", "b");
   wrap.seam("front_l", "a", "back", "b");
-  EXPECT_EQ(told(wrap.pattern()), "");
+  EXPECT_EQ(findings_of(wrap.pattern()), "");
 }
 
 /// Findings of a rule, one a line.

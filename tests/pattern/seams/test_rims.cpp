@@ -48,7 +48,8 @@ Pattern shirt(double more, const std::string& sleeve) {
 SeamGuess guess(int panel, int edge, int other, int at, bool certain = true) {
   SeamGuess g;
   g.seam.name = std::to_string(edge) + "-" + std::to_string(at);
-  g.seam.a = {{panel, edge, 0, 1}}, g.seam.b = {{other, at, 1, 0}};
+  g.seam.a = {{panel, edge, 0, 1}};
+  g.seam.b = {{other, at, 1, 0}};
   g.score = certain ? 0.999 : 0.9;
   g.certain = certain;
   return g;
@@ -131,13 +132,15 @@ TEST(SeamOrder, ShouldersAreCertainWhereSidesAreAndTheOtherAnswerWouldTwist) {
                                     guess(0, 6, 1, 3, false)};
   guesses[2].twin = 3;
   guesses[3].twin = 2;
-  guesses[2].instead = {guess(0, 3, 1, 3, false)}, guesses[3].instead = {guess(0, 6, 1, 6, false)};
+  guesses[2].instead = {guess(0, 3, 1, 3, false)};
+  guesses[3].instead = {guess(0, 6, 1, 6, false)};
   auto twisted = guesses;
   twisted[2] = guess(0, 3, 1, 3, false);
   twisted[3] = guess(0, 6, 1, 6, false);
   twisted[2].twin = 3;
   twisted[3].twin = 2;
-  twisted[2].instead = {guess(0, 3, 1, 6, false)}, twisted[3].instead = {guess(0, 6, 1, 3, false)};
+  twisted[2].instead = {guess(0, 3, 1, 6, false)};
+  twisted[3].instead = {guess(0, 6, 1, 3, false)};
   for (auto* list : {&guesses, &twisted}) {
     settle_by_order(p, *list);
     EXPECT_TRUE((*list)[2].certain && (*list)[3].certain);

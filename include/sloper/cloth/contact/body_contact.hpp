@@ -74,28 +74,29 @@ public:
   /// distance to the cloth, and no farther than the search has seen. Cloth that already crosses the
   /// skin does not count. Searches. Only after a first step.
   std::vector<double> max_safe_skin_displacement(const std::vector<Vec3>& x);
-  /// Pushes a predictor off the skin where cloth at x + carry would come nearer to it
+  /// Pushes a predictor off the skin where cloth at x + predictor would come nearer to it
   /// than half of what collision_free_step_fraction() allows. O(near pairs).
-  /// @param way  #V by 3, m: displacement of the skin
-  /// @param carry  #P by 3, m, in and out: the predictor; small pushes only
-  void push_predictor_off_skin(const std::vector<Vec3>& x, const std::vector<Vec3>& way,
-                               std::vector<Vec3>& carry);
+  /// @param displacement  #V by 3, m: displacement of the skin
+  /// @param predictor  #P by 3, m, in and out: the predictor; small pushes only
+  void push_predictor_off_skin(const std::vector<Vec3>& x, const std::vector<Vec3>& displacement,
+                               std::vector<Vec3>& predictor);
   /// The largest fraction of a displacement of the skin that is free of collisions, while
   /// the cloth moves by the same fraction of its predictor: each pair comes nearer by at
   /// most a third of its distance, sideways and apart without limit, and no farther than
   /// the search has seen. Searches when it must. Cloth that already crosses the skin does
   /// not count.
-  /// @param way  #V by 3, m: displacement of the skin
-  /// @param carry  #P by 3, m: predictor
+  /// @param displacement  #V by 3, m: displacement of the skin
+  /// @param predictor  #P by 3, m: predictor
   /// @return in [0, 1]; 0 before the first step
-  double collision_free_step_fraction(const std::vector<Vec3>& x, const std::vector<Vec3>& way,
-                                      const std::vector<Vec3>& carry);
+  double collision_free_step_fraction(const std::vector<Vec3>& x,
+                                      const std::vector<Vec3>& displacement,
+                                      const std::vector<Vec3>& predictor);
   /// Moves the body, with the same topology. Anchors of friction move with their skin;
   /// near pairs hold as far as skin and the cloth near it move alike.
   /// @param positions  #V by 3, m
-  /// @param carry  #P by 3, m: displacement of the cloth at x meanwhile; empty: none
+  /// @param predictor  #P by 3, m: displacement of the cloth at x meanwhile; empty: none
   void move_body(const std::vector<Vec3>& positions, const std::vector<Vec3>& x,
-                 const std::vector<Vec3>& carry = {});
+                 const std::vector<Vec3>& predictor = {});
   /// Distance beyond the activation distance up to which pairs are kept, m: large where
   /// skin and cloth pass each other fast.
   void set_slack(double slack_m) {
@@ -155,10 +156,10 @@ private:
   Closest closest(const Pair& pair, const std::vector<Vec3>& x) const;
   /// See edge_edge_mollifier()
   double share_of(const Pair& pair, const std::vector<Vec3>& x) const;
-  void measure_way(const std::vector<Vec3>& x) const;
+  void measure_moved(const std::vector<Vec3>& x) const;
   double farthest(const Pair& pair) const;
-  static double against(const Pair& pair, const std::vector<Vec3>& way,
-                        const std::vector<Vec3>& carry);
+  static double against(const Pair& pair, const std::vector<Vec3>& displacement,
+                        const std::vector<Vec3>& predictor);
   void guard(const Pair& pair, const Closest& c, MotionLimits& limits) const;
   bool guarded() const { return m_options.level == ContactLevel::CONTINUOUS; }
   void weigh_skin();
@@ -171,8 +172,8 @@ private:
   void add_friction(StepContext& context);
   double friction_energy(const std::vector<Vec3>& x) const; ///< J
   void carry_anchors(const std::vector<Vec3>& positions);
-  void measure_against(const std::vector<Vec3>& x, const std::vector<Vec3>& way,
-                       const std::vector<Vec3>& carry);
+  void measure_against(const std::vector<Vec3>& x, const std::vector<Vec3>& displacement,
+                       const std::vector<Vec3>& predictor);
 
   const ClothMesh& m_mesh;
   collision::BodyCollider& m_body;
@@ -200,13 +201,13 @@ private:
   std::vector<Vec3> m_searched_at,
       m_added_at; // #P by 3, m: where the last search and the last add() saw the cloth
   mutable std::vector<double>
-      m_way;                       // #P, m: of each particle since m_added_at, or of a displacement
+      m_moved;                     // #P, m: of each particle since m_added_at, or of a displacement
   std::vector<double> m_reach_now; // #P: may move this far from m_searched_at unseen
   std::vector<double>
       m_skin_moved; // #P, m: of skin near it against what carried it, at most, since the search
-  collision::DisplacementBounds m_ways;
+  collision::DisplacementBounds m_displacement_bounds;
   std::vector<double> m_against; // #P, m: of measure_against(), how far skin near it goes against
-                                 // its carry, at most
+                                 // its predictor, at most
   bool m_stale = true, m_look_for_crossings = true;
   std::vector<char> m_inside, m_crossing, m_asked; // by particle, triangle, triangle
   std::size_t m_n_crossing = 0;

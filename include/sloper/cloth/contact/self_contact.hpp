@@ -2,7 +2,7 @@
 /// Contact of cloth with cloth: repulsion inside the thickness, friction, and limits on every
 /// particle's motion that no crossing can survive.
 ///
-/// A separating plane half-way between the elements of a near pair keeps each on its side in a step
+/// A separating plane halfway between the elements of a near pair keeps each on its side in a step
 /// (MotionLimits). While no particle moves farther than just under half the search radius from
 /// where it was searched, no other pair can cross. Beyond that, CCD candidates
 /// (collision/ccd_candidates.hpp) get planes too, so cloth that moves as one may move far. If
@@ -95,8 +95,8 @@ private:
   std::vector<double> m_thickness;                   // #P
   double m_reach = 0;                                // m, at which any pair may begin to repel
   double m_radius = 0;                               // m, of the last search
-  bool m_again = false; // the step has come some of its way, from m_x_before
-  bool m_fast = false;  // the last step outran what a search covers
+  bool m_again = false;                              // part of the step is done, from m_x_before
+  bool m_fast = false;                               // the last step outran what a search covers
   struct Near {
     std::array<int, 4> particle; // vertex and face, or edge and edge
     bool is_edge;
@@ -110,7 +110,7 @@ private:
   /// A pair's closest points now.
   struct Closest {
     std::array<double, 4> weight; // + on the first element, - on the second: the weighted sum is
-                                  // the way from it to the first
+                                  // the line from it to the first
     Vec3 first, second;           // m
     double distance;              // m
   };

@@ -40,8 +40,8 @@ public:
   /// Activation distance from the next step on, m.
   void set_reach(double reach_m) { m_options.reach_m = reach_m; }
   /// The skin has moved since the last step.
-  /// @param largest_way  largest displacement of any of its points, m
-  void body_moved(double largest_way);
+  /// @param largest_displacement  largest displacement of any of its points, m
+  void body_moved(double largest_displacement);
 
 private:
   /// A particle, or the middle of an edge or a face.
@@ -53,6 +53,7 @@ private:
     double clear = -1; // m: it was not nearer than this at `at`; below zero: not known
     Vec3 at = Vec3::Zero();
   };
+  void add_edges_and_faces(const ClothMesh& mesh);
   void push(const Sample& sample, const int* slots, const collision::SignedDistance& d,
             StepContext& context) const;
   const collision::BodyCollider& m_body;

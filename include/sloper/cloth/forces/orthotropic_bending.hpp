@@ -45,9 +45,14 @@ private:
   double turning(std::size_t hinge, const HingeAngle& angle) const {
     return angle.defined ? m_signed_length[hinge] * (angle.value - (*m_rest_angle)[hinge]) : 0;
   }
+  Stencil stencil_of(const BendingPlate& plate) const;
+  void keep_sums(std::vector<Pair> pairs);
+  void sign_lengths();
   double energy_of_angles(const std::vector<Vec3>& x) const;
   void add_plate(StepContext& c, std::size_t plate, double damping);
   void add_angles(StepContext& c, double damping);
+  void add_angles_of_plate(StepContext& c, std::size_t plate_index,
+                           const std::vector<HingeAngle>& angle, double damping);
   void add_firmness(StepContext& c, std::size_t hinge, const HingeAngle& angle, double damping);
   bool is_constant(std::size_t plate) const { return m_plates[plate].soft_share <= 0; }
 

@@ -86,6 +86,9 @@ public:
   const std::vector<double>& isotropic_value() const { return m_isotropic_value; }
 
 private:
+  void lay_out_full(const std::vector<std::array<int, 2>>& pairs);
+  void lay_out_isotropic(const std::vector<std::array<int, 2>>& pairs);
+
   int m_n = 0;
   bool m_all_symmetric = true;
   std::vector<int> m_row_start, m_column, m_lower_start, m_isotropic_start;

@@ -47,15 +47,15 @@ public:
   double wall_s = 0;
 
 private:
-  void predict_from_skin(const std::vector<Vec3>& way, double time);
+  void predict_from_skin(const std::vector<Vec3>& displacement, double time);
   std::vector<Vec3> limit_predictor_by_self_ccd(double share, MotionLimits& limits) const;
-  double free_part(const std::vector<Vec3>& way, double longest, double time);
+  double free_fraction(const std::vector<Vec3>& displacement, double longest, double time);
 
   ClothSolver& m_solver;
   BodyContactEffect& m_contact;
   collision::BodyCollider& m_body;
   SelfContactEffect* m_self_contact = nullptr;
-  double m_last_asked = 1;       // share of the way, of the last part
+  double m_last_asked = 1;       // share of the displacement, of the last part
   std::vector<Vec3> m_predictor; // #P, m
   std::vector<int> m_nearest;    // #P, triangle of the skin, or -1
 };

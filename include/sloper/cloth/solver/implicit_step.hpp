@@ -153,12 +153,12 @@ public:
 private:
   void begin(); ///< of both constructors
   void rebuild_pattern();
-  void assemble(double h, bool again = false); ///< @param again  the step has come some of its way
+  void assemble(double h, bool again = false); ///< @param again  part of the step is done
   /// @param begun effects have begun this step.
   StepResult newton_step(const StepOptions& options, int most_solves, bool begun);
   bool gains(const StepOptions& options); ///< m_dx, in the incremental potential without damping
   void assemble_drag(double h);
-  void drag_of(const std::vector<Vec3>& way, std::vector<Vec3>& drag);
+  void drag_of(const std::vector<Vec3>& displacement, std::vector<Vec3>& drag);
   void conclude(const StepOptions& options, StepResult& result); ///< moves by m_dx
   double energy(const std::vector<Vec3>& x) const;
   double energy_after(const std::vector<Vec3>& dx); ///< potential, J
@@ -167,7 +167,7 @@ private:
   bool turns_back() const;
   bool goes_round() const;
   int search_along(const StepOptions& options);
-  void forget(); ///< of the way so far; what was learnt holds no more
+  void forget(); ///< drops what was learnt from earlier steps
   void block_held_particles(bool search_failed, bool momentum);
   /// Of the squares of m_rhs, by particle, which it leaves in m_residual: 95th percentile and sum,
   /// N2.
@@ -182,7 +182,7 @@ private:
   std::vector<Vec3>&m_x, &m_v;
   std::vector<Vec3> m_force, m_rhs, m_dx, m_step, m_trial,
       m_trial_dx;                 // m_step: as solved, before limits
-  std::vector<Vec3> m_last_dx;    // #P: the way of the last step
+  std::vector<Vec3> m_last_dx;    // #P: the last displacement
   int m_carried_for = 0;          // steps since the last start of the momentum
   std::vector<double> m_energies; // J, before the last steps
   int m_falls_for = 0;            // steps that may not go up

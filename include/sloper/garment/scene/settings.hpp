@@ -35,6 +35,9 @@ struct DrapeSettings {
   double settle_force_ratio = 0.2; ///< residual force over a particle's weight
   double gravity_m_s2 = 9.80665;   ///< downwards, along -y
   int max_steps = 1500;            ///< of sewing, inflating and settling together
+  /// Steps that may follow max_steps while the cloth still nears rest: of a preset half as many;
+  /// none where set_knob() has set max_steps, to whatever number.
+  int extra_steps = 0;
   /// Number of meshes that panels are draped through (levels/drape_levels.hpp): 1 the
   /// given one alone; 2 they are first sewn on one with edges of 48 mm. Where that is not
   /// possible, 1 is taken, and the report says why.

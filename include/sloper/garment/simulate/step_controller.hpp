@@ -71,8 +71,7 @@ public:
   /// Raises the step limit, which is meant for the time until rest: substeps of a motion
   /// do not count.
   void allow_more_steps(int steps) { m_step_limit += steps; }
-  /// Until this is said otherwise, half as many steps more than the limit are made; where the user
-  /// stated a limit, none.
+  /// Whether DrapeSettings::extra_steps may follow the limit, until this is set anew.
   void set_patient(bool patient) { m_patient = patient; }
 
   /// Result of the last step and its length, s.
@@ -96,8 +95,7 @@ private:
   Telemetry& m_telemetry;
   State m_state;
   int m_step_limit;
-  int m_patience; ///< steps beyond the limit
-  bool m_patient = false;
+  bool m_patient = false; ///< extra steps may follow the limit
   bool m_stopped = false;
 };
 
