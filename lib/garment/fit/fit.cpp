@@ -375,7 +375,7 @@ FitReport fit_garment(const Garment& garment, const body::Body& body,
   if (placed) report.slip_borne_m = slip_borne(policy, report.lines, body, report);
   conclude(policy, unfit, report);
   report.strain_unknown = garment.strain_unknown;
-  take_probability(policy, made_for, report);
+  take_probability(policy, made_for, garment.converged || !unfit.empty(), report);
   return report;
 }
 
@@ -476,7 +476,7 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
     if (missing > 0) refuse(place, edge->line, limits, missing);
     else accept(place, edge->line, limits);
   }
-  take_probability(policy, {}, report);
+  take_probability(policy, {}, false, report);
   return report;
 }
 

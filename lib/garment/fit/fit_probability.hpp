@@ -2,7 +2,8 @@
 /// How likely it is that a garment fits, from the uncertainties of body and drape.
 ///
 /// Each bound of the policy is a quantity q with a limit L and a standard deviation s, and holds
-/// with the probability Phi((L - q) / s). The bounds that say "too small" all follow from the same
+/// with the probability F((L - q) / s), F being Student's distribution with two degrees of
+/// freedom. The bounds that say "too small" all follow from the same
 /// girths, and so do those that say "too large": of each kind the least likely bound counts, and as
 /// cloth is not both, their doubts add up. Calibration: docs/fit-probability.md.
 ///
@@ -22,7 +23,8 @@ namespace sloper::garment {
 /// probability is at least a half where the garment fits and its strain is known, at most a half
 /// where it does not.
 /// @param worn_on  girths of the body that the garment comes from, by name, m
+/// @param strain_counts  the cloth is at rest, or was ended for its strain or its slip
 void take_probability(const FitPolicy& policy, const std::map<std::string, double>& worn_on,
-                      FitReport& report);
+                      bool strain_counts, FitReport& report);
 
 } // namespace sloper::garment

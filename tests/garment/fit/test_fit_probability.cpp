@@ -12,14 +12,14 @@ namespace sloper::garment {
 
 namespace {
 
-/// A bust of 1 m, with an ease in m that is known to 1 cm.
+/// A bust of 1 m, with an ease in m that is known to 1 cm, with the 4 mm that every girth has.
 FitRow bust(double ease_m) {
   FitRow row;
   row.name = "bust";
   row.body_m = 1;
   row.rest_m = row.lying_m = 1 + ease_m;
   row.ease_m = ease_m;
-  row.body_uncertainty_m = row.ease_uncertainty_m = 0.01;
+  row.body_uncertainty_m = row.ease_uncertainty_m = std::sqrt(0.01 * 0.01 - 0.004 * 0.004);
   return row;
 }
 
@@ -33,36 +33,37 @@ FitReport report_of(const FitRow& row, bool fits = true, const std::string& stat
 }
 
 FitProbability probability_of(FitReport report) {
-  take_probability(standard_fit_policy(), {}, report);
+  take_probability(standard_fit_policy(), {}, report.state == "at rest", report);
   return report.probability;
 }
 
 } // namespace
 
-TEST(fit_probability, it_is_a_half_at_a_limit_and_normal_beside_it) {
+TEST(fit_probability, it_is_a_half_at_a_limit_and_has_long_tails_beside_it) {
   const FitLimits limits;
   const FitProbability at = probability_of(report_of(bust(limits.too_small_ease)));
   EXPECT_NEAR(at.fits, 0.5, 1e-9);
   EXPECT_EQ(at.girth, "bust");
   EXPECT_EQ(at.rule, "too_small_ease");
-  EXPECT_NEAR(probability_of(report_of(bust(limits.too_small_ease + 0.01))).fits, 0.8413, 1e-3);
-  EXPECT_NEAR(probability_of(report_of(bust(limits.too_small_ease - 0.01), false)).fits, 0.1587,
+  EXPECT_NEAR(probability_of(report_of(bust(limits.too_small_ease + 0.01))).fits, 0.7887, 1e-3);
+  EXPECT_NEAR(probability_of(report_of(bust(limits.too_small_ease - 0.01), false)).fits, 0.2113,
               1e-3);
-  EXPECT_GT(probability_of(report_of(bust(0.1))).fits, 0.9999);
+  EXPECT_GT(probability_of(report_of(bust(0.1))).fits, 0.99);
 }
 
 TEST(fit_probability, of_people_whose_girth_is_as_uncertain_as_said_so_many_fit) {
-  // Persons of whom each was measured with a normal error: among those with a probability of 0.6 to
-  // 0.8, and in other ranges, the share that truly fits is the probability.
+  // Persons of whom each was measured with an error as the model has it: among those with a
+  // probability of 0.6 to 0.8, and in other ranges, the share that truly fits is the probability.
   Random random(5);
   const FitLimits limits;
-  const auto normal = [&] { // Box and Muller (1958)
-    return std::sqrt(-2 * std::log(1 - random.uniform())) * std::cos(2 * M_PI * random.uniform());
+  const auto student = [&] { // of two degrees of freedom, by its inverse
+    const double w = 2 * random.uniform() - 1;
+    return std::sqrt(2.0) * w / std::sqrt(1 - w * w);
   };
   double said = 0, fit = 0;
   int people = 0;
   for (int i = 0; i < 20000; ++i) {
-    const double truth = -0.06 + 0.06 * random.uniform(), measured = truth + 0.01 * normal();
+    const double truth = -0.06 + 0.06 * random.uniform(), measured = truth + 0.01 * student();
     const bool fits = measured >= limits.too_small_ease;
     const double p = probability_of(report_of(bust(measured), fits, "placed")).fits;
     if (p < 0.6 || p > 0.8) continue;
@@ -92,6 +93,8 @@ TEST(fit_probability, strain_and_slip_count_at_rest_only) {
   EXPECT_EQ(p.rule, "strain_p99");
   report.state = "not at rest";
   EXPECT_GT(probability_of(report).fits, 0.99);
+  report.state = "at rest";
+  report.strain_p99 = 0.01;
   report.slip_m = 0.095;
   report.slip_borne_m = 0.10;
   p = probability_of(report);
@@ -105,8 +108,8 @@ TEST(fit_probability, before_any_drape_it_falls_with_what_is_missing) {
   const double little = probability_of(report_of(row, false, "placed")).fits;
   row.short_m = 0.03;
   const double much = probability_of(report_of(row, false, "placed")).fits;
-  EXPECT_LT(little, 0.16) << "one deviation of the girth was conceded before it was refused";
-  EXPECT_LT(much, 1e-3);
+  EXPECT_LT(little, 0.25) << "one deviation of the girth was conceded before it was refused";
+  EXPECT_LT(much, 0.05);
   EXPECT_GT(little, much);
 }
 
@@ -114,7 +117,7 @@ TEST(fit_probability, unknown_strain_lowers_it_where_cloth_lay_close) {
   const FitPolicy policy = standard_fit_policy();
   FitReport report = report_of(bust(0.01));
   report.strain_unknown = true;
-  take_probability(policy, {{"level:bust", 1.0}}, report);
+  take_probability(policy, {{"level:bust", 1.0}}, true, report);
   ASSERT_TRUE(report.bears);
   // 0.97 m unstretched would be 3 % below the girth of 1 m.
   EXPECT_NEAR(*report.bears, 1.01 / 0.97 - 1, 1e-9);
@@ -125,17 +128,17 @@ TEST(fit_probability, unknown_strain_lowers_it_where_cloth_lay_close) {
       << unknown_strain_text(report);
   report.strain_unknown = false;
   report.bears.reset();
-  take_probability(policy, {{"level:bust", 1.0}}, report);
-  EXPECT_GT(report.probability.fits, 0.99) << "its pattern says what it is unstretched";
+  take_probability(policy, {{"level:bust", 1.0}}, true, report);
+  EXPECT_GT(report.probability.fits, 0.95) << "its pattern says what it is unstretched";
   EXPECT_EQ(unknown_strain_text(report), "");
 }
 
 TEST(fit_probability, cloth_that_hung_free_was_not_stretched) {
   FitReport report = report_of(bust(0.02));
   report.strain_unknown = true;
-  take_probability(standard_fit_policy(), {{"level:bust", 0.9}}, report);
+  take_probability(standard_fit_policy(), {{"level:bust", 0.9}}, true, report);
   EXPECT_FALSE(report.bears);
-  EXPECT_GT(report.probability.fits, 0.99);
+  EXPECT_GT(report.probability.fits, 0.95);
 }
 
 } // namespace sloper::garment
