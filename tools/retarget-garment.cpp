@@ -133,6 +133,12 @@ int refuse(cli::Tool& tool, const Options& o, const garment::FitReport& fit) {
   return o.policy.empty() ? static_cast<int>(ErrorKind::FAILED) : 1;
 }
 
+/// A garment whose strain is unknown fits as far as is known: what that leaves open.
+void tell_unknown_strain(cli::Tool& tool, const Options& o, const garment::FitReport& fit) {
+  if (const std::string text = garment::unknown_strain_text(fit); !text.empty())
+    tool.reporter().warning({"retarget.strain-unknown"_id, io::file_name(o.garment) + " " + text});
+}
+
 /// What is put on: a garment, and the mesh file that it was where it has no pattern.
 struct Source {
   garment::Garment garment;
@@ -295,6 +301,7 @@ int run(cli::Tool& tool, Options o) {
     fit.fits = false;
     fit.verdict = garment::FitVerdict::IMPOSSIBLE;
     fit.reason = why;
+    fit.probability = {0, "", ""};
   }
   if (o.no_drape) fit.state = "placed";
   write_fit(o, fit, tool.name(), report.converged, inputs);
@@ -316,6 +323,7 @@ int run(cli::Tool& tool, Options o) {
                                                          " steps; the state reached is in " +
                                                          o.output});
   if (!fit.fits && !o.no_drape) return refuse(tool, o, fit);
+  if (!o.no_drape) tell_unknown_strain(tool, o, fit);
   if (worse && !o.no_drape) return static_cast<int>(ErrorKind::FAILED);
   return report.converged || o.no_drape ? 0 : static_cast<int>(ErrorKind::FAILED);
 }

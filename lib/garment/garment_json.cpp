@@ -399,6 +399,7 @@ Garment garment_from(const io::Node& root, const io::ObjMesh& mesh, const std::s
   if (garment.offset_m < 0)
     root.at("offset_m").fail("json.out-of-range"_id, "the contact gap is negative");
   garment.converged = root.boolean("converged", false);
+  garment.strain_unknown = root.boolean("strain_unknown", false);
   if (root.has("body")) {
     const Node body = root.at("body");
     garment.body_sha256 = body.string("sha256", "");
@@ -427,6 +428,7 @@ GarmentText garment_text(const Garment& garment, const std::string& mesh_name,
   document["name"] = garment.panels.name;
   document["mesh"] = mesh_name;
   document["converged"] = garment.converged;
+  if (garment.strain_unknown) document["strain_unknown"] = true;
   document["sewn"] = sewn;
   document["offset_m"] = garment.offset_m;
   document["edge_length_m"] = garment.panels.edge_length;

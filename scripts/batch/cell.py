@@ -176,6 +176,8 @@ def make_cell(plan, number):
     options = ["--mode", settings["mode"], "--accuracy", settings["accuracy"]]
     for assignment in settings["set"]:
         options += ["--set", assignment]
+    if cell["sizes"]:
+        options.append("--nearest-size")
     is_mesh = not cell["garment_file"].endswith(".json")
     if is_mesh:
         options += ["--from", settings["from"], *(["--fabric", settings["fabric"]] if settings.get("fabric") else [])]
@@ -190,6 +192,11 @@ def make_cell(plan, number):
         status.update(fits=fit["fits"], verdict=fit["verdict"], reason=fit["reason"], margin_cm=fit["margin_cm"]["value"], margin_at=fit["margin_cm"]["girth"],
                       margin_uncertainty_cm=fit["girths"].get(fit["margin_cm"]["girth"], {}).get("ease_cm", {}).get("uncertainty"),
                       ease_percent={name: g["ease_percent"]["value"] for name, g in fit["girths"].items()}, strain_p99=fit["strain"]["p99"])
+    if fit and "probability" in fit:
+        status["probability"] = fit["probability"]["fits"]
+    if report and cell["sizes"]:
+        ranking = report["sizes"]
+        status.update(size=planning.stem(ranking["nearest_first"][0]["file"]).partition("@")[2], nearest_sureness=ranking["sureness"])
     if report:
         quality = report.get("quality") or {}
         status["quality"] = {k: quality[k] for k in ("faces_through_body", "vertices_inside_body", "self_intersections") if k in quality}
@@ -202,6 +209,10 @@ def make_cell(plan, number):
             mesh = os.path.splitext(settings["from"])[0] + ".obj"
             files.update({"from.json": settings["from"], os.path.basename(mesh): mesh})
             options[options.index("--from") + 1] = "from.json"
+        elif cell["sizes"]:
+            del files[worn]
+            worn = os.path.basename(cell["garment_file"])
+            files.update({os.path.basename(path): path for size in cell["sizes"] for path in planning.checked(size)})
         else:
             mesh = os.path.splitext(cell["garment_file"])[0] + ".obj"
             files[os.path.basename(mesh)] = mesh

@@ -170,7 +170,7 @@ def figures_html(totals, figures, missing):
     return text
 
 
-CELLS_HEAD = "<div class=wide><table class=sorts><thead><tr><th>garment<th>size<th>scan<th>outcome<th>margin cm<th>strain p99 %<th>CPU s<th>why</tr></thead><tbody>\n"
+CELLS_HEAD = "<div class=wide><table class=sorts><thead><tr><th>garment<th>size<th>scan<th>outcome<th>margin cm<th title=\"probability that it fits\">fits %<th>strain p99 %<th>CPU s<th>why</tr></thead><tbody>\n"
 
 
 def why_html(s):
@@ -182,9 +182,10 @@ def why_html(s):
 
 def row_html(s):
     margin = f'<td class=n data-v="{s["margin_cm"]:.3f}">{s["margin_cm"]:.1f}</td>' if s.get("margin_cm") is not None else '<td data-v="-999"></td>'
+    chance = f'<td class=n>{100 * s["probability"]:.0f}</td>' if s.get("probability") is not None else "<td></td>"
     strain = f'<td class=n data-v="{s["strain_p99"]:.4f}">{100 * s["strain_p99"]:.1f}</td>' if s.get("strain_p99") is not None else "<td></td>"
     return (f'<tr><td>{html.escape(s["garment"])}<td>{html.escape(s["size"])}<td>{html.escape(s["scan"])}<td class="{css_class(s["cause"])}">{html.escape(s["cause"])}</td>'
-            f'{margin}{strain}<td class=n data-key="{s["key"]}"></td><td class=words>{why_html(s)}</td></tr>\n')
+            f'{margin}{chance}{strain}<td class=n data-key="{s["key"]}"></td><td class=words>{why_html(s)}</td></tr>\n')
 
 
 def best_row_html(garment, scan, best):
@@ -327,7 +328,7 @@ class LargePage:
 
 ON_DEMAND = """<script>
 const place=document.getElementById("rows"),loaded=[];window.rows=text=>loaded.push(text);
-const head="<tr><th>garment<th>size<th>scan<th>outcome<th>margin cm<th>strain p99 %<th>CPU s<th>why</tr>",bestHead="<tr><th>garment<th>scan<th>size<th>margin cm<th>least at<th>next best<th>sure %</tr>";
+const head="<tr><th>garment<th>size<th>scan<th>outcome<th>margin cm<th>fits %<th>strain p99 %<th>CPU s<th>why</tr>",bestHead="<tr><th>garment<th>scan<th>size<th>margin cm<th>least at<th>next best<th>sure %</tr>";
 function show(index,part,parts){const s=document.createElement("script");loaded.length=0;s.src=`page/${index}.${part}.js`;s.onload=()=>{
 const wide=loaded[0].split("</tr>")[0].split("<td").length>8;
 place.innerHTML=`<h2>Rows ${part+1} of ${parts}</h2><p>${part>0?"<button id=back>back</button> ":""}${part+1<parts?"<button id=on>on</button>":""}</p><div class=wide><table><thead>${wide?head:bestHead}</thead><tbody>${loaded[0]}</tbody></table></div>`;

@@ -244,7 +244,7 @@ class Plan:
         scan, garment = divmod(number, len(self.garments))
         scan, garment = self.scan(scan), self.garments[garment]
         return {"number": number, "key": self.key(number), "name": f"{garment['stem']} on {scan['name']}", "garment": garment["name"], "size": garment["size"],
-                "garment_file": garment["file"], "garment_sha256": garment["sha256"], "scan": scan["name"], "body": scan["key"]}
+                "garment_file": garment["file"], "sizes": garment.get("sizes", []), "garment_sha256": garment["sha256"], "scan": scan["name"], "body": scan["key"]}
 
     def place(self, key):
         """The folder of a cell, below OUT/cells; also that of its times, below OUT/timings."""
@@ -282,6 +282,21 @@ class Plan:
         return {"bodies": bodies, "cells": cells}
 
 
+def by_nearest_size(worn, hashes):
+    """Garments of which all sizes beside them are one: the program takes the size whose own body is nearest. Its key is of all sizes."""
+    grouped = []
+    for garment in worn:
+        folder = os.path.dirname(garment["file"])
+        if not garment["size"]:
+            grouped.append(garment)
+        elif all(other["name"] != garment["name"] or os.path.dirname(other["file"]) != folder for other in grouped):
+            sizes = sorted(os.path.join(folder, name) for name in os.listdir(folder) if name.startswith(garment["name"] + "@") and is_document(os.path.join(folder, name), "garment"))
+            digest = hashlib.sha256("\n".join(f"{stem(path)} {hashes.of(*checked(path))}" for path in sizes).encode()).hexdigest()
+            grouped.append({**garment, "stem": garment["name"], "size": "", "sha256": digest, "sizes": sizes})
+    refuse_twice("garments", [os.path.join(os.path.dirname(g["file"]), g["stem"] + ".json") for g in grouped])
+    return grouped
+
+
 def load(out):
     return Plan(out, read_json(os.path.join(out, "plan", "plan.json")))
 
@@ -305,6 +320,8 @@ def make_plan(out, garments, scans, settings, tools, cache=None):
     for path in garments:
         name, _, size = stem(path).partition("@")
         worn.append({"file": os.path.abspath(path), "stem": stem(path), "name": name, "size": size, "sha256": hashes.of(*files[path])})
+    if settings.get("nearest_size"):
+        worn = by_nearest_size(worn, hashes)
     hashes.save()
     try:  # a batch that grows keeps its layout
         sharded = read_json(os.path.join(folder, "plan.json"))["sharded"]

@@ -67,6 +67,8 @@ struct Garment {
   Redrapes redrapes;       ///< of its last re-drapes
   double offset_m = 0.002; ///< contact gap to the skin that the drape kept
   bool converged = false;  ///< the drape that left it here came to rest
+  /// Its rest shape is that of a mesh as it was worn: the strain that it had there is unknown.
+  bool strain_unknown = false;
   std::string body_sha256; ///< of the body.obj it was draped on, or empty
   /// Girths and level girths of that body, for the fit report.
   std::map<std::string, double> body_girths_m;

@@ -3,6 +3,7 @@
 #include <sloper/garment/fit/fit.hpp>
 
 #include <garment/fit/fit_measure.hpp>
+#include <garment/fit/fit_probability.hpp>
 #include <sloper/base/error.hpp>
 #include <sloper/base/units.hpp>
 #include <sloper/garment/materials.hpp>
@@ -373,6 +374,8 @@ FitReport fit_garment(const Garment& garment, const body::Body& body,
   add_redrape_spread(garment.redrapes, report);
   if (placed) report.slip_borne_m = slip_borne(policy, report.lines, body, report);
   conclude(policy, unfit, report);
+  report.strain_unknown = garment.strain_unknown;
+  take_probability(policy, made_for, garment.converged || !unfit.empty(), report);
   return report;
 }
 
@@ -401,6 +404,7 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
     row.open = !line.closed();
     row.body_uncertainty_m = row.ease_uncertainty_m = place.body_spread_m;
     row.margin_m = row.ease_m;
+    row.short_m = missing;
     row.limits = limits;
     row.verdict = FitVerdict::TOO_SMALL;
     row.rule = {"too_small_ease", limits.too_small_ease};
@@ -472,6 +476,7 @@ FitReport fit_before_drape(const Garment& garment, const std::vector<Vec3>& sour
     if (missing > 0) refuse(place, edge->line, limits, missing);
     else accept(place, edge->line, limits);
   }
+  take_probability(policy, {}, false, report);
   return report;
 }
 
@@ -488,6 +493,7 @@ FitReport impossible_fit(const std::string& reason, const FitPolicy& policy) {
   report.fits = false;
   report.verdict = FitVerdict::IMPOSSIBLE;
   report.reason = reason;
+  report.probability.fits = 0;
   return report;
 }
 

@@ -22,6 +22,14 @@ io::Json fit_json(const FitReport& report, const std::string& tool) {
   document["verdict"] = verdict_name(report.verdict);
   document["reason"] = report.reason;
   document["rule"] = rule_json(report.rule);
+  document["probability"] = {{"fits", report.probability.fits},
+                             {"girth", report.probability.girth},
+                             {"rule", report.probability.rule}};
+  if (report.strain_unknown) {
+    document["strain_unknown"] = io::Json::object();
+    if (report.bears)
+      document["strain_unknown"] = {{"bears", *report.bears}, {"girth", report.bears_at}};
+  }
   document["state"] = report.state;
   document["policy"] = report.policy;
   document["garment_class"] = report.garment_class;

@@ -1,4 +1,5 @@
 #include <garment/fit/fit_places.hpp>
+#include <sloper/base/text.hpp>
 #include <sloper/garment/fit/fit.hpp>
 
 #include <algorithm>
@@ -142,6 +143,17 @@ std::string ease_bars(const std::vector<FitRow>& rows) {
                 "loose. Red marks: below, too small; above, too large.</p>\n";
 }
 
+/// How likely it fits, in a sentence.
+std::string likelihood_of(const FitReport& report) {
+  std::string text = "It fits with a probability of " + whole_percent(report.probability.fits);
+  if (!report.probability.girth.empty())
+    text += "; the most doubt is at the " + escaped(spoken_girth(report.probability.girth));
+  if (report.bears)
+    text += "; its strain on the body that it comes from is unknown: it bears " +
+            percent(*report.bears);
+  return text + ".";
+}
+
 std::string said_of(const std::string& state) {
   if (state == "placed") return "; measured as it was placed: it was not draped";
   return state == "not at rest" ? "; the drape did not come to rest" : "";
@@ -155,7 +167,7 @@ std::string fit_page(const FitReport& report, const std::string& garment, const 
   page += std::string("<div class=\"verdict ") + css_class(report.verdict) + "\"><b>" +
           (report.fits ? "Fits" : "Does not fit") + ": " + verdict_name(report.verdict) + "</b>" +
           (report.reason.empty() ? "" : "<br>The garment " + escaped(report.reason) + ".") +
-          "</div>\n";
+          "</div>\n<p>" + likelihood_of(report) + "</p>\n";
   page += "<p class=\"pale\">Policy: " + escaped(report.policy) +
           (report.garment_class.empty() ? "" : "; class: " + report.garment_class) +
           (report.fabric.empty() ? "" : "; fabric: " + escaped(report.fabric)) +

@@ -27,9 +27,8 @@ double level_spread(const body::Body& body, const std::string& level) {
   return spread(level);
 }
 
-/// A level's girth has no spread of its own: what it changes within the error of its height, by the
-/// slope to the next level.
-double level_girth_spread(const body::Body& body, const std::string& name, double height_error) {
+/// What a level's girth changes within the error of its height, by the slope to the next level.
+double by_slope(const body::Body& body, const std::string& name, double height_error) {
   const body::Level& level = body.levels.at(name);
   double nearest = 1e300, slope = 0;
   for (const auto& [other_name, other] : body.levels) {
@@ -39,31 +38,7 @@ double level_girth_spread(const body::Body& body, const std::string& name, doubl
     nearest = distance;
     slope = std::abs(other.girth_m - level.girth_m) / distance;
   }
-  return std::hypot(LEAST_GIRTH_SPREAD, slope * height_error);
-}
-
-void add_levels(const body::Body& body, std::vector<FitPlace>& places) {
-  const auto torso = body.frames.find("torso");
-  for (const auto& [name, level] : body.levels) {
-    if (!(level.girth_m > 0)) continue;
-    const double height_error = std::max(HEIGHT_ERROR, level_spread(body, name));
-    FitPlace place{name,
-                   "level",
-                   Vec3(0, level.y, 0),
-                   Vec3::UnitY(),
-                   level.girth_m,
-                   level_girth_spread(body, name, height_error),
-                   height_error,
-                   {},
-                   {}};
-    if (torso != body.frames.end()) {
-      const PartFrame& f = torso->second.frame;
-      place.center = f.lower + (f.upper - f.lower) * std::max(0.0, (level.y - f.lower.y()) /
-                                                                       (f.upper.y() - f.lower.y()));
-      place.center.y() = level.y;
-    }
-    places.push_back(place);
-  }
+  return slope * height_error;
 }
 
 std::vector<int> faces_of(const body::Body& body, const std::vector<body::Part>& parts) {
@@ -87,6 +62,57 @@ double girth_in(const body::Body& body, const body::Plane& plane, const std::vec
     if (&loop != best && !best->closed && !loop.closed)
       whole.segments.insert(whole.segments.end(), loop.segments.begin(), loop.segments.end());
   return body::taut_girth(whole);
+}
+
+/// The trunk's girth at any height, as the body's own levels have it.
+class TrunkGirth {
+public:
+  explicit TrunkGirth(const body::Body& body)
+      : m_body(body),
+        m_spheres(body.skin,
+                  faces_of(body, {body::Part::TORSO, body::Part::LEG_L, body::Part::LEG_R})) {}
+  double at(Vec3 center, double y) { ///< m; 0 where there is none
+    center.y() = y;
+    const body::Plane plane = body::cross_plane(center, Vec3::UnitY());
+    return girth_in(m_body, plane, m_spheres.near(plane));
+  }
+
+private:
+  const body::Body& m_body;
+  body::TriangleSpheres m_spheres;
+};
+
+/// What a level's girth changes within the error of its height: on the skin above it, on the skin
+/// below it, or by the slope to the next level, whichever is least, since beyond the crotch or an
+/// arm pit the section is another one. Where the profile has its extremum, that is little, whatever
+/// the next level's girth.
+double level_girth_spread(const body::Body& body, const FitPlace& place, TrunkGirth& girth) {
+  const body::Level& level = body.levels.at(place.name);
+  const double y = level.y, here = girth.at(place.center, y);
+  double change = by_slope(body, place.name, place.height_error_m);
+  for (const double other : {y - place.height_error_m, y + place.height_error_m})
+    if (const double there = girth.at(place.center, other); here > 0 && there > 0)
+      change = std::min(change, std::abs(there - here));
+  return std::hypot(std::max(LEAST_GIRTH_SPREAD, level.girth_spread_m), change);
+}
+
+void add_levels(const body::Body& body, std::vector<FitPlace>& places) {
+  const auto torso = body.frames.find("torso");
+  TrunkGirth girth(body);
+  for (const auto& [name, level] : body.levels) {
+    if (!(level.girth_m > 0)) continue;
+    const double height_error = std::max(HEIGHT_ERROR, level_spread(body, name));
+    FitPlace place{
+        name, "level", Vec3(0, level.y, 0), Vec3::UnitY(), level.girth_m, 0, height_error, {}, {}};
+    if (torso != body.frames.end()) {
+      const PartFrame& f = torso->second.frame;
+      place.center = f.lower + (f.upper - f.lower) * std::max(0.0, (level.y - f.lower.y()) /
+                                                                       (f.upper.y() - f.lower.y()));
+      place.center.y() = level.y;
+    }
+    place.body_spread_m = level_girth_spread(body, place, girth);
+    places.push_back(place);
+  }
 }
 
 /// How far along a line from `from` the section square to it is as long as `girth`, within a tenth:

@@ -1,5 +1,6 @@
 #include <sloper/garment/fit/worn_policy.hpp>
 
+#include <garment/fit/fit_places.hpp>
 #include <sloper/base/text.hpp>
 #include <sloper/garment/fit/fit.hpp>
 #include <sloper/garment/fit/stretch.hpp>
@@ -39,6 +40,15 @@ std::string rule_text(const FitRule& rule, const std::string& policy) {
   if (rule.key == "slip_m") limit = centimetres(rule.limit);
   if (!std::isfinite(rule.limit)) limit = "as far as the hip holds it";
   return rule.key + " of policy " + policy + ", " + limit;
+}
+
+std::string unknown_strain_text(const FitReport& fit) {
+  if (!fit.fits || !fit.bears || fit.probability.rule != "strain_unknown") return {};
+  const std::string where =
+      fit.bears_at.empty() ? "" : "at the " + spoken_girth(fit.bears_at) + " ";
+  return "fits as far as is known: not if, on the body that wore it, it was stretched " + where +
+         "by more than " + percent(*fit.bears) + "; the probability that it fits is " +
+         whole_percent(fit.probability.fits);
 }
 
 } // namespace sloper::garment

@@ -236,6 +236,7 @@ MeshGarment read_mesh_garment(const std::string& path, const body::Body& from,
   g.materials[""] = material_preset(fabric);
   g.offset_m = DrapeSettings().contact_gap_m; // as of any drape
   g.converged = true;
+  g.strain_unknown = !m.rest_from_texture;
   g.body_sha256 = skin_sha256;
   m.panels = static_cast<int>(g.panels.panels.size());
   check_garment(g);

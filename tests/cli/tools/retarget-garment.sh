@@ -84,6 +84,25 @@ case_a_mesh_without_a_pattern_comes_out_as_it_came_in() {
   grep -q '"rest_shape": "texture"' report.json || fail "the flat pattern in its texture coordinates was not seen"
 }
 
+# Cloth that lies as close on the body that wore it as a girth of it may have been stretched there: it fits, as far as is known.
+case_a_mesh_whose_strain_is_unknown_fits_as_far_as_is_known() {
+  cp "$data"/a.body.{json,obj} .
+  awk '/^v /{print} /^f /{printf "f"; for (i = 2; i <= 4; i++) { split($i, a, "/"); printf " %s", a[1] } print ""}' skirt.obj > plain.obj
+  printf '{"format": "fit-policy", "version": 1, "strain_p99": 9, "strain_max": 9, "default": {"too_small_strain": 9, "loose_ease": 9, "too_large_ease": 9}, "slip_m": 9}' > wide.json
+  local file
+  for file in plain.obj skirt.obj; do
+    run 4 "$program" --garment $file --from a.body.json --to a.body.json --policy wide.json --accuracy draft --set max_steps=10 --fit $file.fit.json --fit-page $file.html -o out.json
+  done
+  python3 -c 'import json
+mesh, pattern = (json.load(open(name + ".obj.fit.json")) for name in ("plain", "skirt"))
+assert "strain_unknown" in mesh and "strain_unknown" not in pattern
+assert 0 <= mesh["probability"]["fits"] <= 1 and 0 <= pattern["probability"]["fits"] <= 1
+assert json.load(open("out.json")).get("strain_unknown") is None' || fail "the reports do not say whose strain is unknown"
+  grep -q "It fits with a probability of" plain.obj.html || fail "the page does not say how likely it fits"
+  run 4 "$program" --garment plain.obj --from a.body.json --to a.body.json --accuracy draft --set max_steps=10 -o out.json
+  grep -q '"strain_unknown": true' out.json || fail "the garment does not keep that its strain is unknown"
+}
+
 case_what_a_mesh_needs_and_what_it_does_not() {
   cp "$data"/a.body.{json,obj} .
   run 2 "$program" --garment skirt.obj --to b.body.json -o out.json

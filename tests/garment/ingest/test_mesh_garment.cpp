@@ -133,6 +133,7 @@ TEST(MeshGarment, has_the_edge_lengths_of_its_mesh_and_no_strain) {
   EXPECT_EQ(m.roles.shells + m.roles.patches + m.roles.rigid_parts, 0);
   EXPECT_FALSE(m.rest_from_texture);
   EXPECT_TRUE(says_strain_is_unknown(m)) << "a tight garment would be judged too kindly in silence";
+  EXPECT_TRUE(m.garment.strain_unknown);
   EXPECT_LT(stretch_of(m.garment).max, 1e-6);
   EXPECT_FALSE(m.garment.bind.empty());
   EXPECT_LT(m.panels, 6); // a tube is unrolled whole, or nearly
@@ -199,6 +200,7 @@ TEST(MeshGarment, texture_that_is_the_flat_pattern_gives_the_rest_shape) {
     }
   const MeshGarment m = read(out.str());
   EXPECT_TRUE(m.rest_from_texture);
+  EXPECT_FALSE(m.garment.strain_unknown);
   EXPECT_FALSE(says_strain_is_unknown(m));
   EXPECT_GT(m.texture_share, 0.99);
   EXPECT_EQ(m.panels, 1);

@@ -10,14 +10,13 @@
 /// measured along themselves, against the skin in their plane. cloth_strain.hpp defines
 /// strain and contact pressure.
 ///
-/// Uncertainties: of the body's girth its spread, or the slope to the next level; of the
-/// garment's girth its change within the error of the level's height, and the chord's
-/// shortfall against its arc; of strain its change when half the band is taken; of the
-/// gap the sagitta of an edge; of pressure as of the strain. A garment that was re-draped
-/// (Garment::redrapes) adds its standard deviations. A drape that did not come to rest
-/// adds `convergence_m` to lengths and gaps, and its strain and slip decide nothing (only
-/// the ease of its girths does), unless it was ended for them.
-/// Test: tests/garment/fit/test_fit.cpp
+/// Uncertainties: of the body's girth its spread, or of a level what the skin's girth changes
+/// within the error of its height; of the garment's girth its change within the error of the
+/// level's height, and the chord's shortfall against its arc; of strain its change when half the
+/// band is taken; of the gap the sagitta of an edge; of pressure as of the strain. A garment that
+/// was re-draped (Garment::redrapes) adds its standard deviations. A drape that did not come to
+/// rest adds `convergence_m` to lengths and gaps, and its strain and slip decide nothing (only the
+/// ease of its girths does), unless it was ended for them. Test: tests/garment/fit/test_fit.cpp
 #include <sloper/body/body.hpp>
 #include <sloper/collision/body_collider.hpp>
 #include <sloper/garment/fit/fit_policy.hpp>

@@ -5,6 +5,7 @@
 #include <sloper/garment/fit/fit_policy.hpp>
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,13 @@ namespace sloper::garment {
 struct FitRule {
   std::string key;  ///< in the document: "too_small_ease", "strain_p99", ...; empty: none did
   double limit = 0; ///< a ratio
+};
+
+/// How likely it is that a garment fits, and the bound that leaves the most doubt.
+struct FitProbability {
+  double fits = 1;   ///< 0..1: that the policy would accept it on the person as they are
+  std::string girth; ///< of that bound; empty: of the whole garment
+  std::string rule; ///< FitRule::key of that bound, or "strain_unknown"; empty: none leaves a doubt
 };
 
 /// One girth of the body, or one free edge, and the cloth around it.
@@ -41,6 +49,7 @@ struct FitRow {
   double body_uncertainty_m = 0, garment_uncertainty_m = 0, ease_uncertainty_m = 0;
   /// The same of strain, gap and pressure.
   double strain_uncertainty = 0, gap_uncertainty_m = 0, pressure_uncertainty_pa = 0;
+  double short_m = 0;  ///< refused before any drape: what the cloth lacks to be let through, m
   FitLimits limits;    ///< of the policy, for this girth
   double margin_m = 0; ///< ease to the nearer limit of "ok"; negative when it is not ok
   FitVerdict verdict = FitVerdict::OK; ///< of this girth alone
@@ -74,9 +83,15 @@ struct FitReport {
   std::string margin_at;                                     ///< its girth
   std::vector<std::pair<std::string, std::string>> left_out; ///< girth, why
   double hem_height_m = 0, top_height_m = 0; ///< lowest and highest point of the garment
-  double below_soles_m = 0;            ///< how far it reaches below the feet; 0 where it does not
-  double convergence_m = 0;            ///< how far it may still move: 0 at rest
-  bool fits = true;                    ///< whether the policy accepts it
+  double below_soles_m = 0;    ///< how far it reaches below the feet; 0 where it does not
+  double convergence_m = 0;    ///< how far it may still move: 0 at rest
+  bool fits = true;            ///< whether the policy accepts it
+  FitProbability probability;  ///< that it fits (docs/fit-probability.md)
+  bool strain_unknown = false; ///< Garment::strain_unknown
+  /// Of a garment whose strain is unknown: strain that it may have had on the body that it was worn
+  /// on and still fit here; none: nothing lay close to that body.
+  std::optional<double> bears;
+  std::string bears_at;                ///< girth of that strain; empty: of all cloth
   FitVerdict verdict = FitVerdict::OK; ///< the worst of all
   std::string reason; ///< "closes at the bust only stretched by 4 %: it is 3.6 cm too small there"
   FitRule rule;       ///< that gave the verdict

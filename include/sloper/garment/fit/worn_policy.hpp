@@ -23,4 +23,8 @@ void follow_worn(const Garment& source, const body::Body& body, const collision:
 /// "too_small_strain of policy woven, 8.0 %", or nothing.
 std::string rule_text(const FitRule& rule, const std::string& policy);
 
+/// "fits as far as is known: not if it was stretched ...", of a garment that fits and whose unknown
+/// strain leaves the most doubt of that; else nothing.
+std::string unknown_strain_text(const FitReport& fit);
+
 } // namespace sloper::garment
