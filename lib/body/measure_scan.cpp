@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 #include <body/ingest/canonical_frame.hpp>
+#include <body/ingest/loose_parts.hpp>
 #include <body/ingest/torso_only.hpp>
 #include <body/ingest/upright.hpp>
 #include <body/ingest/vertical.hpp>
@@ -127,17 +128,24 @@ void add_holes(Body& body, const std::vector<Hole>& holes, const Vec3& origin) {
 /// statures that few people have.
 void add_unit_finding(Body& body, bool given) {
   constexpr double SMALL = 1.3, TALL = 2.1; // m
+  constexpr double RARE = 0.3;              // decimetres and feet
   char text[160];
   std::snprintf(text, sizeof text, "unit %s%s: %.2f m tall", body.scan.unit.c_str(),
                 given ? ", as given" : ", guessed", body.scan.stature_m);
   std::string what = text, other;
+  bool is_rare = false; // a scale of no unit is as likely
   for (const LengthUnit& unit : LENGTH_UNITS)
-    if (!given && body.scan.unit == unit.name) other = other_guess(body.scan.stature_m, unit);
+    if (!given && body.scan.unit == unit.name) {
+      other = other_guess(body.scan.stature_m, unit);
+      is_rare = unit.rare > RARE;
+    }
   if (!other.empty())
     what += "; it may as well be " + other + ": give --unit, --scale or --stature";
-  const bool is_doubtful =
-      !given && (!other.empty() || body.scan.stature_m < SMALL || body.scan.stature_m > TALL);
-  if (is_doubtful && other.empty())
+  const bool is_doubtful = !given && (!other.empty() || is_rare || body.scan.stature_m < SMALL ||
+                                      body.scan.stature_m > TALL);
+  if (is_rare && other.empty())
+    what += ", in which few files are: give --unit, --scale or --stature if that is wrong";
+  else if (is_doubtful && other.empty())
     what += ", as few people are: give --unit, --scale or --stature if that is wrong";
   body.scan.findings.push_back({"scan.unit"_id, is_doubtful ? "warning" : "info", what, "scan"});
 }
@@ -312,7 +320,9 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   MeasuredScan result;
   Body& body = result.body;
   Phases phases(reporter);
-  SegmentedScan sorted = segment_scan(as_given, options.up);
+  const LooseParts loose =
+      options.torso_only ? LooseParts{} : find_loose_parts(as_given, options.up);
+  SegmentedScan sorted = segment_without(loose.is_extra, as_given, options.up);
   // a scan that lies or leans in its file is set upright first
   std::optional<Eigen::Matrix3d> upright;
   if (options.up == "auto" && !options.torso_only) upright = upright_turn(as_given, sorted);
@@ -321,7 +331,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
     turned.triangles = as_given.triangles;
     turned.positions.reserve(as_given.positions.size());
     for (const Vec3& p : as_given.positions) turned.positions.push_back(*upright * p);
-    sorted = segment_scan(turned, "y");
+    sorted = segment_without(loose.is_extra, turned, "y");
     const Vec3 up = upright->row(1).transpose();
     char text[80];
     std::snprintf(text, sizeof text, "%.4f %.4f %.4f", up.x(), up.y(), up.z());
@@ -349,6 +359,7 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   // better
   if (options.up == "auto" && !is_torso && (upright || !sorted.has_floor))
     settle_vertical(scan, shape, sorted, frame, !upright);
+  frame.findings.insert(frame.findings.end(), loose.findings.begin(), loose.findings.end());
   body.scan = {io::file_name(file),
                sha256,
                frame.unit,

@@ -397,6 +397,27 @@ SegmentedScan segment_scan(const TriangleMesh& scan, const std::string& up_axis)
   return best;
 }
 
+SegmentedScan segment_without(const std::vector<char>& is_extra, const TriangleMesh& scan,
+                              const std::string& up_axis) {
+  if (is_extra.empty()) return segment_scan(scan, up_axis);
+  TriangleMesh rest;
+  std::vector<int> number(scan.positions.size(), -1);
+  for (std::size_t v = 0; v < scan.positions.size(); ++v) {
+    if (is_extra[v]) continue;
+    number[v] = static_cast<int>(rest.positions.size());
+    rest.positions.push_back(scan.positions[v]);
+  }
+  for (const Triangle& t : scan.triangles)
+    if (number[t[0]] >= 0 && number[t[1]] >= 0 && number[t[2]] >= 0)
+      rest.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  SegmentedScan sorted = segment_scan(rest, up_axis);
+  std::vector<char> is_body(scan.positions.size(), 0);
+  for (std::size_t v = 0; v < is_body.size(); ++v)
+    if (number[v] >= 0) is_body[v] = sorted.is_body[number[v]];
+  sorted.is_body = std::move(is_body);
+  return sorted;
+}
+
 SegmentedScan sort_coarsely(const TriangleMesh& scan, const std::string& up_axis, int n_cells) {
   return sort_in_cells(scan, up_axis, n_cells, 1);
 }

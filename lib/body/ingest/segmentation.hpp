@@ -27,6 +27,11 @@ struct SegmentedScan {
 /// @param up_axis "auto", "x", "y" or "z" (both signs are tried)
 SegmentedScan segment_scan(const TriangleMesh& scan, const std::string& up_axis);
 
+/// The same of the vertices that `is_extra` (one per vertex, or empty) does not leave out, which
+/// are no body.
+SegmentedScan segment_without(const std::vector<char>& is_extra, const TriangleMesh& scan,
+                              const std::string& up_axis);
+
 /// The same in one reading with cells of the longest side / `n_cells`: to compare many directions.
 SegmentedScan sort_coarsely(const TriangleMesh& scan, const std::string& up_axis, int n_cells);
 

@@ -1,4 +1,5 @@
 #include <body/landmarks/landmark_finder.hpp>
+#include <body/landmarks/shoulder_slope.hpp>
 #include <body/measure/plateau.hpp>
 #include <sloper/base/units.hpp>
 
@@ -13,26 +14,6 @@ namespace {
 constexpr double REAR_FLAT = 0.002; ///< m
 constexpr double STRAIGHT =
     0.26; ///< bend of an elbow that tells nothing: 15 degrees, as the length of bend_at()
-
-/// The skin straight above (x, z), below the head.
-std::optional<Vec3> top_of_shoulder(const TriangleMesh& skin, double stature, double x, double z) {
-  std::optional<Vec3> top;
-  for (const Triangle& t : skin.triangles) {
-    const Vec3 &a = skin.positions[t[0]], &b = skin.positions[t[1]], &c = skin.positions[t[2]];
-    if (std::min({a.x(), b.x(), c.x()}) > x || std::max({a.x(), b.x(), c.x()}) < x ||
-        std::min({a.z(), b.z(), c.z()}) > z || std::max({a.z(), b.z(), c.z()}) < z)
-      continue;
-    if (a.y() > 0.9 * stature) continue;
-    const double area = (b.x() - a.x()) * (c.z() - a.z()) - (c.x() - a.x()) * (b.z() - a.z());
-    if (std::abs(area) < 1e-14) continue;
-    const double u = ((x - a.x()) * (c.z() - a.z()) - (c.x() - a.x()) * (z - a.z())) / area,
-                 v = ((b.x() - a.x()) * (z - a.z()) - (x - a.x()) * (b.z() - a.z())) / area;
-    if (u < 0 || v < 0 || u + v > 1) continue;
-    const double y = a.y() + u * (b.y() - a.y()) + v * (c.y() - a.y());
-    if (!top || y > top->y()) top = Vec3(x, y, z);
-  }
-  return top;
-}
 
 /// Where the wrist is: behind the widest of the hand the girth falls to its least. Empty when it
 /// does not. The search starts at the palm, so that a fist, whose hand is short, has a wrist too.
@@ -145,11 +126,15 @@ Vec3 find_shoulder(const Finder& f, int side) {
   };
   if (f.find("axilla", suffix, 1,
              {{"gap_closes", [&] { return pit_if(false); }},
+              {"as_other_arm",
+               [&] { return arm.pit_mirrored ? pit_if(true) : std::optional<Vec3>(); }},
               {"proportion", [&] { return pit_if(true); }}})) {
     f.find("axilla_merge", suffix, 1, {{"level_sections_merge", [&] { return arm.merge; }}});
     if (arm.pit_hidden)
       f.body.scan.findings.push_back({"scan.armpit-estimated"_id, "warning",
-                                      "the arm pit is hidden, its place is estimated",
+                                      arm.pit_mirrored
+                                          ? "the arm pit is hidden, its place is the other's"
+                                          : "the arm pit is hidden, its place is estimated",
                                       "axilla" + suffix});
     f.find("axilla_front", suffix, 2, {{"beside_arm_pit", [&] { return arm.axilla_front; }}});
     f.find("axilla_back", suffix, 2, {{"beside_arm_pit", [&] { return arm.axilla_back; }}});
@@ -193,6 +178,7 @@ Vec3 find_shoulder(const Finder& f, int side) {
            }},
           {"above_shoulder_joint", [&] { return top_of_shoulder(skin, s, by_joint, depth); }}});
   if (const auto p = top_of_shoulder(skin, s, by_joint, depth)) f.also("acromion" + suffix, *p);
+  weigh_acromion_by_slope(f, side, raised);
   // of a scan with many closed holes the offset learned for the joint changes: the rest of the arm
   // is measured from where the rule found it
   return by_pit().value_or(by_axis);

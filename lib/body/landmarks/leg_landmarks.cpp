@@ -164,7 +164,7 @@ void find_leg_landmarks(const Finder& f) {
                   "the skin between the legs is as low %.0f mm farther %s: the crotch may be there",
                   1000 * std::abs(other->z() - crotch.z()),
                   other->z() < crotch.z() ? "back" : "forward");
-    f.body.scan.findings.push_back({"scan.crotch-estimated"_id, "info", text, "crotch"});
+    f.body.scan.findings.push_back({"scan.crotch-estimated"_id, "warning", text, "crotch"});
   }
   for (int side = 0; side < 2; ++side) find_leg(f, side);
   if (f.has("hip_joint_l") && f.has("hip_joint_r"))

@@ -175,6 +175,27 @@ bool bust_at(const Finder& f, double expected, double y, BothSides& points) {
   return drawn;
 }
 
+/// Where a belly runs out before the chest, the foremost place of the chest is said to be unsure:
+/// with the place, if there is one, that stands out between both ends of the heights.
+void doubt_prominence(const Finder& f, int side, const Vec3& bust_point) {
+  constexpr double AT_END = 0.004, DOUBT = 0.5; // of stature, of the confidence
+  constexpr double FAR_APART = 0.02; // of stature: of 64 fresh bodies on one such place was wrong
+  const std::string name = std::string("bust_prominent") + side_suffix(side);
+  if (!f.has(name)) return;
+  const Span heights{bust_point.y() - f.number("bust.prominent_below") * f.s,
+                     bust_point.y() + f.number("bust.prominent_above") * f.s};
+  Landmark& landmark = f.body.landmarks[name];
+  if (landmark.p.y() > heights.low + AT_END * f.s) return;
+  const auto inside = place_of(foremost_place(f, heights, chest_half(f, side), 1, PEAKED, f.s));
+  const Vec3 other = inside ? *inside : bust_point;
+  if ((other - landmark.p).norm() < FAR_APART * f.s) return;
+  f.also(name, other);
+  landmark.confidence *= DOUBT;
+  f.body.scan.findings.push_back(
+      {"scan.landmark-unlikely"_id, "warning",
+       "the belly runs out before the chest: its foremost place is unsure", name});
+}
+
 void find_bust(const Finder& f, double pit) {
   const double s = f.s, crotch = f.at("crotch").y(), trunk = f.at("neck_back").y() - crotch;
   const double by_trunk = crotch + f.number("bust.of_trunk") * trunk,
@@ -243,6 +264,7 @@ void find_bust(const Finder& f, double pit) {
                                                point->y() + f.number("bust.prominent_above") * s},
                                               chest_half(f, side), 1, PEAKED, BELLY_BEFORE));
              }}});
+    doubt_prominence(f, side, *point);
     if (const auto p = front_at(f, (side == 0 ? 1 : -1) * f.number("bust.beside") * s, expected,
                                 FRONT_HALF_WIDTH * s))
       f.also("bust_point" + suffix, *p);
@@ -405,6 +427,7 @@ double find_waist(const Finder& f, const std::optional<double>& navel, double pi
 }
 
 void find_seat_and_belly(const Finder& f, double crotch, double waist) {
+  constexpr double AT_WAIST = 0.006, LESS_FAR = 0.003; // of stature
   const double s = f.s;
   const double half_belly = f.number("abdomen.half_breadth") * s;
   const double half_seat = f.number("buttock.half_breadth") * s;
@@ -424,6 +447,13 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
       rival = belly->p;
       belly = other;
     }
+    if (!rival && belly->p.y() > waist - AT_WAIST * s) { // it runs on into the chest
+      const auto bulge =
+          foremost_place(f, {crotch + f.number("abdomen.above_crotch") * s, waist},
+                         {-half_belly, half_belly}, 1, f.number("abdomen.flat"), LESS_FAR);
+      if (bulge && std::abs(bulge->p.y() - belly->p.y()) > f.number("abdomen.apart") * s)
+        rival = bulge->p;
+    }
     return place_of(belly);
   };
   if (f.find("abdomen_front", "", 2, {{"foremost_below_waist", foremost}})) {
@@ -434,8 +464,9 @@ void find_seat_and_belly(const Finder& f, double crotch, double waist) {
       f.also("abdomen_front", *rival);
       landmark.confidence *= 0.5;
       char text[160];
-      std::snprintf(text, sizeof text, "the belly is flat: it is as far out at %.3f m, %.0f mm %s",
-                    rival->y(), 1000 * std::abs(rival->y() - belly->p.y()),
+      std::snprintf(text, sizeof text,
+                    "the belly is flat: it is about as far out at %.3f m, %.0f mm %s", rival->y(),
+                    1000 * std::abs(rival->y() - belly->p.y()),
                     rival->y() > belly->p.y() ? "higher" : "lower");
       f.body.scan.findings.push_back({"scan.belly-flat"_id, "info", text, "abdomen"});
     }

@@ -221,23 +221,6 @@ void follow(ArmTrace& arm, const TriangleMesh& skin, const std::vector<double>& 
     arm.sections.pop_back();
 }
 
-/// Both arm pits of a person are about as high; skin of arm and trunk that touches closes the gap
-/// too low on one side. What is lower by more than people's pits are is lifted towards the other.
-void compare_pits(std::array<ArmTrace, 2>& arms, double s) {
-  constexpr double UNLIKE = 0.008; // of stature: of 48 people in natural stances 0.015 at most
-  constexpr double KEPT =
-      0.3; // of what is beyond; four of their 96 pits were found 23 to 61 mm too low
-  for (const ArmTrace& arm : arms)
-    if (!arm.axilla || arm.pit_hidden) return;
-  ArmTrace& lower = arms[arms[0].axilla->y() < arms[1].axilla->y() ? 0 : 1];
-  const ArmTrace& higher = &lower == &arms[0] ? arms[1] : arms[0];
-  const double beyond = higher.axilla->y() - lower.axilla->y() - UNLIKE * s;
-  if (beyond <= 0) return;
-  lower.lifted_m = (1 - KEPT) * beyond;
-  for (std::optional<Vec3>* p : {&lower.axilla, &lower.axilla_front, &lower.axilla_back})
-    if (*p) (*p)->y() += lower.lifted_m;
-}
-
 } // namespace
 
 Vec3 ArmTrace::at(double along) const {
@@ -319,7 +302,7 @@ std::array<ArmTrace, 2> trace_arms(const LevelStack& levels, const EdgeGraph& gr
     if (!arm.pit_hidden) find_merge(arm, levels);
     arm.from_tip = std::move(from_tip);
   }
-  compare_pits(arms, s);
+  compare_pits(arms, rules, s);
   return arms;
 }
 

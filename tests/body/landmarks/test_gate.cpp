@@ -78,6 +78,7 @@ TEST(Size, is_the_likeliest_of_units_and_stature_and_is_told_where_it_is_doubtfu
       test::measure(test::moved(mesh, 12.5 * Eigen::Matrix3d::Identity(), Vec3::Zero())).body;
   EXPECT_EQ(decimetres.scan.unit, "dm"); // 20.6 units: no adult of 52 cm in inches
   EXPECT_NEAR(decimetres.scan.stature_m, 2.06, 0.02);
+  EXPECT_EQ(unit_finding(decimetres).severity, "warning"); // a scale of no unit is as likely
   const Body giant =
       test::measure(test::moved(mesh, 1.45 * Eigen::Matrix3d::Identity(), Vec3::Zero())).body;
   EXPECT_EQ(unit_finding(giant).severity, "warning");

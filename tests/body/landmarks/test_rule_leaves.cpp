@@ -90,13 +90,13 @@ TriangleMesh with_breeches(TriangleMesh mesh, double s) {
 }
 
 /// Wide sleeves cut in one with the trunk: skin under level arms from the trunk to the elbows, and
-/// no arm pit.
-TriangleMesh with_bat_sleeves(TriangleMesh mesh, double s) {
+/// no arm pit. @param side 0 both, 1 the left one, -1 the right one
+TriangleMesh with_bat_sleeves(TriangleMesh mesh, double s, double side = 0) {
   const std::vector<Vec3> normals = vertex_normals(mesh);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     Vec3& p = mesh.positions[v];
     const double x = std::abs(p.x()) / s;
-    if (p.y() > 0.6 * s && x > 0.09 && x < 0.28 && normals[v].y() < -0.2)
+    if (p.y() > 0.6 * s && x > 0.09 && x < 0.28 && normals[v].y() < -0.2 && side * p.x() >= 0)
       p.y() -= s * std::min(0.25, 1.6 * (0.28 - x));
   }
   return mesh;
@@ -165,6 +165,7 @@ TEST(RuleLeaves, every_rule_of_the_tree_is_reached) {
   visit(with_scarf(woman, f, true));
   visit(with_breeches(woman, f));
   visit(with_bat_sleeves(test::mannequin("m-185-t").mesh, 1.85));
+  visit(with_bat_sleeves(test::mannequin("m-185-t").mesh, 1.85, 1));
   samples::Mannequin pressed; // arms that touch the trunk far down
   pressed.sex = "m";
   pressed.stature_m = 1.64;

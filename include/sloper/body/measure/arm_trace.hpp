@@ -28,6 +28,8 @@ struct ArmTrace {
   Vec3 out = Vec3::UnitX();   ///< unit, from shoulder to hand, over the upper arm
   std::optional<Vec3> axilla; ///< roof of the arm pit
   bool pit_hidden = false;    ///< no gap closes where an arm pit can be: it is placed by proportion
+  bool pit_low = false;       ///< a gap closes there, lower than any arm pit
+  bool pit_mirrored = false;  ///< hidden, and placed as the other arm's is
   /// Front and back fold beside the arm pit, m, body frame.
   std::optional<Vec3> axilla_front, axilla_back;
   double lifted_m = 0;       ///< by which pit and folds were lifted towards those of the other arm
@@ -43,6 +45,15 @@ struct ArmTrace {
 /// @param arm  with its sections, in and out
 /// @param rules  with the proportions
 void find_axilla(ArmTrace& arm, const LevelStack& levels, const Rules& rules);
+
+/// Both arm pits of a person are about as high; skin of arm and trunk that touches closes the gap
+/// too low on one side. What is lower by more than people's pits are is lifted towards the other,
+/// and wholly to it where it lies lower than any pit; one that is hidden is the other's mirror
+/// image; two that are too low are both hidden.
+/// @param arms  left and right after find_axilla(), in and out
+/// @param rules  with the proportions
+/// @param s  stature, m
+void compare_pits(std::array<ArmTrace, 2>& arms, const Rules& rules, double s);
 
 /// Fills `merge`: going up, the level at which the loops of a hanging arm and of the trunk become
 /// one, by bisection to 0.02 mm: front and back fold often meet within a tenth of a millimetre of

@@ -1,0 +1,65 @@
+/// Two ways to the acromion, and an arm pit that touching skin hides on one side.
+#include <support/figures.hpp>
+
+#include <gtest/gtest.h>
+
+using namespace sloper;
+using namespace sloper::body;
+
+namespace {
+
+bool is_doubted(const Body& body, const std::string& place) {
+  for (const Finding& f : body.scan.findings)
+    if (f.severity == "warning" && f.place == place) return true;
+  return false;
+}
+
+/// Skin from the trunk to the elbow under the left arm, as a wide sleeve has it: no gap shows the
+/// pit.
+TriangleMesh with_one_bat_sleeve(const TriangleMesh& plain, double s) {
+  TriangleMesh mesh = plain;
+  const std::vector<Vec3> normals = vertex_normals(mesh);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    Vec3& p = mesh.positions[v];
+    if (const double x = p.x() / s;
+        p.y() > 0.6 * s && x > 0.09 && x < 0.28 && normals[v].y() < -0.2)
+      p.y() -= s * std::min(0.25, 1.6 * (0.28 - x));
+  }
+  return mesh;
+}
+
+} // namespace
+
+/// A shoulder whose top runs on level where it should turn down contradicts the trunk's breadths.
+TEST(Acromion, is_doubted_where_slope_and_breadths_disagree) {
+  const TriangleMesh& plain = test::mannequin("f-165-a").mesh;
+  const Body before = test::measure(plain).body;
+  EXPECT_FALSE(is_doubted(before, "acromion_l"));
+  EXPECT_FALSE(is_doubted(before, "acromion_r"));
+  const Vec3 acromion = test::in_scan(before, "acromion_l");
+  TriangleMesh padded = plain; // an epaulette on the left shoulder
+  for (Vec3& p : padded.positions)
+    if (p.y() > acromion.y() - 0.12 && p.x() > acromion.x() - 0.06 && p.y() < acromion.y() + 0.03)
+      p.y() += std::clamp(acromion.y() + 0.02 - p.y(), 0.0, 0.12) *
+               std::exp(-std::pow((p.x() - acromion.x() - 0.035) / 0.045, 4));
+  const Body after = test::measure(padded).body;
+  EXPECT_TRUE(is_doubted(after, "acromion_l"));
+  EXPECT_FALSE(is_doubted(after, "acromion_r"));
+  EXPECT_LT(after.landmarks.at("acromion_l").confidence,
+            before.landmarks.at("acromion_l").confidence);
+}
+
+/// Two of 40 fresh bodies lost one arm pit, and with it its folds, where skin of arm and flank
+/// nearly touches.
+TEST(ArmPit, that_is_hidden_on_one_side_is_put_as_the_other_and_told) {
+  const TriangleMesh& plain = test::mannequin("m-185-t").mesh;
+  const Body before = test::measure(plain).body,
+             after = test::measure(with_one_bat_sleeve(plain, 1.85)).body;
+  for (const char* name : {"axilla_l", "axilla_front_l", "axilla_back_l"}) {
+    ASSERT_TRUE(after.has_landmark(name)) << name;
+    EXPECT_LT((test::in_scan(after, name) - test::in_scan(before, name)).norm(), 0.04) << name;
+  }
+  EXPECT_EQ(after.landmarks.at("axilla_l").rule, "as_other_arm");
+  EXPECT_TRUE(is_doubted(after, "axilla_l"));
+  EXPECT_FALSE(is_doubted(after, "axilla_r"));
+}
