@@ -43,7 +43,8 @@ Material layered(const Material& face, const std::vector<ClothLayer>& layers) {
       tension[k] = sum;
     }
     (layer.outside ? top : bottom) += layer.outside ? m.thickness_m : -m.thickness_m;
-    if (!layer.outside) out.friction_body = m.friction_body;
+    if (layer.outside) out.friction_self = m.friction_self;
+    else out.friction_body = m.friction_body;
     const double warp = out.stretch_warp_n_m + m.stretch_warp_n_m;
     out.poisson = (out.poisson * out.stretch_warp_n_m + m.poisson * m.stretch_warp_n_m) / warp;
     out.stretch_warp_n_m = warp;

@@ -44,6 +44,26 @@ TEST(Composite, three_fused_sheets_are_a_plate_of_their_thickness) {
   EXPECT_NEAR(other.bend_warp_n_m, stack.bend_warp_n_m, 1e-15) << "whichever comes first";
 }
 
+TEST(Composite, each_side_rubs_as_the_layer_that_lies_there) {
+  Material face = material_preset("cotton-poplin"), shell = material_preset("silk"),
+           lining = material_preset("silk");
+  face.friction_body = 0.5;
+  face.friction_self = 0.4;
+  shell.friction_body = 0.25;
+  shell.friction_self = 0.2;
+  lining.friction_body = 0.15;
+  lining.friction_self = 0.1;
+  const Material lined = layered(face, {{lining, 0, false}}),
+                 covered = layered(face, {{shell, 0, true}}),
+                 both = layered(face, {{shell, 0, true}, {lining, 0, false}});
+  EXPECT_EQ(lined.friction_body, 0.15);
+  EXPECT_EQ(lined.friction_self, 0.4);
+  EXPECT_EQ(covered.friction_body, 0.5);
+  EXPECT_EQ(covered.friction_self, 0.2) << "the face is not what folds touch";
+  EXPECT_EQ(both.friction_body, 0.15);
+  EXPECT_EQ(both.friction_self, 0.2);
+}
+
 TEST(Composite, nothing_on_it_is_the_face_itself) {
   const Material face = material_preset("denim-orthotropic"), same = layered(face, {});
   EXPECT_EQ(same.name, face.name);

@@ -22,7 +22,8 @@ struct ClothLayer {
 /// width at unit strain along the same direction; along the bias 4 / E = 1 / warp + 1 /
 /// weft + 1 / shear (Hearle, Grosberg and Backer 1969). A bonded stack bends by direction
 /// where its warp and weft differ. friction_body is that of the last layer on
-/// the body's side, friction_self that of the face.
+/// the body's side, friction_self that of the last layer outside, which folds of the cloth touch;
+/// on a side without a layer it is the face's.
 /// @param layers  in the order in which they are put on; empty: the face as it is
 Material layered(const Material& face, const std::vector<ClothLayer>& layers);
 
