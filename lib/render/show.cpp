@@ -98,6 +98,7 @@ void draw_labels(Pen& pen, std::vector<Label> labels, int right_edge) {
     for (const Label& l : labels)
       if ((l.at.x() >= 0.5 * right_edge && !l.always_left) == right) column.push_back(l);
     std::vector<double> wanted;
+    wanted.reserve(column.size());
     for (const Label& l : column) wanted.push_back(l.at.y());
     const std::vector<double> y = move_apart(wanted, pitch, pitch, image.height - 0.4 * font);
     for (std::size_t k = 0; k < column.size(); ++k) {
