@@ -193,11 +193,25 @@ private:
 
 struct RuleInput {
   const std::vector<Vec3>& scan_points; ///< the scan's own points of the body, body frame
-  bool rebuilt, whole;                  ///< as in SkinSurface
-  double s;                             ///< stature, m
+  /// Vertices and points spread over the scan's larger faces about the height of a crotch: a coarse
+  /// mesh has few vertices there.
+  const std::vector<Vec3>& seat_points;
+  bool rebuilt, whole; ///< as in SkinSurface
+  double s;            ///< stature, m
   const Rules& rules;
   const Corrections& corrections;
 };
+
+/// Of `spread` over the body (scan units) what lies about the height of a crotch, body frame.
+std::vector<Vec3> points_at_seat(const std::vector<Vec3>& spread, const CanonicalFrame& frame) {
+  constexpr double LOW = 0.36, HIGH = 0.6; // of stature
+  std::vector<Vec3> points;
+  for (const Vec3& q : spread)
+    if (const Vec3 p = transform(frame.scan_to_body, q);
+        p.y() > LOW * frame.stature_m && p.y() < HIGH * frame.stature_m)
+      points.push_back(p);
+  return points;
+}
 
 /// All rules on body.skin; fills landmarks, levels, girths, stance and class. @return part per
 /// vertex of the skin
@@ -205,7 +219,7 @@ std::vector<Part> apply_rules(const RuleInput& in, Body& body, std::vector<std::
                               Phases* phases, ShapeFeatures& shape) {
   LevelStack levels(body.skin, in.s, 0.0025 * in.s, in.rebuilt ? 0.002 : 0);
   if (phases) phases->done("slicing");
-  const bool crotch_moved = doubt_crotch(levels, in.scan_points, in.rules, in.rebuilt, in.whole,
+  const bool crotch_moved = doubt_crotch(levels, in.seat_points, in.rules, in.rebuilt, in.whole,
                                          body.scan.findings, trail);
   const EdgeGraph graph(body.skin);
   const std::array<ArmTrace, 2> arms =
@@ -275,10 +289,13 @@ void measure_spread(const RuleInput& in, int runs, double noise_m, Body& body, R
     std::vector<Vec3> points;
     points.reserve(in.scan_points.size());
     for (const Vec3& p : in.scan_points) points.push_back(turn * p + lift);
+    std::vector<Vec3> seat_points;
+    seat_points.reserve(in.seat_points.size());
+    for (const Vec3& p : in.seat_points) seat_points.push_back(turn * p + lift);
     std::vector<std::string> unheard;
     ShapeFeatures shape;
-    apply_rules({points, in.rebuilt, in.whole, in.s, in.rules, in.corrections}, trial, unheard,
-                nullptr, shape);
+    apply_rules({points, seat_points, in.rebuilt, in.whole, in.s, in.rules, in.corrections}, trial,
+                unheard, nullptr, shape);
     auto add = [](Sum& sum, double miss) {
       sum.squares += miss * miss;
       ++sum.n;
@@ -384,7 +401,8 @@ MeasuredScan measure_scan(const TriangleMesh& as_given, const std::string& file,
   std::vector<Vec3> scan_points;
   for (std::size_t v = 0; v < positions.size(); ++v)
     if (sorted.is_body[v]) scan_points.push_back(positions[v]);
-  const RuleInput input{scan_points, skin.rebuilt,  skin.whole,
+  const std::vector<Vec3> seat_points = points_at_seat(shape, frame);
+  const RuleInput input{scan_points, seat_points,   skin.rebuilt,        skin.whole,
                         s,           options.rules, *options.corrections};
   reporter.progress("rules", -1);
   const std::vector<Part> skin_part =
