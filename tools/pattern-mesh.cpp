@@ -6,6 +6,7 @@
 #include <sloper/io/files.hpp>
 #include <sloper/io/json.hpp>
 #include <sloper/pattern/edit/edits.hpp>
+#include <sloper/pattern/edit/shoulder_folds.hpp>
 #include <sloper/pattern/measure/finished_measures.hpp>
 #include <sloper/pattern/mesh/mesh_pattern.hpp>
 #include <sloper/pattern/panel_mesh_json.hpp>
@@ -149,9 +150,15 @@ int run(cli::Tool& tool, const Options& o) {
   if (o.output.empty())
     throw Error(ErrorKind::USAGE, "option.missing"_id, "", "", "--output is missing",
                 "for example -o panels.json");
+  if (!o.body.empty() && pattern::cut_shoulder_folds(source) > 0 && !o.edits.empty()) {
+    source = pattern::read_pattern(o.pattern, choice); // edits name the panels of the file
+    pattern::apply_edits(source, edits, o.edits);
+    pattern::cut_shoulder_folds(source);
+    edits = nullptr;
+  }
   pattern::require_sewable(source, o.pattern);
   pattern::PanelMesh mesh = pattern::mesh_pattern(source, o.edge_length, o.pattern, o.seam_length);
-  if (!o.edits.empty()) {
+  if (!edits.is_null()) {
     const pattern::Pattern before = source;
     pattern::apply_edits(source, edits, o.edits);
     pattern::require_sewable(source, o.pattern);

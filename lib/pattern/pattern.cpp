@@ -99,11 +99,16 @@ bool unfold(Panel& panel, int fold_edge, const std::string& suffix,
     InnerLine image = panel.lines[k];
     for (Segment& s : image.path)
       for (Vec2& p : s.p) p = reflect(p, origin, along);
+    keep_side(image);
     image.name += mirror_suffix;
     panel.lines[k].name += suffix;
     panel.lines.push_back(std::move(image));
   }
   return true;
+}
+
+void keep_side(InnerLine& line) {
+  if (line.kind == "roll") line.path = reversed(line.path);
 }
 
 Panel mirror_image(const Panel& panel) {
@@ -121,9 +126,11 @@ Panel mirror_image(const Panel& panel) {
     notch.edge = moved[static_cast<std::size_t>(notch.edge)];
     notch.at = 1 - notch.at;
   }
-  for (InnerLine& line : out.lines)
+  for (InnerLine& line : out.lines) {
     for (Segment& s : line.path)
       for (Vec2& p : s.p) p = reflect(p, origin, along);
+    keep_side(line);
+  }
   out.grain.x() = -out.grain.x();
   return out;
 }

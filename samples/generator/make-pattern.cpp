@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
     names += (names.empty() ? "" : ", ") + name;
   std::string garment, body, preset, output;
   std::vector<std::string> given;
-  bool band_collar = false;
+  bool band_collar = false, turned_collar = false;
   double flare = 0;
   tool.option("GARMENT", garment, "shirt, tshirt, skirt or trousers").required();
   tool.option("--body", body,
@@ -71,6 +71,7 @@ int main(int argc, char** argv) {
       .type_name("NAME");
   tool.option("--measure", given, "set one measure, m: " + names).type_name("NAME=METRES");
   tool.flag("--band-collar", band_collar, "a shirt's collar is its stand alone");
+  tool.flag("--turned-collar", turned_collar, "a shirt's collar is turned over its stand");
   tool.option(
           "--flare", flare,
           "m by which each side seam of a skirt leans out more at its hem, on either side of it")
@@ -82,6 +83,8 @@ int main(int argc, char** argv) {
                "a shirt for a measured body");
   tool.example("make-pattern shirt --band-collar --body body.json -o shirt.pattern.json",
                "with a collar that leaves the chin free");
+  tool.example("make-pattern shirt --turned-collar --body body.json -o shirt.pattern.json",
+               "with its collar turned over");
   tool.example("make-pattern skirt --preset f-165-a -o skirt.pattern.json",
                "a skirt for a mannequin");
   tool.example("make-pattern shirt --measure bust=0.96 --measure waist=0.78 -o shirt.pattern.json",
@@ -105,7 +108,12 @@ int main(int argc, char** argv) {
     if (band_collar && garment != "shirt")
       throw Error(ErrorKind::USAGE, "sample.option-of-another"_id, "", "--band-collar",
                   "a " + garment + " has no collar", "leave it out");
+    if (turned_collar && (band_collar || garment != "shirt"))
+      throw Error(ErrorKind::USAGE, "sample.option-of-another"_id, "", "--turned-collar",
+                  "there is no collar to turn", "leave it out");
     if (band_collar) made.remove("collar");
+    for (samples::DraftPanel& panel : made.panels)
+      if (turned_collar && panel.name == "collar") panel.roll_edge = "low";
     if (body.empty() && preset.empty())
       tool.reporter().warning(
           {"sample.standard-measures"_id, "no --body is given: " + standard_measures(given)});

@@ -187,6 +187,8 @@ io::Json pattern_document(const Draft& draft) {
       else
         path.push_back(
             {"C", cm(c[0].x()), cm(c[0].y()), cm(c[1].x()), cm(c[1].y()), cm(b.x()), cm(b.y())});
+      if (p.edges[i].name == p.roll_edge)
+        panel["lines"] = {{{"name", "roll"}, {"kind", "roll"}, {"path", path}}};
       panel["outline"].push_back({{"edge", p.edges[i].name}, {"path", path}});
     }
     panel["grain"] = {p.grain.x(), p.grain.y()};

@@ -6,6 +6,7 @@
 #include <sloper/base/progress.hpp>
 #include <sloper/body/measure_scan.hpp>
 #include <sloper/io/json.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
 #include <sloper/pattern/mesh/mesh_pattern.hpp>
 #include <sloper/pattern/read/read_pattern.hpp>
 using namespace sloper;
@@ -32,6 +33,18 @@ TEST_P(EveryDraft, is_read_and_meshed_with_equal_vertex_counts_on_both_sides_of_
 
 INSTANTIATE_TEST_SUITE_P(drafts, EveryDraft,
                          testing::Values(draft_shirt, draft_tshirt, draft_skirt, draft_trousers));
+
+TEST(shirt, has_a_collar_that_is_turned_over_on_its_seam_where_it_is_asked_for) {
+  Draft draft = draft_shirt(Measures{});
+  for (const bool turned : {false, true}) {
+    for (DraftPanel& panel : draft.panels)
+      if (turned && panel.name == "collar") panel.roll_edge = "low";
+    const pattern::Pattern pattern =
+        pattern::read_pattern_json(pattern_document(draft), draft.name);
+    for (const pattern::Panel& panel : pattern.panels)
+      EXPECT_EQ(pattern::turned_whole(panel), turned && panel.name == "collar") << panel.name;
+  }
+}
 
 TEST_P(EveryScan, has_its_main_landmarks_found_within_15_mm) {
   const MadeMannequin made = make_mannequin(preset(GetParam()));

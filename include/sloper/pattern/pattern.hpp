@@ -27,10 +27,12 @@ struct Notch {
   std::string kind; ///< shape, such as "slit"; DXF keeps it
 };
 
-/// A line inside a panel. The mesh has edges along marks and folds; an end within 2 mm of the
-/// outline lies on it. A tape shortens the cloth along it to `factor` of its length.
+/// A line inside a panel. The mesh has edges along marks, folds and roll lines; an end within 2 mm
+/// of the outline lies on it. A tape shortens the cloth along it to `factor` of its length.
 struct InnerLine {
-  std::string name, kind = "mark"; ///< "mark", "fold", "tape"
+  /// "mark", "fold", "tape", or "roll": the cloth at the left of the line, as it is walked, is
+  /// turned over to the outside. It may run along an edge: a collar turned over on its seam.
+  std::string name, kind = "mark";
   Path path;                       ///< m, panel coordinates
   double factor = 1, width = 0.01; ///< of tapes; width in m
 };
@@ -129,6 +131,10 @@ double side_length(const Pattern& pattern, const std::vector<Run>& side);
 /// @return false, with nothing changed, where the edge is no fold
 bool unfold(Panel& panel, int fold_edge, const std::string& suffix,
             const std::string& mirror_suffix);
+
+/// What is to be done with a line of a panel that was mirrored, whose points are mirrored already:
+/// a roll line is walked the other way, so that the same cloth lies at its left.
+void keep_side(InnerLine& line);
 
 /// The other panel of a pair: the panel as seen from its inside. Edges keep their names
 /// and come in the opposite order.

@@ -1,5 +1,8 @@
 #include <pattern/edit/edit_tools.hpp>
+#include <pattern/mesh/roll_lines.hpp>
+#include <pattern/panel_words.hpp>
 #include <sloper/base/error.hpp>
+#include <sloper/base/units.hpp>
 #include <sloper/pattern/mesh/folds.hpp>
 
 #include <algorithm>
@@ -9,6 +12,13 @@ namespace sloper::pattern {
 namespace {
 
 constexpr double LAYER_DEPTH = 0.003; // m between the layers of a pleat at the start
+constexpr double ROLL_DEPTH = 0.008;  // m by which a turned lapel starts over what it lies on
+constexpr double ROLL_WIDTH = 0.012;  // m beside the roll line within which it gets there
+// Degrees between a turned lapel, or a collar's leaf, and what it is turned over, at the start:
+// seams close under it. A leaf nearer to its stand ended beneath the fronts, which come from
+// outside.
+constexpr double LAPEL_STANDS_OFF = 30, LEAF_STANDS_OFF = 80;
+constexpr int OUTLINE_SAMPLES = 16; // of an edge, to see on which side of a roll line it is
 constexpr double NEARLY =
     0.97; // of the way from fold to target: both folds of a box pleat must not touch
 
@@ -100,6 +110,33 @@ std::vector<char> vertices_on(const Path& line, const PanelMesh& mesh, const Pan
     }
   }
   return on;
+}
+
+/// A leaf turned over on its seam: a mirror image without stretch, across the seam's chord.
+void turn_over_whole(const Panel& panel, const PanelMesh& mesh, const PanelInfo& info,
+                     Folding& out) {
+  const auto roll = std::find_if(panel.lines.begin(), panel.lines.end(),
+                                 [](const InnerLine& line) { return line.kind == "roll"; });
+  const Vec2 from = roll->path.front().p[0], along = roll->path.back().p[3] - from;
+  for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
+    const Vec2 x = mesh.pattern[static_cast<std::size_t>(v)];
+    out.shift[static_cast<std::size_t>(v)] +=
+        2 * (from + (x - from).dot(along) / along.squaredNorm() * along - x);
+  }
+}
+
+/// Turns the cloth of a panel over its roll lines.
+void turn_over(const RollLines& rolls, double stands_off, const PanelMesh& mesh,
+               const PanelInfo& info, Folding& out) {
+  for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
+    const Vec2 x = mesh.pattern[static_cast<std::size_t>(v)];
+    const auto [beyond, image] = rolls.across(x);
+    if (!(beyond > 0)) continue;
+    const double t = std::min(beyond / ROLL_WIDTH, 1.0), off = units::radians(stands_off);
+    const Vec2 foot = 0.5 * (x + image);
+    out.shift[static_cast<std::size_t>(v)] += foot + std::cos(off) * (image - foot) - x;
+    out.depth[static_cast<std::size_t>(v)] -= ROLL_DEPTH * t * (2 - t) + std::sin(off) * beyond;
+  }
 }
 
 void fold_panel(Pattern& pattern, int p, const std::string& file) {
@@ -222,11 +259,17 @@ Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh) {
   Folding out;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     const Panel& panel = pattern.panels[p];
+    const RollLines rolls(panel);
+    if (out.shift.empty() && (!panel.pleats.empty() || !rolls.empty())) {
+      out.shift.assign(mesh.pattern.size(), Vec2::Zero());
+      out.depth.assign(mesh.pattern.size(), 0);
+    }
+    if (turned_whole(panel)) turn_over_whole(panel, mesh, mesh.panels[p], out);
+    else if (!rolls.empty()) {
+      const bool collar = panel.hint.part == "neck" || says_neck(words_of(pattern, p));
+      turn_over(rolls, collar ? LEAF_STANDS_OFF : LAPEL_STANDS_OFF, mesh, mesh.panels[p], out);
+    }
     for (const Pleat& pleat : panel.pleats) {
-      if (out.shift.empty()) {
-        out.shift.assign(mesh.pattern.size(), Vec2::Zero());
-        out.depth.assign(mesh.pattern.size(), 0);
-      }
       const Path &fold = panel.lines[static_cast<std::size_t>(pleat.fold)].path,
                  &target = panel.lines[static_cast<std::size_t>(pleat.target)].path;
       const Vec2 f0 = fold.front().p[0], f1 = fold.back().p[3];
@@ -248,26 +291,42 @@ Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh) {
   return out;
 }
 
+bool turned_whole(const Panel& panel) {
+  const RollLines rolls(panel);
+  if (rolls.empty()) return false;
+  for (const PanelEdge& edge : panel.loops[0]) {
+    const ArcLength arc(edge.path);
+    for (int k = 0; k < OUTLINE_SAMPLES; ++k)
+      if (rolls.across(arc.at(arc.length() * k / OUTLINE_SAMPLES)).first < -LINE_ON_EDGE)
+        return false;
+  }
+  return true;
+}
+
 std::vector<std::array<int, 2>> pleat_edges(const PanelMesh& mesh) {
   std::vector<std::array<int, 2>> out;
   for (std::size_t p = 0;
        mesh.source && p < std::min(mesh.panels.size(), mesh.source->panels.size()); ++p) {
     const Panel& panel = mesh.source->panels[p];
     const PanelInfo& info = mesh.panels[p];
+    std::vector<Path> lines;
+    for (const InnerLine& line : panel.lines)
+      if (line.kind == "roll") lines.push_back(line.path);
     for (const Pleat& pleat : panel.pleats) {
-      const Path &fold = panel.lines[static_cast<std::size_t>(pleat.fold)].path,
-                 &target = panel.lines[static_cast<std::size_t>(pleat.target)].path;
-      for (const Path& line : {fold, halfway(fold, target)}) {
-        const std::vector<char> on = vertices_on(line, mesh, info);
-        for (int f = info.first_triangle; f < info.first_triangle + info.n_triangles; ++f)
-          for (std::size_t k = 0; k < 3; ++k) {
-            const Triangle& t = mesh.triangles[static_cast<std::size_t>(f)];
-            const int a = std::min(t[k], t[(k + 1) % 3]), b = std::max(t[k], t[(k + 1) % 3]);
-            if (on[static_cast<std::size_t>(a - info.first_vertex)] &&
-                on[static_cast<std::size_t>(b - info.first_vertex)])
-              out.push_back({a, b});
-          }
-      }
+      lines.push_back(panel.lines[static_cast<std::size_t>(pleat.fold)].path);
+      lines.push_back(
+          halfway(lines.back(), panel.lines[static_cast<std::size_t>(pleat.target)].path));
+    }
+    for (const Path& line : lines) {
+      const std::vector<char> on = vertices_on(line, mesh, info);
+      for (int f = info.first_triangle; f < info.first_triangle + info.n_triangles; ++f)
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Triangle& t = mesh.triangles[static_cast<std::size_t>(f)];
+          const int a = std::min(t[k], t[(k + 1) % 3]), b = std::max(t[k], t[(k + 1) % 3]);
+          if (on[static_cast<std::size_t>(a - info.first_vertex)] &&
+              on[static_cast<std::size_t>(b - info.first_vertex)])
+            out.push_back({a, b});
+        }
     }
   }
   std::sort(out.begin(), out.end());

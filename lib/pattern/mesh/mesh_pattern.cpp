@@ -102,6 +102,7 @@ std::vector<std::vector<Vec2>> sampled_lines(const Panel& panel,
     }
     for (auto& chain : chains)
       if (chain.size() >= 2) out.push_back(std::move(chain));
+    if (line.kind == "roll" && n_left_out + 2 > n) continue; // along an edge, which the mesh has
     if (n_left_out > 2 ||
         n_left_out ==
             n + 1) // the ends of a line may be a little short of an outline that it does not reach

@@ -159,8 +159,10 @@ PlacementReport Placer::push_free() {
                         q = static_cast<std::size_t>(pair.second);
       if (m_roles[p].region == Region::NECK || m_roles[q].region == Region::NECK) {
         if (m_roles[p].region == m_roles[q].region) {
-          if (p != q) {
-            ++m_depth[area(p) > area(q) ? q : p];
+          if (p != q) { // what lies over the other goes farther out, else the smaller one
+            const bool over =
+                m_depth[p] == m_depth[q] ? area(p) > area(q) : m_depth[q] > m_depth[p];
+            ++m_depth[over ? q : p];
             changed = true;
           }
         } else raise_neck = true;
@@ -292,13 +294,20 @@ void Placer::measure_gaps(PlacementReport& report) const {
 
 PlacementReport place_panels(const Pattern& pattern, const body::Body& body, PanelMesh& mesh) {
   mesh.placement = Placement::BODY;
-  // Pleats are laid before the panels are: their cloth is where it will be sewn.
+  // Pleats are laid, collars and lapels turned over, before the panels are placed: their cloth is
+  // where it will be sewn and worn.
   const Folding folding = fold_panels(pattern, mesh);
   if (folding.shift.empty()) return Placer(pattern, body, mesh, folding).run();
   const std::vector<Vec2> flat = mesh.pattern;
+  std::vector<int> layers;
   for (std::size_t v = 0; v < flat.size(); ++v) mesh.pattern[v] += folding.shift[v];
+  for (std::size_t k = 0; k < mesh.panels.size(); ++k) {
+    layers.push_back(mesh.panels[k].layer);
+    if (turned_whole(pattern.panels[k])) ++mesh.panels[k].layer; // it lies over its stand
+  }
   const PlacementReport report = Placer(pattern, body, mesh, folding).run();
   mesh.pattern = flat;
+  for (std::size_t k = 0; k < layers.size(); ++k) mesh.panels[k].layer = layers[k];
   return report;
 }
 

@@ -418,8 +418,8 @@ void Placer::place_neck(const PanelGroup& group) {
   for (std::size_t k : group.panels) widest = std::max(widest, row_width(group, k));
   for (std::size_t k : group.panels) {
     const auto own = laid_bounds(m_mesh, m_roles[k], m_spots[k], static_cast<int>(k));
-    const WrapCurve curve =
-        WrapCurve::around(hull, 0.008 + group.extra + LAYER * m_depth[k], widest + 0.01);
+    const WrapCurve curve = WrapCurve::around(hull, 0.008 + group.extra + LAYER * m_depth[k],
+                                              widest + 0.01 + 2 * units::PI * LAYER * m_depth[k]);
     const double center =
         m_roles[k].theta / (2 * units::PI) * curve.length() - 0.5 * (own[0].x() + own[1].x());
     put(k, [&](const Vec2& p) { return axis.point(curve.at(p.x() + center), p.y()); });

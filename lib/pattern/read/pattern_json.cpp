@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace sloper::pattern {
 namespace {
@@ -81,9 +82,10 @@ void read_lines(const io::Node& node, Panel& panel, double unit) {
     item.allow_only({"name", "kind", "path", "factor", "width"});
     InnerLine line{item.at("name").string(), item.string("kind", "mark"),
                    read_path(item.at("path"), unit, nullptr)};
-    if (line.kind != "mark" && line.kind != "fold" && line.kind != "tape")
+    const std::set<std::string> kinds = {"mark", "fold", "tape", "roll"};
+    if (kinds.count(line.kind) == 0)
       item.at("kind").fail("json.unknown-word"_id, "'" + line.kind + "' is not a kind of line",
-                           "give mark, fold or tape");
+                           "give mark, fold, tape or roll");
     line.factor = item.number("factor", 1);
     line.width = item.number("width", 0.01 / unit) * unit;
     if (!(line.factor >= 0.05 && line.factor <= 20))
@@ -140,9 +142,11 @@ void read_panel(const io::Node& node, Pattern& pattern, double unit) {
         pattern.panels[static_cast<std::size_t>(panel_named(pattern, node.at("mirror_of")))];
     for (const auto& loop : other.loops) panel.loops.push_back(mirrored(loop));
     panel.lines = other.lines;
-    for (InnerLine& line : panel.lines)
+    for (InnerLine& line : panel.lines) {
       for (Segment& s : line.path)
         for (Vec2& p : s.p) p.x() = -p.x();
+      keep_side(line);
+    }
     panel.grain = Vec2(-other.grain.x(), other.grain.y());
     panel.material = other.material;
     panel.layer = other.layer;

@@ -119,9 +119,11 @@ void finish_pattern(Pattern& pattern, const std::string& file) {
         for (PanelEdge& e : loop)
           for (Segment& s : e.path)
             for (Vec2& p : s.p) p.x() = -p.x();
-      for (InnerLine& line : panel.lines)
+      for (InnerLine& line : panel.lines) {
         for (Segment& s : line.path)
           for (Vec2& p : s.p) p.x() = -p.x();
+        keep_side(line);
+      }
       panel.grain.x() = -panel.grain.x();
       if (panel.hint.anchor) panel.hint.anchor->x() *= -1;
       if (panel.hint.rigid) {

@@ -2,6 +2,7 @@
 #include <pattern/roles/leg_roles.hpp>
 #include <pattern/roles/panel_turn.hpp>
 #include <sloper/base/units.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -130,7 +131,8 @@ private:
       if (!(length > 0)) return;
       total += length;
       const bool level = goes_level(b) && !at_sides,
-                 ring = m_roles[k].side == Side::RING || m_roles[o].side == Side::RING;
+                 ring = m_roles[k].side == Side::RING || m_roles[o].side == Side::RING ||
+                        closes_on_itself(k) > 0 || closes_on_itself(o) > 0;
       const bool over =
           level && !ring &&
           m_roles[k].side != m_roles[o].side; // over the shoulders, or between the legs
@@ -153,8 +155,8 @@ private:
     m_roles[k].turn = turns[score[best] > score[0] + (drawn_upright ? GAIN * total : 0) ? best : 0];
   }
 
-  /// By quarter turns, with the seams to what stands already at the lower edge; false where there
-  /// are none.
+  /// By quarter turns, with the seams to what stands already at the lower edge, of a leaf that is
+  /// turned over at the upper one; false where there are none.
   bool seam_below(std::size_t k) {
     Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300), sum = Vec2::Zero();
     for (int v : m_mesh.panels[k].outline) {
@@ -175,7 +177,8 @@ private:
       if (count > 0) break;
     }
     if (count == 0) return false;
-    const Vec2 down = sum / count - 0.5 * (low + high);
+    Vec2 down = sum / count - 0.5 * (low + high);
+    if (turned_whole(m_pattern.panels[k])) down = -down;
     const std::vector<Turn> turns = candidates(k);
     m_roles[k].turn =
         *std::min_element(turns.begin(), turns.end(), [&](const Turn& a, const Turn& b) {
@@ -216,10 +219,28 @@ private:
     return seams > 0 && hem > seams ? seams : 0;
   }
 
+  /// How far apart the sides are along which a panel is sewn to itself, m, where that is much of
+  /// its size: a band, a tube; else 0.
+  double closes_on_itself(std::size_t k) const {
+    constexpr double ACROSS = 0.3; // of the panel's size: wider than darts
+    Vec2 low = Vec2::Constant(1e300), high = Vec2::Constant(-1e300);
+    for (int v : m_mesh.panels[k].outline) {
+      low = low.cwiseMin(at(v));
+      high = high.cwiseMax(at(v));
+    }
+    for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(k))) {
+      double apart = 0;
+      for (const auto& s : seam) apart += (at(s[0]) - at(s[1])).norm();
+      apart /= static_cast<double>(seam.size());
+      if (apart > ACROSS * (high - low).norm()) return apart;
+    }
+    return 0;
+  }
+
   /// A leg in one piece, sewn to itself across most of its width: with what else it is sewn to, the
   /// crotch, at its upper end. False for others, and where it is drawn upright.
   bool stand_as_leg(std::size_t k) {
-    constexpr double ACROSS = 0.3; // of the panel's size: wider than darts
+    constexpr double LOWEST_LEG = 0.3; // height over width: shorts have 0.5, waistbands 0.1
     if (m_roles[k].part != "lower_body" && !is_leg(m_roles[k])) return false;
     const std::vector<Turn> turns = candidates(k);
     if (std::abs((turns[0] * m_pattern.panels[k].grain).y()) >= DRAWN_UPRIGHT) return false;
@@ -227,12 +248,6 @@ private:
     for (int v : m_mesh.panels[k].outline) {
       low = low.cwiseMin(at(v));
       high = high.cwiseMax(at(v));
-    }
-    bool tube = false;
-    for (const auto& seam : m_graph.between(static_cast<int>(k), static_cast<int>(k))) {
-      double apart = 0;
-      for (const auto& s : seam) apart += (at(s[0]) - at(s[1])).norm();
-      tube = tube || apart > ACROSS * (high - low).norm() * static_cast<double>(seam.size());
     }
     double stitches = 0;
     for (int q : m_graph.neighbours(static_cast<int>(k)))
@@ -242,7 +257,8 @@ private:
             up += at(s[0]) - 0.5 * (low + high);
             ++stitches;
           }
-    if (!tube || stitches == 0) return false;
+    const double apart = closes_on_itself(k);
+    if (stitches == 0 || !(apart > 0) || area(k) < LOWEST_LEG * apart * apart) return false;
     m_roles[k].turn =
         *std::max_element(turns.begin(), turns.end(), [&](const Turn& a, const Turn& b) {
           return (a * up).y() < (b * up).y() - 1e-9;

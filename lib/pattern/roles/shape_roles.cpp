@@ -13,6 +13,9 @@ namespace {
 constexpr double AT_THE_SIDE = 0.25; // of a panel's width, from its middle
 constexpr double CLEAR_VOTE = 0.2;   // of all that is cast
 constexpr double SAME_FACE = 100;    // log-odds
+constexpr double ON_THE_SIDE = 0.4;  // of a panel's width, from its middle: a side seam
+
+constexpr std::size_t ARM = 1, NECK = 2; // of SHAPE_PART_NAMES
 
 using Parts = std::vector<std::array<double, SHAPE_PARTS>>;
 
@@ -62,6 +65,18 @@ Parts look(const ShapeWitness& witness, const std::vector<SeamTrees>& trees, con
   return out;
 }
 
+/// Whether two whole pieces are sewn to each other at both of their sides: they face each other.
+bool go_around(const ShapeWitness& witness, std::size_t a, std::size_t b) {
+  if (!witness.symmetric(a) || !witness.symmetric(b)) return false;
+  bool sides[2] = {false, false};
+  for (const auto& l : witness.links()) {
+    const bool these = (l.a == a && l.b == b) || (l.a == b && l.b == a);
+    if (!these || std::min(std::abs(l.x_a - 0.5), std::abs(l.x_b - 0.5)) < ON_THE_SIDE) continue;
+    sides[l.x_a > 0.5] = true;
+  }
+  return sides[0] && sides[1];
+}
+
 } // namespace
 
 const RoleModel& role_model() {
@@ -88,7 +103,10 @@ void tell_sides(const ShapeWitness& witness, const RoleModel& model, const Parts
   for (const auto& l : witness.links()) {
     // What is sewn to its own image, and is no symmetric piece, is the other half of one face.
     const bool halves = l.middle && !witness.symmetric(l.a);
-    same.push_back(halves ? SAME_FACE : model.same_face(witness.link(l, own)));
+    const bool trunk = own[l.a] != ARM && own[l.a] != NECK && own[l.a] == own[l.b];
+    same.push_back(halves                                  ? SAME_FACE
+                   : trunk && go_around(witness, l.a, l.b) ? -SAME_FACE
+                                                           : model.same_face(witness.link(l, own)));
     order.push_back({-std::abs(same.back()), same.size() - 1});
   }
   std::sort(order.begin(), order.end());

@@ -56,6 +56,7 @@ public:
     for (int p = 0; p < count(); ++p)
       for (const PanelMirror& m : mirrors[static_cast<std::size_t>(p)]) {
         if (m.panel <= p || joined.find(p) == joined.find(m.panel)) continue;
+        if (says_sleeve(words(p)) && says_sleeve(words(m.panel))) continue; // of two arms
         const SeamSide* longest = nullptr;
         for (const SeamSide& s : m_sides) {
           const Edges edges = s.panel == p ? edges_of(s) : Edges();

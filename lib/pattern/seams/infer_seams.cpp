@@ -50,6 +50,8 @@ private:
     const bool middle = a.name == "crotch" || a.name == "cf" || a.name == "cb" ||
                         a.name == "centre" || a.name == "center";
     if (a.hand * b.hand < 0 && !middle) return SeamWitness::IMPOSSIBLE;
+    if (says_sleeve(words(a)) && says_sleeve(words(b)) && cut_as_pair(a.panel, b.panel))
+      return SeamWitness::IMPOSSIBLE; // of the other arm
     double odds = 0;
     if (!a.name.empty() && !b.name.empty()) {
       if (a.name != b.name) odds += OTHER_NAME;
@@ -65,6 +67,12 @@ private:
         says_left(own) != says_left(other))
       odds += UNLIKELY;
     return odds;
+  }
+  /// Whether one is the mirror image of the other that a piece cut twice got on reading.
+  bool cut_as_pair(int p, int q) const {
+    const std::string &own = m_pattern.panels[static_cast<std::size_t>(p)].name,
+                      &other = m_pattern.panels[static_cast<std::size_t>(q)].name;
+    return own + "_mirror" == other || other + "_mirror" == own;
   }
   /// Two sides of one panel, equally long, on either side of a third: the panel may be a tube.
   bool is_tube(const SeamSide& a, const SeamSide& b) const {

@@ -33,3 +33,12 @@ case_the_flare_of_a_skirt_is_at_its_hem() {
   run 2 "$program" skirt --measure stature=1 --flare 0.25 -o out.json
   says "too much"
 }
+
+case_a_collar_is_turned_over_where_there_is_one() {
+  run 0 "$program" shirt --body a.body.json -o upright.json
+  run 0 "$program" shirt --body a.body.json --turned-collar -o out.json
+  ! cmp -s upright.json out.json || fail "the collar stands"
+  run 2 "$program" skirt --body a.body.json --turned-collar -o out.json
+  says "there is no collar to turn"
+  run 2 "$program" shirt --body a.body.json --turned-collar --band-collar -o out.json
+}

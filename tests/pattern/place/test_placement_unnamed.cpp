@@ -171,6 +171,45 @@ TEST(PlacementUnnamed, AFlounceAtASleeveLiesAlongTheArmThoughItsSidesLeanFarOut)
   }
 }
 
+/// Leggings of two one-piece legs and a band, all lying along x, the band's seam at its upper side.
+TEST(PlacementUnnamed, ABandThatLiesStandsOnItsSeamAndGoesRoundTheSameWay) {
+  const auto edge = [](const std::string& name, const std::string& to) {
+    return R"({"edge": ")" + name + R"(", "path": [["L", )" + to + "]]}";
+  };
+  const Pattern pattern = own(
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "leggings", "panels": [
+    {"name": "legging_r", "grain": [1, 0], "outline": [{"edge": "in_f", "path": [["M", 0, 0], ["L", 60, 0]]}, )" +
+      edge("cr_f", "90, 6") + "," + edge("waist", "90, 44") + "," + edge("cr_b", "60, 50") + "," +
+      edge("in_b", "0, 50") + "," + edge("hem", "0, 0") + R"(]},
+    {"name": "legging_l", "grain": [1, 0], "outline": [{"edge": "in_b", "path": [["M", 0, -50], ["L", 60, -50]]}, )" +
+      edge("cr_b", "90, -44") + "," + edge("waist", "90, -6") + "," + edge("cr_f", "60, 0") + "," +
+      edge("in_f", "0, 0") + "," + edge("hem", "0, -50") + R"(]},
+    {"name": "leggings_band", "grain": [1, 0], "outline": [{"edge": "end_a", "path": [["M", 0, 0], ["L", 5, 0]]}, )" +
+      edge("low", "5, 76") + "," + edge("end_b", "0, 76") + "," + edge("free", "0, 0") +
+      R"(]}], "seams": [
+    {"name": "in_r", "a": [{"panel": "legging_r", "edge": "in_f"}], "b": [{"panel": "legging_r", "edge": "in_b"}]},
+    {"name": "in_l", "a": [{"panel": "legging_l", "edge": "in_f"}], "b": [{"panel": "legging_l", "edge": "in_b"}]},
+    {"name": "cr_f", "a": [{"panel": "legging_r", "edge": "cr_f"}], "b": [{"panel": "legging_l", "edge": "cr_f"}]},
+    {"name": "cr_b", "a": [{"panel": "legging_r", "edge": "cr_b"}], "b": [{"panel": "legging_l", "edge": "cr_b"}]},
+    {"name": "ends", "a": [{"panel": "leggings_band", "edge": "end_a"}], "b": [{"panel": "leggings_band", "edge": "end_b"}]},
+    {"name": "waist", "a": [{"panel": "leggings_band", "edge": "low"}],
+     "b": [{"panel": "legging_r", "edge": "waist", "from": 1, "to": 0}, {"panel": "legging_l", "edge": "waist", "from": 1, "to": 0}]}]})");
+  PanelMesh mesh = mesh_pattern(pattern, 0.02, "t");
+  place_panels(pattern, stick_body(45), mesh);
+  const double band = middle(mesh, 2).y();
+  for (const MeshSeam& seam : mesh.seams) {
+    if (seam.name != "waist") continue;
+    for (std::size_t k = 0; k < seam.a.size(); ++k) {
+      const Vec3 &a = mesh.placed[static_cast<std::size_t>(seam.a[k])],
+                 &b = mesh.placed[static_cast<std::size_t>(seam.b[k])];
+      EXPECT_LT(a.y(), band + 1e-9) << "the seam is below";
+      if (std::min(std::abs(a.x()), std::abs(b.x())) > 0.05) {
+        EXPECT_GT(a.x() * b.x(), 0) << "left is sewn to left";
+      }
+    }
+  }
+}
+
 TEST(PlacementUnnamed, NamesAreReadAsPatternMakersWriteThem) {
   for (const char* name :
        {"SHORT SLEEVE", "SLEEVE SHORT", "SHORTSLEEVE", "FULLSLEEVE", "GMH1006FSL"}) {

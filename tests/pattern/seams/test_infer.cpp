@@ -162,6 +162,20 @@ TEST(Inference, PanelsThatNothingJoinsToTheOthersAreNamed) {
   EXPECT_EQ(panels_apart(p), std::vector<std::string>{"band"});
 }
 
+TEST(Inference, HalvesOfSleevesAreNotSewnToThoseOfTheOtherArm) {
+  const std::vector<Vec2> front = {{0, 0}, {14, 0}, {18, 14}, {8, 20}, {0, 26}},
+                          back = {{0, 0}, {14, 0}, {14, 26}, {7, 22}, {-4, 14}};
+  Pattern p = outlines({{"SLEEVE FR", front}, {"SLEEVE BK", back}});
+  for (int k : {0, 1}) {
+    p.panels.push_back(mirror_image(p.panels[static_cast<std::size_t>(k)]));
+    p.panels.back().name += "_mirror";
+  }
+  for (const SeamGuess& g : infer_seams(p)) {
+    const int a = g.seam.a[0].panel, b = g.seam.b[0].panel;
+    EXPECT_FALSE(a != b && a % 2 == b % 2) << g.seam.name;
+  }
+}
+
 TEST(Inference, HemsAreNeverSewn) {
   const Pattern p = unsewn(true);
   for (const SeamGuess& g : infer_seams(p)) EXPECT_EQ(g.seam.name.find("hem"), std::string::npos);

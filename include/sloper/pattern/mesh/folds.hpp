@@ -30,19 +30,22 @@ OnOutline on_outline(const Panel& panel, const Vec2& p);
 /// another
 Pattern with_folds(const Pattern& pattern, const std::string& file);
 
-/// Displacement of each vertex of a mesh that folds its pleats: the shift in the plane of
-/// the panel, and the depth behind it.
+/// Displacement of each vertex of a mesh that folds its pleats and turns collars and lapels over
+/// their roll lines: the shift in the plane of the panel, and the depth behind it.
 struct Folding {
   std::vector<Vec2> shift;   ///< #V or empty: m, in pattern coordinates
-  std::vector<double> depth; ///< #V or empty: m, towards the body
+  std::vector<double> depth; ///< #V or empty: m, towards the body; turned lapels negative
 };
-/// The folding of all pleats of a mesh.
+/// The folding of all pleats and roll lines of a mesh.
 /// @param pattern  the one that `mesh` was made from
 Folding fold_panels(const Pattern& pattern, const PanelMesh& mesh);
 
-/// Edges of a mesh along which its pleats are folded, as vertex pairs in rising order: on their
-/// folds and on the lines halfway to their targets. Empty where no panel has a pleat, or the mesh
-/// does not know its pattern. Cost: pleats times vertices.
+/// Whether all of a panel is turned over, as a collar's leaf whose roll line is its seam.
+bool turned_whole(const Panel& panel);
+
+/// Edges of a mesh along which it is folded, as vertex pairs in rising order: on the folds of its
+/// pleats and the lines halfway to their targets, and on roll lines. Empty where no panel has any,
+/// or the mesh does not know its pattern. Cost: lines times vertices.
 std::vector<std::array<int, 2>> pleat_edges(const PanelMesh& mesh);
 
 /// Rest length factors that elastic tapes (lines of kind "tape") give to the edges near them, by

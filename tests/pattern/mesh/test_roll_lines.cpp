@@ -1,0 +1,94 @@
+#include <support/placement_patterns.hpp>
+
+#include <gtest/gtest.h>
+#include <pattern/mesh/roll_lines.hpp>
+#include <sloper/pattern/mesh/folds.hpp>
+#include <sloper/pattern/place/place_panels.hpp>
+#include <sloper/pattern/write/export_pattern.hpp>
+
+namespace sloper::pattern::test {
+namespace {
+
+std::string roll(const std::string& path) {
+  return R"("lines": [{"name": "roll", "kind": "roll", "path": )" + path + "}]";
+}
+
+/// A stand around the neck and a leaf on its upper edge, and a yoke that they hang on. cm.
+Pattern collar_pattern(bool turned) {
+  std::string leaf = rectangle("collar", 44, 6);
+  if (turned) leaf.insert(leaf.size() - 1, ", " + roll(R"([["M", 0, 0], ["L", 44, 0]])"));
+  return own(
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "collar", "panels": [)" +
+      rectangle("front", 40, 50) + "," + rectangle("back", 40, 50) + "," +
+      rectangle("stand", 44, 3) + "," + leaf + R"(], "seams": [
+    {"name": "side_l", "a": [{"panel": "front", "edge": "l"}], "b": [{"panel": "back", "edge": "r"}]},
+    {"name": "side_r", "a": [{"panel": "back", "edge": "l"}], "b": [{"panel": "front", "edge": "r"}]},
+    {"name": "shoulder_l", "a": [{"panel": "front", "edge": "top", "from": 0, "to": 0.25}], "b": [{"panel": "back", "edge": "top", "from": 1, "to": 0.75}]},
+    {"name": "shoulder_r", "a": [{"panel": "back", "edge": "top", "from": 0, "to": 0.25}], "b": [{"panel": "front", "edge": "top", "from": 1, "to": 0.75}]},
+    {"name": "neck", "a": [{"panel": "stand", "edge": "hem", "from": 0.25, "to": 0.75}], "b": [{"panel": "back", "edge": "top", "from": 0.75, "to": 0.25}], "ease": "test"},
+    {"name": "leaf", "a": [{"panel": "collar", "edge": "hem"}], "b": [{"panel": "stand", "edge": "top"}]}]})");
+}
+
+TEST(RollLines, ClothAtTheLeftOfALineGoesToItsMirrorImage) {
+  const Pattern pattern = own(
+      R"({"format": "pattern", "version": 1, "length_unit": "cm", "name": "t", "panels": [{"name": "front", "outline": [
+      {"edge": "a", "path": [["M", 0, 0], ["L", 40, 0]]}, {"edge": "b", "path": [["L", 40, 60]]}, {"edge": "c", "path": [["L", 0, 60], ["L", 0, 0]]}], )" +
+      roll(R"([["M", 0, 20], ["L", 10, 60]])") + R"(}], "seams": []})");
+  const RollLines rolls(pattern.panels[0]);
+  const auto [turned, image] = rolls.across(Vec2(0, 0.6));
+  EXPECT_GT(turned, 0);
+  EXPECT_NEAR(image.x(), 0.1882353, 1e-6); // (0, 60) mirrored across (10, 40) from (0, 20)
+  EXPECT_NEAR(image.y(), 0.5529412, 1e-6);
+  EXPECT_LT(rolls.across(Vec2(0.3, 0.3)).first, 0);
+  EXPECT_NEAR(rolls.across(Vec2(0.05, 0.4)).first, 0, 1e-9);
+  EXPECT_FALSE(turned_whole(pattern.panels[0]));
+  const PanelMesh mesh = mesh_pattern(pattern, 0.015, "t");
+  const Folding folding = fold_panels(pattern, mesh);
+  for (std::size_t v = 0; v < mesh.pattern.size(); ++v) {
+    const bool beyond = rolls.across(mesh.pattern[v]).first > 1e-9;
+    EXPECT_EQ(folding.shift[v].norm() > 1e-9, beyond);
+    EXPECT_LE(folding.depth[v], 0) << "outwards";
+  }
+  EXPECT_GT(pleat_edges(mesh).size(), 20u) << "the mesh has edges along the line";
+  const Panel image_panel = mirror_image(pattern.panels[0]);
+  EXPECT_GT(RollLines(image_panel).across(Vec2(0, 0.6)).first, 0)
+      << "the same cloth of the other one of a pair";
+}
+
+TEST(RollLines, ACollarTurnedOverOnItsSeamStartsOutsideOfItsStandAndHangsDown) {
+  for (const bool turned : {false, true}) {
+    const Pattern pattern = collar_pattern(turned);
+    EXPECT_EQ(turned_whole(pattern.panels[3]), turned);
+    PanelMesh mesh = mesh_pattern(pattern, 0.012, "t");
+    for (const Message& finding : mesh.findings)
+      EXPECT_EQ(finding.text.find("line roll"), std::string::npos) << finding.text;
+    const PlacementReport report = place_panels(pattern, stick_body(45), mesh);
+    EXPECT_EQ(report.crossings, 0);
+    EXPECT_EQ(report.vertices_inside, 0);
+    const Vec3 stand = middle(mesh, 2), leaf = middle(mesh, 3);
+    if (turned) EXPECT_LT(leaf.y(), stand.y()) << "its free edge is down";
+    else EXPECT_GT(leaf.y(), stand.y());
+    double far_stand = 0, near_leaf = 1e300; // from the axis, behind
+    for (int k : {2, 3}) {
+      const PanelInfo& info = mesh.panels[static_cast<std::size_t>(k)];
+      for (int v = info.first_vertex; v < info.first_vertex + info.n_vertices; ++v) {
+        const Vec3& p = mesh.placed[static_cast<std::size_t>(v)];
+        if (std::abs(p.x()) > 0.02 || p.z() > 0) continue;
+        if (k == 2) far_stand = std::max(far_stand, std::abs(p.z()));
+        else near_leaf = std::min(near_leaf, std::abs(p.z()));
+      }
+    }
+    if (turned) EXPECT_GT(near_leaf, far_stand);
+    EXPECT_EQ(mesh.panels[3].layer, 0) << "what the pattern says stays";
+  }
+}
+
+TEST(RollLines, AreWrittenAndReadBack) {
+  const Pattern pattern = collar_pattern(true);
+  const Pattern again = own(pattern_json(pattern, "test").dump());
+  ASSERT_EQ(again.panels[3].lines.size(), 1u);
+  EXPECT_EQ(again.panels[3].lines[0].kind, "roll");
+}
+
+} // namespace
+} // namespace sloper::pattern::test
