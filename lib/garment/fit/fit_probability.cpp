@@ -47,8 +47,8 @@ void add_row(const FitPolicy& policy, const FitRow& row, bool strain_counts, Lea
   const FitLimits& limits = row.limits;
   small.bound(ease - limits.too_small_ease, deviation, row.name, "too_small_ease");
   if (policy.refuse_tight) small.bound(ease - limits.tight_ease, deviation, row.name, "tight_ease");
-  if (strain_counts)
-    small.bound(limits.too_small_strain - row.strain_girth,
+  if (strain_counts) // a stouter body takes up the ease first
+    small.bound(limits.too_small_strain - row.strain_girth + std::max(0.0, ease),
                 std::hypot(GIRTH_STRAIN, body_deviation), row.name, "too_small_strain");
   if (std::isfinite(limits.too_large_ease))
     large.bound(limits.too_large_ease - ease, deviation, row.name, "too_large_ease");
