@@ -149,6 +149,9 @@ TEST(fit_probability, cloth_that_hung_free_was_not_stretched) {
   take_probability(standard_fit_policy(), {{"level:bust", 0.9}}, true, report);
   EXPECT_FALSE(report.bears);
   EXPECT_GT(report.probability.fits, 0.95);
+  report.rows.front().name = "top_edge"; // whose girth there is not known
+  take_probability(standard_fit_policy(), {{"level:bust", 0.9}}, true, report);
+  EXPECT_TRUE(report.bears);
 }
 
 } // namespace sloper::garment
