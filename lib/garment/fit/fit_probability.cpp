@@ -47,8 +47,8 @@ void add_row(const FitPolicy& policy, const FitRow& row, bool strain_counts, Lea
   const FitLimits& limits = row.limits;
   small.bound(ease - limits.too_small_ease, deviation, row.name, "too_small_ease");
   if (policy.refuse_tight) small.bound(ease - limits.tight_ease, deviation, row.name, "tight_ease");
-  if (strain_counts)
-    small.bound(limits.too_small_strain - row.strain_girth,
+  if (strain_counts) // a stouter body takes up the ease first
+    small.bound(limits.too_small_strain - row.strain_girth + std::max(0.0, ease),
                 std::hypot(GIRTH_STRAIN, body_deviation), row.name, "too_small_strain");
   if (std::isfinite(limits.too_large_ease))
     large.bound(limits.too_large_ease - ease, deviation, row.name, "too_large_ease");
@@ -62,7 +62,9 @@ std::optional<double> row_bears(const FitRow& row, bool strain_counts,
   auto girth = worn_on.find(row.name);
   if (girth == worn_on.end()) girth = worn_on.find("level:" + row.name);
   const double worn_m = row.rest_m * (1 + row.worn_strain);
-  if (girth == worn_on.end() || worn_m > (1 + LAY_CLOSE) * girth->second) return {};
+  // of a free edge the first body's girth is not known: as if it were this one's
+  const double worn_on_m = girth == worn_on.end() ? row.body_m : girth->second;
+  if (worn_m > (1 + LAY_CLOSE) * worn_on_m) return {};
   const double cloth = row.rest_m - row.bridged_m,
                least = cloth - (row.ease_m - row.limits.too_small_ease * row.body_m);
   if (!(least > 0)) return {}; // openings alone are long enough

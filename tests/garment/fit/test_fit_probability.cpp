@@ -102,6 +102,16 @@ TEST(fit_probability, strain_and_slip_count_at_rest_only) {
   EXPECT_LT(p.fits, 0.75);
 }
 
+TEST(fit_probability, loose_cloth_is_not_stretched_by_a_body_that_is_a_little_stouter) {
+  FitRow neck = bust(0.2);
+  neck.body_uncertainty_m = neck.ease_uncertainty_m = 0.08; // a hem on a slope: a vague girth
+  const double loose = probability_of(report_of(neck)).fits;
+  EXPECT_GT(loose, 0.93);
+  neck.ease_m = 0;
+  neck.strain_girth = 0.02;
+  EXPECT_LT(probability_of(report_of(neck)).fits, loose - 0.1);
+}
+
 TEST(fit_probability, before_any_drape_it_falls_with_what_is_missing) {
   FitRow row = bust(-0.06);
   row.short_m = 0.001;
@@ -139,6 +149,9 @@ TEST(fit_probability, cloth_that_hung_free_was_not_stretched) {
   take_probability(standard_fit_policy(), {{"level:bust", 0.9}}, true, report);
   EXPECT_FALSE(report.bears);
   EXPECT_GT(report.probability.fits, 0.95);
+  report.rows.front().name = "top_edge"; // whose girth there is not known
+  take_probability(standard_fit_policy(), {{"level:bust", 0.9}}, true, report);
+  EXPECT_TRUE(report.bears);
 }
 
 } // namespace sloper::garment
