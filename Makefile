@@ -86,7 +86,7 @@ compare-builds:
 	@scripts/compare-builds
 
 # What accuracy costs: whole drapes from panels of samples and of GARMENTS (pattern files, on the scan BODY), from STARTS that differ by a micrometre;
-# then tables and plots of three samples, from one sewn start. Gathered in docs/accuracy-cost.md.
+# and what small changes move, into docs/accuracy-from-panels.md; tables and plots of three samples, from one sewn start, into docs/accuracy-cost.md.
 SCENES ?= skirt shirt trousers
 STARTS ?= 5
 accuracy-cost:
@@ -94,7 +94,8 @@ accuracy-cost:
 	@scripts/build release scan-landmarks pattern-mesh drape make-mannequin make-pattern
 	@for scene in $(SCENES); do scripts/accuracy-cost $$scene || exit; done
 	@scripts/accuracy-cost --gather docs $(SCENES)
-	@scripts/accuracy-from-panels --starts $(STARTS) $(if $(BODY),--body $(BODY)) --into docs/accuracy-cost.md shirt skirt trousers $(GARMENTS)
+	@scripts/accuracy-from-panels --starts $(STARTS) $(if $(BODY),--body $(BODY)) --into docs/accuracy-from-panels.md shirt skirt trousers $(GARMENTS)
+	@scripts/small-changes --into docs/accuracy-from-panels.md
 	@scripts/figures
 
 # The presets again from the measured front, into lib/garment/scene/preset_table.hpp: the cheapest settings within each preset's error on all scenes.

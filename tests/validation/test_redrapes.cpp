@@ -97,6 +97,5 @@ TEST(Redrapes, mean_and_folds_hardly_hang_on_the_mesh) {
     EXPECT_GE(d.least_folds, 3) << edge;
     EXPECT_LE(d.most_folds, 8) << edge;
   }
-  // 63.9, 66.3 and 67.8 %: the free edge is softer on a coarse mesh (README.md).
-  EXPECT_LT(high - low, 5);
+  EXPECT_LT(high - low, 3); // 65.3, 67.1 and 68.2 %: coarse cloth has fewer folds (README.md)
 }

@@ -211,8 +211,8 @@ private:
           (target > line.at
                ? " is that of any cloth that stands out nearly straight; take a larger specimen or "
                  "a smaller disc"
-               : " is below that of any cloth of this weight, stretch and shear; measure the "
-                 "shear, or take a larger disc"));
+               : " is below what any cloth of this weight, stretch and shear comes to on the "
+                 "model's mesh; measure overhangs or the shear, or take a larger disc"));
       return;
     }
     const double one =
