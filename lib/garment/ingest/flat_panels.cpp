@@ -298,7 +298,8 @@ void add_seams(FlatPanels& flat) {
       sum += (mesh.pattern[run[i]] - mesh.pattern[run[i - 1]]).norm();
     return sum;
   };
-  for (auto& [panels, border] : borders) {
+  for (auto& entry : borders) {
+    auto& border = entry.second;
     const auto take = [&](const Pair& from, const Pair& to) {
       for (const auto& [x, y] : {std::pair{from, to}, std::pair{to, from}}) {
         auto& list = border[x];

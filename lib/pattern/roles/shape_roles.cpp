@@ -104,9 +104,10 @@ void tell_sides(const ShapeWitness& witness, const RoleModel& model, const Parts
     // What is sewn to its own image, and is no symmetric piece, is the other half of one face.
     const bool halves = l.middle && !witness.symmetric(l.a);
     const bool trunk = own[l.a] != ARM && own[l.a] != NECK && own[l.a] == own[l.b];
-    same.push_back(halves                                  ? SAME_FACE
-                   : trunk && go_around(witness, l.a, l.b) ? -SAME_FACE
-                                                           : model.same_face(witness.link(l, own)));
+    double score = model.same_face(witness.link(l, own));
+    if (halves) score = SAME_FACE;
+    else if (trunk && go_around(witness, l.a, l.b)) score = -SAME_FACE;
+    same.push_back(score);
     order.push_back({-std::abs(same.back()), same.size() - 1});
   }
   std::sort(order.begin(), order.end());
