@@ -33,7 +33,7 @@ struct DraftPanel {
   std::vector<DraftEdge> edges; ///< edge i runs from points[i] to points[i + 1]
   Vec2 grain = Vec2(0, 1);
   DraftPlacement placement;
-  std::string roll_edge; ///< on which it is turned over to its outside, or empty
+  std::string roll_edge = {}; ///< on which it is turned over to its outside, or empty
 };
 
 struct DraftSeam {

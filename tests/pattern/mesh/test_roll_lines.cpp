@@ -78,7 +78,9 @@ TEST(RollLines, ACollarTurnedOverOnItsSeamStartsOutsideOfItsStandAndHangsDown) {
         else near_leaf = std::min(near_leaf, std::abs(p.z()));
       }
     }
-    if (turned) EXPECT_GT(near_leaf, far_stand);
+    if (turned) {
+      EXPECT_GT(near_leaf, far_stand);
+    }
     EXPECT_EQ(mesh.panels[3].layer, 0) << "what the pattern says stays";
   }
 }
