@@ -274,12 +274,23 @@ int run(cli::Tool& tool, Options o) {
     if (hopeless) break;
     const auto& made_for =
         keep_fit ? garment.body_girths_m : source.body_girths_m; // keep-fit cuts it anew
-    fit = garment::fit_garment(garment, body, skin, policy, &placed.placed,
-                               garment::misfit_text(report.misfit), made_for, &source.position);
-    const bool too_tight = !fit.fits && fit.verdict == garment::FitVerdict::TOO_SMALL;
-    if (!keep_fit || o.no_drape || !too_tight || placed.report.gradings == MOST_GRADINGS) break;
+    const auto judged = [&](const garment::Garment& worn) {
+      return garment::fit_garment(worn, body, skin, policy, &placed.placed,
+                                  garment::misfit_text(report.misfit), made_for, &source.position);
+    };
+    fit = judged(garment);
+    if (!keep_fit || o.no_drape || placed.report.gradings == MOST_GRADINGS) break;
+    garment::FitReport in_place = fit;
+    if (report.stop_reason == garment::StopReason::STEP_LIMIT) {
+      // cloth that is too tight seldom comes to rest: it is judged as if it had
+      garment::Garment still = garment;
+      still.converged = true;
+      in_place = judged(still);
+    }
+    const bool too_tight = !in_place.fits && in_place.verdict == garment::FitVerdict::TOO_SMALL;
+    if (!too_tight) break;
     if (settings.max_seconds > 0 && (settings.max_seconds -= report.wall_s) <= 0) break;
-    tool.reporter().info("the garment " + fit.reason + ": let out there");
+    tool.reporter().info("the garment " + in_place.reason + ": let out there");
     garment::widen_strained_pieces(placed, source, body);
   }
   if (!io::is_mesh_file(o.output)) garment::write_garment(o.output, garment, tool.name());
