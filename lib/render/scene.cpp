@@ -155,10 +155,14 @@ DrawMesh cloth_mesh(const garment::Garment& g) {
       ++uses[sorted(t[k], t[(k + 1) % 3])];
       ++welded_uses[sorted(g.particle_of[t[k]], g.particle_of[t[(k + 1) % 3]])];
     }
-  for (const auto& [edge, count] : uses)
-    if (count == 1) mesh.lines.push_back(edge); // a panel's border: a seam or a hem
-  for (const auto& edge : mesh.lines)
-    mesh.is_hem.push_back(welded_uses[sorted(g.particle_of[edge[0]], g.particle_of[edge[1]])] == 1);
+  for (const auto& [edge, count] : uses) {
+    if (count != 1) continue; // inside a panel
+    const bool is_hem = welded_uses[sorted(g.particle_of[edge[0]], g.particle_of[edge[1]])] == 1;
+    // the panels of a mesh without a pattern are cut where it unrolls, and nothing is sewn there
+    if (g.strain_unknown && !is_hem) continue;
+    mesh.lines.push_back(edge);
+    mesh.is_hem.push_back(is_hem);
+  }
   const auto material = g.materials.find("");
   mesh.thickness = material != g.materials.end() ? material->second.thickness_m : 0.0005;
   return mesh;

@@ -43,6 +43,25 @@ std::size_t count_crossings(const std::vector<DrawMesh>& meshes) {
 
 } // namespace
 
+TEST(Cloth, cuts_of_a_mesh_without_a_pattern_are_no_seams) {
+  garment::Garment g = make_sheet(4, flat);
+  const std::size_t border = cloth_mesh(g).lines.size();
+  Triangle& inner = g.panels.triangles[g.panels.triangles.size() / 2];
+  for (int& corner : inner) { // cut out, and one with the rest by its particles
+    const auto v = static_cast<std::size_t>(corner);
+    corner = static_cast<int>(g.particle_of.size());
+    g.particle_of.push_back(g.particle_of[v]);
+    const Vec2 place = g.panels.pattern[v];
+    g.panels.pattern.push_back(place);
+    ++g.panels.panels[0].n_vertices;
+  }
+  EXPECT_GT(cloth_mesh(g).lines.size(), border);
+  g.strain_unknown = true;
+  const DrawMesh mesh = cloth_mesh(g);
+  EXPECT_EQ(mesh.lines.size(), border);
+  for (const char is_hem : mesh.is_hem) EXPECT_TRUE(is_hem);
+}
+
 TEST(Cloth, smoothing_keeps_flat_cloth_flat_and_hems_at_its_border) {
   garment::Garment g = make_sheet(6, flat);
   std::vector<DrawMesh> meshes = {cloth_mesh(g)};
