@@ -11,11 +11,31 @@
 
 namespace sloper {
 
-/// The characters of an id, as the argument of a template, which is checked when it is compiled. (A
-/// consteval literal would do, but clang before 17 leaves calls of it in templates.)
+/// @return whether `text` is letters, a dot, then words of small letters and digits joined by
+/// single hyphens
+constexpr bool is_message_id(std::string_view text) {
+  const std::size_t dot = text.find('.');
+  if (dot == 0 || dot == std::string_view::npos || dot + 1 == text.size()) return false;
+  char before = '-'; // no word begins or ends with a hyphen
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    const bool is_letter = c >= 'a' && c <= 'z', is_digit = c >= '0' && c <= '9';
+    if (k == dot) before = '-';
+    else if (is_letter || (is_digit && k > dot)) before = c;
+    else if (c == '-' && k > dot && before != '-') before = c;
+    else return false;
+  }
+  return before != '-';
+}
+
+/// The characters of an id, as the argument of a template. (A consteval literal would do, but clang
+/// before 17 leaves calls of it in templates.)
 template<std::size_t N> struct IdText {
-  /// @param text  of the literal, with the 0 at its end
-  constexpr IdText(const char (&text)[N]) { std::copy_n(text, N, characters); }
+  /// @param text  of the literal, with the 0 at its end; another form than an id's does not compile
+  constexpr IdText(const char (&text)[N]) {
+    if (!is_message_id({text, N - 1})) throw "a message id is topic.fact in small letters";
+    std::copy_n(text, N, characters);
+  }
   char characters[N]; ///< with the 0 at their end
 };
 
@@ -36,28 +56,9 @@ private:
   std::string_view m_text; // of a literal, which outlives all
 };
 
-/// @return whether `text` is letters, a dot, then words of small letters and digits joined by
-/// single hyphens
-constexpr bool is_message_id(std::string_view text) {
-  const std::size_t dot = text.find('.');
-  if (dot == 0 || dot == std::string_view::npos || dot + 1 == text.size()) return false;
-  char before = '-'; // no word begins or ends with a hyphen
-  for (std::size_t k = 0; k < text.size(); ++k) {
-    const char c = text[k];
-    const bool is_letter = c >= 'a' && c <= 'z', is_digit = c >= '0' && c <= '9';
-    if (k == dot) before = '-';
-    else if (is_letter || (is_digit && k > dot)) before = c;
-    else if (c == '-' && k > dot && before != '-') before = c;
-    else return false;
-  }
-  return before != '-';
-}
-
 /// "pattern.outline-open"_id. Another form does not compile.
 template<IdText TEXT> constexpr MessageId operator""_id() {
-  constexpr std::string_view ID{TEXT.characters, sizeof TEXT.characters - 1};
-  static_assert(is_message_id(ID), "a message id is topic.fact in small letters");
-  return MessageId(ID);
+  return MessageId({TEXT.characters, sizeof TEXT.characters - 1});
 }
 
 /// A warning, or a finding that may become one.
