@@ -197,6 +197,53 @@ case_strain_that_sewing_left_evens_out_in_a_tight_shirt() {
   ((p99 < 570)) || fail "1 % of the weft is stretched by more than 0.0$p99; evened out it is 0.0506, and was 0.0630"
 }
 
+# The lapels and the collar of the sample jacket start turned over along their roll lines, and rest so.
+case_a_jacket_rests_with_its_lapels_and_its_collar_turned_over() {
+  local source
+  source=$(dirname "${BASH_SOURCE[0]}")/../../..
+  run 0 "${program%/*}/pattern-mesh" -q --body a.body.json -o p.json "$source/samples/jacket/jacket.pattern.json"
+  run 0 "$program" -q --body a.body.json --panels p.json -o jacket.json
+  python3 - << 'END' || fail "a lapel or the collar is not turned over"
+import json
+
+places = []  # of panel vertices: in the pattern
+points = []
+point_of = {}  # panel vertex: where it hangs
+for words in map(str.split, open("jacket.obj")):
+    if words[:1] == ["v"]:
+        points.append([float(x) for x in words[1:4]])
+    elif words[:1] == ["vt"]:
+        places.append([float(x) for x in words[1:3]])
+    elif words[:1] == ["f"]:
+        for corner in words[1:]:
+            v, vt = corner.split("/")[:2]
+            point_of[int(vt) - 1] = points[int(v) - 1]
+first = {}
+count = {}
+for panel in json.load(open("jacket.json"))["panels"]:
+    first[panel["name"]] = sum(count.values())
+    count[panel["name"]] = panel["vertices"]
+
+
+def mean(panel, axis, inside):
+    values = [point_of[v][axis] for v in range(first[panel], first[panel] + count[panel]) if inside(*places[v])]
+    return sum(values) / len(values)
+
+
+# The lapel lies between its roll line and the middle of the pattern's front; turned over, it lies on the front, farther from the middle.
+def share(x, y):
+    return (y + 0.26) / (-0.0355 + 0.26)
+
+
+lapel = mean("front_l", 0, lambda x, y: -0.15 < y < -0.06 and x < 0.029 * share(x, y) - 0.02)
+roll = mean("front_l", 0, lambda x, y: -0.15 < y < -0.06 and abs(x - 0.029 * share(x, y)) < 0.008)
+assert abs(lapel) > abs(roll), (lapel, roll)
+fall = mean("collar", 1, lambda x, y: abs(x) < 0.03 and y > 0.05)
+edge = mean("collar", 1, lambda x, y: abs(x) < 0.03 and abs(y - 0.028) < 0.008)
+assert fall < edge, (fall, edge)
+END
+}
+
 case_a_cache_changes_no_byte() { a_cache_changes_no_byte; }
 
 case_redrapes_are_the_same_bytes_for_any_threads_and_say_what_they_cannot_do() {
