@@ -16,14 +16,13 @@ constexpr double SMALL_GAP =
     0.09; ///< widest hole of a body that is whole by itself: eye sockets, a mouth
 constexpr double LEAST_STICK_OUT = 0.003;  ///< above the crown or below the soles
 constexpr double FEET = 0.12, HEAD = 0.85; ///< below: at the feet; above: at the head
-/// Of the faces of all shells: the largest has at least this share of the largest two's area, or it
-/// is one piece of many.
+/// Share of the area of all shells that the largest has at least, or it is one piece of many.
 constexpr double LEAST_BODY_AREA = 0.3;
 
 struct Shell {
-  double area = 0;
-  int vertices = 0;
+  double area = 0; ///< twice, in the scan's unit
   Box3 box;
+  bool is_loose = false; ///< beside the body, within or close around it
 };
 
 /// Component of every vertex, with vertices at one place joined: texture seams and STL.
@@ -37,6 +36,17 @@ std::vector<int> shells_of(const TriangleMesh& scan) {
   const std::vector<int> of_place = connected_components(joined.positions.size(), joined.triangles);
   for (std::size_t v = 0; v < shell.size(); ++v) shell[v] = of_place[place[v]];
   return shell;
+}
+
+/// @param shell  of every vertex
+std::vector<Shell> measured(const TriangleMesh& scan, const std::vector<int>& shell) {
+  std::vector<Shell> shells(
+      static_cast<std::size_t>(*std::max_element(shell.begin(), shell.end())) + 1);
+  for (std::size_t v = 0; v < shell.size(); ++v) shells[shell[v]].box.add(scan.positions[v]);
+  for (const Triangle& t : scan.triangles)
+    shells[shell[t[0]]].area +=
+        area_normal(scan.positions[t[0]], scan.positions[t[1]], scan.positions[t[2]]).norm();
+  return shells;
 }
 
 TriangleMesh part_of(const TriangleMesh& scan, const std::vector<int>& shell, int which) {
@@ -88,23 +98,13 @@ LooseParts find_loose_parts(const TriangleMesh& scan, const std::string& up_axis
   LooseParts parts;
   if (scan.triangles.empty()) return parts;
   const std::vector<int> shell = shells_of(scan);
-  std::vector<Shell> shells(
-      static_cast<std::size_t>(*std::max_element(shell.begin(), shell.end())) + 1);
+  std::vector<Shell> shells = measured(scan, shell);
   if (shells.size() == 1) return parts;
-  for (std::size_t v = 0; v < shell.size(); ++v) {
-    shells[shell[v]].box.add(scan.positions[v]);
-    ++shells[shell[v]].vertices;
-  }
-  double all = 0;
-  for (const Triangle& t : scan.triangles) {
-    const double area =
-        area_normal(scan.positions[t[0]], scan.positions[t[1]], scan.positions[t[2]]).norm();
-    shells[shell[t[0]]].area += area;
-    all += area;
-  }
   const auto by_area = [](const Shell& a, const Shell& b) { return a.area < b.area; };
   const int largest =
       static_cast<int>(std::max_element(shells.begin(), shells.end(), by_area) - shells.begin());
+  double all = 0;
+  for (const Shell& each : shells) all += each.area;
   if (shells[largest].area < LEAST_BODY_AREA * all) return parts;
   const TriangleMesh body = part_of(scan, shell, largest);
   const SegmentedScan alone = segment_scan(body, up_axis);
@@ -120,10 +120,8 @@ LooseParts find_loose_parts(const TriangleMesh& scan, const std::string& up_axis
     Shell& other = shells[k];
     const bool is_near = (other.box.low - around.low).minCoeff() >= 0 &&
                          (around.high - other.box.high).minCoeff() >= 0;
-    if (static_cast<int>(k) == largest || other.area <= 0 || !is_near) {
-      other.area = -1; // not looked at further
-      continue;
-    }
+    other.is_loose = static_cast<int>(k) != largest && other.area > 0 && is_near;
+    if (!other.is_loose) continue;
     const double low = std::min(other.box.low.dot(alone.up), other.box.high.dot(alone.up)),
                  high = std::max(other.box.low.dot(alone.up), other.box.high.dot(alone.up));
     const bool sticks_out =
@@ -147,7 +145,7 @@ LooseParts find_loose_parts(const TriangleMesh& scan, const std::string& up_axis
   }
   if (!whole || groups.empty()) return parts;
   parts.is_extra.resize(shell.size());
-  for (std::size_t v = 0; v < shell.size(); ++v) parts.is_extra[v] = shells[shell[v]].area >= 0;
+  for (std::size_t v = 0; v < shell.size(); ++v) parts.is_extra[v] = shells[shell[v]].is_loose;
   return parts;
 }
 

@@ -195,8 +195,8 @@ void compare_pits(std::array<ArmTrace, 2>& arms, const Rules& rules, double s) {
         (!arms[1 - k].axilla || arms[1 - k].pit_hidden || arms[1 - k].pit_low))
       hide_pit(arms[k], rules, s);
   if (!arms[0].axilla || !arms[1].axilla) return;
-  if (arms[0].pit_hidden != arms[1].pit_hidden)
-    mirror_pit(arms[arms[0].pit_hidden ? 0 : 1], arms[arms[0].pit_hidden ? 1 : 0]);
+  for (int k = 0; k < 2; ++k)
+    if (arms[k].pit_hidden && !arms[1 - k].pit_hidden) mirror_pit(arms[k], arms[1 - k]);
   if (arms[0].pit_hidden || arms[1].pit_hidden) return;
   ArmTrace& lower = arms[arms[0].axilla->y() < arms[1].axilla->y() ? 0 : 1];
   const ArmTrace& higher = &lower == &arms[0] ? arms[1] : arms[0];
